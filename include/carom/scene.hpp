@@ -1,0 +1,149 @@
+#pragma once
+// What the user asked for, as plain data: the scene format of docs/scene-format.md after it was read, completed
+// with every default, and checked. Nothing here is computed beyond what the file says.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace carom {
+
+/// Where the user said something: a file with line and column (both from 1), or a command-line override (line 0).
+struct Location {
+  std::string source;
+  int line = 0;
+  int column = 0;
+};
+
+/// The scene is wrong. what() is one sentence: "file:line:column: what is wrong; what would be right".
+class SceneError : public std::runtime_error {
+ public:
+  SceneError(const Location& where, const std::string& sentence);
+  [[nodiscard]] const Location& where() const { return where_; }
+
+ private:
+  Location where_;
+};
+
+enum class Boundary { walls, periodic };
+
+/// The rectangle [lower, upper], with the kind of boundary of each axis (x, y).
+struct Box {
+  Eigen::Vector2d lower = Eigen::Vector2d::Zero();
+  Eigen::Vector2d upper = Eigen::Vector2d::Zero();
+  std::array<Boundary, 2> boundary = {Boundary::walls, Boundary::walls};
+
+  [[nodiscard]] Eigen::Vector2d lengths() const { return upper - lower; }
+  [[nodiscard]] double area() const { return lengths().prod(); }
+  [[nodiscard]] bool periodic(int axis) const { return boundary[static_cast<std::size_t>(axis)] == Boundary::periodic; }
+};
+
+struct RandomPositions {};   ///< uniform without overlap, by random sequential addition
+struct SquareLattice {};     ///< a rectangular lattice over the whole box
+struct HexagonalLattice {};  ///< a triangular lattice over the whole box
+struct ListedPositions {
+  std::vector<Eigen::Vector2d> values;
+};
+struct FilePositions {
+  std::string path;  ///< as the scene writes it; relative paths are relative to the scene file
+  std::vector<Eigen::Vector2d> values;
+};
+using Positions = std::variant<RandomPositions, SquareLattice, HexagonalLattice, ListedPositions, FilePositions>;
+
+struct UniformVelocities {
+  double maximum = 0.0;  ///< each component uniform in [-maximum, maximum]
+};
+struct MaxwellVelocities {
+  double temperature = 0.0;  ///< kT, met exactly by the drawn sample unless keep_momentum
+};
+struct FixedSpeed {
+  double speed = 0.0;  ///< in a random direction
+};
+struct ListedVelocities {
+  std::vector<Eigen::Vector2d> values;
+};
+struct FileVelocities {  ///< the columns vx, vy of the file that gives the positions
+  std::vector<Eigen::Vector2d> values;
+};
+struct AtRest {};
+using Velocities = std::variant<AtRest, UniformVelocities, MaxwellVelocities, FixedSpeed, ListedVelocities, FileVelocities>;
+
+/// One [[disks]] table.
+struct Species {
+  std::string name;
+  std::int64_t count = 0;
+  double radius = 0.0;         ///< of every disk, where `radii` is empty
+  double mass = 0.0;           ///< of every disk, where `masses` is empty
+  std::vector<double> radii;   ///< one per disk, from a file; else empty
+  std::vector<double> masses;  ///< one per disk, from a file; else empty
+  Positions positions;
+  Velocities velocities;
+  Location where;             ///< of the table
+  Location positions_where;   ///< of the key `positions`
+  Location velocities_where;  ///< of the key `velocities`
+
+  [[nodiscard]] double radius_of(std::int64_t i) const { return radii.empty() ? radius : radii[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] double mass_of(std::int64_t i) const { return masses.empty() ? mass : masses[static_cast<std::size_t>(i)]; }
+};
+
+enum class CollisionRule { reversal, specular };
+
+/// The [run] table. At least one of time and collisions is present.
+struct Run {
+  struct Equilibrate {
+    std::optional<double> collisions_per_disk;  ///< exactly one of the two is present
+    std::optional<double> time;
+  };
+  std::optional<double> time;
+  std::optional<std::uint64_t> collisions;  ///< pair collisions
+  std::optional<double> sample_every;       ///< no samples where absent
+  std::optional<Equilibrate> equilibrate;
+  std::uint64_t seed = 1;
+  bool keep_momentum = false;
+};
+
+/// The [output] table.
+struct Output {
+  bool trajectory = true;
+  bool xyz = false;
+  bool csv = false;
+  bool events = false;
+  bool unwrapped = false;
+};
+
+struct Scene {
+  std::string title;
+  Box box;
+  std::vector<Species> species;
+  CollisionRule rule = CollisionRule::specular;
+  Run run;
+  Output output;
+
+  std::string source;                  ///< the file's path, or the name given to parse_scene
+  std::string text;                    ///< the TOML text as it was read, before overrides
+  std::vector<std::string> overrides;  ///< "run.time=2", in the order in which they were applied
+
+  [[nodiscard]] std::int64_t disk_count() const;
+  /// sum of pi r^2 over the area of the box
+  [[nodiscard]] double packing_fraction() const;
+};
+
+/// Reads, completes and checks a scene file. Each override is "dotted.key=value", its value in TOML syntax (a bare
+/// word stands for a string); "disks.0.radius" is the first species' radius.
+/// Throws SceneError for anything that the scene format does not allow, and where the file cannot be read.
+Scene load_scene(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// The same from text. `source` names the text in messages; start files are looked for in `directory`.
+Scene parse_scene(const std::string& text, const std::string& source = "scene", const std::vector<std::string>& overrides = {},
+                  const std::string& directory = ".");
+
+/// The scene as TOML with every default filled in. parse_scene of the result gives the same scene.
+std::string resolved_toml(const Scene& scene);
+
+}  // namespace carom

@@ -1,0 +1,112 @@
+#pragma once
+// A scene brought to life: positions and velocities that move from event to event. The library's main door.
+//
+//   carom::Simulation simulation = carom::make_simulation(carom::load_scene("box.toml"));
+//   simulation.run_until(5.0);
+//   const carom::State state = simulation.state();
+
+#include <carom/scene.hpp>
+#include <carom/state.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+namespace detail {
+class AnyEngine;
+}
+
+/// Why a run returned.
+enum class StopReason {
+  time,           ///< the time asked for was reached
+  collisions,     ///< the number of pair collisions asked for was reached
+  interrupted,    ///< the caller's `proceed` said stop
+  no_collisions,  ///< only a number of collisions was asked for, and no pair will ever (or seems ever to) collide
+};
+
+/// "time", "collisions", "interrupted", "no_collisions"
+std::string to_string(StopReason reason);
+
+class Simulation {
+ public:
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+  ~Simulation();
+
+  [[nodiscard]] const Scene& scene() const;
+  [[nodiscard]] const Disks& disks() const;
+  [[nodiscard]] const std::string& engine() const;  ///< the name of the engine that the catalogue chose
+
+  [[nodiscard]] double time() const;
+  [[nodiscard]] const Totals& totals() const;
+
+  /// The exact state at time(), to rounding. Reading it never changes what follows.
+  [[nodiscard]] State state() const;
+
+  /// Processes every event up to and including `time`. Requires time >= this->time(); an earlier time does nothing.
+  /// The bits of the trajectory do not depend on where one stops. Stops early, at the collision itself, when
+  /// totals().pair reaches `collision_limit`.
+  StopReason run_until(double time, std::uint64_t collision_limit = std::numeric_limits<std::uint64_t>::max());
+
+  /// The same up to k * dt, the product taken exactly: grid times do not drift however large k is.
+  StopReason run_until_sample(std::uint64_t k, double dt,
+                              std::uint64_t collision_limit = std::numeric_limits<std::uint64_t>::max());
+
+  /// Makes now the zero of time and forgets all totals. The state stays.
+  void reset_clock();
+
+  /// From now on every collision is appended to an internal log, until taken.
+  void record_events(bool on);
+  /// The collisions since the last call, in order of time; they are removed from the log.
+  [[nodiscard]] std::vector<Event> take_events();
+
+  /// Compares the engine's plan with what an exhaustive search finds. Empty when all is well; else one sentence per
+  /// fault. O(N^2) for N <= 2000, O(N) beyond.
+  [[nodiscard]] std::vector<std::string> check_invariants() const;
+
+ private:
+  friend Simulation make_simulation(const Scene& scene, const std::string& engine);
+  struct Parts;
+  explicit Simulation(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Draws the initial state and predicts the first events. `engine` is "auto" or a name of engine_names().
+/// Throws SceneError when the disks cannot be placed as the scene asks, or overlap, or lie outside the box.
+Simulation make_simulation(const Scene& scene, const std::string& engine = "auto");
+
+/// "textbook", "textbook-float", ...: the engines that can run a scene.
+std::vector<std::string> engine_names();
+
+/// How far a run has come, for progress lines and for the decision to go on.
+struct Progress {
+  double time = 0.0;
+  Totals totals;
+  double loop_seconds = 0.0;   ///< seconds spent in the event loop alone
+  bool equilibrating = false;  ///< still in the part before the clock is reset
+};
+
+/// What a caller may look at while a scene's schedule runs. Any of them may be empty.
+struct RunHooks {
+  std::function<void(std::uint64_t k, const State& state)> sample;  ///< at k * sample_every, k = 0, 1, 2, ...
+  std::function<void(std::span<const Event> events)> events;        ///< batches of collisions, in order
+  std::function<bool(const Progress& progress)> proceed;            ///< several times a second; false stops the run
+  std::function<void(const State& start)> start;                    ///< once, when the measured run begins
+};
+
+struct RunResult {
+  StopReason stopped = StopReason::time;
+  std::uint64_t samples = 0;
+  double loop_seconds = 0.0;  ///< in the event loop of the measured run
+};
+
+/// Runs the scene's whole schedule: equilibrate, reset the clock, then sample until time or collisions are reached.
+RunResult run_schedule(Simulation& simulation, const RunHooks& hooks = {});
+
+}  // namespace carom

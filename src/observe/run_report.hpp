@@ -1,0 +1,53 @@
+#pragma once
+// The result of one run in numbers: what summary.json and the terminal's summary are made of.
+
+#include <carom/simulation.hpp>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+struct RunReport {
+  std::string scene;  ///< the scene's source
+  std::string title;
+  std::uint64_t seed = 1;
+  std::string engine;
+  std::vector<std::string> effects;  ///< what acts beyond free flight: "walls", "periodic", "reversal", ...
+  std::int64_t disks = 0;
+  double packing_fraction = 0.0;
+
+  double time = 0.0;  ///< reached, since the clock's zero
+  std::uint64_t samples = 0;
+  Totals totals;
+  double wall_seconds = 0.0;  ///< of the whole run, from scene to files
+  double loop_seconds = 0.0;  ///< of the event loop alone
+
+  double energy_initial = 0.0;
+  double energy_final = 0.0;
+  Eigen::Vector2d momentum_initial = Eigen::Vector2d::Zero();
+  Eigen::Vector2d momentum_final = Eigen::Vector2d::Zero();
+  double temperature_mean = 0.0;  ///< kT over the samples (over start and end where there are no samples)
+
+  std::optional<double> Z;                 ///< compressibility factor from momentum transfer; empty without collisions
+  std::optional<double> Z_error;           ///< standard error over blocks; empty with fewer than 8 blocks
+  std::optional<double> reduced_pressure;  ///< beta P <sigma>^2 = N <sigma>^2 Z / A; empty where Z is, or disks differ in size
+
+  double max_relative_overlap = 0.0;     ///< largest (sigma_ij - |r_ij|) / sigma_ij over all checked states, >= 0
+  std::uint64_t overlap_checked = 0;     ///< number of states checked
+  StopReason stopped = StopReason::time;
+
+  /// (final - initial) / initial, 0 where the initial energy is 0
+  [[nodiscard]] double relative_energy_drift() const {
+    return energy_initial == 0.0 ? 0.0 : (energy_final - energy_initial) / energy_initial;
+  }
+  [[nodiscard]] double collisions_per_second() const {
+    return loop_seconds > 0.0 ? static_cast<double>(totals.pair) / loop_seconds : 0.0;
+  }
+};
+
+}  // namespace carom
