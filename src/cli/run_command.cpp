@@ -70,8 +70,8 @@ RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurem
     writer.sample(k, state);
   };
   if (simulation.scene().output.events) hooks.events = [&](std::span<const Event> events) { writer.events(events); };
+  hooks.block = [&](const Progress& progress) { measurements.block(progress); };
   hooks.proceed = [&](const Progress& progress) {
-    measurements.progress(progress);
     line.update(progress);
     return !stop.made();
   };
@@ -101,7 +101,7 @@ ExitCode run(const RunOptions& options, const Invocation& invocation) {
     RunMeasurements measurements(simulation);
     const RunResult result = run_with_output(simulation, writer, measurements, options.progress);
     const double wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
-    const RunReport report = measurements.report(simulation, result, wall_seconds);
+    const RunReport report = measurements.report(result, wall_seconds);
     const std::vector<std::string> files = writer.finish(report);
     if (options.json) {
       fmt::print("{}\n", summary_json(report, provenance));

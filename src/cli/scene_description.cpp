@@ -4,11 +4,10 @@
 
 #include "cli/format.hpp"
 
+#include <carom/simulation.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace carom::cli {
 
@@ -89,8 +88,7 @@ std::string describe(const Scene& scene) {
 std::optional<std::uint64_t> expected_samples(const Scene& scene) {
   if (!scene.run.sample_every) return 0;
   if (!scene.run.time || scene.run.collisions) return std::nullopt;
-  // Off by one at most, where the division rounds over a whole number: good enough to tell a user what to expect.
-  return static_cast<std::uint64_t>(*scene.run.time / *scene.run.sample_every * (1.0 + 1e-12)) + 1;
+  return last_sample(scene.run) + 1;
 }
 
 }  // namespace carom::cli
