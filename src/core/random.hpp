@@ -3,9 +3,9 @@
 // the seed, the stream's name, an index such as a disk's id, and its place in that stream, and on nothing else: what
 // one part of the program draws never shifts what another part gets.
 
-#include <Random123/MicroURNG.hpp>
 #include <Random123/philox.h>
 
+#include <Random123/MicroURNG.hpp>  // after philox.h: it relies on macros of the generators
 #include <cstdint>
 
 namespace carom {

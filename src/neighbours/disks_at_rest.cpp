@@ -15,7 +15,10 @@ DisksAtRest::DisksAtRest(const Box& box, const std::vector<double>& radius)
   for (const double r : radius) {
     const int exponent = std::ilogb(r);
     auto layer = std::find_if(layers_.begin(), layers_.end(), [&](const Layer& l) { return l.exponent == exponent; });
-    if (layer == layers_.end()) layer = layers_.insert(layers_.end(), Layer{exponent, 0, {}, {1, 1}, {}});
+    if (layer == layers_.end()) {
+      layers_.emplace_back().exponent = exponent;
+      layer = layers_.end() - 1;
+    }
     ++layer->disks;
   }
   std::sort(layers_.begin(), layers_.end(), [](const Layer& a, const Layer& b) { return a.exponent > b.exponent; });

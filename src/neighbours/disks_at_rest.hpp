@@ -36,9 +36,9 @@ class DisksAtRest {
 
  private:
   struct Layer {
-    int exponent;  ///< radii in [2^exponent, 2^(exponent+1))
+    int exponent = 0;  ///< radii in [2^exponent, 2^(exponent+1))
     std::size_t disks = 0;
-    Eigen::Vector2d width;
+    Eigen::Vector2d width = Eigen::Vector2d::Zero();
     std::int64_t cells[2] = {1, 1};
     std::vector<std::int32_t> first;
   };
