@@ -2,6 +2,7 @@
 
 #include "scene/text_file.hpp"
 
+#include "scene/excerpt.hpp"
 #include "scene/table_reader.hpp"
 
 #include <fmt/format.h>
@@ -93,7 +94,7 @@ toml::table parse_toml(const std::string& text, const std::string& source) {
   } catch (const toml::parse_error& error) {
     std::string_view reason = error.description();
     if (reason.starts_with("Error ")) reason.remove_prefix(6);  // "Error while parsing ...": "while parsing ..." says as much
-    throw SceneError(location_of(error.source()), fmt::format("this is not TOML: {}", reason));
+    throw SceneError(location_of(error.source()), fmt::format("this is not TOML: {}", excerpt(reason, 300)));
   }
 }
 

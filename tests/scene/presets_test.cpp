@@ -13,6 +13,8 @@
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace carom {
 namespace {
@@ -72,6 +74,37 @@ TEST(ExampleScenes, TheClassicSceneIsTheClassicScene) {
   EXPECT_EQ(scene.rule, CollisionRule::reversal);
   EXPECT_EQ(*scene.run.time, 5000 * *scene.run.sample_every);
   EXPECT_NEAR(scene.packing_fraction(), 64 * std::numbers::pi * 0.03 * 0.03 / 4.0, 1e-15);
+}
+
+/// The blocks of TOML in the page that explains the format.
+std::vector<std::string> scenes_of_the_page() {
+  const std::string page = text_of(scenes.parent_path() / "scene-format.md");
+  const std::string begin = "```toml\n";
+  std::vector<std::string> blocks;
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+    at += begin.size();
+    blocks.push_back(page.substr(at, page.find("```", at) - at));
+  }
+  return blocks;
+}
+
+TEST(FormatPage, ItsScenesAreValid) {
+  const std::vector<std::string> blocks = scenes_of_the_page();
+  ASSERT_EQ(blocks.size(), 2U);
+  EXPECT_EQ(parse_scene(blocks[0]).disk_count(), 64);
+  // The second shows the short form of box and disks alone; its comment gives the length that follows.
+  const Scene scene = parse_scene(blocks[1] + "[collision]\nrule = \"specular\"\n[run]\ntime = 1.0\n");
+  EXPECT_NEAR(scene.box.upper[0], 25.89, 0.005);
+}
+
+TEST(FormatPage, NamesEveryKeyOfAResolvedScene) {
+  const std::string page = text_of(scenes.parent_path() / "scene-format.md");
+  std::istringstream resolved(resolved_toml(parse_scene(scenes_of_the_page()[0])));
+  for (std::string line; std::getline(resolved, line);) {
+    const std::size_t equals = line.find(" = ");
+    if (equals == std::string::npos) continue;
+    EXPECT_THAT(page, testing::HasSubstr("`" + line.substr(0, equals) + "`"));
+  }
 }
 
 }  // namespace
