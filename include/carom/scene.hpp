@@ -2,9 +2,10 @@
 // What the user asked for, as plain data: the scene format of docs/scene-format.md after it was read, completed
 // with every default, and checked. Nothing here is computed beyond what the file says.
 
+#include <carom/box.hpp>
+
 #include <Eigen/Core>
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -29,19 +30,6 @@ class SceneError : public std::runtime_error {
 
  private:
   Location where_;
-};
-
-enum class Boundary { walls, periodic };
-
-/// The rectangle [lower, upper], with the kind of boundary of each axis (x, y).
-struct Box {
-  Eigen::Vector2d lower = Eigen::Vector2d::Zero();
-  Eigen::Vector2d upper = Eigen::Vector2d::Zero();
-  std::array<Boundary, 2> boundary = {Boundary::walls, Boundary::walls};
-
-  [[nodiscard]] Eigen::Vector2d lengths() const { return upper - lower; }
-  [[nodiscard]] double area() const { return lengths().prod(); }
-  [[nodiscard]] bool periodic(int axis) const { return boundary[static_cast<std::size_t>(axis)] == Boundary::periodic; }
 };
 
 struct RandomPositions {};   ///< uniform without overlap, by random sequential addition

@@ -72,6 +72,7 @@ class Simulation {
 
  private:
   friend Simulation make_simulation(const Scene& scene, const std::string& engine);
+  friend struct RunResult run_schedule(Simulation& simulation, const struct RunHooks& hooks);
   struct Parts;
   explicit Simulation(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
@@ -92,12 +93,17 @@ struct Progress {
   bool equilibrating = false;  ///< still in the part before the clock is reset
 };
 
-/// What a caller may look at while a scene's schedule runs. Any of them may be empty.
+/// The last k of the sampling grid of a run that is limited by time: the largest k with k * sample_every <= time, where
+/// a time that is a multiple of sample_every to rounding counts as one. 0 where one of the two is absent.
+std::uint64_t last_sample(const Run& run);
+
+/// What a caller may look at while a scene's schedule runs. Any of them may be empty; none can change the run's bits.
 struct RunHooks {
+  std::function<void(const State& start)> start;                    ///< once, when the measured run begins
   std::function<void(std::uint64_t k, const State& state)> sample;  ///< at k * sample_every, k = 0, 1, 2, ...
   std::function<void(std::span<const Event> events)> events;        ///< batches of collisions, in order
+  std::function<void(const Progress& progress)> block;              ///< after about every collision per disk, at collisions
   std::function<bool(const Progress& progress)> proceed;            ///< several times a second; false stops the run
-  std::function<void(const State& start)> start;                    ///< once, when the measured run begins
 };
 
 struct RunResult {

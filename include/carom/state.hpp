@@ -20,12 +20,15 @@ struct Disks {
   [[nodiscard]] std::size_t count() const { return radius.size(); }
 };
 
+/// How many box lengths each disk has travelled past the periodic edges. Column i belongs to disk i.
+using Images = Eigen::Matrix<std::int64_t, 2, Eigen::Dynamic>;
+
 /// Positions and velocities of all disks at one instant. Column i belongs to disk i.
 struct State {
   double time = 0.0;            ///< since the start of the measured run
   Eigen::Matrix2Xd positions;   ///< 2 x N; on periodic axes inside [lower, upper)
   Eigen::Matrix2Xd velocities;  ///< 2 x N
-  Eigen::Matrix2Xi images;      ///< 2 x N; the unwrapped position is positions + images * box length (0 on walled axes)
+  Images images;                ///< 2 x N; the unwrapped position is positions + images * box length (0 on walled axes)
 };
 
 /// What a disk hits where it does not hit another disk. The values stand in the place of a partner's id.

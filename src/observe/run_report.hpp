@@ -35,7 +35,7 @@ struct RunReport {
 
   std::optional<double> Z;                 ///< compressibility factor from momentum transfer; empty without collisions
   std::optional<double> Z_error;           ///< standard error over blocks; empty with fewer than 8 blocks
-  std::optional<double> reduced_pressure;  ///< beta P <sigma>^2 = N <sigma>^2 Z / A; empty where Z is, or disks differ in size
+  std::optional<double> reduced_pressure;  ///< beta P <sigma^2> = (4 eta / pi) Z; empty where Z is
 
   double max_relative_overlap = 0.0;     ///< largest (sigma_ij - |r_ij|) / sigma_ij over all checked states, >= 0
   std::uint64_t overlap_checked = 0;     ///< number of states checked

@@ -1,0 +1,92 @@
+// carom check SCENE: reads a scene, draws its initial state, and says what would be simulated, without simulating.
+
+#include "cli/commands.hpp"
+#include "cli/format.hpp"
+#include "cli/scene_description.hpp"
+#include "cli/scene_options.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <carom/simulation.hpp>
+
+#include <cstdio>
+#include <memory>
+
+namespace carom::cli {
+
+namespace {
+
+struct CheckOptions {
+  SceneOptions scene;
+  bool resolved = false;
+};
+
+// Beyond this the draw takes longer than one waits for a check.
+constexpr std::int64_t most_disks_drawn = 1'000'000;
+
+// Three coordinates of position and of velocity, and three image flags, for one disk in one frame.
+constexpr double bytes_per_disk_and_frame = 6 * sizeof(double) + 3 * sizeof(std::int32_t);
+
+/// Temperature kT = sum of m v^2 over two degrees of freedom per disk.
+double temperature(const Simulation& simulation) {
+  const State state = simulation.state();
+  const std::vector<double>& mass = simulation.disks().mass;
+  double twice_energy = 0.0;
+  for (std::size_t i = 0; i < mass.size(); ++i)
+    twice_energy += mass[i] * state.velocities.col(static_cast<Eigen::Index>(i)).squaredNorm();
+  return twice_energy / (2.0 * static_cast<double>(mass.size()));
+}
+
+std::string start_and_engine(const Scene& scene, const std::string& engine) {
+  if (scene.disk_count() > most_disks_drawn) {
+    return fmt::format("  start       not drawn: more than {} disks; `carom run` draws them\n", grouped(most_disks_drawn));
+  }
+  const Simulation simulation = make_simulation(scene, engine);
+  return fmt::format("  start       drawn: every disk has its place, none overlap; kT = {:.4g}\n  engine      {}\n",
+                     temperature(simulation), simulation.engine());
+}
+
+std::string files(const Scene& scene) {
+  const std::optional<std::uint64_t> samples = expected_samples(scene);
+  std::string text = "  files       summary.json";
+  if (scene.output.trajectory) {
+    text += ", trajectory.h5md";
+    if (samples) {
+      text +=
+          fmt::format(" ({}, up to {})", counted(*samples, "frame"),
+                      size(static_cast<double>(*samples) * static_cast<double>(scene.disk_count()) * bytes_per_disk_and_frame));
+    }
+  }
+  if (scene.output.xyz) text += ", trajectory.xyz";
+  if (scene.output.csv) text += ", samples.csv";
+  if (scene.output.events) text += "; every collision is kept";
+  return text + "\n";
+}
+
+ExitCode check(const CheckOptions& options) {
+  const std::string& engine = options.scene.engine();
+  const Scene scene = options.scene.load();
+  const std::string start = start_and_engine(scene, engine);
+  if (options.resolved) {
+    fmt::print("{}", resolved_toml(scene));
+    return exit_done;
+  }
+  fmt::print("{}: this scene is right{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
+  fmt::print("{}{}{}", describe(scene), start, files(scene));
+  fmt::print(
+      "  not here    gravity, loss of energy, friction and spin, walls that move or heat, growing disks, obstacles,\n"
+      "              thermostat, shear, attraction: between collisions disks fly straight\n");
+  return exit_done;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& program, Command& chosen) {
+  CLI::App* command = program.add_subcommand("check", "Validate a scene and say what it will simulate");
+  const auto options = std::make_shared<CheckOptions>();
+  options->scene.add_to(*command);
+  command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
+  command->callback([options, &chosen] { chosen = [options] { return check(*options); }; });
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,82 @@
+// carom init [PRESET]: writes a commented scene to start from.
+
+#include "cli/commands.hpp"
+#include "cli/format.hpp"
+#include "scene/presets.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+#include <carom/scene.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+namespace carom::cli {
+
+namespace {
+
+struct InitOptions {
+  std::string preset = "box";
+  std::string file;
+  bool force = false;
+  bool list = false;
+};
+
+void list_presets() {
+  std::size_t width = 0;
+  for (const std::string& name : preset_names()) width = std::max(width, name.size());
+  for (const std::string& name : preset_names()) {
+    fmt::print("{:<{}}  {}\n", name, width, parse_scene(preset(name), name).title);
+  }
+}
+
+/// With `force` an existing file is replaced. Exclusive creation leaves no moment in which another's file can be lost.
+void write_file(const std::string& path, const std::string& text, bool force) {
+  std::FILE* file = std::fopen(path.c_str(), force ? "w" : "wx");
+  if (file == nullptr) {
+    if (errno == EEXIST) throw UsageError(fmt::format("{}: exists already; --force replaces it, -o FILE writes elsewhere", path));
+    throw UsageError(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  }
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  if (std::fclose(file) != 0 || !written)
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+}
+
+ExitCode init(const InitOptions& options, const Invocation& invocation) {
+  if (options.list) {
+    list_presets();
+    return exit_done;
+  }
+  const std::vector<std::string> names = preset_names();
+  if (std::find(names.begin(), names.end(), options.preset) == names.end()) {
+    throw UsageError(fmt::format("{}: there is no such preset; choose one of: {}", options.preset, fmt::join(names, ", ")));
+  }
+  const std::string text = preset(options.preset);
+  if (options.file == "-") {
+    fmt::print("{}", text);
+    return exit_done;
+  }
+  const std::string path = options.file.empty() ? options.preset + ".toml" : options.file;
+  write_file(path, text, options.force);
+  fmt::print("{} is written. Look into it, then: {} run {}\n", path, invocation.program, shell_quoted(path));
+  return exit_done;
+}
+
+}  // namespace
+
+void add_init_command(CLI::App& program, Command& chosen, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("init", "Write a commented scene to start from");
+  const auto options = std::make_shared<InitOptions>();
+  command->add_option("preset", options->preset, "Which one (default: box)")->type_name("PRESET");
+  command->add_option("-o,--output", options->file, "The file to write (default: PRESET.toml; - for standard output)")
+      ->type_name("FILE");
+  command->add_flag("--force", options->force, "Replace the file if it exists");
+  command->add_flag("--list", options->list, "List the presets");
+  command->callback([options, &chosen, &invocation] { chosen = [options, &invocation] { return init(*options, invocation); }; });
+}
+
+}  // namespace carom::cli

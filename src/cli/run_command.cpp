@@ -1,0 +1,150 @@
+// carom run SCENE: runs a scene's whole schedule, writes its files, and says what has happened. Whatever is wrong with the
+// scene or with the place for the results is found before the first event, and then nothing is left behind.
+
+#include "cli/commands.hpp"
+#include "cli/format.hpp"
+#include "cli/progress.hpp"
+#include "cli/scene_description.hpp"
+#include "cli/scene_options.hpp"
+#include "cli/signals.hpp"
+#include "cli/terminal_summary.hpp"
+#include "io/provenance.hpp"
+#include "io/run_directory.hpp"
+#include "io/run_writer.hpp"
+#include "io/summary.hpp"
+#include "observe/run_measurements.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <carom/simulation.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <new>
+
+namespace carom::cli {
+
+namespace {
+
+struct RunOptions {
+  SceneOptions scene;
+  std::string out;
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  ProgressMode progress = ProgressMode::automatic;
+};
+
+using Clock = std::chrono::steady_clock;
+
+std::filesystem::path directory_for(const RunOptions& options) {
+  if (!options.out.empty()) return options.out;
+  return std::filesystem::path(options.scene.path()).stem();
+}
+
+/// The largest relative overlap that rounding explains. Double precision stays below 1e-12 in a box of ordinary size; the
+/// thousandfold leaves room for boxes of many thousand diameters, and a real fault is far above it. Single precision has
+/// half the digits.
+double tolerated_overlap(const std::string& engine) { return engine.find("float") != std::string::npos ? 1e-3 : 1e-9; }
+
+ExitCode exit_code_of(const RunReport& report) {
+  if (report.max_relative_overlap > tolerated_overlap(report.engine)) {
+    fmt::print(stderr, "carom: {}: disks overlap by {:.1e} of their contact distance, far more than rounding explains\n",
+               report.scene, report.max_relative_overlap);
+    return exit_invalid_state;
+  }
+  return report.stopped == StopReason::interrupted ? exit_interrupted : exit_done;
+}
+
+RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurements& measurements, ProgressMode progress_mode) {
+  const StopRequest stop;
+  ProgressLine line(progress_mode, simulation.scene());
+  RunHooks hooks;
+  hooks.start = [&](const State& start) { measurements.start(start); };
+  hooks.sample = [&](std::uint64_t k, const State& state) {
+    measurements.sample(state);
+    writer.sample(k, state);
+  };
+  if (simulation.scene().output.events) hooks.events = [&](std::span<const Event> events) { writer.events(events); };
+  hooks.block = [&](const Progress& progress) { measurements.block(progress); };
+  hooks.proceed = [&](const Progress& progress) {
+    line.update(progress);
+    return !stop.made();
+  };
+  return run_schedule(simulation, hooks);
+}
+
+ExitCode run(const RunOptions& options, const Invocation& invocation) {
+  const Clock::time_point began = Clock::now();
+  const std::string& engine = options.scene.engine();
+  const Scene scene = options.scene.load();
+  Simulation simulation = make_simulation(scene, engine);
+  const Provenance provenance{
+      .resolved_scene = resolved_toml(scene), .command_line = invocation.command_line, .engine = simulation.engine()};
+  RunDirectory directory = [&] {
+    try {
+      return RunDirectory(directory_for(options), options.force);
+    } catch (const OutputError& error) {
+      throw UsageError(error.what());
+    }
+  }();
+  if (options.verbose)
+    fmt::print(stderr, "{}  engine      {}\n  files       in {}\n", describe(scene), simulation.engine(),
+               directory.path().string());
+
+  try {
+    RunWriter writer(directory, scene, simulation.disks(), provenance);
+    RunMeasurements measurements(simulation);
+    const RunResult result = run_with_output(simulation, writer, measurements, options.progress);
+    const double wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
+    const RunReport report = measurements.report(result, wall_seconds);
+    const std::vector<std::string> files = writer.finish(report);
+    if (options.json) {
+      fmt::print("{}\n", summary_json(report, provenance));
+    } else if (!options.quiet) {
+      fmt::print("{}", terminal_summary(report, scene, {directory.path(), files, invocation.program}));
+    }
+    return exit_code_of(report);
+  } catch (...) {
+    directory.discard_if_empty();
+    throw;
+  }
+}
+
+ExitCode run_within_memory(const RunOptions& options, const Invocation& invocation) {
+  try {
+    return run(options, invocation);
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(
+        fmt::format("{}: there is not enough memory for this scene; fewer disks need less", options.scene.path()));
+  }
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, Command& chosen, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("run", "Run a scene and write its results");
+  const auto options = std::make_shared<RunOptions>();
+  options->scene.add_to(*command);
+  command->add_option("--out", options->out, "Directory for the results (default: the scene's name without its ending)")
+      ->type_name("DIR");
+  command->add_flag("--force", options->force, "Replace the results that the directory holds");
+  command->add_flag("--json", options->json, "Print summary.json in place of the summary for people");
+  command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
+  command->add_flag("-v,--verbose", options->verbose, "Say on stderr what will be simulated");
+  const std::map<std::string, ProgressMode> modes = {
+      {"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}};
+  command->add_option("--progress", options->progress, "A progress line on stderr: auto (on a terminal), always, never")
+      ->type_name("WHEN")
+      ->transform(CLI::CheckedTransformer(modes).description(""));
+  command->callback([options, &chosen, &invocation] {
+    if (options->quiet && options->progress == ProgressMode::automatic) options->progress = ProgressMode::never;
+    chosen = [options, &invocation] { return run_within_memory(*options, invocation); };
+  });
+}
+
+}  // namespace carom::cli

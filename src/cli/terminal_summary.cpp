@@ -1,0 +1,115 @@
+// What a run has shown, for the person who started it: what was simulated, what happened, how exact it was, what it
+// measured, where the files are, and what to try next.
+
+#include "cli/terminal_summary.hpp"
+
+#include "cli/format.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::cli {
+
+namespace {
+
+/// One line of the table: a quantity, its value, and a remark where there is one.
+std::string row(std::string_view quantity, std::string_view value, std::string_view remark = "") {
+  if (remark.empty()) return fmt::format("  {:<18}{}\n", quantity, value);
+  return fmt::format("  {:<18}{:<19} {}\n", quantity, value, remark);
+}
+
+std::string heading(const RunReport& report, const Scene& scene) {
+  return fmt::format("{}\n{}, packing fraction {:.4g}; {}; seed {}, engine {}\n\n",
+                     report.title.empty() ? report.scene : report.title,
+                     counted(static_cast<std::uint64_t>(report.disks), "disk"), report.packing_fraction,
+                     fmt::join(report.effects, ", "), scene.run.seed, report.engine);
+}
+
+std::string why_stopped(const RunReport& report, const Scene& scene) {
+  switch (report.stopped) {
+    case StopReason::time:
+      return "as asked";
+    case StopReason::collisions:
+      return fmt::format("after the {} collisions asked for", grouped(scene.run.collisions.value_or(report.totals.pair)));
+    case StopReason::interrupted:
+      return "interrupted here; everything up to here is saved";
+    case StopReason::no_collisions:
+      return "stopped: no pair of disks collides any more";
+  }
+  return "";
+}
+
+std::string what_happened(const RunReport& report, const Scene& scene) {
+  const Totals& totals = report.totals;
+  std::string text = row("time", fmt::format("{:.6g}", report.time), why_stopped(report, scene));
+  text += row("pair collisions", grouped(totals.pair),
+              report.collisions_per_second() > 0.0 ? fmt::format("{} per second", rate(report.collisions_per_second())) : "");
+  text += row("wall collisions", grouped(totals.wall));
+  if (totals.pair > 0 && report.disks > 0) {
+    const double per_disk = 2.0 * static_cast<double>(totals.pair) / static_cast<double>(report.disks);
+    text +=
+        row("mean free time", fmt::format("{:.4g}", report.time / per_disk), fmt::format("{:.4g} collisions per disk", per_disk));
+  }
+  text += row("samples", grouped(report.samples),
+              scene.run.sample_every ? fmt::format("every {:.6g}", *scene.run.sample_every) : "none asked for");
+  return text +
+         row("took", duration(report.wall_seconds), fmt::format("{} of it in the event loop", duration(report.loop_seconds)));
+}
+
+std::string how_exact(const RunReport& report) {
+  std::string text = row("energy", fmt::format("{:.6g}", report.energy_final),
+                         fmt::format("relative drift {:.1e}", report.relative_energy_drift()));
+  const std::string checked = "in " + counted(report.overlap_checked, "state") + " checked";
+  if (report.overlap_checked == 0) return text + row("worst overlap", "not checked");
+  if (report.max_relative_overlap == 0.0) return text + row("worst overlap", "none", checked);
+  return text + row("worst overlap", fmt::format("{:.1e} diameters", report.max_relative_overlap), checked);
+}
+
+std::string what_it_measured(const RunReport& report) {
+  std::string text = row("temperature kT", fmt::format("{:.5g}", report.temperature_mean), "mean of m v^2 / 2");
+  if (!report.Z) return text + row("Z = PA/(NkT)", "none", "no pair of disks has collided");
+  text += row("Z = PA/(NkT)", report.Z_error ? with_error(*report.Z, *report.Z_error) : fmt::format("{:.5g}", *report.Z),
+              report.Z_error ? "from the momentum transfer" : "from too few collisions for an error");
+  if (report.reduced_pressure) text += row("P sigma^2/kT", fmt::format("{:.5g}", *report.reduced_pressure));
+  return text;
+}
+
+std::string where_the_files_are(const Results& results) {
+  std::vector<std::string> names;
+  for (const std::string& file : results.files) names.push_back(std::filesystem::path(file).filename().string());
+  return fmt::format("Files in {}: {}\n", results.directory.string(), fmt::join(names, ", "));
+}
+
+std::string what_to_try_next(const RunReport& report, const Scene& scene, const Results& results) {
+  const std::string rerun = fmt::format("{} run {}", results.program, shell_quoted(report.scene));
+  const std::string elsewhere = results.directory.filename().string();
+  std::string text = "\nTry next\n";
+  for (const std::string& file : results.files) {
+    const std::string name = std::filesystem::path(file).filename().string();
+    if (name != "trajectory.h5md") continue;
+    const std::filesystem::path path = results.directory / name;
+    text += fmt::format("  {} info {}\n", results.program, shell_quoted(path.string()));
+    text += fmt::format("  python3 -c {}\n",
+                        shell_quoted(fmt::format("import MDAnalysis as m; print(m.Universe(\"{}\").trajectory)", path.string())));
+  }
+  if (scene.rule == CollisionRule::reversal) {
+    text += fmt::format("  {} --set collision.rule=specular --out {}   # smooth hard disks\n", rerun,
+                        shell_quoted(elsewhere + "-specular"));
+  } else {
+    text +=
+        fmt::format("  {} --seed {} --out {}   # another start\n", rerun, scene.run.seed + 1, shell_quoted(elsewhere + "-again"));
+  }
+  return text + fmt::format("  {} init --list   # other scenes to start from\n", results.program);
+}
+
+}  // namespace
+
+std::string terminal_summary(const RunReport& report, const Scene& scene, const Results& results) {
+  return heading(report, scene) + what_happened(report, scene) + "\n" + how_exact(report) + "\n" + what_it_measured(report) +
+         "\n" + where_the_files_are(results) + what_to_try_next(report, scene, results);
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,49 @@
+#pragma once
+// A point in time as the unevaluated sum of two doubles: about 32 digits. Predictions work with short times since an
+// epoch; the epoch itself, and the sampling grid k * dt, must not lose digits however late it is. The error-free
+// transformations are Dekker's (1971) and Knuth's.
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace carom {
+
+struct Instant {
+  double high = 0.0;  ///< the nearest double
+  double low = 0.0;   ///< the rest, at most half an ulp of `high`
+
+  /// k * dt without rounding. Requires k < 2^53.
+  [[nodiscard]] static Instant product(std::uint64_t k, double dt) {
+    const double a = static_cast<double>(k);
+    const double p = a * dt;
+    return {p, std::fma(a, dt, -p)};
+  }
+
+  /// a + b without rounding
+  [[nodiscard]] static Instant sum(double a, double b) {
+    const double s = a + b;
+    const double z = s - a;
+    return {s, (a - (s - z)) + (b - z)};
+  }
+
+  /// *this + t, to about 2^-104 relative
+  [[nodiscard]] Instant plus(double t) const {
+    const Instant s = sum(high, t);
+    return sum(s.high, s.low + low);
+  }
+
+  /// Time since `earlier`, rounded once to the number type asked for.
+  template <class Real>
+  [[nodiscard]] Real since(const Instant& earlier) const {
+    const Instant d = sum(high, -earlier.high);
+    return Real(d.high) + (Real(d.low) + (Real(low) - Real(earlier.low)));
+  }
+
+  friend bool operator<(const Instant& a, const Instant& b) { return a.high < b.high || (a.high == b.high && a.low < b.low); }
+};
+
+/// Later than everything that can happen.
+inline constexpr Instant forever{std::numeric_limits<double>::max(), 0.0};
+
+}  // namespace carom

@@ -1,0 +1,174 @@
+#pragma once
+// Who is near whom: a grid of square-ish cells at least one contact distance wide, so that disks in contact are always
+// in the same or in adjacent cells. A disk changes cells at crossing times of its own; this never touches its position
+// or velocity, so the grid leaves no trace in the bits of a trajectory.
+//
+// On periodic axes cells repeat for ever. A disk's `winding` counts the box lengths between the frame of its recorded
+// position and its cell; neighbours come with the image shift s for which r_i - r_j - s * length is the separation.
+// Works with one or two cells per axis too: then one disk is its neighbour's neighbour through several images.
+
+#include "core/domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace carom {
+
+/// Where and when a disk leaves its cell.
+template <class Real>
+struct CellCrossing {
+  Real time = infinity<Real>;
+  std::int8_t axis = 0;
+  std::int8_t step = 0;  ///< +1 or -1
+};
+
+template <class Real>
+class CellGrid {
+ public:
+  /// `reach`: the largest contact distance. Cells hold about one disk each where that is wider than reach.
+  CellGrid(const Domain<Real>& domain, Real reach, std::size_t disks) : domain_(domain) {
+    // An exact width would do in exact arithmetic; one part in 128 covers every rounding of crossing times.
+    const double at_least = static_cast<double>(reach) * (1.0 + 1.0 / 128.0);
+    const double area = static_cast<double>(domain.length[0]) * static_cast<double>(domain.length[1]);
+    const double width = std::max(at_least, std::sqrt(area / static_cast<double>(std::max<std::size_t>(disks, 1))));
+    for (int a = 0; a < 2; ++a) {
+      // A thin box could have any number of cells along its length: no more than four per disk.
+      const double cells = std::floor(static_cast<double>(domain.length[a]) / width);
+      count_[a] = static_cast<std::int32_t>(std::clamp(cells, 1.0, 4.0 * static_cast<double>(disks) + 1.0));
+      width_[a] = domain.length[a] / Real(count_[a]);
+    }
+    first_.resize(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]));
+    places_.resize(disks);
+  }
+
+  /// Puts disk i, at position r inside the box, where it belongs. Requires clear() before the first of a new round.
+  void insert(std::int32_t i, const Vec2<Real>& r) {
+    using std::floor;
+    Place& place = at(i);
+    place.winding.setZero();
+    for (int a = 0; a < 2; ++a) {
+      const Real x = floor((r[a] - domain_.lower[a]) / width_[a]);
+      place.cell[a] = x > 0 ? std::min(static_cast<std::int32_t>(x), count_[a] - 1) : 0;
+    }
+    link(i);
+  }
+
+  void clear() { std::fill(first_.begin(), first_.end(), none); }
+
+  /// When the disk with the given record leaves its cell. Never before t.
+  [[nodiscard]] CellCrossing<Real> next_crossing(std::int32_t i, const Vec2<Real>& r, const Vec2<Real>& v, Real t) const {
+    const Place& place = at(i);
+    CellCrossing<Real> next;
+    for (int a = 0; a < 2; ++a) {
+      if (v[a] == 0) continue;
+      const bool up = v[a] > 0;
+      if (!domain_.periodic[a] && place.cell[a] == (up ? count_[a] - 1 : 0)) continue;  // a wall is there
+      const Real edge = domain_.lower[a] + Real(place.cell[a] + (up ? 1 : 0)) * width_[a] + Real(place.winding[a]) * domain_.length[a];
+      const Real way = up ? edge - r[a] : r[a] - edge;
+      const Real time = way > 0 ? t + way / (up ? v[a] : -v[a]) : t;
+      if (time < next.time) next = {time, static_cast<std::int8_t>(a), static_cast<std::int8_t>(up ? 1 : -1)};
+    }
+    return next;
+  }
+
+  /// Moves disk i to the cell beyond the given crossing.
+  void cross(std::int32_t i, const CellCrossing<Real>& crossing) {
+    unlink(i);
+    Place& place = at(i);
+    std::int32_t& cell = place.cell[crossing.axis];
+    cell += crossing.step;
+    if (cell == count_[crossing.axis]) cell = 0, ++place.winding[crossing.axis];
+    if (cell == -1) cell = count_[crossing.axis] - 1, --place.winding[crossing.axis];
+    link(i);
+  }
+
+  /// The recorded position of disk i was moved by -winding * length.
+  void refold(std::int32_t i, const Winding& winding) { at(i).winding -= winding; }
+
+  /// Calls visit(j, shift) for every disk j != i in the nine cells around disk i, and for images of j as often as they
+  /// are there.
+  template <class Visit>
+  void for_neighbours(std::int32_t i, Visit&& visit) const {
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) visit_cell(i, dx, dy, visit);
+  }
+
+  /// The same for the three cells that come into reach when disk i has just made the given crossing.
+  template <class Visit>
+  void for_neighbours_ahead(std::int32_t i, const CellCrossing<Real>& crossing, Visit&& visit) const {
+    for (int side = -1; side <= 1; ++side) {
+      if (crossing.axis == 0) {
+        visit_cell(i, crossing.step, side, visit);
+      } else {
+        visit_cell(i, side, crossing.step, visit);
+      }
+    }
+  }
+
+  /// Lower corner and upper corner of the cell of disk i, in the frame of its recorded position.
+  [[nodiscard]] Vec2<Real> cell_lower(std::int32_t i) const {
+    const Place& place = at(i);
+    Vec2<Real> corner;
+    for (int a = 0; a < 2; ++a) corner[a] = domain_.lower[a] + Real(place.cell[a]) * width_[a] + Real(place.winding[a]) * domain_.length[a];
+    return corner;
+  }
+  [[nodiscard]] Vec2<Real> width() const { return {width_[0], width_[1]}; }
+
+ private:
+  static constexpr std::int32_t none = -1;
+
+  struct Place {
+    std::int32_t cell[2];
+    Winding winding;
+    std::int32_t next;  ///< in the same cell
+    std::int32_t previous;
+  };
+
+  [[nodiscard]] Place& at(std::int32_t i) { return places_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Place& at(std::int32_t i) const { return places_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] std::size_t index(std::int32_t x, std::int32_t y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(count_[0]) + static_cast<std::size_t>(x);
+  }
+
+  void link(std::int32_t i) {
+    Place& place = at(i);
+    std::int32_t& first = first_[index(place.cell[0], place.cell[1])];
+    place.previous = none;
+    place.next = first;
+    if (first != none) at(first).previous = i;
+    first = i;
+  }
+
+  void unlink(std::int32_t i) {
+    const Place& place = at(i);
+    if (place.next != none) at(place.next).previous = place.previous;
+    (place.previous != none ? at(place.previous).next : first_[index(place.cell[0], place.cell[1])]) = place.next;
+  }
+
+  template <class Visit>
+  void visit_cell(std::int32_t i, int dx, int dy, Visit& visit) const {
+    const Place& place = at(i);
+    std::int32_t cell[2] = {place.cell[0] + dx, place.cell[1] + dy};
+    Winding shift = place.winding;
+    for (int a = 0; a < 2; ++a) {
+      if (cell[a] >= 0 && cell[a] < count_[a]) continue;
+      if (!domain_.periodic[a]) return;
+      const int beyond = cell[a] < 0 ? -1 : 1;
+      cell[a] -= beyond * count_[a];
+      shift[a] += beyond;  // that image of the neighbour is one box length further on
+    }
+    for (std::int32_t j = first_[index(cell[0], cell[1])]; j != none; j = at(j).next)
+      if (j != i) visit(j, Winding(shift - at(j).winding));
+  }
+
+  Domain<Real> domain_;
+  std::int32_t count_[2];
+  Real width_[2];
+  std::vector<std::int32_t> first_;
+  std::vector<Place> places_;
+};
+
+}  // namespace carom

@@ -1,0 +1,101 @@
+#include "neighbours/disks_at_rest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace carom {
+
+namespace {
+constexpr std::int32_t none = -1;
+}
+
+DisksAtRest::DisksAtRest(const Box& box, const std::vector<double>& radius)
+    : box_(box), radius_(radius), next_(radius.size(), none), position_(radius.size()) {
+  for (const double r : radius) {
+    const int exponent = std::ilogb(r);
+    auto layer = std::find_if(layers_.begin(), layers_.end(), [&](const Layer& l) { return l.exponent == exponent; });
+    if (layer == layers_.end()) {
+      layers_.emplace_back().exponent = exponent;
+      layer = layers_.end() - 1;
+    }
+    ++layer->disks;
+  }
+  std::sort(layers_.begin(), layers_.end(), [](const Layer& a, const Layer& b) { return a.exponent > b.exponent; });
+  for (Layer& layer : layers_) {
+    // Two diameters of the smallest disk of the layer are one of the next: neighbours lie in adjacent cells. A sparse
+    // layer has no more cells than disks.
+    const double area = box.lengths()[0] * (box.lengths()[1] / static_cast<double>(layer.disks));
+    const double width = std::max(std::ldexp(4.0, layer.exponent), std::sqrt(area));
+    for (int a = 0; a < 2; ++a) {
+      const double cells = std::floor(box.lengths()[a] / width);
+      layer.cells[a] = static_cast<std::int64_t>(std::clamp(cells, 1.0, 4.0 * static_cast<double>(layer.disks)));
+      layer.width[a] = box.lengths()[a] / static_cast<double>(layer.cells[a]);
+    }
+    layer.first.assign(static_cast<std::size_t>(layer.cells[0] * layer.cells[1]), none);
+  }
+}
+
+std::int64_t DisksAtRest::cell_of(const Layer& layer, int axis, double x) const {
+  return static_cast<std::int64_t>(std::floor((x - box_.lower[axis]) / layer.width[axis]));
+}
+
+void DisksAtRest::insert(std::int32_t i, const Eigen::Vector2d& position) {
+  const auto index = static_cast<std::size_t>(i);
+  position_[index] = position;
+  const int exponent = std::ilogb(radius_[index]);
+  Layer& layer = *std::find_if(layers_.begin(), layers_.end(), [&](const Layer& l) { return l.exponent == exponent; });
+  std::int64_t cell[2];
+  for (int a = 0; a < 2; ++a) cell[a] = std::clamp<std::int64_t>(cell_of(layer, a, position[a]), 0, layer.cells[a] - 1);
+  std::int32_t& first = layer.first[static_cast<std::size_t>(cell[1] * layer.cells[0] + cell[0])];
+  next_[index] = std::exchange(first, i);
+}
+
+DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, double radius, std::int32_t except, bool larger_only) const {
+  Neighbour found{none, 0.0};
+  const int own = std::ilogb(radius);
+  for (const Layer& layer : layers_) {
+    if (larger_only && layer.exponent < own) break;
+    const double reach = radius + std::ldexp(2.0, layer.exponent);
+    std::int64_t from[2];
+    std::int64_t to[2];
+    for (int a = 0; a < 2; ++a) {
+      from[a] = cell_of(layer, a, position[a] - reach);
+      to[a] = cell_of(layer, a, position[a] + reach);
+      if (box_.periodic(a)) continue;
+      from[a] = std::clamp<std::int64_t>(from[a], 0, layer.cells[a] - 1);
+      to[a] = std::clamp<std::int64_t>(to[a], 0, layer.cells[a] - 1);
+    }
+    for (std::int64_t y = from[1]; y <= to[1]; ++y) {
+      for (std::int64_t x = from[0]; x <= to[0]; ++x) {
+        // On periodic axes cell x is cell x - n * cells, n box lengths further on.
+        const std::int64_t n[2] = {x >= 0 ? x / layer.cells[0] : (x + 1) / layer.cells[0] - 1,
+                                   y >= 0 ? y / layer.cells[1] : (y + 1) / layer.cells[1] - 1};
+        const std::int64_t cell = (y - n[1] * layer.cells[1]) * layer.cells[0] + (x - n[0] * layer.cells[0]);
+        const Eigen::Vector2d shift(static_cast<double>(n[0]) * box_.lengths()[0], static_cast<double>(n[1]) * box_.lengths()[1]);
+        for (std::int32_t j = layer.first[static_cast<std::size_t>(cell)]; j != none; j = next_[static_cast<std::size_t>(j)]) {
+          if (j == except) continue;
+          const double sigma = radius + radius_[static_cast<std::size_t>(j)];
+          const double distance = (position_[static_cast<std::size_t>(j)] + shift - position).stableNorm();
+          const double overlap = (sigma - distance) / sigma;
+          if (overlap > found.relative_overlap) found = {j, overlap};
+        }
+      }
+    }
+  }
+  return found;
+}
+
+DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius, const Eigen::Matrix2Xd& positions) {
+  DisksAtRest disks(box, radius);
+  for (std::size_t i = 0; i < radius.size(); ++i) disks.insert(static_cast<std::int32_t>(i), positions.col(static_cast<Eigen::Index>(i)));
+  DeepestOverlap deepest;
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    const auto id = static_cast<std::int32_t>(i);
+    const auto found = disks.deepest(positions.col(id), radius[i], id, true);
+    if (found.relative_overlap > deepest.relative) deepest = {found.relative_overlap, std::min(id, found.disk), std::max(id, found.disk)};
+  }
+  return deepest;
+}
+
+}  // namespace carom

@@ -1,0 +1,65 @@
+#pragma once
+// Who is near a given place, for disks that do not move: for placing a start and for looking for overlaps in a state.
+// Independent of the engines' cell grid, so that it can check them.
+//
+// Disks are kept in layers by size, radii within a factor of two in one layer, each layer with cells as wide as its
+// own disks. So one large disk among a million small ones costs nothing.
+
+#include <carom/box.hpp>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace carom {
+
+class DisksAtRest {
+ public:
+  /// The disks to come: radius[i] belongs to disk i. None is in place yet.
+  DisksAtRest(const Box& box, const std::vector<double>& radius);
+
+  /// Puts disk i at a position inside the box.
+  void insert(std::int32_t i, const Eigen::Vector2d& position);
+
+  struct Neighbour {
+    std::int32_t disk;
+    double relative_overlap;  ///< (sigma - distance) / sigma with sigma the sum of the radii; > 0 where they overlap
+  };
+
+  /// Of the disks in place, other than `except`, the one that a disk of the given radius would overlap most at
+  /// `position`, all periodic images counted; {-1, 0} where it overlaps none. With `larger_only` disks in layers of
+  /// smaller radii are left out: over all disks every pair is then still seen, from its smaller partner.
+  [[nodiscard]] Neighbour deepest(const Eigen::Vector2d& position, double radius, std::int32_t except = -1, bool larger_only = false) const;
+
+ private:
+  struct Layer {
+    int exponent = 0;  ///< radii in [2^exponent, 2^(exponent+1))
+    std::size_t disks = 0;
+    Eigen::Vector2d width = Eigen::Vector2d::Zero();
+    std::int64_t cells[2] = {1, 1};
+    std::vector<std::int32_t> first;
+  };
+
+  [[nodiscard]] std::int64_t cell_of(const Layer& layer, int axis, double x) const;
+
+  Box box_;
+  const std::vector<double>& radius_;
+  std::vector<Layer> layers_;  ///< by falling size
+  std::vector<std::int32_t> next_;
+  std::vector<Eigen::Vector2d> position_;
+};
+
+/// The deepest overlap in a state.
+struct DeepestOverlap {
+  double relative = 0.0;  ///< (sigma_ij - |r_ij|) / sigma_ij, 0 where no pair overlaps
+  std::int32_t first = -1;
+  std::int32_t second = -1;
+};
+
+/// Over all pairs of disks, nearest images on periodic axes. O(N). Requires positions inside the box.
+[[nodiscard]] DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius, const Eigen::Matrix2Xd& positions);
+
+}  // namespace carom

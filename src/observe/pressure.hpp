@@ -1,0 +1,40 @@
+#pragma once
+// Pressure from momentum transfer: the virial that collisions hand over per unit of time, with its standard error.
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace carom {
+
+/// The rate of growth of a total, as a ratio estimate over blocks of time. Bounded memory: when there are 64 blocks,
+/// neighbours are joined. So a long run ends with 32 to 63 blocks, each much longer than any correlation.
+class BlockedRate {
+ public:
+  /// The total's value at a time later than the last one given; the first block begins at time 0 with total 0.
+  void add(double time, double total);
+
+  /// total / time at the last point; empty before the first.
+  [[nodiscard]] std::optional<double> rate() const;
+
+  /// Standard error of rate(); empty with fewer than 8 blocks, where it would be a guess.
+  [[nodiscard]] std::optional<double> standard_error() const;
+
+ private:
+  struct Block {
+    double duration;
+    double growth;
+  };
+  std::vector<Block> blocks_;
+  std::size_t joined_ = 1;   ///< points that make one block
+  std::size_t pending_ = 0;  ///< points in the last block
+  double time_ = 0.0;
+  double total_ = 0.0;
+};
+
+/// Z = 1 + W / (2 t N kT), with W the sum over collisions of sigma_ij times the normal impulse.
+[[nodiscard]] constexpr double compressibility(double virial_rate, double disks, double temperature) {
+  return 1.0 + virial_rate / (2.0 * disks * temperature);
+}
+
+}  // namespace carom

@@ -1,0 +1,33 @@
+#pragma once
+// What every run measures on the way: energy, momentum, temperature, pressure and overlap. Fed by the schedule's hooks.
+
+#include "observe/pressure.hpp"
+#include "observe/run_report.hpp"
+
+#include <carom/simulation.hpp>
+
+namespace carom {
+
+class RunMeasurements {
+ public:
+  /// Requires the simulation to live as long as this.
+  explicit RunMeasurements(const Simulation& simulation);
+
+  void start(const State& state);            ///< the measured run begins
+  void sample(const State& state);           ///< a state of the sampling grid
+  void block(const Progress& progress);      ///< RunHooks::block
+
+  /// All results, when the run has ended. `wall_seconds`: of the whole run, as the caller took it.
+  [[nodiscard]] RunReport report(const RunResult& result, double wall_seconds);
+
+ private:
+  void look_for_overlap(const State& state);
+
+  const Simulation& simulation_;
+  RunReport report_;
+  BlockedRate virial_;
+  double temperature_sum_ = 0.0;
+  std::uint64_t temperatures_ = 0;
+};
+
+}  // namespace carom

@@ -1,0 +1,58 @@
+#pragma once
+// The future event list: the next event of every disk, and which of them comes first. A d-ary heap of Boost with
+// handles, so that an event can be changed in place; nothing is ever left behind in the queue.
+//
+// Ties: events at the same time are ordered by the lower id of the disks they concern, then by the other id. A wall
+// has a negative id, so a disk meets a wall before it meets a higher disk.
+
+#include <boost/heap/d_ary_heap.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace carom {
+
+template <class Real>
+struct QueuedEvent {
+  Real time;
+  std::int32_t lower;   ///< lower id of the partners
+  std::int32_t higher;  ///< higher id, or a negative code (a wall, a cell crossing)
+  std::int32_t disk;    ///< whose plan it is
+
+  [[nodiscard]] bool before(const QueuedEvent& other) const {
+    if (time != other.time) return time < other.time;
+    if (lower != other.lower) return lower < other.lower;
+    return higher < other.higher;
+  }
+};
+
+template <class Real>
+class EventQueue {
+ public:
+  /// Forgets everything and takes one event per disk; events[i].disk == i.
+  void assign(const std::vector<QueuedEvent<Real>>& events) {
+    heap_.clear();
+    handles_.clear();
+    heap_.reserve(events.size());
+    handles_.reserve(events.size());
+    for (const auto& event : events) handles_.push_back(heap_.push(event));
+  }
+
+  /// Replaces the event of event.disk. O(log N).
+  void update(const QueuedEvent<Real>& event) { heap_.update(handles_[static_cast<std::size_t>(event.disk)], event); }
+
+  [[nodiscard]] bool empty() const { return heap_.empty(); }
+  [[nodiscard]] const QueuedEvent<Real>& next() const { return heap_.top(); }
+
+ private:
+  struct Later {
+    bool operator()(const QueuedEvent<Real>& a, const QueuedEvent<Real>& b) const { return b.before(a); }
+  };
+  using Heap = boost::heap::d_ary_heap<QueuedEvent<Real>, boost::heap::arity<4>, boost::heap::mutable_<true>, boost::heap::compare<Later>>;
+
+  Heap heap_;
+  std::vector<typename Heap::handle_type> handles_;
+};
+
+}  // namespace carom

@@ -1,0 +1,77 @@
+#pragma once
+// One face for every engine, so that the rest of the program need not know their types. Called per sample or per some
+// thousand events, never inside the loop.
+
+#include "core/instant.hpp"
+
+#include <carom/state.hpp>
+
+#include <cstdint>
+#if CAROM_CHECK_INVARIANTS
+#include <cstdio>
+#include <cstdlib>
+#endif
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace carom::detail {
+
+class AnyEngine {
+ public:
+  AnyEngine() = default;
+  AnyEngine(const AnyEngine&) = delete;
+  AnyEngine& operator=(const AnyEngine&) = delete;
+  virtual ~AnyEngine() = default;
+
+  virtual void run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) = 0;
+  [[nodiscard]] virtual bool idle() const = 0;
+  [[nodiscard]] virtual Instant now() const = 0;
+  [[nodiscard]] virtual const Totals& totals() const = 0;
+  [[nodiscard]] virtual State state() const = 0;
+  virtual void reset_clock() = 0;
+  virtual void record_events(bool on) = 0;
+  [[nodiscard]] virtual std::vector<Event> take_events() = 0;
+  [[nodiscard]] virtual std::vector<std::string> check_invariants() const = 0;
+};
+
+template <class Engine>
+class EngineAdapter final : public AnyEngine {
+ public:
+  template <class... Args>
+  explicit EngineAdapter(const Args&... args) : engine_(args...) {}
+
+  void run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
+    engine_.run_until(target, pair_limit, event_limit);
+#if CAROM_CHECK_INVARIANTS
+    check_now_and_then();
+#endif
+  }
+  [[nodiscard]] bool idle() const override { return engine_.idle(); }
+  [[nodiscard]] Instant now() const override { return engine_.now(); }
+  [[nodiscard]] const Totals& totals() const override { return engine_.totals(); }
+  [[nodiscard]] State state() const override { return engine_.state(); }
+  void reset_clock() override { engine_.reset_clock(); }
+  void record_events(bool on) override { engine_.record_events(on); }
+  [[nodiscard]] std::vector<Event> take_events() override { return engine_.take_events(); }
+  [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_.check_invariants(); }
+
+ private:
+#if CAROM_CHECK_INVARIANTS
+  /// Once per collision of every disk: ends the program with the first fault.
+  void check_now_and_then() {
+    if (engine_.totals().pair < next_check_) return;
+    next_check_ = engine_.totals().pair + static_cast<std::uint64_t>(engine_.disk_count()) / 2 + 1;
+    const std::vector<std::string> faults = engine_.check_invariants();
+    if (!faults.empty()) {
+      std::fprintf(stderr, "carom: broken invariant: %s\n", faults.front().c_str());
+      std::abort();
+    }
+  }
+  std::uint64_t next_check_ = 0;
+#endif
+  Engine engine_;
+};
+
+}  // namespace carom::detail

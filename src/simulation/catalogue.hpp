@@ -1,0 +1,29 @@
+#pragma once
+// The engines there are, and which of them runs a scene.
+
+#include "simulation/any_engine.hpp"
+#include "simulation/start.hpp"
+
+#include <carom/scene.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace carom::detail {
+
+struct EngineEntry {
+  std::string name;
+  std::string precision;  ///< in words, for people
+  std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Start& start);
+};
+
+/// In the order in which they are considered: the first that covers a scene runs it.
+const std::vector<EngineEntry>& catalogue();
+
+/// The textbook engine in one number type; instantiated in textbook_<type>.cpp, one file each because they are slow to
+/// compile.
+template <class Real>
+std::unique_ptr<AnyEngine> make_textbook(const Scene& scene, const Start& start);
+
+}  // namespace carom::detail

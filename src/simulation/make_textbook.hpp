@@ -1,0 +1,18 @@
+#pragma once
+// From a scene to the textbook engine with the scene's collision rule.
+
+#include "effects/reversal.hpp"
+#include "effects/specular.hpp"
+#include "engine/textbook.hpp"
+#include "simulation/catalogue.hpp"
+
+namespace carom::detail {
+
+template <class Real>
+std::unique_ptr<AnyEngine> make_textbook(const Scene& scene, const Start& start) {
+  if (scene.rule == CollisionRule::reversal)
+    return std::make_unique<EngineAdapter<TextbookEngine<Real, Reversal>>>(scene.box, start.disks, start.state);
+  return std::make_unique<EngineAdapter<TextbookEngine<Real, Specular>>>(scene.box, start.disks, start.state);
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,140 @@
+// A scene's schedule: equilibrate, set the clock to zero, sample on the grid, stop at a time or a number of collisions.
+// The engine runs in short stretches so that progress can be shown, events handed on and a wish to stop heard; where a
+// stretch ends leaves no trace in the trajectory.
+
+#include <carom/simulation.hpp>
+
+#include "simulation/parts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+/// Events in one stretch: some hundredths of a second.
+constexpr std::uint64_t stretch_events = 20'000;
+
+/// A run that waits for collisions alone gives up after so many stretches without one (1e9 events): its disks fly past
+/// each other for ever, as far as anyone can tell.
+constexpr std::uint64_t patience = 50'000;
+
+class Schedule {
+ public:
+  Schedule(const Scene& scene, detail::AnyEngine& engine, std::uint64_t disks, const RunHooks& hooks)
+      : run_(scene.run), engine_(engine), hooks_(hooks), block_collisions_(std::max<std::uint64_t>(16, disks / 2)), disks_(disks) {}
+
+  RunResult operator()() {
+    const bool ready = equilibrate();
+    if (hooks_.start) hooks_.start(engine_.state());
+    if (ready) {
+      engine_.record_events(static_cast<bool>(hooks_.events));
+      measure();
+      engine_.record_events(false);
+    }
+    return result_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
+
+  /// True when the measured run may begin.
+  bool equilibrate() {
+    if (!run_.equilibrate) return true;
+    equilibrating_ = true;
+    Instant until = forever;
+    std::uint64_t collisions = no_limit;
+    if (run_.equilibrate->time) {
+      until = {*run_.equilibrate->time, 0.0};
+    } else {
+      collisions = static_cast<std::uint64_t>(std::ceil(*run_.equilibrate->collisions_per_disk * static_cast<double>(disks_) / 2.0));
+    }
+    if (!advance(until, collisions) && result_.stopped != StopReason::collisions) return false;
+    engine_.reset_clock();
+    equilibrating_ = false;
+    result_ = {};
+    return true;
+  }
+
+  void measure() {
+    next_block_ = block_collisions_;
+    const std::uint64_t collisions = run_.collisions.value_or(no_limit);
+    if (run_.sample_every) {
+      const std::uint64_t last = run_.time ? last_sample(run_) : no_limit;
+      for (std::uint64_t k = 0; k <= last; ++k) {
+        if (!advance(Instant::product(k, *run_.sample_every), collisions)) return;
+        if (hooks_.sample) hooks_.sample(k, engine_.state());
+        ++result_.samples;
+      }
+    }
+    advance(run_.time ? Instant{*run_.time, 0.0} : forever, collisions);
+  }
+
+  /// Runs to `target`; false when something else ended the run first, as result_.stopped then says.
+  bool advance(const Instant& target, std::uint64_t collisions) {
+    std::uint64_t without_collision = 0;
+    for (;;) {
+      const std::uint64_t before = engine_.totals().pair;
+      const auto started = Clock::now();
+      engine_.run_until(target, std::min(collisions, next_block_), stretch_events);
+      result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
+      if (hooks_.events) hand_on_events();
+      if (engine_.totals().pair >= next_block_) {
+        if (hooks_.block) hooks_.block(progress());
+        next_block_ += block_collisions_;
+      }
+      if (engine_.totals().pair >= collisions) return stop(StopReason::collisions);
+      if (!(engine_.now() < target)) return true;
+      if (hooks_.proceed && Clock::now() - last_look_ > std::chrono::milliseconds(100)) {
+        last_look_ = Clock::now();
+        if (!hooks_.proceed(progress())) return stop(StopReason::interrupted);
+      }
+      if (run_.time && !equilibrating_) continue;  // the end will come
+      without_collision = engine_.totals().pair > before ? 0 : without_collision + 1;
+      if ((engine_.idle() && !(target < forever)) || without_collision > patience) return stop(StopReason::no_collisions);
+    }
+  }
+
+  void hand_on_events() {
+    const std::vector<Event> events = engine_.take_events();
+    if (!events.empty()) hooks_.events(events);
+  }
+
+  bool stop(StopReason reason) {
+    result_.stopped = reason;
+    return false;
+  }
+
+  [[nodiscard]] Progress progress() const { return {engine_.now().high, engine_.totals(), result_.loop_seconds, equilibrating_}; }
+
+  const Run& run_;
+  detail::AnyEngine& engine_;
+  const RunHooks& hooks_;
+  const std::uint64_t block_collisions_;
+  const std::uint64_t disks_;
+  std::uint64_t next_block_ = no_limit;
+  bool equilibrating_ = false;
+  Clock::time_point last_look_ = Clock::now();
+  RunResult result_;
+};
+
+}  // namespace
+
+std::uint64_t last_sample(const Run& run) {
+  if (!run.time || !run.sample_every) return 0;
+  const double ratio = *run.time / *run.sample_every;
+  const double nearest = std::nearbyint(ratio);
+  // Both numbers were decimal fractions once: each is off by half an ulp at most, and so is the quotient.
+  const bool multiple = std::abs(ratio - nearest) <= 2.0 * std::numeric_limits<double>::epsilon() * ratio;
+  return static_cast<std::uint64_t>(multiple ? nearest : std::floor(ratio));
+}
+
+RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
+  auto& parts = *simulation.parts_;
+  return Schedule(parts.scene, *parts.engine, parts.disks.count(), hooks)();
+}
+
+}  // namespace carom

@@ -1,0 +1,80 @@
+// The public face of a running scene.
+
+#include <carom/simulation.hpp>
+
+#include "simulation/catalogue.hpp"
+#include "simulation/parts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace carom {
+
+namespace {
+
+StopReason run_to(detail::AnyEngine& engine, const Instant& target, std::uint64_t collision_limit) {
+  engine.run_until(target, collision_limit, std::numeric_limits<std::uint64_t>::max());
+  return engine.totals().pair >= collision_limit ? StopReason::collisions : StopReason::time;
+}
+
+}  // namespace
+
+Simulation::Simulation(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+const Scene& Simulation::scene() const { return parts_->scene; }
+const Disks& Simulation::disks() const { return parts_->disks; }
+const std::string& Simulation::engine() const { return parts_->engine_name; }
+double Simulation::time() const { return parts_->engine->now().high; }
+const Totals& Simulation::totals() const { return parts_->engine->totals(); }
+State Simulation::state() const { return parts_->engine->state(); }
+
+StopReason Simulation::run_until(double time, std::uint64_t collision_limit) {
+  if (!std::isfinite(time)) throw std::invalid_argument("run_until needs a finite time");
+  return run_to(*parts_->engine, {time, 0.0}, collision_limit);
+}
+
+StopReason Simulation::run_until_sample(std::uint64_t k, double dt, std::uint64_t collision_limit) {
+  return run_to(*parts_->engine, Instant::product(k, dt), collision_limit);
+}
+
+void Simulation::reset_clock() { parts_->engine->reset_clock(); }
+void Simulation::record_events(bool on) { parts_->engine->record_events(on); }
+std::vector<Event> Simulation::take_events() { return parts_->engine->take_events(); }
+std::vector<std::string> Simulation::check_invariants() const { return parts_->engine->check_invariants(); }
+
+std::vector<std::string> engine_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : detail::catalogue()) names.push_back(entry.name);
+  return names;
+}
+
+Simulation make_simulation(const Scene& scene, const std::string& engine) {
+  const auto& entries = detail::catalogue();
+  const auto entry = engine == "auto" ? entries.begin()
+                                      : std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.name == engine; });
+  if (entry == entries.end())
+    throw std::invalid_argument(fmt::format("there is no engine \"{}\"; choose one of auto, {}", engine, fmt::join(engine_names(), ", ")));
+  Start start = draw_start(scene);
+  auto running = entry->make(scene, start);
+  return Simulation(std::unique_ptr<Simulation::Parts>(
+      new Simulation::Parts{scene, std::move(start.disks), entry->name, std::move(running)}));
+}
+
+std::string to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::time: return "time";
+    case StopReason::collisions: return "collisions";
+    case StopReason::interrupted: return "interrupted";
+    case StopReason::no_collisions: return "no_collisions";
+  }
+  return "unknown";
+}
+
+}  // namespace carom

@@ -1,0 +1,35 @@
+#pragma once
+// The start of a run: which disks there are, where they are and how they move, as the scene asks.
+
+#include <carom/scene.hpp>
+#include <carom/state.hpp>
+
+namespace carom {
+
+struct Start {
+  Disks disks;
+  State state;  ///< at time 0, no images
+};
+
+/// Draws positions and velocities; the same scene and seed give the same bits.
+/// Throws SceneError where disks cannot be placed, overlap by more than 1e-9 of their contact distance, or stick out of
+/// the box by more than that.
+Start draw_start(const Scene& scene);
+
+/// Column i of `positions` for every disk of every species, in the order of ids. Throws as draw_start.
+Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks);
+
+/// The same for velocities. On axes that conserve momentum (periodic in both) the total momentum of what was drawn is
+/// removed and temperatures are then met exactly, unless the scene keeps momentum.
+Eigen::Matrix2Xd draw_velocities(const Scene& scene, const Disks& disks);
+
+/// `count` sites of a lattice that fills the box, evenly thinned where the lattice has more. `diameter` is the room that
+/// a disk needs at a wall. `spacing` is the smallest distance of two sites, across periodic edges too.
+struct Lattice {
+  Eigen::Matrix2Xd sites;
+  double spacing = 0.0;
+};
+Lattice square_lattice(const Box& box, std::int64_t count, double diameter);
+Lattice hexagonal_lattice(const Box& box, std::int64_t count, double diameter);
+
+}  // namespace carom
