@@ -75,7 +75,7 @@ TEST_F(H5mdFile, StepAndTimeAreFullLengthAndOneObjectEverywhere) {
     EXPECT_EQ(times[k], static_cast<double>(k) * 0.1);
   }
   for (const std::string& group : {particles + "/velocity", particles + "/image", particles + "/box/edges",
-                                  std::string("/observables/kinetic_energy"), std::string("/observables/temperature")}) {
+                                   std::string("/observables/kinetic_energy"), std::string("/observables/temperature")}) {
     EXPECT_TRUE(file.same_object(particles + "/position/step", group + "/step")) << group;
     EXPECT_TRUE(file.same_object(particles + "/position/time", group + "/time")) << group;
   }
