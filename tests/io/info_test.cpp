@@ -27,6 +27,7 @@ std::string refusal(const fs::path& path) {
 
 class Info : public ::testing::Test {
  protected:
+  static void SetUpTestSuite() { H5dont_atexit(); }  // see describe_h5md: the fixture uses HDF5 first
   void SetUp() override {
     scene_.output = {.trajectory = true, .xyz = true, .csv = true, .events = true};
     RunWriter writer(RunDirectory(out_, false), scene_, disks_of(scene_), provenance());
