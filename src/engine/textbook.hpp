@@ -13,6 +13,7 @@
 #include "core/instant.hpp"
 #include "effects/hard_wall.hpp"
 #include "effects/impact.hpp"
+#include "engine/epoch.hpp"
 #include "neighbours/cell_grid.hpp"
 #include "queue/event_queue.hpp"
 
@@ -191,8 +192,7 @@ class TextbookEngine {
     queue_.assign(events);
   }
 
-  /// Time in which a disk of mean speed passes some 16 to 32 neighbours, as a power of two: long enough to cost little,
-  /// short enough that rounding of times moves no disk by more than a few 1e-15 of that way.
+  /// epoch_length() for the disks as they move now.
   [[nodiscard]] Real suitable_epoch_length() const;
 
   // ----------------------------------------------------------------------------------------------- disks in flight
@@ -281,6 +281,7 @@ class TextbookEngine {
 
   [[nodiscard]] Instant now() const { return instant(now_); }
   [[nodiscard]] const Totals& totals() const { return totals_; }
+  [[nodiscard]] std::size_t disk_count() const { return records_.size(); }
 
   /// The state at now(), computed on the side: nothing in the engine changes.
   [[nodiscard]] State state() const;

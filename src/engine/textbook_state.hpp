@@ -48,10 +48,9 @@ Real TextbookEngine<Real, Rule>::suitable_epoch_length() const {
   double speed = 0.0;
   for (const Record& a : records_) speed += static_cast<double>(abs(a.v[0])) + static_cast<double>(abs(a.v[1]));
   speed /= static_cast<double>(std::max(count(), 1));
-  const double spacing = std::sqrt(static_cast<double>(domain_.length[0])) * std::sqrt(static_cast<double>(domain_.length[1]) / std::max(count(), 1));
-  const double passes = 16.0 * spacing / speed;
-  if (!(passes < std::numeric_limits<double>::max())) return infinity<Real>;
-  return Real(std::ldexp(1.0, std::ilogb(std::max(passes, std::numeric_limits<double>::min())) + 1));
+  const double x = static_cast<double>(domain_.length[0]);
+  const double y = static_cast<double>(domain_.length[1]);
+  return Real(epoch_length(std::sqrt(x) * std::sqrt(y / std::max(count(), 1)), speed));
 }
 
 template <class Real, class Rule>

@@ -7,6 +7,10 @@
 #include <carom/state.hpp>
 
 #include <cstdint>
+#if CAROM_CHECK_INVARIANTS
+#include <cstdio>
+#include <cstdlib>
+#endif
 #include <memory>
 #include <string>
 #include <utility>
@@ -40,6 +44,9 @@ class EngineAdapter final : public AnyEngine {
 
   void run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
     engine_.run_until(target, pair_limit, event_limit);
+#if CAROM_CHECK_INVARIANTS
+    check_now_and_then();
+#endif
   }
   [[nodiscard]] bool idle() const override { return engine_.idle(); }
   [[nodiscard]] Instant now() const override { return engine_.now(); }
@@ -51,6 +58,19 @@ class EngineAdapter final : public AnyEngine {
   [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_.check_invariants(); }
 
  private:
+#if CAROM_CHECK_INVARIANTS
+  /// Once per collision of every disk: ends the program with the first fault.
+  void check_now_and_then() {
+    if (engine_.totals().pair < next_check_) return;
+    next_check_ = engine_.totals().pair + static_cast<std::uint64_t>(engine_.disk_count()) / 2 + 1;
+    const std::vector<std::string> faults = engine_.check_invariants();
+    if (!faults.empty()) {
+      std::fprintf(stderr, "carom: broken invariant: %s\n", faults.front().c_str());
+      std::abort();
+    }
+  }
+  std::uint64_t next_check_ = 0;
+#endif
   Engine engine_;
 };
 

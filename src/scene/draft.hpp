@@ -1,0 +1,51 @@
+#pragma once
+// What the reader knows before the short forms are completed: the tables as they were written, and where.
+
+#include <carom/scene.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom::detail {
+
+/// Where each disk of a list or of a start file was written, so that a check can name the row.
+struct Rows {
+  std::string source;
+  std::vector<std::array<int, 2>> places;  ///< line and column, one per disk
+
+  [[nodiscard]] Location of(std::size_t disk) const { return {source, places[disk][0], places[disk][1]}; }
+};
+
+/// The [box] table: limits, or an aspect ratio where the size follows from a packing fraction.
+struct BoxDraft {
+  Box box;                       ///< limits valid only where `aspect` is empty
+  std::optional<double> aspect;  ///< Lx / Ly
+  Location where;                ///< of the key that fixes the size, x or aspect
+};
+
+/// One [[disks]] table.
+struct DisksDraft {
+  Species species;
+  std::string path;  ///< "disks.0"
+  Rows rows;         ///< empty unless the positions are given one by one
+  std::optional<std::int64_t> count;
+  std::optional<double> radius;
+  bool radii_from_file = false;  ///< true also where the column is there and no row is
+  bool masses_from_file = false;
+  bool velocities_from_file = false;
+  std::optional<double> packing_fraction;  ///< this species' share of the box: sum of pi r^2 / area
+  Location packing_fraction_where;
+};
+
+struct SceneDraft {
+  Scene scene;         ///< box and species only once the short forms are complete
+  Location run_where;  ///< of the [run] table
+  BoxDraft box;
+  std::vector<DisksDraft> disks;
+};
+
+}  // namespace carom::detail

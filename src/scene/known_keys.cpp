@@ -1,0 +1,114 @@
+// Finds the word that the user meant.
+
+#include "scene/known_keys.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+#include <vector>
+
+namespace carom::detail {
+namespace {
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+/// A key that is right in another table is a misplaced key, not a misspelt one.
+std::string_view home_of(std::string_view key) {
+  using Home = std::pair<std::string_view, std::string_view>;
+  static constexpr std::array<Home, 26> homes = {{{"aspect", "[box]"},
+                                                  {"boundary", "[box]"},
+                                                  {"name", "[[disks]]"},
+                                                  {"count", "[[disks]]"},
+                                                  {"radius", "[[disks]]"},
+                                                  {"mass", "[[disks]]"},
+                                                  {"packing_fraction", "[[disks]]"},
+                                                  {"positions", "[[disks]]"},
+                                                  {"velocities", "[[disks]]"},
+                                                  {"rule", "[collision]"},
+                                                  {"restitution", "[collision]"},
+                                                  {"roughness", "[collision]"},
+                                                  {"time", "[run]"},
+                                                  {"collisions", "[run]"},
+                                                  {"sample_every", "[run]"},
+                                                  {"equilibrate", "[run]"},
+                                                  {"seed", "[run]"},
+                                                  {"keep_momentum", "[run]"},
+                                                  {"trajectory", "[output]"},
+                                                  {"xyz", "[output]"},
+                                                  {"csv", "[output]"},
+                                                  {"events", "[output]"},
+                                                  {"unwrapped", "[output]"},
+                                                  {"uniform", "velocities = { ... }"},
+                                                  {"temperature", "velocities = { ... }"},
+                                                  {"speed", "velocities = { ... }"}}};
+  const auto home = std::find_if(homes.begin(), homes.end(), [&](const Home& entry) { return entry.first == key; });
+  return home == homes.end() ? std::string_view() : home->second;
+}
+
+std::string shortened(std::string_view key) {
+  constexpr std::size_t longest = 60;
+  return std::string(key.substr(0, longest)) + (key.size() > longest ? "..." : "");
+}
+
+}  // namespace
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) previous[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    current[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      current[j] = std::min({previous[j] + 1, current[j - 1] + 1, previous[j - 1] + (same ? 0U : 1U)});
+      const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      if (swapped) current[j] = std::min(current[j], before[j - 2] + 1);
+    }
+    std::swap(before, previous);
+    std::swap(previous, current);
+  }
+  return previous[b.size()];
+}
+
+std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates) {
+  std::string_view best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  if (word.size() > 100) return best;  // no key of the format is near a word of that length
+  for (const std::string_view candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    const bool something_in_common = distance < std::max(word.size(), candidate.size());
+    if (something_in_common && distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+std::string table_title(std::string_view path) {
+  if (path.empty()) return "the scene";
+  if (path.find('.') == std::string_view::npos) return fmt::format("[{}]", path);
+  if (path.starts_with("disks.") && path.find('.', 6) == std::string_view::npos) return "[[disks]]";
+  return std::string(path);
+}
+
+std::string unknown_key_sentence(std::string_view key, std::string_view path, std::span<const std::string_view> known) {
+  const std::string problem = fmt::format("{} has no key \"{}\"", table_title(path), shortened(key));
+  if (const std::string_view home = home_of(key); !home.empty()) return fmt::format("{}; it belongs to {}", problem, home);
+  if (key == "title") return problem + "; it belongs to the top of the file, before the first [table]";
+  if (const std::string_view near = nearest_word(key, known); !near.empty()) {
+    return fmt::format("{}; did you mean \"{}\"?", problem, near);
+  }
+  return fmt::format("{}; its keys are {}", problem, fmt::join(known, ", "));
+}
+
+std::string planned_sentence(std::string_view key, std::string_view path, bool is_table) {
+  const std::string subject = is_table ? fmt::format(key == "obstacles" ? "[[{}]]" : "[{}]", key) : fmt::format("{} in {}", key, table_title(path));
+  return fmt::format("{} is part of the scene format but this version of Carom does not simulate it yet; remove the {}", subject,
+                     is_table ? "table" : "key");
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,26 @@
+#pragma once
+// The words of the scene format: which key belongs where, and what to say when a word is not one of them.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace carom::detail {
+
+/// The number of single-character edits (a swap of neighbours counts as one) between two words, ignoring case.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The candidate that is fewest edits away; empty when there is none within about a third of the word's length.
+std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates);
+
+/// "[run]" for "run", "[[disks]]" for "disks.0", "the scene" for "", and the path itself for inline tables.
+std::string table_title(std::string_view path);
+
+/// The sentence for a key that the table at `path` does not have: it names the nearest key of that table, or the
+/// table where a key of just this name belongs, or all keys of the table.
+std::string unknown_key_sentence(std::string_view key, std::string_view path, std::span<const std::string_view> known);
+
+/// The sentence for a key or table that the format knows but this version does not build.
+std::string planned_sentence(std::string_view key, std::string_view path, bool is_table);
+
+}  // namespace carom::detail

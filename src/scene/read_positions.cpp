@@ -1,0 +1,86 @@
+// The key `positions` of a [[disks]] table, in every spelling.
+
+#include "scene/known_keys.hpp"
+#include "scene/read_tables.hpp"
+#include "scene/start_file.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+namespace carom::detail {
+namespace {
+
+constexpr const char* kinds = R"("random", "square", "hexagonal", [[x, y], ...] or { file = "start.csv" })";
+
+Positions named(const toml::node& node, const std::string& name, const std::string& path) {
+  if (name == "random") return RandomPositions{};
+  if (name == "square") return SquareLattice{};
+  if (name == "hexagonal") return HexagonalLattice{};
+  refuse(node, path, kinds);
+}
+
+/// Relative paths are relative to the scene; the absolute path still resolves when the resolved scene lies elsewhere.
+std::string absolute_path(const std::string& path, const std::string& directory) {
+  return std::filesystem::absolute(std::filesystem::path(directory) / path).lexically_normal().string();
+}
+
+FilePositions from_file(const toml::table& node, const std::string& path, const std::string& directory, DisksDraft& disks) {
+  const TableReader table(node, path, {"file"}, {"packing_fraction"});
+  const std::string example = R"({ file = "start.csv" })";
+  const toml::node& name = table.require("file", "name it, such as " + example);
+  const std::string written = read_string(name, table.path("file"), example);
+  FilePositions positions{absolute_path(written, directory), {}};
+  StartFile start;
+  try {
+    start = read_start_file(positions.path);
+  } catch (const SceneError& error) {
+    if (error.where().line != 0) throw;
+    // The file as a whole cannot be read: the place to mend is the scene.
+    throw SceneError(location_of(name), fmt::format("the start file {}", error.what()));
+  }
+  positions.values = std::move(start.positions);
+  disks.rows = std::move(start.rows);
+  disks.radii_from_file = start.has_radii;
+  disks.masses_from_file = start.has_masses;
+  disks.velocities_from_file = start.has_velocities;
+  disks.species.radii = std::move(start.radii);
+  disks.species.masses = std::move(start.masses);
+  if (start.has_velocities) {
+    disks.species.velocities = FileVelocities{std::move(start.velocities)};
+    disks.species.velocities_where = location_of(name);
+  }
+  return positions;
+}
+
+}  // namespace
+
+void read_positions(const TableReader& table, const std::string& directory, DisksDraft& disks) {
+  const std::string path = table.path("positions");
+  const toml::node& node = table.require("positions", fmt::format("choose {}", kinds));
+  disks.species.positions_where = location_of(node);
+  std::optional<std::size_t> listed;
+  if (const auto* name = node.as_string()) {
+    disks.species.positions = named(node, name->get(), path);
+  } else if (const auto* list = node.as_array()) {
+    ListedPositions positions{read_pairs(*list, path, "[0.5, 0.5]", &disks.rows)};
+    listed = positions.values.size();
+    disks.species.positions = std::move(positions);
+  } else if (const auto* file = node.as_table()) {
+    FilePositions positions = from_file(*file, path, directory, disks);
+    listed = positions.values.size();
+    disks.species.positions = std::move(positions);
+  } else {
+    refuse(node, path, kinds);
+  }
+  if (!listed) return;
+  const auto count = static_cast<std::int64_t>(*listed);
+  if (disks.count.value_or(count) != count) {
+    throw SceneError(table.where("count"), fmt::format("{} is {}, but positions has {}; make them agree, or leave count out",
+                                                       table.path("count"), *disks.count, count));
+  }
+  disks.count = count;
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,30 @@
+#pragma once
+// One function per table of the scene format. Each reads its table into the draft and refuses what is wrong with it
+// taken alone; what tables must agree on is for the short forms and the checks.
+
+#include "scene/draft.hpp"
+#include "scene/table_reader.hpp"
+
+#include <string>
+
+namespace carom::detail {
+
+BoxDraft read_box(const toml::table& table);
+/// `path` is "disks.0"; relative start files are looked for in `directory`.
+DisksDraft read_disks(const toml::table& table, const std::string& path, const std::string& directory);
+/// Fills positions, and with them count, rows and whatever the columns of a start file give.
+void read_positions(const TableReader& table, const std::string& directory, DisksDraft& disks);
+void read_velocities(const TableReader& table, DisksDraft& disks);
+CollisionRule read_collision(const toml::table& table);
+Run read_run(const toml::table& table);
+/// `sampled` is whether [run] has sample_every: files of samples need it.
+Output read_output(const toml::table* table, bool sampled);
+
+/// Makes numbers of the short forms: any three of count, radius, box and packing fraction give the fourth.
+/// Throws where they do not suffice or disagree.
+void complete_short_forms(SceneDraft& draft);
+
+/// Throws where the parts of the scene do not fit each other.
+void check_scene(const SceneDraft& draft);
+
+}  // namespace carom::detail

@@ -1,0 +1,41 @@
+// The key `velocities` of a [[disks]] table, in every spelling.
+
+#include "scene/read_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace carom::detail {
+namespace {
+
+constexpr const char* kinds = R"({ uniform = 1.0 }, { temperature = 1.0 }, { speed = 1.0 }, [[vx, vy], ...] or "rest")";
+
+Velocities drawn(const toml::table& node, const std::string& path) {
+  const TableReader table(node, path, {"uniform", "temperature", "speed"});
+  if (node.size() != 1) {
+    throw SceneError(table.where(), fmt::format("{} has {} keys; it must be one of {}", path, node.size(), kinds));
+  }
+  if (const auto maximum = table.number("uniform", Range::zero_or_more, "{ uniform = 1.0 }")) return UniformVelocities{*maximum};
+  if (const auto kT = table.number("temperature", Range::zero_or_more, "{ temperature = 1.0 }")) return MaxwellVelocities{*kT};
+  return FixedSpeed{*table.number("speed", Range::zero_or_more, "{ speed = 1.0 }")};
+}
+
+}  // namespace
+
+void read_velocities(const TableReader& table, DisksDraft& disks) {
+  const std::string path = table.path("velocities");
+  const toml::node& node = table.require("velocities", fmt::format("choose {}", kinds));
+  disks.species.velocities_where = location_of(node);
+  if (const auto* name = node.as_string(); name != nullptr && name->get() == "rest") {
+    disks.species.velocities = AtRest{};
+  } else if (const auto* list = node.as_array()) {
+    disks.species.velocities = ListedVelocities{read_pairs(*list, path, "[1.0, 0.0]", nullptr)};
+  } else if (const auto* law = node.as_table()) {
+    disks.species.velocities = drawn(*law, path);
+  } else {
+    refuse(node, path, kinds);
+  }
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,124 @@
+// The scene as TOML with every default filled in: doubles with as many digits as it takes to read the same bits again.
+
+#include <carom/scene.hpp>
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string_view>
+
+namespace carom {
+namespace {
+
+using Buffer = fmt::memory_buffer;
+
+template <class... Args>
+void put(Buffer& out, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
+}
+
+/// Shortest digits that round-trip, and always a TOML float.
+std::string number(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += fmt::format("\\{}", c);
+    } else if (code < 0x20 || code == 0x7f) {
+      out += fmt::format("\\u{:04X}", code);
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+void put_pairs(Buffer& out, const std::vector<Eigen::Vector2d>& pairs) {
+  put(out, "[");
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    put(out, "{}[{}, {}]", i == 0 ? "" : (i % 4 == 0 ? ",\n  " : ", "), number(pairs[i][0]), number(pairs[i][1]));
+  }
+  put(out, "]\n");
+}
+
+struct PutPositions {
+  Buffer& out;
+  void operator()(const RandomPositions&) const { put(out, "positions = \"random\"\n"); }
+  void operator()(const SquareLattice&) const { put(out, "positions = \"square\"\n"); }
+  void operator()(const HexagonalLattice&) const { put(out, "positions = \"hexagonal\"\n"); }
+  void operator()(const FilePositions& file) const { put(out, "positions = {{ file = {} }}\n", quoted(file.path)); }
+  void operator()(const ListedPositions& list) const {
+    put(out, "positions = ");
+    put_pairs(out, list.values);
+  }
+};
+
+struct PutVelocities {
+  Buffer& out;
+  void operator()(const AtRest&) const { put(out, "velocities = \"rest\"\n"); }
+  void operator()(const UniformVelocities& law) const { put(out, "velocities = {{ uniform = {} }}\n", number(law.maximum)); }
+  void operator()(const MaxwellVelocities& law) const {
+    put(out, "velocities = {{ temperature = {} }}\n", number(law.temperature));
+  }
+  void operator()(const FixedSpeed& law) const { put(out, "velocities = {{ speed = {} }}\n", number(law.speed)); }
+  void operator()(const FileVelocities&) const { put(out, "# velocities: the columns vx, vy of the start file\n"); }
+  void operator()(const ListedVelocities& list) const {
+    put(out, "velocities = ");
+    put_pairs(out, list.values);
+  }
+};
+
+void put_species(Buffer& out, const Species& species) {
+  put(out, "\n[[disks]]\nname = {}\ncount = {}\n", quoted(species.name), species.count);
+  // A value of zero stands for none: it is a column of the start file.
+  if (species.radius > 0.0) {
+    put(out, "radius = {}\n", number(species.radius));
+  } else {
+    put(out, "# radius: a column of the start file\n");
+  }
+  if (species.mass > 0.0) {
+    put(out, "mass = {}\n", number(species.mass));
+  } else {
+    put(out, "# mass: a column of the start file\n");
+  }
+  std::visit(PutPositions{out}, species.positions);
+  std::visit(PutVelocities{out}, species.velocities);
+}
+
+void put_run(Buffer& out, const Run& run) {
+  put(out, "\n[run]\n");
+  if (run.time) put(out, "time = {}\n", number(*run.time));
+  if (run.collisions) put(out, "collisions = {}\n", *run.collisions);
+  if (run.sample_every) put(out, "sample_every = {}\n", number(*run.sample_every));
+  if (run.equilibrate && run.equilibrate->time) put(out, "equilibrate = {{ time = {} }}\n", number(*run.equilibrate->time));
+  if (run.equilibrate && run.equilibrate->collisions_per_disk) {
+    put(out, "equilibrate = {{ collisions_per_disk = {} }}\n", number(*run.equilibrate->collisions_per_disk));
+  }
+  put(out, "seed = {}\nkeep_momentum = {}\n", run.seed, run.keep_momentum);
+}
+
+}  // namespace
+
+std::string resolved_toml(const Scene& scene) {
+  const auto boundary = [&](int axis) { return scene.box.periodic(axis) ? "periodic" : "walls"; };
+  Buffer out;
+  put(out, "title = {}\n", quoted(scene.title));
+  if (scene.species.empty()) put(out, "disks = []\n");
+  put(out, "\n[box]\nx = [{}, {}]\ny = [{}, {}]\n", number(scene.box.lower[0]), number(scene.box.upper[0]),
+      number(scene.box.lower[1]), number(scene.box.upper[1]));
+  put(out, "boundary = {{ x = \"{}\", y = \"{}\" }}\n", boundary(0), boundary(1));
+  for (const Species& species : scene.species) put_species(out, species);
+  put(out, "\n[collision]\nrule = \"{}\"\n", scene.rule == CollisionRule::reversal ? "reversal" : "specular");
+  put_run(out, scene.run);
+  put(out, "\n[output]\ntrajectory = {}\nxyz = {}\ncsv = {}\nevents = {}\nunwrapped = {}\n", scene.output.trajectory,
+      scene.output.xyz, scene.output.csv, scene.output.events, scene.output.unwrapped);
+  return fmt::to_string(out);
+}
+
+}  // namespace carom

@@ -1,0 +1,115 @@
+// From text to a scene: parse, apply the overrides, read table by table, complete the short forms, check.
+
+#include <carom/scene.hpp>
+
+#include "scene/overrides.hpp"
+#include "scene/read_tables.hpp"
+#include "scene/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+#include <utility>
+
+namespace carom {
+namespace {
+
+std::string located(const Location& where, const std::string& sentence) {
+  if (where.line == 0) return fmt::format("{}: {}", where.source, sentence);
+  return fmt::format("{}:{}:{}: {}", where.source, where.line, where.column, sentence);
+}
+
+const toml::table& require_table(const detail::TableReader& scene, const char* key, const char* advice) {
+  const toml::table* table = scene.table(key, fmt::format("[{}]", key));
+  if (table == nullptr) throw SceneError(scene.where(), fmt::format("the scene has no [{}] table; {}", key, advice));
+  return *table;
+}
+
+std::vector<detail::DisksDraft> read_all_disks(const detail::TableReader& scene, const std::string& directory) {
+  const toml::node* node = scene.find("disks");
+  if (node == nullptr) {
+    throw SceneError(scene.where(),
+                     "the scene has no [[disks]] table; give one per species, with count, radius, mass, positions "
+                     "and velocities (disks = [] is an empty box)");
+  }
+  const toml::array* list = node->as_array();
+  if (list == nullptr) detail::refuse(*node, "disks", "a list of tables: write [[disks]] with double brackets");
+  std::vector<detail::DisksDraft> disks;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const std::string path = fmt::format("disks.{}", i);
+    const toml::node& entry = (*list)[i];
+    if (!entry.is_table()) detail::refuse(entry, path, "a table: write [[disks]] with double brackets");
+    disks.push_back(detail::read_disks(*entry.as_table(), path, directory));
+  }
+  return disks;
+}
+
+/// Top-level words that the format has and this version does not build.
+const std::vector<std::string_view> planned_tables = {"gravity",    "walls", "growth",      "obstacles",
+                                                      "thermostat", "shear", "square_well", "observe"};
+
+detail::SceneDraft read_document(const toml::table& document, const std::string& source, const std::string& directory) {
+  try {
+    const detail::TableReader reader(document, "", {"title", "box", "disks", "collision", "run", "output"}, planned_tables);
+    detail::SceneDraft draft;
+    Scene& scene = draft.scene;
+    scene.title = reader.string("title", "title = \"Disks in a box\"").value_or("");
+    draft.box = detail::read_box(require_table(reader, "box", "give limits x and y, and the boundary"));
+    draft.disks = read_all_disks(reader, directory);
+    scene.rule = detail::read_collision(require_table(reader, "collision", "choose rule = \"reversal\" or rule = \"specular\""));
+    const toml::table& run = require_table(reader, "run", "give time = 5.0, collisions = 1_000_000, or both");
+    draft.run_where = detail::location_of(run);
+    scene.run = detail::read_run(run);
+    scene.output = detail::read_output(reader.table("output", "[output]"), scene.run.sample_every.has_value());
+    return draft;
+  } catch (const SceneError& error) {
+    // Nodes of a document without any text carry no source name.
+    if (!error.where().source.empty()) throw;
+    throw SceneError({source, 1, 1}, std::string(error.what()).substr(located(error.where(), "").size()));
+  }
+}
+
+}  // namespace
+
+SceneError::SceneError(const Location& where, const std::string& sentence)
+    : std::runtime_error(located(where, sentence)), where_(where) {}
+
+std::int64_t Scene::disk_count() const {
+  std::int64_t sum = 0;
+  for (const Species& kind : species) sum += kind.count;
+  return sum;
+}
+
+double Scene::packing_fraction() const {
+  double sum = 0.0;
+  for (const Species& kind : species) {
+    if (kind.radii.empty()) {
+      sum += static_cast<double>(kind.count) * kind.radius * kind.radius;
+    } else {
+      for (const double radius : kind.radii) sum += radius * radius;
+    }
+  }
+  return std::numbers::pi * sum / box.area();
+}
+
+Scene parse_scene(const std::string& text, const std::string& source, const std::vector<std::string>& overrides,
+                  const std::string& directory) {
+  toml::table document = detail::parse_toml(text, source);
+  for (const std::string& change : overrides) detail::apply_override(document, change);
+  detail::SceneDraft draft = read_document(document, source, directory);
+  detail::complete_short_forms(draft);
+  detail::check_scene(draft);
+  Scene scene = std::move(draft.scene);
+  scene.source = source;
+  scene.text = text;
+  scene.overrides = overrides;
+  return scene;
+}
+
+Scene load_scene(const std::string& path, const std::vector<std::string>& overrides) {
+  return parse_scene(detail::read_text_file(path), path, overrides, std::filesystem::path(path).parent_path().string());
+}
+
+}  // namespace carom

@@ -1,0 +1,70 @@
+#pragma once
+// One TOML table of a scene while it is read. It knows its keys, so a word that the format does not have is found
+// before anything else, and every refusal carries the line and column of what it refuses.
+
+#include <carom/scene.hpp>
+
+#include "scene/draft.hpp"
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace carom::detail {
+
+/// Where a node was written. Nodes that come from an override carry the override itself in place of a file.
+Location location_of(const toml::source_region& region);
+Location location_of(const toml::node& node);
+
+/// A value as an error names it: `a string ("wide")`, `an integer (3)`, `a table`.
+std::string describe(const toml::node& node);
+
+enum class Range { any, zero_or_more, above_zero };
+
+/// `example` is what the key could look like: "time = 5.0". `path` is the key's full name: "run.time".
+double read_number(const toml::node& node, const std::string& path, Range range, const std::string& example);
+std::int64_t read_integer(const toml::node& node, const std::string& path, const std::string& example);  ///< zero or more
+bool read_switch(const toml::node& node, const std::string& path, const std::string& example);
+std::string read_string(const toml::node& node, const std::string& path, const std::string& example);
+Eigen::Vector2d read_pair(const toml::node& node, const std::string& path, const std::string& example);
+/// [[a, b], ...]; appends to `rows` where each pair stands, where rows is not null.
+std::vector<Eigen::Vector2d> read_pairs(const toml::array& list, const std::string& path, const std::string& example, Rows* rows);
+
+/// Throws the error for a value of the wrong kind: "<path> is <what was found>; it must be <expected>".
+[[noreturn]] void refuse(const toml::node& node, const std::string& path, const std::string& expected);
+
+class TableReader {
+ public:
+  /// `known` and `planned` are the keys that the format has here; planned ones are refused as not built yet. Words that
+  /// stand in neither are refused with the nearest known key. The lists must outlive the reader.
+  TableReader(const toml::table& table, std::string path, std::vector<std::string_view> known,
+              std::vector<std::string_view> planned = {});
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] std::string path(std::string_view key) const;  ///< "run.time"
+  [[nodiscard]] Location where() const { return location_of(table_); }
+  [[nodiscard]] Location where(std::string_view key) const;  ///< of the value; of the table where the key is absent
+
+  [[nodiscard]] const toml::node* find(std::string_view key) const;  ///< null where absent
+  /// Throws "<table> lacks <key>; <advice>" where absent.
+  [[nodiscard]] const toml::node& require(std::string_view key, const std::string& advice) const;
+
+  [[nodiscard]] std::optional<double> number(std::string_view key, Range range, const std::string& example) const;
+  [[nodiscard]] std::optional<std::int64_t> integer(std::string_view key, const std::string& example) const;
+  [[nodiscard]] std::optional<bool> on_or_off(std::string_view key) const;
+  [[nodiscard]] std::optional<std::string> string(std::string_view key, const std::string& example) const;
+
+  /// The sub-table `key`; throws where the value is not a table. Null where absent.
+  [[nodiscard]] const toml::table* table(std::string_view key, const std::string& example) const;
+
+ private:
+  const toml::table& table_;
+  std::string path_;
+  std::vector<std::string_view> known_;
+};
+
+}  // namespace carom::detail

@@ -1,0 +1,118 @@
+// The textbook engine against the all-pairs twin, event by event and bit by bit: cells, queue, plans and stale events
+// must leave no trace.
+
+#include "effects/reversal.hpp"
+#include "effects/specular.hpp"
+#include "engine/textbook.hpp"
+#include "support/all_pairs.hpp"
+#include "support/systems.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+namespace carom::test {
+namespace {
+
+template <class Rule>
+void expect_same_events(const System& system, int events) {
+  TextbookEngine<double, Rule> engine(system.box, system.disks, system.state);
+  AllPairs<Rule> twin(system.box, system.disks, system.state);
+  engine.record_events(true);
+  std::vector<Event> log;
+  while (log.size() < static_cast<std::size_t>(events) && !engine.idle()) {
+    engine.run_until(forever, no_limit, 1);
+    for (const Event& event : engine.take_events()) log.push_back(event);
+  }
+  for (std::size_t k = 0; k < log.size(); ++k) {
+    const Event expected = twin.step();
+    const Event& event = log[k];
+    ASSERT_EQ(event.time, expected.time) << "event " << k << " of disks " << event.disk << ", " << event.partner << " instead of " << expected.disk
+                                         << ", " << expected.partner;
+    ASSERT_EQ(event.time_remainder, expected.time_remainder) << "event " << k;
+    ASSERT_EQ(event.disk, expected.disk) << "event " << k;
+    ASSERT_EQ(event.partner, expected.partner) << "event " << k;
+    ASSERT_EQ(event.velocity, expected.velocity) << "event " << k;
+    ASSERT_EQ(event.partner_velocity, expected.partner_velocity) << "event " << k;
+  }
+  const auto faults = engine.check_invariants();
+  EXPECT_TRUE(faults.empty()) << faults.front();
+}
+
+Box thin_channel(double width) { return {{0.0, 0.0}, {30.0, width}, {Boundary::periodic, Boundary::walls}}; }
+
+TEST(TextbookTwin, PeriodicGasHasTheSameEventsAsAllPairs) {
+  for (const double packing_fraction : {0.05, 0.3, 0.6, 0.72}) {
+    const System system = system_of(gas_scene(36, packing_fraction, Boundary::periodic));
+    expect_same_events<Specular>(system, 1500);
+    expect_same_events<Reversal>(system, 1500);
+  }
+}
+
+TEST(TextbookTwin, WalledGasHasTheSameEventsAsAllPairs) {
+  for (const double packing_fraction : {0.02, 0.3, 0.55}) {
+    const System system = system_of(gas_scene(30, packing_fraction, Boundary::walls));
+    expect_same_events<Specular>(system, 1500);
+    expect_same_events<Reversal>(system, 1500);
+  }
+}
+
+TEST(TextbookTwin, MixtureHasTheSameEventsAsAllPairs) {
+  for (const Boundary boundary : {Boundary::walls, Boundary::periodic}) {
+    const System system = system_of(mixture_scene(30, 0.5, boundary));
+    expect_same_events<Specular>(system, 1500);
+    expect_same_events<Reversal>(system, 1500);
+  }
+}
+
+TEST(TextbookTwin, ThinChannelHasTheSameEventsAsAllPairs) {
+  std::vector<Placed> placed;
+  for (int i = 0; i < 12; ++i) placed.push_back({{0.7 + 2.5 * i, 0.6 + 0.05 * (i % 3)}, {std::sin(3.0 * i), std::cos(5.0 * i)}});
+  expect_same_events<Specular>(system_of(thin_channel(1.5), placed), 1500);
+}
+
+TEST(TextbookTwin, DisksThatFillMostOfASmallPeriodicBoxMeetThroughSeveralImages) {
+  // One cell per axis: each disk sees the other on every side.
+  const System system = system_of(square_box(1.8, Boundary::periodic), {{{0.3, 0.4}, {1.0, 0.3}}, {{1.2, 1.3}, {-0.7, 0.9}}});
+  expect_same_events<Specular>(system, 1000);
+  expect_same_events<Reversal>(system, 1000);
+}
+
+TEST(TextbookTwin, EqualSpeedsOnASquareLatticeGiveTiesThatAreBrokenAlike) {
+  // Everything meets at the same instants, over and over.
+  std::vector<Placed> placed;
+  for (int x = 0; x < 6; ++x)
+    for (int y = 0; y < 6; ++y) placed.push_back({{2.0 * x + 1.0, 2.0 * y + 1.0}, {(x % 2 == 0) ? 1.0 : -1.0, (y % 2 == 0) ? 1.0 : -1.0}});
+  for (const Boundary boundary : {Boundary::walls, Boundary::periodic}) {
+    expect_same_events<Specular>(system_of(square_box(12.0, boundary), placed), 2000);
+    expect_same_events<Reversal>(system_of(square_box(12.0, boundary), placed), 2000);
+  }
+}
+
+RC_GTEST_PROP(PropertyTextbookTwin, AnySmallSystemHasTheSameEventsAsAllPairs, ()) {
+  const auto boundary = [] { return *rc::gen::element(Boundary::walls, Boundary::periodic); };
+  const Box box = {{-3.0, 1.0}, {-3.0 + *rc::gen::inRange(30, 90) / 10.0, 1.0 + *rc::gen::inRange(30, 90) / 10.0}, {boundary(), boundary()}};
+  const int wanted = *rc::gen::inRange(1, 14);
+  std::vector<Placed> placed;
+  for (int i = 0; i < wanted; ++i) {
+    const double radius = *rc::gen::inRange(2, 13) / 10.0 / 2.0;
+    const auto in = [&](int a) { return box.lower[a] + radius + (box.lengths()[a] - 2 * radius) * *rc::gen::inRange(0, 1025) / 1024.0; };
+    const auto component = [] { return *rc::gen::inRange(-8, 9) / 4.0; };
+    Placed disk{{in(0), in(1)}, {component(), component()}, radius, *rc::gen::element(0.25, 1.0, 3.0, 1e6)};
+    for (int a = 0; a < 2; ++a)
+      if (disk.r[a] >= box.upper[a]) disk.r[a] = box.lower[a];
+    bool free = true;
+    for (const Placed& other : placed)
+      for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y) {
+          const Eigen::Vector2d image(x * box.lengths()[0], y * box.lengths()[1]);
+          free = free && (disk.r - other.r + image).norm() >= disk.radius + other.radius;
+        }
+    if (free) placed.push_back(disk);
+  }
+  expect_same_events<Specular>(system_of(box, placed), 200);
+  expect_same_events<Reversal>(system_of(box, placed), 200);
+  RC_ASSERT(!::testing::Test::HasFatalFailure());
+}
+
+}  // namespace
+}  // namespace carom::test

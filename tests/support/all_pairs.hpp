@@ -1,0 +1,123 @@
+#pragma once
+// The slow and obvious twin of the textbook engine: no cells, no queue, no plans. Before every event it compares all
+// pairs, in all images that can matter, and all walls, and takes the first. Same arithmetic, so the same bits.
+
+#include "core/contact_time.hpp"
+#include "core/domain.hpp"
+#include "core/instant.hpp"
+#include "effects/hard_wall.hpp"
+#include "effects/impact.hpp"
+#include "engine/epoch.hpp"
+
+#include <carom/state.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+namespace carom::test {
+
+template <class Rule>
+class AllPairs {
+ public:
+  AllPairs(const Box& box, const Disks& disks, const State& start) : domain_(box), disks_(disks) {
+    for (std::size_t i = 0; i < disks.count(); ++i) {
+      r_.push_back(start.positions.col(static_cast<Eigen::Index>(i)));
+      v_.push_back(start.velocities.col(static_cast<Eigen::Index>(i)));
+      t_.push_back(0.0);
+    }
+    begin_epoch(0.0);
+  }
+
+  /// The next collision, made to happen.
+  Event step() {
+    double first = infinity<double>;
+    int a = -1;
+    int b = -1;
+    Winding shift = Winding::Zero();
+    for (int i = 0; i < n(); ++i) {
+      const auto wall = next_wall_contact<double>(domain_, r_[at(i)], v_[at(i)], disks_.radius[at(i)], t_[at(i)]);
+      if (std::tie(wall.time, i) < std::tie(first, a) || (wall.time == first && i == a && wall.wall < b)) first = wall.time, a = i, b = wall.wall;
+    }
+    // With images up to `reach` box lengths away; widened until nothing beyond could come in before what was found.
+    for (std::int64_t reach = 1;; reach *= 2) {
+      for (int i = 0; i < n(); ++i) {
+        for (int j = i + 1; j < n(); ++j) {
+          for (std::int64_t x = domain_.periodic[0] ? -reach : 0; x <= (domain_.periodic[0] ? reach : 0); ++x) {
+            for (std::int64_t y = domain_.periodic[1] ? -reach : 0; y <= (domain_.periodic[1] ? reach : 0); ++y) {
+              const Winding s(x, y);
+              const double from = std::max(t_[at(i)], t_[at(j)]);
+              const double time = from + contact_time<double>(separation(i, j, from, s), v_[at(i)] - v_[at(j)], sigma(i, j));
+              if (std::tie(time, i, j) < std::tie(first, a, b)) first = time, a = i, b = j, shift = s;
+            }
+          }
+        }
+      }
+      double travel = 0.0;
+      for (int i = 0; i < n(); ++i) travel = std::max(travel, 2.0 * v_[at(i)].norm() * (first - t_[at(i)]));
+      const double box = std::min(domain_.length[0], domain_.length[1]);
+      if (!(travel + 2.0 * box > static_cast<double>(reach) * box) || reach > 64) break;
+    }
+    if (a < 0) return {infinity<double>, 0.0, -1, -1, {}, {}};
+    const double now = first;
+    Event event;
+    event.disk = a;
+    event.partner = b;
+    if (b >= 0) {
+      shift -= bring_to(a, now) - bring_to(b, now);
+      collide<Rule, double>(separation(a, b, now, shift), disks_.mass[at(a)], v_[at(a)], disks_.mass[at(b)], v_[at(b)]);
+      event.partner_velocity = v_[at(b)];
+    } else {
+      bring_to(a, now);
+      double& across = v_[at(a)][axis_of(static_cast<Wall>(b))];
+      across = -across;
+    }
+    event.velocity = v_[at(a)];
+    const Instant when = epoch_.plus(now);
+    event.time = when.high;
+    event.time_remainder = when.low;
+    if (now >= length_) begin_epoch(now);
+    return event;
+  }
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  [[nodiscard]] int n() const { return static_cast<int>(r_.size()); }
+  [[nodiscard]] double sigma(int i, int j) const { return disks_.radius[at(i)] + disks_.radius[at(j)]; }
+
+  [[nodiscard]] Vec2<double> separation(int i, int j, double time, const Winding& s) const {
+    const Vec2<double> a = r_[at(i)] + v_[at(i)] * (time - t_[at(i)]);
+    const Vec2<double> b = r_[at(j)] + v_[at(j)] * (time - t_[at(j)]);
+    Vec2<double> r = a - b;
+    for (int k = 0; k < 2; ++k) r[k] -= static_cast<double>(s[k]) * domain_.length[k];
+    return r;
+  }
+
+  Winding bring_to(int i, double now) {
+    r_[at(i)] = r_[at(i)] + v_[at(i)] * (now - t_[at(i)]);
+    t_[at(i)] = now;
+    return domain_.wrap(r_[at(i)]);
+  }
+
+  void begin_epoch(double now) {
+    double speed = 0.0;
+    for (int i = 0; i < n(); ++i) {
+      bring_to(i, now);
+      t_[at(i)] = 0.0;
+      speed += std::abs(v_[at(i)][0]) + std::abs(v_[at(i)][1]);
+    }
+    epoch_ = epoch_.plus(now);
+    length_ = epoch_length(std::sqrt(domain_.length[0]) * std::sqrt(domain_.length[1] / std::max(n(), 1)), speed / std::max(n(), 1));
+  }
+
+  Domain<double> domain_;
+  Disks disks_;
+  std::vector<Vec2<double>> r_;
+  std::vector<Vec2<double>> v_;
+  std::vector<double> t_;
+  Instant epoch_;
+  double length_ = 0.0;
+};
+
+}  // namespace carom::test
