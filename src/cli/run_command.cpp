@@ -67,8 +67,8 @@ ExitCode exit_code_of(const RunReport& report) {
   return report.stopped == StopReason::interrupted ? exit_interrupted : exit_done;
 }
 
-RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurements& measurements, ProgressMode mode) {
-  const StopRequest stop;
+RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurements& measurements, ProgressMode mode,
+                          const StopRequest& stop) {
   ProgressLine line(mode, simulation.scene());
   RunHooks hooks;
   hooks.start = [&](const State& start) { measurements.start(start); };
@@ -93,7 +93,8 @@ ExitCode run(const RunOptions& options, const Invocation& invocation) {
   Simulation simulation = make_simulation(scene, engine);
   const Provenance provenance{
       .resolved_scene = resolved_toml(scene), .command_line = invocation.command_line, .engine = simulation.engine()};
-  RunDirectory directory = [&] {
+  const StopRequest stop;  // from here on there is something to save
+  const RunDirectory directory = [&] {
     try {
       return RunDirectory(directory_for(options), options.force);
     } catch (const OutputError& error) {
@@ -107,7 +108,7 @@ ExitCode run(const RunOptions& options, const Invocation& invocation) {
   try {
     RunWriter writer(directory, scene, simulation.disks(), provenance);
     RunMeasurements measurements(simulation);
-    const RunResult result = run_with_output(simulation, writer, measurements, progress);
+    const RunResult result = run_with_output(simulation, writer, measurements, progress, stop);
     const double wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
     const RunReport report = measurements.report(result, wall_seconds);
     const std::vector<std::string> files = writer.finish(report);
