@@ -1,5 +1,6 @@
 // What the parts of a scene must agree on: names, room for the disks, density, given positions, and an end to the run.
 
+#include "scene/excerpt.hpp"
 #include "scene/overlap.hpp"
 #include "scene/read_tables.hpp"
 
@@ -56,7 +57,7 @@ void check_counts(const Scene& scene) {
     const auto* listed = std::get_if<ListedVelocities>(&species.velocities);
     if (listed != nullptr && static_cast<std::int64_t>(listed->values.size()) != species.count) {
       throw SceneError(species.velocities_where,
-                       fmt::format("disks.{}.velocities has {} entries for {} disks; give one [vx, vy] per disk", s,
+                       fmt::format("disks.{}.velocities has length {}, but there are {} disks; give one [vx, vy] per disk", s,
                                    listed->values.size(), species.count));
     }
   }

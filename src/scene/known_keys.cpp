@@ -2,6 +2,8 @@
 
 #include "scene/known_keys.hpp"
 
+#include "scene/excerpt.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,7 +21,9 @@ char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned 
 /// A key that is right in another table is a misplaced key, not a misspelt one.
 std::string_view home_of(std::string_view key) {
   using Home = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Home, 26> homes = {{{"aspect", "[box]"},
+  static constexpr std::array<Home, 28> homes = {{{"x", "[box]"},
+                                                  {"y", "[box]"},
+                                                  {"aspect", "[box]"},
                                                   {"boundary", "[box]"},
                                                   {"name", "[[disks]]"},
                                                   {"count", "[[disks]]"},
@@ -47,11 +51,6 @@ std::string_view home_of(std::string_view key) {
                                                   {"speed", "velocities = { ... }"}}};
   const auto home = std::find_if(homes.begin(), homes.end(), [&](const Home& entry) { return entry.first == key; });
   return home == homes.end() ? std::string_view() : home->second;
-}
-
-std::string shortened(std::string_view key) {
-  constexpr std::size_t longest = 60;
-  return std::string(key.substr(0, longest)) + (key.size() > longest ? "..." : "");
 }
 
 }  // namespace
@@ -96,7 +95,7 @@ std::string table_title(std::string_view path) {
 }
 
 std::string unknown_key_sentence(std::string_view key, std::string_view path, std::span<const std::string_view> known) {
-  const std::string problem = fmt::format("{} has no key \"{}\"", table_title(path), shortened(key));
+  const std::string problem = fmt::format("{} has no key \"{}\"", table_title(path), excerpt(key, 60));
   if (const std::string_view home = home_of(key); !home.empty()) return fmt::format("{}; it belongs to {}", problem, home);
   if (key == "title") return problem + "; it belongs to the top of the file, before the first [table]";
   if (const std::string_view near = nearest_word(key, known); !near.empty()) {
@@ -106,7 +105,9 @@ std::string unknown_key_sentence(std::string_view key, std::string_view path, st
 }
 
 std::string planned_sentence(std::string_view key, std::string_view path, bool is_table) {
-  const std::string subject = is_table ? fmt::format(key == "obstacles" ? "[[{}]]" : "[{}]", key) : fmt::format("{} in {}", key, table_title(path));
+  const std::string subject = !is_table            ? fmt::format("{} in {}", key, table_title(path))
+                              : key == "obstacles" ? "[[obstacles]]"
+                                                   : fmt::format("[{}]", key);
   return fmt::format("{} is part of the scene format but this version of Carom does not simulate it yet; remove the {}", subject,
                      is_table ? "table" : "key");
 }

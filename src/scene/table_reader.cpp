@@ -2,7 +2,9 @@
 
 #include "scene/table_reader.hpp"
 
+#include "scene/excerpt.hpp"
 #include "scene/known_keys.hpp"
+#include "scene/number_text.hpp"
 #include "scene/overrides.hpp"
 
 #include <fmt/format.h>
@@ -26,11 +28,11 @@ Location location_of(const toml::node& node) { return location_of(node.source())
 std::string describe(const toml::node& node) {
   constexpr std::size_t longest = 40;
   if (const auto* text = node.as_string()) {
-    const std::string& value = text->get();
-    return fmt::format("a string (\"{}{}\")", value.substr(0, longest), value.size() > longest ? "..." : "");
+    return fmt::format("a string (\"{}\")", excerpt(text->get(), longest));
   }
   if (const auto* integer = node.as_integer()) return fmt::format("an integer ({})", integer->get());
-  if (const auto* number = node.as_floating_point()) return fmt::format("a number ({})", number->get());
+  if (const auto* number = node.as_floating_point())
+    return fmt::format("a floating-point number ({})", number_text(number->get()));
   if (const auto* flag = node.as_boolean()) return fmt::format("a boolean ({})", flag->get());
   if (const auto* list = node.as_array()) return list->empty() ? "an empty list" : fmt::format("a list of {}", list->size());
   if (node.is_table()) return "a table";

@@ -38,7 +38,8 @@ double spacing_of(const Box& box, std::int64_t columns, std::int64_t rows, doubl
   const double across = rows > 1 || box.periodic(1) ? dy : far;
   if (!staggered) return std::min(along, across);
   const double oblique = rows > 1 || box.periodic(1) ? std::hypot(0.5 * dx, dy) : far;
-  return std::min(along, oblique);
+  const double second_row = rows > 2 || box.periodic(1) ? 2.0 * dy : far;
+  return std::min({along, oblique, second_row});
 }
 
 Lattice lattice(const Box& box, std::int64_t count, double diameter, bool staggered) {
