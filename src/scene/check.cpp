@@ -56,7 +56,7 @@ void check_counts(const Scene& scene) {
     const auto* listed = std::get_if<ListedVelocities>(&species.velocities);
     if (listed != nullptr && static_cast<std::int64_t>(listed->values.size()) != species.count) {
       throw SceneError(species.velocities_where,
-                       fmt::format("disks.{}.velocities has {} entries for {} disks; give one [vx, vy] per disk", s,
+                       fmt::format("disks.{}.velocities has length {}, but there are {} disks; give one [vx, vy] per disk", s,
                                    listed->values.size(), species.count));
     }
   }

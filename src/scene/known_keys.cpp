@@ -19,7 +19,9 @@ char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned 
 /// A key that is right in another table is a misplaced key, not a misspelt one.
 std::string_view home_of(std::string_view key) {
   using Home = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Home, 26> homes = {{{"aspect", "[box]"},
+  static constexpr std::array<Home, 28> homes = {{{"x", "[box]"},
+                                                  {"y", "[box]"},
+                                                  {"aspect", "[box]"},
                                                   {"boundary", "[box]"},
                                                   {"name", "[[disks]]"},
                                                   {"count", "[[disks]]"},
@@ -106,7 +108,9 @@ std::string unknown_key_sentence(std::string_view key, std::string_view path, st
 }
 
 std::string planned_sentence(std::string_view key, std::string_view path, bool is_table) {
-  const std::string subject = is_table ? fmt::format(key == "obstacles" ? "[[{}]]" : "[{}]", key) : fmt::format("{} in {}", key, table_title(path));
+  const std::string subject = !is_table            ? fmt::format("{} in {}", key, table_title(path))
+                              : key == "obstacles" ? "[[obstacles]]"
+                                                   : fmt::format("[{}]", key);
   return fmt::format("{} is part of the scene format but this version of Carom does not simulate it yet; remove the {}", subject,
                      is_table ? "table" : "key");
 }

@@ -21,20 +21,17 @@ Positions named(const toml::node& node, const std::string& name, const std::stri
   refuse(node, path, kinds);
 }
 
-/// Relative paths are relative to the scene; the absolute path still resolves when the resolved scene lies elsewhere.
-std::string absolute_path(const std::string& path, const std::string& directory) {
-  return std::filesystem::absolute(std::filesystem::path(directory) / path).lexically_normal().string();
-}
-
 FilePositions from_file(const toml::table& node, const std::string& path, const std::string& directory, DisksDraft& disks) {
   const TableReader table(node, path, {"file"}, {"packing_fraction"});
   const std::string example = R"({ file = "start.csv" })";
   const toml::node& name = table.require("file", "name it, such as " + example);
   const std::string written = read_string(name, table.path("file"), example);
-  FilePositions positions{absolute_path(written, directory), {}};
+  // Relative paths are relative to the scene; the absolute one still resolves when the resolved scene lies elsewhere.
+  const std::filesystem::path seen = (std::filesystem::path(directory) / written).lexically_normal();
+  FilePositions positions{std::filesystem::absolute(seen).lexically_normal().string(), {}};
   StartFile start;
   try {
-    start = read_start_file(positions.path);
+    start = read_start_file(seen.string());
   } catch (const SceneError& error) {
     if (error.where().line != 0) throw;
     // The file as a whole cannot be read: the place to mend is the scene.

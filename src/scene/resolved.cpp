@@ -2,6 +2,8 @@
 
 #include <carom/scene.hpp>
 
+#include "scene/number_text.hpp"
+
 #include <fmt/format.h>
 
 #include <iterator>
@@ -10,18 +12,12 @@
 namespace carom {
 namespace {
 
+using detail::number_text;
 using Buffer = fmt::memory_buffer;
 
 template <class... Args>
 void put(Buffer& out, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
-}
-
-/// Shortest digits that round-trip, and always a TOML float.
-std::string number(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".en") == std::string::npos) text += ".0";
-  return text;
 }
 
 std::string quoted(std::string_view text) {
@@ -42,7 +38,7 @@ std::string quoted(std::string_view text) {
 void put_pairs(Buffer& out, const std::vector<Eigen::Vector2d>& pairs) {
   put(out, "[");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    put(out, "{}[{}, {}]", i == 0 ? "" : (i % 4 == 0 ? ",\n  " : ", "), number(pairs[i][0]), number(pairs[i][1]));
+    put(out, "{}[{}, {}]", i == 0 ? "" : (i % 4 == 0 ? ",\n  " : ", "), number_text(pairs[i][0]), number_text(pairs[i][1]));
   }
   put(out, "]\n");
 }
@@ -62,11 +58,11 @@ struct PutPositions {
 struct PutVelocities {
   Buffer& out;
   void operator()(const AtRest&) const { put(out, "velocities = \"rest\"\n"); }
-  void operator()(const UniformVelocities& law) const { put(out, "velocities = {{ uniform = {} }}\n", number(law.maximum)); }
+  void operator()(const UniformVelocities& law) const { put(out, "velocities = {{ uniform = {} }}\n", number_text(law.maximum)); }
   void operator()(const MaxwellVelocities& law) const {
-    put(out, "velocities = {{ temperature = {} }}\n", number(law.temperature));
+    put(out, "velocities = {{ temperature = {} }}\n", number_text(law.temperature));
   }
-  void operator()(const FixedSpeed& law) const { put(out, "velocities = {{ speed = {} }}\n", number(law.speed)); }
+  void operator()(const FixedSpeed& law) const { put(out, "velocities = {{ speed = {} }}\n", number_text(law.speed)); }
   void operator()(const FileVelocities&) const { put(out, "# velocities: the columns vx, vy of the start file\n"); }
   void operator()(const ListedVelocities& list) const {
     put(out, "velocities = ");
@@ -78,12 +74,12 @@ void put_species(Buffer& out, const Species& species) {
   put(out, "\n[[disks]]\nname = {}\ncount = {}\n", quoted(species.name), species.count);
   // A value of zero stands for none: it is a column of the start file.
   if (species.radius > 0.0) {
-    put(out, "radius = {}\n", number(species.radius));
+    put(out, "radius = {}\n", number_text(species.radius));
   } else {
     put(out, "# radius: a column of the start file\n");
   }
   if (species.mass > 0.0) {
-    put(out, "mass = {}\n", number(species.mass));
+    put(out, "mass = {}\n", number_text(species.mass));
   } else {
     put(out, "# mass: a column of the start file\n");
   }
@@ -93,12 +89,12 @@ void put_species(Buffer& out, const Species& species) {
 
 void put_run(Buffer& out, const Run& run) {
   put(out, "\n[run]\n");
-  if (run.time) put(out, "time = {}\n", number(*run.time));
+  if (run.time) put(out, "time = {}\n", number_text(*run.time));
   if (run.collisions) put(out, "collisions = {}\n", *run.collisions);
-  if (run.sample_every) put(out, "sample_every = {}\n", number(*run.sample_every));
-  if (run.equilibrate && run.equilibrate->time) put(out, "equilibrate = {{ time = {} }}\n", number(*run.equilibrate->time));
+  if (run.sample_every) put(out, "sample_every = {}\n", number_text(*run.sample_every));
+  if (run.equilibrate && run.equilibrate->time) put(out, "equilibrate = {{ time = {} }}\n", number_text(*run.equilibrate->time));
   if (run.equilibrate && run.equilibrate->collisions_per_disk) {
-    put(out, "equilibrate = {{ collisions_per_disk = {} }}\n", number(*run.equilibrate->collisions_per_disk));
+    put(out, "equilibrate = {{ collisions_per_disk = {} }}\n", number_text(*run.equilibrate->collisions_per_disk));
   }
   put(out, "seed = {}\nkeep_momentum = {}\n", run.seed, run.keep_momentum);
 }
@@ -110,8 +106,8 @@ std::string resolved_toml(const Scene& scene) {
   Buffer out;
   put(out, "title = {}\n", quoted(scene.title));
   if (scene.species.empty()) put(out, "disks = []\n");
-  put(out, "\n[box]\nx = [{}, {}]\ny = [{}, {}]\n", number(scene.box.lower[0]), number(scene.box.upper[0]),
-      number(scene.box.lower[1]), number(scene.box.upper[1]));
+  put(out, "\n[box]\nx = [{}, {}]\ny = [{}, {}]\n", number_text(scene.box.lower[0]), number_text(scene.box.upper[0]),
+      number_text(scene.box.lower[1]), number_text(scene.box.upper[1]));
   put(out, "boundary = {{ x = \"{}\", y = \"{}\" }}\n", boundary(0), boundary(1));
   for (const Species& species : scene.species) put_species(out, species);
   put(out, "\n[collision]\nrule = \"{}\"\n", scene.rule == CollisionRule::reversal ? "reversal" : "specular");

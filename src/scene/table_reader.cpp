@@ -3,6 +3,7 @@
 #include "scene/table_reader.hpp"
 
 #include "scene/known_keys.hpp"
+#include "scene/number_text.hpp"
 #include "scene/overrides.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +31,8 @@ std::string describe(const toml::node& node) {
     return fmt::format("a string (\"{}{}\")", value.substr(0, longest), value.size() > longest ? "..." : "");
   }
   if (const auto* integer = node.as_integer()) return fmt::format("an integer ({})", integer->get());
-  if (const auto* number = node.as_floating_point()) return fmt::format("a number ({})", number->get());
+  if (const auto* number = node.as_floating_point())
+    return fmt::format("a floating-point number ({})", number_text(number->get()));
   if (const auto* flag = node.as_boolean()) return fmt::format("a boolean ({})", flag->get());
   if (const auto* list = node.as_array()) return list->empty() ? "an empty list" : fmt::format("a list of {}", list->size());
   if (node.is_table()) return "a table";

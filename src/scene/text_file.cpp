@@ -87,7 +87,9 @@ toml::table parse_toml(const std::string& text, const std::string& source) {
   try {
     return toml::parse(text, source);
   } catch (const toml::parse_error& error) {
-    throw SceneError(location_of(error.source()), fmt::format("this is not TOML: {}", error.description()));
+    std::string_view reason = error.description();
+    if (reason.starts_with("Error ")) reason.remove_prefix(6);  // "Error while parsing ...": "while parsing ..." says as much
+    throw SceneError(location_of(error.source()), fmt::format("this is not TOML: {}", reason));
   }
 }
 
