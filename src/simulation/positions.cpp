@@ -4,9 +4,9 @@
 #include "neighbours/disks_at_rest.hpp"
 #include "simulation/start.hpp"
 
+#include <fmt/format.h>
 #include <boost/random/uniform_int_distribution.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,10 @@ struct Ids {
 class Placement {
  public:
   Placement(const Scene& scene, const Disks& disks)
-      : scene_(scene), disks_(disks), in_place_(scene.box, disks.radius), positions_(2, static_cast<Eigen::Index>(disks.count())) {
+      : scene_(scene),
+        disks_(disks),
+        in_place_(scene.box, disks.radius),
+        positions_(2, static_cast<Eigen::Index>(disks.count())) {
     std::int64_t first = 0;
     for (const Species& species : scene.species) {
       ids_.push_back({first, first + species.count});
@@ -56,15 +59,34 @@ class Placement {
     in_place_.insert(static_cast<std::int32_t>(i), position);
   }
 
+  /// Scenes that were read are right here; those that a program makes may not be.
+  void require_inside(std::int64_t i, const Eigen::Vector2d& position) const {
+    const Box& box = scene_.box;
+    const double radius = disks_.radius[static_cast<std::size_t>(i)];
+    for (int a = 0; a < 2; ++a) {
+      const double margin = box.periodic(a) ? 0.0 : radius * (1.0 - 2.0 * accepted_overlap);
+      const bool fits = !box.periodic(a) || 2.0 * radius < box.lengths()[a];
+      if (fits && position[a] >= box.lower[a] + margin && position[a] <= box.upper[a] - margin) continue;
+      const auto species = static_cast<std::size_t>(disks_.species[static_cast<std::size_t>(i)]);
+      throw SceneError(
+          scene_.species[species].positions_where,
+          fmt::format("disk {} of radius {:g} at ({:g}, {:g}) sticks out of the box, which runs from {:g} to {:g} in {}; "
+                      "move it inside, or make it smaller",
+                      i, radius, position[0], position[1], box.lower[a], box.upper[a], a == 0 ? "x" : "y"));
+    }
+  }
+
   void place_listed(std::size_t s, const std::vector<Eigen::Vector2d>& values) {
     for (std::int64_t i = ids_[s].begin; i < ids_[s].end; ++i) {
       const Eigen::Vector2d& position = values[static_cast<std::size_t>(i - ids_[s].begin)];
+      require_inside(i, position);
       const auto found = in_place_.deepest(position, disks_.radius[static_cast<std::size_t>(i)], static_cast<std::int32_t>(i));
       if (found.relative_overlap > accepted_overlap) {
-        throw SceneError(scene_.species[s].positions_where,
-                         fmt::format("disks {} and {} overlap by {:.3g} of their contact distance {:g}; move them apart or make them smaller",
-                                     found.disk, i, found.relative_overlap,
-                                     disks_.radius[static_cast<std::size_t>(i)] + disks_.radius[static_cast<std::size_t>(found.disk)]));
+        throw SceneError(
+            scene_.species[s].positions_where,
+            fmt::format("disks {} and {} overlap by {:.3g} of their contact distance {:g}; move them apart or make them smaller",
+                        found.disk, i, found.relative_overlap,
+                        disks_.radius[static_cast<std::size_t>(i)] + disks_.radius[static_cast<std::size_t>(found.disk)]));
       }
       put(i, position);
     }
@@ -86,19 +108,26 @@ class Placement {
     const Location& where = scene_.species[species.front()].positions_where;
     const Lattice lattice = make(scene_.box, static_cast<std::int64_t>(ids.size()), diameter);
     if (lattice.spacing < diameter * (1.0 - accepted_overlap)) {
-      throw SceneError(where, fmt::format("a {} lattice of {} disks in this box has a spacing of {:.6g}, less than the diameter {:.6g}; take fewer or "
-                                          "smaller disks{}",
-                                          name, ids.size(), lattice.spacing, diameter,
-                                          std::is_same_v<Kind, SquareLattice> ? R"(, or "hexagonal")" : ""));
+      throw SceneError(
+          where,
+          fmt::format(
+              "a {} lattice of {} disks in this box has a spacing of {:.6g}, less than the diameter {:.6g}; take fewer or "
+              "smaller disks{}",
+              name, ids.size(), lattice.spacing, diameter, std::is_same_v<Kind, SquareLattice> ? R"(, or "hexagonal")" : ""));
     }
     if (species.size() > 1) shuffle(ids);
     for (std::size_t k = 0; k < ids.size(); ++k) {
       const Eigen::Vector2d site = lattice.sites.col(static_cast<Eigen::Index>(k));
-      const auto found = in_place_.deepest(site, disks_.radius[static_cast<std::size_t>(ids[k])], static_cast<std::int32_t>(ids[k]));
+      require_inside(ids[k], site);
+      const auto found =
+          in_place_.deepest(site, disks_.radius[static_cast<std::size_t>(ids[k])], static_cast<std::int32_t>(ids[k]));
       if (found.relative_overlap > accepted_overlap) {
-        throw SceneError(where, fmt::format("the {} lattice puts disk {} upon disk {}, whose position is given elsewhere; give all positions one by one, or "
-                                            "ask for \"random\"",
-                                            name, ids[k], found.disk));
+        throw SceneError(
+            where,
+            fmt::format(
+                "the {} lattice puts disk {} upon disk {}, whose position is given elsewhere; give all positions one by one, or "
+                "ask for \"random\"",
+                name, ids[k], found.disk));
       }
       put(ids[k], site);
     }
@@ -124,13 +153,15 @@ class Placement {
       for (std::int64_t i = ids_[s].begin; i < ids_[s].end; ++i) waiting.push_back({i, s});
     }
     const auto radius_of = [&](const Waiting& w) { return disks_.radius[static_cast<std::size_t>(w.id)]; };
-    std::stable_sort(waiting.begin(), waiting.end(), [&](const Waiting& a, const Waiting& b) { return radius_of(a) > radius_of(b); });
+    std::stable_sort(waiting.begin(), waiting.end(),
+                     [&](const Waiting& a, const Waiting& b) { return radius_of(a) > radius_of(b); });
     for (const Waiting& disk : waiting) put(disk.id, find_room(disk.id, disk.species));
   }
 
   Eigen::Vector2d find_room(std::int64_t i, std::size_t species) const {
     const double radius = disks_.radius[static_cast<std::size_t>(i)];
     RandomStream random(scene_.run.seed, Stream::positions, static_cast<std::uint64_t>(i));
+    require_inside(i, 0.5 * (scene_.box.lower + scene_.box.upper));
     for (int tries = 0; tries < placement_tries; ++tries) {
       Eigen::Vector2d position;
       for (int a = 0; a < 2; ++a) {
@@ -142,7 +173,8 @@ class Placement {
       if (in_place_.deepest(position, radius).disk < 0) return position;
     }
     throw SceneError(scene_.species[species].positions_where,
-                     fmt::format("no room for disk {} of radius {:g} after {} random tries: the scene asks for a packing fraction of {:.4g}, and random "
+                     fmt::format("no room for disk {} of radius {:g} after {} random tries: the scene asks for a packing "
+                                 "fraction of {:.4g}, and random "
                                  "placement ends at 0.547; take fewer or smaller disks, or positions = \"hexagonal\"",
                                  i, radius, placement_tries, scene_.packing_fraction()));
   }

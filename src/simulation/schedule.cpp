@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 namespace carom {
 
@@ -17,14 +20,20 @@ namespace {
 /// Events in one stretch: some hundredths of a second.
 constexpr std::uint64_t stretch_events = 20'000;
 
-/// A run that waits for collisions alone gives up after so many stretches without one (1e9 events): its disks fly past
+/// A run that waits for collisions alone gives up after so many other events in a row (some minutes): its disks fly past
 /// each other for ever, as far as anyone can tell.
-constexpr std::uint64_t patience = 50'000;
+constexpr std::uint64_t patience = 1'000'000'000;
+
+std::uint64_t all_events(const Totals& totals) { return totals.pair + totals.wall + totals.other + totals.stale; }
 
 class Schedule {
  public:
   Schedule(const Scene& scene, detail::AnyEngine& engine, std::uint64_t disks, const RunHooks& hooks)
-      : run_(scene.run), engine_(engine), hooks_(hooks), block_collisions_(std::max<std::uint64_t>(16, disks / 2)), disks_(disks) {}
+      : run_(scene.run),
+        engine_(engine),
+        hooks_(hooks),
+        block_collisions_(std::max<std::uint64_t>(16, disks / 2)),
+        disks_(disks) {}
 
   RunResult operator()() {
     const bool ready = equilibrate();
@@ -45,12 +54,14 @@ class Schedule {
   bool equilibrate() {
     if (!run_.equilibrate) return true;
     equilibrating_ = true;
+    ends_by_time_ = run_.equilibrate->time.has_value();
     Instant until = forever;
     std::uint64_t collisions = no_limit;
-    if (run_.equilibrate->time) {
+    if (ends_by_time_) {
       until = {*run_.equilibrate->time, 0.0};
     } else {
-      collisions = static_cast<std::uint64_t>(std::ceil(*run_.equilibrate->collisions_per_disk * static_cast<double>(disks_) / 2.0));
+      collisions =
+          static_cast<std::uint64_t>(std::ceil(*run_.equilibrate->collisions_per_disk * static_cast<double>(disks_) / 2.0));
     }
     if (!advance(until, collisions) && result_.stopped != StopReason::collisions) return false;
     engine_.reset_clock();
@@ -61,41 +72,62 @@ class Schedule {
 
   void measure() {
     next_block_ = block_collisions_;
+    ends_by_time_ = run_.time.has_value();
+    const Instant end = ends_by_time_ ? Instant{*run_.time, 0.0} : forever;
     const std::uint64_t collisions = run_.collisions.value_or(no_limit);
     if (run_.sample_every) {
-      const std::uint64_t last = run_.time ? last_sample(run_) : no_limit;
+      const std::uint64_t last = ends_by_time_ ? last_sample(run_) : no_limit;
       for (std::uint64_t k = 0; k <= last; ++k) {
-        if (!advance(Instant::product(k, *run_.sample_every), collisions)) return;
+        // The last product may lie beyond the end by its rounding: 3 * 0.1 > 0.3. The run ends at its end.
+        if (!advance(std::min(Instant::product(k, *run_.sample_every), end), collisions)) return;
         if (hooks_.sample) hooks_.sample(k, engine_.state());
         ++result_.samples;
+        if (is_hopeless()) {
+          stop(StopReason::no_collisions);
+          return;
+        }
       }
     }
-    advance(run_.time ? Instant{*run_.time, 0.0} : forever, collisions);
+    advance(end, collisions);
   }
 
   /// Runs to `target`; false when something else ended the run first, as result_.stopped then says.
   bool advance(const Instant& target, std::uint64_t collisions) {
-    std::uint64_t without_collision = 0;
     for (;;) {
-      const std::uint64_t before = engine_.totals().pair;
-      const auto started = Clock::now();
-      engine_.run_until(target, std::min(collisions, next_block_), stretch_events);
-      result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
-      if (hooks_.events) hand_on_events();
-      if (engine_.totals().pair >= next_block_) {
-        if (hooks_.block) hooks_.block(progress());
-        next_block_ += block_collisions_;
-      }
-      if (engine_.totals().pair >= collisions) return stop(StopReason::collisions);
-      if (!(engine_.now() < target)) return true;
       if (hooks_.proceed && Clock::now() - last_look_ > std::chrono::milliseconds(100)) {
         last_look_ = Clock::now();
         if (!hooks_.proceed(progress())) return stop(StopReason::interrupted);
       }
-      if (run_.time && !equilibrating_) continue;  // the end will come
-      without_collision = engine_.totals().pair > before ? 0 : without_collision + 1;
-      if ((engine_.idle() && !(target < forever)) || without_collision > patience) return stop(StopReason::no_collisions);
+      const std::uint64_t events = run_stretch(target, std::min(collisions, next_block_));
+      const bool block_ends = engine_.totals().pair >= next_block_;
+      if (hooks_.events) hand_on_events();
+      if (block_ends) {
+        if (hooks_.block) hooks_.block(progress());
+        next_block_ += block_collisions_;
+      }
+      if (engine_.totals().pair >= collisions) return stop(StopReason::collisions);
+      // An engine that returns before any limit stands at the target. Comparing its time with the target would not do:
+      // it stands there to the rounding of its own clock.
+      if (events < stretch_events && !block_ends && (target < forever || ends_by_time_)) return true;
+      if (is_hopeless()) return stop(StopReason::no_collisions);
     }
+  }
+
+  /// Returns the number of events.
+  std::uint64_t run_stretch(const Instant& target, std::uint64_t pair_limit) {
+    const std::uint64_t pairs = engine_.totals().pair;
+    const std::uint64_t before = all_events(engine_.totals());
+    const auto started = Clock::now();
+    engine_.run_until(target, pair_limit, stretch_events);
+    result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
+    const std::uint64_t events = all_events(engine_.totals()) - before;
+    without_collision_ = engine_.totals().pair > pairs ? 0 : without_collision_ + events;
+    return events;
+  }
+
+  /// Only collisions can end this, and none will come.
+  [[nodiscard]] bool is_hopeless() const {
+    return !ends_by_time_ && (disks_ < 2 || engine_.idle() || without_collision_ > patience);
   }
 
   void hand_on_events() {
@@ -116,7 +148,9 @@ class Schedule {
   const std::uint64_t block_collisions_;
   const std::uint64_t disks_;
   std::uint64_t next_block_ = no_limit;
+  std::uint64_t without_collision_ = 0;
   bool equilibrating_ = false;
+  bool ends_by_time_ = false;
   Clock::time_point last_look_ = Clock::now();
   RunResult result_;
 };

@@ -17,6 +17,7 @@ namespace carom {
 namespace {
 
 StopReason run_to(detail::AnyEngine& engine, const Instant& target, std::uint64_t collision_limit) {
+  if (!std::isfinite(target.high) || !std::isfinite(target.low)) throw std::invalid_argument("a simulation runs to a finite time only");
   engine.run_until(target, collision_limit, std::numeric_limits<std::uint64_t>::max());
   return engine.totals().pair >= collision_limit ? StopReason::collisions : StopReason::time;
 }
@@ -36,7 +37,6 @@ const Totals& Simulation::totals() const { return parts_->engine->totals(); }
 State Simulation::state() const { return parts_->engine->state(); }
 
 StopReason Simulation::run_until(double time, std::uint64_t collision_limit) {
-  if (!std::isfinite(time)) throw std::invalid_argument("run_until needs a finite time");
   return run_to(*parts_->engine, {time, 0.0}, collision_limit);
 }
 

@@ -1,12 +1,56 @@
 #include "simulation/start.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
 namespace carom {
+
+namespace {
+
+template <class... Lists>
+std::size_t length_of(const std::variant<Lists...>& asked, std::size_t otherwise) {
+  return std::visit(
+      [&](const auto& kind) {
+        if constexpr (requires { kind.values; }) return kind.values.size();
+        return otherwise;
+      },
+      asked);
+}
+
+/// What a scene that was read always has, and one that a program makes may lack.
+void require_complete(const Species& species) {
+  const auto count = static_cast<std::size_t>(species.count);
+  const auto require = [&](std::size_t entries, const char* what) {
+    if (entries != count)
+      throw SceneError(species.where, fmt::format("{} {} are given for {} disks; give one per disk", entries, what, count));
+  };
+  if (species.count < 0) throw SceneError(species.where, fmt::format("count is {}; it must not be negative", species.count));
+  require(species.radii.empty() ? count : species.radii.size(), "radii");
+  require(species.masses.empty() ? count : species.masses.size(), "masses");
+  require(length_of(species.positions, count), "positions");
+  require(length_of(species.velocities, count), "velocities");
+}
+
+void require_positive(const Species& species, double value, const char* what) {
+  if (!(value > 0.0 && std::isfinite(value)))
+    throw SceneError(species.where, fmt::format("the {} of a disk is {:g}; it must be positive and finite", what, value));
+}
+
+}  // namespace
 
 Start draw_start(const Scene& scene) {
   Start start;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
     const Species& species = scene.species[s];
+    require_complete(species);
     for (std::int64_t i = 0; i < species.count; ++i) {
+      require_positive(species, species.radius_of(i), "radius");
+      require_positive(species, species.mass_of(i), "mass");
       start.disks.radius.push_back(species.radius_of(i));
       start.disks.mass.push_back(species.mass_of(i));
       start.disks.species.push_back(static_cast<std::int32_t>(s));

@@ -7,11 +7,17 @@
 #include <boost/random/uniform_real_distribution.hpp>
 
 #include <cmath>
-#include <numbers>
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+#include <vector>
 
 namespace carom {
 
 namespace {
+
+/// Rounds in which momentum and the temperatures of several species settle; each gains a digit or more.
+constexpr int settling_rounds = 60;
 
 /// Overloads in one place for std::visit.
 template <class... Fs>
@@ -21,30 +27,38 @@ struct Overloaded : Fs... {
 
 /// Each disk draws from its own stream: its velocity does not depend on which other disks there are.
 Eigen::Vector2d draw(const Velocities& asked, double mass, std::size_t index, RandomStream random) {
-  return std::visit(
-      Overloaded{
-          [](const AtRest&) -> Eigen::Vector2d { return Eigen::Vector2d::Zero(); },
-          [&](const UniformVelocities& uniform) -> Eigen::Vector2d {
-            if (uniform.maximum == 0.0) return Eigen::Vector2d::Zero();
-            boost::random::uniform_real_distribution<double> component(-uniform.maximum, uniform.maximum);
-            const double x = component(random);
-            const double y = component(random);
-            return {x, y};
-          },
-          [&](const MaxwellVelocities& maxwell) -> Eigen::Vector2d {
-            boost::random::normal_distribution<double> component(0.0, std::sqrt(maxwell.temperature / mass));
-            const double x = component(random);
-            const double y = component(random);
-            return {x, y};
-          },
-          [&](const FixedSpeed& fixed) -> Eigen::Vector2d {
-            const double angle = boost::random::uniform_real_distribution<double>(0.0, 2.0 * std::numbers::pi)(random);
-            return {fixed.speed * std::cos(angle), fixed.speed * std::sin(angle)};
-          },
-          [&](const ListedVelocities& listed) -> Eigen::Vector2d { return listed.values[index]; },
-          [&](const FileVelocities& file) -> Eigen::Vector2d { return file.values[index]; },
-      },
-      asked);
+  return std::visit(Overloaded{
+                        [](const AtRest&) -> Eigen::Vector2d { return Eigen::Vector2d::Zero(); },
+                        [&](const UniformVelocities& uniform) -> Eigen::Vector2d {
+                          if (uniform.maximum == 0.0) return Eigen::Vector2d::Zero();
+                          boost::random::uniform_real_distribution<double> component(-uniform.maximum, uniform.maximum);
+                          const double x = component(random);
+                          const double y = component(random);
+                          return {x, y};
+                        },
+                        [&](const MaxwellVelocities& maxwell) -> Eigen::Vector2d {
+                          boost::random::normal_distribution<double> component(0.0, std::sqrt(maxwell.temperature / mass));
+                          const double x = component(random);
+                          const double y = component(random);
+                          return {x, y};
+                        },
+                        [&](const FixedSpeed& fixed) -> Eigen::Vector2d {
+                          // A direction without sine and cosine, whose last bits differ between machines: of points in a square,
+                          // the first in the unit disk.
+                          boost::random::uniform_real_distribution<double> component(-1.0, 1.0);
+                          for (;;) {
+                            const double x = component(random);
+                            const double y = component(random);
+                            const double square = x * x + y * y;
+                            if (square > 1.0 || square < 1e-6) continue;
+                            const double scale = fixed.speed / std::sqrt(square);
+                            return {scale * x, scale * y};
+                          }
+                        },
+                        [&](const ListedVelocities& listed) -> Eigen::Vector2d { return listed.values[index]; },
+                        [&](const FileVelocities& file) -> Eigen::Vector2d { return file.values[index]; },
+                    },
+                    asked);
 }
 
 bool is_drawn(const Velocities& asked) {
@@ -56,37 +70,84 @@ bool is_given(const Velocities& asked) {
   return std::holds_alternative<ListedVelocities>(asked) || std::holds_alternative<FileVelocities>(asked);
 }
 
-void scale_to(double kinetic, const Eigen::Ref<const Eigen::VectorXd>& mass, Eigen::Ref<Eigen::Matrix2Xd> velocities) {
-  const double now = 0.5 * velocities.colwise().squaredNorm().dot(mass);
-  if (now > 0.0) velocities *= std::sqrt(kinetic / now);
+/// Disks [begin, end): those of one species, or all.
+struct Ids {
+  Eigen::Index begin;
+  Eigen::Index end;
+};
+
+// Sums run disk by disk: the order in which Eigen adds depends on the vector instructions of the machine.
+
+double kinetic_energy(const Disks& disks, const Eigen::Matrix2Xd& velocities, Ids ids) {
+  double sum = 0.0;
+  for (Eigen::Index i = ids.begin; i < ids.end; ++i)
+    sum += 0.5 * disks.mass[static_cast<std::size_t>(i)] *
+           (velocities(0, i) * velocities(0, i) + velocities(1, i) * velocities(1, i));
+  return sum;
 }
 
-/// Gives every Maxwellian species the kinetic energy of its temperature: kT for each of its disks, less its share of the
-/// two degrees of freedom that a conserved momentum takes away.
-void meet_temperatures(const Scene& scene, const Eigen::VectorXd& mass, bool remove_momentum, Eigen::Matrix2Xd& velocities) {
-  const double n = static_cast<double>(velocities.cols());
-  const double share = remove_momentum ? (n - 1.0) / n : 1.0;
-  // Scaling one species moves the common mean, and removing that changes every species' energy: both settle at once.
-  for (int round = 0; round < (remove_momentum ? 20 : 1); ++round) {
-    if (remove_momentum) velocities.colwise() -= (velocities * mass / mass.sum()).eval();
-    Eigen::Index first = 0;
-    for (const Species& species : scene.species) {
-      if (const auto* maxwell = std::get_if<MaxwellVelocities>(&species.velocities)) {
-        scale_to(maxwell->temperature * static_cast<double>(species.count) * share, mass.segment(first, species.count),
-                 velocities.middleCols(first, species.count));
-      }
-      first += species.count;
-    }
-  }
-  if (!remove_momentum) return;
-  velocities.colwise() -= (velocities * mass / mass.sum()).eval();
-  double kinetic = 0.0;
+/// Returns the factor by which the velocities were scaled.
+double scale_to(double kinetic, const Disks& disks, Ids ids, Eigen::Matrix2Xd& velocities) {
+  const double now = kinetic_energy(disks, velocities, ids);
+  if (!(now > 0.0)) return 1.0;
+  const double factor = std::sqrt(kinetic / now);
+  velocities.middleCols(ids.begin, ids.end - ids.begin) *= factor;
+  return factor;
+}
+
+double total_mass(const Disks& disks, Ids ids) {
+  double sum = 0.0;
+  for (Eigen::Index i = ids.begin; i < ids.end; ++i) sum += disks.mass[static_cast<std::size_t>(i)];
+  return sum;
+}
+
+void remove_momentum(const Disks& disks, Eigen::Matrix2Xd& velocities) {
+  Eigen::Vector2d momentum(0.0, 0.0);
+  for (Eigen::Index i = 0; i < velocities.cols(); ++i) momentum += disks.mass[static_cast<std::size_t>(i)] * velocities.col(i);
+  velocities.colwise() -= (momentum / total_mass(disks, {0, velocities.cols()})).eval();
+}
+
+/// Gives every Maxwellian species the kinetic energy of its temperature T: T for each of its disks, less T m / M where
+/// the momentum of all disks, of mass M, is zero. That is what equipartition gives a disk of mass m then; over all disks
+/// it adds up to the N - 1 of the definition kT = K / (N - 1).
+void meet_temperatures(const Scene& scene, const Disks& disks, bool without_momentum, Eigen::Matrix2Xd& velocities) {
+  struct Target {
+    Ids ids;
+    double kinetic;
+  };
+  const Ids all{0, velocities.cols()};
+  const double mass = total_mass(disks, all);
+  std::vector<Target> targets;
+  double total = 0.0;
+  Eigen::Index first = 0;
   for (const Species& species : scene.species) {
+    const Ids ids{first, first + species.count};
+    first = ids.end;
     const auto* maxwell = std::get_if<MaxwellVelocities>(&species.velocities);
-    if (maxwell == nullptr) return;
-    kinetic += maxwell->temperature * static_cast<double>(species.count) * share;
+    if (maxwell == nullptr || species.count == 0) continue;
+    const double lost = without_momentum ? total_mass(disks, ids) / mass : 0.0;
+    targets.push_back({ids, maxwell->temperature * (static_cast<double>(species.count) - lost)});
+    total += targets.back().kinetic;
   }
-  scale_to(kinetic, mass, velocities);  // where a handful of disks cannot meet every share, their sum is still exact
+  if (!without_momentum) {
+    for (const Target& target : targets) scale_to(target.kinetic, disks, target.ids, velocities);
+    return;
+  }
+  // Scaling one species moves the common mean, and removing that changes every species' energy: both settle together.
+  remove_momentum(disks, velocities);
+  for (int round = 0; round < settling_rounds; ++round) {
+    bool settled = true;
+    for (const Target& target : targets) {
+      const double factor = scale_to(target.kinetic, disks, target.ids, velocities);
+      settled = settled && std::abs(factor - 1.0) < 1e-14;
+    }
+    if (settled) break;
+    remove_momentum(disks, velocities);
+  }
+  // Where a handful of disks cannot meet every share, their sum is still exact.
+  Eigen::Index maxwellian = 0;
+  for (const Target& target : targets) maxwellian += target.ids.end - target.ids.begin;
+  if (maxwellian == all.end) scale_to(total, disks, all, velocities);
 }
 
 }  // namespace
@@ -109,9 +170,8 @@ Eigen::Matrix2Xd draw_velocities(const Scene& scene, const Disks& disks) {
   if (scene.run.keep_momentum || !any_drawn) return velocities;
 
   // Velocities that the user gives one by one stay as given, and with them the total momentum.
-  const bool remove_momentum = scene.box.periodic(0) && scene.box.periodic(1) && !any_given;
-  const Eigen::VectorXd mass = Eigen::Map<const Eigen::VectorXd>(disks.mass.data(), velocities.cols());
-  meet_temperatures(scene, mass, remove_momentum, velocities);
+  const bool without_momentum = scene.box.periodic(0) && scene.box.periodic(1) && !any_given;
+  meet_temperatures(scene, disks, without_momentum, velocities);
   return velocities;
 }
 

@@ -1,0 +1,169 @@
+// Overlaps as the layered grid finds them, against all pairs with their nearest images.
+
+#include "neighbours/disks_at_rest.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+/// (sigma - distance) / sigma for the nearest images of two places.
+double overlap(const Box& box, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double sigma) {
+  double apart[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    apart[axis] = a[axis] - b[axis];
+    if (box.periodic(axis)) apart[axis] -= box.lengths()[axis] * std::round(apart[axis] / box.lengths()[axis]);
+  }
+  return (sigma - std::hypot(apart[0], apart[1])) / sigma;
+}
+
+struct Disks {
+  Box box;
+  std::vector<double> radius;
+  Eigen::Matrix2Xd positions;
+
+  [[nodiscard]] double overlap_of(Eigen::Index i, Eigen::Index j) const {
+    return overlap(box, positions.col(i), positions.col(j),
+                   radius[static_cast<std::size_t>(i)] + radius[static_cast<std::size_t>(j)]);
+  }
+};
+
+/// Rounding of coordinates of size `far` and of a distance, in units of the smallest contact distance.
+double rounding(const Disks& disks) {
+  const double far = std::max(disks.box.lower.cwiseAbs().maxCoeff(), disks.box.upper.cwiseAbs().maxCoeff());
+  return 8.0 * 2.3e-16 * far / *std::min_element(disks.radius.begin(), disks.radius.end());
+}
+
+/// Disks anywhere in a box, at its edges and corners too, radii up to four decades apart, in numbers that make some
+/// overlap and some not.
+Disks draw() {
+  Disks disks;
+  std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto boundary = rc::gen::element(Boundary::walls, Boundary::periodic);
+  const auto length = rc::gen::element(1.0, 2.5, 100.0);
+  disks.box.lower = {*rc::gen::element(0.0, -3.0), *rc::gen::element(0.0, 17.0)};
+  disks.box.upper = {disks.box.lower[0] + *length, disks.box.lower[1] + *length};
+  disks.box.boundary = {*boundary, *boundary};
+  const double decades = *rc::gen::element(0.0, 0.3, 1.0, 4.0);
+  const double largest = 0.499 * disks.box.lengths().minCoeff() * *rc::gen::element(1.0, 0.3, 0.03, 0.001);
+  const int count = *rc::gen::inRange(0, 80);
+  disks.positions.resize(2, count);
+  for (int i = 0; i < count; ++i) {
+    disks.radius.push_back(largest * std::pow(10.0, -decades * unit(random)));
+    for (int a = 0; a < 2; ++a) {
+      const int kind = *rc::gen::inRange(0, 10);
+      double place = kind == 0 ? 0.0 : kind == 1 ? 1.0 : kind == 2 ? 0.5 : unit(random);
+      if (place == 1.0 && disks.box.periodic(a)) place = std::nextafter(1.0, 0.0);
+      disks.positions(a, i) = disks.box.lower[a] + place * disks.box.lengths()[a];
+    }
+  }
+  return disks;
+}
+
+RC_GTEST_PROP(PropertyDisksAtRest, DeepestOverlapIsThatOfAllPairs, ()) {
+  const Disks disks = draw();
+  double expected = 0.0;
+  for (Eigen::Index i = 0; i < disks.positions.cols(); ++i)
+    for (Eigen::Index j = 0; j < i; ++j) expected = std::max(expected, disks.overlap_of(i, j));
+  const DeepestOverlap found = deepest_overlap(disks.box, disks.radius, disks.positions);
+  if (disks.radius.empty()) {
+    RC_ASSERT(found.relative == 0.0);
+    return;
+  }
+  RC_ASSERT(std::abs(found.relative - expected) <= rounding(disks));
+  if (found.relative == 0.0) return;
+  RC_ASSERT(0 <= found.first && found.first < found.second);
+  RC_ASSERT(std::abs(disks.overlap_of(found.first, found.second) - found.relative) <= rounding(disks));
+}
+
+RC_GTEST_PROP(PropertyDisksAtRest, ANewcomerMeetsItsDeepestNeighbour, ()) {
+  const Disks disks = draw();
+  RC_PRE(!disks.radius.empty());
+  DisksAtRest rest(disks.box, disks.radius);
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(disks.radius.size()); ++i) {
+    const Eigen::Vector2d place = disks.positions.col(i);
+    const double radius = disks.radius[static_cast<std::size_t>(i)];
+    double expected = 0.0;
+    for (std::int32_t j = 0; j < i; ++j) expected = std::max(expected, disks.overlap_of(i, j));
+    const auto found = rest.deepest(place, radius);
+    RC_ASSERT(std::abs(found.relative_overlap - expected) <= rounding(disks));
+    RC_ASSERT((found.disk < 0) == (found.relative_overlap == 0.0));
+    RC_ASSERT(found.disk < i);
+    rest.insert(i, place);
+  }
+}
+
+Disks lattice(int side, double radius, Boundary boundary) {
+  Disks disks;
+  disks.box = {{0.0, 0.0}, {static_cast<double>(side), static_cast<double>(side)}, {boundary, boundary}};
+  disks.positions.resize(2, side * side);
+  for (int i = 0; i < side * side; ++i) disks.positions.col(i) << i % side + 0.5, i / side + 0.5;
+  disks.radius.assign(static_cast<std::size_t>(side * side), radius);
+  return disks;
+}
+
+TEST(DisksAtRest, OneOverlapAmongAHundredThousandIsFound) {
+  Disks disks = lattice(316, 0.499, Boundary::periodic);
+  ASSERT_EQ(deepest_overlap(disks.box, disks.radius, disks.positions).relative, 0.0);
+  const Eigen::Index last = disks.positions.cols() - 1;
+  disks.positions(0, last) += 0.25;  // nearer to disk 315 * 316 through the edge: distance 0.75 of 0.998
+  const DeepestOverlap found = deepest_overlap(disks.box, disks.radius, disks.positions);
+  EXPECT_EQ(found.first, 315 * 316);
+  EXPECT_EQ(found.second, last);
+  EXPECT_NEAR(found.relative, 0.248 / 0.998, 1e-12);
+}
+
+TEST(DisksAtRest, AHugeDiskAmongThousandsIsSeenFromEverySmallOne) {
+  Disks disks = lattice(100, 1e-3, Boundary::periodic);
+  disks.radius.push_back(30.0);
+  disks.positions.conservativeResize(2, 10001);
+  disks.positions.col(10000) << 99.0, 1.0;
+  DisksAtRest rest(disks.box, disks.radius);
+  for (std::int32_t i = 0; i <= 10000; ++i) rest.insert(i, disks.positions.col(i));
+  for (std::int32_t i = 0; i < 10000; ++i) {
+    const double expected = std::max(0.0, disks.overlap_of(i, 10000));
+    const auto found = rest.deepest(disks.positions.col(i), 1e-3, i, true);
+    ASSERT_NEAR(found.relative_overlap, expected, 1e-12) << i;
+  }
+  EXPECT_EQ(deepest_overlap(disks.box, disks.radius, disks.positions).second, 10000);
+}
+
+TEST(DisksAtRest, TouchingDisksDoNotOverlap) {
+  const Disks disks = lattice(8, 0.5, Boundary::periodic);  // dyadic: distances are exact
+  EXPECT_EQ(deepest_overlap(disks.box, disks.radius, disks.positions).relative, 0.0);
+}
+
+TEST(DisksAtRest, NoDiskAndOneDiskOverlapNothing) {
+  const Box box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::periodic, Boundary::periodic}};
+  EXPECT_EQ(deepest_overlap(box, {}, Eigen::Matrix2Xd(2, 0)).first, -1);
+  const Eigen::Matrix2Xd corner = Eigen::Matrix2Xd::Zero(2, 1);
+  EXPECT_EQ(deepest_overlap(box, {0.49}, corner).first, -1);
+}
+
+TEST(DisksAtRest, PairAcrossACornerIsFoundThroughBothEdges) {
+  const Box box{{-1.0, -1.0}, {1.0, 1.0}, {Boundary::periodic, Boundary::periodic}};
+  Eigen::Matrix2Xd positions(2, 2);
+  positions << -1.0, 0.9, -1.0, 0.9;
+  const DeepestOverlap found = deepest_overlap(box, {0.1, 0.1}, positions);
+  EXPECT_EQ(found.first, 0);
+  EXPECT_NEAR(found.relative, (0.2 - 0.1 * std::sqrt(2.0)) / 0.2, 1e-14);
+  const Box walled{{-1.0, -1.0}, {1.0, 1.0}, {Boundary::periodic, Boundary::walls}};
+  EXPECT_EQ(deepest_overlap(walled, {0.1, 0.1}, positions).first, -1);
+}
+
+TEST(DisksAtRest, CoincidentDisksOverlapEntirely) {
+  const Box box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::walls, Boundary::walls}};
+  Eigen::Matrix2Xd positions(2, 2);
+  positions << 0.3, 0.3, 0.3, 0.3;
+  EXPECT_EQ(deepest_overlap(box, {0.1, 0.2}, positions).relative, 1.0);
+}
+
+}  // namespace
+}  // namespace carom::test
