@@ -201,6 +201,21 @@ TEST(Velocities, FixedSpeedsAreExactAndPointAnywhere) {
   EXPECT_NEAR((8.0 * c.pow(4) - 8.0 * c.square() + 1.0).mean(), 0.0, 5.0 * std::sqrt(0.5 / n));
 }
 
+TEST(Velocities, ADiskThatFillsTheBoxFromWallToWallMustNotMoveThatWay) {
+  // It would bounce for ever at one instant. Along the channel it may move: so a line is realised in two dimensions.
+  const Box channel = box_of(10.0, 1.0, Boundary::walls);
+  const auto start = [&](double vx, double vy) {
+    const ListedPositions place{{{5.0, 0.5}}};
+    return refusal([&] { (void)draw_start(scene_of(channel, {species_of(1, 0.5, 1.0, place, ListedVelocities{{{vx, vy}}})})); });
+  };
+  EXPECT_EQ(start(1.0, 0.0), "");
+  EXPECT_EQ(
+      start(1.0, 0.1),
+      "scene:3:1: disk 0 of diameter 1 fills the box from wall to wall in y and cannot move that way; give it more room, or no "
+      "velocity there");
+  EXPECT_NE(start(std::nan(""), 0.0), "");
+}
+
 TEST(Velocities, ZeroOfAnyKindIsRest) {
   const Drawn drawn = draw(periodic, {moving(5, 1.0, UniformVelocities{0.0}), moving(5, 1.0, MaxwellVelocities{0.0}),
                                       moving(5, 1.0, FixedSpeed{0.0})});
