@@ -49,16 +49,17 @@ std::string start_and_engine(const Scene& scene, const std::string& engine) {
 std::string files(const Scene& scene) {
   const std::optional<std::uint64_t> samples = expected_samples(scene);
   std::string text = "  files       summary.json";
-  if (scene.output.trajectory) {
+  const bool sampled = scene.run.sample_every.has_value();
+  if ((scene.output.trajectory && sampled) || scene.output.events) {
     text += ", trajectory.h5md";
-    if (samples) {
+    if (sampled && samples) {
       text +=
           fmt::format(" ({}, up to {})", counted(*samples, "frame"),
                       size(static_cast<double>(*samples) * static_cast<double>(scene.disk_count()) * bytes_per_disk_and_frame));
     }
   }
-  if (scene.output.xyz) text += ", trajectory.xyz";
-  if (scene.output.csv) text += ", samples.csv";
+  if (scene.output.xyz && sampled) text += ", trajectory.xyz";
+  if (scene.output.csv && sampled) text += ", samples.csv";
   if (scene.output.events) text += "; every collision is kept";
   return text + "\n";
 }

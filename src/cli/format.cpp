@@ -32,7 +32,7 @@ std::string size(double bytes) {
     bytes /= 1000.0;
     ++unit;
   }
-  return fmt::format(bytes < 9.95 && unit > 0 ? "{:.1f} {}" : "{:.0f} {}", bytes, units[unit]);
+  return fmt::format("{:.{}f} {}", bytes, bytes < 9.95 && unit > 0 ? 1 : 0, units[unit]);
 }
 
 std::string rate(double per_second) {

@@ -7,7 +7,6 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 namespace carom::cli {
@@ -18,9 +17,11 @@ void add_info_command(CLI::App& program, Command& chosen) {
   command->add_option("file", *path, "A trajectory, table, summary or run directory")->required()->type_name("FILE");
   command->callback([path, &chosen] {
     chosen = [path] {
-      std::error_code error;
-      if (!std::filesystem::exists(*path, error)) throw UsageError(fmt::format("{}: there is no such file", *path));
-      fmt::print("{}", describe_file(*path));
+      try {
+        fmt::print("{}", describe_file(*path));
+      } catch (const OutputError& error) {
+        throw UsageError(error.what());
+      }
       return exit_done;
     };
   });

@@ -56,13 +56,19 @@ ExitCode run_program(int argc, char** argv) {
   add_check_command(program, chosen);
   add_init_command(program, chosen, invocation);
   add_info_command(program, chosen);
+  const auto named_so = [&](const CLI::App* command) { return command->check_name(argv[1]); };
+  if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(named_so).empty()) {
+    throw UsageError(fmt::format("{}: there is no such command; it can be run, check, init or info", argv[1]));
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help or --version
     program.exit(asked);
     return exit_done;
   } catch (const CLI::ParseError& error) {
-    return complain(exit_usage, fmt::format("{} (carom --help says what is possible)", error.what()));
+    const std::vector<CLI::App*> named = program.get_subcommands();
+    return complain(exit_usage, fmt::format("{} (carom{} --help says what is possible)", error.what(),
+                                            named.empty() ? "" : " " + named.front()->get_name()));
   }
   return chosen();
 }

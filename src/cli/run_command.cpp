@@ -21,7 +21,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <new>
 
@@ -36,7 +35,7 @@ struct RunOptions {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
-  ProgressMode progress = ProgressMode::automatic;
+  std::string progress = "auto";
 };
 
 using Clock = std::chrono::steady_clock;
@@ -44,6 +43,14 @@ using Clock = std::chrono::steady_clock;
 std::filesystem::path directory_for(const RunOptions& options) {
   if (!options.out.empty()) return options.out;
   return std::filesystem::path(options.scene.path()).stem();
+}
+
+ProgressMode progress_mode(const RunOptions& options) {
+  if (options.progress == "always") return ProgressMode::always;
+  if (options.progress == "never") return ProgressMode::never;
+  if (options.progress != "auto")
+    throw UsageError(fmt::format("--progress {}: it can be auto, always or never", options.progress));
+  return options.quiet ? ProgressMode::never : ProgressMode::automatic;
 }
 
 /// The largest relative overlap that rounding explains. Double precision stays below 1e-12 in a box of ordinary size; the
@@ -60,9 +67,9 @@ ExitCode exit_code_of(const RunReport& report) {
   return report.stopped == StopReason::interrupted ? exit_interrupted : exit_done;
 }
 
-RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurements& measurements, ProgressMode progress_mode) {
-  const StopRequest stop;
-  ProgressLine line(progress_mode, simulation.scene());
+RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurements& measurements, ProgressMode mode,
+                          const StopRequest& stop) {
+  ProgressLine line(mode, simulation.scene());
   RunHooks hooks;
   hooks.start = [&](const State& start) { measurements.start(start); };
   hooks.sample = [&](std::uint64_t k, const State& state) {
@@ -80,12 +87,14 @@ RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurem
 
 ExitCode run(const RunOptions& options, const Invocation& invocation) {
   const Clock::time_point began = Clock::now();
+  const ProgressMode progress = progress_mode(options);
   const std::string& engine = options.scene.engine();
   const Scene scene = options.scene.load();
   Simulation simulation = make_simulation(scene, engine);
   const Provenance provenance{
       .resolved_scene = resolved_toml(scene), .command_line = invocation.command_line, .engine = simulation.engine()};
-  RunDirectory directory = [&] {
+  const StopRequest stop;  // from here on there is something to save
+  const RunDirectory directory = [&] {
     try {
       return RunDirectory(directory_for(options), options.force);
     } catch (const OutputError& error) {
@@ -99,7 +108,7 @@ ExitCode run(const RunOptions& options, const Invocation& invocation) {
   try {
     RunWriter writer(directory, scene, simulation.disks(), provenance);
     RunMeasurements measurements(simulation);
-    const RunResult result = run_with_output(simulation, writer, measurements, options.progress);
+    const RunResult result = run_with_output(simulation, writer, measurements, progress, stop);
     const double wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
     const RunReport report = measurements.report(result, wall_seconds);
     const std::vector<std::string> files = writer.finish(report);
@@ -136,15 +145,10 @@ void add_run_command(CLI::App& program, Command& chosen, const Invocation& invoc
   command->add_flag("--json", options->json, "Print summary.json in place of the summary for people");
   command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
   command->add_flag("-v,--verbose", options->verbose, "Say on stderr what will be simulated");
-  const std::map<std::string, ProgressMode> modes = {
-      {"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}};
-  command->add_option("--progress", options->progress, "A progress line on stderr: auto (on a terminal), always, never")
-      ->type_name("WHEN")
-      ->transform(CLI::CheckedTransformer(modes).description(""));
-  command->callback([options, &chosen, &invocation] {
-    if (options->quiet && options->progress == ProgressMode::automatic) options->progress = ProgressMode::never;
-    chosen = [options, &invocation] { return run_within_memory(*options, invocation); };
-  });
+  command->add_option("--progress", options->progress, "A progress line on stderr: auto (on a terminal), always or never")
+      ->type_name("WHEN");
+  command->callback(
+      [options, &chosen, &invocation] { chosen = [options, &invocation] { return run_within_memory(*options, invocation); }; });
 }
 
 }  // namespace carom::cli

@@ -4,8 +4,8 @@
 
 #include "cli/format.hpp"
 
-#include <carom/simulation.hpp>
 #include <fmt/format.h>
+#include <carom/simulation.hpp>
 
 #include <algorithm>
 

@@ -22,7 +22,7 @@ void SceneOptions::add_to(CLI::App& command) {
   command.add_option("--seed", seed_, "Seed of the random numbers; the same as --set run.seed=N")->type_name("N");
   command.add_option("--engine", engine_, "Force an engine: " + fmt::format("{}", fmt::join(engine_names(), ", ")))
       ->type_name("NAME");
-  command.add_flag("--trajectory,!--no-trajectory", trajectory_, "Write trajectory.h5md, or do not");
+  command.add_flag("--no-trajectory", no_trajectory_, "Do not write trajectory.h5md");
   command.add_flag("--xyz", xyz_, "Write trajectory.xyz too");
   command.add_flag("--csv", csv_, "Write samples.csv too");
   command.add_flag("--events", events_, "Keep every collision, in trajectory.h5md");
@@ -32,7 +32,7 @@ void SceneOptions::add_to(CLI::App& command) {
 Scene SceneOptions::load() const {
   std::vector<std::string> overrides = overrides_;
   if (seed_) overrides.push_back(fmt::format("run.seed={}", *seed_));
-  if (trajectory_) overrides.push_back(fmt::format("output.trajectory={}", *trajectory_));
+  if (no_trajectory_) overrides.emplace_back("output.trajectory=false");
   if (xyz_) overrides.emplace_back("output.xyz=true");
   if (csv_) overrides.emplace_back("output.csv=true");
   if (events_) overrides.emplace_back("output.events=true");

@@ -31,11 +31,11 @@ class SceneOptions {
   std::vector<std::string> overrides_;
   std::optional<std::uint64_t> seed_;
   std::string engine_ = "auto";
+  bool no_trajectory_ = false;
   bool xyz_ = false;
   bool csv_ = false;
   bool events_ = false;
   bool unwrapped_ = false;
-  std::optional<bool> trajectory_;
 };
 
 }  // namespace carom::cli

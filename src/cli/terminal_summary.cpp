@@ -60,8 +60,10 @@ std::string what_happened(const RunReport& report, const Scene& scene) {
 }
 
 std::string how_exact(const RunReport& report) {
-  std::string text = row("energy", fmt::format("{:.6g}", report.energy_final),
-                         fmt::format("relative drift {:.1e}", report.relative_energy_drift()));
+  std::string text =
+      row("energy", fmt::format("{:.6g}", report.energy_final),
+          report.relative_energy_drift() == 0.0 ? "no drift in any digit"
+                                                : fmt::format("relative drift {:.1e}", report.relative_energy_drift()));
   const std::string checked = "in " + counted(report.overlap_checked, "state") + " checked";
   if (report.overlap_checked == 0) return text + row("worst overlap", "not checked");
   if (report.max_relative_overlap == 0.0) return text + row("worst overlap", "none", checked);

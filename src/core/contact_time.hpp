@@ -15,9 +15,9 @@ namespace carom {
 /// (grazing) counts as contact; touching and receding, or at relative rest, does not.
 ///
 /// r: separation (length), v: relative velocity, sigma > 0: contact distance. All finite.
-/// Error: with u = epsilon/2 and h = |r| + sigma, |distance(t) - sigma| <= 8 u h at the time returned for disks that
-/// are apart, and a hit can be mistaken for a miss (or the reverse) only where the closest approach differs from sigma
-/// by less than 4 u h.
+/// Error: with u = epsilon/2 and h = |r| + sigma, the distance at the time returned differs from sigma by at most
+/// 16 u h for disks that are apart, and a hit can be taken for a miss (or a miss for a hit) only where the distance of
+/// closest approach differs from sigma by less than 4 u h. No overflow or underflow of squares is assumed.
 template <class Real>
 [[nodiscard]] Real contact_time(const Vec2<Real>& r, const Vec2<Real>& v, Real sigma) {
   using std::sqrt;

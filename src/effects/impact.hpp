@@ -16,7 +16,7 @@
 
 namespace carom {
 
-/// The momentum that passed between two disks at contact, as -r . dp_i: mass length^2 / time, >= 0. The virial.
+/// The momentum that passed between two disks at contact, as r . dp_i: mass length^2 / time, >= 0. The virial.
 template <class Real>
 struct ImpactResult {
   Real virial = 0;

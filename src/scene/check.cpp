@@ -1,5 +1,6 @@
 // What the parts of a scene must agree on: names, room for the disks, density, given positions, and an end to the run.
 
+#include "scene/excerpt.hpp"
 #include "scene/overlap.hpp"
 #include "scene/read_tables.hpp"
 

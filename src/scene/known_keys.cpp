@@ -2,6 +2,8 @@
 
 #include "scene/known_keys.hpp"
 
+#include "scene/excerpt.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -51,11 +53,6 @@ std::string_view home_of(std::string_view key) {
   return home == homes.end() ? std::string_view() : home->second;
 }
 
-std::string shortened(std::string_view key) {
-  constexpr std::size_t longest = 60;
-  return std::string(key.substr(0, longest)) + (key.size() > longest ? "..." : "");
-}
-
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -98,7 +95,7 @@ std::string table_title(std::string_view path) {
 }
 
 std::string unknown_key_sentence(std::string_view key, std::string_view path, std::span<const std::string_view> known) {
-  const std::string problem = fmt::format("{} has no key \"{}\"", table_title(path), shortened(key));
+  const std::string problem = fmt::format("{} has no key \"{}\"", table_title(path), excerpt(key, 60));
   if (const std::string_view home = home_of(key); !home.empty()) return fmt::format("{}; it belongs to {}", problem, home);
   if (key == "title") return problem + "; it belongs to the top of the file, before the first [table]";
   if (const std::string_view near = nearest_word(key, known); !near.empty()) {

@@ -3,6 +3,7 @@
 
 #include "scene/overrides.hpp"
 
+#include "scene/excerpt.hpp"
 #include "scene/table_reader.hpp"
 
 #include <fmt/format.h>
@@ -21,10 +22,7 @@ namespace {
 constexpr std::string_view prefix = "--set ";
 constexpr const char* shape = "an override looks like run.time=2 or disks.0.radius=0.05";
 
-std::string name_of(const std::string& text) {
-  constexpr std::size_t longest = 80;
-  return std::string(prefix) + (text.size() > longest ? text.substr(0, longest) + "..." : text);
-}
+std::string name_of(const std::string& text) { return std::string(prefix) + excerpt(text, 80); }
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n";
@@ -40,7 +38,8 @@ std::vector<std::string> split_key(std::string_view key, const Location& where) 
     const std::string_view part = trimmed(key.substr(begin, end - begin));
     const bool bare = !part.empty() && std::all_of(part.begin(), part.end(),
                                                    [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
-    if (!bare || parts.size() == deepest) throw SceneError(where, fmt::format("\"{}\" is not a dotted key; {}", key, shape));
+    if (!bare || parts.size() == deepest)
+      throw SceneError(where, fmt::format("\"{}\" is not a dotted key; {}", excerpt(key, 60), shape));
     parts.emplace_back(part);
     begin = end + 1;
   }

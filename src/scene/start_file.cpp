@@ -2,6 +2,7 @@
 
 #include "scene/start_file.hpp"
 
+#include "scene/excerpt.hpp"
 #include "scene/known_keys.hpp"
 #include "scene/text_file.hpp"
 
@@ -32,7 +33,7 @@ std::string_view trimmed(std::string_view text) {
   return begin == std::string_view::npos ? std::string_view() : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-std::string shown(std::string_view text) { return fmt::format("\"{}{}\"", text.substr(0, 40), text.size() > 40 ? "..." : ""); }
+std::string shown(std::string_view text) { return fmt::format("\"{}\"", excerpt(text, 40)); }
 
 void split(std::string_view line, std::vector<Field>& fields) {
   fields.clear();

@@ -2,6 +2,7 @@
 
 #include "scene/table_reader.hpp"
 
+#include "scene/excerpt.hpp"
 #include "scene/known_keys.hpp"
 #include "scene/number_text.hpp"
 #include "scene/overrides.hpp"
@@ -27,8 +28,7 @@ Location location_of(const toml::node& node) { return location_of(node.source())
 std::string describe(const toml::node& node) {
   constexpr std::size_t longest = 40;
   if (const auto* text = node.as_string()) {
-    const std::string& value = text->get();
-    return fmt::format("a string (\"{}{}\")", value.substr(0, longest), value.size() > longest ? "..." : "");
+    return fmt::format("a string (\"{}\")", excerpt(text->get(), longest));
   }
   if (const auto* integer = node.as_integer()) return fmt::format("an integer ({})", integer->get());
   if (const auto* number = node.as_floating_point())

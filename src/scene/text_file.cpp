@@ -2,6 +2,7 @@
 
 #include "scene/text_file.hpp"
 
+#include "scene/excerpt.hpp"
 #include "scene/table_reader.hpp"
 
 #include <fmt/format.h>
@@ -66,6 +67,10 @@ std::string read_text_file(const std::string& path) {
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw SceneError(where, "there is no such file; check the path");
   if (std::filesystem::is_directory(status)) throw SceneError(where, "this is a directory; give the path of a file in it");
+  // A device may never end, or wait for someone to type. Pipes do end.
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status)) {
+    throw SceneError(where, "this is a device; give the path of a file");
+  }
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   const auto reason = [] { return std::generic_category().message(errno); };
   if (!file) throw SceneError(where, fmt::format("the file cannot be opened ({}); check its permissions", reason()));
@@ -89,7 +94,7 @@ toml::table parse_toml(const std::string& text, const std::string& source) {
   } catch (const toml::parse_error& error) {
     std::string_view reason = error.description();
     if (reason.starts_with("Error ")) reason.remove_prefix(6);  // "Error while parsing ...": "while parsing ..." says as much
-    throw SceneError(location_of(error.source()), fmt::format("this is not TOML: {}", reason));
+    throw SceneError(location_of(error.source()), fmt::format("this is not TOML: {}", excerpt(reason, 300)));
   }
 }
 

@@ -7,7 +7,8 @@
 
 namespace carom::detail {
 
-/// The bytes of a file of at most 1 GiB. Throws SceneError located at the path: missing, a directory, no permission, too large.
+/// The bytes of a file of at most 1 GiB. Throws SceneError located at the path: missing, a directory, a device, no permission,
+/// too large.
 std::string read_text_file(const std::string& path);
 
 /// The TOML document in `text`; `source` stands in every location. Throws SceneError where it is not TOML.

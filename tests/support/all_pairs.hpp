@@ -30,7 +30,8 @@ class AllPairs {
     begin_epoch(0.0);
   }
 
-  /// The next collision, made to happen.
+  /// The next collision, made to happen. At time infinity where disks would travel more than 8 box lengths before it:
+  /// too many images to search.
   Event step() {
     double first = infinity<double>;
     int a = -1;
@@ -57,9 +58,9 @@ class AllPairs {
       double travel = 0.0;
       for (int i = 0; i < n(); ++i) travel = std::max(travel, 2.0 * v_[at(i)].norm() * (first - t_[at(i)]));
       const double box = std::min(domain_.length[0], domain_.length[1]);
-      if (!(travel + 2.0 * box > static_cast<double>(reach) * box) || reach > 64) break;
+      if (!(travel + 2.0 * box > static_cast<double>(reach) * box)) break;
+      if (reach >= 8) return {infinity<double>, 0.0, -1, -1, {}, {}};
     }
-    if (a < 0) return {infinity<double>, 0.0, -1, -1, {}, {}};
     const double now = first;
     Event event;
     event.disk = a;

@@ -1,0 +1,44 @@
+#pragma once
+// The groups /particles/trajectory and /observables of trajectory.h5md: one row per sample.
+
+#include "io/growing_dataset.hpp"
+
+#include <carom/scene.hpp>
+#include <carom/state.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace carom::detail {
+
+class H5mdFrames {
+ public:
+  /// Creates the groups, and writes what no sample changes: box, id, species, mass, radius. Throws Hdf5Error.
+  H5mdFrames(hid_t file, const Scene& scene, const Disks& disks);
+
+  /// Throws Hdf5Error, also where a disk has crossed the periodic edges more than 2^31 times.
+  void append(std::uint64_t k, const Disks& disks, const State& state);
+  void write();  ///< hands everything to HDF5
+  void close();
+
+  [[nodiscard]] std::uint64_t written() const { return step_.written_rows(); }
+  [[nodiscard]] std::size_t buffered_bytes() const;
+
+ private:
+  struct Groups;
+  H5mdFrames(hid_t file, const Groups& groups, const Scene& scene, const Disks& disks);
+
+  Box box_;
+  std::array<double, 3> lengths_;
+  GrowingDataset<std::int64_t> step_;
+  GrowingDataset<double> time_;
+  GrowingDataset<double> position_;
+  GrowingDataset<double> velocity_;
+  GrowingDataset<std::int32_t> image_;
+  GrowingDataset<double> edges_;
+  GrowingDataset<double> kinetic_energy_;
+  GrowingDataset<double> temperature_;
+};
+
+}  // namespace carom::detail

@@ -1,0 +1,15 @@
+#pragma once
+// The groups /h5md and /parameters of trajectory.h5md: who wrote the file, and everything needed to run it again.
+
+#include "io/hdf5_handle.hpp"
+#include "io/provenance.hpp"
+
+#include <carom/scene.hpp>
+
+namespace carom::detail {
+
+/// Throws Hdf5Error.
+void write_h5md_header(hid_t file);
+void write_parameters(hid_t file, const Scene& scene, const Provenance& provenance);
+
+}  // namespace carom::detail

@@ -1,0 +1,105 @@
+// Samples and events in one file.
+
+#include "io/h5md_writer.hpp"
+
+#include "io/h5md_parameters.hpp"
+#include "io/output_error.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+// What a killed run may lose at most, and with it the size of the index that waits in memory for the flush.
+constexpr std::uint64_t most_bytes_between_flushes = std::uint64_t{1} << 28;
+
+std::string kept_sentence(std::uint64_t samples, std::uint64_t events) {
+  if (samples == 0 && events == 0) return {};
+  if (events == 0) return fmt::format("its first {} samples are readable", samples);
+  if (samples == 0) return fmt::format("its first {} events are readable", events);
+  return fmt::format("its first {} samples and {} events are readable", samples, events);
+}
+
+}  // namespace
+
+template <class Action>
+void H5mdWriter::guard(Action action) {
+  const detail::SilentHdf5 silent;
+  std::string reason;
+  if (file_.error() == 0) {
+    try {
+      action();
+    } catch (const detail::Hdf5Error& error) {
+      reason = error.what();
+    }
+  }
+  const std::string kept = kept_sentence(safe_samples_, safe_events_);
+  if (file_.error() != 0) throw detail::system_error(path_, "write", file_.error(), kept);
+  if (!reason.empty())
+    throw OutputError(fmt::format("{}: cannot write: {}{}{}", path_.string(), reason, kept.empty() ? "" : "; ", kept));
+}
+
+H5mdWriter::H5mdWriter(std::filesystem::path path, const Scene& scene, const Disks& disks, const Provenance& provenance)
+    : path_(std::move(path)), disks_(disks) {
+  guard([&] {
+    h5_ = file_.create(path_);
+    detail::write_h5md_header(h5_.get());
+    detail::write_parameters(h5_.get(), scene, provenance);
+    frames_.emplace(h5_.get(), scene, disks_);
+    if (scene.output.events) events_.emplace(h5_.get());
+  });
+  flush();
+}
+
+H5mdWriter::~H5mdWriter() {
+  try {
+    close();
+  } catch (const std::exception&) {
+    // the file is as it was at the last flush, and nobody is left who could do more
+  }
+  const detail::SilentHdf5 silent;
+  events_.reset();
+  frames_.reset();
+  h5_.reset();
+}
+
+void H5mdWriter::sample(std::uint64_t k, const State& state) {
+  guard([&] { frames_->append(k, disks_, state); });
+  if (file_.bytes_written() - bytes_at_flush_ > most_bytes_between_flushes) flush();
+}
+
+void H5mdWriter::events(std::span<const Event> events) {
+  if (!events_) return;
+  guard([&] { events_->append(events); });
+  if (file_.bytes_written() - bytes_at_flush_ > most_bytes_between_flushes) flush();
+}
+
+void H5mdWriter::flush() {
+  guard([&] {
+    frames_->write();
+    if (events_) events_->write();
+    detail::checked(H5Fflush(h5_.get(), H5F_SCOPE_LOCAL));
+  });
+  safe_samples_ = frames_->written();
+  safe_events_ = events_ ? events_->written() : 0;
+  bytes_at_flush_ = file_.bytes_written();
+}
+
+void H5mdWriter::close() {
+  if (!h5_) return;
+  guard([&] {
+    frames_->close();
+    if (events_) events_->close();
+    h5_.close();
+  });
+}
+
+std::size_t H5mdWriter::buffered_bytes() const {
+  return frames_->buffered_bytes() + (events_ ? events_->buffered_bytes() : 0) + file_.held_bytes();
+}
+
+}  // namespace carom

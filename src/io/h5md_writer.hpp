@@ -1,0 +1,54 @@
+#pragma once
+// trajectory.h5md: samples and events in one HDF5 file, streamed, so that memory does not grow with the run, and readable
+// up to the last flush whatever ends the run (see hdf5_file.hpp).
+
+#include "io/event_log.hpp"
+#include "io/h5md_frames.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/provenance.hpp"
+
+#include <carom/scene.hpp>
+#include <carom/state.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+
+namespace carom {
+
+/// Every function throws OutputError where the file cannot be written. After that the file stays as it is.
+class H5mdWriter {
+ public:
+  /// Creates the file. It always has the groups of the samples, and /events where scene.output.events asks for it.
+  H5mdWriter(std::filesystem::path path, const Scene& scene, const Disks& disks, const Provenance& provenance);
+  ~H5mdWriter();  ///< writes what is left as far as that goes; only close() says whether it went well
+  H5mdWriter(const H5mdWriter&) = delete;
+  H5mdWriter& operator=(const H5mdWriter&) = delete;
+
+  void sample(std::uint64_t k, const State& state);  ///< positions are written as they are
+  void events(std::span<const Event> events);        ///< nothing where scene.output.events is not set
+  void flush();                                      ///< from now on all samples so far survive whatever happens
+  void close();
+
+  [[nodiscard]] std::uint64_t safe_samples() const { return safe_samples_; }  ///< up to the last flush
+  [[nodiscard]] std::uint64_t safe_events() const { return safe_events_; }
+  [[nodiscard]] std::size_t buffered_bytes() const;  ///< all memory that holds data, without HDF5's own caches
+
+ private:
+  template <class Action>
+  void guard(Action action);
+
+  std::filesystem::path path_;
+  Disks disks_;
+  detail::Hdf5File file_;  // before the identifiers, which need it until they are closed
+  detail::Hdf5Id h5_;
+  std::optional<detail::H5mdFrames> frames_;
+  std::optional<detail::EventLog> events_;
+  std::uint64_t safe_samples_ = 0;
+  std::uint64_t safe_events_ = 0;
+  std::uint64_t bytes_at_flush_ = 0;
+};
+
+}  // namespace carom

@@ -1,0 +1,57 @@
+#pragma once
+// The file under HDF5, as an HDF5 "virtual file driver" with two promises that the library's own driver does not make:
+// - A run that is killed leaves a file that opens, as it was at the last flush. The file's index (object headers, chunk
+//   trees) is held in memory until H5Fflush, and then written from its end to its beginning: new parts before the old ones
+//   that point to them, the superblock last. Sample data goes to the disk at once, into space that no old index names.
+// - A full disk never reaches HDF5, which is known to crash or loop when its closing writes fail. The first failure is
+//   kept in error(); from then on nothing more is written, and the file stays as it was at the last flush.
+
+#include "io/hdf5_handle.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+
+namespace carom::detail {
+
+class Hdf5File {
+ public:
+  Hdf5File() = default;
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  /// Creates (or empties) the file and opens it in HDF5. This object must outlive the returned identifier and every
+  /// identifier in it. Throws OutputError or Hdf5Error.
+  [[nodiscard]] Hdf5Id create(const std::filesystem::path& path);
+
+  [[nodiscard]] int error() const { return error_; }  ///< errno of the first failure, else 0
+  [[nodiscard]] std::size_t held_bytes() const;       ///< of the index, waiting for the next flush
+  [[nodiscard]] std::uint64_t bytes_written() const { return bytes_written_; }
+
+  // What HDF5 calls. Nothing here throws or fails.
+  void open(const char* path) noexcept;
+  void close() noexcept;
+  void read(std::uint64_t address, std::size_t size, std::byte* out) noexcept;
+  void write_data(std::uint64_t address, std::size_t size, const std::byte* data) noexcept;
+  void hold_index(std::uint64_t address, std::size_t size, const std::byte* data) noexcept;
+  void commit_index() noexcept;
+  void resize(std::uint64_t size) noexcept;
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+
+ private:
+  static constexpr std::size_t page_size = 4096;
+  using Page = std::array<std::byte, page_size>;
+
+  void write_through(std::uint64_t address, std::size_t size, const std::byte* data) noexcept;
+  void read_through(std::uint64_t address, std::size_t size, std::byte* out) noexcept;
+
+  int descriptor_ = -1;
+  int error_ = 0;
+  std::uint64_t size_ = 0;  ///< as HDF5 believes it to be
+  std::uint64_t bytes_written_ = 0;
+  std::map<std::uint64_t, Page> held_;  ///< by page number
+};
+
+}  // namespace carom::detail

@@ -1,0 +1,105 @@
+#pragma once
+// HDF5's C interface with handles that close themselves, errors that are exceptions, and no printing.
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace carom::detail {
+
+/// HDF5 refused. what() is the innermost reason that it gives.
+class Hdf5Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws Hdf5Error where `result` is negative, which is how every HDF5 function says that it failed.
+template <class Result>
+Result checked(Result result);
+
+/// Owns one HDF5 identifier.
+class Hdf5Id {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Hdf5Id() = default;
+  Hdf5Id(hid_t id, Close closer) : id_(checked(id)), close_(closer) {}
+  Hdf5Id(Hdf5Id&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+  Hdf5Id& operator=(Hdf5Id&& other) noexcept {
+    reset();
+    id_ = std::exchange(other.id_, H5I_INVALID_HID);
+    close_ = other.close_;
+    return *this;
+  }
+  ~Hdf5Id() { reset(); }
+
+  [[nodiscard]] hid_t get() const { return id_; }
+  [[nodiscard]] explicit operator bool() const { return id_ >= 0; }
+  void reset() {
+    if (id_ >= 0) close_(std::exchange(id_, H5I_INVALID_HID));
+  }
+  /// Closes, and throws Hdf5Error where that fails.
+  void close() {
+    if (id_ >= 0) checked(close_(std::exchange(id_, H5I_INVALID_HID)));
+  }
+
+ private:
+  hid_t id_ = H5I_INVALID_HID;
+  Close close_ = nullptr;
+};
+
+/// While it lives, HDF5 prints nothing on stderr in this thread.
+class SilentHdf5 {
+ public:
+  SilentHdf5();
+  ~SilentHdf5();
+  SilentHdf5(const SilentHdf5&) = delete;
+  SilentHdf5& operator=(const SilentHdf5&) = delete;
+
+ private:
+  H5E_auto2_t print_ = nullptr;
+  void* data_ = nullptr;
+};
+
+[[noreturn]] void throw_hdf5_error();
+
+template <class Result>
+Result checked(Result result) {
+  if (result < 0) throw_hdf5_error();
+  return result;
+}
+
+[[nodiscard]] Hdf5Id create_group(hid_t parent, const std::string& path);
+void link_hard(hid_t parent, const std::string& existing, const std::string& name);
+
+/// Strings are stored with variable length and as UTF-8: h5py gives them back as str, which MDAnalysis needs.
+void write_attribute(hid_t object, const std::string& name, const std::string& value);
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& values);
+void write_attribute(hid_t object, const std::string& name, std::span<const double> values);
+void write_attribute(hid_t object, const std::string& name, std::span<const std::int64_t> values);
+void write_attribute(hid_t object, const std::string& name, std::int64_t value);
+void write_attribute(hid_t object, const std::string& name, std::uint64_t value);
+void write_attribute(hid_t object, const std::string& name, double value);
+
+/// A dataset of one value per disk, which never changes.
+void write_fixed(hid_t parent, const std::string& name, std::span<const double> values);
+void write_fixed(hid_t parent, const std::string& name, std::span<const std::int32_t> values);
+
+/// Empty where there is no such attribute, or it is no single string.
+[[nodiscard]] std::string read_string_attribute(hid_t file, const std::string& object, const std::string& name);
+/// Every element of a list of strings; empty where there is no such attribute, or it holds something else.
+[[nodiscard]] std::vector<std::string> read_strings_attribute(hid_t file, const std::string& object, const std::string& name);
+/// Every element of an attribute of numbers; empty where there is none, or it holds something else.
+[[nodiscard]] std::vector<double> read_numbers_attribute(hid_t file, const std::string& object, const std::string& name);
+[[nodiscard]] std::uint64_t read_unsigned_attribute(hid_t file, const std::string& object, const std::string& name);
+/// The extents of a dataset; empty where there is none.
+[[nodiscard]] std::vector<hsize_t> extents_of(hid_t file, const std::string& dataset);
+/// Rows [first, first + count) of a dataset, as doubles. Throws Hdf5Error.
+[[nodiscard]] std::vector<double> read_rows(hid_t file, const std::string& dataset, hsize_t first, hsize_t count);
+
+}  // namespace carom::detail

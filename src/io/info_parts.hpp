@@ -1,0 +1,24 @@
+#pragma once
+// The parts of describe_file: one function per kind of file. Each throws OutputError with a sentence that names the path.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace carom::detail {
+
+std::string describe_h5md(const std::filesystem::path& path);
+std::string describe_xyz(const std::filesystem::path& path);
+std::string describe_csv(const std::filesystem::path& path);
+std::string describe_summary(const std::filesystem::path& path);
+
+/// One line of a description.
+std::string info_line(std::string_view label, std::string_view text);
+/// "1 sample", "2 samples"
+std::string counted(std::uintmax_t count, std::string_view thing);
+/// "16.2 MB"
+std::string size_text(std::uintmax_t bytes);
+/// "5001, from time 0 to 5"
+std::string samples_text(std::uintmax_t samples, double first, double last);
+
+}  // namespace carom::detail

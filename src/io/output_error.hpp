@@ -1,0 +1,26 @@
+#pragma once
+// What is thrown when a file cannot be written or read, and the sentences that every such error is made of.
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace carom {
+
+/// A file of a run cannot be written or read. what() is one sentence: the path, the system's reason, what to do.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+namespace detail {
+
+/// "PATH: cannot ACTION: REASON; ADVICE", with the system's reason and the advice that belong to `error_number`.
+/// `kept` says what can still be read, and stands before the advice where it is not empty.
+[[nodiscard]] OutputError system_error(const std::filesystem::path& path, std::string_view action, int error_number,
+                                       std::string_view kept = {});
+
+}  // namespace detail
+
+}  // namespace carom

@@ -1,0 +1,14 @@
+#pragma once
+// Where results come from: what every result file says about its run beside the scene itself and build_info().
+
+#include <string>
+
+namespace carom {
+
+struct Provenance {
+  std::string resolved_scene;  ///< the scene as TOML with every default filled in
+  std::string command_line;    ///< as the user typed it; empty when the library was called
+  std::string engine;          ///< the name of the engine that ran
+};
+
+}  // namespace carom

@@ -1,0 +1,48 @@
+#pragma once
+// The directory that a run writes into. Every product is written under a temporary name, DIR/NAME.partial, and takes its
+// own name only when it is complete, so that a file with its own name is always whole.
+
+#include "io/output_error.hpp"
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace carom {
+
+/// The names of all files that a run may write. The summary comes last: where it is, the run is complete.
+inline constexpr std::array<std::string_view, 4> run_products = {"trajectory.h5md", "trajectory.xyz", "samples.csv",
+                                                                 "summary.json"};
+
+class RunDirectory {
+ public:
+  /// Creates the directory, parents included, or takes one that holds no results; other files in it are left alone. What an
+  /// earlier run left there (a product, or the .partial of a run that did not end) is removed where `force` is set.
+  /// Throws OutputError where results are in the way without `force`, where `path` is not a directory, and where nothing can
+  /// be written there; then nothing was changed.
+  RunDirectory(std::filesystem::path path, bool force);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path final_name(std::string_view product) const;    ///< DIR/trajectory.h5md
+  [[nodiscard]] std::filesystem::path partial_name(std::string_view product) const;  ///< DIR/trajectory.h5md.partial
+
+  /// Was the directory made by this object?
+  [[nodiscard]] bool created() const { return !created_.empty(); }
+
+  /// Brings DIR/product.partial safely to the disk, then renames it to DIR/product. Throws OutputError.
+  void publish(std::string_view product) const;
+
+  /// Removes the directory, and the parents that were made for it, where this object made them and they are empty.
+  void discard_if_empty() const noexcept;
+
+ private:
+  void create();
+  void check_for_results(bool force) const;
+  void check_writable() const;
+
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> created_;  ///< the deepest last
+};
+
+}  // namespace carom

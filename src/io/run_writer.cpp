@@ -1,0 +1,104 @@
+// The files of one run, opened, fed and completed together.
+
+#include "io/run_writer.hpp"
+
+#include "io/summary.hpp"
+#include "io/text_file.hpp"
+
+#include <system_error>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+constexpr const char* h5md_name = "trajectory.h5md";
+constexpr const char* xyz_name = "trajectory.xyz";
+constexpr const char* csv_name = "samples.csv";
+constexpr const char* summary_name = "summary.json";
+
+// A killed run loses no more than this. A flush takes about a millisecond.
+constexpr auto time_between_flushes = std::chrono::seconds(1);
+
+}  // namespace
+
+RunWriter::RunWriter(const RunDirectory& directory, const Scene& scene, const Disks& disks, const Provenance& provenance)
+    : directory_(directory),
+      box_(scene.box),
+      trajectory_(scene.output.trajectory),
+      unwrapped_(scene.output.unwrapped && (box_.periodic(0) || box_.periodic(1))),
+      provenance_(provenance),
+      last_flush_(std::chrono::steady_clock::now()) {
+  const bool samples = scene.run.sample_every.has_value();
+  const auto open = [&](const char* name) {
+    products_.emplace_back(name);
+    return directory_.partial_name(name);
+  };
+  try {
+    if ((scene.output.trajectory && samples) || scene.output.events) h5md_.emplace(open(h5md_name), scene, disks, provenance);
+    if (scene.output.xyz && samples) xyz_.emplace(open(xyz_name), scene, disks);
+    if (scene.output.csv && samples) csv_.emplace(open(csv_name));
+  } catch (...) {
+    discard_partials();
+    throw;
+  }
+}
+
+RunWriter::~RunWriter() {
+  if (!finished_ && !holds_data_) discard_partials();
+}
+
+void RunWriter::discard_partials() const noexcept {
+  std::error_code ignored;  // what cannot be removed does no harm
+  for (const std::string& product : products_) std::filesystem::remove(directory_.partial_name(product), ignored);
+}
+
+void RunWriter::sample(std::uint64_t k, const State& state) {
+  const State* written = &state;
+  if (unwrapped_) {
+    unwrapped_state_ = state;
+    unwrapped_state_.positions += (state.images.cast<double>().array().colwise() * box_.lengths().array()).matrix();
+    written = &unwrapped_state_;
+  }
+  holds_data_ = true;
+  if (h5md_ && trajectory_) h5md_->sample(k, *written);
+  if (xyz_) xyz_->sample(*written);
+  if (csv_) csv_->sample(*written);
+  flush_now_and_then();
+}
+
+void RunWriter::events(std::span<const Event> events) {
+  if (!h5md_) return;
+  holds_data_ = true;
+  h5md_->events(events);
+  flush_now_and_then();
+}
+
+void RunWriter::flush_now_and_then() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_flush_ < time_between_flushes) return;
+  if (h5md_) h5md_->flush();
+  if (xyz_) xyz_->flush();
+  if (csv_) csv_->flush();
+  last_flush_ = std::chrono::steady_clock::now();
+}
+
+std::vector<std::string> RunWriter::finish(const RunReport& report) {
+  holds_data_ = true;
+  if (h5md_) h5md_->close();
+  if (xyz_) xyz_->close();
+  if (csv_) csv_->close();
+  products_.emplace_back(summary_name);
+  detail::TextFile summary(directory_.partial_name(summary_name));
+  summary.buffer() = summary_json(report, provenance_) + "\n";
+  summary.close();
+  for (const std::string& product : products_) directory_.publish(product);
+  finished_ = true;
+  return products_;
+}
+
+std::size_t RunWriter::buffered_bytes() const {
+  return (h5md_ ? h5md_->buffered_bytes() : 0) + (xyz_ ? xyz_->buffered_bytes() : 0) + (csv_ ? csv_->buffered_bytes() : 0);
+}
+
+}  // namespace carom

@@ -1,0 +1,64 @@
+// One run as JSON, its keys in the order of the scene format.
+
+#include "io/summary.hpp"
+
+#include <carom/version.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <optional>
+
+namespace carom {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(std::optional<double> value) { return value ? number(*value) : Json(nullptr); }
+Json vector(const Eigen::Vector2d& value) { return Json::array({number(value.x()), number(value.y())}); }
+
+}  // namespace
+
+std::string summary_json(const RunReport& report, const Provenance& provenance) {
+  const BuildInfo& build = build_info();
+  const Totals& totals = report.totals;
+  Json json;
+  json["carom"] = {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler}, {"flags", build.flags}};
+  json["scene"] = report.scene;
+  json["seed"] = report.seed;
+  json["engine"] = report.engine;
+  json["effects"] = report.effects;
+  json["disks"] = report.disks;
+  json["packing_fraction"] = number(report.packing_fraction);
+  json["time"] = number(report.time);
+  json["samples"] = report.samples;
+  json["events"] = {{"pair", totals.pair},
+                    {"wall", totals.wall},
+                    {"other", totals.other},
+                    {"stale", totals.stale},
+                    {"total", totals.pair + totals.wall + totals.other + totals.stale}};
+  json["wall_seconds"] = number(report.wall_seconds);
+  json["collisions_per_second"] = report.loop_seconds > 0.0 ? number(report.collisions_per_second()) : Json(nullptr);
+  json["energy"] = {{"initial", number(report.energy_initial)},
+                    {"final", number(report.energy_final)},
+                    {"relative_drift", number(report.relative_energy_drift())}};
+  json["momentum"] = {{"initial", vector(report.momentum_initial)}, {"final", vector(report.momentum_final)}};
+  json["temperature"] = {{"mean", number(report.temperature_mean)}};
+  json["pressure"] = {{"Z", number(report.Z)}, {"Z_error", number(report.Z_error)}, {"reduced", number(report.reduced_pressure)}};
+  json["overlap"] = {{"max_relative", number(report.max_relative_overlap)}, {"checked", report.overlap_checked}};
+  json["stopped"] = to_string(report.stopped);
+
+  json["title"] = report.title;
+  json["loop_seconds"] = number(report.loop_seconds);
+  json["virial"] = number(totals.virial);
+  json["wall_impulse"] = {{"left", number(totals.wall_impulse[0])},
+                          {"right", number(totals.wall_impulse[1])},
+                          {"bottom", number(totals.wall_impulse[2])},
+                          {"top", number(totals.wall_impulse[3])}};
+  json["command_line"] = provenance.command_line;
+  // A path or a command line need not be UTF-8, and JSON must be.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace carom

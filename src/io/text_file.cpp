@@ -1,0 +1,68 @@
+// Buffered text with every failure noticed.
+
+#include "io/text_file.hpp"
+
+#include <cerrno>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace carom::detail {
+
+namespace {
+// Large enough that the cost of a system call disappears, small enough to fit into the processor's cache.
+constexpr std::size_t full_buffer = std::size_t{1} << 18;
+}  // namespace
+
+TextFile::TextFile(std::filesystem::path path) : path_(std::move(path)) {
+  buffer_.reserve(full_buffer + full_buffer / 4);
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) throw system_error(path_, "create it", errno);
+}
+
+TextFile::~TextFile() {
+  if (descriptor_ < 0) return;
+  try {
+    close();
+  } catch (const OutputError&) {
+    // fail() has cut the file back to whole records, and nobody is left who could do more
+  }
+}
+
+void TextFile::end_line() {
+  if (buffer_.size() >= full_buffer) flush();
+}
+
+void TextFile::end_record() {
+  record_end_ = written_ + buffer_.size();
+  end_line();
+}
+
+void TextFile::flush() {
+  std::size_t done = 0;
+  while (done < buffer_.size() && descriptor_ >= 0) {
+    const ssize_t count = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+    if (count < 0 && errno != EINTR) fail(errno);
+    if (count > 0) done += static_cast<std::size_t>(count);
+  }
+  written_ += done;
+  written_record_end_ = record_end_;
+  buffer_.clear();
+}
+
+void TextFile::close() {
+  flush();
+  if (descriptor_ < 0) return;
+  if (::close(std::exchange(descriptor_, -1)) != 0) throw system_error(path_, "write it to its end", errno);
+}
+
+void TextFile::fail(int error_number) {
+  // A torn last record would only make readers stumble. If even the cut fails, the first error is still the one to report.
+  const bool cut = ::ftruncate(descriptor_, static_cast<off_t>(written_record_end_)) == 0;
+  ::close(std::exchange(descriptor_, -1));
+  buffer_.clear();
+  throw system_error(path_, "write", error_number, cut && written_record_end_ > 0 ? "what it holds is whole and readable" : "");
+}
+
+}  // namespace carom::detail

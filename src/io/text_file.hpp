@@ -1,0 +1,42 @@
+#pragma once
+// A text file that is written from its beginning to its end through a buffer, and that notices every failure.
+
+#include "io/output_error.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace carom::detail {
+
+class TextFile {
+ public:
+  /// Creates the file, or empties it. Throws OutputError.
+  explicit TextFile(std::filesystem::path path);
+  TextFile(const TextFile&) = delete;
+  TextFile& operator=(const TextFile&) = delete;
+  ~TextFile();  ///< writes what is buffered as far as that goes; only close() says whether it went well
+
+  /// Text is appended here; then call end_line() or end_record().
+  [[nodiscard]] std::string& buffer() { return buffer_; }
+  void end_line();    ///< lets a full buffer go to the file
+  void end_record();  ///< the same, and: what was written so far is worth keeping if the disk fills up
+
+  void flush();  ///< hands everything to the operating system
+  void close();  ///< flush, and the end
+
+  [[nodiscard]] std::size_t buffered_bytes() const { return buffer_.capacity(); }
+
+ private:
+  [[noreturn]] void fail(int error_number);
+
+  std::filesystem::path path_;
+  std::string buffer_;
+  int descriptor_ = -1;
+  std::uint64_t written_ = 0;
+  std::uint64_t record_end_ = 0;          ///< in bytes from the beginning, buffered text included
+  std::uint64_t written_record_end_ = 0;  ///< of the last record that is in the file for certain
+};
+
+}  // namespace carom::detail

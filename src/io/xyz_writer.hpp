@@ -1,0 +1,41 @@
+#pragma once
+// trajectory.xyz: extended XYZ that OVITO reads. Disks lie in the plane z = 0 of a box as thick as the largest disk; the
+// species of a scene are called H, He, Li, ... in their order, because readers expect chemical symbols.
+
+#include "io/text_file.hpp"
+
+#include <carom/scene.hpp>
+#include <carom/state.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace carom {
+
+/// H, He, Li, ...; from the 119th species on they are used again from the first.
+std::string_view chemical_symbol(std::int32_t species);
+
+/// Every number is written with the fewest digits that read back as the same double.
+class XyzWriter {
+ public:
+  XyzWriter(std::filesystem::path path, const Scene& scene, const Disks& disks);
+
+  void sample(const State& state);  ///< positions are written as they are
+  void flush() { file_.flush(); }
+  void close() { file_.close(); }
+
+  [[nodiscard]] std::size_t buffered_bytes() const { return file_.buffered_bytes(); }
+
+ private:
+  detail::TextFile file_;
+  std::string head_;                ///< the comment line up to the time
+  std::vector<std::string> tails_;  ///< of equal disks: " radius mass "
+  std::vector<std::size_t> tail_;   ///< per disk, which of them
+  std::vector<std::int32_t> species_;
+};
+
+}  // namespace carom

@@ -1,0 +1,80 @@
+// carom check and carom init: a scene is looked at without being run, and every preset is a right scene.
+
+#include "support/child_process.hpp"
+
+#include "scene/presets.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace carom::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+namespace fs = std::filesystem;
+
+TEST(CheckCommand, SaysWhatWillBeSimulatedAndWritesNothing) {
+  const TemporaryDirectory directory;
+  const Outcome outcome = run_carom(directory.path(), {"check", CAROM_SOURCE_DIR "/docs/scenes/box.toml"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("[-1, 1] x [-1, 1]"), HasSubstr("reversal"), HasSubstr("5,001 frames"), HasSubstr("engine")));
+  EXPECT_TRUE(fs::is_empty(directory.path()));
+}
+
+TEST(CheckCommand, ResolvedSceneResolvesToItself) {
+  const TemporaryDirectory directory;
+  const Outcome once = run_carom(directory.path(), {"check", CAROM_SOURCE_DIR "/docs/scenes/box.toml", "--resolved"});
+  ASSERT_EQ(once.exit_code, 0);
+  EXPECT_THAT(once.out, AllOf(HasSubstr("seed"), HasSubstr("unwrapped")));
+  write_text(directory.path() / "resolved.toml", once.out);
+  EXPECT_EQ(run_carom(directory.path(), {"check", "resolved.toml", "--resolved"}).out, once.out);
+}
+
+TEST(CheckCommand, OverlapInAListedStartIsNamed) {
+  const TemporaryDirectory directory;
+  ASSERT_EQ(run_carom(directory.path(), {"init", "-o", "scene.toml"}).exit_code, 0);
+  const Outcome outcome =
+      run_carom(directory.path(), {"check", "scene.toml", "--set", "disks.0.count=2", "--set", "disks.0.radius=0.25", "--set",
+                                   "disks.0.positions=[[0.0, 0.0], [0.25, 0.0]]"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_THAT(outcome.err, AllOf(StartsWith("carom: "), HasSubstr("overlap")));
+}
+
+TEST(InitCommand, WritesTheBoxByDefault) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(run_carom(directory.path(), {"init"}).exit_code, 0);
+  EXPECT_EQ(text_of(directory.path() / "box.toml"), text_of(CAROM_SOURCE_DIR "/docs/scenes/box.toml"));
+}
+
+TEST(InitCommand, NeverReplacesAFileUnasked) {
+  const TemporaryDirectory directory;
+  write_text(directory.path() / "box.toml", "mine");
+  const Outcome refused = run_carom(directory.path(), {"init"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, AllOf(StartsWith("carom: box.toml: "), HasSubstr("--force")));
+  EXPECT_EQ(text_of(directory.path() / "box.toml"), "mine");
+  EXPECT_EQ(run_carom(directory.path(), {"init", "--force"}).exit_code, 0);
+  EXPECT_NE(text_of(directory.path() / "box.toml"), "mine");
+}
+
+TEST(InitCommand, EveryPresetIsListedAndPassesCheck) {
+  const TemporaryDirectory directory;
+  const std::string listed = run_carom(directory.path(), {"init", "--list"}).out;
+  ASSERT_FALSE(preset_names().empty());
+  for (const std::string& name : preset_names()) {
+    EXPECT_THAT(listed, HasSubstr(name));
+    ASSERT_EQ(run_carom(directory.path(), {"init", name}).exit_code, 0);
+    const Outcome outcome = run_carom(directory.path(), {"check", name + ".toml"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace carom::test

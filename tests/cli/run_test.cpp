@@ -1,0 +1,183 @@
+// carom run: where it writes, what it prints, and what it leaves alone.
+
+#include "support/child_process.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <string>
+
+namespace carom::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+namespace fs = std::filesystem;
+
+const std::string gas = R"([box]
+x = [0.0, 10.0]
+y = [0.0, 10.0]
+boundary = "periodic"
+
+[[disks]]
+count = 50
+radius = 0.3
+mass = 1.0
+positions = "random"
+velocities = { temperature = 1.0 }
+
+[collision]
+rule = "specular"
+
+[run]
+time = 2.0
+sample_every = 0.5
+)";
+
+class RunCommand : public ::testing::Test {
+ protected:
+  RunCommand() { write_text(directory_.path() / "gas.toml", gas); }
+
+  Outcome carom(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meanwhile = {}) {
+    return run_carom(directory_.path(), arguments, meanwhile);
+  }
+  [[nodiscard]] fs::path file(const std::string& name) const { return directory_.path() / name; }
+  [[nodiscard]] json summary(const std::string& name = "gas") const { return json::parse(text_of(file(name) / "summary.json")); }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(RunCommand, SummaryGoesToStdoutAndNothingToStderr) {
+  const Outcome outcome = carom({"run", "gas.toml"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("50 disks"), HasSubstr("pair collisions"), HasSubstr("worst overlap"), HasSubstr("Files in gas")));
+  EXPECT_TRUE(fs::exists(file("gas/summary.json")));
+  EXPECT_TRUE(fs::exists(file("gas/trajectory.h5md")));
+}
+
+TEST_F(RunCommand, JsonOnStdoutIsTheSummaryFile) {
+  const Outcome outcome = carom({"run", "gas.toml", "--json"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, IsEmpty());
+  const json printed = json::parse(outcome.out);
+  EXPECT_EQ(printed, summary());
+  EXPECT_EQ(printed["disks"], 50);
+  EXPECT_EQ(printed["samples"], 5);
+  EXPECT_EQ(printed["stopped"], "time");
+}
+
+TEST_F(RunCommand, QuietPrintsNothing) {
+  const Outcome outcome = carom({"run", "gas.toml", "--quiet"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out + outcome.err, IsEmpty());
+  EXPECT_TRUE(fs::exists(file("gas/summary.json")));
+}
+
+TEST_F(RunCommand, VerboseDescribesTheSceneOnStderr) {
+  const Outcome outcome = carom({"run", "gas.toml", "-v", "--json"});
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("kT = 1"), HasSubstr("periodic"), HasSubstr("specular")));
+  EXPECT_TRUE(json::accept(outcome.out));
+}
+
+TEST_F(RunCommand, SeedIsStoredAndChangesTheCourse) {
+  const auto events_of = [&](const std::string& seed, const std::string& out) -> json {
+    EXPECT_EQ(carom({"run", "gas.toml", "--seed", seed, "--out", out}).exit_code, 0);
+    EXPECT_EQ(summary(out)["seed"], std::stoi(seed));
+    return summary(out)["events"];
+  };
+  const json first = events_of("7", "a");
+  EXPECT_EQ(first, events_of("7", "b"));
+  EXPECT_NE(first, events_of("8", "c"));
+}
+
+TEST_F(RunCommand, SetOverridesAKeyAndTheLastOneWins) {
+  EXPECT_EQ(carom({"run", "--set", "run.time=9", "--set", "run.time=1.5", "gas.toml"}).exit_code, 0);
+  EXPECT_EQ(summary()["time"], 1.5);
+  EXPECT_EQ(summary()["samples"], 4);
+}
+
+TEST_F(RunCommand, OutputMayBeAskedForOnTheCommandLine) {
+  EXPECT_EQ(carom({"run", "gas.toml", "--xyz", "--csv", "--no-trajectory", "--out", "deep/down"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(file("deep/down/trajectory.xyz")));
+  EXPECT_TRUE(fs::exists(file("deep/down/samples.csv")));
+  EXPECT_FALSE(fs::exists(file("deep/down/trajectory.h5md")));
+}
+
+TEST_F(RunCommand, BrokenSceneSaysWhereAndWritesNothing) {
+  write_text(file("gas.toml"), gas + "tiem = 3.0\n");
+  const Outcome outcome = carom({"run", "gas.toml"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_THAT(outcome.err, AllOf(StartsWith("carom: gas.toml:19:"), HasSubstr("time")));
+  EXPECT_FALSE(fs::exists(file("gas")));
+}
+
+TEST_F(RunCommand, DisksThatCannotBePlacedWriteNothing) {
+  const Outcome outcome = carom({"run", "gas.toml", "--set", "disks.0.radius=0.75"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("packing"), HasSubstr("hexagonal")));
+  EXPECT_FALSE(fs::exists(file("gas")));
+}
+
+TEST_F(RunCommand, ExistingResultsAreRefusedAndLeftAsTheyWere) {
+  ASSERT_EQ(carom({"run", "gas.toml"}).exit_code, 0);
+  const std::string trajectory = text_of(file("gas/trajectory.h5md"));
+  const std::string summary_before = text_of(file("gas/summary.json"));
+  const Outcome outcome = carom({"run", "gas.toml", "--seed", "2"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_THAT(outcome.err, AllOf(StartsWith("carom: gas: "), HasSubstr("--force")));
+  EXPECT_TRUE(text_of(file("gas/trajectory.h5md")) == trajectory);
+  EXPECT_EQ(text_of(file("gas/summary.json")), summary_before);
+}
+
+TEST_F(RunCommand, ForceReplacesResults) {
+  ASSERT_EQ(carom({"run", "gas.toml", "--csv"}).exit_code, 0);
+  ASSERT_EQ(carom({"run", "gas.toml", "--seed", "2", "--force"}).exit_code, 0);
+  EXPECT_EQ(summary()["seed"], 2);
+  EXPECT_FALSE(fs::exists(file("gas/samples.csv"))) << "a table of the run before lies beside the new trajectory";
+}
+
+TEST_F(RunCommand, PlaceThatCannotHoldResultsExitsTwo) {
+  for (const char* out : {"gas.toml/results", "gas.toml", "/proc/results"}) {
+    const Outcome outcome = carom({"run", "gas.toml", "--out", out});
+    EXPECT_EQ(outcome.exit_code, 2) << out;
+    EXPECT_THAT(outcome.out, IsEmpty());
+    EXPECT_THAT(outcome.err, StartsWith(std::string("carom: ") + out));
+  }
+  EXPECT_EQ(text_of(file("gas.toml")), gas);
+}
+
+class Interrupted : public RunCommand, public ::testing::WithParamInterface<int> {};
+
+TEST_P(Interrupted, RunSavesWhatItHasAndExits130) {
+  const auto signal_once_it_runs = [&](pid_t child) {
+    EXPECT_TRUE(wait_until([&] { return fs::exists(file("gas")); }));
+    kill(child, GetParam());
+  };
+  const Outcome outcome =
+      carom({"run", "gas.toml", "--set", "run.time=1e9", "--json", "--progress", "always"}, signal_once_it_runs);
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("time "), HasSubstr("collisions")));
+  EXPECT_EQ(json::parse(outcome.out)["stopped"], "interrupted");
+  EXPECT_EQ(json::parse(outcome.out), summary());
+  const Outcome info = carom({"info", "gas/trajectory.h5md"});
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_THAT(info.out, HasSubstr("50"));
+  for (const auto& entry : fs::directory_iterator(file("gas"))) EXPECT_THAT(entry.path().string(), Not(HasSubstr(".partial")));
+}
+
+INSTANTIATE_TEST_SUITE_P(By, Interrupted, ::testing::Values(SIGINT, SIGTERM),
+                         [](const auto& signal) { return std::string(signal.param == SIGINT ? "Sigint" : "Sigterm"); });
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,187 @@
+// Collisions of two disks against the closed forms of classical mechanics.
+
+#include "effects/impact.hpp"
+
+#include "effects/reversal.hpp"
+#include "effects/specular.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace carom::test {
+namespace {
+
+using V = Vec2<double>;
+
+struct Outcome {
+  V v_i;
+  V v_j;
+  double virial;
+};
+
+template <class Rule>
+Outcome collided(const V& r, double m_i, V v_i, double m_j, V v_j) {
+  const double virial = collide<Rule, double>(r, m_i, v_i, m_j, v_j).virial;
+  return {v_i, v_j, virial};
+}
+
+/// Random contacts with approaching velocities, and mass ratios from 1 to 1e12.
+template <class Check>
+void for_contacts(Check&& check) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  for (const double ratio : {1.0, 2.0, 10.0, 1e3, 1e12}) {
+    for (int k = 0; k < 500; ++k) {
+      const double angle = 6.28 * normal(random);
+      const V r(std::cos(angle), std::sin(angle));
+      V v_i(normal(random), normal(random));
+      V v_j(normal(random), normal(random));
+      if (r.dot(v_i - v_j) > 0) std::swap(v_i, v_j);
+      if (k % 2 == 0) {
+        check(r, 1.0, v_i, ratio, v_j);
+      } else {
+        check(r, ratio, v_i, 1.0, v_j);
+      }
+    }
+  }
+}
+
+// One rounding of each term: a few ulps of the largest speed there is.
+constexpr double few_ulps = 16 * 0x1p-53;
+
+TEST(Reversal, IsMinusVPlusTwiceTheCentreOfMassVelocity) {
+  for_contacts([](const V& r, double m_i, const V& v_i, double m_j, const V& v_j) {
+    const V centre = (m_i * v_i + m_j * v_j) / (m_i + m_j);
+    const Outcome after = collided<Reversal>(r, m_i, v_i, m_j, v_j);
+    const double speed = v_i.norm() + v_j.norm();
+    EXPECT_LE((after.v_i - (2 * centre - v_i)).norm(), few_ulps * speed);
+    EXPECT_LE((after.v_j - (2 * centre - v_j)).norm(), few_ulps * speed);
+  });
+}
+
+TEST(Reversal, EqualMassesExchangeTheirVelocitiesExactly) {
+  const Outcome after = collided<Reversal>({1.0, 0.2}, 0.7, {-0.3, 0.1}, 0.7, {0.4, 0.5});
+  EXPECT_EQ(after.v_i, V(0.4, 0.5));
+  EXPECT_EQ(after.v_j, V(-0.3, 0.1));
+}
+
+TEST(Reversal, AppliedTwiceIsNoCollisionAtAll) {
+  for_contacts([](const V& r, double m_i, const V& v_i, double m_j, const V& v_j) {
+    const Outcome once = collided<Reversal>(r, m_i, v_i, m_j, v_j);
+    const Outcome twice = collided<Reversal>(-r, m_i, once.v_i, m_j, once.v_j);  // seen from behind, they approach again
+    const double speed = v_i.norm() + v_j.norm();
+    EXPECT_LE((twice.v_i - v_i).norm() + (twice.v_j - v_j).norm(), 4 * few_ulps * speed);
+  });
+}
+
+TEST(Reversal, ConservesTheWholeTensorOfMomentumFlux) {
+  for_contacts([](const V& r, double m_i, const V& v_i, double m_j, const V& v_j) {
+    const Outcome after = collided<Reversal>(r, m_i, v_i, m_j, v_j);
+    const Eigen::Matrix2d before_tensor = m_i * v_i * v_i.transpose() + m_j * v_j * v_j.transpose();
+    const Eigen::Matrix2d after_tensor = m_i * after.v_i * after.v_i.transpose() + m_j * after.v_j * after.v_j.transpose();
+    // An error of few_ulps in each velocity moves m v v by at most twice that.
+    EXPECT_LE((after_tensor - before_tensor).norm(), 4 * few_ulps * (m_i + m_j) * std::pow(v_i.norm() + v_j.norm(), 2));
+  });
+}
+
+TEST(Reversal, ChangesAngularMomentumByMinusTwoSigmaMuTimesTheTangentialVelocity) {
+  for_contacts([](const V& r, double m_i, const V& v_i, double m_j, const V& v_j) {
+    const Outcome after = collided<Reversal>(r, m_i, v_i, m_j, v_j);
+    const double mu = m_i * m_j / (m_i + m_j);
+    // Relative to the centre of mass the angular momentum is mu r x v.
+    const double before = mu * cross<double>(r, v_i - v_j);
+    const double change = mu * cross<double>(r, after.v_i - after.v_j) - before;
+    EXPECT_NEAR(change, -2 * before, 4 * few_ulps * mu * (v_i.norm() + v_j.norm()));
+  });
+}
+
+TEST(Specular, TurnsOnlyTheComponentAlongTheLineOfCentres) {
+  for_contacts([](const V& r, double m_i, const V& v_i, double m_j, const V& v_j) {
+    const Outcome after = collided<Specular>(r, m_i, v_i, m_j, v_j);
+    const V n = r.normalized();
+    const V t(-n.y(), n.x());
+    const double speed = v_i.norm() + v_j.norm();
+    EXPECT_NEAR(n.dot(after.v_i - after.v_j), -n.dot(v_i - v_j), few_ulps * speed);
+    EXPECT_NEAR(t.dot(after.v_i), t.dot(v_i), few_ulps * speed);
+    EXPECT_NEAR(t.dot(after.v_j), t.dot(v_j), few_ulps * speed);
+  });
+}
+
+TEST(Specular, HeadOnEqualMassesExchangeVelocities) {
+  const Outcome after = collided<Specular>({1.0, 0.0}, 1.0, {-3.0, 0.5}, 1.0, {1.0, 0.25});
+  EXPECT_EQ(after.v_i, V(1.0, 0.5));
+  EXPECT_EQ(after.v_j, V(-3.0, 0.25));
+}
+
+template <class Rule>
+void expect_conservation() {
+  for_contacts([](const V& r, double m_i, const V& v_i, double m_j, const V& v_j) {
+    const Outcome after = collided<Rule>(r, m_i, v_i, m_j, v_j);
+    const double speed = v_i.norm() + v_j.norm();
+    const double mass = m_i + m_j;
+    EXPECT_LE((m_i * after.v_i + m_j * after.v_j - m_i * v_i - m_j * v_j).norm(), few_ulps * mass * speed);
+    const double before = m_i * v_i.squaredNorm() + m_j * v_j.squaredNorm();
+    EXPECT_NEAR(m_i * after.v_i.squaredNorm() + m_j * after.v_j.squaredNorm(), before, 4 * few_ulps * mass * speed * speed);
+    EXPECT_GE(r.dot(after.v_i - after.v_j), 0.0) << "they still approach";
+  });
+}
+
+TEST(Impact, BothRulesConserveMomentumAndEnergyAndLeavePairsReceding) {
+  expect_conservation<Reversal>();
+  expect_conservation<Specular>();
+}
+
+TEST(Impact, BothRulesHandOverTheSameVirial) {
+  for_contacts([](const V& r, double m_i, const V& v_i, double m_j, const V& v_j) {
+    const double mu = m_i * m_j / (m_i + m_j);
+    const double expected = -2 * mu * r.dot(v_i - v_j);
+    const Outcome specular = collided<Specular>(r, m_i, v_i, m_j, v_j);
+    EXPECT_NEAR(specular.virial, expected, 8 * 0x1p-53 * std::abs(expected));
+    EXPECT_EQ(specular.virial, collided<Reversal>(r, m_i, v_i, m_j, v_j).virial);
+    // It is what the momenta say: r . dp_i = -r . dp_j.
+    const double mass = m_i + m_j;
+    EXPECT_NEAR(specular.virial, m_j * r.dot(v_j - specular.v_j), few_ulps * mass * (v_i.norm() + v_j.norm()));
+  });
+}
+
+TEST(Impact, RecedingPairsExchangeNothing) {
+  const Outcome after = collided<Specular>({1.0, 0.0}, 1.0, {1.0, 2.0}, 3.0, {0.5, 0.0});
+  EXPECT_EQ(after.v_i, V(1.0, 2.0));
+  EXPECT_EQ(after.v_j, V(0.5, 0.0));
+  EXPECT_EQ(after.virial, 0.0);
+}
+
+TEST(Impact, ARepeatedRoundTripDoesNotDriftForAnyMassRatio) {
+  // A biased coefficient would heat or cool by a fixed 1e-16 per collision and show after 1e6 of them as 1e-10; random
+  // rounding grows as its square root. Ten standard deviations of a walk of steps of two ulps: 10 * 1e3 * 2 * 1.1e-16.
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  for (const double m_j : {1.0, 0.3, 3.7, 123.456, 1e6}) {
+    V v_i(1.0, 0.2);
+    V v_j(-0.1, 0.4);
+    const double start = v_i.squaredNorm() + m_j * v_j.squaredNorm();
+    for (int k = 0; k < 1'000'000; ++k) {
+      V r(normal(random), normal(random));
+      if (r.dot(v_i - v_j) > 0) r = -r;
+      collide<Specular, double>(r, 1.0, v_i, m_j, v_j);
+    }
+    const double end = v_i.squaredNorm() + m_j * v_j.squaredNorm();
+    EXPECT_NEAR(end / start, 1.0, 2.2e-12) << "mass " << m_j;
+  }
+}
+
+TEST(Impact, AGrazingPairIsLeftRecedingEvenWhereItsVelocitiesCannotResolveTheImpulse) {
+  // b = r . v is 1e-20 of |r| |v|: subtracting the impulse changes no bit.
+  V v_i(0.0, 1.0);
+  V v_j(1e-20, 0.0);
+  const V r(1.0, 0.0);
+  collide<Specular, double>(r, 1.0, v_i, 2.0, v_j);
+  EXPECT_GE(r.dot(v_i - v_j), 0.0);
+  EXPECT_NEAR(v_i.norm(), 1.0, 4 * 0x1p-52);
+}
+
+}  // namespace
+}  // namespace carom::test

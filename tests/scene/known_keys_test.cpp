@@ -1,0 +1,33 @@
+// Which word the user meant.
+
+#include "scene/known_keys.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace carom::detail {
+namespace {
+
+TEST(KnownKeys, DistanceCountsEditsAndSwapsAsOne) {
+  EXPECT_EQ(edit_distance("radius", "radius"), 0U);
+  EXPECT_EQ(edit_distance("raduis", "radius"), 1U);
+  EXPECT_EQ(edit_distance("Radius", "radius"), 0U);
+  EXPECT_EQ(edit_distance("radis", "radius"), 1U);
+  EXPECT_EQ(edit_distance("", "mass"), 4U);
+  EXPECT_EQ(edit_distance("time", "mass"), 4U);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
+}
+
+TEST(KnownKeys, NearestIsEmptyWhereNothingIsNear) {
+  constexpr std::array<std::string_view, 3> words = {"time", "seed", "sample_every"};
+  EXPECT_EQ(nearest_word("tme", words), "time");
+  EXPECT_EQ(nearest_word("sample_evry", words), "sample_every");
+  EXPECT_EQ(nearest_word("sampleevery", words), "sample_every");
+  EXPECT_EQ(nearest_word("x", words), "");
+  EXPECT_EQ(nearest_word("viscosity", words), "");
+  EXPECT_EQ(nearest_word(std::string(1'000'000, 't'), words), "");
+}
+
+}  // namespace
+}  // namespace carom::detail

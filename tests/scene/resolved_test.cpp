@@ -1,0 +1,205 @@
+// The resolved scene says everything, and reading it gives the same scene to the last bit.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "scene/number_text.hpp"
+#include "scene/scene_equality.hpp"
+#include "scene/scene_texts.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace carom {
+namespace {
+
+using detail::number_text;
+using testing_support::changed;
+using testing_support::first_difference;
+
+TEST(Resolved, PrintsEveryDefault) {
+  EXPECT_EQ(resolved_toml(parse_scene(std::string(testing_support::small_scene))), R"(title = ""
+
+[box]
+x = [0.0, 10.0]
+y = [0.0, 8.0]
+boundary = { x = "walls", y = "walls" }
+
+[[disks]]
+name = "disks0"
+count = 10
+radius = 0.25
+mass = 1.0
+positions = "random"
+velocities = { uniform = 1.0 }
+
+[collision]
+rule = "specular"
+
+[run]
+time = 5.0
+seed = 1
+keep_momentum = false
+
+[output]
+trajectory = false
+xyz = false
+csv = false
+events = false
+unwrapped = false
+)");
+}
+
+TEST(Resolved, NumbersAreTomlFloatsOfFewestDigits) {
+  EXPECT_EQ(number_text(1.0), "1.0");
+  EXPECT_EQ(number_text(-0.0), "-0.0");
+  EXPECT_EQ(number_text(0.1), "0.1");
+  EXPECT_EQ(number_text(0.1 + 0.2), "0.30000000000000004");
+  EXPECT_EQ(number_text(1e22), "1e+22");
+  EXPECT_EQ(number_text(5e-324), "5e-324");
+  EXPECT_EQ(number_text(std::numeric_limits<double>::infinity()), "inf");
+}
+
+TEST(Resolved, AnEmptyBoxSurvives) {
+  const Scene scene = parse_scene(
+      "disks = []\nbox = { x = [0, 1], y = [0, 1], boundary = \"walls\" }\ncollision.rule = \"reversal\"\nrun.time = 0");
+  EXPECT_EQ(first_difference(scene, parse_scene(resolved_toml(scene))), "");
+}
+
+TEST(Resolved, StringsSurviveWhateverTheyHold) {
+  const Scene scene =
+      parse_scene("title = \"quote \\\" backslash \\\\ tab \\t newline \\n bell \\u0007 rubout \\u007F \\u00e9 \\U0001F3B1\"\n" +
+                  std::string(testing_support::small_scene));
+  EXPECT_EQ(scene.title, "quote \" backslash \\ tab \t newline \n bell \a rubout \x7f \xC3\xA9 \xF0\x9F\x8E\xB1");
+  EXPECT_EQ(parse_scene(resolved_toml(scene)).title, scene.title);
+}
+
+TEST(Resolved, OverridesAreInIt) {
+  const Scene scene = parse_scene(std::string(testing_support::small_scene), "s", {"run.seed=7"});
+  EXPECT_THAT(resolved_toml(scene), testing::HasSubstr("seed = 7\n"));
+}
+
+/// Any finite double, the extreme ones as often as the usual.
+double any_double() {
+  const auto mantissa = *rc::gen::arbitrary<std::int64_t>();
+  const int exponent = *rc::gen::element(0, 0, -60, -30, 10, 900, -1000, -1130);
+  return *rc::gen::element(1.0, -0.0, std::ldexp(static_cast<double>(mantissa), exponent));
+}
+double positive_double() {
+  const double value = std::abs(any_double());
+  return value > 0.0 ? value : 0.5;
+}
+double unit_interval() { return std::ldexp(static_cast<double>(*rc::gen::inRange<std::int64_t>(0, std::int64_t{1} << 53)), -53); }
+
+std::string pair_text(double a, double b) { return "[" + number_text(a) + ", " + number_text(b) + "]"; }
+
+/// Valid scenes in text: every spelling, with numbers that need all their digits.
+class SceneMaker {
+ public:
+  explicit SceneMaker(const testing_support::Folder& folder) : folder_(folder) {}
+
+  std::string make() {
+    lower_ = {10.0 * unit_interval() - 5.0, 10.0 * unit_interval() - 5.0};
+    length_ = {20.0 + unit_interval(), 20.0 + unit_interval()};
+    std::string text = *rc::gen::element<std::string>("", "title = \"any \\\"title\\\"\"\n");
+    text += "[box]\nx = " + pair_text(lower_[0], lower_[0] + length_[0]) +
+            "\ny = " + pair_text(lower_[1], lower_[1] + length_[1]) + "\n";
+    text += "boundary = " + *rc::gen::element<std::string>("\"walls\"", "\"periodic\"", "{ x = \"periodic\", y = \"walls\" }",
+                                                           "{ y = \"periodic\", x = \"walls\" }");
+    text += "\n";
+    const int kinds = *rc::gen::inRange(1, 4);
+    for (int s = 0; s < kinds; ++s) text += species(s);
+    text += "[collision]\nrule = " + *rc::gen::element<std::string>("\"reversal\"", "\"specular\"") + "\n";
+    return text + run();
+  }
+
+ private:
+  std::string species(int s) {
+    std::string text = "[[disks]]\n";
+    const bool listed = *rc::gen::arbitrary<bool>();
+    const bool file = listed && *rc::gen::arbitrary<bool>();
+    const bool in_file = file && *rc::gen::arbitrary<bool>();
+    const int count = *rc::gen::inRange(0, 6);
+    std::string list, csv = in_file ? "mass,y,vx,x,vy,radius\n" : "x,y\n";
+    for (int i = 0; i < count; ++i) {
+      // One point in the middle of each cell of a 3 x 6 pattern, species side by side: nothing overlaps.
+      const double x = lower_[0] + length_[0] * (0.2 + 0.3 * s) + 0.5 * unit_interval();
+      const double y = lower_[1] + length_[1] * (0.1 + 0.15 * i) + 0.5 * unit_interval();
+      list += (i == 0 ? "" : ", ") + pair_text(x, y);
+      csv += in_file
+                 ? number_text(positive_double()) + "," + number_text(y) + "," + number_text(any_double()) + "," +
+                       number_text(x) + "," + number_text(any_double()) + "," + number_text(0.01 + 0.5 * unit_interval()) + "\n"
+                 : number_text(x) + "," + number_text(y) + "\n";
+    }
+    if (*rc::gen::arbitrary<bool>()) text += "name = \"species " + std::to_string(s) + "\"\n";
+    if (!listed || *rc::gen::arbitrary<bool>()) text += "count = " + std::to_string(count) + "\n";
+    const bool share = !in_file && count > 0 && *rc::gen::arbitrary<bool>();
+    if (!in_file) {
+      text += share ? "packing_fraction = " + number_text(1e-4 + 1e-3 * unit_interval()) + "\n"
+                    : "radius = " + number_text(0.01 + 0.5 * unit_interval()) + "\n";
+      text += "mass = " + number_text(positive_double()) + "\n";
+      text += "velocities = " + velocities(count) + "\n";
+    }
+    if (file) folder_.write("start" + std::to_string(s) + ".csv", csv);
+    return text + "positions = " +
+           (file     ? "{ file = \"start" + std::to_string(s) + ".csv\" }"
+            : listed ? "[" + list + "]"
+                     : *rc::gen::element<std::string>("\"random\"", "\"square\"", "\"hexagonal\"")) +
+           "\n";
+  }
+
+  static std::string velocities(int count) {
+    switch (*rc::gen::inRange(0, 5)) {
+      case 0:
+        return "\"rest\"";
+      case 1:
+        return "{ uniform = " + number_text(std::abs(any_double())) + " }";
+      case 2:
+        return "{ temperature = " + number_text(std::abs(any_double())) + " }";
+      case 3:
+        return "{ speed = " + number_text(std::abs(any_double())) + " }";
+      default:
+        break;
+    }
+    std::string list;
+    for (int i = 0; i < count; ++i) {
+      const double vx = any_double();
+      list += (i == 0 ? "" : ", ") + pair_text(vx, any_double());
+    }
+    return "[" + list + "]";
+  }
+
+  static std::string run() {
+    std::string text = "[run]\ntime = " + number_text(std::abs(any_double())) + "\n";
+    if (*rc::gen::arbitrary<bool>())
+      text += "collisions = " + std::to_string(*rc::gen::inRange<std::int64_t>(0, INT64_MAX)) + "\n";
+    if (*rc::gen::arbitrary<bool>()) text += "seed = " + std::to_string(*rc::gen::inRange<std::int64_t>(0, INT64_MAX)) + "\n";
+    if (*rc::gen::arbitrary<bool>()) text += "keep_momentum = true\n";
+    if (*rc::gen::arbitrary<bool>()) text += "equilibrate = { time = " + number_text(std::abs(any_double())) + " }\n";
+    const bool sampled = *rc::gen::arbitrary<bool>();
+    if (sampled) text += "sample_every = " + number_text(1e300 + unit_interval()) + "\n";
+    text += "[output]\nevents = " + *rc::gen::element<std::string>("true", "false") + "\n";
+    for (const char* key : {"trajectory", "xyz", "csv", "unwrapped"}) {
+      if (sampled && *rc::gen::arbitrary<bool>())
+        text += std::string(key) + " = " + *rc::gen::element<std::string>("true", "false") + "\n";
+    }
+    return text;
+  }
+
+  const testing_support::Folder& folder_;
+  Eigen::Vector2d lower_, length_;
+};
+
+RC_GTEST_PROP(PropertyScene, ReadingTheResolvedSceneGivesTheSameBits, ()) {
+  const testing_support::Folder folder;
+  const std::string text = SceneMaker(folder).make();
+  const Scene scene = parse_scene(text, "made", {}, folder.path().string());
+  const std::string resolved = resolved_toml(scene);
+  const Scene again = parse_scene(resolved, "resolved");
+  RC_ASSERT(first_difference(scene, again) == "");
+  RC_ASSERT(resolved_toml(again) == resolved);
+}
+
+}  // namespace
+}  // namespace carom

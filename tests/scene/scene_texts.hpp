@@ -1,0 +1,89 @@
+#pragma once
+// Scenes in text for the tests of this room: a small valid one, and ways to change it.
+
+#include <carom/scene.hpp>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace carom::testing_support {
+
+/// A box [0, 10] x [0, 8] with walls and ten disks of radius 0.25.
+inline constexpr std::string_view small_scene = R"([box]
+x = [0.0, 10.0]
+y = [0.0, 8.0]
+boundary = "walls"
+
+[[disks]]
+count = 10
+radius = 0.25
+mass = 1.0
+positions = "random"
+velocities = { uniform = 1.0 }
+
+[collision]
+rule = "specular"
+
+[run]
+time = 5.0
+)";
+
+/// The small scene with each `from` replaced by `to`; every `from` must occur.
+inline std::string changed(std::initializer_list<std::pair<std::string_view, std::string_view>> changes,
+                           std::string_view base = small_scene) {
+  std::string text(base);
+  for (const auto& [from, to] : changes) {
+    const std::size_t at = text.find(from);
+    if (at == std::string::npos) throw std::logic_error("the scene has no \"" + std::string(from) + "\" to change");
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+/// what() of the SceneError that `action` throws; an empty string and a failed test where it throws none.
+template <class Action>
+std::string refusal_of(const Action& action) {
+  try {
+    action();
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was refused";
+  return {};
+}
+
+/// An empty directory of its own for each test, removed at the end.
+class Folder {
+ public:
+  Folder() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = std::filesystem::temp_directory_path() /
+            ("carom_" + std::string(info->test_suite_name()) + "_" + info->name() + "_" + std::to_string(::getpid()));
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Writes a file here and returns its path.
+  std::string write(const std::string& name, std::string_view text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return (path_ / name).string();
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace carom::testing_support

@@ -1,0 +1,41 @@
+#include "theory/equation_of_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace carom::test {
+namespace {
+
+TEST(EquationOfState, BeginsWithTheVirialCoefficientsOfClisbyAndMcCoy) {
+  // b_2 ... b_5 of J. Stat. Phys. 122, 15 (2006). The remainder after b_5 is b_6 eta^5 with b_6 = 6.36.
+  const double b[] = {2.0, 3.1280178, 4.2578545, 5.336897};
+  for (const double eta : {0.001, 0.003, 0.01}) {
+    double virial = 1.0;
+    for (int n = 0; n < 4; ++n) virial += b[n] * std::pow(eta, n + 1);
+    EXPECT_NEAR(theory::kolafa_rottner(eta), virial, 7.0 * std::pow(eta, 5) + 1e-7 * eta * eta) << eta;
+  }
+}
+
+TEST(EquationOfState, AgreesWithTheVirialSeriesOfTenTermsWhereThatConverges) {
+  const double b[] = {2.0, 3.1280178, 4.2578545, 5.336897, 6.36296, 7.35186, 8.3191, 9.2721, 10.216};
+  const double eta = 0.2;
+  double virial = 1.0;
+  for (int n = 0; n < 9; ++n) virial += b[n] * std::pow(eta, n + 1);
+  // Coefficients grow by about 0.95 per order: what is cut off is below 11.2 eta^10 / (1 - eta)^2.
+  EXPECT_NEAR(theory::kolafa_rottner(eta), virial, 11.2 * std::pow(eta, 10) / 0.64 + 1e-5);
+}
+
+TEST(EquationOfState, DerivativesInTheFiniteSizeTermAgreeWithDifferences) {
+  const double eta = 0.4;
+  const double h = 1e-4;
+  const auto z = theory::kolafa_rottner;
+  const double z1 = (z(eta + h) - z(eta - h)) / (2 * h);
+  const double z2 = (z(eta + h) - 2 * z(eta) + z(eta - h)) / (h * h);
+  const double expected = -eta / 200.0 * (2 * z1 + eta * z2) / (z(eta) + eta * z1);
+  // Central differences err by h^2/6 times the next derivatives, some 1e4 here.
+  EXPECT_NEAR(theory::kolafa_rottner_finite(eta, 100) - z(eta), expected, 1e-6);
+}
+
+}  // namespace
+}  // namespace carom::test
