@@ -76,6 +76,7 @@ TEST(Schedule, LastSampleCountsBothEnds) {
   EXPECT_EQ(last(1e6, 1e-6), 1'000'000'000'000U);
   EXPECT_EQ(last(0.3, std::nextafter(0.1, 1.0)), 3U);  // the same decimals to 15 digits
   EXPECT_EQ(last(0.3, 0.1000001), 2U);
+  EXPECT_EQ(last(1e300, 1e-300), 1ULL << 53);  // as far as a grid can count
 }
 
 TEST(Schedule, SamplesAreTheStatesAtTheProducts) {
