@@ -3,23 +3,15 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/scene_description.hpp"
-#include "cli/scene_options.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <carom/simulation.hpp>
 
 #include <cstdio>
-#include <memory>
 
 namespace carom::cli {
 
 namespace {
-
-struct CheckOptions {
-  SceneOptions scene;
-  bool resolved = false;
-};
 
 // Beyond this the draw takes longer than one waits for a check.
 constexpr std::int64_t most_disks_drawn = 1'000'000;
@@ -64,9 +56,11 @@ std::string files(const Scene& scene) {
   return text + "\n";
 }
 
+}  // namespace
+
 ExitCode check(const CheckOptions& options) {
-  const std::string& engine = options.scene.engine();
-  const Scene scene = options.scene.load();
+  const std::string& engine = checked_engine(options.scene);
+  const Scene scene = load(options.scene);
   const std::string start = start_and_engine(scene, engine);
   if (options.resolved) {
     fmt::print("{}", resolved_toml(scene));
@@ -78,16 +72,6 @@ ExitCode check(const CheckOptions& options) {
       "  not here    gravity, loss of energy, friction and spin, walls that move or heat, growing disks, obstacles,\n"
       "              thermostat, shear, attraction: between collisions disks fly straight\n");
   return exit_done;
-}
-
-}  // namespace
-
-void add_check_command(CLI::App& program, Command& chosen) {
-  CLI::App* command = program.add_subcommand("check", "Validate a scene and say what it will simulate");
-  const auto options = std::make_shared<CheckOptions>();
-  options->scene.add_to(*command);
-  command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
-  command->callback([options, &chosen] { chosen = [options] { return check(*options); }; });
 }
 
 }  // namespace carom::cli

@@ -1,14 +1,10 @@
 #pragma once
-// The program's commands. Each registers its options with the parser; the one that the user names puts what it will do
-// into `chosen`, so that nothing runs before the whole command line has been read and found right.
+// The program's commands: what each may be asked, and the function that does it.
 
-#include <functional>
+#include "cli/scene_options.hpp"
+
 #include <stdexcept>
 #include <string>
-
-namespace CLI {
-class App;
-}
 
 namespace carom::cli {
 
@@ -33,11 +29,34 @@ struct Invocation {
   std::string command_line;  ///< all of it, quoted for a shell
 };
 
-using Command = std::function<ExitCode()>;
+struct RunOptions {
+  SceneOptions scene;
+  std::string out;  ///< empty: the scene's name without its ending
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  std::string progress = "auto";
+};
+ExitCode run(const RunOptions& options, const Invocation& invocation);
 
-void add_run_command(CLI::App& program, Command& chosen, const Invocation& invocation);
-void add_check_command(CLI::App& program, Command& chosen);
-void add_init_command(CLI::App& program, Command& chosen, const Invocation& invocation);
-void add_info_command(CLI::App& program, Command& chosen);
+struct CheckOptions {
+  SceneOptions scene;
+  bool resolved = false;
+};
+ExitCode check(const CheckOptions& options);
+
+struct InitOptions {
+  std::string preset = "box";
+  std::string file;  ///< empty: PRESET.toml; "-": standard output
+  bool force = false;
+  bool list = false;
+};
+ExitCode init(const InitOptions& options, const Invocation& invocation);
+
+struct InfoOptions {
+  std::string file;
+};
+ExitCode info(const InfoOptions& options);
 
 }  // namespace carom::cli

@@ -6,25 +6,16 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <CLI/CLI.hpp>
 #include <carom/scene.hpp>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 
 namespace carom::cli {
 
 namespace {
-
-struct InitOptions {
-  std::string preset = "box";
-  std::string file;
-  bool force = false;
-  bool list = false;
-};
 
 void list_presets() {
   std::size_t width = 0;
@@ -46,6 +37,8 @@ void write_file(const std::string& path, const std::string& text, bool force) {
     throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
 }
 
+}  // namespace
+
 ExitCode init(const InitOptions& options, const Invocation& invocation) {
   if (options.list) {
     list_presets();
@@ -64,19 +57,6 @@ ExitCode init(const InitOptions& options, const Invocation& invocation) {
   write_file(path, text, options.force);
   fmt::print("{} is written. Look into it, then: {} run {}\n", path, invocation.program, shell_quoted(path));
   return exit_done;
-}
-
-}  // namespace
-
-void add_init_command(CLI::App& program, Command& chosen, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("init", "Write a commented scene to start from");
-  const auto options = std::make_shared<InitOptions>();
-  command->add_option("preset", options->preset, "Which one (default: box)")->type_name("PRESET");
-  command->add_option("-o,--output", options->file, "The file to write (default: PRESET.toml; - for standard output)")
-      ->type_name("FILE");
-  command->add_flag("--force", options->force, "Replace the file if it exists");
-  command->add_flag("--list", options->list, "List the presets");
-  command->callback([options, &chosen, &invocation] { chosen = [options, &invocation] { return init(*options, invocation); }; });
 }
 
 }  // namespace carom::cli

@@ -5,7 +5,6 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_description.hpp"
-#include "cli/scene_options.hpp"
 #include "cli/signals.hpp"
 #include "cli/terminal_summary.hpp"
 #include "io/provenance.hpp"
@@ -15,34 +14,22 @@
 #include "observe/run_measurements.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <carom/simulation.hpp>
 
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <new>
 
 namespace carom::cli {
 
 namespace {
 
-struct RunOptions {
-  SceneOptions scene;
-  std::string out;
-  bool force = false;
-  bool json = false;
-  bool quiet = false;
-  bool verbose = false;
-  std::string progress = "auto";
-};
-
 using Clock = std::chrono::steady_clock;
 
 std::filesystem::path directory_for(const RunOptions& options) {
   if (!options.out.empty()) return options.out;
-  return std::filesystem::path(options.scene.path()).stem();
+  return std::filesystem::path(options.scene.path).stem();
 }
 
 ProgressMode progress_mode(const RunOptions& options) {
@@ -85,11 +72,11 @@ RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurem
   return run_schedule(simulation, hooks);
 }
 
-ExitCode run(const RunOptions& options, const Invocation& invocation) {
+ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   const Clock::time_point began = Clock::now();
   const ProgressMode progress = progress_mode(options);
-  const std::string& engine = options.scene.engine();
-  const Scene scene = options.scene.load();
+  const std::string& engine = checked_engine(options.scene);
+  const Scene scene = load(options.scene);
   Simulation simulation = make_simulation(scene, engine);
   const Provenance provenance{
       .resolved_scene = resolved_toml(scene), .command_line = invocation.command_line, .engine = simulation.engine()};
@@ -124,31 +111,15 @@ ExitCode run(const RunOptions& options, const Invocation& invocation) {
   }
 }
 
-ExitCode run_within_memory(const RunOptions& options, const Invocation& invocation) {
-  try {
-    return run(options, invocation);
-  } catch (const std::bad_alloc&) {
-    throw std::runtime_error(
-        fmt::format("{}: there is not enough memory for this scene; fewer disks need less", options.scene.path()));
-  }
-}
-
 }  // namespace
 
-void add_run_command(CLI::App& program, Command& chosen, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("run", "Run a scene and write its results");
-  const auto options = std::make_shared<RunOptions>();
-  options->scene.add_to(*command);
-  command->add_option("--out", options->out, "Directory for the results (default: the scene's name without its ending)")
-      ->type_name("DIR");
-  command->add_flag("--force", options->force, "Replace the results that the directory holds");
-  command->add_flag("--json", options->json, "Print summary.json in place of the summary for people");
-  command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
-  command->add_flag("-v,--verbose", options->verbose, "Say on stderr what will be simulated");
-  command->add_option("--progress", options->progress, "A progress line on stderr: auto (on a terminal), always or never")
-      ->type_name("WHEN");
-  command->callback(
-      [options, &chosen, &invocation] { chosen = [options, &invocation] { return run_within_memory(*options, invocation); }; });
+ExitCode run(const RunOptions& options, const Invocation& invocation) {
+  try {
+    return run_scene(options, invocation);
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(
+        fmt::format("{}: there is not enough memory for this scene; fewer disks need less", options.scene.path));
+  }
 }
 
 }  // namespace carom::cli

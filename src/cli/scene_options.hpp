@@ -8,34 +8,25 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace carom::cli {
 
-class SceneOptions {
- public:
-  void add_to(CLI::App& command);
-
-  /// The scene as asked for. Throws SceneError.
-  [[nodiscard]] Scene load() const;
-
-  [[nodiscard]] const std::string& path() const { return path_; }
-
-  /// "auto", or one of engine_names(). Throws UsageError where the user named another.
-  [[nodiscard]] const std::string& engine() const;
-
- private:
-  std::string path_;
-  std::vector<std::string> overrides_;
-  std::optional<std::uint64_t> seed_;
-  std::string engine_ = "auto";
-  bool no_trajectory_ = false;
-  bool xyz_ = false;
-  bool csv_ = false;
-  bool events_ = false;
-  bool unwrapped_ = false;
+struct SceneOptions {
+  std::string path;
+  std::vector<std::string> overrides;  ///< "run.time=2", in the order given
+  std::optional<std::uint64_t> seed;
+  std::string engine = "auto";
+  bool no_trajectory = false;
+  bool xyz = false;
+  bool csv = false;
+  bool events = false;
+  bool unwrapped = false;
 };
+
+/// The scene as asked for: every option beside the path becomes an override, so that a result's resolved scene holds all of
+/// them. Throws SceneError.
+Scene load(const SceneOptions& options);
+
+/// "auto", or one of engine_names(). Throws UsageError where the user named another.
+const std::string& checked_engine(const SceneOptions& options);
 
 }  // namespace carom::cli

@@ -7,6 +7,7 @@
 #include <carom/version.hpp>
 
 #include <sys/wait.h>
+#include <algorithm>
 #include <cstdlib>
 
 namespace carom::test {

@@ -1,0 +1,145 @@
+// The command line, read as a whole before anything is done. The only file that includes the parser, which takes longer to
+// compile than the rest of the program together.
+
+#include "cli/arguments.hpp"
+
+#include "cli/format.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+#include <carom/simulation.hpp>
+#include <carom/version.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+namespace carom::cli {
+
+namespace {
+
+using Action = std::function<ExitCode()>;
+
+std::string version() {
+  const BuildInfo& build = build_info();
+  return fmt::format("carom {} (commit {}; {}; {})", build.version, build.commit, build.compiler, build.flags);
+}
+
+/// The program's name as the user typed it, or where that is a long path, its path from here.
+Invocation invocation_of(int argc, char** argv) {
+  Invocation invocation{.program = argc > 0 ? argv[0] : "carom", .command_line = ""};
+  for (int i = 0; i < argc; ++i) invocation.command_line += (i > 0 ? " " : "") + shell_quoted(argv[i]);
+  if (invocation.program.find('/') != std::string::npos) {
+    std::error_code error;
+    const std::string relative = std::filesystem::proximate(invocation.program, error).string();
+    if (!error && relative.size() < invocation.program.size()) {
+      invocation.program = relative.find('/') == std::string::npos ? "./" + relative : relative;
+    }
+  }
+  invocation.program = shell_quoted(invocation.program);
+  return invocation;
+}
+
+void add_scene_options(CLI::App& command, SceneOptions& scene) {
+  command.add_option("scene", scene.path, "The scene file (TOML)")->required()->type_name("SCENE");
+  command.add_option("--set", scene.overrides, "Override one key of the scene, e.g. --set run.time=2; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--seed", scene.seed, "Seed of the random numbers; the same as --set run.seed=N")->type_name("N");
+  command.add_option("--engine", scene.engine, fmt::format("Force an engine: {}", fmt::join(engine_names(), ", ")))
+      ->type_name("NAME");
+  command.add_flag("--no-trajectory", scene.no_trajectory, "Do not write trajectory.h5md");
+  command.add_flag("--xyz", scene.xyz, "Write trajectory.xyz too");
+  command.add_flag("--csv", scene.csv, "Write samples.csv too");
+  command.add_flag("--events", scene.events, "Keep every collision, in trajectory.h5md");
+  command.add_flag("--unwrapped", scene.unwrapped, "Let positions continue past periodic edges");
+}
+
+void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("run", "Run a scene and write its results");
+  const auto options = std::make_shared<RunOptions>();
+  add_scene_options(*command, options->scene);
+  command->add_option("--out", options->out, "Directory for the results (default: the scene's name without its ending)")
+      ->type_name("DIR");
+  command->add_flag("--force", options->force, "Replace the results that the directory holds");
+  command->add_flag("--json", options->json, "Print summary.json in place of the summary for people");
+  command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
+  command->add_flag("-v,--verbose", options->verbose, "Say on stderr what will be simulated");
+  command->add_option("--progress", options->progress, "A progress line on stderr: auto (on a terminal), always or never")
+      ->type_name("WHEN");
+  command->callback([&action, options, invocation] { action = [options, invocation] { return run(*options, invocation); }; });
+}
+
+void add_check(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("check", "Validate a scene and say what it will simulate");
+  const auto options = std::make_shared<CheckOptions>();
+  add_scene_options(*command, options->scene);
+  command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
+  command->callback([&action, options] { action = [options] { return check(*options); }; });
+}
+
+void add_init(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("init", "Write a commented scene to start from");
+  const auto options = std::make_shared<InitOptions>();
+  command->add_option("preset", options->preset, "Which one (default: box)")->type_name("PRESET");
+  command->add_option("-o,--output", options->file, "The file to write (default: PRESET.toml; - for standard output)")
+      ->type_name("FILE");
+  command->add_flag("--force", options->force, "Replace the file if it exists");
+  command->add_flag("--list", options->list, "List the presets");
+  command->callback([&action, options, invocation] { action = [options, invocation] { return init(*options, invocation); }; });
+}
+
+void add_info(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("info", "Say what a file or a run directory holds");
+  const auto options = std::make_shared<InfoOptions>();
+  command->add_option("file", options->file, "A trajectory, table, summary, scene or run directory")
+      ->required()
+      ->type_name("FILE");
+  command->callback([&action, options] { action = [options] { return info(*options); }; });
+}
+
+/// The parser's own sentence for an unknown command says only that one is missing.
+void require_known_command(const CLI::App& program, const std::string& word) {
+  if (word.starts_with('-')) return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) == names.end()) {
+    throw UsageError(fmt::format("{}: there is no such command; choose one of: {}", word, fmt::join(names, ", ")));
+  }
+}
+
+}  // namespace
+
+Action parse_arguments(int argc, char** argv) {
+  CLI::App program("Carom: event-driven molecular dynamics of hard disks", "carom");
+  const Invocation invocation = invocation_of(argc, argv);
+  Action action;
+  program.set_version_flag("--version", version());
+  program.require_subcommand(1);
+  add_run(program, action, invocation);
+  add_check(program, action);
+  add_init(program, action, invocation);
+  add_info(program, action);
+  if (argc > 1) require_known_command(program, argv[1]);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help or --version
+    std::ostringstream text;
+    program.exit(asked, text, text);
+    return [answer = text.str()] {
+      fmt::print("{}", answer);
+      return exit_done;
+    };
+  } catch (const CLI::ParseError& error) {
+    const std::vector<CLI::App*> named = program.get_subcommands();
+    throw UsageError(fmt::format("{} (carom{} --help says what is possible)", error.what(),
+                                 named.empty() ? "" : " " + named.front()->get_name()));
+  }
+  return action;
+}
+
+}  // namespace carom::cli
