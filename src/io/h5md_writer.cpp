@@ -3,7 +3,6 @@
 #include "io/h5md_writer.hpp"
 
 #include "io/h5md_parameters.hpp"
-#include "io/output_error.hpp"
 
 #include <fmt/format.h>
 

@@ -5,6 +5,7 @@
 #include "io/event_log.hpp"
 #include "io/h5md_frames.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/output_error.hpp"
 #include "io/provenance.hpp"
 
 #include <carom/scene.hpp>

@@ -104,15 +104,14 @@ std::string describe_csv(const std::filesystem::path& path) {
   Tally tally;
   std::uint64_t disks = 0;
   std::uint64_t rows = 0;  // of the sample being read
-  std::string_view time_text;
-  std::string current;
+  double current = 0.0;    // its time
   bool torn = false;
   std::uint64_t number = 1;
   const auto end_sample = [&] {
     if (rows == 0) return;
     if (tally.samples == 0) disks = rows;
     torn = torn || rows != disks;
-    if (!torn) tally.add(*leading_number<double>(current));
+    if (!torn) tally.add(current);
     rows = 0;
   };
   while (std::getline(file, line)) {
@@ -121,14 +120,15 @@ std::string describe_csv(const std::filesystem::path& path) {
       torn = true;
       break;
     }
-    time_text = std::string_view(line).substr(0, line.find(','));
-    if (std::count(line.begin(), line.end(), ',') != 5 || !leading_number<double>(time_text))
+    const std::size_t comma = line.find(',');
+    const auto time = leading_number<double>(std::string_view(line).substr(0, comma));
+    const auto id =
+        comma == std::string::npos ? std::nullopt : leading_number<std::uint64_t>(std::string_view(line).substr(comma + 1));
+    if (!time || !id || std::count(line.begin(), line.end(), ',') != 5)
       throw OutputError(fmt::format("{}:{}: this line has not six numbers, as every line of samples has; the file is damaged",
                                     path.string(), number));
-    if (time_text != current) {
-      end_sample();
-      current = time_text;
-    }
+    if (*id == 0) end_sample();
+    current = *time;
     ++rows;
   }
   end_sample();

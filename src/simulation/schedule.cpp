@@ -163,7 +163,8 @@ std::uint64_t last_sample(const Run& run) {
   const double nearest = std::nearbyint(ratio);
   // Both numbers were decimal fractions once: each is off by half an ulp at most, and so is the quotient.
   const bool multiple = std::abs(ratio - nearest) <= 2.0 * std::numeric_limits<double>::epsilon() * ratio;
-  return static_cast<std::uint64_t>(multiple ? nearest : std::floor(ratio));
+  constexpr double most = 9007199254740992.0;  // 2^53, from where k is no longer exact; no run gets there
+  return static_cast<std::uint64_t>(std::min(multiple ? nearest : std::floor(ratio), most));
 }
 
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {

@@ -41,6 +41,26 @@ void require_positive(const Species& species, double value, const char* what) {
     throw SceneError(species.where, fmt::format("the {} of a disk is {:g}; it must be positive and finite", what, value));
 }
 
+/// A disk that just fits between two walls would bounce without end at one instant.
+void require_room_to_move(const Scene& scene, const Start& start) {
+  for (std::size_t i = 0; i < start.disks.count(); ++i) {
+    const Species& species = scene.species[static_cast<std::size_t>(start.disks.species[i])];
+    const Eigen::Vector2d velocity = start.state.velocities.col(static_cast<Eigen::Index>(i));
+    if (!velocity.allFinite())
+      throw SceneError(species.velocities_where, fmt::format("the velocity of disk {} is not finite; give a number", i));
+    for (int a = 0; a < 2; ++a) {
+      const double diameter = 2.0 * start.disks.radius[i];
+      if (scene.box.periodic(a) || velocity[a] == 0.0 || scene.box.lengths()[a] > diameter * (1.0 + 1e-12)) continue;
+      throw SceneError(
+          species.velocities_where,
+          fmt::format(
+              "disk {} of diameter {:g} fills the box from wall to wall in {} and cannot move that way; give it more room, or no "
+              "velocity there",
+              i, diameter, a == 0 ? "x" : "y"));
+    }
+  }
+}
+
 }  // namespace
 
 Start draw_start(const Scene& scene) {
@@ -58,6 +78,7 @@ Start draw_start(const Scene& scene) {
   }
   start.state.positions = draw_positions(scene, start.disks);
   start.state.velocities = draw_velocities(scene, start.disks);
+  require_room_to_move(scene, start);
   start.state.images = Images::Zero(2, start.state.positions.cols());
   return start;
 }

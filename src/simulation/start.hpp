@@ -12,15 +12,15 @@ struct Start {
 };
 
 /// Draws positions and velocities; the same scene and seed give the same bits.
-/// Throws SceneError where disks cannot be placed, overlap by more than 1e-9 of their contact distance, or stick out of
-/// the box by more than that.
+/// Throws SceneError where disks cannot be placed, overlap by more than 1e-9 of their contact distance, stick out of the
+/// box by more than that, or move across a gap that they fill; and where a species that a program made is incomplete.
 Start draw_start(const Scene& scene);
 
 /// Column i of `positions` for every disk of every species, in the order of ids. Throws as draw_start.
 Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks);
 
-/// The same for velocities. On axes that conserve momentum (periodic in both) the total momentum of what was drawn is
-/// removed and temperatures are then met exactly, unless the scene keeps momentum.
+/// The same for velocities. Where both axes are periodic and no velocity is given one by one, the total momentum is removed;
+/// temperatures are met exactly. Neither is done where the scene keeps momentum.
 Eigen::Matrix2Xd draw_velocities(const Scene& scene, const Disks& disks);
 
 /// `count` sites of a lattice that fills the box, evenly thinned where the lattice has more. `diameter` is the room that

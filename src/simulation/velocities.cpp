@@ -24,6 +24,8 @@ template <class... Fs>
 struct Overloaded : Fs... {
   using Fs::operator()...;
 };
+template <class... Fs>
+Overloaded(Fs...) -> Overloaded<Fs...>;
 
 /// Each disk draws from its own stream: its velocity does not depend on which other disks there are.
 Eigen::Vector2d draw(const Velocities& asked, double mass, std::size_t index, RandomStream random) {

@@ -5,9 +5,9 @@
 #include "observe/run_report.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdint>

@@ -75,7 +75,8 @@ TEST_P(RunDirectoryWithResults, IsRefusedAndUntouchedWithoutForce) {
   const TemporaryDirectory temporary;
   write_file(temporary.path() / GetParam(), "old");
   const std::string message = message_of([&] { const RunDirectory directory(temporary.path(), false); });
-  EXPECT_THAT(message, AllOf(HasSubstr(temporary.path().string()), HasSubstr(GetParam()), HasSubstr("--force"), HasSubstr("--out")));
+  EXPECT_THAT(message,
+              AllOf(HasSubstr(temporary.path().string()), HasSubstr(GetParam()), HasSubstr("--force"), HasSubstr("--out")));
   EXPECT_EQ(content_of(temporary.path() / GetParam()), "old");
 }
 
@@ -139,7 +140,8 @@ TEST(RunDirectory, AReadOnlyDirectoryIsRefused) {
   const TemporaryDirectory temporary;
   fs::permissions(temporary.path(), fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_THAT(message_of([&] { const RunDirectory directory(temporary.path(), false); }), HasSubstr("Permission denied"));
-  EXPECT_THAT(message_of([&] { const RunDirectory directory(temporary.path() / "a" / "b", false); }), HasSubstr("Permission denied"));
+  EXPECT_THAT(message_of([&] { const RunDirectory directory(temporary.path() / "a" / "b", false); }),
+              HasSubstr("Permission denied"));
   fs::permissions(temporary.path(), fs::perms::owner_all);
 }
 
@@ -159,7 +161,8 @@ TEST(RunDirectory, PublishingGivesTheFileItsName) {
 TEST(RunDirectory, PublishingWhatIsMissingNamesIt) {
   const TemporaryDirectory temporary;
   const RunDirectory directory(temporary.path(), false);
-  EXPECT_THAT(message_of([&] { directory.publish("samples.csv"); }), AllOf(HasSubstr("samples.csv.partial"), HasSubstr("No such file")));
+  EXPECT_THAT(message_of([&] { directory.publish("samples.csv"); }),
+              AllOf(HasSubstr("samples.csv.partial"), HasSubstr("No such file")));
 }
 
 }  // namespace

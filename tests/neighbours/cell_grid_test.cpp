@@ -52,7 +52,7 @@ Drawn draw() {
     if (drawn.box.periodic(a)) longest = std::min(longest, lengths[a]);  // no disk touches its own image
   }
   drawn.reach = longest * *rc::gen::element(0.999, 0.6, 0.45, 0.34, 0.3, 0.2, 0.05, 0.01);
-  const auto count = *rc::gen::inRange(1, 16);
+  const auto count = *rc::gen::element(1, 2, 4, 8, 16);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::normal_distribution<double> normal;
   for (int i = 0; i < count; ++i) {

@@ -1,0 +1,67 @@
+// Every example scene on every engine of the catalogue: the same events in the same order for as long as rounding lets
+// two precisions agree, and the same physics after.
+
+#include "support/scene_files.hpp"
+
+#include <carom/simulation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::test {
+namespace {
+
+/// Errors grow by e for every Lyapunov time: at most 3.2 times per collision of each disk (dilute gas). After two
+/// collisions per disk, 1e-16 has become less than 1e-12, to be compared with gaps between events of some 1 / events.
+constexpr double collisions_per_disk = 2.0;
+
+std::vector<Event> first_events(const Scene& scene, const std::string& engine, std::size_t count) {
+  Simulation simulation = make_simulation(scene, engine);
+  simulation.record_events(true);
+  std::vector<Event> events;
+  RunHooks hooks;
+  hooks.events = [&](std::span<const Event> more) { events.insert(events.end(), more.begin(), more.end()); };
+  hooks.proceed = [&](const Progress&) { return events.size() < count; };
+  run_schedule(simulation, hooks);
+  events.resize(std::min(count, events.size()));
+  return events;
+}
+
+class EnginesScene : public testing::TestWithParam<std::string> {};
+
+TEST_P(EnginesScene, GivesTheSameEventsAtHigherPrecision) {
+  Scene scene = load_scene(example_path(GetParam()));
+  scene.run.equilibrate.reset();  // from the start itself, before chaos has had its way
+  scene.run.sample_every.reset();
+  const auto count = static_cast<std::uint64_t>(std::ceil(collisions_per_disk / 2.0 * static_cast<double>(scene.disk_count())));
+  scene.run.collisions = std::min(count, scene.run.collisions.value_or(count));
+  const std::vector<Event> events = first_events(scene, "textbook", 1'000'000);
+  ASSERT_FALSE(events.empty());
+  for (const char* engine : {"textbook-long-double", "textbook-quad"}) {
+    const std::vector<Event> precise = first_events(scene, engine, 1'000'000);
+    ASSERT_EQ(precise.size(), events.size()) << engine;
+    for (std::size_t k = 0; k < events.size(); ++k) {
+      ASSERT_EQ(precise[k].disk, events[k].disk) << engine << ", event " << k;
+      ASSERT_EQ(precise[k].partner, events[k].partner) << engine << ", event " << k;
+      ASSERT_NEAR(precise[k].time, events[k].time, 1e-9 * std::max(1.0, events[k].time)) << engine << ", event " << k;
+    }
+  }
+}
+
+TEST_P(EnginesScene, RunsInSinglePrecisionWithoutOverlapBeyondItsRounding) {
+  Scene scene = load_scene(example_path(GetParam()));
+  scene.run.sample_every.reset();
+  scene.run.equilibrate.reset();
+  scene.run.collisions = std::min<std::uint64_t>(20'000, scene.run.collisions.value_or(20'000));
+  Simulation simulation = make_simulation(scene, "textbook-float");
+  run_schedule(simulation);
+  EXPECT_TRUE(simulation.state().positions.allFinite());
+  EXPECT_TRUE(simulation.check_invariants().empty()) << simulation.check_invariants().front();
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EnginesScene, testing::ValuesIn(example_scenes()), [](const auto& scene) { return scene.param; });
+
+}  // namespace
+}  // namespace carom::test

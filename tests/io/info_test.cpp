@@ -1,0 +1,165 @@
+// carom info: what it says of every kind of file, and of files that are broken or foreign.
+
+#include "io/info.hpp"
+
+#include "io/hand_made_run.hpp"
+#include "io/run_writer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <sys/stat.h>
+
+namespace carom::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string refusal(const fs::path& path) {
+  try {
+    return "no error, but: " + describe_file(path);
+  } catch (const OutputError& error) {
+    return error.what();
+  }
+}
+
+class Info : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { H5dont_atexit(); }  // see describe_h5md: the fixture uses HDF5 first
+  void SetUp() override {
+    scene_.output = {.trajectory = true, .xyz = true, .csv = true, .events = true};
+    RunWriter writer(RunDirectory(out_, false), scene_, disks_of(scene_), provenance());
+    for (std::uint64_t k = 0; k < 6; ++k) writer.sample(k, state_at(k, scene_));
+    writer.events(events_up_to(9));
+    writer.finish(report_of(scene_));
+  }
+  /// A copy that ends after `bytes` (or, where negative, so many bytes before the end).
+  fs::path cut(const std::string& name, std::ptrdiff_t bytes) {
+    const std::string whole = content_of(out_ / name);
+    const auto size = static_cast<std::size_t>(bytes >= 0 ? bytes : static_cast<std::ptrdiff_t>(whole.size()) + bytes);
+    write_file(temporary_.path() / name, whole.substr(0, size));
+    return temporary_.path() / name;
+  }
+
+  TemporaryDirectory temporary_;
+  fs::path out_ = temporary_.path() / "out";
+  Scene scene_ = scene_of(3, 2);
+};
+
+TEST_F(Info, DescribesATrajectory) {
+  const std::string text = describe_file(out_ / "trajectory.h5md");
+  EXPECT_THAT(text, AllOf(HasSubstr("trajectory, H5MD 1.1"), HasSubstr("carom "),
+                          HasSubstr("Hand-made: größer & kleiner (hand_made.toml)"), HasSubstr("18446744073709551615"),
+                          HasSubstr("5: 3 large, 2 small"), HasSubstr("by hand")));
+  EXPECT_THAT(text, AllOf(HasSubstr("4 x 2.5 from (-1, 10); x periodic, y walls"), HasSubstr("6, from time 0 to 0.5, every 0.1"),
+                          HasSubstr("9 collisions in /events"), HasSubstr("size")));
+}
+
+TEST_F(Info, DescribesExtendedXyz) {
+  EXPECT_THAT(describe_file(out_ / "trajectory.xyz"),
+              AllOf(HasSubstr("extended XYZ"), HasSubstr("4 0 0 0 2.5 0 0 0 0.06 from (-1 10 -0.03)"), HasSubstr("T F F"),
+                    HasSubstr("6, from time 0 to 0.5"), HasSubstr("disks       5\n")));
+}
+
+TEST_F(Info, DescribesATableOfSamples) {
+  EXPECT_THAT(describe_file(out_ / "samples.csv"),
+              AllOf(HasSubstr("table of samples"), HasSubstr("6, from time 0 to 0.5"), HasSubstr("disks       5\n")));
+}
+
+TEST_F(Info, DescribesASummary) {
+  EXPECT_THAT(describe_file(out_ / "summary.json"), AllOf(HasSubstr("summary of a run"), HasSubstr("hand_made.toml"),
+                                                          HasSubstr("1000 pair, 20 wall"), HasSubstr("stopped by time")));
+}
+
+TEST_F(Info, DescribesARunDirectoryFileByFile) {
+  EXPECT_THAT(describe_file(out_), AllOf(HasSubstr("trajectory.h5md: "), HasSubstr("trajectory.xyz: "),
+                                         HasSubstr("samples.csv: "), HasSubstr("summary.json: ")));
+}
+
+TEST_F(Info, DescribesAScene) {
+  EXPECT_THAT(describe_file(fs::path(CAROM_SOURCE_DIR) / "docs/scenes/box.toml"),
+              AllOf(HasSubstr("a scene for Carom, Disks in a square box"), HasSubstr("64 gas"), HasSubstr("reversal")));
+}
+
+TEST_F(Info, SaysOfAPartialFileThatItIsIncomplete) {
+  fs::rename(out_ / "trajectory.h5md", out_ / "trajectory.h5md.partial");
+  EXPECT_THAT(describe_file(out_ / "trajectory.h5md.partial"), AllOf(HasSubstr("6, from time"), HasSubstr("incomplete")));
+  fs::rename(out_ / "samples.csv", out_ / "samples.csv.partial");
+  EXPECT_THAT(describe_file(out_), HasSubstr("samples.csv.partial: table of samples"));
+}
+
+TEST_F(Info, CountsOnlyWholeSamplesOfATextThatIsCutShort) {
+  EXPECT_THAT(describe_file(cut("trajectory.xyz", -5)), AllOf(HasSubstr("5, from time 0 to 0.4\n"), HasSubstr("cut short")));
+  EXPECT_THAT(describe_file(cut("samples.csv", -5)), AllOf(HasSubstr("5, from time 0 to 0.4\n"), HasSubstr("cut short")));
+  EXPECT_THAT(refusal(cut("trajectory.xyz", 60)), HasSubstr("not hold one whole sample"));
+  EXPECT_THAT(describe_file(cut("samples.csv", 18)), HasSubstr("samples     none"));
+}
+
+TEST_F(Info, EveryTruncationOfATrajectoryIsASentenceOrADescription) {
+  const auto size = static_cast<std::ptrdiff_t>(fs::file_size(out_ / "trajectory.h5md"));
+  for (std::ptrdiff_t bytes = 1; bytes < size; bytes += 1 + size / 97)
+    EXPECT_THAT(refusal(cut("trajectory.h5md", bytes)), HasSubstr("trajectory.h5md: ")) << bytes;
+  EXPECT_THAT(refusal(cut("trajectory.h5md", size / 2)), AllOf(HasSubstr("cannot open this file"), HasSubstr("cut short")));
+}
+
+TEST_F(Info, ATrajectoryWithFlippedBytesIsNoCrash) {
+  const std::string whole = content_of(out_ / "trajectory.h5md");
+  for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 101) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x5a);
+    const fs::path path = temporary_.path() / "damaged.h5md";
+    write_file(path, damaged);
+    EXPECT_THAT(refusal(path), HasSubstr("damaged.h5md: ")) << at;
+  }
+}
+
+TEST_F(Info, EmptyFilesAreNamedAsEmpty) {
+  for (const char* name : {"t.h5md", "t.xyz", "t.csv", "t.json", "t.toml", "t"}) {
+    write_file(temporary_.path() / name, "");
+    EXPECT_THAT(refusal(temporary_.path() / name), AllOf(HasSubstr(name), HasSubstr("empty")));
+  }
+}
+
+TEST_F(Info, ForeignFilesAreNamedAsSuch) {
+  const fs::path directory = temporary_.path();
+  write_file(directory / "t.h5md", "not HDF5 at all");
+  EXPECT_THAT(refusal(directory / "t.h5md"), HasSubstr("no HDF5 file"));
+  write_file(directory / "t.xyz", "3\ncomment\nC 0 0 0\nC 0 0 0\nC 0 0 0\n");
+  EXPECT_THAT(refusal(directory / "t.xyz"), HasSubstr("not extended XYZ as Carom writes it"));
+  write_file(directory / "t.csv", "a,b\n1,2\n");
+  EXPECT_THAT(refusal(directory / "t.csv"), HasSubstr("time,id,x,y,vx,vy"));
+  write_file(directory / "t.json", "{\"some\": 1}");
+  EXPECT_THAT(refusal(directory / "t.json"), HasSubstr("not the summary of a run"));
+  write_file(directory / "t.json", "{\"carom\": ");
+  EXPECT_THAT(refusal(directory / "t.json"), HasSubstr("not whole JSON"));
+  write_file(directory / "t.json", "{\"carom\": 3}");
+  EXPECT_THAT(refusal(directory / "t.json"), HasSubstr("not the summary of a run"));
+  write_file(directory / "t.png", "\x89PNG");
+  EXPECT_THAT(refusal(directory / "t.png"), HasSubstr("does not know this kind of file"));
+
+  const hid_t file = H5Fcreate((directory / "foreign.h5md").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  H5Fclose(file);
+  EXPECT_THAT(refusal(directory / "foreign.h5md"), HasSubstr("Carom did not write"));
+}
+
+TEST_F(Info, GarbageInAnyTextIsASentence) {
+  std::string garbage;
+  for (int i = 0; i < 100'000; ++i) garbage += static_cast<char>((i * 7919 + i / 13) % 256);
+  for (const char* name : {"t.h5md", "t.xyz", "t.csv", "t.json"}) {
+    write_file(temporary_.path() / name, garbage);
+    EXPECT_THAT(refusal(temporary_.path() / name), HasSubstr(name));
+  }
+}
+
+TEST_F(Info, MissingFilesOtherDirectoriesAndPipesAreRefused) {
+  EXPECT_THAT(refusal(temporary_.path() / "missing"), HasSubstr("No such file"));
+  fs::create_directory(temporary_.path() / "other");
+  EXPECT_THAT(refusal(temporary_.path() / "other"), HasSubstr("holds no results"));
+  ASSERT_EQ(::mkfifo((temporary_.path() / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(refusal(temporary_.path() / "pipe"), HasSubstr("neither a file nor a directory"));
+}
+
+}  // namespace
+}  // namespace carom::test

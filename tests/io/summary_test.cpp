@@ -1,0 +1,94 @@
+// summary.json against the scene format.
+
+#include "io/summary.hpp"
+
+#include "io/hand_made_run.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <carom/version.hpp>
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+namespace carom::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using ::testing::ElementsAre;
+
+std::vector<std::string> keys_of(const Json& object) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.push_back(key);
+  return keys;
+}
+
+Json summary_of(const RunReport& report) { return Json::parse(summary_json(report, provenance())); }
+
+TEST(Summary, HasTheKeysOfTheSceneFormatInItsOrderAndThenItsOwn) {
+  const Json json = summary_of(report_of(scene_of(2, 2)));
+  EXPECT_THAT(keys_of(json),
+              ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time", "samples", "events",
+                          "wall_seconds", "collisions_per_second", "energy", "momentum", "temperature", "pressure", "overlap",
+                          "stopped", "title", "loop_seconds", "virial", "wall_impulse", "command_line"));
+  EXPECT_THAT(keys_of(json["carom"]), ElementsAre("version", "commit", "compiler", "flags"));
+  EXPECT_THAT(keys_of(json["events"]), ElementsAre("pair", "wall", "other", "stale", "total"));
+  EXPECT_THAT(keys_of(json["energy"]), ElementsAre("initial", "final", "relative_drift"));
+  EXPECT_THAT(keys_of(json["momentum"]), ElementsAre("initial", "final"));
+  EXPECT_THAT(keys_of(json["temperature"]), ElementsAre("mean"));
+  EXPECT_THAT(keys_of(json["pressure"]), ElementsAre("Z", "Z_error", "reduced"));
+  EXPECT_THAT(keys_of(json["overlap"]), ElementsAre("max_relative", "checked"));
+}
+
+TEST(Summary, CarriesTheNumbersOfTheReport) {
+  const Json json = summary_of(report_of(scene_of(2, 2)));
+  EXPECT_EQ(json["carom"]["version"], build_info().version);
+  EXPECT_EQ(json["scene"], "hand_made.toml");
+  EXPECT_EQ(json["seed"].get<std::uint64_t>(), std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(json["effects"], Json::array({"periodic", "walls", "specular"}));
+  EXPECT_EQ(json["disks"], 4);
+  EXPECT_EQ(json["samples"], 51);
+  EXPECT_EQ(json["events"], (Json{{"pair", 1000}, {"wall", 20}, {"other", 300}, {"stale", 4}, {"total", 1324}}));
+  EXPECT_EQ(json["collisions_per_second"], 2000.0);  // 1000 pair collisions in half a second of the loop
+  EXPECT_EQ(json["energy"]["relative_drift"], 0.015625);
+  EXPECT_EQ(json["momentum"]["final"], Json::array({0.75, 0.125}));
+  EXPECT_EQ(json["pressure"]["Z"], 2.5);
+  EXPECT_EQ(json["overlap"]["max_relative"], 1e-13);
+  EXPECT_EQ(json["stopped"], "time");
+  EXPECT_EQ(json["wall_impulse"]["bottom"], 3.0);
+  EXPECT_EQ(json["title"], "Hand-made: größer & kleiner");
+}
+
+TEST(Summary, WhatHasNoMeaningOrIsNotFiniteIsNull) {
+  RunReport report = report_of(scene_of(2, 2));
+  report.Z.reset();
+  report.Z_error = std::numeric_limits<double>::quiet_NaN();
+  report.reduced_pressure = std::numeric_limits<double>::infinity();
+  report.loop_seconds = 0.0;
+  report.momentum_final.x() = std::numeric_limits<double>::quiet_NaN();
+  const Json json = summary_of(report);
+  EXPECT_TRUE(json["pressure"]["Z"].is_null());
+  EXPECT_TRUE(json["pressure"]["Z_error"].is_null());
+  EXPECT_TRUE(json["pressure"]["reduced"].is_null());
+  EXPECT_TRUE(json["collisions_per_second"].is_null());
+  EXPECT_EQ(json["momentum"]["final"], Json::array({nullptr, 0.125}));
+}
+
+TEST(Summary, EveryDoubleReadsBackExactly) {
+  RunReport report = report_of(scene_of(2, 2));
+  report.energy_initial = 0.1 + 0.2;
+  report.energy_final = 1.0 / 3.0;
+  const Json json = summary_of(report);
+  EXPECT_EQ(json["energy"]["initial"].get<double>(), 0.1 + 0.2);
+  EXPECT_EQ(json["energy"]["final"].get<double>(), 1.0 / 3.0);
+}
+
+TEST(Summary, NamesThatAreNotUtf8DoNotBreakIt) {
+  RunReport report = report_of(scene_of(2, 2));
+  report.scene = "sc\xe8ne.toml";
+  EXPECT_EQ(summary_of(report)["scene"], "sc\xef\xbf\xbdne.toml");
+}
+
+}  // namespace
+}  // namespace carom::test
