@@ -14,11 +14,11 @@ namespace carom::cli {
 namespace {
 
 template <class... Cases>
-struct overloaded : Cases... {
+struct Overloaded : Cases... {
   using Cases::operator()...;
 };
 template <class... Cases>
-overloaded(Cases...) -> overloaded<Cases...>;
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 std::string value_or_range(double same, const std::vector<double>& each) {
   if (each.empty()) return fmt::format("{:.6g}", same);
@@ -27,7 +27,7 @@ std::string value_or_range(double same, const std::vector<double>& each) {
 }
 
 std::string words(const Positions& positions) {
-  return std::visit(overloaded{[](const RandomPositions&) { return std::string("at random places"); },
+  return std::visit(Overloaded{[](const RandomPositions&) { return std::string("at random places"); },
                                [](const SquareLattice&) { return std::string("on a square lattice"); },
                                [](const HexagonalLattice&) { return std::string("on a hexagonal lattice"); },
                                [](const ListedPositions&) { return std::string("at the places listed"); },
@@ -37,7 +37,7 @@ std::string words(const Positions& positions) {
 
 std::string words(const Velocities& velocities) {
   return std::visit(
-      overloaded{[](const AtRest&) { return std::string("at rest"); },
+      Overloaded{[](const AtRest&) { return std::string("at rest"); },
                  [](const UniformVelocities& v) { return fmt::format("velocities uniform in [-{0:.6g}, {0:.6g}]", v.maximum); },
                  [](const MaxwellVelocities& v) { return fmt::format("Maxwell velocities at kT = {:.6g}", v.temperature); },
                  [](const FixedSpeed& v) { return fmt::format("all at speed {:.6g}", v.speed); },
