@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Draws the figures of the docs from runs of Carom.
+
+    docs/images/draw.py path/to/carom
+
+Needs python3-h5py, python3-numpy and python3-matplotlib. Writes box.svg and equation_of_state.svg (and its table) beside
+this file.
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import matplotlib
+import numpy as np
+
+matplotlib.use("svg")
+matplotlib.rcParams["svg.hashsalt"] = "carom"
+import matplotlib.pyplot as plt
+from matplotlib.collections import EllipseCollection, LineCollection
+
+here = pathlib.Path(__file__).resolve().parent
+scenes = here.parent / "scenes"
+carom = str(pathlib.Path(sys.argv[1]).resolve())
+
+
+def run(scene, out, *overrides):
+    """The summary of a run of a scene."""
+    arguments = [carom, "run", str(scene), "--out", str(out), "--json", "--progress", "never"]
+    for override in overrides:
+        arguments += ["--set", override]
+    return json.loads(subprocess.run(arguments, check=True, capture_output=True, text=True).stdout)
+
+
+def draw_box(directory):
+    run(scenes / "box.toml", directory / "box", "run.time=1.0")
+    with h5py.File(directory / "box" / "trajectory.h5md") as file:
+        particles = file["particles/trajectory"]
+        position = particles["position/value"][-400:, :, :2]
+        speed = np.linalg.norm(particles["velocity/value"][-1, :, :2], axis=1)
+        radius = particles["radius"][:]
+    figure, axes = plt.subplots(figsize=(4.2, 4.2))
+    axes.set(xlim=(-1, 1), ylim=(-1, 1), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
+    colour = plt.cm.viridis(speed / speed.max())
+    trails = position[:, :, :].transpose(1, 0, 2)[:, ::10]
+    axes.add_collection(LineCollection(trails, colors=colour, linewidths=1.2, alpha=0.55))
+    axes.add_collection(EllipseCollection(2 * radius, 2 * radius, 0, units="x", offsets=position[-1], transOffset=axes.transData,
+                                          facecolors=colour, edgecolors="black", linewidths=0.4))
+    figure.tight_layout()
+    figure.savefig(here / "box.svg", metadata={"Date": None})
+
+
+def kolafa_rottner(eta):
+    x = eta / (1 - eta)
+    a = [1, 2, 1.12801775, 0.00181895291, -0.0526134737, 0.0504960168, -0.0325537792, 0.0134578632, 0.00140888182, -0.00834273601,
+         0.00694127367, -0.00262254723, 0.000355746352]
+    return sum(c * x**i for i, c in enumerate(a)) - 5.24672938e-9 * x**22 + 5.88054639e-23 * x**57
+
+
+def finite_size(eta, disks):
+    """First order in 1/N for a periodic box at total momentum zero."""
+    h = 1e-4
+    z, up, down = (kolafa_rottner(e) for e in (eta, eta + h, eta - h))
+    z1, z2 = (up - down) / (2 * h), (up - 2 * z + down) / h**2
+    return z - eta / (2 * disks) * (2 * z1 + eta * z2) / (z + eta * z1)
+
+
+def draw_equation_of_state(directory):
+    disks = 256
+    etas = np.array([0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.55, 0.6])
+    rows = []
+    for rule in ("specular", "reversal"):
+        for eta in etas:
+            summary = run(here / "equation_of_state.toml", directory / f"{rule}-{eta}", f"disks.0.packing_fraction={eta}", f"collision.rule={rule}")
+            rows.append((rule, eta, summary["pressure"]["Z"], summary["pressure"]["Z_error"], finite_size(eta, disks)))
+    print("| rule | η | Z, measured | Z, Kolafa & Rottner at N = 256 | difference / error |\n|---|---|---|---|---|")
+    for rule, eta, z, error, theory in rows:
+        print(f"| {rule} | {eta:.2f} | {z:.5f} ± {error:.5f} | {theory:.5f} | {(z - theory) / error:+.1f} |")
+
+    figure, (top, bottom) = plt.subplots(2, 1, figsize=(5.2, 4.6), sharex=True, height_ratios=[3, 2])
+    line = np.linspace(0, 0.63, 200)
+    top.plot(line, kolafa_rottner(line), color="0.4", label="Kolafa & Rottner 2006")
+    for rule, marker in (("specular", "o"), ("reversal", "x")):
+        mine = [r for r in rows if r[0] == rule]
+        eta, z, error, theory = (np.array([r[k] for r in mine]) for k in (1, 2, 3, 4))
+        top.plot(eta, z, marker, label=f"Carom, {rule}", fillstyle="none")
+        bottom.errorbar(eta, 100 * (z / theory - 1), 100 * error / theory, fmt=marker, fillstyle="none", capsize=2)
+    top.set_ylabel("Z = PA/NkT")
+    top.legend(frameon=False)
+    bottom.axhline(0, color="0.4")
+    bottom.set(xlabel="packing fraction η", ylabel="deviation, %")
+    figure.tight_layout()
+    figure.savefig(here / "equation_of_state.svg", metadata={"Date": None})
+
+
+with tempfile.TemporaryDirectory() as temporary:
+    draw_box(pathlib.Path(temporary))
+    draw_equation_of_state(pathlib.Path(temporary))
