@@ -39,7 +39,7 @@ struct ListedPositions {
   std::vector<Eigen::Vector2d> values;
 };
 struct FilePositions {
-  std::string path;  ///< as the scene writes it; relative paths are relative to the scene file
+  std::string path;  ///< absolute; a scene's relative path is relative to the scene file
   std::vector<Eigen::Vector2d> values;
 };
 using Positions = std::variant<RandomPositions, SquareLattice, HexagonalLattice, ListedPositions, FilePositions>;

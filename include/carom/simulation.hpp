@@ -50,7 +50,7 @@ class Simulation {
   [[nodiscard]] State state() const;
 
   /// Processes every event up to and including `time`. Requires time >= this->time(); an earlier time does nothing.
-  /// The bits of the trajectory do not depend on where one stops. Stops early, at the collision itself, when
+  /// Throws std::invalid_argument where time is not finite. The bits of the trajectory do not depend on where one stops. Stops early, at the collision itself, when
   /// totals().pair reaches `collision_limit`.
   StopReason run_until(double time, std::uint64_t collision_limit = std::numeric_limits<std::uint64_t>::max());
 
@@ -113,6 +113,7 @@ struct RunResult {
 };
 
 /// Runs the scene's whole schedule: equilibrate, reset the clock, then sample until time or collisions are reached.
+/// Requires a simulation at time 0, as make_simulation returns it. Ends with event recording off.
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks = {});
 
 }  // namespace carom

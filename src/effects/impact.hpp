@@ -24,17 +24,17 @@ struct ImpactResult {
 
 namespace detail {
 
-/// Makes a pair recede that rounding has left approaching by less than its velocities can resolve. Changes velocities
-/// by an ulp or so, energy by less than its own rounding. Without it a grazing pair could collide for ever at one
-/// instant.
+/// Makes a pair recede that rounding has left approaching by less than its velocities can resolve: equal and opposite
+/// impulses that change velocities by an ulp or so, and energy by less than its own rounding. Without it a grazing pair
+/// could collide for ever at one instant.
 template <class Real>
-void recede(const Vec2<Real>& r, Vec2<Real>& v_i, Vec2<Real>& v_j) {
+void recede(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j) {
   using std::sqrt;
-  const Vec2<Real> n = r / sqrt(r.squaredNorm());
   const Real speed = sqrt(v_i.squaredNorm()) + sqrt(v_j.squaredNorm());
+  const Vec2<Real> n = (speed / sqrt(r.squaredNorm())) * r;
   for (Real push = epsilon<Real>; r.dot(v_i - v_j) < 0; push *= 2) {
-    v_i += (push * speed) * n;
-    v_j -= (push * speed) * n;
+    v_i += (push * m_j / (m_i + m_j)) * n;
+    v_j -= (push * m_i / (m_i + m_j)) * n;
   }
 }
 
@@ -59,7 +59,7 @@ ImpactResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real 
   const Vec2<Real> light = 2 * d - heavy;
   v_i -= m_i < m_j ? light : heavy;
   v_j += m_i < m_j ? heavy : light;
-  if (r.dot(v_i - v_j) < 0) detail::recede(r, v_i, v_j);
+  if (r.dot(v_i - v_j) < 0) detail::recede(r, m_i, v_i, m_j, v_j);
   return {virial};
 }
 

@@ -146,12 +146,20 @@ class TextbookEngine {
   void consider(std::int32_t i, std::int32_t j, const Winding& shift) {
     Plan& mine = plan(i);
     const Real time = pair_time(record(i), record(j), shift);
-    if (time < mine.pair_time || (time == mine.pair_time && j < mine.partner)) {
+    if (time < mine.pair_time || (time == mine.pair_time && wins_tie(i, j, shift))) {
       mine.pair_time = time;
       mine.partner = j;
       mine.partner_collisions = record(j).collisions;
       mine.shift = shift;
     }
+  }
+
+  /// Ties: the lower partner, and of one partner's images that which the lower disk of the two sees first from the left.
+  [[nodiscard]] bool wins_tie(std::int32_t i, std::int32_t j, const Winding& shift) const {
+    const Plan& planned = plan(i);
+    if (j != planned.partner) return j < planned.partner;
+    const Winding difference = (i < j ? 1 : -1) * (shift - planned.shift);
+    return difference[0] != 0 ? difference[0] < 0 : difference[1] < 0;
   }
 
   /// The earliest of a disk's three plans. Disks with nothing ahead of them wait for ever.

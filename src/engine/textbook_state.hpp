@@ -37,6 +37,11 @@ State TextbookEngine<Real, Rule>::state() const {
     Vec2<Real> r = position(record(i), now_);
     state.images.col(i) = images_.col(i) + domain_.wrap(r);
     state.positions.col(i) = r.template cast<double>();
+    for (int a = 0; a < 2; ++a) {  // rounding to double may reach the upper edge, which is the next box's lower one
+      if (!domain_.periodic[a] || state.positions(a, i) < static_cast<double>(domain_.upper[a])) continue;
+      state.positions(a, i) = static_cast<double>(domain_.lower[a]);
+      ++state.images(a, i);
+    }
     state.velocities.col(i) = record(i).v.template cast<double>();
   }
   return state;

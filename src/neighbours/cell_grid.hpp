@@ -10,6 +10,7 @@
 #include "core/domain.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -92,19 +93,21 @@ class CellGrid {
   /// are there.
   template <class Visit>
   void for_neighbours(std::int32_t i, Visit&& visit) const {
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) visit_cell(i, dx, dy, visit);
+    const Place& place = at(i);
+    const Lines columns{line(0, place.cell[0] - 1), line(0, place.cell[0]), line(0, place.cell[0] + 1)};
+    const Lines rows{line(1, place.cell[1] - 1), line(1, place.cell[1]), line(1, place.cell[1] + 1)};
+    for (const Line& row : rows)
+      for (const Line& column : columns) visit_cell(i, column, row, visit);
   }
 
   /// The same for the three cells that come into reach when disk i has just made the given crossing.
   template <class Visit>
   void for_neighbours_ahead(std::int32_t i, const CellCrossing<Real>& crossing, Visit&& visit) const {
+    const Place& place = at(i);
     for (int side = -1; side <= 1; ++side) {
-      if (crossing.axis == 0) {
-        visit_cell(i, crossing.step, side, visit);
-      } else {
-        visit_cell(i, side, crossing.step, visit);
-      }
+      const Line column = line(0, place.cell[0] + (crossing.axis == 0 ? crossing.step : side));
+      const Line row = line(1, place.cell[1] + (crossing.axis == 1 ? crossing.step : side));
+      visit_cell(i, column, row, visit);
     }
   }
 
@@ -122,9 +125,9 @@ class CellGrid {
 
   struct Place {
     std::int32_t cell[2];
-    Winding winding;
     std::int32_t next;  ///< in the same cell
     std::int32_t previous;
+    Winding winding;
   };
 
   [[nodiscard]] Place& at(std::int32_t i) { return places_[static_cast<std::size_t>(i)]; }
@@ -148,20 +151,25 @@ class CellGrid {
     (place.previous != none ? at(place.previous).next : first_[index(place.cell[0], place.cell[1])]) = place.next;
   }
 
+  /// A column or a row of cells: which one it is inside the box, and how many box lengths away its image lies.
+  struct Line {
+    std::int32_t cell;  ///< none beyond a wall
+    std::int32_t beyond;
+  };
+  using Lines = std::array<Line, 3>;
+
+  [[nodiscard]] Line line(int axis, std::int32_t cell) const {
+    if (cell >= 0 && cell < count_[axis]) return {cell, 0};
+    if (!domain_.periodic[axis]) return {none, 0};
+    return cell < 0 ? Line{cell + count_[axis], -1} : Line{cell - count_[axis], 1};
+  }
+
   template <class Visit>
-  void visit_cell(std::int32_t i, int dx, int dy, Visit& visit) const {
-    const Place& place = at(i);
-    std::int32_t cell[2] = {place.cell[0] + dx, place.cell[1] + dy};
-    Winding shift = place.winding;
-    for (int a = 0; a < 2; ++a) {
-      if (cell[a] >= 0 && cell[a] < count_[a]) continue;
-      if (!domain_.periodic[a]) return;
-      const int beyond = cell[a] < 0 ? -1 : 1;
-      cell[a] -= beyond * count_[a];
-      shift[a] += beyond;  // that image of the neighbour is one box length further on
-    }
-    for (std::int32_t j = first_[index(cell[0], cell[1])]; j != none; j = at(j).next)
-      if (j != i) visit(j, Winding(shift - at(j).winding));
+  void visit_cell(std::int32_t i, const Line& column, const Line& row, Visit& visit) const {
+    if (column.cell == none || row.cell == none) return;
+    const Winding here = at(i).winding + Winding(column.beyond, row.beyond);
+    for (std::int32_t j = first_[index(column.cell, row.cell)]; j != none; j = at(j).next)
+      if (j != i) visit(j, Winding(here - at(j).winding));
   }
 
   Domain<Real> domain_;

@@ -18,7 +18,7 @@ namespace carom {
 
 class DisksAtRest {
  public:
-  /// The disks to come: radius[i] belongs to disk i. None is in place yet.
+  /// The disks to come: radius[i] belongs to disk i. None is in place yet. Requires `radius` to live as long as this.
   DisksAtRest(const Box& box, const std::vector<double>& radius);
 
   /// Puts disk i at a position inside the box.

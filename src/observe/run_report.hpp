@@ -31,7 +31,7 @@ struct RunReport {
   double energy_final = 0.0;
   Eigen::Vector2d momentum_initial = Eigen::Vector2d::Zero();
   Eigen::Vector2d momentum_final = Eigen::Vector2d::Zero();
-  double temperature_mean = 0.0;  ///< kT over the samples (over start and end where there are no samples)
+  double temperature_mean = 0.0;  ///< mean kT of the samples; of the final state where there are none
 
   std::optional<double> Z;                 ///< compressibility factor from momentum transfer; empty without collisions
   std::optional<double> Z_error;           ///< standard error over blocks; empty with fewer than 8 blocks

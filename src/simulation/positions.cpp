@@ -175,7 +175,7 @@ class Placement {
     throw SceneError(scene_.species[species].positions_where,
                      fmt::format("no room for disk {} of radius {:g} after {} random tries: the scene asks for a packing "
                                  "fraction of {:.4g}, and random "
-                                 "placement ends at 0.547; take fewer or smaller disks, or positions = \"hexagonal\"",
+                                 "placement of equal disks ends at 0.547; take fewer or smaller disks, or positions = \"hexagonal\"",
                                  i, radius, placement_tries, scene_.packing_fraction()));
   }
 

@@ -19,7 +19,7 @@ Start draw_start(const Scene& scene);
 /// Column i of `positions` for every disk of every species, in the order of ids. Throws as draw_start.
 Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks);
 
-/// The same for velocities. Where both axes are periodic and no velocity is given one by one, the total momentum is removed;
+/// The same for velocities. Where no velocity is given one by one, the total momentum along periodic axes is removed;
 /// temperatures are met exactly. Neither is done where the scene keeps momentum.
 Eigen::Matrix2Xd draw_velocities(const Scene& scene, const Disks& disks);
 

@@ -103,16 +103,19 @@ double total_mass(const Disks& disks, Ids ids) {
   return sum;
 }
 
-void remove_momentum(const Disks& disks, Eigen::Matrix2Xd& velocities) {
+/// Along the periodic axes, where no collision would ever change it.
+void remove_momentum(const Box& box, const Disks& disks, Eigen::Matrix2Xd& velocities) {
   Eigen::Vector2d momentum(0.0, 0.0);
   for (Eigen::Index i = 0; i < velocities.cols(); ++i) momentum += disks.mass[static_cast<std::size_t>(i)] * velocities.col(i);
-  velocities.colwise() -= (momentum / total_mass(disks, {0, velocities.cols()})).eval();
+  const double mass = total_mass(disks, {0, velocities.cols()});
+  for (int a = 0; a < 2; ++a)
+    if (box.periodic(a)) velocities.row(a).array() -= momentum[a] / mass;
 }
 
-/// Gives every Maxwellian species the kinetic energy of its temperature T: T for each of its disks, less T m / M where
-/// the momentum of all disks, of mass M, is zero. That is what equipartition gives a disk of mass m then; over all disks
-/// it adds up to the N - 1 of the definition kT = K / (N - 1).
-void meet_temperatures(const Scene& scene, const Disks& disks, bool without_momentum, Eigen::Matrix2Xd& velocities) {
+/// Gives every Maxwellian species the kinetic energy of its temperature T: T for each of its disks, less T m / 2M for
+/// each axis along which the momentum of all disks, of mass M, is zero. That is what equipartition gives a disk of mass m
+/// then; over all disks of a periodic box it adds up to the N - 1 of the definition kT = K / (N - 1).
+void meet_temperatures(const Scene& scene, const Disks& disks, int axes_without_momentum, Eigen::Matrix2Xd& velocities) {
   struct Target {
     Ids ids;
     double kinetic;
@@ -127,16 +130,16 @@ void meet_temperatures(const Scene& scene, const Disks& disks, bool without_mome
     first = ids.end;
     const auto* maxwell = std::get_if<MaxwellVelocities>(&species.velocities);
     if (maxwell == nullptr || species.count == 0) continue;
-    const double lost = without_momentum ? total_mass(disks, ids) / mass : 0.0;
+    const double lost = 0.5 * axes_without_momentum * total_mass(disks, ids) / mass;
     targets.push_back({ids, maxwell->temperature * (static_cast<double>(species.count) - lost)});
     total += targets.back().kinetic;
   }
-  if (!without_momentum) {
+  if (axes_without_momentum == 0) {
     for (const Target& target : targets) scale_to(target.kinetic, disks, target.ids, velocities);
     return;
   }
   // Scaling one species moves the common mean, and removing that changes every species' energy: both settle together.
-  remove_momentum(disks, velocities);
+  remove_momentum(scene.box, disks, velocities);
   for (int round = 0; round < settling_rounds; ++round) {
     bool settled = true;
     for (const Target& target : targets) {
@@ -144,7 +147,7 @@ void meet_temperatures(const Scene& scene, const Disks& disks, bool without_mome
       settled = settled && std::abs(factor - 1.0) < 1e-14;
     }
     if (settled) break;
-    remove_momentum(disks, velocities);
+    remove_momentum(scene.box, disks, velocities);
   }
   // Where a handful of disks cannot meet every share, their sum is still exact.
   Eigen::Index maxwellian = 0;
@@ -172,8 +175,8 @@ Eigen::Matrix2Xd draw_velocities(const Scene& scene, const Disks& disks) {
   if (scene.run.keep_momentum || !any_drawn) return velocities;
 
   // Velocities that the user gives one by one stay as given, and with them the total momentum.
-  const bool without_momentum = scene.box.periodic(0) && scene.box.periodic(1) && !any_given;
-  meet_temperatures(scene, disks, without_momentum, velocities);
+  const int axes_without_momentum = any_given ? 0 : (scene.box.periodic(0) ? 1 : 0) + (scene.box.periodic(1) ? 1 : 0);
+  meet_temperatures(scene, disks, axes_without_momentum, velocities);
   return velocities;
 }
 

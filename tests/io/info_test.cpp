@@ -7,8 +7,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <fmt/format.h>
 #include <hdf5.h>
+
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace carom::test {
 namespace {
@@ -27,7 +32,6 @@ std::string refusal(const fs::path& path) {
 
 class Info : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() { H5dont_atexit(); }  // see describe_h5md: the fixture uses HDF5 first
   void SetUp() override {
     scene_.output = {.trajectory = true, .xyz = true, .csv = true, .events = true};
     RunWriter writer(RunDirectory(out_, false), scene_, disks_of(scene_), provenance());
@@ -97,22 +101,40 @@ TEST_F(Info, CountsOnlyWholeSamplesOfATextThatIsCutShort) {
   EXPECT_THAT(describe_file(cut("samples.csv", 18)), HasSubstr("samples     none"));
 }
 
+/// Describes every one of the contents in a child process, which ends without any cleaning up: HDF5 1.10 leaks what it has
+/// opened in some damaged files. Each must give a description or a sentence that names the file. Returns what went wrong.
+std::string descriptions_of(const std::vector<std::string>& contents, const fs::path& path) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    for (std::size_t i = 0; i < contents.size(); ++i) {
+      write_file(path, contents[i]);
+      if (refusal(path).find(path.filename().string() + ": ") == std::string::npos) ::_exit(1);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  if (WIFSIGNALED(status)) return fmt::format("killed by signal {}", WTERMSIG(status));
+  return WEXITSTATUS(status) == 0 ? "" : "a sentence does not name the file";
+}
+
 TEST_F(Info, EveryTruncationOfATrajectoryIsASentenceOrADescription) {
-  const auto size = static_cast<std::ptrdiff_t>(fs::file_size(out_ / "trajectory.h5md"));
-  for (std::ptrdiff_t bytes = 1; bytes < size; bytes += 1 + size / 97)
-    EXPECT_THAT(refusal(cut("trajectory.h5md", bytes)), HasSubstr("trajectory.h5md: ")) << bytes;
-  EXPECT_THAT(refusal(cut("trajectory.h5md", size / 2)), AllOf(HasSubstr("cannot open this file"), HasSubstr("cut short")));
+  const std::string whole = content_of(out_ / "trajectory.h5md");
+  std::vector<std::string> contents;
+  for (std::size_t size = 1; size < whole.size(); size += 1 + whole.size() / 97) contents.push_back(whole.substr(0, size));
+  EXPECT_EQ(descriptions_of(contents, temporary_.path() / "cut.h5md"), "");
+  EXPECT_THAT(refusal(cut("trajectory.h5md", static_cast<std::ptrdiff_t>(whole.size() / 2))),
+              AllOf(HasSubstr("cannot open this file"), HasSubstr("cut short")));
 }
 
 TEST_F(Info, ATrajectoryWithFlippedBytesIsNoCrash) {
   const std::string whole = content_of(out_ / "trajectory.h5md");
+  std::vector<std::string> contents;
   for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 101) {
-    std::string damaged = whole;
-    damaged[at] = static_cast<char>(damaged[at] ^ 0x5a);
-    const fs::path path = temporary_.path() / "damaged.h5md";
-    write_file(path, damaged);
-    EXPECT_THAT(refusal(path), HasSubstr("damaged.h5md: ")) << at;
+    contents.push_back(whole);
+    contents.back()[at] = static_cast<char>(whole[at] ^ 0x5a);
   }
+  EXPECT_EQ(descriptions_of(contents, temporary_.path() / "damaged.h5md"), "");
 }
 
 TEST_F(Info, EmptyFilesAreNamedAsEmpty) {
