@@ -50,8 +50,8 @@ class Simulation {
   [[nodiscard]] State state() const;
 
   /// Processes every event up to and including `time`. Requires time >= this->time(); an earlier time does nothing.
-  /// Throws std::invalid_argument where time is not finite. The bits of the trajectory do not depend on where one stops. Stops early, at the collision itself, when
-  /// totals().pair reaches `collision_limit`.
+  /// Throws std::invalid_argument where time is not finite. The bits of the trajectory do not depend on where one stops. Stops
+  /// early, at the collision itself, when totals().pair reaches `collision_limit`.
   StopReason run_until(double time, std::uint64_t collision_limit = std::numeric_limits<std::uint64_t>::max());
 
   /// The same up to k * dt, the product taken exactly: grid times do not drift however large k is.

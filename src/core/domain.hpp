@@ -19,7 +19,10 @@ struct Domain {
   bool periodic[2];
 
   explicit Domain(const Box& box)
-      : lower(box.lower.cast<Real>()), upper(box.upper.cast<Real>()), length(upper - lower), periodic{box.periodic(0), box.periodic(1)} {}
+      : lower(box.lower.cast<Real>()),
+        upper(box.upper.cast<Real>()),
+        length(upper - lower),
+        periodic{box.periodic(0), box.periodic(1)} {}
 
   /// Folds `position` into [lower, upper) along periodic axes; returns by how many box lengths it was moved, so that
   /// position + returned * length is what it was (to one rounding). Beyond 2^53 box lengths no digit of the position is

@@ -17,8 +17,9 @@ enum class Stream : std::uint32_t { positions = 1, velocities = 2, lattice_sites
 class RandomStream : public r123::MicroURNG<r123::Philox4x32> {
  public:
   RandomStream(std::uint64_t seed, Stream stream, std::uint64_t index = 0)
-      : MicroURNG({{static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), static_cast<std::uint32_t>(stream), 0}},
-                  {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}}) {}
+      : MicroURNG(
+            {{static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), static_cast<std::uint32_t>(stream), 0}},
+            {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}}) {}
 };
 
 }  // namespace carom

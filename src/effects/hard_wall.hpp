@@ -16,7 +16,8 @@ struct WallContact {
 /// The next contact of a disk of the given radius, at position r at time t, with a wall. A disk that touches or
 /// overlaps a wall and moves into it is in contact now. Of a corner's two walls the vertical one comes first.
 template <class Real>
-[[nodiscard]] WallContact<Real> next_wall_contact(const Domain<Real>& domain, const Vec2<Real>& r, const Vec2<Real>& v, Real radius, Real t) {
+[[nodiscard]] WallContact<Real> next_wall_contact(const Domain<Real>& domain, const Vec2<Real>& r, const Vec2<Real>& v,
+                                                  Real radius, Real t) {
   WallContact<Real> next;
   for (int a = 0; a < 2; ++a) {
     if (domain.periodic[a] || v[a] == 0) continue;

@@ -277,8 +277,8 @@ class TextbookEngine {
   std::vector<Plan> plans_;
   Images images_;  ///< whole box lengths between recorded and unwrapped positions
 
-  Instant epoch_;           ///< the loop's zero of time
-  Real now_ = 0;            ///< since the epoch
+  Instant epoch_;  ///< the loop's zero of time
+  Real now_ = 0;   ///< since the epoch
   Real epoch_length_ = 0;
   Totals totals_;
   bool recording_ = false;

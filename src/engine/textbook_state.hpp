@@ -12,7 +12,8 @@ namespace carom {
 template <class Real, class Rule>
 TextbookEngine<Real, Rule>::TextbookEngine(const Box& box, const Disks& disks, const State& start)
     : domain_(box),
-      grid_(domain_, disks.count() == 0 ? Real(1) : 2 * Real(*std::max_element(disks.radius.begin(), disks.radius.end())), disks.count()),
+      grid_(domain_, disks.count() == 0 ? Real(1) : 2 * Real(*std::max_element(disks.radius.begin(), disks.radius.end())),
+            disks.count()),
       records_(disks.count()),
       plans_(disks.count()),
       images_(Images::Zero(2, static_cast<Eigen::Index>(disks.count()))) {
@@ -71,7 +72,8 @@ std::vector<std::string> TextbookEngine<Real, Rule>::check_invariants() const {
     for (int axis = 0; axis < 2; ++axis) {
       const Real slack = grid_.width()[axis] / 256;
       const Real beyond = std::max<Real>(from[axis] - r[axis], r[axis] - from[axis] - grid_.width()[axis]);
-      if (beyond > slack && domain_.periodic[axis]) faults.push_back(fmt::format("disk {}: outside its cell along axis {}", i, axis));
+      if (beyond > slack && domain_.periodic[axis])
+        faults.push_back(fmt::format("disk {}: outside its cell along axis {}", i, axis));
       const Real out = std::max<Real>(domain_.lower[axis] + a.radius - r[axis], r[axis] - domain_.upper[axis] + a.radius);
       if (!domain_.periodic[axis] && out > tolerance * domain_.length[axis])
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", i, static_cast<double>(out), axis));
@@ -85,12 +87,14 @@ std::vector<std::string> TextbookEngine<Real, Rule>::check_invariants() const {
       Winding nearest = Winding::Zero();
       for (int axis = 0; axis < 2; ++axis) {
         using std::floor;
-        if (domain_.periodic[axis]) nearest[axis] = static_cast<std::int64_t>(floor(apart[axis] / domain_.length[axis] + Real(0.5)));
+        if (domain_.periodic[axis])
+          nearest[axis] = static_cast<std::int64_t>(floor(apart[axis] / domain_.length[axis] + Real(0.5)));
       }
       const Real sigma = record(i).radius + record(j).radius;
       using std::sqrt;
       const Real gap = sqrt(separation(record(i), record(j), now_, nearest).squaredNorm()) - sigma;
-      if (gap < -tolerance * sigma) faults.push_back(fmt::format("disks {} and {} overlap by {}", i, j, static_cast<double>(-gap)));
+      if (gap < -tolerance * sigma)
+        faults.push_back(fmt::format("disks {} and {} overlap by {}", i, j, static_cast<double>(-gap)));
       const Real meeting = pair_time(record(i), record(j), nearest);
       if (meeting < std::min(next_of(i).time, next_of(j).time))
         faults.push_back(fmt::format("disks {} and {} meet before either has an event planned", i, j));

@@ -67,7 +67,8 @@ class CellGrid {
       if (v[a] == 0) continue;
       const bool up = v[a] > 0;
       if (!domain_.periodic[a] && place.cell[a] == (up ? count_[a] - 1 : 0)) continue;  // a wall is there
-      const Real edge = domain_.lower[a] + Real(place.cell[a] + (up ? 1 : 0)) * width_[a] + Real(place.winding[a]) * domain_.length[a];
+      const Real edge =
+          domain_.lower[a] + Real(place.cell[a] + (up ? 1 : 0)) * width_[a] + Real(place.winding[a]) * domain_.length[a];
       const Real way = up ? edge - r[a] : r[a] - edge;
       const Real time = way > 0 ? t + way / (up ? v[a] : -v[a]) : t;
       if (time < next.time) next = {time, static_cast<std::int8_t>(a), static_cast<std::int8_t>(up ? 1 : -1)};
@@ -115,7 +116,8 @@ class CellGrid {
   [[nodiscard]] Vec2<Real> cell_lower(std::int32_t i) const {
     const Place& place = at(i);
     Vec2<Real> corner;
-    for (int a = 0; a < 2; ++a) corner[a] = domain_.lower[a] + Real(place.cell[a]) * width_[a] + Real(place.winding[a]) * domain_.length[a];
+    for (int a = 0; a < 2; ++a)
+      corner[a] = domain_.lower[a] + Real(place.cell[a]) * width_[a] + Real(place.winding[a]) * domain_.length[a];
     return corner;
   }
   [[nodiscard]] Vec2<Real> width() const { return {width_[0], width_[1]}; }

@@ -51,7 +51,8 @@ void DisksAtRest::insert(std::int32_t i, const Eigen::Vector2d& position) {
   next_[index] = std::exchange(first, i);
 }
 
-DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, double radius, std::int32_t except, bool larger_only) const {
+DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, double radius, std::int32_t except,
+                                            bool larger_only) const {
   Neighbour found{none, 0.0};
   const int own = std::ilogb(radius);
   for (const Layer& layer : layers_) {
@@ -88,14 +89,28 @@ DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, dou
 
 DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius, const Eigen::Matrix2Xd& positions) {
   DisksAtRest disks(box, radius);
-  for (std::size_t i = 0; i < radius.size(); ++i) disks.insert(static_cast<std::int32_t>(i), positions.col(static_cast<Eigen::Index>(i)));
+  for (std::size_t i = 0; i < radius.size(); ++i)
+    disks.insert(static_cast<std::int32_t>(i), positions.col(static_cast<Eigen::Index>(i)));
   DeepestOverlap deepest;
   for (std::size_t i = 0; i < radius.size(); ++i) {
     const auto id = static_cast<std::int32_t>(i);
     const auto found = disks.deepest(positions.col(id), radius[i], id, true);
-    if (found.relative_overlap > deepest.relative) deepest = {found.relative_overlap, std::min(id, found.disk), std::max(id, found.disk)};
+    if (found.relative_overlap > deepest.relative)
+      deepest = {found.relative_overlap, std::min(id, found.disk), std::max(id, found.disk)};
   }
   return deepest;
+}
+
+DeepestOverlap first_overlap(const Box& box, const std::vector<double>& radius, const std::vector<Eigen::Vector2d>& positions,
+                             double tolerance) {
+  DisksAtRest disks(box, radius);
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    const auto id = static_cast<std::int32_t>(i);
+    const auto found = disks.deepest(positions[i], radius[i]);
+    if (found.relative_overlap > tolerance) return {found.relative_overlap, found.disk, id};
+    disks.insert(id, positions[i]);
+  }
+  return {};
 }
 
 }  // namespace carom

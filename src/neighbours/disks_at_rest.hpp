@@ -32,7 +32,8 @@ class DisksAtRest {
   /// Of the disks in place, other than `except`, the one that a disk of the given radius would overlap most at
   /// `position`, all periodic images counted; {-1, 0} where it overlaps none. With `larger_only` disks in layers of
   /// smaller radii are left out: over all disks every pair is then still seen, from its smaller partner.
-  [[nodiscard]] Neighbour deepest(const Eigen::Vector2d& position, double radius, std::int32_t except = -1, bool larger_only = false) const;
+  [[nodiscard]] Neighbour deepest(const Eigen::Vector2d& position, double radius, std::int32_t except = -1,
+                                  bool larger_only = false) const;
 
  private:
   struct Layer {
@@ -59,7 +60,13 @@ struct DeepestOverlap {
   std::int32_t second = -1;
 };
 
-/// Over all pairs of disks, nearest images on periodic axes. O(N). Requires positions inside the box.
-[[nodiscard]] DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius, const Eigen::Matrix2Xd& positions);
+/// Over all pairs of disks and their images on periodic axes. O(N). Requires positions inside the box.
+[[nodiscard]] DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius,
+                                             const Eigen::Matrix2Xd& positions);
+
+/// The first disk that overlaps one before it by more than `tolerance` of their contact distance, with the one that it
+/// overlaps most as `first`; relative 0 where there is none. Fast however many disks lie in one place.
+[[nodiscard]] DeepestOverlap first_overlap(const Box& box, const std::vector<double>& radius,
+                                           const std::vector<Eigen::Vector2d>& positions, double tolerance);
 
 }  // namespace carom

@@ -13,9 +13,9 @@ class RunMeasurements {
   /// Requires the simulation to live as long as this.
   explicit RunMeasurements(const Simulation& simulation);
 
-  void start(const State& state);            ///< the measured run begins
-  void sample(const State& state);           ///< a state of the sampling grid
-  void block(const Progress& progress);      ///< RunHooks::block
+  void start(const State& state);        ///< the measured run begins
+  void sample(const State& state);       ///< a state of the sampling grid
+  void block(const Progress& progress);  ///< RunHooks::block
 
   /// All results, when the run has ended. `wall_seconds`: of the whole run, as the caller took it.
   [[nodiscard]] RunReport report(const RunResult& result, double wall_seconds);

@@ -37,8 +37,8 @@ struct RunReport {
   std::optional<double> Z_error;           ///< standard error over blocks; empty with fewer than 8 blocks
   std::optional<double> reduced_pressure;  ///< beta P <sigma^2> = (4 eta / pi) Z; empty where Z is
 
-  double max_relative_overlap = 0.0;     ///< largest (sigma_ij - |r_ij|) / sigma_ij over all checked states, >= 0
-  std::uint64_t overlap_checked = 0;     ///< number of states checked
+  double max_relative_overlap = 0.0;  ///< largest (sigma_ij - |r_ij|) / sigma_ij over all checked states, >= 0
+  std::uint64_t overlap_checked = 0;  ///< number of states checked
   StopReason stopped = StopReason::time;
 
   /// (final - initial) / initial, 0 where the initial energy is 0

@@ -49,7 +49,8 @@ class EventQueue {
   struct Later {
     bool operator()(const QueuedEvent<Real>& a, const QueuedEvent<Real>& b) const { return b.before(a); }
   };
-  using Heap = boost::heap::d_ary_heap<QueuedEvent<Real>, boost::heap::arity<4>, boost::heap::mutable_<true>, boost::heap::compare<Later>>;
+  using Heap =
+      boost::heap::d_ary_heap<QueuedEvent<Real>, boost::heap::arity<4>, boost::heap::mutable_<true>, boost::heap::compare<Later>>;
 
   Heap heap_;
   std::vector<typename Heap::handle_type> handles_;

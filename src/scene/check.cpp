@@ -1,7 +1,7 @@
 // What the parts of a scene must agree on: names, room for the disks, density, given positions, and an end to the run.
 
+#include "neighbours/disks_at_rest.hpp"
 #include "scene/excerpt.hpp"
-#include "scene/overlap.hpp"
 #include "scene/read_tables.hpp"
 
 #include <fmt/format.h>
@@ -140,10 +140,13 @@ void check_overlaps(const SceneDraft& draft) {
     }
     first_id += species.count;
   }
-  const std::optional<Overlap> overlap = find_overlap(draft.scene.box, centres, radii, touching);
-  if (!overlap) return;
+  const DeepestOverlap overlap = first_overlap(draft.scene.box, radii, centres, touching);
+  if (overlap.relative == 0.0) return;
+  const auto first = static_cast<std::size_t>(overlap.first);
+  const auto second = static_cast<std::size_t>(overlap.second);
+  const double contact = radii[first] + radii[second];
   // The later of the two is the one to move: find its row.
-  std::size_t row = overlap->second;
+  std::size_t row = second;
   Location where;
   for (std::size_t s = 0; s < draft.disks.size(); ++s) {
     const std::size_t rows = draft.disks[s].rows.places.size();
@@ -154,7 +157,7 @@ void check_overlaps(const SceneDraft& draft) {
     row -= rows;
   }
   throw SceneError(where, fmt::format("disks {} and {} overlap by {:.6g}; their centres must be at least {:.6g} apart",
-                                      ids[overlap->first], ids[overlap->second], overlap->depth, overlap->contact));
+                                      ids[first], ids[second], overlap.relative * contact, contact));
 }
 
 /// A run that only counts collisions needs two disks to ever end.

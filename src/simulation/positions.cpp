@@ -172,11 +172,12 @@ class Placement {
       }
       if (in_place_.deepest(position, radius).disk < 0) return position;
     }
-    throw SceneError(scene_.species[species].positions_where,
-                     fmt::format("no room for disk {} of radius {:g} after {} random tries: the scene asks for a packing "
-                                 "fraction of {:.4g}, and random "
-                                 "placement of equal disks ends at 0.547; take fewer or smaller disks, or positions = \"hexagonal\"",
-                                 i, radius, placement_tries, scene_.packing_fraction()));
+    throw SceneError(
+        scene_.species[species].positions_where,
+        fmt::format("no room for disk {} of radius {:g} after {} random tries: the scene asks for a packing "
+                    "fraction of {:.4g}, and random "
+                    "placement of equal disks ends at 0.547; take fewer or smaller disks, or positions = \"hexagonal\"",
+                    i, radius, placement_tries, scene_.packing_fraction()));
   }
 
   const Scene& scene_;

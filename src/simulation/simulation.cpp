@@ -17,7 +17,8 @@ namespace carom {
 namespace {
 
 StopReason run_to(detail::AnyEngine& engine, const Instant& target, std::uint64_t collision_limit) {
-  if (!std::isfinite(target.high) || !std::isfinite(target.low)) throw std::invalid_argument("a simulation runs to a finite time only");
+  if (!std::isfinite(target.high) || !std::isfinite(target.low))
+    throw std::invalid_argument("a simulation runs to a finite time only");
   engine.run_until(target, collision_limit, std::numeric_limits<std::uint64_t>::max());
   return engine.totals().pair >= collision_limit ? StopReason::collisions : StopReason::time;
 }
@@ -57,22 +58,28 @@ std::vector<std::string> engine_names() {
 
 Simulation make_simulation(const Scene& scene, const std::string& engine) {
   const auto& entries = detail::catalogue();
-  const auto entry = engine == "auto" ? entries.begin()
-                                      : std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.name == engine; });
+  const auto entry = engine == "auto"
+                         ? entries.begin()
+                         : std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.name == engine; });
   if (entry == entries.end())
-    throw std::invalid_argument(fmt::format("there is no engine \"{}\"; choose one of auto, {}", engine, fmt::join(engine_names(), ", ")));
+    throw std::invalid_argument(
+        fmt::format("there is no engine \"{}\"; choose one of auto, {}", engine, fmt::join(engine_names(), ", ")));
   Start start = draw_start(scene);
   auto running = entry->make(scene, start);
-  return Simulation(std::unique_ptr<Simulation::Parts>(
-      new Simulation::Parts{scene, std::move(start.disks), entry->name, std::move(running)}));
+  return Simulation(
+      std::unique_ptr<Simulation::Parts>(new Simulation::Parts{scene, std::move(start.disks), entry->name, std::move(running)}));
 }
 
 std::string to_string(StopReason reason) {
   switch (reason) {
-    case StopReason::time: return "time";
-    case StopReason::collisions: return "collisions";
-    case StopReason::interrupted: return "interrupted";
-    case StopReason::no_collisions: return "no_collisions";
+    case StopReason::time:
+      return "time";
+    case StopReason::collisions:
+      return "collisions";
+    case StopReason::interrupted:
+      return "interrupted";
+    case StopReason::no_collisions:
+      return "no_collisions";
   }
   return "unknown";
 }

@@ -66,7 +66,8 @@ TEST(ContactTime, StaysWithinItsBoundsForAnyDistanceAndImpactParameter) {
   for (int k = 0; k < 20'000; ++k) {
     const double distance = 1.0 + std::pow(10.0, -15.0 + 21.0 * unit(random));  // gaps of 1e-15 to 1e6 sigma
     const double impact = std::min(distance, 1.2 * unit(random));
-    check(aimed(distance, impact, 6.28 * unit(random), std::pow(10.0, -3.0 + 6.0 * unit(random)), std::pow(10.0, -2.0 + 4.0 * unit(random))));
+    check(aimed(distance, impact, 6.28 * unit(random), std::pow(10.0, -3.0 + 6.0 * unit(random)),
+                std::pow(10.0, -2.0 + 4.0 * unit(random))));
   }
 }
 

@@ -35,7 +35,8 @@ TEST(Domain, AnUlpBelowTheLowerEdgeEndsInsideTheBox) {
 }
 
 RC_GTEST_PROP(PropertyDomain, FoldingEndsInsideAndMovesByWholeBoxLengths, ()) {
-  const double x = static_cast<double>(*rc::gen::inRange<std::int64_t>(-(1ll << 52), 1ll << 52)) * std::ldexp(1.0, *rc::gen::inRange(-60, -9));
+  const double x =
+      static_cast<double>(*rc::gen::inRange<std::int64_t>(-(1ll << 52), 1ll << 52)) * std::ldexp(1.0, *rc::gen::inRange(-60, -9));
   Vec2<double> r(x, 3.0);
   const Winding winding = periodic.wrap(r);
   RC_ASSERT(r.x() >= -1.0 && r.x() < 1.0);

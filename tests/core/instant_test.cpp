@@ -23,12 +23,16 @@ TEST(Instant, GridPointsStayOneStepApartHoweverLate) {
 }
 
 RC_GTEST_PROP(PropertyInstant, DifferenceAndSumAgreeWith113BitsToTheLastDouble, ()) {
-  const auto number = [] { return static_cast<double>(*rc::gen::inRange<std::int64_t>(-(1ll << 50), 1ll << 50)) * std::ldexp(1.0, *rc::gen::inRange(-60, 1)); };
+  const auto number = [] {
+    return static_cast<double>(*rc::gen::inRange<std::int64_t>(-(1ll << 50), 1ll << 50)) *
+           std::ldexp(1.0, *rc::gen::inRange(-60, 1));
+  };
   const Instant a = Instant::sum(number(), number());
   const Instant b = Instant::sum(number(), number());
   // One rounding of the high parts' exact difference plus the low parts': two ulps of the result, or of the low parts.
   const double expected = static_cast<double>(exact(a) - exact(b));
-  RC_ASSERT(std::abs(a.since<double>(b) - expected) <= 0x1p-52 * (std::abs(expected) + 0x1p-52 * std::abs(a.high) + 0x1p-52 * std::abs(b.high)));
+  RC_ASSERT(std::abs(a.since<double>(b) - expected) <=
+            0x1p-52 * (std::abs(expected) + 0x1p-52 * std::abs(a.high) + 0x1p-52 * std::abs(b.high)));
   const double t = number();
   const Quad error = exact(a.plus(t)) - (exact(a) + Quad(t));
   RC_ASSERT(abs(error) <= Quad(0x1p-103) * (abs(exact(a)) + Quad(std::abs(t))));

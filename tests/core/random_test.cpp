@@ -11,7 +11,8 @@ TEST(RandomStream, TheGeneratorIsPhilox4x32WithTenRounds) {
   // Known answers that Random123 ships (kat_vectors): philox4x32 10, all bits of counter and key clear, then set.
   const r123::Philox4x32 philox;
   EXPECT_EQ(philox({{0, 0, 0, 0}}, {{0, 0}}), (r123::Philox4x32::ctr_type{{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}}));
-  EXPECT_EQ(philox({{~0u, ~0u, ~0u, ~0u}}, {{~0u, ~0u}}), (r123::Philox4x32::ctr_type{{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}}));
+  EXPECT_EQ(philox({{~0u, ~0u, ~0u, ~0u}}, {{~0u, ~0u}}),
+            (r123::Philox4x32::ctr_type{{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}}));
 }
 
 TEST(RandomStream, SeedNameAndIndexEachGiveAnotherStream) {

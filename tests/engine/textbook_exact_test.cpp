@@ -64,7 +64,8 @@ TEST(ExactMotion, ADiskInAPeriodicBoxComesRoundWithItsImagesCounted) {
 TEST(ExactMotion, TwoDisksCollideAtTheTimeAndAngleOfTheClosedForm) {
   // Impact parameter 0.6, diameter 1: contact with the line of centres at 0.8, 0.6 after a way of 3.2.
   for (const double ratio : {1.0, 3.0, 1e6, 1e12}) {
-    const System system = system_of(square_box(20.0, Boundary::walls), {{{6.0, 10.0}, {1.0, 0.0}, 0.5, 1.0}, {{10.0, 10.6}, {0.0, 0.0}, 0.5, ratio}});
+    const System system = system_of(square_box(20.0, Boundary::walls),
+                                    {{{6.0, 10.0}, {1.0, 0.0}, 0.5, 1.0}, {{10.0, 10.6}, {0.0, 0.0}, 0.5, ratio}});
     const double give = 2.0 * ratio / (1.0 + ratio);  // part of the relative velocity along the normal that disk 0 loses
     const double take = 2.0 / (1.0 + ratio);
 
@@ -89,7 +90,8 @@ TEST(ExactMotion, TwoDisksCollideAtTheTimeAndAngleOfTheClosedForm) {
 }
 
 TEST(ExactMotion, UnderReversalTheRelativePathIsRetraced) {
-  const System system = system_of(square_box(64.0, Boundary::walls), {{{30.0, 32.0}, {1.0, 0.25}, 0.5, 1.0}, {{34.0, 32.75}, {-0.5, 0.0}, 0.5, 3.0}});
+  const System system = system_of(square_box(64.0, Boundary::walls),
+                                  {{{30.0, 32.0}, {1.0, 0.25}, 0.5, 1.0}, {{34.0, 32.75}, {-0.5, 0.0}, 0.5, 3.0}});
   auto engine = engine_for<double, Reversal>(system);
   engine.record_events(true);
   run_to(engine, 8.0);
@@ -113,7 +115,8 @@ TEST(ExactMotion, NewtonsCradleHandsTheVelocityToTheLastDisk) {
     auto engine = engine_for(system_of({{0.0, 0.0}, {32.0, 4.0}, {Boundary::walls, Boundary::walls}}, placed));
     run_to(engine, 2.0 + 1.0);
     EXPECT_EQ(engine.totals().pair, static_cast<std::uint64_t>(row - 1));
-    for (int i = 0; i < row; ++i) EXPECT_EQ(engine.state().velocities(0, i), i == row - 1 ? 1.0 : 0.0) << "disk " << i << " of " << row;
+    for (int i = 0; i < row; ++i)
+      EXPECT_EQ(engine.state().velocities(0, i), i == row - 1 ? 1.0 : 0.0) << "disk " << i << " of " << row;
   }
 }
 
@@ -123,7 +126,8 @@ TEST(ExactMotion, NewtonsCradleHandsTheVelocityToTheLastDisk) {
 template <class Real>
 std::uint64_t galperin_collisions(double ratio) {
   const Box box{{0.0, -2.0}, {1e6, 2.0}, {Boundary::walls, Boundary::walls}};
-  auto engine = engine_for<Real, Specular>(system_of(box, {{{3.0, 0.0}, {0.0, 0.0}, 0.5, 1.0}, {{8.0, 0.0}, {-1.0, 0.0}, 0.5, ratio}}));
+  auto engine =
+      engine_for<Real, Specular>(system_of(box, {{{3.0, 0.0}, {0.0, 0.0}, 0.5, 1.0}, {{8.0, 0.0}, {-1.0, 0.0}, 0.5, ratio}}));
   engine.run_until(Instant{1e5, 0.0}, no_limit, no_limit);
   EXPECT_EQ(engine.state().positions(1, 0), 0.0);
   EXPECT_EQ(engine.state().positions(1, 1), 0.0);

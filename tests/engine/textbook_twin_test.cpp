@@ -27,8 +27,8 @@ void expect_same_events(const System& system, int events) {
     const Event expected = twin.step();
     if (expected.time == infinity<double>) return;  // too far for the twin
     const Event& event = log[k];
-    ASSERT_EQ(event.time, expected.time) << "event " << k << " of disks " << event.disk << ", " << event.partner << " instead of " << expected.disk
-                                         << ", " << expected.partner;
+    ASSERT_EQ(event.time, expected.time) << "event " << k << " of disks " << event.disk << ", " << event.partner << " instead of "
+                                         << expected.disk << ", " << expected.partner;
     ASSERT_EQ(event.time_remainder, expected.time_remainder) << "event " << k;
     ASSERT_EQ(event.disk, expected.disk) << "event " << k;
     ASSERT_EQ(event.partner, expected.partner) << "event " << k;
@@ -82,7 +82,8 @@ TEST(TextbookTwin, EqualSpeedsOnASquareLatticeGiveTiesThatAreBrokenAlike) {
   // Everything meets at the same instants, over and over.
   std::vector<Placed> placed;
   for (int x = 0; x < 6; ++x)
-    for (int y = 0; y < 6; ++y) placed.push_back({{2.0 * x + 1.0, 2.0 * y + 1.0}, {(x % 2 == 0) ? 1.0 : -1.0, (y % 2 == 0) ? 1.0 : -1.0}});
+    for (int y = 0; y < 6; ++y)
+      placed.push_back({{2.0 * x + 1.0, 2.0 * y + 1.0}, {(x % 2 == 0) ? 1.0 : -1.0, (y % 2 == 0) ? 1.0 : -1.0}});
   for (const Boundary boundary : {Boundary::walls, Boundary::periodic}) {
     expect_same_events<Specular>(system_of(square_box(12.0, boundary), placed), 2000);
     expect_same_events<Reversal>(system_of(square_box(12.0, boundary), placed), 2000);
@@ -91,12 +92,15 @@ TEST(TextbookTwin, EqualSpeedsOnASquareLatticeGiveTiesThatAreBrokenAlike) {
 
 RC_GTEST_PROP(PropertyTextbookTwin, AnySmallSystemHasTheSameEventsAsAllPairs, ()) {
   const auto boundary = [] { return *rc::gen::element(Boundary::walls, Boundary::periodic); };
-  const Box box = {{-3.0, 1.0}, {-3.0 + *rc::gen::inRange(30, 90) / 10.0, 1.0 + *rc::gen::inRange(30, 90) / 10.0}, {boundary(), boundary()}};
+  const Box box = {
+      {-3.0, 1.0}, {-3.0 + *rc::gen::inRange(30, 90) / 10.0, 1.0 + *rc::gen::inRange(30, 90) / 10.0}, {boundary(), boundary()}};
   const int wanted = *rc::gen::inRange(1, 14);
   std::vector<Placed> placed;
   for (int i = 0; i < wanted; ++i) {
     const double radius = *rc::gen::inRange(2, 13) / 10.0 / 2.0;
-    const auto in = [&](int a) { return box.lower[a] + radius + (box.lengths()[a] - 2 * radius) * *rc::gen::inRange(0, 1025) / 1024.0; };
+    const auto in = [&](int a) {
+      return box.lower[a] + radius + (box.lengths()[a] - 2 * radius) * *rc::gen::inRange(0, 1025) / 1024.0;
+    };
     const auto component = [] { return *rc::gen::inRange(-8, 9) / 4.0; };
     Placed disk{{in(0), in(1)}, {component(), component()}, radius, *rc::gen::element(0.25, 1.0, 3.0, 1e6)};
     for (int a = 0; a < 2; ++a)

@@ -177,5 +177,26 @@ TEST(DisksAtRest, CoincidentDisksOverlapEntirely) {
   EXPECT_EQ(deepest_overlap(box, {0.1, 0.2}, positions).relative, 1.0);
 }
 
+TEST(FirstOverlap, IsThatOfTheFirstDiskWithOneBeforeIt) {
+  const Box box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::walls, Boundary::walls}};
+  const DeepestOverlap found = first_overlap(box, {0.1, 0.1, 0.1, 0.1}, {{0.2, 0.2}, {0.8, 0.8}, {0.2, 0.35}, {0.8, 0.8}}, 1e-9);
+  EXPECT_EQ(found.first, 0);
+  EXPECT_EQ(found.second, 2);
+  EXPECT_NEAR(found.relative, 0.25, 1e-14);
+}
+
+TEST(FirstOverlap, DisksThatTouchWithinTheToleranceAreNone) {
+  const Box box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::walls, Boundary::walls}};
+  const std::vector<Eigen::Vector2d> row = {{0.1, 0.5}, {0.3, 0.5}, {0.5, 0.5}, {0.7, 0.5}};
+  EXPECT_EQ(first_overlap(box, std::vector<double>(4, 0.1), row, 1e-9).relative, 0.0);
+  EXPECT_GT(first_overlap(box, std::vector<double>(4, 0.1 * (1.0 + 3e-9)), row, 1e-9).relative, 0.0);
+}
+
+TEST(FirstOverlap, AHundredThousandDisksInOnePlaceAreRefusedAtTheSecond) {
+  const Box box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::periodic, Boundary::periodic}};
+  const std::vector<Eigen::Vector2d> centres(100'000, Eigen::Vector2d(0.5, 0.5));
+  EXPECT_EQ(first_overlap(box, std::vector<double>(100'000, 1e-5), centres, 1e-9).second, 1);
+}
+
 }  // namespace
 }  // namespace carom::test

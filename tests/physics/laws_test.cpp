@@ -108,7 +108,8 @@ TEST(PhysicsLaws, SpecularCollisionsChangeTheSetOfVelocities) {
   // All speeds equal to start with; after a few collisions per disk they are spread as a gas's are: the standard
   // deviation of a Rayleigh law is 0.52 of its mean.
   System system = system_of(gas_scene(64, 0.4, Boundary::periodic));
-  for (int i = 0; i < 64; ++i) system.state.velocities.col(i) << std::cos(i * std::numbers::pi / 32), std::sin(i * std::numbers::pi / 32);
+  for (int i = 0; i < 64; ++i)
+    system.state.velocities.col(i) << std::cos(i * std::numbers::pi / 32), std::sin(i * std::numbers::pi / 32);
   TextbookEngine<double, Specular> engine(system.box, system.disks, system.state);
   engine.run_until(forever, 64 * 20, no_limit);
   const Eigen::VectorXd speeds = engine.state().velocities.colwise().norm().transpose();

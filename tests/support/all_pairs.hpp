@@ -39,7 +39,8 @@ class AllPairs {
     Winding shift = Winding::Zero();
     for (int i = 0; i < n(); ++i) {
       const auto wall = next_wall_contact<double>(domain_, r_[at(i)], v_[at(i)], disks_.radius[at(i)], t_[at(i)]);
-      if (std::tie(wall.time, i) < std::tie(first, a) || (wall.time == first && i == a && wall.wall < b)) first = wall.time, a = i, b = wall.wall;
+      if (std::tie(wall.time, i) < std::tie(first, a) || (wall.time == first && i == a && wall.wall < b))
+        first = wall.time, a = i, b = wall.wall;
     }
     // With images up to `reach` box lengths away; widened until nothing beyond could come in before what was found.
     for (std::int64_t reach = 1;; reach *= 2) {
@@ -109,7 +110,8 @@ class AllPairs {
       speed += std::abs(v_[at(i)][0]) + std::abs(v_[at(i)][1]);
     }
     epoch_ = epoch_.plus(now);
-    length_ = epoch_length(std::sqrt(domain_.length[0]) * std::sqrt(domain_.length[1] / std::max(n(), 1)), speed / std::max(n(), 1));
+    length_ =
+        epoch_length(std::sqrt(domain_.length[0]) * std::sqrt(domain_.length[1] / std::max(n(), 1)), speed / std::max(n(), 1));
   }
 
   Domain<double> domain_;
