@@ -27,10 +27,11 @@ enum class StopReason {
   time,           ///< the time asked for was reached
   collisions,     ///< the number of pair collisions asked for was reached
   interrupted,    ///< the caller's `proceed` said stop
+  jammed,         ///< time has stopped: ten million events at one instant, of disks that touch and have no room to move
   no_collisions,  ///< only a number of collisions was asked for, and no pair will ever (or seems ever to) collide
 };
 
-/// "time", "collisions", "interrupted", "no_collisions"
+/// "time", "collisions", "interrupted", "jammed", "no_collisions"
 std::string to_string(StopReason reason);
 
 class Simulation {
@@ -79,7 +80,8 @@ class Simulation {
 };
 
 /// Draws the initial state and predicts the first events. `engine` is "auto" or a name of engine_names().
-/// Throws SceneError when the disks cannot be placed as the scene asks, or overlap, or lie outside the box.
+/// Throws SceneError when the disks cannot be placed as the scene asks, or overlap, or lie outside the box;
+/// std::invalid_argument when there is no such engine.
 Simulation make_simulation(const Scene& scene, const std::string& engine = "auto");
 
 /// "textbook", "textbook-float", ...: the engines that can run a scene.
@@ -110,10 +112,12 @@ struct RunResult {
   StopReason stopped = StopReason::time;
   std::uint64_t samples = 0;
   double loop_seconds = 0.0;  ///< in the event loop of the measured run
+  bool measured = true;       ///< false where the run ended while it was still equilibrating
 };
 
 /// Runs the scene's whole schedule: equilibrate, reset the clock, then sample until time or collisions are reached.
 /// Requires a simulation at time 0, as make_simulation returns it. Ends with event recording off.
+/// Throws SceneError where scene().run has no end, or a step that is not positive.
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks = {});
 
 }  // namespace carom

@@ -3,6 +3,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/scene_description.hpp"
+#include "observe/mechanics.hpp"
 
 #include <fmt/format.h>
 #include <carom/simulation.hpp>
@@ -19,23 +20,13 @@ constexpr std::int64_t most_disks_drawn = 1'000'000;
 // Three coordinates of position and of velocity, and three image flags, for one disk in one frame.
 constexpr double bytes_per_disk_and_frame = 6 * sizeof(double) + 3 * sizeof(std::int32_t);
 
-/// Temperature kT = sum of m v^2 over two degrees of freedom per disk.
-double temperature(const Simulation& simulation) {
-  const State state = simulation.state();
-  const std::vector<double>& mass = simulation.disks().mass;
-  double twice_energy = 0.0;
-  for (std::size_t i = 0; i < mass.size(); ++i)
-    twice_energy += mass[i] * state.velocities.col(static_cast<Eigen::Index>(i)).squaredNorm();
-  return twice_energy / (2.0 * static_cast<double>(mass.size()));
-}
-
 std::string start_and_engine(const Scene& scene, const std::string& engine) {
   if (scene.disk_count() > most_disks_drawn) {
     return fmt::format("  start       not drawn: more than {} disks; `carom run` draws them\n", grouped(most_disks_drawn));
   }
   const Simulation simulation = make_simulation(scene, engine);
   return fmt::format("  start       drawn: every disk has its place, none overlap; kT = {:.4g}\n  engine      {}\n",
-                     temperature(simulation), simulation.engine());
+                     kinetic_temperature(scene.box, simulation.disks(), simulation.state()), simulation.engine());
 }
 
 std::string files(const Scene& scene) {

@@ -35,9 +35,12 @@ std::string why_stopped(const RunReport& report, const Scene& scene) {
     case StopReason::collisions:
       return fmt::format("after the {} collisions asked for", grouped(scene.run.collisions.value_or(report.totals.pair)));
     case StopReason::interrupted:
-      return "interrupted here; everything up to here is saved";
+      return report.measured ? "interrupted here; everything up to here is saved" : "interrupted while still equilibrating";
+    case StopReason::jammed:
+      return "jammed: disks that touch on all sides collide without end at this instant; give them more room";
     case StopReason::no_collisions:
-      return "stopped: no pair of disks collides any more";
+      return report.measured ? "stopped: no pair of disks collides any more"
+                             : "stopped while equilibrating: no pair of disks collides";
   }
   return "";
 }
@@ -71,7 +74,7 @@ std::string how_exact(const RunReport& report) {
 }
 
 std::string what_it_measured(const RunReport& report) {
-  std::string text = row("temperature kT", fmt::format("{:.5g}", report.temperature_mean), "mean of m v^2 / 2");
+  std::string text = row("temperature kT", fmt::format("{:.5g}", report.temperature_mean), "kinetic, without common motion");
   if (!report.Z) return text + row("Z = PA/(NkT)", "none", "no pair of disks has collided");
   text += row("Z = PA/(NkT)", report.Z_error ? with_error(*report.Z, *report.Z_error) : fmt::format("{:.5g}", *report.Z),
               report.Z_error ? "from the momentum transfer" : "from too few collisions for an error");
@@ -87,7 +90,8 @@ std::string where_the_files_are(const Results& results) {
 
 std::string what_to_try_next(const RunReport& report, const Scene& scene, const Results& results) {
   const std::string rerun = fmt::format("{} run {}", results.program, shell_quoted(report.scene));
-  const std::string elsewhere = results.directory.filename().string();
+  const std::filesystem::path here = std::filesystem::absolute(results.directory / "").lexically_normal().parent_path();
+  const std::string elsewhere = std::filesystem::proximate(here).string();
   std::string text = "\nTry next\n";
   for (const std::string& file : results.files) {
     const std::string name = std::filesystem::path(file).filename().string();

@@ -32,34 +32,41 @@ namespace carom {
 template <class Real, class Rule>
 class TextbookEngine {
  public:
-  using Number = Real;
-
   /// Requires disks inside the box, radii and masses > 0, everything finite. Real may round what it is given.
   TextbookEngine(const Box& box, const Disks& disks, const State& start);
 
   // ---------------------------------------------------------------------------------------------------- the loop
 
-  /// Processes every event with time <= target, then stands at target. Returns earlier where totals().pair reaches
-  /// `pair_limit` (and stands at that collision), or after `event_limit` events of any kind. At target == forever it
-  /// stands at the last event when no further one is to come.
-  void run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
-    for (; totals_.pair < pair_limit && event_limit > 0; --event_limit) {
+  /// Processes every event with time <= target, then stands at target (at the last event where target is forever and none
+  /// is to come) and returns true. Returns false, and stands at the last event, where totals().pair reaches `pair_limit`,
+  /// after `event_limit` events of any kind, and when jammed().
+  bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
+    for (; totals_.pair < pair_limit && event_limit > 0 && !jammed(); --event_limit) {
       const Real end = target.since<Real>(epoch_);
-      if (idle() || queue_.next().time > end) {
+      const Real next = queue_.empty() ? infinity<Real> : queue_.next().time;
+      if (epoch_length_ <= std::min(next, end) && epoch_length_ < infinity<Real>) {
+        begin_epoch(epoch_length_);
+      } else if (next <= end && next < infinity<Real>) {
+        step();
+      } else {
         if (target < forever) now_ = std::max(now_, end);
-        return;
+        return true;
       }
-      step();
     }
+    return false;
   }
 
   /// Nothing will ever happen again.
   [[nodiscard]] bool idle() const { return queue_.empty() || queue_.next().time == infinity<Real>; }
 
+  /// Time has stopped: millions of events at one instant, as of disks that touch on all sides and still are to move.
+  [[nodiscard]] bool jammed() const { return at_one_instant_ > 10'000'000 + 100 * records_.size(); }
+
  private:
   /// The next event of all.
   void step() {
     const QueuedEvent<Real> event = queue_.next();
+    at_one_instant_ = event.time > now_ ? 0 : at_one_instant_ + 1;
     now_ = std::max(now_, event.time);
     if (event.higher == cell_crossing) {
       cross_cell(event.disk);
@@ -88,7 +95,8 @@ class TextbookEngine {
     ++totals_.pair;
     totals_.virial += static_cast<double>(impact.virial);
     if (recording_) log_event(i, j, a.v, b.v);
-    predict_after_collision(i, j);
+    predict(i);
+    predict(j);
   }
 
   /// A disk meets a wall: its velocity across the wall is reversed.
@@ -101,7 +109,7 @@ class TextbookEngine {
     totals_.wall_impulse[static_cast<std::size_t>(-1 - wall)] += 2 * static_cast<double>(a.mass * abs(across));
     across = -across;
     if (recording_) log_event(i, wall, a.v, Vec2<Real>(0, 0));
-    predict_after_collision(i, i);
+    predict(i);
   }
 
   /// A disk enters the next cell and may meet those who come into reach. Its record stays as it is.
@@ -116,15 +124,6 @@ class TextbookEngine {
   }
 
   // -------------------------------------------------------------------------------------------------- prediction
-
-  void predict_after_collision(std::int32_t i, std::int32_t j) {
-    if (now_ >= epoch_length_) {
-      begin_epoch();
-      return;
-    }
-    predict(i);
-    if (j != i) predict(j);
-  }
 
   void predict(std::int32_t i) {
     make_plan(i);
@@ -178,10 +177,11 @@ class TextbookEngine {
 
   // ------------------------------------------------------------------------------------------------------- time
 
-  /// A new zero for the loop's clock: every disk is brought to now and everything is predicted as at the start. Short
-  /// times keep their digits, and what remains is nothing but positions and velocities. It happens at the first
-  /// collision after every epoch_length_, so it depends on the trajectory alone.
-  void begin_epoch() {
+  /// A new zero for the loop's clock at time `now`: every disk is brought there and everything is predicted as at the
+  /// start. Short times keep their digits, and what remains is nothing but positions and velocities. It happens whenever
+  /// the clock passes epoch_length_, so it depends on the trajectory alone.
+  void begin_epoch(Real now) {
+    now_ = now;
     for (std::int32_t i = 0; i < count(); ++i) {
       bring_to_now(i);
       record(i).t = 0;
@@ -225,7 +225,7 @@ class TextbookEngine {
   };
 
   static constexpr std::int32_t nobody = -1;
-  static constexpr std::int32_t cell_crossing = -100;  ///< in the place of a partner, as the walls are
+  static constexpr std::int32_t cell_crossing = -100;  ///< in the place of a partner; below every wall: crossed before it is hit
 
   [[nodiscard]] static Vec2<Real> position(const Record& a, Real t) { return a.r + a.v * (t - a.t); }
 
@@ -280,6 +280,7 @@ class TextbookEngine {
   Instant epoch_;  ///< the loop's zero of time
   Real now_ = 0;   ///< since the epoch
   Real epoch_length_ = 0;
+  std::uint64_t at_one_instant_ = 0;  ///< events since time last advanced
   Totals totals_;
   bool recording_ = false;
   std::vector<Event> log_;
@@ -296,7 +297,7 @@ class TextbookEngine {
 
   /// Makes now the zero of time and forgets the totals.
   void reset_clock() {
-    begin_epoch();
+    begin_epoch(now_);
     epoch_ = Instant{};
     totals_ = Totals{};
   }

@@ -24,7 +24,7 @@ TextbookEngine<Real, Rule>::TextbookEngine(const Box& box, const Disks& disks, c
     record(i).mass = Real(disks.mass[static_cast<std::size_t>(i)]);
     if (start.images.cols() > i) images_.col(i) = start.images.col(i);
   }
-  begin_epoch();
+  begin_epoch(Real(0));
 }
 
 template <class Real, class Rule>
@@ -50,10 +50,7 @@ State TextbookEngine<Real, Rule>::state() const {
 
 template <class Real, class Rule>
 Real TextbookEngine<Real, Rule>::suitable_epoch_length() const {
-  using std::abs;
-  double speed = 0.0;
-  for (const Record& a : records_) speed += static_cast<double>(abs(a.v[0])) + static_cast<double>(abs(a.v[1]));
-  speed /= static_cast<double>(std::max(count(), 1));
+  const double speed = rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; });
   const double x = static_cast<double>(domain_.length[0]);
   const double y = static_cast<double>(domain_.length[1]);
   return Real(epoch_length(std::sqrt(x) * std::sqrt(y / std::max(count(), 1)), speed));

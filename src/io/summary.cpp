@@ -48,6 +48,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   json["pressure"] = {{"Z", number(report.Z)}, {"Z_error", number(report.Z_error)}, {"reduced", number(report.reduced_pressure)}};
   json["overlap"] = {{"max_relative", number(report.max_relative_overlap)}, {"checked", report.overlap_checked}};
   json["stopped"] = to_string(report.stopped);
+  if (!report.measured) json["measured"] = false;
 
   json["title"] = report.title;
   json["loop_seconds"] = number(report.loop_seconds);

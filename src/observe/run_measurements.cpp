@@ -52,6 +52,8 @@ void RunMeasurements::look_for_overlap(const State& state) {
 
 RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) {
   const State state = simulation_.state();
+  report_.measured = result.measured;
+  if (!result.measured) start(state);
   look_for_overlap(state);
   const double temperature = kinetic_temperature(simulation_.scene().box, simulation_.disks(), state);
 
@@ -66,7 +68,7 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   report_.stopped = result.stopped;
 
   virial_.add(report_.time, report_.totals.virial);
-  if (report_.totals.pair > 0 && virial_.rate() && temperature > 0.0) {
+  if (result.measured && report_.totals.pair > 0 && virial_.rate() && temperature > 0.0) {
     const double disks = static_cast<double>(report_.disks);
     report_.Z = compressibility(*virial_.rate(), disks, temperature);
     if (virial_.standard_error()) report_.Z_error = *virial_.standard_error() / (2.0 * disks * temperature);

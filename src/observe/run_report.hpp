@@ -40,6 +40,7 @@ struct RunReport {
   double max_relative_overlap = 0.0;  ///< largest (sigma_ij - |r_ij|) / sigma_ij over all checked states, >= 0
   std::uint64_t overlap_checked = 0;  ///< number of states checked
   StopReason stopped = StopReason::time;
+  bool measured = true;  ///< false where the run ended while it was still equilibrating: clock and totals are of that part
 
   /// (final - initial) / initial, 0 where the initial energy is 0
   [[nodiscard]] double relative_energy_drift() const {

@@ -25,8 +25,9 @@ class AnyEngine {
   AnyEngine& operator=(const AnyEngine&) = delete;
   virtual ~AnyEngine() = default;
 
-  virtual void run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) = 0;
+  virtual bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) = 0;
   [[nodiscard]] virtual bool idle() const = 0;
+  [[nodiscard]] virtual bool jammed() const = 0;
   [[nodiscard]] virtual Instant now() const = 0;
   [[nodiscard]] virtual const Totals& totals() const = 0;
   [[nodiscard]] virtual State state() const = 0;
@@ -42,17 +43,24 @@ class EngineAdapter final : public AnyEngine {
   template <class... Args>
   explicit EngineAdapter(const Args&... args) : engine_(args...) {}
 
-  void run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
-    engine_.run_until(target, pair_limit, event_limit);
+  bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
+    const bool arrived = engine_.run_until(target, pair_limit, event_limit);
 #if CAROM_CHECK_INVARIANTS
     check_now_and_then();
 #endif
+    return arrived;
   }
   [[nodiscard]] bool idle() const override { return engine_.idle(); }
+  [[nodiscard]] bool jammed() const override { return engine_.jammed(); }
   [[nodiscard]] Instant now() const override { return engine_.now(); }
   [[nodiscard]] const Totals& totals() const override { return engine_.totals(); }
   [[nodiscard]] State state() const override { return engine_.state(); }
-  void reset_clock() override { engine_.reset_clock(); }
+  void reset_clock() override {
+    engine_.reset_clock();
+#if CAROM_CHECK_INVARIANTS
+    next_check_ = 0;
+#endif
+  }
   void record_events(bool on) override { engine_.record_events(on); }
   [[nodiscard]] std::vector<Event> take_events() override { return engine_.take_events(); }
   [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_.check_invariants(); }

@@ -36,13 +36,12 @@ class Schedule {
         disks_(disks) {}
 
   RunResult operator()() {
-    const bool ready = equilibrate();
+    result_.measured = equilibrate();
+    if (!result_.measured) return result_;
     if (hooks_.start) hooks_.start(engine_.state());
-    if (ready) {
-      engine_.record_events(static_cast<bool>(hooks_.events));
-      measure();
-      engine_.record_events(false);
-    }
+    engine_.record_events(static_cast<bool>(hooks_.events));
+    measure();
+    engine_.record_events(false);
     return result_;
   }
 
@@ -60,8 +59,8 @@ class Schedule {
     if (ends_by_time_) {
       until = {*run_.equilibrate->time, 0.0};
     } else {
-      collisions =
-          static_cast<std::uint64_t>(std::ceil(*run_.equilibrate->collisions_per_disk * static_cast<double>(disks_) / 2.0));
+      const double asked = std::ceil(*run_.equilibrate->collisions_per_disk * static_cast<double>(disks_) / 2.0);
+      if (asked < 0x1p63) collisions = static_cast<std::uint64_t>(asked);
     }
     if (!advance(until, collisions) && result_.stopped != StopReason::collisions) return false;
     engine_.reset_clock();
@@ -79,9 +78,11 @@ class Schedule {
       const std::uint64_t last = ends_by_time_ ? last_sample(run_) : no_limit;
       for (std::uint64_t k = 0; k <= last; ++k) {
         // The last product may lie beyond the end by its rounding: 3 * 0.1 > 0.3. The run ends at its end.
-        if (!advance(std::min(Instant::product(k, *run_.sample_every), end), collisions)) return;
+        const bool arrived = advance(std::min(Instant::product(k, *run_.sample_every), end), collisions);
+        if (!arrived && !(k == 0 && collisions == 0)) return;  // the start is sampled even where nothing is to happen
         if (hooks_.sample) hooks_.sample(k, engine_.state());
         ++result_.samples;
+        if (!arrived) return;
         if (is_hopeless()) {
           stop(StopReason::no_collisions);
           return;
@@ -98,31 +99,29 @@ class Schedule {
         last_look_ = Clock::now();
         if (!hooks_.proceed(progress())) return stop(StopReason::interrupted);
       }
-      const std::uint64_t events = run_stretch(target, std::min(collisions, next_block_));
-      const bool block_ends = engine_.totals().pair >= next_block_;
+      const bool arrived = run_stretch(target, std::min(collisions, next_block_));
       if (hooks_.events) hand_on_events();
-      if (block_ends) {
+      if (engine_.totals().pair >= next_block_) {
         if (hooks_.block) hooks_.block(progress());
         next_block_ += block_collisions_;
       }
       if (engine_.totals().pair >= collisions) return stop(StopReason::collisions);
-      // An engine that returns before any limit stands at the target. Comparing its time with the target would not do:
-      // it stands there to the rounding of its own clock.
-      if (events < stretch_events && !block_ends && (target < forever || ends_by_time_)) return true;
+      if (arrived && target < forever) return true;
+      if (engine_.jammed()) return stop(StopReason::jammed);
       if (is_hopeless()) return stop(StopReason::no_collisions);
     }
   }
 
-  /// Returns the number of events.
-  std::uint64_t run_stretch(const Instant& target, std::uint64_t pair_limit) {
+  /// True when the engine stands at the target.
+  bool run_stretch(const Instant& target, std::uint64_t pair_limit) {
     const std::uint64_t pairs = engine_.totals().pair;
     const std::uint64_t before = all_events(engine_.totals());
     const auto started = Clock::now();
-    engine_.run_until(target, pair_limit, stretch_events);
+    const bool arrived = engine_.run_until(target, pair_limit, stretch_events);
     result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
     const std::uint64_t events = all_events(engine_.totals()) - before;
     without_collision_ = engine_.totals().pair > pairs ? 0 : without_collision_ + events;
-    return events;
+    return arrived;
   }
 
   /// Only collisions can end this, and none will come.
@@ -155,6 +154,21 @@ class Schedule {
   RunResult result_;
 };
 
+/// Scenes from a file have been checked; those that a program has put together have not.
+void require_sound_schedule(const Run& run) {
+  const auto refuse = [](const char* what) { throw SceneError({"run", 0, 0}, what); };
+  const auto negative = [](const std::optional<double>& number) { return number && !(*number >= 0.0 && std::isfinite(*number)); };
+  if (!run.time && !run.collisions) refuse("the run has neither time nor collisions and would never end; give one of them");
+  if (negative(run.time)) refuse("run.time must be finite and not negative");
+  if (run.sample_every && !(*run.sample_every > 0.0 && std::isfinite(*run.sample_every)))
+    refuse("run.sample_every must be positive and finite");
+  if (!run.equilibrate) return;
+  if (run.equilibrate->time.has_value() == run.equilibrate->collisions_per_disk.has_value())
+    refuse("run.equilibrate needs either time or collisions_per_disk");
+  if (negative(run.equilibrate->time) || negative(run.equilibrate->collisions_per_disk))
+    refuse("run.equilibrate must be finite and not negative");
+}
+
 }  // namespace
 
 std::uint64_t last_sample(const Run& run) {
@@ -169,6 +183,7 @@ std::uint64_t last_sample(const Run& run) {
 
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   auto& parts = *simulation.parts_;
+  require_sound_schedule(parts.scene.run);
   return Schedule(parts.scene, *parts.engine, parts.disks.count(), hooks)();
 }
 

@@ -19,8 +19,8 @@ namespace {
 StopReason run_to(detail::AnyEngine& engine, const Instant& target, std::uint64_t collision_limit) {
   if (!std::isfinite(target.high) || !std::isfinite(target.low))
     throw std::invalid_argument("a simulation runs to a finite time only");
-  engine.run_until(target, collision_limit, std::numeric_limits<std::uint64_t>::max());
-  return engine.totals().pair >= collision_limit ? StopReason::collisions : StopReason::time;
+  if (engine.run_until(target, collision_limit, std::numeric_limits<std::uint64_t>::max())) return StopReason::time;
+  return engine.jammed() ? StopReason::jammed : StopReason::collisions;
 }
 
 }  // namespace
@@ -78,6 +78,8 @@ std::string to_string(StopReason reason) {
       return "collisions";
     case StopReason::interrupted:
       return "interrupted";
+    case StopReason::jammed:
+      return "jammed";
     case StopReason::no_collisions:
       return "no_collisions";
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,21 @@ void require_complete(const Species& species) {
 void require_positive(const Species& species, double value, const char* what) {
   if (!(value > 0.0 && std::isfinite(value)))
     throw SceneError(species.where, fmt::format("the {} of a disk is {:g}; it must be positive and finite", what, value));
+}
+
+/// Predictions multiply squares of lengths and of speeds, which must neither overflow nor vanish.
+void require_resolvable_scale(const Scene& scene, const Start& start) {
+  if (start.disks.count() == 0) return;
+  const double speed = start.state.velocities.cwiseAbs().maxCoeff();
+  const double largest = speed * scene.box.lengths().maxCoeff();
+  const double smallest = speed * *std::min_element(start.disks.radius.begin(), start.disks.radius.end());
+  if (speed == 0.0 || (largest < 1e150 && smallest > 1e-150)) return;
+  throw SceneError(
+      scene.species.front().velocities_where,
+      fmt::format(
+          "the fastest disk moves at {:g} in a box {:g} wide, and the smallest disk has radius {:g}; products of speed and "
+          "length must lie between 1e-150 and 1e150: choose other units",
+          speed, scene.box.lengths().maxCoeff(), *std::min_element(start.disks.radius.begin(), start.disks.radius.end())));
 }
 
 /// A disk that just fits between two walls would bounce without end at one instant.
@@ -79,6 +95,7 @@ Start draw_start(const Scene& scene) {
   start.state.positions = draw_positions(scene, start.disks);
   start.state.velocities = draw_velocities(scene, start.disks);
   require_room_to_move(scene, start);
+  require_resolvable_scale(scene, start);
   start.state.images = Images::Zero(2, start.state.positions.cols());
   return start;
 }

@@ -11,6 +11,7 @@
 
 #include <carom/state.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <tuple>
@@ -33,6 +34,17 @@ class AllPairs {
   /// The next collision, made to happen. At time infinity where disks would travel more than 8 box lengths before it:
   /// too many images to search.
   Event step() {
+    for (;;) {
+      const Event event = next_event();
+      if (event.disk != epoch_change) return event;
+    }
+  }
+
+ private:
+  static constexpr int epoch_change = -2;
+
+  /// The next collision, or the change of the epoch if that comes first.
+  Event next_event() {
     double first = infinity<double>;
     int a = -1;
     int b = -1;
@@ -57,10 +69,14 @@ class AllPairs {
         }
       }
       double travel = 0.0;
-      for (int i = 0; i < n(); ++i) travel = std::max(travel, 2.0 * v_[at(i)].norm() * (first - t_[at(i)]));
+      for (int i = 0; i < n(); ++i) travel = std::max(travel, 2.0 * v_[at(i)].norm() * (std::min(first, length_) - t_[at(i)]));
       const double box = std::min(domain_.length[0], domain_.length[1]);
       if (!(travel + 2.0 * box > static_cast<double>(reach) * box)) break;
       if (reach >= 8) return {infinity<double>, 0.0, -1, -1, {}, {}};
+    }
+    if (length_ <= first) {
+      begin_epoch(length_);
+      return {0.0, 0.0, epoch_change, -1, {}, {}};
     }
     const double now = first;
     Event event;
@@ -79,11 +95,9 @@ class AllPairs {
     const Instant when = epoch_.plus(now);
     event.time = when.high;
     event.time_remainder = when.low;
-    if (now >= length_) begin_epoch(now);
     return event;
   }
 
- private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   [[nodiscard]] int n() const { return static_cast<int>(r_.size()); }
   [[nodiscard]] double sigma(int i, int j) const { return disks_.radius[at(i)] + disks_.radius[at(j)]; }
@@ -103,15 +117,13 @@ class AllPairs {
   }
 
   void begin_epoch(double now) {
-    double speed = 0.0;
     for (int i = 0; i < n(); ++i) {
       bring_to(i, now);
       t_[at(i)] = 0.0;
-      speed += std::abs(v_[at(i)][0]) + std::abs(v_[at(i)][1]);
     }
     epoch_ = epoch_.plus(now);
-    length_ =
-        epoch_length(std::sqrt(domain_.length[0]) * std::sqrt(domain_.length[1] / std::max(n(), 1)), speed / std::max(n(), 1));
+    const double speed = rms_speed(v_, [](const Vec2<double>& v) -> const Vec2<double>& { return v; });
+    length_ = epoch_length(std::sqrt(domain_.length[0]) * std::sqrt(domain_.length[1] / std::max(n(), 1)), speed);
   }
 
   Domain<double> domain_;
