@@ -31,4 +31,13 @@ template <class Disks, class VelocityOf>
   return std::ldexp(1.0, std::ilogb(std::max(passes, std::numeric_limits<double>::min())) + 1);
 }
 
+/// A disk that has become so fast that it has more than 64 box lengths behind it in this epoch, at its speed now: rounding
+/// a time would move it by more than 64 box lengths * 2^-53, so a new epoch is due. (A light disk squeezed between two
+/// heavy ones can be a thousand times faster than anything was when the epoch began.)
+template <class Velocity, class Real>
+[[nodiscard]] bool outruns_epoch(const Velocity& v, Real now, double box_size) {
+  using std::abs;
+  return (abs(v[0]) + abs(v[1])) * now > Real(64.0 * box_size);
+}
+
 }  // namespace carom

@@ -95,6 +95,10 @@ class TextbookEngine {
     ++totals_.pair;
     totals_.virial += static_cast<double>(impact.virial);
     if (recording_) log_event(i, j, a.v, b.v);
+    if (outruns_epoch(a.v, now_, box_size_) || outruns_epoch(b.v, now_, box_size_)) {
+      begin_epoch(now_);
+      return;
+    }
     predict(i);
     predict(j);
   }
@@ -179,7 +183,7 @@ class TextbookEngine {
 
   /// A new zero for the loop's clock at time `now`: every disk is brought there and everything is predicted as at the
   /// start. Short times keep their digits, and what remains is nothing but positions and velocities. It happens whenever
-  /// the clock passes epoch_length_, so it depends on the trajectory alone.
+  /// the clock passes epoch_length_, and when a disk outruns it, so it depends on the trajectory alone.
   void begin_epoch(Real now) {
     now_ = now;
     for (std::int32_t i = 0; i < count(); ++i) {
@@ -280,6 +284,7 @@ class TextbookEngine {
   Instant epoch_;  ///< the loop's zero of time
   Real now_ = 0;   ///< since the epoch
   Real epoch_length_ = 0;
+  double box_size_;                   ///< root of the area
   std::uint64_t at_one_instant_ = 0;  ///< events since time last advanced
   Totals totals_;
   bool recording_ = false;

@@ -16,7 +16,8 @@ TextbookEngine<Real, Rule>::TextbookEngine(const Box& box, const Disks& disks, c
             disks.count()),
       records_(disks.count()),
       plans_(disks.count()),
-      images_(Images::Zero(2, static_cast<Eigen::Index>(disks.count()))) {
+      images_(Images::Zero(2, static_cast<Eigen::Index>(disks.count()))),
+      box_size_(std::sqrt(box.lengths()[0]) * std::sqrt(box.lengths()[1])) {
   for (std::int32_t i = 0; i < count(); ++i) {
     record(i).r = start.positions.col(i).cast<Real>();
     record(i).v = start.velocities.col(i).cast<Real>();
@@ -51,9 +52,7 @@ State TextbookEngine<Real, Rule>::state() const {
 template <class Real, class Rule>
 Real TextbookEngine<Real, Rule>::suitable_epoch_length() const {
   const double speed = rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; });
-  const double x = static_cast<double>(domain_.length[0]);
-  const double y = static_cast<double>(domain_.length[1]);
-  return Real(epoch_length(std::sqrt(x) * std::sqrt(y / std::max(count(), 1)), speed));
+  return Real(epoch_length(box_size_ / std::sqrt(std::max(count(), 1)), speed));
 }
 
 template <class Real, class Rule>

@@ -95,10 +95,12 @@ class AllPairs {
     const Instant when = epoch_.plus(now);
     event.time = when.high;
     event.time_remainder = when.low;
+    if (b >= 0 && (outruns_epoch(v_[at(a)], now, box_size()) || outruns_epoch(v_[at(b)], now, box_size()))) begin_epoch(now);
     return event;
   }
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  [[nodiscard]] double box_size() const { return std::sqrt(domain_.length[0]) * std::sqrt(domain_.length[1]); }
   [[nodiscard]] int n() const { return static_cast<int>(r_.size()); }
   [[nodiscard]] double sigma(int i, int j) const { return disks_.radius[at(i)] + disks_.radius[at(j)]; }
 
@@ -123,7 +125,7 @@ class AllPairs {
     }
     epoch_ = epoch_.plus(now);
     const double speed = rms_speed(v_, [](const Vec2<double>& v) -> const Vec2<double>& { return v; });
-    length_ = epoch_length(std::sqrt(domain_.length[0]) * std::sqrt(domain_.length[1] / std::max(n(), 1)), speed);
+    length_ = epoch_length(box_size() / std::sqrt(std::max(n(), 1)), speed);
   }
 
   Domain<double> domain_;
