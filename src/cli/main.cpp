@@ -6,7 +6,11 @@
 #include <fmt/format.h>
 #include <carom/scene.hpp>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -37,9 +41,20 @@ ExitCode run_program(int argc, char** argv) {
   }
 }
 
+/// A closed standard stream would hand its number to the next file opened, and progress would be written into results.
+void open_standard_streams() {
+  for (int descriptor = open("/dev/null", O_RDWR); descriptor >= 0; descriptor = open("/dev/null", O_RDWR)) {
+    if (descriptor <= STDERR_FILENO) continue;
+    close(descriptor);
+    return;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error like a full disk, with a sentence
   const ExitCode code = run_program(argc, argv);
   // A full disk behind a redirection shows itself only here.
   if (std::fflush(stdout) != 0 && code == exit_done) {

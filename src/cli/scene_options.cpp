@@ -9,12 +9,30 @@
 #include <carom/simulation.hpp>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <limits>
+#include <string>
 
 namespace carom::cli {
 
+namespace {
+
+/// The digits of a seed, as TOML takes them.
+std::string checked_seed(const std::string& text) {
+  std::int64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc() || end != text.data() + text.size() || seed < 0)
+    throw UsageError(
+        fmt::format("--seed {}: a seed is a whole number from 0 to {}", text, std::numeric_limits<std::int64_t>::max()));
+  return std::to_string(seed);
+}
+
+}  // namespace
+
 Scene load(const SceneOptions& options) {
   std::vector<std::string> overrides = options.overrides;
-  if (options.seed) overrides.push_back(fmt::format("run.seed={}", *options.seed));
+  if (options.seed) overrides.push_back("run.seed=" + checked_seed(*options.seed));
   if (options.no_trajectory) overrides.emplace_back("output.trajectory=false");
   if (options.xyz) overrides.emplace_back("output.xyz=true");
   if (options.csv) overrides.emplace_back("output.csv=true");

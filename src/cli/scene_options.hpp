@@ -3,7 +3,6 @@
 
 #include <carom/scene.hpp>
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +12,7 @@ namespace carom::cli {
 struct SceneOptions {
   std::string path;
   std::vector<std::string> overrides;  ///< "run.time=2", in the order given
-  std::optional<std::uint64_t> seed;
+  std::optional<std::string> seed;     ///< as typed
   std::string engine = "auto";
   bool no_trajectory = false;
   bool xyz = false;

@@ -105,8 +105,8 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
     text += fmt::format("  {} --set collision.rule=specular --out {}   # smooth hard disks\n", rerun,
                         shell_quoted(elsewhere + "-specular"));
   } else {
-    text +=
-        fmt::format("  {} --seed {} --out {}   # another start\n", rerun, scene.run.seed + 1, shell_quoted(elsewhere + "-again"));
+    text += fmt::format("  {} --seed {} --out {}   # another start\n", rerun, scene.run.seed == 1 ? 2 : 1,
+                        shell_quoted(elsewhere + "-again"));
   }
   return text + fmt::format("  {} init --list   # other scenes to start from\n", results.program);
 }

@@ -1,13 +1,12 @@
 #pragma once
-// What contact does to two velocities, for every collision rule. A rule (specular.hpp, reversal.hpp) says which part of
-// the relative velocity is turned round; this file turns it round so that momentum and energy are kept to rounding with
-// no bias, for any ratio of masses: with k = 2 m_light / (m_light + m_heavy) <= 1 and d the part that is turned,
+// What contact does to two velocities, for every collision rule. A rule (specular.hpp, reversal.hpp) says which part d of
+// the relative velocity v is turned round; this file shares it out so that momentum and energy are kept to rounding with
+// no bias, for any ratio of masses. With v and d of light relative to heavy and k = 2 m_light / (m_light + m_heavy) < 1,
 //
-//     v_heavy += k d,    v_light -= 2 d - k d      (d of light relative to heavy).
+//     v_heavy' = v_heavy + k d,    v_light' = v_heavy' + (v - 2 d).
 //
-// The relative velocity changes by exactly 2 d whatever the rounding of k, and k means the same tiny relative error of
-// the mass ratio in both lines. Coefficients 2 mu/m_i and 2 mu/m_j that are rounded one by one would heat or cool the
-// gas by a fixed 1e-16 per collision.
+// The relative velocity is turned round whatever the rounding of k, and k's error is that of the mass ratio alone. Shares
+// 2 mu/m_i and 2 mu/m_j that are rounded one by one would heat or cool the gas by a fixed 1e-16 per collision.
 
 #include "core/vec2.hpp"
 
@@ -48,17 +47,27 @@ ImpactResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real 
   const Real b = r.dot(v);
   if (!(b < 0)) return {};
 
-  const Real k = 2 * (m_i < m_j ? m_i : m_j) / (m_i + m_j);
-  const Real virial = -b * k * (m_i < m_j ? m_j : m_i);
-  if (Rule::exchanges_velocities && m_i == m_j) {
-    std::swap(v_i, v_j);
-    return {virial};
-  }
   const Vec2<Real> d = Rule::turned(r, v, b);
-  const Vec2<Real> heavy = k * d;
-  const Vec2<Real> light = 2 * d - heavy;
-  v_i -= m_i < m_j ? light : heavy;
-  v_j += m_i < m_j ? heavy : light;
+  Real virial;
+  if (m_i == m_j) {
+    virial = -b * m_i;
+    if (Rule::exchanges_velocities) {
+      std::swap(v_i, v_j);
+      return {virial};
+    }
+    v_i -= d;
+    v_j += d;
+  } else {
+    const bool i_is_light = m_i < m_j;
+    Vec2<Real>& light = i_is_light ? v_i : v_j;
+    Vec2<Real>& heavy = i_is_light ? v_j : v_i;
+    const Real k = 2 * (i_is_light ? m_i : m_j) / (m_i + m_j);
+    virial = -b * k * (i_is_light ? m_j : m_i);
+    const Vec2<Real> sent = i_is_light ? d : -d;  // d, light relative to heavy
+    const Vec2<Real> kept = i_is_light ? Vec2<Real>(v - 2 * d) : Vec2<Real>(2 * d - v);
+    heavy += k * sent;
+    light = heavy + kept;
+  }
   if (r.dot(v_i - v_j) < 0) detail::recede(r, m_i, v_i, m_j, v_j);
   return {virial};
 }

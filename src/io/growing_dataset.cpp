@@ -26,8 +26,8 @@ Hdf5Id create_growing(hid_t parent, const std::string& name, hid_t file_type, co
   for (const hsize_t extent : layout.row) {
     extents.push_back(extent);
     limits.push_back(extent);
-    chunk.push_back(extent);
-    bytes *= extent;
+    chunk.push_back(std::max<hsize_t>(1, extent));  // a chunk may not be empty, where a row of no disks is
+    bytes *= std::max<hsize_t>(1, extent);
   }
   // A row of very many disks is cut along the disks, never along x, y, z.
   if (chunk.size() > 1 && bytes > largest_chunk_bytes) {
@@ -51,6 +51,7 @@ void append_rows(hid_t dataset, hid_t memory_type, std::span<const hsize_t> row,
   std::vector<hsize_t> extents = {present + count};
   extents.insert(extents.end(), row.begin(), row.end());
   checked(H5Dset_extent(dataset, extents.data()));
+  if (std::find(row.begin(), row.end(), hsize_t{0}) != row.end()) return;  // rows of no disks
   start[0] = present;
   extents[0] = count;
   const Hdf5Id space(H5Dget_space(dataset), H5Sclose);

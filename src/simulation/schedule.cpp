@@ -78,9 +78,14 @@ class Schedule {
       const std::uint64_t last = ends_by_time_ ? last_sample(run_) : no_limit;
       for (std::uint64_t k = 0; k <= last; ++k) {
         // The last product may lie beyond the end by its rounding: 3 * 0.1 > 0.3. The run ends at its end.
-        const bool arrived = advance(std::min(Instant::product(k, *run_.sample_every), end), collisions);
+        const Instant when = std::min(Instant::product(k, *run_.sample_every), end);
+        const bool arrived = advance(when, collisions);
         if (!arrived && !(k == 0 && collisions == 0)) return;  // the start is sampled even where nothing is to happen
-        if (hooks_.sample) hooks_.sample(k, engine_.state());
+        if (hooks_.sample) {
+          State state = engine_.state();
+          state.time = when.high;  // the product itself, not what the engine's clock makes of it
+          hooks_.sample(k, state);
+        }
         ++result_.samples;
         if (!arrived) return;
         if (is_hopeless()) {

@@ -46,6 +46,14 @@ void require_positive(const Species& species, double value, const char* what) {
 void require_resolvable_scale(const Scene& scene, const Start& start) {
   if (start.disks.count() == 0) return;
   const double speed = start.state.velocities.cwiseAbs().maxCoeff();
+  const double heaviest = *std::max_element(start.disks.mass.begin(), start.disks.mass.end());
+  if (!(heaviest * speed * static_cast<double>(start.disks.count()) < 1e150))
+    throw SceneError(
+        scene.species.front().where,
+        fmt::format(
+            "the heaviest disk has mass {:g} and the fastest moves at {:g}; the square of their momentum overflows: choose "
+            "other units",
+            heaviest, speed));
   const double largest = speed * scene.box.lengths().maxCoeff();
   const double smallest = speed * *std::min_element(start.disks.radius.begin(), start.disks.radius.end());
   if (speed == 0.0 || (largest < 1e150 && smallest > 1e-150)) return;
