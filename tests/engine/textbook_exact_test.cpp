@@ -108,15 +108,21 @@ TEST(ExactMotion, UnderReversalTheRelativePathIsRetraced) {
   }
 }
 
+template <class Rule>
+void expect_cradle(int row) {
+  std::vector<Placed> placed = {{{2.0, 2.0}, {1.0, 0.0}}};
+  for (int i = 1; i < row; ++i) placed.push_back({{4.0 + i, 2.0}, {0.0, 0.0}});  // touching, at rest
+  auto engine = engine_for<double, Rule>(system_of({{0.0, 0.0}, {32.0, 4.0}, {Boundary::walls, Boundary::walls}}, placed));
+  run_to(engine, 2.0 + 1.0);
+  EXPECT_EQ(engine.totals().pair, static_cast<std::uint64_t>(row - 1));
+  for (int i = 0; i < row; ++i)
+    EXPECT_EQ(engine.state().velocities(0, i), i == row - 1 ? 1.0 : 0.0) << "disk " << i << " of " << row;
+}
+
 TEST(ExactMotion, NewtonsCradleHandsTheVelocityToTheLastDisk) {
   for (int row = 2; row <= 10; ++row) {
-    std::vector<Placed> placed = {{{2.0, 2.0}, {1.0, 0.0}}};
-    for (int i = 1; i < row; ++i) placed.push_back({{4.0 + i, 2.0}, {0.0, 0.0}});  // touching, at rest
-    auto engine = engine_for(system_of({{0.0, 0.0}, {32.0, 4.0}, {Boundary::walls, Boundary::walls}}, placed));
-    run_to(engine, 2.0 + 1.0);
-    EXPECT_EQ(engine.totals().pair, static_cast<std::uint64_t>(row - 1));
-    for (int i = 0; i < row; ++i)
-      EXPECT_EQ(engine.state().velocities(0, i), i == row - 1 ? 1.0 : 0.0) << "disk " << i << " of " << row;
+    expect_cradle<Specular>(row);
+    expect_cradle<Reversal>(row);
   }
 }
 
