@@ -3,8 +3,8 @@
 
     docs/images/draw.py path/to/carom
 
-Needs python3-h5py, python3-numpy and python3-matplotlib. Writes box.svg and equation_of_state.svg (and its table) beside
-this file.
+Needs python3-h5py, python3-numpy and python3-matplotlib. Writes box.svg and equation_of_state.svg beside this
+file, and prints the table of the latter.
 """
 import json
 import pathlib

@@ -77,7 +77,7 @@ std::string what_it_measured(const RunReport& report) {
   std::string text = row("temperature kT", fmt::format("{:.5g}", report.temperature_mean), "kinetic, without common motion");
   if (!report.Z) return text + row("Z = PA/(NkT)", "none", "no pair of disks has collided");
   text += row("Z = PA/(NkT)", report.Z_error ? with_error(*report.Z, *report.Z_error) : fmt::format("{:.5g}", *report.Z),
-              report.Z_error ? "from the momentum transfer" : "from too few collisions for an error");
+              report.Z_error ? "from the momentum transfer" : "from too short a run for an error");
   if (report.reduced_pressure) text += row("P sigma^2/kT", fmt::format("{:.5g}", *report.reduced_pressure));
   return text;
 }

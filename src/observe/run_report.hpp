@@ -17,7 +17,7 @@ struct RunReport {
   std::string title;
   std::uint64_t seed = 1;
   std::string engine;
-  std::vector<std::string> effects;  ///< what acts beyond free flight: "walls", "periodic", "reversal", ...
+  std::vector<std::string> effects;  ///< what acts beyond free flight: "specular", "walls", ...
   std::int64_t disks = 0;
   double packing_fraction = 0.0;
 
