@@ -36,7 +36,8 @@ void textbook(benchmark::State& state) {
   const double allowed = 10.0 * (expected - 1.0) / std::sqrt(static_cast<double>(checked));
   const bool fluid = packing_fraction < 0.65;
   const double energy = kinetic_energy(system.disks, system.state);
-  const bool kept = std::abs(kinetic_energy(system.disks, engine.state()) / energy - 1.0) < 1e-12;
+  const double drift = std::abs(kinetic_energy(system.disks, engine.state()) / energy - 1.0);
+  const bool kept = drift < 5000.0 * static_cast<double>(epsilon<Real>);  // 1e-12 in double precision
   if ((fluid && std::abs(Z - expected) > allowed) || !kept || !engine.check_invariants().empty()) {
     state.SkipWithError("the pressure, the energy or the plan is wrong");
     return;
