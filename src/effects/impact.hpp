@@ -27,7 +27,7 @@ namespace detail {
 /// impulses that change velocities by an ulp or so, and energy by less than its own rounding. Without it a grazing pair
 /// could collide for ever at one instant.
 template <class Real>
-void recede(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j) {
+[[gnu::noinline, gnu::cold]] void recede(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j) {
   using std::sqrt;
   const Real speed = sqrt(v_i.squaredNorm()) + sqrt(v_j.squaredNorm());
   const Vec2<Real> n = (speed / sqrt(r.squaredNorm())) * r;

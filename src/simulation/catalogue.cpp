@@ -9,12 +9,19 @@ extern template std::unique_ptr<AnyEngine> make_textbook<double>(const Scene&, c
 extern template std::unique_ptr<AnyEngine> make_textbook<long double>(const Scene&, const Start&);
 extern template std::unique_ptr<AnyEngine> make_textbook<Quad>(const Scene&, const Start&);
 
+namespace {
+
+bool always(const Scene& /*scene*/, const Start& /*start*/) { return true; }
+
+}  // namespace
+
 const std::vector<EngineEntry>& catalogue() {
   static const std::vector<EngineEntry> entries = {
-      {"textbook", "double precision (53 bits)", &make_textbook<double>},
-      {"textbook-float", "single precision (24 bits)", &make_textbook<float>},
-      {"textbook-long-double", "extended precision (64 bits)", &make_textbook<long double>},
-      {"textbook-quad", "quadruple precision (113 bits)", &make_textbook<Quad>},
+      {"fast", &fast_covers, &make_fast},
+      {"textbook", &always, &make_textbook<double>},
+      {"textbook-float", &always, &make_textbook<float>},
+      {"textbook-long-double", &always, &make_textbook<long double>},
+      {"textbook-quad", &always, &make_textbook<Quad>},
   };
   return entries;
 }

@@ -14,12 +14,16 @@ namespace carom::detail {
 
 struct EngineEntry {
   std::string name;
-  std::string precision;  ///< in words, for people
+  bool (*covers)(const Scene& scene, const Start& start);
   std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Start& start);
 };
 
 /// In the order in which they are considered: the first that covers a scene runs it.
 const std::vector<EngineEntry>& catalogue();
+
+/// The fast engine, for equal disks or for any.
+bool fast_covers(const Scene& scene, const Start& start);
+std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Start& start);
 
 /// The textbook engine in one number type; instantiated in textbook_<type>.cpp, one file each because they are slow to
 /// compile.

@@ -58,13 +58,17 @@ std::vector<std::string> engine_names() {
 
 Simulation make_simulation(const Scene& scene, const std::string& engine) {
   const auto& entries = detail::catalogue();
-  const auto entry = engine == "auto"
-                         ? entries.begin()
-                         : std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.name == engine; });
-  if (entry == entries.end())
+  const auto named = [&](const auto& entry) { return entry.name == engine; };
+  if (engine != "auto" && std::none_of(entries.begin(), entries.end(), named))
     throw std::invalid_argument(
         fmt::format("there is no engine \"{}\"; choose one of auto, {}", engine, fmt::join(engine_names(), ", ")));
   Start start = draw_start(scene);
+  const auto covering = [&](const auto& entry) { return (engine == "auto" || named(entry)) && entry.covers(scene, start); };
+  const auto entry = std::find_if(entries.begin(), entries.end(), covering);
+  if (entry == entries.end())
+    throw std::invalid_argument(
+        fmt::format("the engine \"{}\" does not cover this scene: {}; leave the choice to carom, or take \"textbook\"", engine,
+                    "its periodic box is too small, or its disks are, compared with the box"));
   auto running = entry->make(scene, start);
   return Simulation(
       std::unique_ptr<Simulation::Parts>(new Simulation::Parts{scene, std::move(start.disks), entry->name, std::move(running)}));

@@ -8,9 +8,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <tuple>
+#include <utility>
 
 namespace carom::test {
 namespace {
@@ -30,9 +33,9 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325ull;
 };
 
-std::string hash_of_run(Scene scene, bool sampling) {
+std::string hash_of_run(Scene scene, const std::string& engine, bool sampling = true) {
   if (!sampling) scene.run.sample_every.reset();
-  Simulation simulation = make_simulation(scene);
+  Simulation simulation = make_simulation(scene, engine);
   run_schedule(simulation);
   const State state = simulation.state();
   Hash hash;
@@ -48,29 +51,45 @@ std::string hash_of_run(Scene scene, bool sampling) {
   return hash.text();
 }
 
-std::map<std::string, std::string> recorded() {
-  std::map<std::string, std::string> hashes;
+/// By scene and engine.
+std::map<std::pair<std::string, std::string>, std::string> recorded() {
+  std::map<std::pair<std::string, std::string>, std::string> hashes;
   std::ifstream file(CAROM_SOURCE_DIR "/tests/golden/hashes.txt");
-  for (std::string name, hash; file >> name >> hash;) hashes[name] = hash;
+  for (std::string scene, engine, hash; file >> scene >> engine >> hash;) hashes[{scene, engine}] = hash;
   return hashes;
 }
 
-class GoldenScene : public testing::TestWithParam<std::string> {};
+class GoldenScene : public testing::TestWithParam<std::tuple<std::string, std::string>> {
+ protected:
+  const std::string& name() const { return std::get<0>(GetParam()); }
+  const std::string& engine() const { return std::get<1>(GetParam()); }
+};
 
 TEST_P(GoldenScene, EndsInTheRecordedBits) {
-  const Scene scene = load_scene(example_path(GetParam()));
   const auto hashes = recorded();
-  const std::string hash = hash_of_run(scene, true);
-  ASSERT_TRUE(hashes.contains(GetParam())) << "add to tests/golden/hashes.txt: " << GetParam() << " " << hash;
-  EXPECT_EQ(hash, hashes.at(GetParam()));
+  const std::string hash = hash_of_run(load_scene(example_path(name())), engine());
+  ASSERT_TRUE(hashes.contains({name(), engine()}))
+      << "add to tests/golden/hashes.txt: " << name() << " " << engine() << " " << hash;
+  EXPECT_EQ(hash, hashes.at({name(), engine()}));
 }
 
 TEST_P(GoldenScene, EndsInTheSameBitsWithoutSampling) {
-  const Scene scene = load_scene(example_path(GetParam()));
-  EXPECT_EQ(hash_of_run(scene, false), hash_of_run(scene, true));
+  const Scene scene = load_scene(example_path(name()));
+  EXPECT_EQ(hash_of_run(scene, engine(), false), hash_of_run(scene, engine(), true));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, GoldenScene, testing::ValuesIn(example_scenes()), [](const auto& scene) { return scene.param; });
+TEST_P(GoldenScene, EndsInTheSameBitsWithoutVectorInstructions) {
+  const Scene scene = load_scene(example_path(name()));
+  const std::string best = hash_of_run(scene, engine());
+  ASSERT_EQ(setenv("CAROM_INSTRUCTIONS", "portable", 1), 0);
+  const std::string portable = hash_of_run(scene, engine());
+  unsetenv("CAROM_INSTRUCTIONS");
+  EXPECT_EQ(portable, best);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GoldenScene,
+                         testing::Combine(testing::ValuesIn(example_scenes()), testing::Values("fast", "textbook")),
+                         [](const auto& param) { return std::get<0>(param.param) + "_" + std::get<1>(param.param); });
 
 }  // namespace
 }  // namespace carom::test

@@ -1,0 +1,49 @@
+#pragma once
+// Positions as 64-bit integers: see core/flight.hpp for why.
+
+#include <carom/box.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+namespace carom {
+
+/// One axis of the box as a range of integers.
+struct FixedAxis {
+  double unit = 0.0;   ///< length of one step of a coordinate
+  double steps = 0.0;  ///< 1 / unit
+  long double middle = 0.0L;
+  double lower = 0.0, upper = 0.0;
+  bool periodic = false;
+
+  FixedAxis() = default;
+
+  /// A periodic axis takes the whole range; a walled one leaves room for lines that start up to `reach` beyond the walls at
+  /// the epoch. One step is the length over a power of two, so that what is dyadic for the one is so for the other.
+  FixedAxis(const Box& box, int axis, double reach)
+      : middle((static_cast<long double>(box.lower[axis]) + static_cast<long double>(box.upper[axis])) / 2),
+        lower(box.lower[axis]),
+        upper(box.upper[axis]),
+        periodic(box.periodic(axis)) {
+    const double length = upper - lower;
+    const int room = periodic ? 0 : std::ilogb(4.0 * (1.0 + reach / length)) + 1;
+    unit = std::ldexp(length, room - 64);
+    steps = 1.0 / unit;
+  }
+
+  /// The coordinate of a position inside the box.
+  [[nodiscard]] std::int64_t at(double position) const {
+    const long double x = std::rint((static_cast<long double>(position) - middle) / static_cast<long double>(unit));
+    // The upper edge of a periodic axis is its lower one.
+    return x >= 0x1p63L ? INT64_MIN : x <= -0x1p63L ? INT64_MIN : static_cast<std::int64_t>(x);
+  }
+
+  [[nodiscard]] double position(std::int64_t x) const {
+    return static_cast<double>(middle + static_cast<long double>(x) * static_cast<long double>(unit));
+  }
+
+  /// A length in steps, rounded towards zero. Requires |length| < half the range.
+  [[nodiscard]] std::int64_t steps_of(double length) const { return static_cast<std::int64_t>(length * steps); }
+};
+
+}  // namespace carom

@@ -1,0 +1,32 @@
+#pragma once
+// Disks in flight as the engine keeps them: straight lines in space and time, in fixed-point coordinates.
+//
+// A line stays as it is until the next collision: position = x + v t with t the time since the epoch, so there is
+// nothing to bring up to date when other disks move on. Coordinates are 64-bit integers. On a periodic axis the whole range is
+// one box length, so that the difference of two coordinates, wrapping as integers do, *is* the nearest image; and the resolution,
+// 2^-64 of a box length, is the same everywhere.
+
+#include <cstdint>
+
+namespace carom {
+
+/// A disk among equals: half a cache line.
+struct alignas(32) Flight {
+  std::int64_t x[2];  ///< at the epoch, in units of FixedAxis::unit from the middle of the box
+  double v[2];        ///< length / time
+};
+
+/// A disk among disks of other sizes or masses: one cache line.
+struct alignas(64) SizedFlight {
+  std::int64_t x[2];
+  double v[2];
+  double radius;
+  double mass;
+};
+
+/// a - b as integers that wrap: the nearest image on a periodic axis.
+[[nodiscard]] inline std::int64_t wrapped_difference(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
+}
+
+}  // namespace carom

@@ -1,0 +1,58 @@
+#pragma once
+// What lies ahead of a disk: which of its neighbours it meets first, and when it leaves its cage. The hot question of the
+// engine, answered for many neighbours at a time. One algorithm (prediction_kernel.hpp), compiled once for every machine
+// and once for those with AVX2; both give the same bits, and which one runs is decided when the program starts.
+
+#include "core/flight.hpp"
+
+#include <cstdint>
+
+namespace carom {
+
+/// What all predictions of a run have in common.
+struct PredictionFrame {
+  double unit[2];     ///< length of a step of a coordinate, per axis
+  double sigma;       ///< contact distance of equal disks; unused where disks have sizes of their own
+  double half_width;  ///< of a cage
+};
+
+/// Where a disk is to be looked for: a square round `centre` (in steps of 2^32 of a coordinate), and the ids of the disks that it
+/// may meet there, padded with its own id, with which it never collides, to a multiple of eight.
+struct Surroundings {
+  std::int32_t centre[2];
+  const std::int32_t* ids;
+  std::uint32_t count;
+};
+
+/// Times since the epoch; infinity for never.
+struct Prediction {
+  double pair_time;
+  double edge_time;      ///< when the disk leaves its cage; not before now
+  std::int32_t partner;  ///< -1 where there is none
+  std::int32_t tied;     ///< not 0: another partner comes at the very same time
+};
+
+/// Two disks that have just collided: their new lines, what surrounds them, and (to be filled in) what lies ahead of them.
+struct CollidedPair {
+  std::int32_t disk[2];
+  Surroundings around[2];
+  Prediction ahead[2];
+};
+
+template <class Line>
+struct PredictionKernel {
+  /// Disk i from `now` on.
+  void (*predict)(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around, double now,
+                  Prediction& ahead);
+  /// Stores the new lines of a pair, then predicts both. (Storing here, in one piece, lets the loads that follow read
+  /// what has just been written.)
+  void (*store_and_predict)(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, std::int64_t ax,
+                            std::int64_t ay, std::int64_t bx, std::int64_t by, double avx, double avy, double bvx, double bvy);
+  const char* name;  ///< of the instruction set
+};
+
+/// The best kernel for this machine; see core/instructions.hpp.
+template <class Line>
+const PredictionKernel<Line>& prediction_kernel();
+
+}  // namespace carom

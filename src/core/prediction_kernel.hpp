@@ -1,0 +1,212 @@
+// No include guard: compiled once per instruction set, in the namespace CAROM_INSTRUCTIONS.
+//
+// For the separation r and relative velocity v of two lines at `now` (i minus j): they meet if b = r.v < 0 and
+// d = sigma^2 v^2 - (r x v)^2 >= 0, in (r^2 - sigma^2) / (sqrt(d) - b), or at once where they touch or overlap. This is
+// core/contact_time.hpp but for r^2 - sigma^2, which is taken as it stands: its error moves the place of contact by
+// 2^-53 sigma, less than what the rounding of x + v t does, and it saves a square root.
+//
+// The vectors are those of GCC and Clang; every operation is IEEE's, so the bits are those of the same operations one by
+// one (tests/core/prediction_test.cpp has that twin). Nothing here branches on what it computes.
+
+#include "core/prediction.hpp"
+
+#include <cmath>
+#include <limits>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+// One function after inlining: what several searches share stays in registers, and they run side by side.
+#define CAROM_INLINE [[gnu::always_inline]] inline
+
+namespace carom::CAROM_INSTRUCTIONS {
+namespace {
+
+using Doubles = double __attribute__((vector_size(32)));
+using Longs = long long __attribute__((vector_size(32)));
+using UnsignedLongs = unsigned long long __attribute__((vector_size(32)));
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+CAROM_INLINE Doubles all(double x) { return Doubles{x, x, x, x}; }
+CAROM_INLINE Longs all(std::int64_t x) { return Longs{x, x, x, x}; }
+
+/// Exactly what four conversions would give: the two halves of an integer become doubles by writing them into the
+/// significands of 2^84 and 2^52; the last addition alone rounds.
+CAROM_INLINE Doubles to_double(Longs x) {
+  const auto bits = reinterpret_cast<UnsignedLongs>(x);
+  const auto low = reinterpret_cast<Doubles>((bits & 0xFFFFFFFFULL) | 0x4330000000000000ULL);
+  const auto high = reinterpret_cast<Doubles>((bits >> 32) ^ 0x4530000080000000ULL);
+  return (high - all(0x1p84 + 0x1p63 + 0x1p52)) + low;
+}
+
+CAROM_INLINE Doubles square_root(Doubles x) {
+#if defined(__AVX__)
+  return reinterpret_cast<Doubles>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(x)));
+#elif defined(__SSE2__)
+  const __m128d low = _mm_sqrt_pd(_mm_set_pd(x[1], x[0]));
+  const __m128d high = _mm_sqrt_pd(_mm_set_pd(x[3], x[2]));
+  return Doubles{low[0], low[1], high[0], high[1]};
+#else
+  return Doubles{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
+#endif
+}
+
+CAROM_INLINE unsigned bits_of(Longs mask) {
+#if defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
+#else
+  return static_cast<unsigned>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
+#endif
+}
+
+/// Not std::min: where the two are equal, either will do.
+CAROM_INLINE Doubles lesser(Doubles a, Doubles b) { return a < b ? a : b; }
+
+/// A line spread over all lanes.
+struct Mine {
+  Longs x, y;
+  Doubles vx, vy;
+  double radius;
+};
+
+template <class Line>
+CAROM_INLINE Mine spread(std::int64_t x, std::int64_t y, double vx, double vy, const Line& line) {
+  double radius = 0.0;
+  if constexpr (sizeof(Line) > 32) radius = line.radius;
+  return {all(x), all(y), all(vx), all(vy), radius};
+}
+
+template <class Line>
+CAROM_INLINE Longs load(const Line& line) {
+  return *reinterpret_cast<const Longs*>(&line);
+}
+
+/// When `mine` meets each of four others.
+template <class Line>
+CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& frame, const Mine& mine, const std::int32_t* ids,
+                                   double now) {
+  const Line &l0 = lines[ids[0]], &l1 = lines[ids[1]], &l2 = lines[ids[2]], &l3 = lines[ids[3]];
+  const Longs a0 = load(l0), a1 = load(l1), a2 = load(l2), a3 = load(l3);
+  const Longs x01 = __builtin_shufflevector(a0, a1, 0, 4, 2, 6), x23 = __builtin_shufflevector(a2, a3, 0, 4, 2, 6);
+  const Longs y01 = __builtin_shufflevector(a0, a1, 1, 5, 3, 7), y23 = __builtin_shufflevector(a2, a3, 1, 5, 3, 7);
+  const Longs dx = mine.x - __builtin_shufflevector(x01, x23, 0, 1, 4, 5);
+  const Longs dy = mine.y - __builtin_shufflevector(y01, y23, 0, 1, 4, 5);
+  const Doubles vx = mine.vx - reinterpret_cast<Doubles>(__builtin_shufflevector(x01, x23, 2, 3, 6, 7));
+  const Doubles vy = mine.vy - reinterpret_cast<Doubles>(__builtin_shufflevector(y01, y23, 2, 3, 6, 7));
+  const Doubles x = to_double(dx) * all(frame.unit[0]) + vx * all(now);
+  const Doubles y = to_double(dy) * all(frame.unit[1]) + vy * all(now);
+
+  Doubles sigma = all(frame.sigma);
+  if constexpr (sizeof(Line) > 32) sigma = all(mine.radius) + Doubles{l0.radius, l1.radius, l2.radius, l3.radius};
+  const Doubles sigma2 = sigma * sigma;
+  const Doubles b = x * vx + y * vy;
+  const Doubles s = x * vy - y * vx;
+  const Doubles d = sigma2 * (vx * vx + vy * vy) - s * s;
+  const Doubles c = (x * x + y * y) - sigma2;
+  Doubles wait = c / (square_root(d) - b);
+  wait = wait > all(0.0) ? wait : all(0.0);
+  const Longs meets = (b < all(0.0)) & (d >= all(0.0));
+  return meets ? all(now) + wait : all(never);
+}
+
+/// The earliest of eight times, into `first`.
+CAROM_INLINE void earliest(Doubles t0, Doubles t1, const std::int32_t* ids, Prediction& first) {
+  const Doubles t = lesser(t0, t1);
+  const Doubles u = lesser(t, __builtin_shufflevector(t, t, 2, 3, 0, 1));
+  const Doubles least = lesser(u, __builtin_shufflevector(u, u, 1, 0, 3, 2));
+  const unsigned which = bits_of(t0 == least) | (bits_of(t1 == least) << 4);
+  const double time = least[0];
+  first.pair_time = time;
+  first.partner = time < never ? ids[__builtin_ctz(which)] : -1;
+  first.tied = time < never ? static_cast<std::int32_t>(which & (which - 1)) : 0;
+}
+
+/// Everybody beyond the first eight.
+template <class Line>
+void search_on(const Line* lines, const PredictionFrame& frame, const Mine& mine, const Surroundings& around, double now,
+               Prediction& first) {
+  for (std::uint32_t k = 8; k < around.count; k += 8) {
+    Prediction next;
+    earliest(meeting_times(lines, frame, mine, around.ids + k, now), meeting_times(lines, frame, mine, around.ids + k + 4, now),
+             around.ids + k, next);
+    if (next.pair_time < first.pair_time) {
+      first.pair_time = next.pair_time;
+      first.partner = next.partner;
+      first.tied = next.tied;
+    } else if (next.pair_time == first.pair_time && next.pair_time < never) {
+      first.tied = 1;
+    }
+  }
+}
+
+/// When two disks (x and y of the one, x and y of the other) leave their cages, per axis.
+CAROM_INLINE Doubles leaving_times(const PredictionFrame& frame, Longs x, Doubles v, Longs centre, double now) {
+  const Doubles unit = {frame.unit[0], frame.unit[1], frame.unit[0], frame.unit[1]};
+  const Doubles off = to_double(x - (centre << 32)) * unit + v * all(now);
+  const Longs sign = reinterpret_cast<Longs>(v) & (-0x7FFFFFFFFFFFFFFFLL - 1);
+  const Doubles ahead = reinterpret_cast<Doubles>(reinterpret_cast<Longs>(off) ^ sign);
+  const Doubles speed = reinterpret_cast<Doubles>(reinterpret_cast<Longs>(v) ^ sign);
+  Doubles room = all(frame.half_width) - ahead;
+  room = room > all(0.0) ? room : all(0.0);
+  return v != all(0.0) ? all(now) + room / speed : all(never);
+}
+
+template <class Line>
+void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around, double now,
+             Prediction& ahead) {
+  const Line& line = lines[i];
+  const Mine mine = spread(line.x[0], line.x[1], line.v[0], line.v[1], line);
+  const Doubles t0 = meeting_times(lines, frame, mine, around.ids, now);
+  const Doubles t1 = meeting_times(lines, frame, mine, around.ids + 4, now);
+  const Doubles leaving = leaving_times(frame, Longs{line.x[0], line.x[1], 0, 0}, Doubles{line.v[0], line.v[1], 1.0, 1.0},
+                                        Longs{around.centre[0], around.centre[1], 0, 0}, now);
+  ahead.edge_time = leaving[0] < leaving[1] ? leaving[0] : leaving[1];
+  earliest(t0, t1, around.ids, ahead);
+  if (around.count > 8) search_on(lines, frame, mine, around, now, ahead);
+}
+
+template <class Line>
+CAROM_INLINE void store(Line& line, Longs x, Doubles v, bool upper) {
+  const Longs bits = reinterpret_cast<Longs>(v);
+  *reinterpret_cast<Longs*>(&line) =
+      upper ? __builtin_shufflevector(x, bits, 2, 3, 6, 7) : __builtin_shufflevector(x, bits, 0, 1, 4, 5);
+}
+
+template <class Line>
+void store_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, std::int64_t ax,
+                       std::int64_t ay, std::int64_t bx, std::int64_t by, double avx, double avy, double bvx, double bvy) {
+  Line& a = lines[pair.disk[0]];
+  Line& b = lines[pair.disk[1]];
+  const Surroundings &near_a = pair.around[0], &near_b = pair.around[1];
+  const Longs x = {ax, ay, bx, by};
+  const Doubles v = {avx, avy, bvx, bvy};
+  store(a, x, v, false);
+  store(b, x, v, true);
+
+  const Mine mine_a = spread(ax, ay, avx, avy, a), mine_b = spread(bx, by, bvx, bvy, b);
+  const Doubles a0 = meeting_times(lines, frame, mine_a, near_a.ids, now);
+  const Doubles b0 = meeting_times(lines, frame, mine_b, near_b.ids, now);
+  const Doubles a1 = meeting_times(lines, frame, mine_a, near_a.ids + 4, now);
+  const Doubles b1 = meeting_times(lines, frame, mine_b, near_b.ids + 4, now);
+  const Longs centre = {near_a.centre[0], near_a.centre[1], near_b.centre[0], near_b.centre[1]};
+  const Doubles leaving = leaving_times(frame, x, v, centre, now);
+  const Doubles edge = lesser(leaving, __builtin_shufflevector(leaving, leaving, 1, 0, 3, 2));
+  pair.ahead[0].edge_time = edge[0];
+  pair.ahead[1].edge_time = edge[2];
+  earliest(a0, a1, near_a.ids, pair.ahead[0]);
+  earliest(b0, b1, near_b.ids, pair.ahead[1]);
+  if (near_a.count > 8) search_on(lines, frame, mine_a, near_a, now, pair.ahead[0]);
+  if (near_b.count > 8) search_on(lines, frame, mine_b, near_b, now, pair.ahead[1]);
+}
+
+}  // namespace
+
+#define CAROM_TEXT_OF(name) #name
+#define CAROM_TEXT(name) CAROM_TEXT_OF(name)
+extern const PredictionKernel<Flight> flight_kernel = {&predict<Flight>, &store_and_predict<Flight>,
+                                                       CAROM_TEXT(CAROM_INSTRUCTIONS)};
+extern const PredictionKernel<SizedFlight> sized_flight_kernel = {&predict<SizedFlight>, &store_and_predict<SizedFlight>,
+                                                                  CAROM_TEXT(CAROM_INSTRUCTIONS)};
+
+}  // namespace carom::CAROM_INSTRUCTIONS

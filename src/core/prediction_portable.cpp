@@ -1,0 +1,2 @@
+#define CAROM_INSTRUCTIONS portable
+#include "core/prediction_kernel.hpp"

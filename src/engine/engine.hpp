@@ -1,0 +1,406 @@
+#pragma once
+// The engine that runs scenes: the same physics as engine/textbook.hpp, several times faster. Read from run_until() downwards.
+//
+// Where it gains: a disk is a line in space and time that nothing but its own collisions changes (core/flight.hpp);
+// neighbours are known from lists that change only when a disk leaves its cage (neighbours/neighbour_lists.hpp); one disk is
+// predicted against eight neighbours at a time (core/prediction.hpp); the next event comes from a calendar in O(1), which
+// also shows the events after it, so that their data can be fetched ahead (queue/calendar_queue.hpp).
+//
+// Every disk has one plan: the earliest collision that it foresaw when it was last predicted, and when it leaves its cage or
+// meets a wall. Of two partners the one predicted last foresees the collision; a plan whose partner has collided since is stale
+// and made anew when its time comes.
+
+#include "core/fixed_axis.hpp"
+#include "core/instant.hpp"
+#include "core/large_memory.hpp"
+#include "core/prediction.hpp"
+#include "core/vec2.hpp"
+#include "effects/impact.hpp"
+#include "engine/layout.hpp"
+#include "neighbours/cage_tuner.hpp"
+#include "neighbours/neighbour_lists.hpp"
+#include "queue/calendar_queue.hpp"
+
+#include <carom/state.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+template <class Rule, class Layout>
+class Engine {
+  using Line = typename Layout::Line;
+
+  /// What a disk expects. Half a cache line.
+  struct alignas(32) Plan {
+    double pair_time;  ///< of the earliest collision foreseen
+    double edge_time;  ///< when it leaves its cage or meets a wall
+    std::int32_t partner;
+    std::uint32_t partner_collisions;  ///< when the collision was foreseen
+    std::int32_t edge;                 ///< `cage` or a Wall
+  };
+
+ public:
+  /// Whether this engine can run these disks: periodic boxes must be wide enough for the nearest image to be the only one that a
+  /// disk can meet, disks not so small that the resolution of cages would show, and the layout the right one.
+  [[nodiscard]] static bool covers(const Box& box, const Disks& disks);
+
+  /// Requires covers(box, disks), disks inside the box, radii and masses > 0, everything finite.
+  Engine(const Box& box, const Disks& disks, const State& start);
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  // ---------------------------------------------------------------------------------------------------- the loop
+
+  /// Processes every event with time <= target, then stands at target (at the last event where target is forever and none
+  /// is to come) and returns true. Returns false, and stands at the last event, where totals().pair reaches `pair_limit`,
+  /// after `event_limit` events of any kind, and when jammed().
+  bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
+    double end = target.since<double>(epoch_);
+    for (; totals_.pair < pair_limit && event_limit > 0 && !jammed(); --event_limit) {
+      const Event* next = queue_.next(*this, [this](std::int64_t span) { look_ahead(span); });
+      const double time = next != nullptr ? next->time : never;
+      if (epoch_length_ <= std::min(time, end) && epoch_length_ < never) {
+        begin_epoch(epoch_length_);
+        end = target.since<double>(epoch_);
+      } else if (time <= end && time < never) {
+        step(next->disk, time);
+        if (now_ == 0.0) end = target.since<double>(epoch_);  // a new epoch may have begun
+      } else {
+        if (target < forever) now_ = std::max(now_, end);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Nothing will ever happen again: nothing moves.
+  [[nodiscard]] bool idle() const { return epoch_length_ == never; }
+
+  /// Time has stopped: millions of events at one instant, as of disks that touch on all sides and still are to move.
+  [[nodiscard]] bool jammed() const { return at_one_instant_ > 10'000'000 + 100 * lines_.size(); }
+
+ private:
+  /// The next event of all.
+  [[gnu::flatten]] void step(std::int32_t i, double time) {
+    queue_.pop(*this);
+    at_one_instant_ = time > now_ ? 0 : at_one_instant_ + 1;
+    now_ = std::max(now_, time);
+    const Plan& mine = plan(i);
+    if (mine.edge_time <= mine.pair_time) {
+      mine.edge == cage ? leave_cage(i) : reflect(i, static_cast<Wall>(mine.edge));
+    } else if (is_stale(mine)) {
+      ++totals_.stale;
+      predict(i);
+    } else {
+      collide(i, mine.partner);
+    }
+  }
+
+  // -------------------------------------------------------------------------------------------------- the events
+
+  /// Two disks meet: exchange momentum by the rule, go on along new lines, predict anew.
+  void collide(std::int32_t i, std::int32_t j) {
+    const Line &a = line(i), &b = line(j);
+    Vec2<double> va(a.v[0], a.v[1]), vb(b.v[0], b.v[1]);
+    const Vec2<double> before_a = va, before_b = vb;
+    const auto impact = carom::collide<Rule, double>(separation(a, b), layout_.mass(a), va, layout_.mass(b), vb);
+    ++totals_.pair;
+    totals_.virial += impact.virial;
+    ++collisions_[static_cast<std::size_t>(i)];
+    ++collisions_[static_cast<std::size_t>(j)];
+    if (recording_) log_collision(i, j, va, vb);
+
+    const Vec2<double> da = before_a - va, db = before_b - vb;
+    CollidedPair pair{{i, j}, {surroundings(i), surroundings(j)}, {}};
+    looks_ += (pair.around[0].count + pair.around[1].count) / 8;
+    kernel_.store_and_predict(lines_.data(), frame_, pair, now_, moved(i, 0, da[0] * now_), moved(i, 1, da[1] * now_),
+                              moved(j, 0, db[0] * now_), moved(j, 1, db[1] * now_), va[0], va[1], vb[0], vb[1]);
+    plan_ahead(i, pair.ahead[0]);
+    plan_ahead(j, pair.ahead[1]);
+    schedule(i);
+    schedule(j);
+    if (outruns_epoch(va) || outruns_epoch(vb)) begin_epoch(now_);
+  }
+
+  /// A disk meets a wall: its velocity across the wall is reversed.
+  void reflect(std::int32_t i, Wall wall) {
+    Line& a = line(i);
+    const int across = wall >= wall_right ? 0 : 1;
+    const double v = a.v[across];
+    ++totals_.wall;
+    totals_.wall_impulse[static_cast<std::size_t>(-1 - wall)] += 2.0 * layout_.mass(a) * std::abs(v);
+    ++collisions_[static_cast<std::size_t>(i)];
+    a.x[across] = moved(i, across, 2.0 * v * now_);
+    a.v[across] = -v;
+    if (recording_) log_reflection(i, wall);
+    predict(i);
+  }
+
+  /// A disk leaves its cage, gets a new one round where it is, and may meet those who come within reach. What it has planned
+  /// with others stays as it is.
+  void leave_cage(std::int32_t i) {
+    ++totals_.other;
+    const auto fresh = lists_.move_cage(i, cage_around(i));
+    Prediction ahead =
+        predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, fresh.data(), static_cast<std::uint32_t>(fresh.size())});
+    Plan& mine = plan(i);
+    if (ahead.pair_time < mine.pair_time) {
+      plan_ahead(i, ahead);
+    } else {
+      plan_edge(i, ahead.edge_time);
+    }
+    schedule(i);
+  }
+
+  // -------------------------------------------------------------------------------------------------- prediction
+
+  /// Disk i against all its neighbours, its walls and the edges of its cage.
+  void predict(std::int32_t i) {
+    plan_ahead(i, predicted(i, surroundings(i)));
+    schedule(i);
+  }
+
+  void plan_ahead(std::int32_t i, Prediction ahead) {
+    if (ahead.tied != 0) [[unlikely]]
+      ahead.partner = lowest_of_tied(i, ahead);
+    Plan& mine = plan(i);
+    mine.pair_time = ahead.pair_time;
+    mine.partner = ahead.partner;
+    if (ahead.partner >= 0) mine.partner_collisions = collisions_[static_cast<std::size_t>(ahead.partner)];
+    plan_edge(i, ahead.edge_time);
+  }
+
+  void plan_edge(std::int32_t i, double leaving_time) {
+    plan(i).edge_time = leaving_time;
+    plan(i).edge = cage;
+    if (walled_) plan_wall(i);
+  }
+
+  /// Puts the next contact with a wall in the place of the edge of the cage where it comes first.
+  void plan_wall(std::int32_t i) {
+    const Line& a = line(i);
+    Plan& mine = plan(i);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double v = a.v[axis];
+      if (axes_[axis].periodic || v == 0.0) continue;
+      const bool up = v > 0.0;
+      const std::int64_t limit = half_[axis] - axes_[axis].steps_of(layout_.radius(a));
+      const double gap = frame_.unit[axis] * static_cast<double>(up ? limit - a.x[axis] : a.x[axis] + limit) - std::abs(v) * now_;
+      const double time = gap > 0.0 ? now_ + gap / std::abs(v) : now_;
+      if (time < mine.edge_time || (time == mine.edge_time && mine.edge == cage)) {
+        mine.edge_time = time;
+        mine.edge = wall_left - 2 * axis - (up ? 1 : 0);
+      }
+    }
+  }
+
+  /// What lies beyond this epoch is found again when the next one begins.
+  void schedule(std::int32_t i) {
+    const double next = time(i);
+    if (next < epoch_length_) queue_.push(*this, i, next);
+  }
+
+  /// The partner has collided since this was planned.
+  [[nodiscard]] bool is_stale(const Plan& mine) const {
+    return collisions_[static_cast<std::size_t>(mine.partner)] != mine.partner_collisions;
+  }
+
+  // ------------------------------------------------------------------------------------------------------- time
+
+  /// A new zero for the loop's clock at time `now`: every line starts there, every plan counts from there. Short times keep
+  /// their digits, and no line gets so long that coordinates wrap unseen.
+  void begin_epoch(double now);
+  /// As long as the lines may become as the disks move now, rounded down to a power of two.
+  void choose_epoch_length();
+  /// Chooses the width of cages by the work done since the last choice.
+  void tune_cages(double elapsed);
+  /// New cages round all disks, new lists, new plans.
+  void rebuild(double half_width);
+  /// A length for the first spans of the queue.
+  [[nodiscard]] double first_span() const;
+
+  /// A disk so fast that its line could wrap before the epoch ends.
+  [[nodiscard]] bool outruns_epoch(const Vec2<double>& v) const {
+    return std::abs(v[0]) > speed_limit_[0] || std::abs(v[1]) > speed_limit_[1];
+  }
+
+  // ----------------------------------------------------------------------------------------------- disks in flight
+
+  /// In spacings: how far beyond a wall a line may start at the epoch.
+  static constexpr double free_path = 16.0;
+  /// Between two and eight there is no difference in speed; fewer take more memory.
+  static constexpr double pushed_per_span = 6.0;
+  static constexpr std::int32_t cage = -100;
+  static constexpr double never = infinity<double>;
+
+  /// From j to i now, to the nearest image.
+  [[nodiscard]] Vec2<double> separation(const Line& a, const Line& b) const {
+    Vec2<double> r;
+    for (int k = 0; k < 2; ++k)
+      r[k] = static_cast<double>(wrapped_difference(a.x[k], b.x[k])) * frame_.unit[k] + (a.v[k] - b.v[k]) * now_;
+    return r;
+  }
+
+  /// Where the line of a disk is now along an axis, from the centre of its cage.
+  [[nodiscard]] double offset(int axis, const Line& a, std::int32_t centre) const {
+    const auto wide = static_cast<std::int64_t>(static_cast<std::uint64_t>(centre) << 32);
+    return frame_.unit[axis] * static_cast<double>(wrapped_difference(a.x[axis], wide)) + a.v[axis] * now_;
+  }
+  void check_pair(std::int32_t i, std::int32_t j, std::vector<std::string>& faults) const;
+
+  [[nodiscard]] static double mean_spacing(const Box& box, std::size_t disks) {
+    return std::sqrt(box.lengths()[0]) * std::sqrt(box.lengths()[1] / static_cast<double>(std::max<std::size_t>(disks, 1)));
+  }
+  [[nodiscard]] static FixedAxis fixed_axis(const Box& box, int axis, std::size_t disks) {
+    return {box, axis, free_path * mean_spacing(box, disks)};
+  }
+  [[nodiscard]] static double largest_contact_distance(const Disks& disks);
+
+  /// The coordinate of disk i moved by a length, with its image count where it wraps.
+  [[nodiscard]] std::int64_t moved(std::int32_t i, int axis, double by) {
+    std::int64_t x;
+    const std::int64_t steps = axes_[axis].steps_of(by);
+    if (__builtin_add_overflow(line(i).x[axis], steps, &x)) [[unlikely]]
+      image(i, axis) += steps < 0 ? -1 : 1;
+    return x;
+  }
+
+  /// A cage round where disk i is now, somewhat ahead of it.
+  [[nodiscard]] CageCentre cage_around(std::int32_t i) const {
+    const Line& a = line(i);
+    const double fastest = std::max(std::abs(a.v[0]), std::abs(a.v[1]));
+    const double ahead = fastest > 0.0 ? cage_lead * lists_.half_width() / fastest : 0.0;
+    return {cage_centre(0, a, ahead), cage_centre(1, a, ahead)};
+  }
+  [[nodiscard]] std::int32_t cage_centre(int axis, const Line& a, double ahead) const {
+    const auto x = static_cast<std::uint64_t>(a.x[axis]) + static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * now_)) +
+                   static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * ahead));
+    return static_cast<std::int32_t>((x + 0x80000000U) >> 32);
+  }
+
+  [[nodiscard]] std::int64_t& image(std::int32_t i, int axis) {
+    return images_[static_cast<std::size_t>(i)][static_cast<std::size_t>(axis)];
+  }
+
+  [[nodiscard]] Surroundings surroundings(std::int32_t i) const {
+    const CageCentre centre = lists_.centre(i);
+    return {{centre.x, centre.y}, lists_.ids(i), lists_.count(i)};
+  }
+  [[nodiscard]] Prediction predicted(std::int32_t i, const Surroundings& around) const {
+    Prediction ahead;
+    kernel_.predict(lines_.data(), frame_, i, around, now_, ahead);
+    return ahead;
+  }
+  [[nodiscard]] std::int32_t lowest_of_tied(std::int32_t i, const Prediction& ahead) const;
+
+  void log_collision(std::int32_t i, std::int32_t j, const Vec2<double>& va, const Vec2<double>& vb);
+  void log_reflection(std::int32_t i, Wall wall);
+  void look_ahead(std::int64_t span) const;
+
+  [[nodiscard]] Instant instant(double t) const { return epoch_.plus(t); }
+  [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(lines_.size()); }
+  [[nodiscard]] Line& line(std::int32_t i) { return lines_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Line& line(std::int32_t i) const { return lines_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] Plan& plan(std::int32_t i) { return plans_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Plan& plan(std::int32_t i) const { return plans_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] std::int32_t id(std::int32_t i) const { return ids_[static_cast<std::size_t>(i)]; }
+
+  /// By how much of its half-width a new cage lies ahead of the disk. Between a quarter and three quarters there is little
+  /// difference; dilute gases gain from more.
+  static constexpr double cage_lead = 0.5;
+
+  using Queue = CalendarQueue<Engine>;
+  using Event = typename Queue::Entry;
+
+  FixedAxis axes_[2];
+  std::int64_t half_[2];  ///< from the middle to a wall
+  Layout layout_;
+  PredictionFrame frame_;
+  const PredictionKernel<Line>& kernel_;
+  LargeVector<Line> lines_;
+  LargeVector<Plan> plans_;
+  LargeVector<std::uint32_t> collisions_;  ///< so far; tells whether a plan with this disk still holds
+  LargeVector<std::int32_t> ids_;          ///< what the world calls them: the engine keeps neighbours near each other in memory
+  LargeVector<std::array<std::int64_t, 2>> images_;
+  NeighbourLists lists_;
+  Queue queue_;
+
+  Instant epoch_;  ///< the loop's zero of time
+  double now_ = 0.0;
+  double epoch_length_ = 0.0;
+  double spacing_;              ///< root of the area per disk
+  double mean_speed_ = 0.0;     ///< mean of |v_x| + |v_y| when the epoch began
+  double travel_[2];            ///< the longest that a line may be along each axis
+  double speed_limit_[2] = {};  ///< with which a line stays shorter than that until the epoch ends
+  double span_ = 0.0;           ///< of the queue
+  bool walled_;
+  bool fetching_ = false;  ///< the data do not fit the cache
+
+  CageTuner tuner_;
+  double widest_;              ///< that a cage may be
+  bool settling_ = true;       ///< the cages are too new for their work to be judged
+  double travelled_ = 0.0;     ///< since the width of cages was last looked at: mean path of a disk
+  std::uint64_t left_ = 0;     ///< totals_.other at that time
+  std::uint64_t changed_ = 0;  ///< lists_.changes() at that time
+  std::uint64_t looks_ = 0;    ///< since then: at more than eight neighbours
+
+  std::uint64_t at_one_instant_ = 0;
+  Totals totals_;
+  bool recording_ = false;
+  std::vector<carom::Event> log_;
+
+ public:
+  // ------------------------------------------------------------------------------------- for the queue
+
+  [[nodiscard]] double time(std::int32_t i) const { return std::min(plan(i).pair_time, plan(i).edge_time); }
+
+  /// Ties: the event with the lower disk first, then the lower other disk; a cage is left before a wall is met, and a wall
+  /// met before a disk.
+  [[nodiscard]] bool precedes(std::int32_t a, std::int32_t b) const { return rank(a) < rank(b); }
+
+ private:
+  [[nodiscard]] std::pair<std::int32_t, std::int32_t> rank(std::int32_t i) const {
+    const Plan& mine = plan(i);
+    if (mine.edge_time <= mine.pair_time) return {id(i), mine.edge};
+    return std::minmax(id(i), id(mine.partner));
+  }
+
+ public:
+  // ------------------------------------------------------------------------------------- for those who look on
+
+  [[nodiscard]] Instant now() const { return instant(now_); }
+  [[nodiscard]] const Totals& totals() const { return totals_; }
+  [[nodiscard]] std::size_t disk_count() const { return lines_.size(); }
+
+  /// The state at now(), computed on the side: nothing in the engine changes.
+  [[nodiscard]] State state() const;
+
+  /// Makes now the zero of time and forgets the totals.
+  void reset_clock() {
+    begin_epoch(now_);
+    epoch_ = Instant{};
+    totals_ = Totals{};
+    left_ = 0;
+  }
+
+  void record_events(bool on) { recording_ = on; }
+  [[nodiscard]] std::vector<carom::Event> take_events() { return std::exchange(log_, {}); }
+
+  /// Bytes of all that has an entry per disk.
+  [[nodiscard]] std::size_t bytes() const;
+
+  /// One sentence for every way in which the plan differs from what an exhaustive search finds.
+  [[nodiscard]] std::vector<std::string> check_invariants() const;
+};
+
+}  // namespace carom
+
+#include "engine/engine_state.hpp"

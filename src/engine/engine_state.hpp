@@ -1,0 +1,349 @@
+#pragma once
+// The engine's beginning, its epochs, its state seen from outside and the check of its plan: everything but the loop.
+
+#include "engine/engine.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <numeric>
+#if defined(__unix__)
+#include <unistd.h>
+#endif
+
+namespace carom {
+
+namespace detail {
+
+/// Disks in the order of a curve that fills the box (Morton): those near each other in the box are so in memory.
+inline LargeVector<std::int32_t> order_in_space(const FixedAxis& x, const FixedAxis& y, const State& start) {
+  const auto n = static_cast<std::size_t>(start.positions.cols());
+  const auto spread = [](std::uint64_t bits) {
+    bits = (bits | (bits << 16)) & 0x0000FFFF0000FFFFULL;
+    bits = (bits | (bits << 8)) & 0x00FF00FF00FF00FFULL;
+    bits = (bits | (bits << 4)) & 0x0F0F0F0F0F0F0F0FULL;
+    bits = (bits | (bits << 2)) & 0x3333333333333333ULL;
+    return (bits | (bits << 1)) & 0x5555555555555555ULL;
+  };
+  std::vector<std::pair<std::uint64_t, std::int32_t>> keys(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const auto upper = [](std::int64_t c) { return (static_cast<std::uint64_t>(c) + (1ULL << 63)) >> 32; };
+    keys[i] = {spread(upper(x.at(start.positions(0, at)))) | (spread(upper(y.at(start.positions(1, at)))) << 1),
+               static_cast<std::int32_t>(i)};
+  }
+  std::sort(keys.begin(), keys.end());
+  LargeVector<std::int32_t> order(n);
+  for (std::size_t i = 0; i < n; ++i) order[i] = keys[i].second;
+  return order;
+}
+
+inline std::vector<double> in_order(const std::vector<double>& radius, const LargeVector<std::int32_t>& order) {
+  std::vector<double> ordered;
+  ordered.reserve(order.size());
+  for (const std::int32_t id : order) ordered.push_back(radius[static_cast<std::size_t>(id)]);
+  return ordered;
+}
+
+/// Fetching ahead costs 5 to 10 per cent where the data fit the second-level cache and gains up to half where they do not.
+/// It pays from about three times its size on: much of the data is rarely used.
+inline bool exceeds_cache(std::size_t bytes) {
+#if defined(_SC_LEVEL2_CACHE_SIZE)
+  const long size = sysconf(_SC_LEVEL2_CACHE_SIZE);
+#else
+  const long size = 0;
+#endif
+  return bytes > 3 * static_cast<std::size_t>(size > 0 ? size : 1L << 20);
+}
+
+}  // namespace detail
+
+template <class Rule, class Layout>
+Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, const State& start)
+    : axes_{fixed_axis(box, 0, disks.count()), fixed_axis(box, 1, disks.count())},
+      half_{axes_[0].at(axes_[0].upper), axes_[1].at(axes_[1].upper)},
+      layout_(disks),
+      frame_{{axes_[0].unit, axes_[1].unit}, disks.count() > 0 ? 2.0 * disks.radius[0] : 0.0, 0.0},
+      kernel_(prediction_kernel<Line>()),
+      lines_(disks.count()),
+      plans_(disks.count()),
+      collisions_(disks.count()),
+      ids_(detail::order_in_space(axes_[0], axes_[1], start)),
+      images_(disks.count()),
+      lists_(axes_[0], axes_[1], detail::in_order(disks.radius, ids_)),
+      spacing_(mean_spacing(box, disks.count())),
+      walled_(!box.periodic(0) || !box.periodic(1)) {
+  for (std::int32_t i = 0; i < count(); ++i) {
+    const auto column = static_cast<Eigen::Index>(id(i));
+    Line& a = line(i);
+    for (int k = 0; k < 2; ++k) {
+      a.x[k] = axes_[k].at(start.positions(k, column));
+      a.v[k] = start.velocities(k, column);
+      if (start.images.cols() > column) image(i, k) = start.images(k, column);
+    }
+    layout_.furnish(a, disks, static_cast<std::size_t>(column));
+  }
+
+  // Nearest images are right as long as a pair that may meet is less than half a box apart, now and along its lines
+  // back to the epoch. Half of that room goes to the cages at most, the rest to the lines.
+  const double reach = largest_contact_distance(disks);
+  const double sigma = 2.0 * std::accumulate(disks.radius.begin(), disks.radius.end(), 0.0) /
+                       static_cast<double>(std::max<std::size_t>(disks.count(), 1));
+  widest_ = never;
+  for (const FixedAxis& axis : axes_)
+    if (axis.periodic) widest_ = std::min(widest_, ((axis.upper - axis.lower) / 2.0 - reach) / 8.0);
+  for (int k = 0; k < 2; ++k) {
+    const double length = axes_[k].upper - axes_[k].lower;
+    travel_[k] = axes_[k].periodic ? (length / 2.0 - reach - 4.0 * widest_) / 2.0 : length / 2.0 + free_path * spacing_;
+  }
+  rebuild(std::min(CageTuner::first_half_width(sigma, spacing_ * spacing_), widest_));
+  begin_epoch(0.0);
+  fetching_ = detail::exceeds_cache(bytes());
+}
+
+template <class Rule, class Layout>
+bool Engine<Rule, Layout>::covers(const Box& box, const Disks& disks) {
+  if (disks.count() == 0) return true;
+  const double smallest = *std::min_element(disks.radius.begin(), disks.radius.end());
+  for (int k = 0; k < 2; ++k) {
+    const FixedAxis axis = fixed_axis(box, k, disks.count());
+    if (axis.periodic && axis.upper - axis.lower < 2.5 * largest_contact_distance(disks)) return false;
+    if (axis.unit * 0x1p32 > 1e-3 * smallest) return false;
+  }
+  return Layout::covers(disks);
+}
+
+template <class Rule, class Layout>
+double Engine<Rule, Layout>::largest_contact_distance(const Disks& disks) {
+  double largest = 0.0, second = 0.0;
+  for (const double radius : disks.radius) {
+    second = std::max(second, std::min(radius, largest));
+    largest = std::max(largest, radius);
+  }
+  return largest + second;
+}
+
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::begin_epoch(double now) {
+  for (std::int32_t i = 0; i < count(); ++i) {
+    Line& a = line(i);
+    for (int k = 0; k < 2; ++k) a.x[k] = moved(i, k, a.v[k] * now);
+    Plan& mine = plan(i);
+    mine.pair_time = std::max(mine.pair_time - now, 0.0);
+    mine.edge_time = std::max(mine.edge_time - now, 0.0);
+  }
+  epoch_ = instant(now);
+  now_ = 0.0;
+  choose_epoch_length();
+  if (now > 0.0) tune_cages(now);
+  if (now > 0.0 && queue_.pushed() > 0) {
+    span_ = pushed_per_span * now / static_cast<double>(queue_.pushed());
+  } else if (span_ == 0.0) {
+    span_ = first_span();
+  }
+  queue_.start(span_, lines_.size());
+  for (std::int32_t i = 0; i < count(); ++i) schedule(i);
+}
+
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::choose_epoch_length() {
+  double fastest[2] = {0.0, 0.0}, sum = 0.0;
+  for (const Line& a : lines_)
+    for (int k = 0; k < 2; ++k) {
+      fastest[k] = std::max(fastest[k], std::abs(a.v[k]));
+      sum += std::abs(a.v[k]);
+    }
+  mean_speed_ = sum / static_cast<double>(std::max(count(), 1));
+  // Rounding x + v t moves a disk by 2^-53 of the way since the epoch: some spacings for most, never more than the room
+  // that coordinates have, were the fastest to become twice as fast.
+  double longest = 4.0 * spacing_ / mean_speed_;
+  for (int k = 0; k < 2; ++k) longest = std::min(longest, travel_[k] / (2.0 * fastest[k]));
+  epoch_length_ = longest < 0x1p1000 ? std::ldexp(1.0, std::ilogb(longest)) : never;
+  for (int k = 0; k < 2; ++k) speed_limit_[k] = epoch_length_ < never ? travel_[k] / epoch_length_ : 0.0;
+}
+
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::tune_cages(double elapsed) {
+  travelled_ += mean_speed_ * elapsed;
+  const std::uint64_t left = totals_.other - left_;
+  if (settling_) {  // after all cages were made at once, nobody leaves for a while
+    if (travelled_ < 4.0 * lists_.half_width()) return;
+    settling_ = false;
+  } else {
+    if (travelled_ < 4.0 * spacing_ || left + looks_ < 4000) return;
+    const double work = CageTuner::work(left, lists_.changes() - changed_, looks_) / travelled_;
+    const double half_width = std::min(tuner_.next(lists_.half_width(), work), widest_);
+    settling_ = half_width != lists_.half_width();
+    if (settling_) rebuild(half_width);
+  }
+  travelled_ = 0.0;
+  left_ = totals_.other;
+  changed_ = lists_.changes();
+  looks_ = 0;
+}
+
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::rebuild(double half_width) {
+  frame_.half_width = half_width;
+  std::vector<CageCentre> centres(lines_.size());
+  for (std::int32_t i = 0; i < count(); ++i) centres[static_cast<std::size_t>(i)] = cage_around(i);
+  lists_.rebuild(half_width, centres);
+  for (std::int32_t i = 0; i < count(); ++i) plan_ahead(i, predicted(i, surroundings(i)));
+}
+
+/// From the times of the first events: half of them come within the median.
+template <class Rule, class Layout>
+double Engine<Rule, Layout>::first_span() const {
+  if (count() == 0) return 1.0;
+  std::vector<double> times(lines_.size());
+  for (std::int32_t i = 0; i < count(); ++i) times[static_cast<std::size_t>(i)] = time(i);
+  const auto median = times.begin() + count() / 2;
+  std::nth_element(times.begin(), median, times.end());
+  const double span = 4.0 * *median / static_cast<double>(count());
+  return span > 0.0 && span < never ? span : epoch_length_ < never ? epoch_length_ : 1.0;
+}
+
+template <class Rule, class Layout>
+State Engine<Rule, Layout>::state() const {
+  State state;
+  state.time = now().high;
+  state.positions.resize(2, count());
+  state.velocities.resize(2, count());
+  state.images.resize(2, count());
+  for (std::int32_t i = 0; i < count(); ++i) {
+    const Line& a = line(i);
+    const auto column = static_cast<Eigen::Index>(id(i));
+    for (int k = 0; k < 2; ++k) {
+      std::int64_t x;
+      std::int64_t image = images_[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+      const std::int64_t way = axes_[k].steps_of(a.v[k] * now_);
+      if (__builtin_add_overflow(a.x[k], way, &x)) image += way < 0 ? -1 : 1;
+      double position = axes_[k].position(x);
+      if (axes_[k].periodic && position >= axes_[k].upper) position = axes_[k].lower, ++image;
+      state.positions(k, column) = position;
+      state.velocities(k, column) = a.v[k];
+      state.images(k, column) = image;
+    }
+  }
+  return state;
+}
+
+template <class Rule, class Layout>
+std::int32_t Engine<Rule, Layout>::lowest_of_tied(std::int32_t i, const Prediction& ahead) const {
+  std::int32_t lowest = ahead.partner;
+  const auto consider = [&](std::int32_t j) {
+    const std::int32_t alone[8] = {j, i, i, i, i, i, i, i};
+    if (id(j) < id(lowest) && predicted(i, {{0, 0}, alone, 1}).pair_time == ahead.pair_time) lowest = j;
+  };
+  for (std::uint32_t k = 0; k < lists_.count(i); ++k) consider(lists_.ids(i)[k]);
+  return lowest;
+}
+
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::log_collision(std::int32_t i, std::int32_t j, const Vec2<double>& va, const Vec2<double>& vb) {
+  const Instant when = now();
+  if (id(i) < id(j))
+    log_.push_back({when.high, when.low, id(i), id(j), va, vb});
+  else
+    log_.push_back({when.high, when.low, id(j), id(i), vb, va});
+}
+
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::log_reflection(std::int32_t i, Wall wall) {
+  const Instant when = now();
+  log_.push_back({when.high, when.low, id(i), wall, {line(i).v[0], line(i).v[1]}, {0.0, 0.0}});
+}
+
+/// Fetches what the events of the spans to come will need, in three stages: plans; lines and lists; what the lists name.
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::look_ahead(std::int64_t span) const {
+  if (!fetching_) return;
+  asm volatile("");  // GCC 12 takes a function that only fetches for one without effect, and drops it
+  queue_.prefetch(span + 6);
+  for (const std::int32_t i : queue_.ids_of(span + 4)) __builtin_prefetch(&plan(i));
+  for (const std::int32_t i : queue_.ids_of(span + 3)) {
+    const auto fetch = [this](std::int32_t k) {
+      __builtin_prefetch(&line(k));
+      __builtin_prefetch(&collisions_[static_cast<std::size_t>(k)]);
+      lists_.prefetch_home(k);
+      lists_.prefetch_likely_list(k);
+    };
+    fetch(i);
+    if (plan(i).pair_time < plan(i).edge_time) {
+      __builtin_prefetch(&plan(plan(i).partner));
+      fetch(plan(i).partner);
+    }
+  }
+  for (const std::int32_t i : queue_.ids_of(span + 1)) {
+    if (queue_.span_of(time(i)) != span + 1) continue;
+    const auto fetch = [this](std::int32_t k) {
+      const std::int32_t* ids = lists_.ids(k);
+      for (std::uint32_t n = 0, all = std::min(lists_.count(k), 16U); n < all; ++n) __builtin_prefetch(&line(ids[n]));
+    };
+    if (plan(i).pair_time < plan(i).edge_time)
+      fetch(i), fetch(plan(i).partner);
+    else
+      lists_.prefetch_cells(i);
+  }
+}
+
+template <class Rule, class Layout>
+std::size_t Engine<Rule, Layout>::bytes() const {
+  return lines_.capacity() * sizeof(Line) + plans_.capacity() * sizeof(Plan) + collisions_.capacity() * sizeof(std::uint32_t) +
+         ids_.capacity() * sizeof(std::int32_t) + images_.capacity() * sizeof(images_[0]) + lists_.bytes() + queue_.bytes();
+}
+
+template <class Rule, class Layout>
+std::vector<std::string> Engine<Rule, Layout>::check_invariants() const {
+  std::vector<std::string> faults;
+  const double slack = 1e-9 * lists_.half_width();
+  for (std::int32_t i = 0; i < count(); ++i) {
+    const Line& a = line(i);
+    if (!std::isfinite(a.v[0]) || !std::isfinite(a.v[1]))
+      faults.push_back(fmt::format("disk {}: its velocity is not finite", id(i)));
+    if (time(i) < now_ * (1.0 - 1e-12)) faults.push_back(fmt::format("disk {}: its next event lies in the past", id(i)));
+    if (time(i) < epoch_length_ && !queue_.holds(*this, i))
+      faults.push_back(fmt::format("disk {}: the queue does not know its event", id(i)));
+    const CageCentre centre = lists_.centre(i);
+    for (int k = 0; k < 2; ++k) {
+      const double off = offset(k, a, k == 0 ? centre.x : centre.y);
+      if (!(std::abs(off) <= lists_.half_width() + slack))
+        faults.push_back(
+            fmt::format("disk {}: outside its cage along axis {} by {}", id(i), k, std::abs(off) - lists_.half_width()));
+      if (axes_[k].periodic) continue;
+      const double place = frame_.unit[k] * static_cast<double>(a.x[k]) + a.v[k] * now_;
+      const double out = std::abs(place) + layout_.radius(a) - (axes_[k].upper - axes_[k].lower) / 2.0;
+      if (out > 1e-12 * (axes_[k].upper - axes_[k].lower))
+        faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", id(i), out, k));
+    }
+    for (std::uint32_t n = 0; n < lists_.count(i); ++n) check_pair(i, lists_.ids(i)[n], faults);
+  }
+  if (count() > 2000) return faults;  // the rest compares all pairs
+  for (std::int32_t i = 0; i < count(); ++i) {
+    const std::int32_t* list = lists_.ids(i);
+    for (std::int32_t j = 0; j < count(); ++j) {
+      const bool listed = std::find(list, list + lists_.count(i), j) != list + lists_.count(i);
+      if (listed != (i != j && lists_.near(i, j)))
+        faults.push_back(
+            fmt::format("disks {} and {}: {}", id(i), id(j), listed ? "listed though not near" : "near but not listed"));
+      if (!listed && i < j) check_pair(i, j, faults);
+    }
+  }
+  return faults;
+}
+
+/// Two disks must not overlap, and must not meet before one of them has an event planned.
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::check_pair(std::int32_t i, std::int32_t j, std::vector<std::string>& faults) const {
+  const double sigma = layout_.radius(line(i)) + layout_.radius(line(j));
+  const double overlap = sigma - separation(line(i), line(j)).norm();
+  if (overlap > 1e-12 * sigma) faults.push_back(fmt::format("disks {} and {} overlap by {}", id(i), id(j), overlap));
+  const std::int32_t alone[8] = {j, i, i, i, i, i, i, i};
+  const double meeting = predicted(i, {{0, 0}, alone, 1}).pair_time;
+  const double planned = std::min(time(i), time(j));
+  if (meeting < planned - 1e-12 * std::max(planned, epoch_length_))
+    faults.push_back(fmt::format("disks {} and {} meet before either has an event planned", id(i), id(j)));
+}
+
+}  // namespace carom

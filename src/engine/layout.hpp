@@ -1,0 +1,52 @@
+#pragma once
+// What a disk carries with it on the hot path: nothing but its line where all are equal; its radius and mass too where
+// they differ.
+
+#include "core/flight.hpp"
+
+#include <carom/state.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+
+namespace carom {
+
+struct EqualDisks {
+  using Line = Flight;
+
+  static bool covers(const Disks& disks) {
+    const auto equal = [](const std::vector<double>& all) {
+      return std::adjacent_find(all.begin(), all.end(), std::not_equal_to<>()) == all.end();
+    };
+    return equal(disks.radius) && equal(disks.mass);
+  }
+
+  explicit EqualDisks(const Disks& disks)
+      : radius_(disks.count() > 0 ? disks.radius[0] : 1.0), mass_(disks.count() > 0 ? disks.mass[0] : 1.0) {}
+
+  [[nodiscard]] double radius(const Line& /*line*/) const { return radius_; }
+  [[nodiscard]] double mass(const Line& /*line*/) const { return mass_; }
+  void furnish(Line& /*line*/, const Disks& /*disks*/, std::size_t /*id*/) const {}
+
+ private:
+  double radius_;
+  double mass_;
+};
+
+struct AnyDisks {
+  using Line = SizedFlight;
+
+  static bool covers(const Disks& /*disks*/) { return true; }
+
+  explicit AnyDisks(const Disks& /*disks*/) {}
+
+  [[nodiscard]] double radius(const Line& line) const { return line.radius; }
+  [[nodiscard]] double mass(const Line& line) const { return line.mass; }
+  void furnish(Line& line, const Disks& disks, std::size_t id) const {
+    line.radius = disks.radius[id];
+    line.mass = disks.mass[id];
+  }
+};
+
+}  // namespace carom

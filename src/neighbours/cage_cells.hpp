@@ -1,0 +1,198 @@
+#pragma once
+// Cages sorted into cells by their centres, for disks of about one size.
+
+#include "core/fixed_axis.hpp"
+#include "core/large_memory.hpp"
+#include "neighbours/cage_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace carom {
+
+class CageCells {
+ public:
+  /// For `disks` disks of at most `largest_radius` (any unit: it is only kept) in cells at least `width` wide (length).
+  CageCells(const FixedAxis& x, const FixedAxis& y, float largest_radius, double width, std::size_t disks)
+      : largest_radius_(largest_radius) {
+    const double area = (x.upper - x.lower) * (y.upper - y.lower);
+    // A thin box would have too many cells: no more than four per disk.
+    const double wide = std::max(width, std::sqrt(occupancy * area / static_cast<double>(std::max<std::size_t>(disks, 1))));
+    const FixedAxis* axes[2] = {&x, &y};
+    for (int a = 0; a < 2; ++a) {
+      const double length = axes[a]->upper - axes[a]->lower;
+      const double cells = std::clamp(std::floor(length / wide), 1.0, 4.0 * static_cast<double>(disks) + 1.0);
+      lines_[a].cells = static_cast<std::int32_t>(cells);
+      lines_[a].periodic = axes[a]->periodic;
+      lines_[a].lower = -0.5 * length / (axes[a]->unit * 0x1p32);
+      lines_[a].per_step = cells / (length / (axes[a]->unit * 0x1p32));
+    }
+    const auto cells = static_cast<std::size_t>(lines_[0].cells) * static_cast<std::size_t>(lines_[1].cells);
+    blocks_.assign(cells, empty_block());
+    next_.assign(cells, -1);
+  }
+
+  void insert(std::int32_t i, CageCentre centre, float radius) {
+    std::int32_t b = cell_at(centre);
+    for (;; b = follow(b)) {
+      CageBlock& block = at(b);
+      for (int k = 0; k < 8; ++k)
+        if (block.id[k] < 0) {
+          block.id[k] = i;
+          block.x[k] = centre.x;
+          block.y[k] = centre.y;
+          block.radius[k] = radius;
+          return;
+        }
+    }
+  }
+
+  void move(std::int32_t i, CageCentre from, CageCentre to, float radius) {
+    const std::int32_t cell = cell_at(from);
+    if (cell == cell_at(to)) {
+      const Slot slot = find(cell, i);
+      at(slot.block).x[slot.place] = to.x;
+      at(slot.block).y[slot.place] = to.y;
+    } else {
+      remove(cell, i);
+      insert(i, to, radius);
+    }
+  }
+
+  /// All cells that may hold cages within `reach` (steps of a centre, per axis) of `centre`.
+  [[nodiscard]] CageRange around(CageCentre centre, std::array<double, 2> reach) const {
+    CageRange range;
+    const double at[2] = {static_cast<double>(centre.x), static_cast<double>(centre.y)};
+    for (std::size_t a = 0; a < 2; ++a) {
+      const Line& line = lines_[a];
+      range.cells[a] = line.cells;
+      if (line.periodic) {
+        const double low = (at[a] - reach[a] - line.lower) * line.per_step,
+                     high = (at[a] + reach[a] - line.lower) * line.per_step;
+        range.first[a] = static_cast<std::int32_t>(low + static_cast<double>(line.cells)) - line.cells;  // rounds down
+        range.last[a] = static_cast<std::int32_t>(high);
+        if (high - low + 2.0 >= static_cast<double>(line.cells) && range.last[a] - range.first[a] + 1 >= line.cells)
+          range.first[a] = 0, range.last[a] = line.cells - 1;
+      } else {
+        range.first[a] = line.cell_at(at[a] - reach[a]);
+        range.last[a] = line.cell_at(at[a] + reach[a]);
+      }
+    }
+    return range;
+  }
+  [[nodiscard]] static std::size_t cells_in(const CageRange& range) {
+    return static_cast<std::size_t>(range.last[0] - range.first[0] + 1) *
+           static_cast<std::size_t>(range.last[1] - range.first[1] + 1);
+  }
+
+  void prefetch(const CageRange& range) const {
+    for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y)
+      for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x) {
+        const std::int32_t column = x < 0 ? x + range.cells[0] : x >= range.cells[0] ? x - range.cells[0] : x;
+        const std::int32_t row = y < 0 ? y + range.cells[1] : y >= range.cells[1] ? y - range.cells[1] : y;
+        const CageBlock& block =
+            blocks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(range.cells[0]) + static_cast<std::size_t>(column)];
+        __builtin_prefetch(&block);
+        __builtin_prefetch(block.y);
+      }
+  }
+
+  /// Blocks that follow full ones.
+  [[nodiscard]] std::size_t spilled() const {
+    return blocks_.size() - static_cast<std::size_t>(lines_[0].cells) * static_cast<std::size_t>(lines_[1].cells);
+  }
+  [[nodiscard]] float largest_radius() const { return largest_radius_; }
+  [[nodiscard]] const CageBlock* blocks() const { return blocks_.data(); }
+  [[nodiscard]] const std::int32_t* next() const { return next_.data(); }
+  [[nodiscard]] std::size_t bytes() const {
+    return blocks_.capacity() * sizeof(CageBlock) + next_.capacity() * sizeof(std::int32_t);
+  }
+
+ private:
+  /// Disks to a cell where there is room for more cells than that: few blocks to look through, few that overflow.
+  static constexpr double occupancy = 4.5;
+
+  struct Line {
+    std::int32_t cells = 1;
+    bool periodic = false;
+    double lower = 0.0;     ///< lower edge of the box, in steps of a centre
+    double per_step = 0.0;  ///< cells per step of a centre
+
+    [[nodiscard]] std::int32_t cell_at(double centre) const {
+      return static_cast<std::int32_t>(std::clamp((centre - lower) * per_step, 0.0, static_cast<double>(cells - 1)));
+    }
+  };
+  struct Slot {
+    std::int32_t block;
+    int place;
+  };
+
+  static CageBlock empty_block() {
+    CageBlock block{};
+    std::fill(std::begin(block.id), std::end(block.id), -1);
+    return block;
+  }
+
+  [[nodiscard]] CageBlock& at(std::int32_t b) { return blocks_[static_cast<std::size_t>(b)]; }
+  [[nodiscard]] std::int32_t& next_of(std::int32_t b) { return next_[static_cast<std::size_t>(b)]; }
+
+  [[nodiscard]] std::int32_t cell_at(CageCentre centre) const {
+    return lines_[1].cell_at(centre.y) * lines_[0].cells + lines_[0].cell_at(centre.x);
+  }
+
+  /// The block behind a full one.
+  std::int32_t follow(std::int32_t b) {
+    if (next_of(b) < 0) {
+      std::int32_t more = free_;
+      if (more < 0) {
+        more = static_cast<std::int32_t>(blocks_.size());
+        blocks_.push_back(empty_block());
+        next_.push_back(-1);
+      } else {
+        free_ = next_of(more);
+        next_of(more) = -1;
+      }
+      next_of(b) = more;
+    }
+    return next_of(b);
+  }
+
+  [[nodiscard]] Slot find(std::int32_t b, std::int32_t i) {
+    for (;; b = next_of(b))
+      for (int k = 0; k < 8; ++k)
+        if (at(b).id[k] == i) return {b, k};
+  }
+
+  /// The last disk of the cell takes the place of the one that leaves.
+  void remove(std::int32_t cell, std::int32_t i) {
+    const Slot slot = find(cell, i);
+    std::int32_t before = -1, last = cell;
+    while (next_of(last) >= 0) before = last, last = next_of(last);
+    int k = 7;
+    while (at(last).id[k] < 0) --k;
+    CageBlock& to = at(slot.block);
+    CageBlock& from = at(last);
+    to.id[slot.place] = from.id[k];
+    to.x[slot.place] = from.x[k];
+    to.y[slot.place] = from.y[k];
+    to.radius[slot.place] = from.radius[k];
+    from.id[k] = -1;
+    if (k == 0 && before >= 0) {
+      next_of(before) = -1;
+      next_of(last) = free_;
+      free_ = last;
+    }
+  }
+
+  Line lines_[2];
+  float largest_radius_;
+  LargeVector<CageBlock> blocks_;  ///< one per cell, row by row, then those that follow full ones
+  std::vector<std::int32_t> next_;
+  std::int32_t free_ = -1;
+};
+
+}  // namespace carom

@@ -1,0 +1,2 @@
+#define CAROM_INSTRUCTIONS avx2
+#include "neighbours/cage_search_kernel.hpp"

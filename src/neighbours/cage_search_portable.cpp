@@ -1,0 +1,2 @@
+#define CAROM_INSTRUCTIONS portable
+#include "neighbours/cage_search_kernel.hpp"

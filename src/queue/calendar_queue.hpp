@@ -1,0 +1,273 @@
+#pragma once
+// The engine's future event list in O(1): a ring of short spans of time, each with the ids of the disks whose next event
+// falls into it (Paul, J. Comput. Phys. 221, 615 (2007)).
+//
+// Every disk has one event; its owner keeps when (Events::time). The queue only keeps ids, in the order in which they
+// came: nothing is ever removed from a span, and an id counts if its event still falls there when the span's turn comes. Only the
+// span at hand is sorted. Any number of ids finds room in a span, far events wait aside, and events at infinity are not
+// kept at all.
+//
+// Ties: events at the same time are ordered by Events::precedes(a, b).
+
+#include "core/large_memory.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+/// Events: `double time(std::int32_t disk) const`, the time of the disk's next event, >= 0, infinity for never; and
+/// `bool precedes(std::int32_t a, std::int32_t b) const`, a strict order of events at one time.
+template <class Events>
+class CalendarQueue {
+ public:
+  struct Entry {
+    double time;
+    std::int32_t disk;
+  };
+
+  /// Forgets everything, and starts at time 0 with spans of the given length > 0 for that many disks.
+  void start(double span, std::size_t disks) {
+    const std::size_t spans = std::bit_ceil(std::max<std::size_t>(64, disks / 4));
+    spans_.resize(spans);
+    counts_.assign(spans, 0);
+    more_.assign(spans, none);
+    mask_ = static_cast<std::int64_t>(spans) - 1;
+    per_time_ = 1.0 / span;
+    current_ = -1;
+    sort_out_at_ = mask_ / 2;
+    in_ring_ = 0;
+    pushed_ = 0;
+    free_ = none;
+    at_hand_.clear();
+    heaped_ = false;
+    later_.clear();
+  }
+
+  /// The disk's next event is now at events.time(disk), which is not before the last one taken.
+  void push(const Events& events, std::int32_t disk, double time) {
+    ++pushed_;
+    const std::int64_t k = span_of(time);
+    if (k <= current_) {
+      insert_at_hand(events, {time, disk});
+    } else if (k - current_ <= mask_) {
+      append(k & mask_, disk);
+    } else if (time < std::numeric_limits<double>::infinity()) {
+      later_.push_back({time, disk});
+    }
+  }
+
+  /// The earliest event, or nullptr where none is left. on_turn(k) is called when the turn of span k comes.
+  template <class OnTurn>
+  const Entry* next(const Events& events, OnTurn&& on_turn) {
+    for (;;) {
+      while (!at_hand_.empty()) {
+        const Entry& entry = first_at_hand();
+        if (events.time(entry.disk) == entry.time) return &entry;
+        pop(events);
+      }
+      if (!turn(events)) return nullptr;
+      on_turn(current_);
+    }
+  }
+
+  /// Takes away the event that next() returned.
+  void pop(const Events& events) {
+    if (heaped_) std::pop_heap(at_hand_.begin(), at_hand_.end(), Later{events});
+    at_hand_.pop_back();
+  }
+
+  /// Ids that were put into span k of the ring, for a look ahead: not all of them, and some no longer count.
+  [[nodiscard]] std::span<const std::int32_t> ids_of(std::int64_t k) const {
+    return {span(k & mask_).ids, counts_[static_cast<std::size_t>(k & mask_)]};
+  }
+  void prefetch(std::int64_t k) const { __builtin_prefetch(&span(k & mask_)); }
+
+  /// The span into which a time falls.
+  [[nodiscard]] std::int64_t span_of(double time) const {
+    const double k = time * per_time_;
+    return k < 0x1p61 ? static_cast<std::int64_t>(k) : std::int64_t{1} << 61;  // all that is later than that shares a span
+  }
+
+  /// Events pushed since start().
+  [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
+
+  [[nodiscard]] std::size_t bytes() const {
+    return spans_.capacity() * (sizeof(Span) + sizeof(std::int32_t) + 1) + later_.capacity() * sizeof(Entry) +
+           at_hand_.capacity() * sizeof(Entry);
+  }
+
+  /// Whether next() will come across the event of a disk. O(disks): for checks.
+  [[nodiscard]] bool holds(const Events& events, std::int32_t disk) const {
+    const double time = events.time(disk);
+    const auto same = [&](const Entry& entry) { return entry.disk == disk && entry.time == time; };
+    const std::int64_t k = span_of(time);
+    if (k <= current_) return std::any_of(at_hand_.begin(), at_hand_.end(), same);
+    if (k - current_ <= mask_)
+      for (std::int64_t place = k & mask_; place != none; place = more_[static_cast<std::size_t>(place)]) {
+        const std::int32_t* ids = span(place).ids;
+        const int held = counts_[static_cast<std::size_t>(place)];
+        if (std::find(ids, ids + held, disk) != ids + held) return true;
+      }
+    return std::any_of(later_.begin(), later_.end(), same);
+  }
+
+ private:
+  static constexpr std::int32_t none = -1;
+  static constexpr int room = 16;
+  static constexpr std::size_t few = 48;  ///< as many are kept sorted; more as a heap
+
+  /// One cache line of ids.
+  struct alignas(64) Span {
+    std::int32_t ids[room];
+  };
+
+  struct Later {
+    const Events& events;
+    bool operator()(const Entry& a, const Entry& b) const {
+      if (a.time != b.time) return a.time > b.time;
+      return a.disk != b.disk && events.precedes(b.disk, a.disk);
+    }
+  };
+
+  [[nodiscard]] Span& span(std::int64_t place) { return spans_[static_cast<std::size_t>(place)]; }
+  [[nodiscard]] const Span& span(std::int64_t place) const { return spans_[static_cast<std::size_t>(place)]; }
+  [[nodiscard]] std::uint8_t& count(std::int64_t place) { return counts_[static_cast<std::size_t>(place)]; }
+  [[nodiscard]] std::int32_t& more(std::int64_t place) { return more_[static_cast<std::size_t>(place)]; }
+
+  void append(std::int64_t place, std::int32_t disk) {
+    ++in_ring_;
+    if (count(place) == room) [[unlikely]]
+      spill(place);
+    span(place).ids[count(place)++] = disk;
+  }
+
+  /// Moves the ids of a full span to a span of their own behind it.
+  void spill(std::int64_t place) {
+    std::int32_t behind = free_;
+    if (behind == none) {
+      behind = static_cast<std::int32_t>(spans_.size());
+      spans_.emplace_back();
+      counts_.push_back(0);
+      more_.push_back(none);
+    } else {
+      free_ = more(behind);
+    }
+    span(behind) = span(place);
+    count(behind) = count(place);
+    more(behind) = more(place);
+    count(place) = 0;
+    more(place) = behind;
+  }
+
+  /// Puts the next span that holds anything at hand. False where nothing is left.
+  bool turn(const Events& events) {
+    if (in_ring_ == 0) {
+      if (!jump(events)) return false;
+    } else if (current_ >= sort_out_at_) {
+      sort_out_later(events);
+    }
+    do ++current_;
+    while (count(current_ & mask_) == 0 && current_ < sort_out_at_);
+    collect(events, current_ & mask_);
+    return true;
+  }
+
+  /// The ring is empty: goes to just before the first of the far events.
+  bool jump(const Events& events) {
+    std::int64_t first = std::numeric_limits<std::int64_t>::max();
+    std::erase_if(later_, [&](const Entry& entry) { return events.time(entry.disk) != entry.time; });
+    if (later_.empty()) return false;
+    for (const Entry& entry : later_) first = std::min(first, span_of(entry.time));
+    current_ = std::max(current_, first - 1);
+    sort_out_later(events);
+    return true;
+  }
+
+  /// Far events that have come within reach of the ring go there.
+  void sort_out_later(const Events& events) {
+    sort_out_at_ = current_ + mask_ / 2;
+    std::size_t kept = 0;
+    for (const Entry& entry : later_) {
+      if (events.time(entry.disk) != entry.time) continue;
+      const std::int64_t k = span_of(entry.time);
+      if (k - current_ <= mask_)
+        append(k & mask_, entry.disk);
+      else
+        later_[kept++] = entry;
+    }
+    later_.resize(kept);
+  }
+
+  void collect(const Events& events, std::int64_t first) {
+    take(events, first);
+    for (std::int32_t place = std::exchange(more(first), none); place != none;) {
+      take(events, place);
+      free_ = std::exchange(place, std::exchange(more(place), free_));
+    }
+    if (at_hand_.size() <= few) {
+      heaped_ = false;
+      for (std::size_t i = 1; i < at_hand_.size(); ++i) sink(events, i);
+    } else {
+      heaped_ = true;
+      std::make_heap(at_hand_.begin(), at_hand_.end(), Later{events});
+    }
+  }
+
+  void take(const Events& events, std::int64_t place) {
+    const int ids = std::exchange(count(place), std::uint8_t{0});
+    in_ring_ -= static_cast<std::size_t>(ids);
+    for (int n = 0; n < ids; ++n) {
+      const std::int32_t disk = span(place).ids[n];
+      const double time = events.time(disk);
+      if (span_of(time) == current_) at_hand_.push_back({time, disk});
+    }
+  }
+
+  void insert_at_hand(const Events& events, const Entry& entry) {
+    at_hand_.push_back(entry);
+    if (heaped_) {
+      std::push_heap(at_hand_.begin(), at_hand_.end(), Later{events});
+    } else if (at_hand_.size() > few) {
+      heaped_ = true;
+      std::make_heap(at_hand_.begin(), at_hand_.end(), Later{events});
+    } else {
+      sink(events, at_hand_.size() - 1);
+    }
+  }
+
+  /// Entry i goes to its place among those before it, the latest of which comes first.
+  void sink(const Events& events, std::size_t i) {
+    const Later later{events};
+    const Entry entry = at_hand_[i];
+    for (; i > 0 && later(entry, at_hand_[i - 1]); --i) at_hand_[i] = at_hand_[i - 1];
+    at_hand_[i] = entry;
+  }
+
+  [[nodiscard]] const Entry& first_at_hand() const { return heaped_ ? at_hand_.front() : at_hand_.back(); }
+
+  // The ring, then spans that full ones spilled into. How many ids a span holds is kept apart: it is read before an id is
+  // written, and all counts together fit the cache.
+  LargeVector<Span> spans_;
+  LargeVector<std::uint8_t> counts_;
+  std::vector<std::int32_t> more_;  ///< the span behind a full one
+  std::int64_t mask_ = 0;
+  double per_time_ = 1.0;
+  std::int64_t current_ = -1;     ///< the span at hand
+  std::int64_t sort_out_at_ = 0;  ///< when the far events are looked through
+  std::size_t in_ring_ = 0;       ///< ids in the ring, those that no longer count among them
+  std::uint64_t pushed_ = 0;
+  std::int32_t free_ = none;  ///< spans that nobody spills into
+  std::vector<Entry> at_hand_;
+  bool heaped_ = false;
+  std::vector<Entry> later_;
+};
+
+}  // namespace carom
