@@ -17,7 +17,8 @@ struct PredictionFrame {
 };
 
 /// Where a disk is to be looked for: a square round `centre` (in steps of 2^32 of a coordinate), and the ids of the disks that it
-/// may meet there, padded with its own id, with which it never collides, to a multiple of eight.
+/// may meet there, padded with its own id, with which it never collides, to eight at least and to a multiple
+/// of four.
 struct Surroundings {
   std::int32_t centre[2];
   const std::int32_t* ids;

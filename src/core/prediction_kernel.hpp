@@ -117,19 +117,19 @@ CAROM_INLINE void earliest(Doubles t0, Doubles t1, const std::int32_t* ids, Pred
   const Doubles least = lesser(u, __builtin_shufflevector(u, u, 1, 0, 3, 2));
   const unsigned which = bits_of(t0 == least) | (bits_of(t1 == least) << 4);
   const double time = least[0];
+  const std::int32_t nobody = -static_cast<std::int32_t>(time == never);  // all bits or none
   first.pair_time = time;
-  first.partner = time < never ? ids[__builtin_ctz(which)] : -1;
-  first.tied = time < never ? static_cast<std::int32_t>(which & (which - 1)) : 0;
+  first.partner = ids[__builtin_ctz(which)] | nobody;
+  first.tied = static_cast<std::int32_t>(which & (which - 1)) & ~nobody;
 }
 
-/// Everybody beyond the first eight.
+/// Everybody beyond the first eight, four at a time.
 template <class Line>
 void search_on(const Line* lines, const PredictionFrame& frame, const Mine& mine, const Surroundings& around, double now,
                Prediction& first) {
-  for (std::uint32_t k = 8; k < around.count; k += 8) {
+  for (std::uint32_t k = 8; k < around.count; k += 4) {
     Prediction next;
-    earliest(meeting_times(lines, frame, mine, around.ids + k, now), meeting_times(lines, frame, mine, around.ids + k + 4, now),
-             around.ids + k, next);
+    earliest(meeting_times(lines, frame, mine, around.ids + k, now), all(never), around.ids + k, next);
     if (next.pair_time < first.pair_time) {
       first.pair_time = next.pair_time;
       first.partner = next.partner;

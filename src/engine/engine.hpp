@@ -120,7 +120,7 @@ class Engine {
 
     const Vec2<double> da = before_a - va, db = before_b - vb;
     CollidedPair pair{{i, j}, {surroundings(i), surroundings(j)}, {}};
-    looks_ += (pair.around[0].count + pair.around[1].count) / 8;
+    looks_ += more_looks(pair.around[0].count) + more_looks(pair.around[1].count);
     kernel_.store_and_predict(lines_.data(), frame_, pair, now_, moved(i, 0, da[0] * now_), moved(i, 1, da[1] * now_),
                               moved(j, 0, db[0] * now_), moved(j, 1, db[1] * now_), va[0], va[1], vb[0], vb[1]);
     plan_ahead(i, pair.ahead[0]);
@@ -290,6 +290,9 @@ class Engine {
     return images_[static_cast<std::size_t>(i)][static_cast<std::size_t>(axis)];
   }
 
+  /// At four neighbours each, after the first eight.
+  [[nodiscard]] static std::uint32_t more_looks(std::uint32_t neighbours) { return (std::max(neighbours, 8U) - 5U) / 4U; }
+
   [[nodiscard]] Surroundings surroundings(std::int32_t i) const {
     const CageCentre centre = lists_.centre(i);
     return {{centre.x, centre.y}, lists_.ids(i), lists_.count(i)};
@@ -350,7 +353,7 @@ class Engine {
   double travelled_ = 0.0;     ///< since the width of cages was last looked at: mean path of a disk
   std::uint64_t left_ = 0;     ///< totals_.other at that time
   std::uint64_t changed_ = 0;  ///< lists_.changes() at that time
-  std::uint64_t looks_ = 0;    ///< since then: at more than eight neighbours
+  std::uint64_t looks_ = 0;    ///< since then: more_looks() of those who collided
 
   std::uint64_t at_one_instant_ = 0;
   Totals totals_;

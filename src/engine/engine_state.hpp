@@ -260,14 +260,13 @@ template <class Rule, class Layout>
 void Engine<Rule, Layout>::look_ahead(std::int64_t span) const {
   if (!fetching_) return;
   asm volatile("");  // GCC 12 takes a function that only fetches for one without effect, and drops it
-  queue_.prefetch(span + 6);
-  for (const std::int32_t i : queue_.ids_of(span + 4)) __builtin_prefetch(&plan(i));
-  for (const std::int32_t i : queue_.ids_of(span + 3)) {
+  queue_.prefetch(span + 7);
+  for (const std::int32_t i : queue_.ids_of(span + 5)) __builtin_prefetch(&plan(i));
+  for (const std::int32_t i : queue_.ids_of(span + 4)) {
     const auto fetch = [this](std::int32_t k) {
       __builtin_prefetch(&line(k));
       __builtin_prefetch(&collisions_[static_cast<std::size_t>(k)]);
-      lists_.prefetch_home(k);
-      lists_.prefetch_likely_list(k);
+      lists_.prefetch(k);
     };
     fetch(i);
     if (plan(i).pair_time < plan(i).edge_time) {
@@ -275,8 +274,8 @@ void Engine<Rule, Layout>::look_ahead(std::int64_t span) const {
       fetch(plan(i).partner);
     }
   }
-  for (const std::int32_t i : queue_.ids_of(span + 1)) {
-    if (queue_.span_of(time(i)) != span + 1) continue;
+  for (const std::int32_t i : queue_.ids_of(span + 2)) {
+    if (queue_.span_of(time(i)) != span + 2) continue;
     const auto fetch = [this](std::int32_t k) {
       const std::int32_t* ids = lists_.ids(k);
       for (std::uint32_t n = 0, all = std::min(lists_.count(k), 16U); n < all; ++n) __builtin_prefetch(&line(ids[n]));

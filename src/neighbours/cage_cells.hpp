@@ -32,6 +32,8 @@ class CageCells {
       lines_[a].per_step = cells / (length / (axes[a]->unit * 0x1p32));
     }
     const auto cells = static_cast<std::size_t>(lines_[0].cells) * static_cast<std::size_t>(lines_[1].cells);
+    blocks_.reserve(cells + cells / 8);  // growing would take twice the memory
+    next_.reserve(cells + cells / 8);
     blocks_.assign(cells, empty_block());
     next_.assign(cells, -1);
   }

@@ -1,5 +1,7 @@
 #include "neighbours/neighbour_lists.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <utility>
@@ -14,7 +16,7 @@ constexpr double search_slack = 1e-4;
 }  // namespace
 
 NeighbourLists::NeighbourLists(const FixedAxis& x, const FixedAxis& y, const std::vector<double>& radius)
-    : axes_{x, y}, homes_(radius.size()), kernel_(&cage_kernel()) {
+    : axes_{x, y}, around_(radius.size()), kernel_(&cage_kernel()) {
   if (!radius.empty()) largest_ = *std::max_element(radius.begin(), radius.end());
   one_radius_ = std::adjacent_find(radius.begin(), radius.end(), std::not_equal_to<>()) == radius.end();
   radius_.reserve(one_radius_ ? 1 : radius.size());
@@ -34,7 +36,7 @@ void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> cent
 
   std::map<int, std::pair<std::size_t, float>, std::greater<>> sizes;  // disks and largest radius, by exponent
   if (one_radius_) {
-    if (!homes_.empty()) sizes[0] = {homes_.size(), radius_[0]};
+    if (!radius_.empty()) sizes[0] = {around_.disks(), radius_[0]};
   } else {
     for (const float r : radius_) {
       auto& [disks, largest] = sizes[std::ilogb(r)];
@@ -52,39 +54,36 @@ void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> cent
     layers_.emplace_back(axes_[0], axes_[1], largest, 2.0 * (largest + h) * largest_, disks);
   }
 
-  const auto disks = static_cast<std::int32_t>(homes_.size());
-  free_.clear();
-  ids_.resize(homes_.size() * room);
+  around_.clear();
+  const auto disks = static_cast<std::int32_t>(around_.disks());
   for (std::int32_t i = 0; i < disks; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    homes_[k] = {centres[k], static_cast<std::uint32_t>(i), 0, 0};
-    std::fill_n(list(i), room, i);
-    layers_[layer_of(i)].insert(i, centres[k], radius(i));
+    const CageCentre centre = centres[static_cast<std::size_t>(i)];
+    around_.set_centre(i, centre);
+    layers_[layer_of(i)].insert(i, centre, radius(i));
   }
   for (std::int32_t i = 0; i < disks; ++i) {
-    search(i, home(i).centre, false);
-    set_list(i);
+    search(i, centre(i), false);
+    around_.assign(i, found());
   }
 }
 
-std::span<const std::int32_t> NeighbourLists::move_cage(std::int32_t i, CageCentre centre) {
-  const CageCentre before = home(i).centre;
-  layers_[layer_of(i)].move(i, before, centre, radius(i));
-  home(i).centre = centre;
+std::span<const std::int32_t> NeighbourLists::move_cage(std::int32_t i, CageCentre to) {
+  const CageCentre before = centre(i);
+  layers_[layer_of(i)].move(i, before, to, radius(i));
+  around_.set_centre(i, to);
   search(i, before, true);
   const std::size_t kept = found_count_ - fresh_count_;
   if (kept < count(i)) {
     if (gone_.size() < count(i)) gone_.resize(2 * std::size_t{count(i)});
     const std::size_t gone = kernel_->absent(ids(i), count(i), found_.data(), found_count_, gone_.data());
-    for (std::size_t k = 0; k < gone; ++k) remove(gone_[k], i);
+    for (std::size_t k = 0; k < gone; ++k) around_.remove_at(gone_[k], kernel_->position(ids(gone_[k]), i));
     changes_ += gone;
   }
-  for (std::size_t k = 0; k < fresh_count_; ++k) append(fresh_[k], i);
+  for (std::size_t k = 0; k < fresh_count_; ++k) around_.append(fresh_[k], i);
   changes_ += fresh_count_;
-  set_list(i);
-  const std::size_t padded = std::max<std::size_t>((fresh_count_ + 7) / 8 * 8, 8);
-  for (std::size_t k = fresh_count_; k < padded; ++k) fresh_[k] = i;
-  return {fresh_.data(), padded};
+  around_.assign(i, found());
+  for (std::size_t k = fresh_count_; k < fresh_count_ + 8; ++k) fresh_[k] = i;
+  return {fresh_.data(), fresh_count_};
 }
 
 /// The cells of a layer in which there may be cages near one of a disk of the given radius.
@@ -97,7 +96,7 @@ CageRange NeighbourLists::range_around(CageCentre centre, float radius, const Ca
 
 /// Fills found_ and fresh_ with those near the cage of disk i as it is now.
 void NeighbourLists::search(std::int32_t i, CageCentre before, bool was_listed) {
-  const CageQuery query{i, radius(i), home(i).centre, before, was_listed};
+  const CageQuery query{i, radius(i), centre(i), before, was_listed};
   found_count_ = fresh_count_ = 0;
   for (const CageCells& layer : layers_) {
     const CageRange range = range_around(query.centre, query.radius, layer);
@@ -114,74 +113,22 @@ void NeighbourLists::search(std::int32_t i, CageCentre before, bool was_listed) 
 void NeighbourLists::prefetch_cells(std::int32_t i) const {
   asm volatile("");  // see Engine::look_ahead
   const CageCells& layer = layers_[layer_of(i)];
-  layer.prefetch(range_around(home(i).centre, radius(i), layer));
-  for (std::uint32_t k = 0; k < std::min(home(i).count, room); ++k) {
-    prefetch_home(ids(i)[k]);
-    prefetch_likely_list(ids(i)[k]);
-  }
-}
-
-/// The list of disk i becomes what search() found.
-void NeighbourLists::set_list(std::int32_t i) {
-  const auto count = static_cast<std::uint32_t>(found_count_);
-  const std::uint32_t old = home(i).count;
-  if (count > room << home(i).size) grow(i, count);
-  std::int32_t* mine = list(i);
-  std::copy_n(found_.data(), found_count_, mine);
-  if (old > count) std::fill(mine + count, mine + old, i);
-  home(i).set_count(count);
-}
-
-void NeighbourLists::append(std::int32_t i, std::int32_t id) {
-  const std::uint32_t count = home(i).count;
-  if (count == room << home(i).size) grow(i, count + 1);
-  list(i)[count] = id;
-  home(i).set_count(count + 1);
-}
-
-void NeighbourLists::remove(std::int32_t i, std::int32_t id) {
-  std::int32_t* mine = list(i);
-  const std::uint32_t last = home(i).count - 1;
-  const std::size_t at = kernel_->position(mine, id);
-  mine[at] = mine[last];
-  mine[last] = i;
-  home(i).set_count(last);
-}
-
-/// Moves the list of disk i to where `count` ids have room.
-void NeighbourLists::grow(std::int32_t i, std::uint32_t count) {
-  const Home old = home(i);
-  const auto size = static_cast<std::uint32_t>(std::bit_width((count - 1) / room));
-  if (free_.size() <= size) free_.resize(size + 1);
-  std::uint32_t place;
-  if (free_[size].empty()) {
-    place = static_cast<std::uint32_t>(ids_.size() / room);
-    ids_.resize(ids_.size() + (std::size_t{room} << size));
-  } else {
-    place = free_[size].back();
-    free_[size].pop_back();
-  }
-  if (free_.size() <= old.size) free_.resize(old.size + 1U);
-  free_[old.size].push_back(old.place);
-  home(i).place = place;
-  home(i).size = size & 31U;
-  const std::int32_t* from = ids_.data() + std::size_t{room} * old.place;
-  std::fill(std::copy_n(from, old.count, list(i)), list(i) + (room << size), i);
+  layer.prefetch(range_around(centre(i), radius(i), layer));
+  for (std::uint32_t k = 0; k < count(i); ++k) prefetch(ids(i)[k]);
 }
 
 bool NeighbourLists::near(std::int32_t i, std::int32_t j) const {
-  return kernel_->near(home(j).centre, radius(j), home(i).centre, radius(i), nearness_);
+  return kernel_->near(centre(j), radius(j), centre(i), radius(i), nearness_);
 }
 
 std::uint64_t NeighbourLists::entries() const {
   std::uint64_t sum = 0;
-  for (const Home& some : homes_) sum += some.count;
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(around_.disks()); ++i) sum += count(i);
   return sum;
 }
 
 std::size_t NeighbourLists::bytes() const {
-  std::size_t sum = homes_.capacity() * sizeof(Home) + ids_.capacity() * sizeof(std::int32_t) +
-                    (one_radius_ ? 0 : radius_.capacity() * sizeof(float)) + layer_of_.capacity();
+  std::size_t sum = around_.bytes() + (one_radius_ ? 0 : radius_.capacity() * sizeof(float)) + layer_of_.capacity();
   for (const CageCells& layer : layers_) sum += layer.bytes();
   return sum;
 }

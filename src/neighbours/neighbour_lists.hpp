@@ -8,15 +8,11 @@
 // in one layer, each with cells as wide as its own reach: one large disk among a million small ones costs nothing.
 
 #include "core/fixed_axis.hpp"
-#include "core/large_memory.hpp"
 #include "neighbours/cage_cells.hpp"
+#include "neighbours/neighbourhoods.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -31,24 +27,20 @@ class NeighbourLists {
   void rebuild(double half_width, std::span<const CageCentre> centres);
 
   [[nodiscard]] double half_width() const { return half_width_; }
-  [[nodiscard]] CageCentre centre(std::int32_t i) const { return home(i).centre; }
+  [[nodiscard]] CageCentre centre(std::int32_t i) const { return around_.centre(i); }
 
-  /// The ids of those who may meet disk i, padded with i itself to a multiple of eight.
-  [[nodiscard]] const std::int32_t* ids(std::int32_t i) const { return ids_.data() + std::size_t{room} * home(i).place; }
-  [[nodiscard]] std::uint32_t count(std::int32_t i) const { return home(i).count; }
+  /// The ids of those who may meet disk i, padded with i itself to eight at least and to a multiple of four.
+  [[nodiscard]] const std::int32_t* ids(std::int32_t i) const { return around_.ids(i); }
+  [[nodiscard]] std::uint32_t count(std::int32_t i) const { return around_.count(i); }
 
   /// Disk i has a new cage: mends its list and those of the others concerned. Returns who is new on its list, padded
-  /// with i to a multiple of eight, eight at least; valid until the next call.
+  /// with i in the same way; valid until the next call.
   std::span<const std::int32_t> move_cage(std::int32_t i, CageCentre centre);
 
   /// Entries that move_cage() has put on lists of others, or taken from them, so far.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
 
-  void prefetch_home(std::int32_t i) const { __builtin_prefetch(&home(i)); }
-  /// Where the list of disk i is unless it has grown.
-  void prefetch_likely_list(std::int32_t i) const {
-    __builtin_prefetch(ids_.data() + std::size_t{room} * static_cast<std::size_t>(i));
-  }
+  void prefetch(std::int32_t i) const { around_.prefetch(i); }
   /// What move_cage(i) will look through.
   void prefetch_cells(std::int32_t i) const;
 
@@ -60,20 +52,6 @@ class NeighbourLists {
   [[nodiscard]] bool near(std::int32_t i, std::int32_t j) const;
 
  private:
-  static constexpr std::uint32_t room = 16;  ///< ids in a cache line
-
-  struct Home {
-    CageCentre centre;
-    std::uint32_t place = 0;  ///< of its list, in units of `room` ids
-    std::uint32_t count : 27 = 0;
-    std::uint32_t size : 5 = 0;  ///< its list has room for room * 2^size ids
-
-    void set_count(std::uint32_t ids) { count = ids & 0x7FFFFFFU; }
-  };
-
-  [[nodiscard]] Home& home(std::int32_t i) { return homes_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] const Home& home(std::int32_t i) const { return homes_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] std::int32_t* list(std::int32_t i) { return ids_.data() + std::size_t{room} * home(i).place; }
   [[nodiscard]] float radius(std::int32_t i) const { return one_radius_ ? radius_[0] : radius_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] std::size_t layer_of(std::int32_t i) const {
     return layers_.size() == 1 ? 0 : layer_of_[static_cast<std::size_t>(i)];
@@ -81,10 +59,7 @@ class NeighbourLists {
 
   [[nodiscard]] CageRange range_around(CageCentre centre, float radius, const CageCells& layer) const;
   void search(std::int32_t i, CageCentre before, bool was_listed);
-  void set_list(std::int32_t i);
-  void append(std::int32_t i, std::int32_t id);
-  void remove(std::int32_t i, std::int32_t id);
-  void grow(std::int32_t i, std::uint32_t count);
+  [[nodiscard]] std::span<const std::int32_t> found() const { return {found_.data(), found_count_}; }
 
   FixedAxis axes_[2];
   double largest_ = 1.0;       ///< the largest radius: here the unit of all lengths in single precision
@@ -93,10 +68,7 @@ class NeighbourLists {
   double half_width_ = 0.0;
   CageNearness nearness_;
 
-  LargeVector<Home> homes_;
-  LargeVector<std::int32_t> ids_;
-  std::vector<std::vector<std::uint32_t>> free_;  ///< places of lists of each size that nobody uses
-
+  Neighbourhoods around_;
   std::vector<CageCells> layers_;  ///< by falling size
   std::vector<std::uint8_t> layer_of_;
 

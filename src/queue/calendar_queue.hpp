@@ -36,6 +36,7 @@ class CalendarQueue {
   /// Forgets everything, and starts at time 0 with spans of the given length > 0 for that many disks.
   void start(double span, std::size_t disks) {
     const std::size_t spans = std::bit_ceil(std::max<std::size_t>(64, disks / 4));
+    spans_.reserve(spans + spans / 8);  // growing would take twice the memory
     spans_.resize(spans);
     counts_.assign(spans, 0);
     more_.assign(spans, none);

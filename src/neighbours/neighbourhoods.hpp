@@ -1,0 +1,122 @@
+#pragma once
+// The cage of every disk and the ids of its neighbours, in one cache line; lists too long for that line live in a pool. Any
+// number of neighbours finds room.
+
+#include "core/large_memory.hpp"
+#include "neighbours/cage_search.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+class Neighbourhoods {
+ public:
+  explicit Neighbourhoods(std::size_t disks) : lines_(disks + 1) {}  // the last may be read beyond its end
+
+  [[nodiscard]] std::size_t disks() const { return lines_.size() - 1; }
+
+  /// All lists become empty.
+  void clear() {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      lines_[i].count = 0;
+      lines_[i].grown = none;
+      std::fill_n(lines_[i].ids, room, static_cast<std::int32_t>(i));
+    }
+    pool_.clear();
+    free_.clear();
+  }
+
+  [[nodiscard]] CageCentre centre(std::int32_t i) const { return line(i).centre; }
+  void set_centre(std::int32_t i, CageCentre centre) { line(i).centre = centre; }
+
+  /// The list of disk i; unused places hold i itself, at least up to the eighth and to the next multiple of four. Sixteen more
+  /// bytes may be read.
+  [[nodiscard]] const std::int32_t* ids(std::int32_t i) const {
+    const Line& mine = line(i);
+    return mine.grown == none ? mine.ids : pool_.data() + place_of(mine.grown);
+  }
+  [[nodiscard]] std::uint32_t count(std::int32_t i) const { return line(i).count; }
+
+  void append(std::int32_t i, std::int32_t id) {
+    const std::uint32_t count = line(i).count;
+    if (count == capacity(i)) [[unlikely]]
+      grow(i, count + 1);
+    list(i)[count] = id;
+    line(i).count = count + 1;
+  }
+
+  /// The last id takes the place of the one at `at`.
+  void remove_at(std::int32_t i, std::size_t at) {
+    std::int32_t* mine = list(i);
+    const std::uint32_t last = --line(i).count;
+    mine[at] = mine[last];
+    mine[last] = i;
+  }
+
+  void assign(std::int32_t i, std::span<const std::int32_t> ids) {
+    const auto count = static_cast<std::uint32_t>(ids.size());
+    if (count > capacity(i)) [[unlikely]]
+      grow(i, count);
+    std::int32_t* mine = list(i);
+    std::copy(ids.begin(), ids.end(), mine);
+    for (std::uint32_t k = count; k < line(i).count; ++k) mine[k] = i;
+    line(i).count = count;
+  }
+
+  void prefetch(std::int32_t i) const { __builtin_prefetch(&line(i)); }
+
+  [[nodiscard]] std::size_t bytes() const { return lines_.capacity() * sizeof(Line) + pool_.capacity() * sizeof(std::int32_t); }
+
+ private:
+  static constexpr std::uint32_t room = 12;
+  static constexpr std::uint32_t none = 0xFFFFFFFF;
+
+  struct alignas(64) Line {
+    CageCentre centre;
+    std::uint32_t count;
+    std::uint32_t grown;  ///< where in the pool the list is: 32 * (place / 16) + size, for 16 * 2^size ids; or none
+    std::int32_t ids[room];
+  };
+
+  static std::size_t place_of(std::uint32_t grown) { return std::size_t{16} * (grown >> 5); }
+
+  [[nodiscard]] Line& line(std::int32_t i) { return lines_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Line& line(std::int32_t i) const { return lines_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] std::int32_t* list(std::int32_t i) {
+    Line& mine = line(i);
+    return mine.grown == none ? mine.ids : pool_.data() + place_of(mine.grown);
+  }
+  [[nodiscard]] std::uint32_t capacity(std::int32_t i) const {
+    return line(i).grown == none ? room : 16U << (line(i).grown & 31U);
+  }
+
+  /// Moves the list of disk i to where `count` ids have room.
+  void grow(std::int32_t i, std::uint32_t count) {
+    const auto size = static_cast<std::uint32_t>(std::bit_width((count - 1) / 16));
+    if (free_.size() <= size) free_.resize(size + 1);
+    std::uint32_t grown;
+    if (free_[size].empty()) {
+      grown = static_cast<std::uint32_t>(pool_.size() / 16) << 5 | size;
+      pool_.resize(pool_.size() + (std::size_t{16} << size));
+    } else {
+      grown = free_[size].back();
+      free_[size].pop_back();
+    }
+    const std::uint32_t before = line(i).grown;
+    std::int32_t* to = pool_.data() + place_of(grown);
+    std::fill(std::copy_n(ids(i), line(i).count, to), to + (std::size_t{16} << size), i);
+    if (before != none) free_[before & 31U].push_back(before);
+    line(i).grown = grown;
+  }
+
+  LargeVector<Line> lines_;
+  LargeVector<std::int32_t> pool_;
+  std::vector<std::vector<std::uint32_t>> free_;  ///< lists of each size in the pool that nobody uses
+};
+
+}  // namespace carom
