@@ -53,7 +53,7 @@ class Engine {
   [[nodiscard]] static bool covers(const Box& box, const Disks& disks);
 
   /// Requires covers(box, disks), disks inside the box, radii and masses > 0, everything finite.
-  Engine(const Box& box, const Disks& disks, const State& start);
+  Engine(const Box& box, const Disks& disks, State start);
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
@@ -222,8 +222,9 @@ class Engine {
   void choose_epoch_length();
   /// Chooses the width of cages by the work done since the last choice.
   void tune_cages(double elapsed);
-  /// New cages round all disks, new lists, new plans.
+  /// New cages round all disks, and new lists. The plans must be made anew as well.
   void rebuild(double half_width);
+  void predict_all();
   /// A length for the first spans of the queue.
   [[nodiscard]] double first_span() const;
 

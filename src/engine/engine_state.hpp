@@ -60,7 +60,7 @@ inline bool exceeds_cache(std::size_t bytes) {
 }  // namespace detail
 
 template <class Rule, class Layout>
-Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, const State& start)
+Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
     : axes_{fixed_axis(box, 0, disks.count()), fixed_axis(box, 1, disks.count())},
       half_{axes_[0].at(axes_[0].upper), axes_[1].at(axes_[1].upper)},
       layout_(disks),
@@ -97,7 +97,11 @@ Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, const State& st
     const double length = axes_[k].upper - axes_[k].lower;
     travel_[k] = axes_[k].periodic ? (length / 2.0 - reach - 4.0 * widest_) / 2.0 : length / 2.0 + free_path * spacing_;
   }
-  rebuild(std::min(CageTuner::first_half_width(sigma, spacing_ * spacing_), widest_));
+  start = State{};  // makes room for what follows
+  // Where disks crowd in part of the box their lists are longer than the mean density lets expect.
+  double half_width = std::min(CageTuner::first_half_width(sigma, spacing_ * spacing_), widest_);
+  for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sigma; rebuild(half_width)) half_width *= 0.7;
+  predict_all();
   begin_epoch(0.0);
   fetching_ = detail::exceeds_cache(bytes());
 }
@@ -175,7 +179,10 @@ void Engine<Rule, Layout>::tune_cages(double elapsed) {
     const double work = CageTuner::work(left, lists_.changes() - changed_, looks_) / travelled_;
     const double half_width = std::min(tuner_.next(lists_.half_width(), work), widest_);
     settling_ = half_width != lists_.half_width();
-    if (settling_) rebuild(half_width);
+    if (settling_) {
+      rebuild(half_width);
+      predict_all();
+    }
   }
   travelled_ = 0.0;
   left_ = totals_.other;
@@ -189,6 +196,11 @@ void Engine<Rule, Layout>::rebuild(double half_width) {
   std::vector<CageCentre> centres(lines_.size());
   for (std::int32_t i = 0; i < count(); ++i) centres[static_cast<std::size_t>(i)] = cage_around(i);
   lists_.rebuild(half_width, centres);
+}
+
+/// Everybody anew.
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::predict_all() {
   for (std::int32_t i = 0; i < count(); ++i) plan_ahead(i, predicted(i, surroundings(i)));
 }
 

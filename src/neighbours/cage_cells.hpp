@@ -16,12 +16,13 @@ namespace carom {
 
 class CageCells {
  public:
-  /// For `disks` disks of at most `largest_radius` (any unit: it is only kept) in cells at least `width` wide (length).
-  CageCells(const FixedAxis& x, const FixedAxis& y, float largest_radius, double width, std::size_t disks)
+  /// For `disks` disks of at most `largest_radius` (any unit: it is only kept) whose cages come within contact at most `reach`
+  /// (length) apart. Cells somewhat wider than that hold four or five disks: few cells to look through, few that overflow.
+  CageCells(const FixedAxis& x, const FixedAxis& y, float largest_radius, double reach, std::size_t disks)
       : largest_radius_(largest_radius) {
     const double area = (x.upper - x.lower) * (y.upper - y.lower);
     // A thin box would have too many cells: no more than four per disk.
-    const double wide = std::max(width, std::sqrt(occupancy * area / static_cast<double>(std::max<std::size_t>(disks, 1))));
+    const double wide = std::max(1.4 * reach, std::sqrt(1.5 * area / static_cast<double>(std::max<std::size_t>(disks, 1))));
     const FixedAxis* axes[2] = {&x, &y};
     for (int a = 0; a < 2; ++a) {
       const double length = axes[a]->upper - axes[a]->lower;
@@ -115,9 +116,6 @@ class CageCells {
   }
 
  private:
-  /// Disks to a cell where there is room for more cells than that: few blocks to look through, few that overflow.
-  static constexpr double occupancy = 4.5;
-
   struct Line {
     std::int32_t cells = 1;
     bool periodic = false;

@@ -121,6 +121,15 @@ bool NeighbourLists::near(std::int32_t i, std::int32_t j) const {
   return kernel_->near(centre(j), radius(j), centre(i), radius(i), nearness_);
 }
 
+std::uint32_t NeighbourLists::median_count() const {
+  if (around_.disks() == 0) return 0;
+  std::vector<std::uint32_t> counts(around_.disks());
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = count(static_cast<std::int32_t>(i));
+  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
+  std::nth_element(counts.begin(), middle, counts.end());
+  return *middle;
+}
+
 std::uint64_t NeighbourLists::entries() const {
   std::uint64_t sum = 0;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(around_.disks()); ++i) sum += count(i);

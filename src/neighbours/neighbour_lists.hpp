@@ -44,6 +44,8 @@ class NeighbourLists {
   /// What move_cage(i) will look through.
   void prefetch_cells(std::int32_t i) const;
 
+  /// Half of the disks have at most so many neighbours. O(disks).
+  [[nodiscard]] std::uint32_t median_count() const;
   /// Sum of all list lengths. O(disks).
   [[nodiscard]] std::uint64_t entries() const;
   [[nodiscard]] std::size_t bytes() const;

@@ -27,7 +27,7 @@ class Neighbourhoods {
       lines_[i].grown = none;
       std::fill_n(lines_[i].ids, room, static_cast<std::int32_t>(i));
     }
-    pool_.clear();
+    pool_ = {};  // and gives its memory back: the lists to come may be shorter
     free_.clear();
   }
 

@@ -41,7 +41,7 @@ template <class Engine>
 class EngineAdapter final : public AnyEngine {
  public:
   template <class... Args>
-  explicit EngineAdapter(const Args&... args) : engine_(args...) {}
+  explicit EngineAdapter(Args&&... args) : engine_(std::forward<Args>(args)...) {}
 
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
     const bool arrived = engine_.run_until(target, pair_limit, event_limit);

@@ -4,14 +4,14 @@
 
 namespace carom::detail {
 
-extern template std::unique_ptr<AnyEngine> make_textbook<float>(const Scene&, const Start&);
-extern template std::unique_ptr<AnyEngine> make_textbook<double>(const Scene&, const Start&);
-extern template std::unique_ptr<AnyEngine> make_textbook<long double>(const Scene&, const Start&);
-extern template std::unique_ptr<AnyEngine> make_textbook<Quad>(const Scene&, const Start&);
+extern template std::unique_ptr<AnyEngine> make_textbook<float>(const Scene&, const Disks&, State);
+extern template std::unique_ptr<AnyEngine> make_textbook<double>(const Scene&, const Disks&, State);
+extern template std::unique_ptr<AnyEngine> make_textbook<long double>(const Scene&, const Disks&, State);
+extern template std::unique_ptr<AnyEngine> make_textbook<Quad>(const Scene&, const Disks&, State);
 
 namespace {
 
-bool always(const Scene& /*scene*/, const Start& /*start*/) { return true; }
+bool always(const Scene& /*scene*/, const Disks& /*disks*/) { return true; }
 
 }  // namespace
 

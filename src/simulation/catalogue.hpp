@@ -2,9 +2,9 @@
 // The engines there are, and which of them runs a scene.
 
 #include "simulation/any_engine.hpp"
-#include "simulation/start.hpp"
 
 #include <carom/scene.hpp>
+#include <carom/state.hpp>
 
 #include <memory>
 #include <string>
@@ -14,20 +14,20 @@ namespace carom::detail {
 
 struct EngineEntry {
   std::string name;
-  bool (*covers)(const Scene& scene, const Start& start);
-  std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Start& start);
+  bool (*covers)(const Scene& scene, const Disks& disks);
+  std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Disks& disks, State start);
 };
 
 /// In the order in which they are considered: the first that covers a scene runs it.
 const std::vector<EngineEntry>& catalogue();
 
 /// The fast engine, for equal disks or for any.
-bool fast_covers(const Scene& scene, const Start& start);
-std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Start& start);
+bool fast_covers(const Scene& scene, const Disks& disks);
+std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Disks& disks, State start);
 
 /// The textbook engine in one number type; instantiated in textbook_<type>.cpp, one file each because they are slow to
 /// compile.
 template <class Real>
-std::unique_ptr<AnyEngine> make_textbook(const Scene& scene, const Start& start);
+std::unique_ptr<AnyEngine> make_textbook(const Scene& scene, const Disks& disks, State start);
 
 }  // namespace carom::detail

@@ -5,23 +5,26 @@
 #include "engine/engine.hpp"
 #include "simulation/catalogue.hpp"
 
+#include <utility>
+
 namespace carom::detail {
 
 namespace {
 
 template <class Rule>
-std::unique_ptr<AnyEngine> make(const Scene& scene, const Start& start) {
-  if (EqualDisks::covers(start.disks))
-    return std::make_unique<EngineAdapter<Engine<Rule, EqualDisks>>>(scene.box, start.disks, start.state);
-  return std::make_unique<EngineAdapter<Engine<Rule, AnyDisks>>>(scene.box, start.disks, start.state);
+std::unique_ptr<AnyEngine> make(const Scene& scene, const Disks& disks, State start) {
+  if (EqualDisks::covers(disks))
+    return std::make_unique<EngineAdapter<Engine<Rule, EqualDisks>>>(scene.box, disks, std::move(start));
+  return std::make_unique<EngineAdapter<Engine<Rule, AnyDisks>>>(scene.box, disks, std::move(start));
 }
 
 }  // namespace
 
-bool fast_covers(const Scene& scene, const Start& start) { return Engine<Specular, AnyDisks>::covers(scene.box, start.disks); }
+bool fast_covers(const Scene& scene, const Disks& disks) { return Engine<Specular, AnyDisks>::covers(scene.box, disks); }
 
-std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Start& start) {
-  return scene.rule == CollisionRule::reversal ? make<Reversal>(scene, start) : make<Specular>(scene, start);
+std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Disks& disks, State start) {
+  return scene.rule == CollisionRule::reversal ? make<Reversal>(scene, disks, std::move(start))
+                                               : make<Specular>(scene, disks, std::move(start));
 }
 
 }  // namespace carom::detail

@@ -9,10 +9,10 @@
 namespace carom::detail {
 
 template <class Real>
-std::unique_ptr<AnyEngine> make_textbook(const Scene& scene, const Start& start) {
+std::unique_ptr<AnyEngine> make_textbook(const Scene& scene, const Disks& disks, State start) {
   if (scene.rule == CollisionRule::reversal)
-    return std::make_unique<EngineAdapter<TextbookEngine<Real, Reversal>>>(scene.box, start.disks, start.state);
-  return std::make_unique<EngineAdapter<TextbookEngine<Real, Specular>>>(scene.box, start.disks, start.state);
+    return std::make_unique<EngineAdapter<TextbookEngine<Real, Reversal>>>(scene.box, disks, start);
+  return std::make_unique<EngineAdapter<TextbookEngine<Real, Specular>>>(scene.box, disks, start);
 }
 
 }  // namespace carom::detail

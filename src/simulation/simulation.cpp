@@ -4,6 +4,7 @@
 
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
+#include "simulation/start.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -63,13 +64,13 @@ Simulation make_simulation(const Scene& scene, const std::string& engine) {
     throw std::invalid_argument(
         fmt::format("there is no engine \"{}\"; choose one of auto, {}", engine, fmt::join(engine_names(), ", ")));
   Start start = draw_start(scene);
-  const auto covering = [&](const auto& entry) { return (engine == "auto" || named(entry)) && entry.covers(scene, start); };
+  const auto covering = [&](const auto& entry) { return (engine == "auto" || named(entry)) && entry.covers(scene, start.disks); };
   const auto entry = std::find_if(entries.begin(), entries.end(), covering);
   if (entry == entries.end())
     throw std::invalid_argument(
         fmt::format("the engine \"{}\" does not cover this scene: {}; leave the choice to carom, or take \"textbook\"", engine,
                     "its periodic box is too small, or its disks are, compared with the box"));
-  auto running = entry->make(scene, start);
+  auto running = entry->make(scene, start.disks, std::move(start.state));
   return Simulation(
       std::unique_ptr<Simulation::Parts>(new Simulation::Parts{scene, std::move(start.disks), entry->name, std::move(running)}));
 }

@@ -1,5 +1,5 @@
 #include "simulation/make_textbook.hpp"
 
 namespace carom::detail {
-template std::unique_ptr<AnyEngine> make_textbook<Quad>(const Scene& scene, const Start& start);
+template std::unique_ptr<AnyEngine> make_textbook<Quad>(const Scene& scene, const Disks& disks, State start);
 }  // namespace carom::detail
