@@ -43,4 +43,10 @@ struct LargeAllocator {
 template <class T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
 
+/// Makes room for `size` entries and an eighth more, where a vector by itself would double what is large already.
+template <class T>
+void reserve(LargeVector<T>& large, std::size_t size) {
+  if (size > large.capacity()) large.reserve(size + size / 8 + 64);
+}
+
 }  // namespace carom

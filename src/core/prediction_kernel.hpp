@@ -158,7 +158,8 @@ void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, co
   const Line& line = lines[i];
   const Mine mine = spread(line.x[0], line.x[1], line.v[0], line.v[1], line);
   const Doubles t0 = meeting_times(lines, frame, mine, around.ids, now);
-  const Doubles t1 = meeting_times(lines, frame, mine, around.ids + 4, now);
+  Doubles t1 = all(never);
+  if (around.count > 4) t1 = meeting_times(lines, frame, mine, around.ids + 4, now);  // those new on a list are few
   const Doubles leaving = leaving_times(frame, Longs{line.x[0], line.x[1], 0, 0}, Doubles{line.v[0], line.v[1], 1.0, 1.0},
                                         Longs{around.centre[0], around.centre[1], 0, 0}, now);
   ahead.edge_time = leaving[0] < leaving[1] ? leaving[0] : leaving[1];

@@ -342,14 +342,15 @@ class Engine {
   double epoch_length_ = 0.0;
   double spacing_;              ///< root of the area per disk
   double mean_speed_ = 0.0;     ///< mean of |v_x| + |v_y| when the epoch began
-  double travel_[2];            ///< the longest that a line may be along each axis
+  double reach_ = 0.0;          ///< the largest contact distance
+  double travel_[2] = {};       ///< the longest that a line may be along each axis
   double speed_limit_[2] = {};  ///< with which a line stays shorter than that until the epoch ends
   double span_ = 0.0;           ///< of the queue
   bool walled_;
   bool fetching_ = false;  ///< the data do not fit the cache
 
   CageTuner tuner_;
-  double widest_;              ///< that a cage may be
+  double widest_ = never;      ///< that a cage may be
   bool settling_ = true;       ///< the cages are too new for their work to be judged
   double travelled_ = 0.0;     ///< since the width of cages was last looked at: mean path of a disk
   std::uint64_t left_ = 0;     ///< totals_.other at that time

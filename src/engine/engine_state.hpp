@@ -85,18 +85,11 @@ Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
     layout_.furnish(a, disks, static_cast<std::size_t>(column));
   }
 
-  // Nearest images are right as long as a pair that may meet is less than half a box apart, now and along its lines
-  // back to the epoch. Half of that room goes to the cages at most, the rest to the lines.
-  const double reach = largest_contact_distance(disks);
   const double sigma = 2.0 * std::accumulate(disks.radius.begin(), disks.radius.end(), 0.0) /
                        static_cast<double>(std::max<std::size_t>(disks.count(), 1));
-  widest_ = never;
+  reach_ = largest_contact_distance(disks);
   for (const FixedAxis& axis : axes_)
-    if (axis.periodic) widest_ = std::min(widest_, ((axis.upper - axis.lower) / 2.0 - reach) / 8.0);
-  for (int k = 0; k < 2; ++k) {
-    const double length = axes_[k].upper - axes_[k].lower;
-    travel_[k] = axes_[k].periodic ? (length / 2.0 - reach - 4.0 * widest_) / 2.0 : length / 2.0 + free_path * spacing_;
-  }
+    if (axis.periodic) widest_ = std::min(widest_, ((axis.upper - axis.lower) / 2.0 - reach_) / 6.0);
   start = State{};  // makes room for what follows
   // Where disks crowd in part of the box their lists are longer than the mean density lets expect.
   double half_width = std::min(CageTuner::first_half_width(sigma, spacing_ * spacing_), widest_);
@@ -139,8 +132,8 @@ void Engine<Rule, Layout>::begin_epoch(double now) {
   }
   epoch_ = instant(now);
   now_ = 0.0;
-  choose_epoch_length();
   if (now > 0.0) tune_cages(now);
+  choose_epoch_length();
   if (now > 0.0 && queue_.pushed() > 0) {
     span_ = pushed_per_span * now / static_cast<double>(queue_.pushed());
   } else if (span_ == 0.0) {
@@ -160,9 +153,9 @@ void Engine<Rule, Layout>::choose_epoch_length() {
     }
   mean_speed_ = sum / static_cast<double>(std::max(count(), 1));
   // Rounding x + v t moves a disk by 2^-53 of the way since the epoch: some spacings for most, never more than the room
-  // that coordinates have, were the fastest to become twice as fast.
+  // that coordinates have, were the fastest to become somewhat faster.
   double longest = 4.0 * spacing_ / mean_speed_;
-  for (int k = 0; k < 2; ++k) longest = std::min(longest, travel_[k] / (2.0 * fastest[k]));
+  for (int k = 0; k < 2; ++k) longest = std::min(longest, travel_[k] / (1.2 * fastest[k]));
   epoch_length_ = longest < 0x1p1000 ? std::ldexp(1.0, std::ilogb(longest)) : never;
   for (int k = 0; k < 2; ++k) speed_limit_[k] = epoch_length_ < never ? travel_[k] / epoch_length_ : 0.0;
 }
@@ -196,6 +189,13 @@ void Engine<Rule, Layout>::rebuild(double half_width) {
   std::vector<CageCentre> centres(lines_.size());
   for (std::int32_t i = 0; i < count(); ++i) centres[static_cast<std::size_t>(i)] = cage_around(i);
   lists_.rebuild(half_width, centres);
+
+  // Nearest images are right as long as a pair that may meet is less than half a box apart, now and along its lines back
+  // to the epoch. What the cages leave of that belongs to the two lines.
+  for (int k = 0; k < 2; ++k) {
+    const double length = axes_[k].upper - axes_[k].lower;
+    travel_[k] = axes_[k].periodic ? (length / 2.0 - reach_ - 4.0 * half_width) / 2.0 : length / 2.0 + free_path * spacing_;
+  }
 }
 
 /// Everybody anew.

@@ -33,8 +33,7 @@ class CageCells {
       lines_[a].per_step = cells / (length / (axes[a]->unit * 0x1p32));
     }
     const auto cells = static_cast<std::size_t>(lines_[0].cells) * static_cast<std::size_t>(lines_[1].cells);
-    blocks_.reserve(cells + cells / 8);  // growing would take twice the memory
-    next_.reserve(cells + cells / 8);
+    reserve(blocks_, cells);
     blocks_.assign(cells, empty_block());
     next_.assign(cells, -1);
   }
@@ -150,6 +149,7 @@ class CageCells {
       std::int32_t more = free_;
       if (more < 0) {
         more = static_cast<std::int32_t>(blocks_.size());
+        reserve(blocks_, blocks_.size() + 1);
         blocks_.push_back(empty_block());
         next_.push_back(-1);
       } else {

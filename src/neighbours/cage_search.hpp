@@ -1,5 +1,5 @@
 #pragma once
-// Which cages come within contact of a given one? Eight at a time, over the cells around it. Like core/first_contact.hpp
+// Which cages come within contact of a given one? Eight at a time, over the cells around it. Like core/prediction.hpp
 // compiled for every machine and for those with AVX2, with the same answers.
 
 #include <cstddef>

@@ -24,42 +24,57 @@ class CageTuner {
   }
 
   /// The half-width to go on with, after `half_width` has cost `work` per length travelled by all.
+  ///
+  /// A trial is held against the width before it, measured before and after: a system that changes by itself would
+  /// otherwise make any trial look good, or bad.
   [[nodiscard]] double next(double half_width, double work) {
-    if (stage_ == Stage::settled) {
-      if (std::abs(work - best_work_) <= 0.2 * best_work_) return half_width;
-      stage_ = Stage::start;
+    switch (stage_) {
+      case Stage::settled:
+        if (std::abs(work - base_work_) <= 0.2 * base_work_ && ++settled_for_ < patience) return half_width;
+        factor_ = step;
+        improved_ = false;
+        [[fallthrough]];
+      case Stage::base:
+        base_ = half_width;
+        base_work_ = work;
+        stage_ = Stage::trial;
+        return base_ * factor_;
+      case Stage::trial:
+        trial_work_ = work;
+        stage_ = Stage::base_again;
+        return base_;
+      case Stage::base_again:
+        break;
     }
-    if (stage_ == Stage::start) {
-      accept(half_width, work);
-      improved_ = false;
-      factor_ = step;
-      stage_ = Stage::climbing;
-    } else if (work < 0.98 * best_work_) {
-      accept(half_width, work);
+    const bool better = trial_work_ < 0.98 * 0.5 * (base_work_ + work);
+    base_work_ = work;
+    if (better) {
       improved_ = true;
-    } else if (factor_ == step && !improved_) {
-      factor_ = 1.0 / step;
-    } else {
-      stage_ = Stage::settled;
-      return best_;
+      stage_ = Stage::base;
+      return base_ * factor_;
     }
-    return best_ * factor_;
+    if (factor_ == step && !improved_) {
+      factor_ = 1.0 / step;
+      stage_ = Stage::trial;
+      return base_ * factor_;
+    }
+    stage_ = Stage::settled;
+    settled_for_ = 0;
+    return base_;
   }
 
  private:
-  enum class Stage { start, climbing, settled };
-  static constexpr double step = 1.2;
+  enum class Stage { base, trial, base_again, settled };
+  static constexpr double step = 1.25;
+  static constexpr int patience = 10;  ///< judgements after which a width is doubted anyway
 
-  void accept(double half_width, double work) {
-    best_ = half_width;
-    best_work_ = work;
-  }
-
-  Stage stage_ = Stage::start;
-  double best_ = 0.0;
-  double best_work_ = 0.0;
+  Stage stage_ = Stage::base;
+  double base_ = 0.0;
+  double base_work_ = 0.0;
+  double trial_work_ = 0.0;
   double factor_ = step;
   bool improved_ = false;
+  int settled_for_ = 0;
 };
 
 }  // namespace carom

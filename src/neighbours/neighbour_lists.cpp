@@ -13,6 +13,9 @@ namespace {
 /// Rounding of the search in single precision stays below this fraction of a contact distance.
 constexpr double search_slack = 1e-4;
 
+/// Radii within a factor of two of the largest, which is 1, have size -1, and so on down.
+int size_of(float radius) { return std::ilogb(std::nextafter(radius, 0.0F)); }
+
 }  // namespace
 
 NeighbourLists::NeighbourLists(const FixedAxis& x, const FixedAxis& y, const std::vector<double>& radius)
@@ -39,14 +42,14 @@ void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> cent
     if (!radius_.empty()) sizes[0] = {around_.disks(), radius_[0]};
   } else {
     for (const float r : radius_) {
-      auto& [disks, largest] = sizes[std::ilogb(r)];
+      auto& [disks, largest] = sizes[size_of(r)];
       ++disks;
       largest = std::max(largest, r);
     }
     std::map<int, std::uint8_t> number;
     for (const auto& size : sizes) number.emplace(size.first, static_cast<std::uint8_t>(number.size()));
     layer_of_.resize(radius_.size());
-    for (std::size_t i = 0; i < radius_.size(); ++i) layer_of_[i] = number[std::ilogb(radius_[i])];
+    for (std::size_t i = 0; i < radius_.size(); ++i) layer_of_[i] = number[size_of(radius_[i])];
   }
   layers_.clear();
   for (const auto& size : sizes) {

@@ -102,6 +102,7 @@ class Neighbourhoods {
     std::uint32_t grown;
     if (free_[size].empty()) {
       grown = static_cast<std::uint32_t>(pool_.size() / 16) << 5 | size;
+      reserve(pool_, pool_.size() + (std::size_t{16} << size));
       pool_.resize(pool_.size() + (std::size_t{16} << size));
     } else {
       grown = free_[size].back();

@@ -35,8 +35,8 @@ class CalendarQueue {
 
   /// Forgets everything, and starts at time 0 with spans of the given length > 0 for that many disks.
   void start(double span, std::size_t disks) {
-    const std::size_t spans = std::bit_ceil(std::max<std::size_t>(64, disks / 4));
-    spans_.reserve(spans + spans / 8);  // growing would take twice the memory
+    const std::size_t spans = std::bit_ceil(std::max<std::size_t>(64, disks / 2));
+    reserve(spans_, spans);
     spans_.resize(spans);
     counts_.assign(spans, 0);
     more_.assign(spans, none);
@@ -155,6 +155,7 @@ class CalendarQueue {
     std::int32_t behind = free_;
     if (behind == none) {
       behind = static_cast<std::int32_t>(spans_.size());
+      reserve(spans_, spans_.size() + 1);
       spans_.emplace_back();
       counts_.push_back(0);
       more_.push_back(none);
