@@ -114,8 +114,7 @@ void add_bench(CLI::App& program, Action& action) {
           "--collisions", options->collisions,
           "Collisions that the textbook engine does in a turn (default: 200000, or one per disk); the fast one does four "
           "times as many")
-      ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->type_name("N");
   command->callback([&action, options] { action = [options] { return bench(*options); }; });
 }
 

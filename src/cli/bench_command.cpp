@@ -124,11 +124,12 @@ void print_row(std::int64_t disks, double packing_fraction, const Contender& fas
 }
 
 std::vector<std::int64_t> sizes(const BenchOptions& options) {
+  if (options.collisions == 0) throw UsageError("--collisions 0: a speed needs some collisions");
   std::vector<std::int64_t> disks = options.disks;
   if (disks.empty()) disks = {1'000, 10'000, 100'000};
   if (options.large) disks.push_back(1'000'000);
   for (const std::int64_t n : disks) {
-    if (n < 16 || n > 100'000'000) throw UsageError(fmt::format("--disks {}: it can be 16 to 100000000", n));
+    if (n < 16 || n > 100'000'000) throw UsageError(fmt::format("--disks {}: it can be 16 to 100,000,000", n));
   }
   return disks;
 }
