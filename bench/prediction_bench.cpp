@@ -40,9 +40,9 @@ const PredictionKernel<Line>* kernel_of() {
 
 /// Disks 0 to centres - 1, each among `neighbours` others at the distances of packing fraction 0.6.
 template <class Line>
-class Neighbourhoods {
+class Surrounded {
  public:
-  explicit Neighbourhoods(int neighbours) {
+  explicit Surrounded(int neighbours) : neighbours_(static_cast<std::uint32_t>(neighbours)) {
     const Box box{{0.0, 0.0}, {100.0, 100.0}, {Boundary::periodic, Boundary::periodic}};
     const FixedAxis axes[2] = {{box, 0, 0.0}, {box, 1, 0.0}};
     frame_ = {{axes[0].unit, axes[1].unit}, 1.0, 0.3};
@@ -83,7 +83,7 @@ class Neighbourhoods {
 
   [[nodiscard]] Surroundings around(std::int32_t i) const {
     const auto k = static_cast<std::size_t>(i);
-    return {{centre_[k][0], centre_[k][1]}, lists_[k].data(), static_cast<std::uint32_t>(lists_[k].size())};
+    return {{centre_[k][0], centre_[k][1]}, lists_[k].data(), neighbours_};
   }
   [[nodiscard]] Line* lines() { return lines_.data(); }
   [[nodiscard]] const PredictionFrame& frame() const { return frame_; }
@@ -114,7 +114,8 @@ class Neighbourhoods {
     return static_cast<std::int32_t>((static_cast<std::uint64_t>(line.x[axis]) + static_cast<std::uint64_t>(way)) >> 32);
   }
 
-  PredictionFrame frame_;
+  std::uint32_t neighbours_;
+  PredictionFrame frame_{};
   std::vector<Line> lines_;
   std::vector<std::vector<std::int32_t>> lists_;
   std::vector<std::array<std::int32_t, 2>> centre_;
@@ -130,7 +131,7 @@ void predict(benchmark::State& state) {
     state.SkipWithError(not_here);
     return;
   }
-  Neighbourhoods<Line> disks(static_cast<int>(state.range(0)));
+  Surrounded<Line> disks(static_cast<int>(state.range(0)));
   Prediction ahead;
   for (std::int32_t i = 0; i < centres; ++i) {
     kernel->predict(disks.lines(), disks.frame(), i, disks.around(i), now, ahead);
@@ -155,7 +156,7 @@ void store_and_predict(benchmark::State& state) {
     state.SkipWithError(not_here);
     return;
   }
-  Neighbourhoods<Line> disks(static_cast<int>(state.range(0)));
+  Surrounded<Line> disks(static_cast<int>(state.range(0)));
   const auto collide = [&](std::int32_t i, std::int32_t j) {
     CollidedPair pair{{i, j}, {disks.around(i), disks.around(j)}, {}};
     const Line a = disks.lines()[i], b = disks.lines()[j];
