@@ -69,11 +69,12 @@ class Surrounded {
     const std::size_t padded = (static_cast<std::size_t>(neighbours) + 7) / 8 * 8;
     for (std::int32_t i = 0; i < centres; ++i) {
       std::vector<std::int32_t> list(padded, i);
-      for (int k = 0; k < neighbours;) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(neighbours);) {
         const double x = beside(random), y = beside(random);
         if (std::hypot(x, y) < 1.0 || std::hypot(x, y) > 2.0) continue;
-        list[static_cast<std::size_t>(k++)] = static_cast<std::int32_t>(lines_.size());
+        list[k] = static_cast<std::int32_t>(lines_.size());
         add(places[static_cast<std::size_t>(i)] + Vec2<double>(x, y));
+        ++k;
       }
       lists_.push_back(list);
       centre_.push_back(

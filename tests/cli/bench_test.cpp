@@ -76,7 +76,7 @@ TEST(BenchCommand, SaysWhichInstructionsItMeasured) {
 
 // Sixteen disks are too few for the first order in 1/N: at 0.6 their pressure lies 2 % below what it says.
 TEST(BenchCommand, ShowsNoSpeedOfAnAnswerThatItDoesNotBelieve) {
-  const Outcome outcome = bench({"--disks", "16", "--collisions", "30000"});
+  const Outcome outcome = bench({"--disks", "16", "--collisions", "8000"});
   EXPECT_EQ(outcome.exit_code, 4);
   EXPECT_THAT(outcome.err, AllOf(StartsWith("carom: fast, 16 disks at packing fraction 0.6: Z is "), HasSubstr("says nothing")));
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("| 0.3 "), Not(HasSubstr("| 0.6 ")), HasSubstr("| 0.7 ")));
