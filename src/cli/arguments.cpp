@@ -101,6 +101,23 @@ void add_info(CLI::App& program, Action& action) {
   command->callback([&action, options] { action = [options] { return info(*options); }; });
 }
 
+void add_bench(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("bench", "Measure how fast this machine is, with both engines side by side");
+  const auto options = std::make_shared<BenchOptions>();
+  command->add_flag("--json", options->json, "Print JSON in place of the table");
+  command->add_flag("--large", options->large, "Measure a million disks too, which takes some minutes");
+  command->add_option("--disks", options->disks, "How many disks, in place of 1000, 10000 and 100000; may be repeated")
+      ->type_name("N")
+      ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--collisions", options->collisions,
+          "Collisions that the textbook engine does in a turn (default: 200000, or one per disk); the fast one does four "
+          "times as many")
+      ->type_name("N");
+  command->callback([&action, options] { action = [options] { return bench(*options); }; });
+}
+
 /// The parser's own sentence for an unknown command says only that one is missing.
 void require_known_command(const CLI::App& program, const std::string& word) {
   if (word.starts_with('-')) return;
@@ -124,6 +141,7 @@ Action parse_arguments(int argc, char** argv) {
   add_check(program, action);
   add_init(program, action, invocation);
   add_info(program, action);
+  add_bench(program, action);
   if (argc > 1) require_known_command(program, argv[1]);
   try {
     program.parse(argc, argv);

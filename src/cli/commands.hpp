@@ -3,8 +3,11 @@
 
 #include "cli/scene_options.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace carom::cli {
 
@@ -58,5 +61,13 @@ struct InfoOptions {
   std::string file;
 };
 ExitCode info(const InfoOptions& options);
+
+struct BenchOptions {
+  bool json = false;
+  bool large = false;                       ///< a million disks too
+  std::vector<std::int64_t> disks;          ///< empty: 1000, 10000, 100000
+  std::optional<std::uint64_t> collisions;  ///< in a turn of the textbook engine; absent: 200000, or one per disk
+};
+ExitCode bench(const BenchOptions& options);
 
 }  // namespace carom::cli

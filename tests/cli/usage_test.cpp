@@ -68,7 +68,7 @@ TEST(Usage, HelpNamesEveryCommand) {
   const TemporaryDirectory directory;
   const Outcome outcome = run_carom(directory.path(), {"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* command : {"run", "check", "init", "info"}) EXPECT_THAT(outcome.out, HasSubstr(command));
+  for (const char* command : {"run", "check", "init", "info", "bench"}) EXPECT_THAT(outcome.out, HasSubstr(command));
   EXPECT_THAT(outcome.err, IsEmpty());
 }
 

@@ -8,8 +8,10 @@
 
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace carom::test {
@@ -86,6 +88,59 @@ inline Scene mixture_scene(std::int64_t count, double packing_fraction, Boundary
 inline System system_of(const Scene& scene) {
   Start start = draw_start(scene);
   return {scene.box, std::move(start.disks), std::move(start.state)};
+}
+
+/// All disks in one quarter of the box, as dense there as asked, and the rest of it empty.
+inline Scene quarter_scene(std::int64_t count, double packing_fraction, Boundary boundary, std::uint64_t seed = 1) {
+  Scene scene = gas_scene(count, packing_fraction, boundary, seed);
+  const Lattice lattice = hexagonal_lattice(scene.box, count, 1.0);
+  ListedPositions positions;
+  for (Eigen::Index i = 0; i < lattice.sites.cols(); ++i) positions.values.emplace_back(lattice.sites.col(i));
+  scene.species.front().positions = std::move(positions);
+  scene.box.upper *= 2.0;
+  return scene;
+}
+
+/// Two species of one material, the radii 5 and 0.5: one disk in a hundred is large, and both cover about the same area.
+/// Placed at random, so packing_fraction must be well below 0.5.
+inline Scene two_sizes_scene(std::int64_t count, double packing_fraction, Boundary boundary, std::uint64_t seed = 1) {
+  Scene scene = gas_scene(count, packing_fraction, boundary, seed);
+  Species& small = scene.species.front();
+  small.positions = RandomPositions{};
+  Species large = small;
+  large.name = "large";
+  large.count = count / 100;
+  large.radius = 5.0;
+  large.mass = 100.0;
+  small.count = count - large.count;
+  const double squares = 25.0 * static_cast<double>(large.count) + 0.25 * static_cast<double>(small.count);
+  scene.box = square_box(std::sqrt(std::numbers::pi * squares / packing_fraction), boundary);
+  scene.species.push_back(large);
+  return scene;
+}
+
+/// One disk a hundred times larger than the rest, in the middle of the box, at rest: it is the last one. The others, `count`
+/// at most, are on a lattice around it. A system and not a scene, which would look for overlaps disk by disk.
+inline System one_large_system(std::int64_t count, double packing_fraction, Boundary boundary, std::uint64_t seed = 1) {
+  constexpr double large = 50.0;
+  const double squares = large * large + 0.25 * static_cast<double>(count);
+  Scene scene = gas_scene(count, packing_fraction, boundary, seed);
+  scene.box = square_box(std::sqrt(std::numbers::pi * squares / packing_fraction), boundary);
+  const Eigen::Vector2d middle = 0.5 * (scene.box.lower + scene.box.upper);
+  const double free_share = 1.0 - std::numbers::pi * large * large / scene.box.area();
+  const auto sites = static_cast<std::int64_t>(static_cast<double>(count) / free_share);
+  const Lattice lattice = hexagonal_lattice(scene.box, sites, 1.0);
+  std::vector<Placed> placed;
+  for (Eigen::Index i = 0; i < lattice.sites.cols(); ++i) {
+    const bool free = (lattice.sites.col(i) - middle).norm() > large + 0.51;
+    if (free && std::ssize(placed) < count) placed.push_back({lattice.sites.col(i), Eigen::Vector2d::Zero()});
+  }
+  System system = system_of(scene.box, placed);
+  scene.species.front().count = std::ssize(placed);
+  const Eigen::Matrix2Xd velocities = draw_velocities(scene, system.disks);
+  for (std::size_t i = 0; i < placed.size(); ++i) placed[i].v = velocities.col(static_cast<Eigen::Index>(i));
+  placed.push_back({middle, Eigen::Vector2d::Zero(), large, 4.0 * large * large});
+  return system_of(scene.box, placed);
 }
 
 }  // namespace carom::test

@@ -1,0 +1,49 @@
+#pragma once
+// One engine in a race over one scene: run up, timed in turns, and held to what is known of the answer.
+
+#include <carom/simulation.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom::cli {
+
+/// Equal disks of diameter and mass 1 at kT = 1 in a periodic box, from a hexagonal lattice whose sides fit as well as they
+/// can: nearly square.
+Scene bench_scene(std::int64_t disks, double packing_fraction);
+
+class Contender {
+ public:
+  /// Brings the engine of that name to life, and lets it run for so many pair collisions before anything is measured.
+  Contender(const Scene& scene, const std::string& engine, std::uint64_t run_up);
+
+  /// Times so many pair collisions more, in seconds of this program's processor time: what other programs take does not count.
+  void take_turn(std::uint64_t collisions);
+
+  /// What is wrong with where it has got to, in one sentence; empty where energy, plan and (in the fluid) pressure are
+  /// right. All collisions since the run-up count.
+  [[nodiscard]] std::string fault() const;
+
+  [[nodiscard]] const std::string& engine() const { return simulation_.engine(); }
+  [[nodiscard]] const Totals& totals() const { return simulation_.totals(); }
+  [[nodiscard]] const std::vector<double>& rates() const { return rates_; }  ///< collisions per second, turn by turn
+  [[nodiscard]] double median_rate() const;
+  [[nodiscard]] double energy_drift() const;  ///< relative
+  [[nodiscard]] double compressibility() const;
+  [[nodiscard]] std::optional<double> bytes_per_disk() const;
+
+ private:
+  [[nodiscard]] double disks() const { return static_cast<double>(simulation_.disks().count()); }
+
+  std::optional<std::size_t> memory_before_;
+  Simulation simulation_;
+  double energy_;
+  std::optional<std::size_t> memory_;
+  bool stopped_ = false;  ///< there were no more collisions to be had
+  std::vector<double> rates_;
+};
+
+}  // namespace carom::cli
