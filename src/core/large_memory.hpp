@@ -1,6 +1,6 @@
 #pragma once
-// Memory for arrays with an entry per disk: aligned to cache lines and, from a few megabytes on, in pages of 2 MiB where the
-// system has them, so that reading all over a large array does not miss the address cache each time.
+// Memory for arrays with an entry per disk: aligned to cache lines and, from 16 MiB on, in pages of 2 MiB where the system
+// has them, so that reading all over a large array does not miss the address cache each time.
 
 #include <cstddef>
 #include <cstdlib>
@@ -21,9 +21,9 @@ struct LargeAllocator {
   explicit LargeAllocator(const LargeAllocator<U>&) {}
 
   [[nodiscard]] T* allocate(std::size_t n) {
-    constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21;
+    constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21, large = 8 * huge_page;
     if (n > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
-    const std::size_t alignment = n * sizeof(T) >= huge_page ? huge_page : line;
+    const std::size_t alignment = n * sizeof(T) >= large ? huge_page : line;
     const std::size_t bytes = (n * sizeof(T) + alignment - 1) / alignment * alignment;
     void* memory = std::aligned_alloc(alignment, bytes);
     if (memory == nullptr) throw std::bad_alloc();

@@ -25,6 +25,7 @@ namespace {
 using Doubles = double __attribute__((vector_size(32)));
 using Longs = long long __attribute__((vector_size(32)));
 using UnsignedLongs = unsigned long long __attribute__((vector_size(32)));
+using StoredLongs = long long __attribute__((vector_size(32), may_alias));  // as they lie in a line
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -79,7 +80,7 @@ CAROM_INLINE Mine spread(std::int64_t x, std::int64_t y, double vx, double vy, c
 
 template <class Line>
 CAROM_INLINE Longs load(const Line& line) {
-  return *reinterpret_cast<const Longs*>(&line);
+  return *reinterpret_cast<const StoredLongs*>(&line);
 }
 
 /// When `mine` meets each of four others.
@@ -149,7 +150,9 @@ CAROM_INLINE Doubles leaving_times(const PredictionFrame& frame, Longs x, Double
   const Doubles speed = reinterpret_cast<Doubles>(reinterpret_cast<Longs>(v) ^ sign);
   Doubles room = all(frame.half_width) - ahead;
   room = room > all(0.0) ? room : all(0.0);
-  return v != all(0.0) ? all(now) + room / speed : all(never);
+  const Doubles rounded = ((all(now) + room / speed) + all(frame.edge_rounding)) - all(frame.edge_rounding);
+  const Doubles time = rounded > all(now) ? rounded : all(now);
+  return v != all(0.0) ? time : all(never);
 }
 
 template <class Line>
@@ -170,7 +173,7 @@ void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, co
 template <class Line>
 CAROM_INLINE void store(Line& line, Longs x, Doubles v, bool upper) {
   const Longs bits = reinterpret_cast<Longs>(v);
-  *reinterpret_cast<Longs*>(&line) =
+  *reinterpret_cast<StoredLongs*>(&line) =
       upper ? __builtin_shufflevector(x, bits, 2, 3, 6, 7) : __builtin_shufflevector(x, bits, 0, 1, 4, 5);
 }
 

@@ -45,6 +45,7 @@ class Engine {
     std::int32_t partner;
     std::uint32_t partner_collisions;  ///< when the collision was foreseen
     std::int32_t edge;                 ///< `cage` or a Wall
+    std::int32_t other;                ///< `edge` or `partner`, whichever comes first
   };
 
  public:
@@ -94,7 +95,7 @@ class Engine {
     at_one_instant_ = time > now_ ? 0 : at_one_instant_ + 1;
     now_ = std::max(now_, time);
     const Plan& mine = plan(i);
-    if (mine.edge_time <= mine.pair_time) {
+    if (edge_first(mine)) {
       mine.edge == cage ? leave_cage(i) : reflect(i, static_cast<Wall>(mine.edge));
     } else if (is_stale(mine)) {
       ++totals_.stale;
@@ -117,6 +118,8 @@ class Engine {
     ++collisions_[static_cast<std::size_t>(i)];
     ++collisions_[static_cast<std::size_t>(j)];
     if (recording_) log_collision(i, j, va, vb);
+    if (outruns_epoch(va) || outruns_epoch(vb)) [[unlikely]]
+      return begin_epoch_between(i, va, j, vb);
 
     const Vec2<double> da = before_a - va, db = before_b - vb;
     CollidedPair pair{{i, j}, {surroundings(i), surroundings(j)}, {}};
@@ -127,7 +130,6 @@ class Engine {
     plan_ahead(j, pair.ahead[1]);
     schedule(i);
     schedule(j);
-    if (outruns_epoch(va) || outruns_epoch(vb)) begin_epoch(now_);
   }
 
   /// A disk meets a wall: its velocity across the wall is reversed.
@@ -152,7 +154,7 @@ class Engine {
     Prediction ahead =
         predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, fresh.data(), static_cast<std::uint32_t>(fresh.size())});
     Plan& mine = plan(i);
-    if (ahead.pair_time < mine.pair_time) {
+    if (ahead.pair_time < mine.pair_time || (ahead.pair_time == mine.pair_time && precedes_as_partner(i, ahead))) {
       plan_ahead(i, ahead);
     } else {
       plan_edge(i, ahead.edge_time);
@@ -200,12 +202,17 @@ class Engine {
         mine.edge = wall_left - 2 * axis - (up ? 1 : 0);
       }
     }
+    // At one time with a lower partner it comes second: it will be found again after the collision.
+    if (mine.edge_time == mine.pair_time && mine.edge != cage && id(mine.partner) < id(i)) mine.edge_time = never;
   }
 
   /// What lies beyond this epoch is found again when the next one begins.
   void schedule(std::int32_t i) {
+    Plan& mine = plan(i);
+    const std::int32_t edge = -static_cast<std::int32_t>(edge_first(mine));  // all bits or none: a branch would be guessed wrong
+    mine.other = (mine.edge & edge) | (mine.partner & ~edge);
     const double next = time(i);
-    if (next < epoch_length_) queue_.push(*this, i, next);
+    if (next < epoch_length_) queue_.push(*this, {next, i, mine.other});
   }
 
   /// The partner has collided since this was planned.
@@ -217,7 +224,13 @@ class Engine {
 
   /// A new zero for the loop's clock at time `now`: every line starts there, every plan counts from there. Short times keep
   /// their digits, and no line gets so long that coordinates wrap unseen.
-  void begin_epoch(double now);
+  [[gnu::noinline]] void begin_epoch(double now);
+  /// The same in the middle of a collision after which a disk is too fast for its line to be drawn from the old epoch.
+  [[gnu::noinline, gnu::cold]] void begin_epoch_between(std::int32_t i, const Vec2<double>& va, std::int32_t j,
+                                                        const Vec2<double>& vb);
+  /// Lets every line start, and every plan count, at `now`.
+  void rebase(double now);
+  void start_queue();
   /// As long as the lines may become as the disks move now, rounded down to a power of two.
   void choose_epoch_length();
   /// Chooses the width of cages by the work done since the last choice.
@@ -303,11 +316,11 @@ class Engine {
     kernel_.predict(lines_.data(), frame_, i, around, now_, ahead);
     return ahead;
   }
-  [[nodiscard]] std::int32_t lowest_of_tied(std::int32_t i, const Prediction& ahead) const;
+  [[nodiscard, gnu::noinline, gnu::cold]] std::int32_t lowest_of_tied(std::int32_t i, const Prediction& ahead) const;
 
-  void log_collision(std::int32_t i, std::int32_t j, const Vec2<double>& va, const Vec2<double>& vb);
-  void log_reflection(std::int32_t i, Wall wall);
-  void look_ahead(std::int64_t span) const;
+  [[gnu::noinline]] void log_collision(std::int32_t i, std::int32_t j, const Vec2<double>& va, const Vec2<double>& vb);
+  [[gnu::noinline]] void log_reflection(std::int32_t i, Wall wall);
+  [[gnu::noinline]] void look_ahead(std::int64_t span) const;
 
   [[nodiscard]] Instant instant(double t) const { return epoch_.plus(t); }
   [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(lines_.size()); }
@@ -366,16 +379,23 @@ class Engine {
   // ------------------------------------------------------------------------------------- for the queue
 
   [[nodiscard]] double time(std::int32_t i) const { return std::min(plan(i).pair_time, plan(i).edge_time); }
+  [[nodiscard]] std::int32_t other(std::int32_t i) const { return plan(i).other; }
 
   /// Ties: the event with the lower disk first, then the lower other disk; a cage is left before a wall is met, and a wall
   /// met before a disk.
-  [[nodiscard]] bool precedes(std::int32_t a, std::int32_t b) const { return rank(a) < rank(b); }
+  [[nodiscard]] bool precedes(const CalendarEntry& a, const CalendarEntry& b) const { return rank(a) < rank(b); }
 
  private:
-  [[nodiscard]] std::pair<std::int32_t, std::int32_t> rank(std::int32_t i) const {
-    const Plan& mine = plan(i);
-    if (mine.edge_time <= mine.pair_time) return {id(i), mine.edge};
-    return std::minmax(id(i), id(mine.partner));
+  [[nodiscard]] std::pair<std::int32_t, std::int32_t> rank(const CalendarEntry& event) const {
+    if (event.other < 0) return {id(event.disk), event.other};
+    return std::minmax(id(event.disk), id(event.other));
+  }
+
+  /// Whether a disk leaves its cage or meets a wall before it meets its partner.
+  [[nodiscard]] static bool edge_first(const Plan& mine) { return mine.edge_time <= mine.pair_time; }
+  /// Of two partners at the same time, whether the one ahead comes before the one planned.
+  [[nodiscard]] bool precedes_as_partner(std::int32_t i, const Prediction& ahead) const {
+    return ahead.pair_time < never && id(ahead.partner) < id(plan(i).partner);
   }
 
  public:

@@ -64,7 +64,7 @@ Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
     : axes_{fixed_axis(box, 0, disks.count()), fixed_axis(box, 1, disks.count())},
       half_{axes_[0].at(axes_[0].upper), axes_[1].at(axes_[1].upper)},
       layout_(disks),
-      frame_{{axes_[0].unit, axes_[1].unit}, disks.count() > 0 ? 2.0 * disks.radius[0] : 0.0, 0.0},
+      frame_{{axes_[0].unit, axes_[1].unit}, disks.count() > 0 ? 2.0 * disks.radius[0] : 0.0, 0.0, 0.0},
       kernel_(prediction_kernel<Line>()),
       lines_(disks.count()),
       plans_(disks.count()),
@@ -78,9 +78,11 @@ Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
     const auto column = static_cast<Eigen::Index>(id(i));
     Line& a = line(i);
     for (int k = 0; k < 2; ++k) {
-      a.x[k] = axes_[k].at(start.positions(k, column));
+      const double place = start.positions(k, column);
+      a.x[k] = axes_[k].at(place);
       a.v[k] = start.velocities(k, column);
       if (start.images.cols() > column) image(i, k) = start.images(k, column);
+      if (axes_[k].periodic && a.x[k] == INT64_MIN && place > axes_[k].lower) ++image(i, k);  // rounded to the upper edge
     }
     layout_.furnish(a, disks, static_cast<std::size_t>(column));
   }
@@ -123,6 +125,24 @@ double Engine<Rule, Layout>::largest_contact_distance(const Disks& disks) {
 
 template <class Rule, class Layout>
 void Engine<Rule, Layout>::begin_epoch(double now) {
+  rebase(now);
+  if (now > 0.0) tune_cages(now);
+  choose_epoch_length();
+  if (now > 0.0 && queue_.pushed() > 0) span_ = pushed_per_span * now / static_cast<double>(queue_.pushed());
+  start_queue();
+}
+
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::begin_epoch_between(std::int32_t i, const Vec2<double>& va, std::int32_t j, const Vec2<double>& vb) {
+  rebase(now_);
+  for (int k = 0; k < 2; ++k) line(i).v[k] = va[k], line(j).v[k] = vb[k];
+  choose_epoch_length();
+  for (const std::int32_t k : {i, j}) plan_ahead(k, predicted(k, surroundings(k)));
+  start_queue();
+}
+
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::rebase(double now) {
   for (std::int32_t i = 0; i < count(); ++i) {
     Line& a = line(i);
     for (int k = 0; k < 2; ++k) a.x[k] = moved(i, k, a.v[k] * now);
@@ -132,13 +152,11 @@ void Engine<Rule, Layout>::begin_epoch(double now) {
   }
   epoch_ = instant(now);
   now_ = 0.0;
-  if (now > 0.0) tune_cages(now);
-  choose_epoch_length();
-  if (now > 0.0 && queue_.pushed() > 0) {
-    span_ = pushed_per_span * now / static_cast<double>(queue_.pushed());
-  } else if (span_ == 0.0) {
-    span_ = first_span();
-  }
+}
+
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::start_queue() {
+  if (span_ == 0.0) span_ = first_span();
   queue_.start(span_, lines_.size());
   for (std::int32_t i = 0; i < count(); ++i) schedule(i);
 }
@@ -157,6 +175,7 @@ void Engine<Rule, Layout>::choose_epoch_length() {
   double longest = 4.0 * spacing_ / mean_speed_;
   for (int k = 0; k < 2; ++k) longest = std::min(longest, travel_[k] / (1.2 * fastest[k]));
   epoch_length_ = longest < 0x1p1000 ? std::ldexp(1.0, std::ilogb(longest)) : never;
+  frame_.edge_rounding = epoch_length_ < never ? 0x1.8p16 * epoch_length_ : 0.0;  // 1.5 * 2^52 * 2^-36
   for (int k = 0; k < 2; ++k) speed_limit_[k] = epoch_length_ < never ? travel_[k] / epoch_length_ : 0.0;
 }
 
@@ -308,7 +327,7 @@ std::size_t Engine<Rule, Layout>::bytes() const {
 template <class Rule, class Layout>
 std::vector<std::string> Engine<Rule, Layout>::check_invariants() const {
   std::vector<std::string> faults;
-  const double slack = 1e-9 * lists_.half_width();
+  const double slack = 1e-6 * lists_.half_width();  // lists allow for as much, and leaving times are rounded
   for (std::int32_t i = 0; i < count(); ++i) {
     const Line& a = line(i);
     if (!std::isfinite(a.v[0]) || !std::isfinite(a.v[1]))

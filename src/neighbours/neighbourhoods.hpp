@@ -62,6 +62,8 @@ class Neighbourhoods {
     const auto count = static_cast<std::uint32_t>(ids.size());
     if (count > capacity(i)) [[unlikely]]
       grow(i, count);
+    if (line(i).grown != none && count <= room) [[unlikely]]
+      shrink(i);
     std::int32_t* mine = list(i);
     std::copy(ids.begin(), ids.end(), mine);
     for (std::uint32_t k = count; k < line(i).count; ++k) mine[k] = i;
@@ -113,6 +115,14 @@ class Neighbourhoods {
     std::fill(std::copy_n(ids(i), line(i).count, to), to + (std::size_t{16} << size), i);
     if (before != none) free_[before & 31U].push_back(before);
     line(i).grown = grown;
+  }
+
+  /// Empties the list of disk i, which goes back to its line.
+  void shrink(std::int32_t i) {
+    free_[line(i).grown & 31U].push_back(line(i).grown);
+    line(i).grown = none;
+    line(i).count = 0;
+    std::fill_n(line(i).ids, room, i);
   }
 
   LargeVector<Line> lines_;

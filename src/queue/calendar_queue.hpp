@@ -2,9 +2,9 @@
 // The engine's future event list in O(1): a ring of short spans of time, each with the ids of the disks whose next event
 // falls into it (Paul, J. Comput. Phys. 221, 615 (2007)).
 //
-// Every disk has one event; its owner keeps when (Events::time). The queue only keeps ids, in the order in which they
-// came: nothing is ever removed from a span, and an id counts if its event still falls there when the span's turn comes. Only the
-// span at hand is sorted. Any number of ids finds room in a span, far events wait aside, and events at infinity are not
+// Every disk has one event; its owner keeps which (Events::time, Events::other). The queue only keeps ids, in the order in which
+// they came: nothing is ever removed from a span, and an id counts if its event still falls there when the span's turn comes.
+// Only the span at hand is sorted. Any number of ids finds room in a span, far events wait aside, and events at infinity are not
 // kept at all.
 //
 // Ties: events at the same time are ordered by Events::precedes(a, b).
@@ -23,15 +23,22 @@
 
 namespace carom {
 
-/// Events: `double time(std::int32_t disk) const`, the time of the disk's next event, >= 0, infinity for never; and
-/// `bool precedes(std::int32_t a, std::int32_t b) const`, a strict order of events at one time.
+/// What a disk's next event is: `other` tells events of one disk at one time apart.
+struct CalendarEntry {
+  double time;
+  std::int32_t disk;
+  std::int32_t other;
+
+  friend bool operator==(const CalendarEntry&, const CalendarEntry&) = default;
+};
+
+/// Events: `double time(std::int32_t disk) const`, when the disk's next event is, >= 0, infinity for never;
+/// `std::int32_t other(std::int32_t disk) const`, whatever else tells which event it is; and `bool precedes(const
+/// CalendarEntry& a, const CalendarEntry& b) const`, a strict order of events at one time that depends on a and b alone.
 template <class Events>
 class CalendarQueue {
  public:
-  struct Entry {
-    double time;
-    std::int32_t disk;
-  };
+  using Entry = CalendarEntry;
 
   /// Forgets everything, and starts at time 0 with spans of the given length > 0 for that many disks.
   void start(double span, std::size_t disks) {
@@ -52,16 +59,17 @@ class CalendarQueue {
     later_.clear();
   }
 
-  /// The disk's next event is now at events.time(disk), which is not before the last one taken.
-  void push(const Events& events, std::int32_t disk, double time) {
+  /// The next event of event.disk is now `event`, which is not before the last one taken.
+  void push(const Events& events, const Entry& event) {
+    if (!(event.time < std::numeric_limits<double>::infinity())) return;
     ++pushed_;
-    const std::int64_t k = span_of(time);
+    const std::int64_t k = span_of(event.time);
     if (k <= current_) {
-      insert_at_hand(events, {time, disk});
+      insert_at_hand(events, event);
     } else if (k - current_ <= mask_) {
-      append(k & mask_, disk);
-    } else if (time < std::numeric_limits<double>::infinity()) {
-      later_.push_back({time, disk});
+      append(k & mask_, event.disk);
+    } else {
+      later_.push_back(event);
     }
   }
 
@@ -71,7 +79,7 @@ class CalendarQueue {
     for (;;) {
       while (!at_hand_.empty()) {
         const Entry& entry = first_at_hand();
-        if (events.time(entry.disk) == entry.time) return &entry;
+        if (counts(events, entry)) return &entry;
         pop(events);
       }
       if (!turn(events)) return nullptr;
@@ -107,9 +115,9 @@ class CalendarQueue {
 
   /// Whether next() will come across the event of a disk. O(disks): for checks.
   [[nodiscard]] bool holds(const Events& events, std::int32_t disk) const {
-    const double time = events.time(disk);
-    const auto same = [&](const Entry& entry) { return entry.disk == disk && entry.time == time; };
-    const std::int64_t k = span_of(time);
+    const Entry event{events.time(disk), disk, events.other(disk)};
+    const auto same = [&](const Entry& entry) { return entry == event; };
+    const std::int64_t k = span_of(event.time);
     if (k <= current_) return std::any_of(at_hand_.begin(), at_hand_.end(), same);
     if (k - current_ <= mask_)
       for (std::int64_t place = k & mask_; place != none; place = more_[static_cast<std::size_t>(place)]) {
@@ -134,7 +142,7 @@ class CalendarQueue {
     const Events& events;
     bool operator()(const Entry& a, const Entry& b) const {
       if (a.time != b.time) return a.time > b.time;
-      return a.disk != b.disk && events.precedes(b.disk, a.disk);
+      return !(a == b) && events.precedes(b, a);
     }
   };
 
@@ -142,6 +150,10 @@ class CalendarQueue {
   [[nodiscard]] const Span& span(std::int64_t place) const { return spans_[static_cast<std::size_t>(place)]; }
   [[nodiscard]] std::uint8_t& count(std::int64_t place) { return counts_[static_cast<std::size_t>(place)]; }
   [[nodiscard]] std::int32_t& more(std::int64_t place) { return more_[static_cast<std::size_t>(place)]; }
+
+  static bool counts(const Events& events, const Entry& entry) {
+    return events.time(entry.disk) == entry.time && events.other(entry.disk) == entry.other;
+  }
 
   void append(std::int64_t place, std::int32_t disk) {
     ++in_ring_;
@@ -151,7 +163,7 @@ class CalendarQueue {
   }
 
   /// Moves the ids of a full span to a span of their own behind it.
-  void spill(std::int64_t place) {
+  [[gnu::noinline]] void spill(std::int64_t place) {
     std::int32_t behind = free_;
     if (behind == none) {
       behind = static_cast<std::int32_t>(spans_.size());
@@ -185,7 +197,7 @@ class CalendarQueue {
   /// The ring is empty: goes to just before the first of the far events.
   bool jump(const Events& events) {
     std::int64_t first = std::numeric_limits<std::int64_t>::max();
-    std::erase_if(later_, [&](const Entry& entry) { return events.time(entry.disk) != entry.time; });
+    std::erase_if(later_, [&](const Entry& entry) { return !counts(events, entry); });
     if (later_.empty()) return false;
     for (const Entry& entry : later_) first = std::min(first, span_of(entry.time));
     current_ = std::max(current_, first - 1);
@@ -198,7 +210,7 @@ class CalendarQueue {
     sort_out_at_ = current_ + mask_ / 2;
     std::size_t kept = 0;
     for (const Entry& entry : later_) {
-      if (events.time(entry.disk) != entry.time) continue;
+      if (!counts(events, entry)) continue;
       const std::int64_t k = span_of(entry.time);
       if (k - current_ <= mask_)
         append(k & mask_, entry.disk);
@@ -229,7 +241,7 @@ class CalendarQueue {
     for (int n = 0; n < ids; ++n) {
       const std::int32_t disk = span(place).ids[n];
       const double time = events.time(disk);
-      if (span_of(time) == current_) at_hand_.push_back({time, disk});
+      if (span_of(time) == current_) at_hand_.push_back({time, disk, events.other(disk)});
     }
   }
 
