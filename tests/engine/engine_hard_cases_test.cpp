@@ -67,7 +67,8 @@ System draw_rows() {
   return system_of(box, placed);
 }
 
-// Fails for the same reason and the next.
+// Fails for the same reason and the next; and because a pair that is first seen when a cage is left is predicted from an
+// instant that is not dyadic: its time is an ulp off.
 RC_GTEST_PROP(PropertyEngineTies, DISABLED_RowsOfDisksThatMeetAtTheSameInstantsAreBrokenAsInTheTextbook, ()) {
   const System system = draw_rows();
   const CollisionRule rule = *rc::gen::element(CollisionRule::specular, CollisionRule::reversal);
