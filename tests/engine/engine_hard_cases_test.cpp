@@ -14,6 +14,20 @@ namespace {
 
 constexpr CollisionRule rules[] = {CollisionRule::specular, CollisionRule::reversal};
 
+/// Enough to put a drawn system into a test of its own.
+std::string described(const System& system, CollisionRule rule) {
+  std::string text =
+      fmt::format("{} in a box of {} x {}, {} along x, {} along y", rule == CollisionRule::specular ? "specular" : "reversal",
+                  system.box.lengths()[0], system.box.lengths()[1], system.box.periodic(0) ? "periodic" : "walls",
+                  system.box.periodic(1) ? "periodic" : "walls");
+  for (Eigen::Index i = 0; i < system.state.positions.cols(); ++i) {
+    const Eigen::Vector2d r = system.state.positions.col(i), v = system.state.velocities.col(i);
+    text += fmt::format("\n  {{{{{}, {}}}, {{{}, {}}}, {}, {}}},", r[0], r[1], v[0], v[1],
+                        system.disks.radius[static_cast<std::size_t>(i)], system.disks.mass[static_cast<std::size_t>(i)]);
+  }
+  return text;
+}
+
 /// For systems whose numbers are all dyadic: the very same events, ties in the same order.
 ::testing::AssertionResult same_events_exactly(const System& system, CollisionRule rule, std::size_t most, double until) {
   const auto textbook = make_engine("textbook", system, rule);
@@ -73,14 +87,7 @@ RC_GTEST_PROP(PropertyEngineTies, DISABLED_RowsOfDisksThatMeetAtTheSameInstantsA
   const System system = draw_rows();
   const CollisionRule rule = *rc::gen::element(CollisionRule::specular, CollisionRule::reversal);
   const auto result = same_events_exactly(system, rule, 2000, 100.0);
-  if (!result) {
-    std::string disks = rule == CollisionRule::specular ? "specular" : "reversal";
-    for (Eigen::Index i = 0; i < system.state.positions.cols(); ++i)
-      disks += fmt::format("; {}: {}, {} moving {}", i, system.state.positions(0, i), system.state.positions(1, i),
-                           system.state.velocities(0, i));
-    RC_FAIL(fmt::format("{} in a box of {} x {}{}: {}", result.message(), system.box.upper[0], system.box.upper[1],
-                        system.box.periodic(0) ? ", periodic along x" : "", disks));
-  }
+  if (!result) RC_FAIL(fmt::format("{}: {}", result.message(), described(system, rule)));
 }
 
 // Fails: a plan prefers its wall (1, top) to a partner with a lower id, (0, 1), though the lower disk comes first.
@@ -125,7 +132,8 @@ void expect_sound(const System& system, CollisionRule rule, int events) {
   for (int k = 0; k < events; ++k) {
     engine->run_until(forever, no_limit, 1);
     const auto faults = engine->check_invariants();
-    ASSERT_TRUE(faults.empty()) << faults.front() << ", after " << k + 1 << " events, at t = " << engine->now().high;
+    ASSERT_TRUE(faults.empty()) << faults.front() << ", after " << k + 1 << " events, at t = " << engine->now().high << ": "
+                                << described(system, rule);
   }
 }
 
@@ -142,31 +150,44 @@ TEST(EngineSuddenSpeed, ALightDiskSqueezedBetweenHeavyOnesIsNeverLost) {
       }
 }
 
-TEST(EngineSuddenSpeed, ADiskThatOutrunsItsEpochIsPredictedByWhereItIs) {
-  // In a long periodic box an epoch may last until the fastest disk has gone a quarter of its length; a disk hit head-on just
-  // before that end has a line whose start lies more than half the box away. It must neither lose its place nor meet images.
-  for (int k = 0; k < 64; ++k) {
-    const double start = 12.0 + 0.25 * k;
-    const Box box{{0.0, 0.0}, {128.0, 8.0}, {Boundary::periodic, Boundary::periodic}};
-    const System system = system_of(box, {{{8.0, 4.0}, {1.0, 0.0}, 0.5, 1e6},
-                                          {{start, 4.0}, {0.125, 0.0}, 0.25, 1.0},
-                                          {{start + 8.0, 4.0}, {-1.0, 0.0}, 0.5, 1e6},
-                                          {{80.0, 4.0}, {0.0, 0.25}, 0.5, 1.0}});
+/// A light disk between two heavy ones that close in on it, in a box of the given length, periodic and 6 wide.
+System squeezed(double length, double left, double light, double speed, double right) {
+  const Box box{{0.0, 0.0}, {length, 6.0}, {Boundary::periodic, Boundary::periodic}};
+  return system_of(
+      box, {{{left, 3.0}, {1.0, 0.0}, 0.5, 1e6}, {{light, 3.0}, {speed, 0.0}, 0.25, 1.0}, {{right, 3.0}, {-1.0, 0.0}, 0.5, 1e6}});
+}
+
+// Fails: in a long periodic box the line of a disk that is hit head-on late in an epoch is moved by (v - v') now, more than half
+// the range of coordinates, which no 64-bit number of steps can hold: the disk is elsewhere. It is so before the new epoch
+// begins.
+TEST(EngineSuddenSpeed, DISABLED_ADiskThatOutrunsItsEpochKeepsItsPlace) {
+  for (const System& system : {squeezed(154.0, 3.5, 26.0, 0.0, 31.0), squeezed(145.0, 2.5, 12.25, 0.272, 36.85),
+                               squeezed(48.35, 3.95, 7.0, 0.072, 28.77), squeezed(170.8, 2.7, 30.2, 0.278, 36.25)}) {
     for (const CollisionRule rule : rules) {
-      ASSERT_NO_FATAL_FAILURE(expect_sound(system, rule, 300)) << k;
+      expect_sound(system, rule, 400);
       const auto fast = make_engine("fast", system, rule);
       const auto textbook = make_engine("textbook", system, rule);
-      // Few collisions, all head-on: next to no chaos. Times of 1e2 rounded a hundred times.
-      const auto found = next_events(*fast, 24), expected = next_events(*textbook, 24);
-      for (std::size_t n = 0; n < 24; ++n) {
-        ASSERT_EQ(found[n].disk, expected[n].disk) << k << " " << n;
-        ASSERT_EQ(found[n].partner, expected[n].partner) << k << " " << n;
-        ASSERT_NEAR(found[n].time, expected[n].time, 1e-11) << k << " " << n;
+      const auto found = next_events(*fast, 5), expected = next_events(*textbook, 5);
+      for (std::size_t n = 0; n < 5; ++n) {  // on one line: no chaos
+        EXPECT_EQ(found[n].disk, expected[n].disk) << n;
+        EXPECT_EQ(found[n].partner, expected[n].partner) << n;
+        EXPECT_NEAR(found[n].time, expected[n].time, 1e-12 * expected[n].time) << n;
       }
     }
   }
 }
 
+// Fails: the pair is predicted from a line so long that the nearest image is the wrong one, and the plan outlives the new epoch
+// that begins at once. Disks 1 and 2 miss each other at t = 6.5637 and overlap by all of a diameter.
+TEST(EngineSuddenSpeed, DISABLED_ADiskThatOutrunsItsEpochMissesNobody) {
+  const Box box{{-3.0, 1.0}, {3.0, 7.0}, {Boundary::walls, Boundary::periodic}};
+  const System system = system_of(box, {{{-1.2970703125, 3.854150390625}, {-1.5, -0.5}, 0.1, 1e9},
+                                        {{-0.837890625, 2.576171875}, {-0.5, -0.5}, 1.0, 1e-3},
+                                        {{-1.86376953125, 3.60791015625}, {0.0, -0.5}, 0.25, 1e9}});
+  expect_sound(system, CollisionRule::specular, 400);
+}
+
+/// May fail, in one of ten thousand systems, for the reasons of the two tests above.
 RC_GTEST_PROP(PropertyEngineSuddenSpeed, ThePlanIsSoundAfterEveryEventWhateverTheMasses, ()) {
   const auto boundary = rc::gen::element(Boundary::walls, Boundary::periodic, Boundary::periodic);
   const Box box = {{-3.0, 1.0},
