@@ -150,6 +150,22 @@ TEST(EngineSuddenSpeed, ALightDiskSqueezedBetweenHeavyOnesIsNeverLost) {
       }
 }
 
+TEST(EngineSuddenSpeed, AnEpochThatBeginsInTheMiddleOfARunDoesNotShiftItsEnd) {
+  const System system = system_of(
+      {{0.0, 0.0}, {12.0, 8.0}, {Boundary::walls, Boundary::walls}},
+      {{{2.0, 4.0}, {1.0, 0.0}, 0.5, 1e6}, {{5.0, 4.125}, {0.125, 0.0}, 0.25, 1.0}, {{9.0, 4.0}, {-1.0, 0.0}, 0.5, 1e6}});
+  for (int k = 1; k <= 200; ++k) {
+    const double end = 0.04 * k;
+    const auto straight = make_engine("fast", system);
+    const auto stepping = make_engine("fast", system);
+    run_to(*straight, end);
+    while (!stepping->run_until(Instant{end, 0.0}, no_limit, 1)) continue;
+    ASSERT_NEAR(straight->now().high, end, 1e-15 * end);
+    ASSERT_EQ(straight->totals().pair, stepping->totals().pair) << end;
+    ASSERT_EQ(straight->state().velocities, stepping->state().velocities) << end;
+  }
+}
+
 /// A light disk between two heavy ones that close in on it, in a box of the given length, periodic and 6 wide.
 System squeezed(double length, double left, double light, double speed, double right) {
   const Box box{{0.0, 0.0}, {length, 6.0}, {Boundary::periodic, Boundary::periodic}};
