@@ -1,0 +1,128 @@
+// Coordinates as 64-bit integers: there and back, at the edges, and round the box.
+
+#include "core/fixed_axis.hpp"
+#include "core/flight.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace carom::test {
+namespace {
+
+FixedAxis axis_of(double lower, double upper, bool periodic, double reach = 0.0) {
+  const Boundary boundary = periodic ? Boundary::periodic : Boundary::walls;
+  return FixedAxis(Box{{lower, lower}, {upper, upper}, {boundary, boundary}}, 0, reach);
+}
+
+RC_GTEST_PROP(PropertyFixedAxis, APositionComesBackWithinHalfAStepAndItsOwnRounding, ()) {
+  std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const double length = std::ldexp(1.0 + unit(random), *rc::gen::inRange(-40, 40));
+  const double lower = length * *rc::gen::element(0.0, -0.5, -1.0, 3.7, -1000.3, 1e6);
+  const bool periodic = *rc::gen::arbitrary<bool>();
+  const double reach = length * *rc::gen::element(0.0, 1e-3, 1.0, 50.0);
+  const FixedAxis axis = axis_of(lower, lower + length, periodic, reach);
+  for (int k = 0; k < 100; ++k) {
+    const double place = axis.lower + (axis.upper - axis.lower) * unit(random);
+    if (place >= axis.upper) continue;
+    const double back = axis.position(axis.at(place));
+    // Half a step, one rounding of a long double in either direction at the size of the length, one of the result.
+    const double bound = 0.5 * axis.unit + 0x1p-63 * (axis.upper - axis.lower) + 0x1p-53 * std::abs(place);
+    RC_ASSERT(std::abs(back - place) <= bound);
+  }
+}
+
+TEST(FixedAxis, OneStepIsTheLengthOverAPowerOfTwo) {
+  EXPECT_EQ(axis_of(0.0, 3.0, true).unit, std::ldexp(3.0, -64));
+  EXPECT_EQ(axis_of(-1.5, 1.5, true).unit, std::ldexp(3.0, -64));
+  // Walls: four lengths and four reaches find room.
+  EXPECT_EQ(axis_of(0.0, 3.0, false).unit, std::ldexp(3.0, 3 - 64));
+  EXPECT_EQ(axis_of(0.0, 1.0, false, 15.0).unit, std::ldexp(1.0, 7 - 64));
+}
+
+TEST(FixedAxis, LinesMayStartByTheReachBeyondWallsWithDifferencesInsideTheRange) {
+  for (const double reach : {0.0, 0.1, 1.0, 7.0, 1e3}) {
+    const FixedAxis axis = axis_of(2.0, 3.0, false, reach);
+    // From one end of what lines may reach to the other, 1 + 2 reach and as much again, stays below half the range, 2^63.
+    EXPECT_LE((1.0 + 2.0 * reach) * axis.steps, 0x1p63) << reach;
+    EXPECT_GE(axis.steps, 0x1p60 / (1.0 + reach)) << "no bit is wasted";
+  }
+}
+
+TEST(FixedAxis, DyadicPositionsAreExact) {
+  for (const bool periodic : {true, false}) {
+    const FixedAxis axis = axis_of(-2.0, 6.0, periodic, 5.0);
+    for (int k = -2048; k < 6144; k += 7) {
+      const double place = k / 1024.0;
+      EXPECT_EQ(axis.position(axis.at(place)), place);
+      EXPECT_EQ(static_cast<double>(axis.at(place)) * axis.unit, place - 2.0);
+    }
+  }
+}
+
+TEST(FixedAxis, TheUpperEdgeOfAPeriodicAxisIsItsLowerOne) {
+  const FixedAxis axis = axis_of(-1.0, 3.0, true);
+  EXPECT_EQ(axis.at(-1.0), INT64_MIN);
+  EXPECT_EQ(axis.at(3.0), INT64_MIN);
+  EXPECT_EQ(axis.position(axis.at(3.0)), -1.0);
+  EXPECT_EQ(axis.position(axis.at(std::nextafter(3.0, 0.0))), std::nextafter(3.0, 0.0));
+}
+
+TEST(FixedAxis, BothEdgesOfAWalledAxisAreThemselves) {
+  for (const double reach : {0.0, 1.0, 100.0}) {
+    const FixedAxis axis = axis_of(-1.0, 3.0, false, reach);
+    EXPECT_EQ(axis.position(axis.at(-1.0)), -1.0);
+    EXPECT_EQ(axis.position(axis.at(3.0)), 3.0);
+    EXPECT_EQ(axis.at(-1.0), -axis.at(3.0));
+  }
+}
+
+TEST(FixedAxis, PositionsNearAFarAwayOriginKeepTheirDigits) {
+  const FixedAxis axis = axis_of(1e6, 1e6 + 1.0, true);
+  for (const double place : {1e6, 1e6 + 0.1, 1e6 + 0.7, std::nextafter(1e6 + 1.0, 0.0)})
+    EXPECT_EQ(axis.position(axis.at(place)), place);
+}
+
+TEST(FixedAxis, StepsOfALengthAreRoundedTowardsZero) {
+  const FixedAxis axis = axis_of(0.0, 1.0, true);
+  EXPECT_EQ(axis.steps_of(0.25), std::int64_t{1} << 62);
+  EXPECT_EQ(axis.steps_of(-0.25), -(std::int64_t{1} << 62));
+  EXPECT_EQ(axis.steps_of(1.5 * axis.unit), 1);
+  EXPECT_EQ(axis.steps_of(-1.5 * axis.unit), -1);
+}
+
+/// a - b folded into [-2^63, 2^63), with all digits.
+std::int64_t nearest(std::int64_t a, std::int64_t b) {
+  __extension__ using Wide = __int128;
+  Wide apart = Wide{a} - Wide{b};
+  const Wide range = Wide{1} << 64;
+  while (apart >= range / 2) apart -= range;
+  while (apart < -range / 2) apart += range;
+  return static_cast<std::int64_t>(apart);
+}
+
+RC_GTEST_PROP(PropertyFixedAxis, TheWrappedDifferenceIsTheNearestImage, ()) {
+  const auto coordinate =
+      rc::gen::oneOf(rc::gen::element<std::int64_t>(INT64_MIN, INT64_MAX, 0, -1, 1, INT64_MIN + 1, std::int64_t{1} << 62),
+                     rc::gen::map(rc::gen::arbitrary<std::uint64_t>(),
+                                  [](std::uint64_t x) { return static_cast<std::int64_t>(x * 0x9E3779B97F4A7C15ULL); }));
+  const std::int64_t a = *coordinate, b = *coordinate;
+  RC_ASSERT(wrapped_difference(a, b) == nearest(a, b));
+}
+
+TEST(FixedAxis, TheWrappedDifferenceOfPositionsIsTheShorterWayRound) {
+  const FixedAxis axis = axis_of(0.0, 10.0, true);
+  const auto apart = [&](double a, double b) {
+    return static_cast<double>(wrapped_difference(axis.at(a), axis.at(b))) * axis.unit;
+  };
+  EXPECT_NEAR(apart(9.5, 0.5), -1.0, 4e-15);  // positions themselves are rounded by 1e-15
+  EXPECT_NEAR(apart(0.5, 9.5), 1.0, 4e-15);
+  EXPECT_NEAR(apart(2.0, 6.5), -4.5, 4e-15);
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,114 @@
+// The tuner of cage widths on curves of cost that are known.
+
+#include "neighbours/cage_tuner.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::test {
+namespace {
+
+constexpr double step = 1.2;  // from one width tried to the next
+
+/// One minimum, at `best`; rises with the square of the way in the logarithm of the width.
+double bowl(double width, double best, double depth) { return depth * (1.0 + std::pow(std::log(width / best), 2)); }
+
+TEST(CageTuner, FindsTheBestWidthWithinAStepAndStaysThere) {
+  for (const double best : {0.01, 0.3, 1.0, 7.0}) {
+    for (const double first : {0.3 * best, 0.95 * best, best, 1.05 * best, 4.0 * best}) {
+      CageTuner tuner;
+      double width = first;
+      for (int k = 0; k < 40; ++k) width = tuner.next(width, bowl(width, best, 5.0));
+      // It stops where a step gains less than 2 %, which in this bowl is no farther than one step from the best.
+      EXPECT_LE(std::abs(std::log(width / best)), std::log(step) * 1.001) << first << " " << best;
+      for (int k = 0; k < 20; ++k) EXPECT_EQ(tuner.next(width, bowl(width, best, 5.0)), width);
+    }
+  }
+}
+
+TEST(CageTuner, MovesByOneStepAtATime) {
+  CageTuner tuner;
+  double width = 10.0;
+  for (int k = 0; k < 40; ++k) {
+    const double next = tuner.next(width, bowl(width, 0.1, 1.0));
+    // From above the best to below it on the way back: two steps.
+    EXPECT_LE(std::abs(std::log(next / width)), 2.001 * std::log(step));
+    width = next;
+  }
+}
+
+TEST(CageTuner, StaysThroughNoiseOnceSettled) {
+  CageTuner tuner;
+  double width = 1.0;
+  for (int k = 0; k < 40; ++k) width = tuner.next(width, bowl(width, 1.0, 1.0));
+  for (int k = 0; k < 100; ++k) EXPECT_EQ(tuner.next(width, (1.0 + 0.1 * std::sin(k)) * bowl(width, 1.0, 1.0)), width);
+}
+
+TEST(CageTuner, StartsAgainWhereTheCostHasChanged) {
+  CageTuner tuner;
+  double width = 1.0;
+  for (int k = 0; k < 40; ++k) width = tuner.next(width, bowl(width, 1.0, 1.0));
+  for (const double best : {3.0, 0.2, 1.0}) {  // each at once more than a fifth dearer where it stands
+    for (int k = 0; k < 40; ++k) width = tuner.next(width, bowl(width, best, 1.0));
+    EXPECT_LE(std::abs(std::log(width / best)), std::log(step) * 1.001) << best;
+  }
+}
+
+TEST(CageTuner, SettlesAtABoundThatItsOwnerKeeps) {
+  CageTuner tuner;
+  double width = 0.5;
+  for (int k = 0; k < 60; ++k) {
+    width = std::min(tuner.next(width, bowl(width, 100.0, 1.0)), 2.0);  // wider would be better
+    EXPECT_GT(width, 0.0);
+  }
+  EXPECT_NEAR(width, 2.0, 2.0 * (1.0 - 1.0 / step));
+  const double settled = width;
+  for (int k = 0; k < 20; ++k) {
+    width = std::min(tuner.next(width, bowl(width, 100.0, 1.0)), 2.0);
+    EXPECT_EQ(width, settled);
+  }
+}
+
+TEST(CageTuner, SettlesWhereNothingCostsAnything) {
+  CageTuner tuner;
+  double width = 1.0;
+  for (int k = 0; k < 20; ++k) width = tuner.next(width, 0.0);
+  EXPECT_EQ(width, 1.0);
+}
+
+RC_GTEST_PROP(PropertyCageTuner, ItsWidthsArePositiveAndFiniteWhateverTheyCost, ()) {
+  CageTuner tuner;
+  double width = std::pow(10.0, *rc::gen::inRange(-6, 7));
+  const double first = width;
+  for (int k = 0; k < 100; ++k) {
+    width = tuner.next(width, *rc::gen::inRange(0, 1'000'000) * 1e-3);
+    RC_ASSERT(width > 0.0 && std::isfinite(width));
+    // At most one step farther than the cheapest yet for each try.
+    RC_ASSERT(std::abs(std::log(width / first)) <= (k + 2) * std::log(step));
+  }
+}
+
+TEST(CageTuner, FirstWidthsArePositiveForAnyDensity) {
+  double last = 0.0;
+  for (const double area : {1e-3, 0.5, 0.87, 1.0, 2.0, 10.0, 1e6}) {  // per disk of diameter 1; below 0.87 they do not fit
+    const double width = CageTuner::first_half_width(1.0, area);
+    EXPECT_GE(width, last) << "more room, wider cages";
+    EXPECT_GT(width, 0.0);
+    EXPECT_NEAR(CageTuner::first_half_width(1e-3, area * 1e-6), 1e-3 * width, 1e-15) << "lengths scale";
+    last = width;
+  }
+}
+
+TEST(CageTuner, FirstWidthsGiveEightPlacesOfAListToTheDisksOfAGas) {
+  // The formula itself: cages come within contact over 16 h^2 + 16 h sigma + pi sigma^2, eight times the area per disk.
+  for (const double area : {1.2, 2.0, 10.0, 1e6}) {
+    const double h = CageTuner::first_half_width(1.0, area);
+    EXPECT_NEAR((16.0 * h * h + 16.0 * h + 3.14159) / area, 8.0, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
