@@ -14,9 +14,9 @@ struct PredictionFrame {
   double unit[2];     ///< length of a step of a coordinate, per axis
   double sigma;       ///< contact distance of equal disks; unused where disks have sizes of their own
   double half_width;  ///< of a cage
-  /// Added to the time at which a disk leaves its cage and taken away again, which rounds it to some 36 bits of an epoch: that
-  /// time is nothing physical, and with a short one as `now` the predictions made then are exact for dyadic data.
-  double edge_rounding;
+  /// The time at which a disk leaves its cage is rounded down to steps of this length (a power of two; 0 for none). It is nothing
+  /// physical, and with a time of few bits as `now` the predictions made then are exact for dyadic data.
+  double edge_step = 0.0;
 };
 
 /// Where a disk is to be looked for: a square round `centre` (in steps of 2^32 of a coordinate), and the ids of the disks that it

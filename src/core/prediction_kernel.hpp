@@ -150,8 +150,12 @@ CAROM_INLINE Doubles leaving_times(const PredictionFrame& frame, Longs x, Double
   const Doubles speed = reinterpret_cast<Doubles>(reinterpret_cast<Longs>(v) ^ sign);
   Doubles room = all(frame.half_width) - ahead;
   room = room > all(0.0) ? room : all(0.0);
-  const Doubles rounded = ((all(now) + room / speed) + all(frame.edge_rounding)) - all(frame.edge_rounding);
-  const Doubles time = rounded > all(now) ? rounded : all(now);
+  const Doubles exact = all(now) + room / speed;
+  // Adding a number whose last place is a step, and taking it away again, rounds to steps.
+  const Doubles shift = all(frame.edge_step * 0x1.8p52);
+  const Doubles nearest = (exact + shift) - shift;
+  const Doubles rounded = nearest > exact ? nearest - all(frame.edge_step) : nearest;
+  const Doubles time = rounded > all(now) ? rounded : exact;
   return v != all(0.0) ? time : all(never);
 }
 

@@ -381,12 +381,13 @@ class Engine {
   [[nodiscard]] double time(std::int32_t i) const { return std::min(plan(i).pair_time, plan(i).edge_time); }
   [[nodiscard]] std::int32_t other(std::int32_t i) const { return plan(i).other; }
 
-  /// Ties: the event with the lower disk first, then the lower other disk; a cage is left before a wall is met, and a wall
-  /// met before a disk.
+  /// Ties: cages are left before anything else happens, so that everybody is foreseen; then the event with the lower disk
+  /// first, then the one with the lower other disk; a wall is met before a disk.
   [[nodiscard]] bool precedes(const CalendarEntry& a, const CalendarEntry& b) const { return rank(a) < rank(b); }
 
  private:
   [[nodiscard]] std::pair<std::int32_t, std::int32_t> rank(const CalendarEntry& event) const {
+    if (event.other == cage) return {cage, id(event.disk)};
     if (event.other < 0) return {id(event.disk), event.other};
     return std::minmax(id(event.disk), id(event.other));
   }

@@ -96,6 +96,7 @@ Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
   // Where disks crowd in part of the box their lists are longer than the mean density lets expect.
   double half_width = std::min(CageTuner::first_half_width(sigma, spacing_ * spacing_), widest_);
   for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sigma; rebuild(half_width)) half_width *= 0.7;
+  choose_epoch_length();
   predict_all();
   begin_epoch(0.0);
   fetching_ = detail::exceeds_cache(bytes());
@@ -175,7 +176,7 @@ void Engine<Rule, Layout>::choose_epoch_length() {
   double longest = 4.0 * spacing_ / mean_speed_;
   for (int k = 0; k < 2; ++k) longest = std::min(longest, travel_[k] / (1.2 * fastest[k]));
   epoch_length_ = longest < 0x1p1000 ? std::ldexp(1.0, std::ilogb(longest)) : never;
-  frame_.edge_rounding = epoch_length_ < never ? 0x1.8p16 * epoch_length_ : 0.0;  // 1.5 * 2^52 * 2^-36
+  frame_.edge_step = epoch_length_ < never ? 0x1p-20 * epoch_length_ : 0.0;
   for (int k = 0; k < 2; ++k) speed_limit_[k] = epoch_length_ < never ? travel_[k] / epoch_length_ : 0.0;
 }
 
@@ -327,7 +328,7 @@ std::size_t Engine<Rule, Layout>::bytes() const {
 template <class Rule, class Layout>
 std::vector<std::string> Engine<Rule, Layout>::check_invariants() const {
   std::vector<std::string> faults;
-  const double slack = 1e-6 * lists_.half_width();  // lists allow for as much, and leaving times are rounded
+  const double slack = 1e-9 * lists_.half_width();
   for (std::int32_t i = 0; i < count(); ++i) {
     const Line& a = line(i);
     if (!std::isfinite(a.v[0]) || !std::isfinite(a.v[1]))

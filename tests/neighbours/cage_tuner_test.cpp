@@ -11,22 +11,49 @@
 namespace carom::test {
 namespace {
 
-constexpr double step = 1.2;  // from one width tried to the next
+constexpr double step = 1.25;  // from one width tried to the next
+constexpr int patience = 10;   // judgements between two doubts
+
+/// The width at which the tuner stays for some judgements.
+template <class Cost>
+double settled(CageTuner& tuner, double width, const Cost& cost) {
+  for (int k = 0, stayed = 0; k < 400 && stayed < patience / 2; ++k) {
+    const double next = tuner.next(width, cost(width));
+    stayed = next == width ? stayed + 1 : 0;
+    width = next;
+  }
+  return width;
+}
 
 /// One minimum, at `best`; rises with the square of the way in the logarithm of the width.
 double bowl(double width, double best, double depth) { return depth * (1.0 + std::pow(std::log(width / best), 2)); }
 
-TEST(CageTuner, FindsTheBestWidthWithinAStepAndStaysThere) {
+TEST(CageTuner, FindsTheBestWidthWithinAStepAndComesBackToItFromEveryDoubt) {
   for (const double best : {0.01, 0.3, 1.0, 7.0}) {
     for (const double first : {0.3 * best, 0.95 * best, best, 1.05 * best, 4.0 * best}) {
       CageTuner tuner;
       double width = first;
-      for (int k = 0; k < 40; ++k) width = tuner.next(width, bowl(width, best, 5.0));
+      width = settled(tuner, width, [&](double w) { return bowl(w, best, 5.0); });
       // It stops where a step gains less than 2 %, which in this bowl is no farther than one step from the best.
       EXPECT_LE(std::abs(std::log(width / best)), std::log(step) * 1.001) << first << " " << best;
-      for (int k = 0; k < 20; ++k) EXPECT_EQ(tuner.next(width, bowl(width, best, 5.0)), width);
+      int away = 0;
+      double now = width;
+      for (int k = 0; k < 140; ++k) {
+        now = tuner.next(now, bowl(now, best, 5.0));
+        EXPECT_LE(std::abs(std::log(now / width)), std::log(step) * 1.001);
+        away += now != width ? 1 : 0;
+      }
+      EXPECT_LE(away, 2 * 140 / patience) << "a trial wider and one narrower for each doubt";
     }
   }
+}
+
+TEST(CageTuner, TakesASystemThatChangesByItselfForNoGainOfItsOwn) {
+  // The work falls by 5 per cent from one judgement to the next whatever the width, as in a gas that spreads.
+  CageTuner tuner;
+  double width = 1.0, work = 1.0;
+  for (int k = 0; k < 200; ++k) width = tuner.next(width, (work *= 0.95) * bowl(width, 1.0, 1.0));
+  EXPECT_LE(std::abs(std::log(width)), 2.0 * std::log(step) * 1.001);
 }
 
 TEST(CageTuner, MovesByOneStepAtATime) {
@@ -42,17 +69,16 @@ TEST(CageTuner, MovesByOneStepAtATime) {
 
 TEST(CageTuner, StaysThroughNoiseOnceSettled) {
   CageTuner tuner;
-  double width = 1.0;
-  for (int k = 0; k < 40; ++k) width = tuner.next(width, bowl(width, 1.0, 1.0));
-  for (int k = 0; k < 100; ++k) EXPECT_EQ(tuner.next(width, (1.0 + 0.1 * std::sin(k)) * bowl(width, 1.0, 1.0)), width);
+  const double width = settled(tuner, 1.0, [](double w) { return bowl(w, 1.0, 1.0); });
+  for (int k = 0; k < patience / 2 - 1; ++k)
+    EXPECT_EQ(tuner.next(width, (1.0 + 0.1 * std::sin(k)) * bowl(width, 1.0, 1.0)), width);
 }
 
 TEST(CageTuner, StartsAgainWhereTheCostHasChanged) {
   CageTuner tuner;
-  double width = 1.0;
-  for (int k = 0; k < 40; ++k) width = tuner.next(width, bowl(width, 1.0, 1.0));
+  double width = settled(tuner, 1.0, [](double w) { return bowl(w, 1.0, 1.0); });
   for (const double best : {3.0, 0.2, 1.0}) {  // each at once more than a fifth dearer where it stands
-    for (int k = 0; k < 40; ++k) width = tuner.next(width, bowl(width, best, 1.0));
+    width = settled(tuner, width, [&](double w) { return bowl(w, best, 1.0); });
     EXPECT_LE(std::abs(std::log(width / best)), std::log(step) * 1.001) << best;
   }
 }
@@ -60,23 +86,20 @@ TEST(CageTuner, StartsAgainWhereTheCostHasChanged) {
 TEST(CageTuner, SettlesAtABoundThatItsOwnerKeeps) {
   CageTuner tuner;
   double width = 0.5;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < 200; ++k) {
     width = std::min(tuner.next(width, bowl(width, 100.0, 1.0)), 2.0);  // wider would be better
     EXPECT_GT(width, 0.0);
   }
-  EXPECT_NEAR(width, 2.0, 2.0 * (1.0 - 1.0 / step));
-  const double settled = width;
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < 100; ++k) {  // and doubts it now and then
     width = std::min(tuner.next(width, bowl(width, 100.0, 1.0)), 2.0);
-    EXPECT_EQ(width, settled);
+    EXPECT_GE(width, 2.0 / step / step * 0.999);
   }
 }
 
 TEST(CageTuner, SettlesWhereNothingCostsAnything) {
   CageTuner tuner;
   double width = 1.0;
-  for (int k = 0; k < 20; ++k) width = tuner.next(width, 0.0);
-  EXPECT_EQ(width, 1.0);
+  EXPECT_EQ(settled(tuner, width, [](double) { return 0.0; }), 1.0);
 }
 
 RC_GTEST_PROP(PropertyCageTuner, ItsWidthsArePositiveAndFiniteWhateverTheyCost, ()) {

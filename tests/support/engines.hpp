@@ -22,8 +22,8 @@ inline std::unique_ptr<AnyEngine> make_engine(const std::string& name, const Sys
   const Start start{system.disks, system.state};
   for (const auto& entry : detail::catalogue()) {
     if (entry.name != name) continue;
-    if (!entry.covers(scene, start)) throw std::invalid_argument(name + " does not cover this system");
-    return entry.make(scene, start);
+    if (!entry.covers(scene, start.disks)) throw std::invalid_argument(name + " does not cover this system");
+    return entry.make(scene, start.disks, start.state);
   }
   throw std::invalid_argument("there is no engine " + name);
 }
