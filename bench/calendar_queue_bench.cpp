@@ -17,7 +17,8 @@ struct Events {
   std::vector<double> times;
 
   [[nodiscard]] double time(std::int32_t disk) const { return times[static_cast<std::size_t>(disk)]; }
-  [[nodiscard]] bool precedes(std::int32_t a, std::int32_t b) const { return a < b; }
+  [[nodiscard]] std::int32_t other(std::int32_t disk) const { return disk; }
+  [[nodiscard]] bool precedes(const carom::CalendarEntry& a, const carom::CalendarEntry& b) const { return a.disk < b.disk; }
 };
 
 class Course {
@@ -25,7 +26,7 @@ class Course {
   explicit Course(std::int32_t disks) : any_(0, disks - 1) {
     for (std::int32_t i = 0; i < disks; ++i) events_.times.push_back(wait_(random_));
     queue_.start(pushed_per_span / (2.0 * disks), events_.times.size());
-    for (std::int32_t i = 0; i < disks; ++i) queue_.push(events_, i, events_.time(i));
+    for (std::int32_t i = 0; i < disks; ++i) queue_.push(events_, {events_.time(i), i, i});
   }
 
   /// The time of the event taken.
@@ -46,7 +47,7 @@ class Course {
   void replace(std::int32_t disk, double now) {
     const double time = now + wait_(random_);
     events_.times[static_cast<std::size_t>(disk)] = time;
-    queue_.push(events_, disk, time);
+    queue_.push(events_, {time, disk, disk});
   }
 
   std::mt19937_64 random_{1};
