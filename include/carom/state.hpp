@@ -29,6 +29,8 @@ struct State {
   Eigen::Matrix2Xd positions;   ///< 2 x N; on periodic axes inside [lower, upper)
   Eigen::Matrix2Xd velocities;  ///< 2 x N
   Images images;                ///< 2 x N; the unwrapped position is positions + images * box length (0 on walled axes)
+  Eigen::Matrix2Xd
+      remainders;  ///< 2 x N; exact position minus `positions`; 2 x 0 where the engine knows no more than doubles hold
 };
 
 /// What a disk hits where it does not hit another disk. The values stand in the place of a partner's id.

@@ -38,8 +38,9 @@ struct FixedAxis {
     return x >= 0x1p63L ? INT64_MIN : x <= -0x1p63L ? INT64_MIN : static_cast<std::int64_t>(x);
   }
 
-  [[nodiscard]] double position(std::int64_t x) const {
-    return static_cast<double>(middle + static_cast<long double>(x) * static_cast<long double>(unit));
+  /// In the digits of long double; a double has fewer than x.
+  [[nodiscard]] long double position(std::int64_t x) const {
+    return middle + static_cast<long double>(x) * static_cast<long double>(unit);
   }
 
   /// A length in steps, rounded towards zero. Requires |length| < half the range.

@@ -243,6 +243,7 @@ State Engine<Rule, Layout>::state() const {
   state.positions.resize(2, count());
   state.velocities.resize(2, count());
   state.images.resize(2, count());
+  state.remainders.resize(2, count());
   for (std::int32_t i = 0; i < count(); ++i) {
     const Line& a = line(i);
     const auto column = static_cast<Eigen::Index>(id(i));
@@ -251,7 +252,9 @@ State Engine<Rule, Layout>::state() const {
       std::int64_t image = images_[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
       const std::int64_t way = axes_[k].steps_of(a.v[k] * now_);
       if (__builtin_add_overflow(a.x[k], way, &x)) image += way < 0 ? -1 : 1;
-      double position = axes_[k].position(x);
+      const long double exact = axes_[k].position(x);
+      double position = static_cast<double>(exact);
+      state.remainders(k, column) = static_cast<double>(exact - static_cast<long double>(position));
       if (axes_[k].periodic && position >= axes_[k].upper) position = axes_[k].lower, ++image;
       state.positions(k, column) = position;
       state.velocities(k, column) = a.v[k];

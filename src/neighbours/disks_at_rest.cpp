@@ -7,8 +7,19 @@
 namespace carom {
 
 namespace {
+
 constexpr std::int32_t none = -1;
+
+/// x + n * length - y along an axis, without rounding at the size of the box where x and y lie near opposite edges.
+double way(const Box& box, int axis, double x, std::int64_t n, double y) {
+  const double lower = box.lower[axis], upper = box.upper[axis];
+  if (n == 0) return x - y;
+  if (n == -1) return (x - upper) + (lower - y);
+  if (n == 1) return (x - lower) + (upper - y);
+  return x + static_cast<double>(n) * box.lengths()[axis] - y;
 }
+
+}  // namespace
 
 DisksAtRest::DisksAtRest(const Box& box, const std::vector<double>& radius)
     : box_(box), radius_(radius), next_(radius.size(), none), position_(radius.size()) {
@@ -40,9 +51,11 @@ std::int64_t DisksAtRest::cell_of(const Layer& layer, int axis, double x) const 
   return static_cast<std::int64_t>(std::floor((x - box_.lower[axis]) / layer.width[axis]));
 }
 
-void DisksAtRest::insert(std::int32_t i, const Eigen::Vector2d& position) {
+void DisksAtRest::insert(std::int32_t i, const Eigen::Vector2d& position, const Eigen::Vector2d& remainder) {
   const auto index = static_cast<std::size_t>(i);
   position_[index] = position;
+  if (remainder_.empty() && !remainder.isZero(0.0)) remainder_.resize(position_.size(), Eigen::Vector2d::Zero());
+  if (!remainder_.empty()) remainder_[index] = remainder;
   const int exponent = std::ilogb(radius_[index]);
   Layer& layer = *std::find_if(layers_.begin(), layers_.end(), [&](const Layer& l) { return l.exponent == exponent; });
   std::int64_t cell[2];
@@ -51,8 +64,8 @@ void DisksAtRest::insert(std::int32_t i, const Eigen::Vector2d& position) {
   next_[index] = std::exchange(first, i);
 }
 
-DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, double radius, std::int32_t except,
-                                            bool larger_only) const {
+DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, double radius, std::int32_t except, bool larger_only,
+                                            const Eigen::Vector2d& remainder) const {
   Neighbour found{none, 0.0};
   const int own = std::ilogb(radius);
   for (const Layer& layer : layers_) {
@@ -73,11 +86,13 @@ DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, dou
         const std::int64_t n[2] = {x >= 0 ? x / layer.cells[0] : (x + 1) / layer.cells[0] - 1,
                                    y >= 0 ? y / layer.cells[1] : (y + 1) / layer.cells[1] - 1};
         const std::int64_t cell = (y - n[1] * layer.cells[1]) * layer.cells[0] + (x - n[0] * layer.cells[0]);
-        const Eigen::Vector2d shift(static_cast<double>(n[0]) * box_.lengths()[0], static_cast<double>(n[1]) * box_.lengths()[1]);
         for (std::int32_t j = layer.first[static_cast<std::size_t>(cell)]; j != none; j = next_[static_cast<std::size_t>(j)]) {
           if (j == except) continue;
           const double sigma = radius + radius_[static_cast<std::size_t>(j)];
-          const double distance = (position_[static_cast<std::size_t>(j)] + shift - position).stableNorm();
+          const Eigen::Vector2d& other = position_[static_cast<std::size_t>(j)];
+          Eigen::Vector2d apart(way(box_, 0, other[0], n[0], position[0]), way(box_, 1, other[1], n[1], position[1]));
+          if (!remainder_.empty()) apart += remainder_[static_cast<std::size_t>(j)] - remainder;
+          const double distance = apart.stableNorm();
           const double overlap = (sigma - distance) / sigma;
           if (overlap > found.relative_overlap) found = {j, overlap};
         }
@@ -87,14 +102,20 @@ DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, dou
   return found;
 }
 
-DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius, const Eigen::Matrix2Xd& positions) {
+DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius, const Eigen::Matrix2Xd& positions,
+                               const Eigen::Matrix2Xd& remainders) {
+  const auto remainder = [&](Eigen::Index i) -> Eigen::Vector2d {
+    return remainders.cols() > 0 ? Eigen::Vector2d(remainders.col(i)) : Eigen::Vector2d::Zero();
+  };
   DisksAtRest disks(box, radius);
-  for (std::size_t i = 0; i < radius.size(); ++i)
-    disks.insert(static_cast<std::int32_t>(i), positions.col(static_cast<Eigen::Index>(i)));
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    disks.insert(static_cast<std::int32_t>(i), positions.col(column), remainder(column));
+  }
   DeepestOverlap deepest;
   for (std::size_t i = 0; i < radius.size(); ++i) {
     const auto id = static_cast<std::int32_t>(i);
-    const auto found = disks.deepest(positions.col(id), radius[i], id, true);
+    const auto found = disks.deepest(positions.col(id), radius[i], id, true, remainder(id));
     if (found.relative_overlap > deepest.relative)
       deepest = {found.relative_overlap, std::min(id, found.disk), std::max(id, found.disk)};
   }

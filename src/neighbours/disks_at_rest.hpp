@@ -21,8 +21,8 @@ class DisksAtRest {
   /// The disks to come: radius[i] belongs to disk i. None is in place yet. Requires `radius` to live as long as this.
   DisksAtRest(const Box& box, const std::vector<double>& radius);
 
-  /// Puts disk i at a position inside the box.
-  void insert(std::int32_t i, const Eigen::Vector2d& position);
+  /// Puts disk i at a position inside the box, given as a sum with a small remainder.
+  void insert(std::int32_t i, const Eigen::Vector2d& position, const Eigen::Vector2d& remainder = Eigen::Vector2d::Zero());
 
   struct Neighbour {
     std::int32_t disk;
@@ -33,7 +33,7 @@ class DisksAtRest {
   /// `position`, all periodic images counted; {-1, 0} where it overlaps none. With `larger_only` disks in layers of
   /// smaller radii are left out: over all disks every pair is then still seen, from its smaller partner.
   [[nodiscard]] Neighbour deepest(const Eigen::Vector2d& position, double radius, std::int32_t except = -1,
-                                  bool larger_only = false) const;
+                                  bool larger_only = false, const Eigen::Vector2d& remainder = Eigen::Vector2d::Zero()) const;
 
  private:
   struct Layer {
@@ -51,6 +51,7 @@ class DisksAtRest {
   std::vector<Layer> layers_;  ///< by falling size
   std::vector<std::int32_t> next_;
   std::vector<Eigen::Vector2d> position_;
+  std::vector<Eigen::Vector2d> remainder_;  ///< empty while all are zero
 };
 
 /// The deepest overlap in a state.
@@ -60,9 +61,10 @@ struct DeepestOverlap {
   std::int32_t second = -1;
 };
 
-/// Over all pairs of disks and their images on periodic axes. O(N). Requires positions inside the box.
-[[nodiscard]] DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius,
-                                             const Eigen::Matrix2Xd& positions);
+/// Over all pairs of disks and their images on periodic axes. O(N). Requires positions inside the box; `remainders` has as
+/// many columns, or none. The distance of a pair is taken to 2^-52 of itself, not of the box.
+[[nodiscard]] DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius, const Eigen::Matrix2Xd& positions,
+                                             const Eigen::Matrix2Xd& remainders = Eigen::Matrix2Xd(2, 0));
 
 /// The first disk that overlaps one before it by more than `tolerance` of their contact distance, with the one that it
 /// overlaps most as `first`; relative 0 where there is none. Fast however many disks lie in one place.

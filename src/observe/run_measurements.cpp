@@ -45,7 +45,8 @@ void RunMeasurements::sample(const State& state) {
 void RunMeasurements::block(const Progress& progress) { virial_.add(progress.time, progress.totals.virial); }
 
 void RunMeasurements::look_for_overlap(const State& state) {
-  const DeepestOverlap deepest = deepest_overlap(simulation_.scene().box, simulation_.disks().radius, state.positions);
+  const DeepestOverlap deepest =
+      deepest_overlap(simulation_.scene().box, simulation_.disks().radius, state.positions, state.remainders);
   report_.max_relative_overlap = std::max(report_.max_relative_overlap, deepest.relative);
   ++report_.overlap_checked;
 }

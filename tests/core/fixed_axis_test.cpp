@@ -29,7 +29,7 @@ RC_GTEST_PROP(PropertyFixedAxis, APositionComesBackWithinHalfAStepAndItsOwnRound
   for (int k = 0; k < 100; ++k) {
     const double place = axis.lower + (axis.upper - axis.lower) * unit(random);
     if (place >= axis.upper) continue;
-    const double back = axis.position(axis.at(place));
+    const double back = static_cast<double>(axis.position(axis.at(place)));
     // Half a step, one rounding of a long double in either direction at the size of the length, one of the result.
     const double bound = 0.5 * axis.unit + 0x1p-63 * (axis.upper - axis.lower) + 0x1p-53 * std::abs(place);
     RC_ASSERT(std::abs(back - place) <= bound);
@@ -58,7 +58,7 @@ TEST(FixedAxis, DyadicPositionsAreExact) {
     const FixedAxis axis = axis_of(-2.0, 6.0, periodic, 5.0);
     for (int k = -2048; k < 6144; k += 7) {
       const double place = k / 1024.0;
-      EXPECT_EQ(axis.position(axis.at(place)), place);
+      EXPECT_EQ(static_cast<double>(axis.position(axis.at(place))), place);
       EXPECT_EQ(static_cast<double>(axis.at(place)) * axis.unit, place - 2.0);
     }
   }
@@ -68,15 +68,15 @@ TEST(FixedAxis, TheUpperEdgeOfAPeriodicAxisIsItsLowerOne) {
   const FixedAxis axis = axis_of(-1.0, 3.0, true);
   EXPECT_EQ(axis.at(-1.0), INT64_MIN);
   EXPECT_EQ(axis.at(3.0), INT64_MIN);
-  EXPECT_EQ(axis.position(axis.at(3.0)), -1.0);
-  EXPECT_EQ(axis.position(axis.at(std::nextafter(3.0, 0.0))), std::nextafter(3.0, 0.0));
+  EXPECT_EQ(static_cast<double>(axis.position(axis.at(3.0))), -1.0);
+  EXPECT_EQ(static_cast<double>(axis.position(axis.at(std::nextafter(3.0, 0.0)))), std::nextafter(3.0, 0.0));
 }
 
 TEST(FixedAxis, BothEdgesOfAWalledAxisAreThemselves) {
   for (const double reach : {0.0, 1.0, 100.0}) {
     const FixedAxis axis = axis_of(-1.0, 3.0, false, reach);
-    EXPECT_EQ(axis.position(axis.at(-1.0)), -1.0);
-    EXPECT_EQ(axis.position(axis.at(3.0)), 3.0);
+    EXPECT_EQ(static_cast<double>(axis.position(axis.at(-1.0))), -1.0);
+    EXPECT_EQ(static_cast<double>(axis.position(axis.at(3.0))), 3.0);
     EXPECT_EQ(axis.at(-1.0), -axis.at(3.0));
   }
 }
@@ -84,7 +84,7 @@ TEST(FixedAxis, BothEdgesOfAWalledAxisAreThemselves) {
 TEST(FixedAxis, PositionsNearAFarAwayOriginKeepTheirDigits) {
   const FixedAxis axis = axis_of(1e6, 1e6 + 1.0, true);
   for (const double place : {1e6, 1e6 + 0.1, 1e6 + 0.7, std::nextafter(1e6 + 1.0, 0.0)})
-    EXPECT_EQ(axis.position(axis.at(place)), place);
+    EXPECT_EQ(static_cast<double>(axis.position(axis.at(place))), place);
 }
 
 TEST(FixedAxis, StepsOfALengthAreRoundedTowardsZero) {

@@ -2,6 +2,8 @@
 
 #include "neighbours/disks_at_rest.hpp"
 
+#include "support/systems.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -150,6 +152,21 @@ TEST(DisksAtRest, AHugeDiskAmongThousandsIsSeenFromEverySmallOne) {
 TEST(DisksAtRest, TouchingDisksDoNotOverlap) {
   const Disks disks = lattice(8, 0.5, Boundary::periodic);  // dyadic: distances are exact
   EXPECT_EQ(deepest_overlap(disks.box, disks.radius, disks.positions).relative, 0.0);
+}
+
+TEST(DisksAtRest, RemaindersShowOverlapsFarBelowTheRoundingOfPositionsInALargeBox) {
+  // In a box of 2^20 a position near the upper edge is rounded to 2^-33; a pair that overlaps by 2^-50 across the edge, and one
+  // inside.
+  const Box box = square_box(0x1p20, Boundary::periodic);
+  const std::vector<double> radius(4, 0.5);
+  Eigen::Matrix2Xd positions(2, 4), remainders = Eigen::Matrix2Xd::Zero(2, 4);
+  positions << 0x1p20 - 0.25, 0.75, 0x1p19, 0x1p19 + 1.0, 7.0, 7.0, 0x1p19, 0x1p19;
+  EXPECT_EQ(deepest_overlap(box, radius, positions, remainders).relative, 0.0);
+  remainders(0, 0) = 0x1p-50;
+  EXPECT_EQ(deepest_overlap(box, radius, positions, remainders).relative, 0x1p-50);
+  remainders(0, 0) = -0x1p-50;
+  remainders(0, 3) = -0x1p-49;
+  EXPECT_EQ(deepest_overlap(box, radius, positions, remainders).relative, 0x1p-49);
 }
 
 TEST(DisksAtRest, NoDiskAndOneDiskOverlapNothing) {

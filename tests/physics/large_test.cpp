@@ -11,10 +11,6 @@
 namespace carom::test {
 namespace {
 
-/// Overlap as states show it, in units of a contact distance of 1: two positions of size `length` rounded to doubles, each by
-/// half an ulp along two axes, and a distance rounded a few times.
-double rounding_of_states(double length) { return 4.0 * 0x1p-53 * length; }
-
 /// At contact the distance is off by 16 u (|r| + sigma) from the formula (docs/numerics.md), with |r| a few diameters where lists
 /// are; by u times the ways of both lines since the epoch, four spacings; and by the rounding of the time, as much: 1e-14 in all.
 constexpr double overlap = 1e-14;
@@ -33,8 +29,7 @@ void expect_laws(const System& system, std::uint64_t collisions) {
   for (std::uint64_t k = 1; k <= 10; ++k) {
     engine->run_until(forever, k * collisions / 10, no_limit);
     const State state = engine->state();
-    EXPECT_LE(deepest_overlap(system.box, system.disks.radius, state.positions).relative,
-              overlap + rounding_of_states(system.box.lengths().maxCoeff()));
+    EXPECT_LE(deepest_overlap(system.box, system.disks.radius, state.positions, state.remainders).relative, overlap);
     EXPECT_NEAR(kinetic_energy(system.disks, state) / energy, 1.0, energy_drift(collisions, disks));
   }
   EXPECT_EQ(engine->totals().pair, collisions);
