@@ -32,6 +32,11 @@ constexpr double never = std::numeric_limits<double>::infinity();
 CAROM_INLINE Doubles all(double x) { return Doubles{x, x, x, x}; }
 CAROM_INLINE Longs all(std::int64_t x) { return Longs{x, x, x, x}; }
 
+/// a - b as integers that wrap.
+CAROM_INLINE Longs wrapped(Longs a, Longs b) {
+  return reinterpret_cast<Longs>(reinterpret_cast<UnsignedLongs>(a) - reinterpret_cast<UnsignedLongs>(b));
+}
+
 /// Exactly what four conversions would give: the two halves of an integer become doubles by writing them into the
 /// significands of 2^84 and 2^52; the last addition alone rounds.
 CAROM_INLINE Doubles to_double(Longs x) {
@@ -91,8 +96,8 @@ CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& fra
   const Longs a0 = load(l0), a1 = load(l1), a2 = load(l2), a3 = load(l3);
   const Longs x01 = __builtin_shufflevector(a0, a1, 0, 4, 2, 6), x23 = __builtin_shufflevector(a2, a3, 0, 4, 2, 6);
   const Longs y01 = __builtin_shufflevector(a0, a1, 1, 5, 3, 7), y23 = __builtin_shufflevector(a2, a3, 1, 5, 3, 7);
-  const Longs dx = mine.x - __builtin_shufflevector(x01, x23, 0, 1, 4, 5);
-  const Longs dy = mine.y - __builtin_shufflevector(y01, y23, 0, 1, 4, 5);
+  const Longs dx = wrapped(mine.x, __builtin_shufflevector(x01, x23, 0, 1, 4, 5));
+  const Longs dy = wrapped(mine.y, __builtin_shufflevector(y01, y23, 0, 1, 4, 5));
   const Doubles vx = mine.vx - reinterpret_cast<Doubles>(__builtin_shufflevector(x01, x23, 2, 3, 6, 7));
   const Doubles vy = mine.vy - reinterpret_cast<Doubles>(__builtin_shufflevector(y01, y23, 2, 3, 6, 7));
   const Doubles x = to_double(dx) * all(frame.unit[0]) + vx * all(now);
@@ -144,7 +149,8 @@ void search_on(const Line* lines, const PredictionFrame& frame, const Mine& mine
 /// When two disks (x and y of the one, x and y of the other) leave their cages, per axis.
 CAROM_INLINE Doubles leaving_times(const PredictionFrame& frame, Longs x, Doubles v, Longs centre, double now) {
   const Doubles unit = {frame.unit[0], frame.unit[1], frame.unit[0], frame.unit[1]};
-  const Doubles off = to_double(x - (centre << 32)) * unit + v * all(now);
+  const Doubles off =
+      to_double(wrapped(x, reinterpret_cast<Longs>(reinterpret_cast<UnsignedLongs>(centre) << 32))) * unit + v * all(now);
   const Longs sign = reinterpret_cast<Longs>(v) & (-0x7FFFFFFFFFFFFFFFLL - 1);
   const Doubles ahead = reinterpret_cast<Doubles>(reinterpret_cast<Longs>(off) ^ sign);
   const Doubles speed = reinterpret_cast<Doubles>(reinterpret_cast<Longs>(v) ^ sign);

@@ -353,12 +353,13 @@ class Engine {
   Instant epoch_;  ///< the loop's zero of time
   double now_ = 0.0;
   double epoch_length_ = 0.0;
-  double spacing_;              ///< root of the area per disk
-  double mean_speed_ = 0.0;     ///< mean of |v_x| + |v_y| when the epoch began
-  double reach_ = 0.0;          ///< the largest contact distance
-  double travel_[2] = {};       ///< the longest that a line may be along each axis
-  double speed_limit_[2] = {};  ///< with which a line stays shorter than that until the epoch ends
-  double span_ = 0.0;           ///< of the queue
+  double spacing_;                ///< root of the area per disk
+  double mean_speed_ = 0.0;       ///< mean of |v_x| + |v_y| when the epoch began
+  double reach_ = 0.0;            ///< the largest contact distance
+  double travel_[2] = {};         ///< the longest that a line may be along each axis
+  double speed_limit_[2] = {};    ///< with which a line stays shorter than that until the epoch ends
+  double span_ = 0.0;             ///< of the queue
+  std::uint64_t begun_with_ = 0;  ///< events that the queue got at the beginning of the epoch
   bool walled_;
   bool fetching_ = false;  ///< the data do not fit the cache
 
@@ -413,8 +414,8 @@ class Engine {
   void reset_clock() {
     begin_epoch(now_);
     epoch_ = Instant{};
+    left_ -= totals_.other;  // wraps, as the difference to it will
     totals_ = Totals{};
-    left_ = 0;
   }
 
   void record_events(bool on) { recording_ = on; }

@@ -17,7 +17,12 @@ namespace carom {
 namespace detail {
 
 /// Disks in the order of a curve that fills the box (Morton): those near each other in the box are so in memory.
-inline LargeVector<std::int32_t> order_in_space(const FixedAxis& x, const FixedAxis& y, const State& start) {
+struct OrderInSpace {
+  LargeVector<std::int32_t> ids;
+  double area;  ///< per disk, where most of them are
+};
+
+inline OrderInSpace order_in_space(const FixedAxis& x, const FixedAxis& y, const State& start) {
   const auto n = static_cast<std::size_t>(start.positions.cols());
   const auto spread = [](std::uint64_t bits) {
     bits = (bits | (bits << 16)) & 0x0000FFFF0000FFFFULL;
@@ -34,8 +39,24 @@ inline LargeVector<std::int32_t> order_in_space(const FixedAxis& x, const FixedA
                static_cast<std::int32_t>(i)};
   }
   std::sort(keys.begin(), keys.end());
-  LargeVector<std::int32_t> order(n);
-  for (std::size_t i = 0; i < n; ++i) order[i] = keys[i].second;
+
+  // The curve is one of nested squares: those that share the upper bits of a key share a square. The largest squares in which a
+  // disk finds eight others or fewer, on average over the disks, tell how crowded it is where they are.
+  double area = 0.0;
+  for (int level = 0; level < 32; ++level) {
+    area = std::ldexp(x.unit, 64 - level) * std::ldexp(y.unit, 64 - level);
+    double squares = 0.0;
+    for (std::size_t i = 0, j = 0; i < n; i = j) {
+      while (j < n && keys[j].first >> (63 - 2 * level) >> 1 == keys[i].first >> (63 - 2 * level) >> 1) ++j;
+      squares += static_cast<double>(j - i) * static_cast<double>(j - i);
+    }
+    const double sharing = squares / static_cast<double>(std::max<std::size_t>(n, 1));
+    area /= std::max(sharing, 1.0);
+    if (sharing <= 8.0) break;
+  }
+
+  OrderInSpace order{LargeVector<std::int32_t>(n), area};
+  for (std::size_t i = 0; i < n; ++i) order.ids[i] = keys[i].second;
   return order;
 }
 
@@ -69,11 +90,13 @@ Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
       lines_(disks.count()),
       plans_(disks.count()),
       collisions_(disks.count()),
-      ids_(detail::order_in_space(axes_[0], axes_[1], start)),
       images_(disks.count()),
-      lists_(axes_[0], axes_[1], detail::in_order(disks.radius, ids_)),
+      lists_(axes_[0], axes_[1], {}),
       spacing_(mean_spacing(box, disks.count())),
       walled_(!box.periodic(0) || !box.periodic(1)) {
+  detail::OrderInSpace order = detail::order_in_space(axes_[0], axes_[1], start);
+  ids_ = std::move(order.ids);
+  lists_ = NeighbourLists(axes_[0], axes_[1], detail::in_order(disks.radius, ids_));
   for (std::int32_t i = 0; i < count(); ++i) {
     const auto column = static_cast<Eigen::Index>(id(i));
     Line& a = line(i);
@@ -90,11 +113,11 @@ Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
   const double sigma = 2.0 * std::accumulate(disks.radius.begin(), disks.radius.end(), 0.0) /
                        static_cast<double>(std::max<std::size_t>(disks.count(), 1));
   reach_ = largest_contact_distance(disks);
+  widest_ = std::max(box.lengths()[0], box.lengths()[1]);  // that cage holds the box
   for (const FixedAxis& axis : axes_)
     if (axis.periodic) widest_ = std::min(widest_, ((axis.upper - axis.lower) / 2.0 - reach_) / 6.0);
   start = State{};  // makes room for what follows
-  // Where disks crowd in part of the box their lists are longer than the mean density lets expect.
-  double half_width = std::min(CageTuner::first_half_width(sigma, spacing_ * spacing_), widest_);
+  double half_width = std::min(CageTuner::first_half_width(sigma, order.area), widest_);
   for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sigma; rebuild(half_width)) half_width *= 0.7;
   choose_epoch_length();
   predict_all();
@@ -129,7 +152,9 @@ void Engine<Rule, Layout>::begin_epoch(double now) {
   rebase(now);
   if (now > 0.0) tune_cages(now);
   choose_epoch_length();
-  if (now > 0.0 && queue_.pushed() > 0) span_ = pushed_per_span * now / static_cast<double>(queue_.pushed());
+  // Too few events tell nothing: an epoch may have been cut short.
+  const std::uint64_t pushed = queue_.pushed() - begun_with_;
+  if (pushed > lines_.size() / 4 + 16) span_ = pushed_per_span * now / static_cast<double>(pushed);
   start_queue();
 }
 
@@ -160,6 +185,7 @@ void Engine<Rule, Layout>::start_queue() {
   if (span_ == 0.0) span_ = first_span();
   queue_.start(span_, lines_.size());
   for (std::int32_t i = 0; i < count(); ++i) schedule(i);
+  begun_with_ = queue_.pushed();
 }
 
 template <class Rule, class Layout>
@@ -256,6 +282,7 @@ State Engine<Rule, Layout>::state() const {
       double position = static_cast<double>(exact);
       state.remainders(k, column) = static_cast<double>(exact - static_cast<long double>(position));
       if (axes_[k].periodic && position >= axes_[k].upper) position = axes_[k].lower, ++image;
+      if (axes_[k].periodic && position < axes_[k].lower) position = axes_[k].lower;  // rounded an ulp below
       state.positions(k, column) = position;
       state.velocities(k, column) = a.v[k];
       state.images(k, column) = image;
@@ -375,9 +402,15 @@ void Engine<Rule, Layout>::check_pair(std::int32_t i, std::int32_t j, std::vecto
   if (overlap > 1e-12 * sigma) faults.push_back(fmt::format("disks {} and {} overlap by {}", id(i), id(j), overlap));
   const std::int32_t alone[8] = {j, i, i, i, i, i, i, i};
   const double meeting = predicted(i, {{0, 0}, alone, 1}).pair_time;
-  const double planned = std::min(time(i), time(j));
-  if (meeting < planned - 1e-12 * std::max(planned, epoch_length_))
-    faults.push_back(fmt::format("disks {} and {} meet before either has an event planned", id(i), id(j)));
+  const double planned = std::min({time(i), time(j), epoch_length_});
+  if (!(meeting < planned)) return;
+  // Times of close pairs are uncertain; how deep they would be in each other by then is not.
+  const Vec2<double> r = separation(line(i), line(j)), v(line(i).v[0] - line(j).v[0], line(i).v[1] - line(j).v[1]);
+  const double nearest = std::clamp(-r.dot(v) / v.squaredNorm(), 0.0, planned - now_);
+  const double depth = sigma - (r + nearest * v).norm();
+  if (depth > 1e-12 * (sigma + travel_[0] + travel_[1]))
+    faults.push_back(
+        fmt::format("disks {} and {} would be {} deep in each other before either has an event planned", id(i), id(j), depth));
 }
 
 }  // namespace carom

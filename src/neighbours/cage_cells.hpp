@@ -20,17 +20,24 @@ class CageCells {
   /// (length) apart. Cells somewhat wider than that hold four or five disks: few cells to look through, few that overflow.
   CageCells(const FixedAxis& x, const FixedAxis& y, float largest_radius, double reach, std::size_t disks)
       : largest_radius_(largest_radius) {
-    const double area = (x.upper - x.lower) * (y.upper - y.lower);
-    // A thin box would have too many cells: no more than four per disk.
-    const double wide = std::max(1.4 * reach, std::sqrt(1.5 * area / static_cast<double>(std::max<std::size_t>(disks, 1))));
     const FixedAxis* axes[2] = {&x, &y};
     for (int a = 0; a < 2; ++a) {
       const double length = axes[a]->upper - axes[a]->lower;
-      const double cells = std::clamp(std::floor(length / wide), 1.0, 4.0 * static_cast<double>(disks) + 1.0);
-      lines_[a].cells = static_cast<std::int32_t>(cells);
+      lines_[a].columns = static_cast<std::int64_t>(std::clamp(std::floor(length / (1.4 * reach)), 1.0, 0x1p40));
+      lines_[a].cells = static_cast<std::int32_t>(std::min<std::int64_t>(lines_[a].columns, std::int64_t{1} << 30));
+    }
+    // A box that is empty for the most part would have too many cells: they share blocks then, as if the box were folded.
+    while (static_cast<double>(lines_[0].cells) * static_cast<double>(lines_[1].cells) >
+           64.0 + static_cast<double>(disks) / 1.5) {
+      Line& longer = lines_[0].cells > lines_[1].cells ? lines_[0] : lines_[1];
+      longer.cells = (longer.cells + 1) / 2;
+    }
+    for (int a = 0; a < 2; ++a) {
+      const double steps = (axes[a]->upper - axes[a]->lower) / (axes[a]->unit * 0x1p32);
+      lines_[a].columns -= lines_[a].columns % lines_[a].cells;
       lines_[a].periodic = axes[a]->periodic;
-      lines_[a].lower = -0.5 * length / (axes[a]->unit * 0x1p32);
-      lines_[a].per_step = cells / (length / (axes[a]->unit * 0x1p32));
+      lines_[a].lower = -0.5 * steps;
+      lines_[a].per_step = static_cast<double>(lines_[a].columns) / steps;
     }
     const auto cells = static_cast<std::size_t>(lines_[0].cells) * static_cast<std::size_t>(lines_[1].cells);
     reserve(blocks_, cells);
@@ -72,16 +79,24 @@ class CageCells {
     for (std::size_t a = 0; a < 2; ++a) {
       const Line& line = lines_[a];
       range.cells[a] = line.cells;
+      const double low = (at[a] - reach[a] - line.lower) * line.per_step;
+      const double high = (at[a] + reach[a] - line.lower) * line.per_step;
+      const auto columns = static_cast<double>(line.columns);
+      std::int64_t first, last;
       if (line.periodic) {
-        const double low = (at[a] - reach[a] - line.lower) * line.per_step,
-                     high = (at[a] + reach[a] - line.lower) * line.per_step;
-        range.first[a] = static_cast<std::int32_t>(low + static_cast<double>(line.cells)) - line.cells;  // rounds down
-        range.last[a] = static_cast<std::int32_t>(high);
-        if (high - low + 2.0 >= static_cast<double>(line.cells) && range.last[a] - range.first[a] + 1 >= line.cells)
-          range.first[a] = 0, range.last[a] = line.cells - 1;
+        first = static_cast<std::int64_t>(low + columns) - line.columns;  // rounds down
+        last = static_cast<std::int64_t>(high);
       } else {
-        range.first[a] = line.cell_at(at[a] - reach[a]);
-        range.last[a] = line.cell_at(at[a] + reach[a]);
+        first = static_cast<std::int64_t>(std::clamp(low, 0.0, columns - 1.0));
+        last = static_cast<std::int64_t>(std::clamp(high, 0.0, columns - 1.0));
+      }
+      if (last - first + 1 >= line.cells) {
+        range.first[a] = 0;
+        range.last[a] = line.cells - 1;
+      } else {
+        const std::int64_t folded = line.columns == line.cells ? first : (first % line.cells + line.cells) % line.cells;
+        range.first[a] = static_cast<std::int32_t>(folded);
+        range.last[a] = static_cast<std::int32_t>(folded + last - first);
       }
     }
     return range;
@@ -116,13 +131,16 @@ class CageCells {
 
  private:
   struct Line {
-    std::int32_t cells = 1;
+    std::int64_t columns = 1;  ///< cells side by side along the box
+    std::int32_t cells = 1;    ///< of them with blocks of their own: column c has those of column c % cells
     bool periodic = false;
     double lower = 0.0;     ///< lower edge of the box, in steps of a centre
-    double per_step = 0.0;  ///< cells per step of a centre
+    double per_step = 0.0;  ///< columns per step of a centre
 
     [[nodiscard]] std::int32_t cell_at(double centre) const {
-      return static_cast<std::int32_t>(std::clamp((centre - lower) * per_step, 0.0, static_cast<double>(cells - 1)));
+      const auto column =
+          static_cast<std::int64_t>(std::clamp((centre - lower) * per_step, 0.0, static_cast<double>(columns - 1)));
+      return static_cast<std::int32_t>(columns == cells ? column : column % cells);
     }
   };
   struct Slot {

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -103,6 +104,7 @@ class Neighbourhoods {
     if (free_.size() <= size) free_.resize(size + 1);
     std::uint32_t grown;
     if (free_[size].empty()) {
+      if (pool_.size() / 16 >= std::size_t{1} << 27) throw std::bad_alloc();  // 8 GB of lists: more than a place can name
       grown = static_cast<std::uint32_t>(pool_.size() / 16) << 5 | size;
       reserve(pool_, pool_.size() + (std::size_t{16} << size));
       pool_.resize(pool_.size() + (std::size_t{16} << size));
