@@ -9,6 +9,8 @@
 // Every disk has one plan: the earliest collision that it foresaw when it was last predicted, and when it leaves its cage or
 // meets a wall. Of two partners the one predicted last foresees the collision; a plan whose partner has collided since is stale
 // and made anew when its time comes.
+//
+// The files engine_state.hpp (beginning, epochs, what is seen from outside) and engine_check.hpp (invariants) hold the rest.
 
 #include "core/fixed_axis.hpp"
 #include "core/instant.hpp"
@@ -220,6 +222,19 @@ class Engine {
     return collisions_[static_cast<std::size_t>(mine.partner)] != mine.partner_collisions;
   }
 
+  [[nodiscard]] std::pair<std::int32_t, std::int32_t> rank(const CalendarEntry& event) const {
+    if (event.other == cage) return {cage, id(event.disk)};
+    if (event.other < 0) return {id(event.disk), event.other};
+    return std::minmax(id(event.disk), id(event.other));
+  }
+
+  /// Whether a disk leaves its cage or meets a wall before it meets its partner.
+  [[nodiscard]] static bool edge_first(const Plan& mine) { return mine.edge_time <= mine.pair_time; }
+  /// Of two partners at the same time, whether the one ahead comes before the one planned.
+  [[nodiscard]] bool precedes_as_partner(std::int32_t i, const Prediction& ahead) const {
+    return ahead.pair_time < never && id(ahead.partner) < id(plan(i).partner);
+  }
+
   // ------------------------------------------------------------------------------------------------------- time
 
   /// A new zero for the loop's clock at time `now`: every line starts there, every plan counts from there. Short times keep
@@ -248,8 +263,6 @@ class Engine {
 
   // ----------------------------------------------------------------------------------------------- disks in flight
 
-  /// In spacings: how far beyond a wall a line may start at the epoch.
-  static constexpr double free_path = 16.0;
   /// Between two and eight there is no difference in speed; fewer take more memory.
   static constexpr double pushed_per_span = 6.0;
   static constexpr std::int32_t cage = -100;
@@ -269,14 +282,6 @@ class Engine {
     return frame_.unit[axis] * static_cast<double>(wrapped_difference(a.x[axis], wide)) + a.v[axis] * now_;
   }
   void check_pair(std::int32_t i, std::int32_t j, std::vector<std::string>& faults) const;
-
-  [[nodiscard]] static double mean_spacing(const Box& box, std::size_t disks) {
-    return std::sqrt(box.lengths()[0]) * std::sqrt(box.lengths()[1] / static_cast<double>(std::max<std::size_t>(disks, 1)));
-  }
-  [[nodiscard]] static FixedAxis fixed_axis(const Box& box, int axis, std::size_t disks) {
-    return {box, axis, free_path * mean_spacing(box, disks)};
-  }
-  [[nodiscard]] static double largest_contact_distance(const Disks& disks);
 
   /// The coordinate of disk i moved by a length, with its image count where it wraps.
   [[nodiscard]] std::int64_t moved(std::int32_t i, int axis, double by) {
@@ -386,21 +391,6 @@ class Engine {
   /// first, then the one with the lower other disk; a wall is met before a disk.
   [[nodiscard]] bool precedes(const CalendarEntry& a, const CalendarEntry& b) const { return rank(a) < rank(b); }
 
- private:
-  [[nodiscard]] std::pair<std::int32_t, std::int32_t> rank(const CalendarEntry& event) const {
-    if (event.other == cage) return {cage, id(event.disk)};
-    if (event.other < 0) return {id(event.disk), event.other};
-    return std::minmax(id(event.disk), id(event.other));
-  }
-
-  /// Whether a disk leaves its cage or meets a wall before it meets its partner.
-  [[nodiscard]] static bool edge_first(const Plan& mine) { return mine.edge_time <= mine.pair_time; }
-  /// Of two partners at the same time, whether the one ahead comes before the one planned.
-  [[nodiscard]] bool precedes_as_partner(std::int32_t i, const Prediction& ahead) const {
-    return ahead.pair_time < never && id(ahead.partner) < id(plan(i).partner);
-  }
-
- public:
   // ------------------------------------------------------------------------------------- for those who look on
 
   [[nodiscard]] Instant now() const { return instant(now_); }
@@ -430,4 +420,5 @@ class Engine {
 
 }  // namespace carom
 
+#include "engine/engine_check.hpp"
 #include "engine/engine_state.hpp"

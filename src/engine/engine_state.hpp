@@ -1,9 +1,7 @@
 #pragma once
-// The engine's beginning, its epochs, its state seen from outside and the check of its plan: everything but the loop.
+// The engine's beginning, its epochs and the width of its cages, its state seen from outside: everything but the loop.
 
 #include "engine/engine.hpp"
-
-#include <fmt/format.h>
 
 #include <cmath>
 #include <functional>
@@ -15,6 +13,28 @@
 namespace carom {
 
 namespace detail {
+
+/// Root of the area per disk.
+inline double mean_spacing(const Box& box, std::size_t disks) {
+  return std::sqrt(box.lengths()[0]) * std::sqrt(box.lengths()[1] / static_cast<double>(std::max<std::size_t>(disks, 1)));
+}
+
+/// In spacings: how far beyond a wall a line may start at the epoch.
+inline constexpr double free_path = 16.0;
+
+inline FixedAxis fixed_axis(const Box& box, int axis, std::size_t disks) {
+  return {box, axis, free_path * mean_spacing(box, disks)};
+}
+
+/// Of any two disks.
+inline double largest_contact_distance(const Disks& disks) {
+  double largest = 0.0, second = 0.0;
+  for (const double radius : disks.radius) {
+    second = std::max(second, std::min(radius, largest));
+    largest = std::max(largest, radius);
+  }
+  return largest + second;
+}
 
 /// Disks in the order of a curve that fills the box (Morton): those near each other in the box are so in memory.
 struct OrderInSpace {
@@ -82,7 +102,7 @@ inline bool exceeds_cache(std::size_t bytes) {
 
 template <class Rule, class Layout>
 Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
-    : axes_{fixed_axis(box, 0, disks.count()), fixed_axis(box, 1, disks.count())},
+    : axes_{detail::fixed_axis(box, 0, disks.count()), detail::fixed_axis(box, 1, disks.count())},
       half_{axes_[0].at(axes_[0].upper), axes_[1].at(axes_[1].upper)},
       layout_(disks),
       frame_{{axes_[0].unit, axes_[1].unit}, disks.count() > 0 ? 2.0 * disks.radius[0] : 0.0, 0.0, 0.0},
@@ -92,7 +112,7 @@ Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
       collisions_(disks.count()),
       images_(disks.count()),
       lists_(axes_[0], axes_[1], {}),
-      spacing_(mean_spacing(box, disks.count())),
+      spacing_(detail::mean_spacing(box, disks.count())),
       walled_(!box.periodic(0) || !box.periodic(1)) {
   detail::OrderInSpace order = detail::order_in_space(axes_[0], axes_[1], start);
   ids_ = std::move(order.ids);
@@ -112,7 +132,7 @@ Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
 
   const double sigma = 2.0 * std::accumulate(disks.radius.begin(), disks.radius.end(), 0.0) /
                        static_cast<double>(std::max<std::size_t>(disks.count(), 1));
-  reach_ = largest_contact_distance(disks);
+  reach_ = detail::largest_contact_distance(disks);
   widest_ = std::max(box.lengths()[0], box.lengths()[1]);  // that cage holds the box
   for (const FixedAxis& axis : axes_)
     if (axis.periodic) widest_ = std::min(widest_, ((axis.upper - axis.lower) / 2.0 - reach_) / 6.0);
@@ -130,21 +150,11 @@ bool Engine<Rule, Layout>::covers(const Box& box, const Disks& disks) {
   if (disks.count() == 0) return true;
   const double smallest = *std::min_element(disks.radius.begin(), disks.radius.end());
   for (int k = 0; k < 2; ++k) {
-    const FixedAxis axis = fixed_axis(box, k, disks.count());
-    if (axis.periodic && axis.upper - axis.lower < 2.5 * largest_contact_distance(disks)) return false;
+    const FixedAxis axis = detail::fixed_axis(box, k, disks.count());
+    if (axis.periodic && axis.upper - axis.lower < 2.5 * detail::largest_contact_distance(disks)) return false;
     if (axis.unit * 0x1p32 > 1e-3 * smallest) return false;
   }
   return Layout::covers(disks);
-}
-
-template <class Rule, class Layout>
-double Engine<Rule, Layout>::largest_contact_distance(const Disks& disks) {
-  double largest = 0.0, second = 0.0;
-  for (const double radius : disks.radius) {
-    second = std::max(second, std::min(radius, largest));
-    largest = std::max(largest, radius);
-  }
-  return largest + second;
 }
 
 template <class Rule, class Layout>
@@ -240,7 +250,8 @@ void Engine<Rule, Layout>::rebuild(double half_width) {
   // to the epoch. What the cages leave of that belongs to the two lines.
   for (int k = 0; k < 2; ++k) {
     const double length = axes_[k].upper - axes_[k].lower;
-    travel_[k] = axes_[k].periodic ? (length / 2.0 - reach_ - 4.0 * half_width) / 2.0 : length / 2.0 + free_path * spacing_;
+    travel_[k] =
+        axes_[k].periodic ? (length / 2.0 - reach_ - 4.0 * half_width) / 2.0 : length / 2.0 + detail::free_path * spacing_;
   }
 }
 
@@ -353,64 +364,6 @@ template <class Rule, class Layout>
 std::size_t Engine<Rule, Layout>::bytes() const {
   return lines_.capacity() * sizeof(Line) + plans_.capacity() * sizeof(Plan) + collisions_.capacity() * sizeof(std::uint32_t) +
          ids_.capacity() * sizeof(std::int32_t) + images_.capacity() * sizeof(images_[0]) + lists_.bytes() + queue_.bytes();
-}
-
-template <class Rule, class Layout>
-std::vector<std::string> Engine<Rule, Layout>::check_invariants() const {
-  std::vector<std::string> faults;
-  const double slack = 1e-9 * lists_.half_width();
-  for (std::int32_t i = 0; i < count(); ++i) {
-    const Line& a = line(i);
-    if (!std::isfinite(a.v[0]) || !std::isfinite(a.v[1]))
-      faults.push_back(fmt::format("disk {}: its velocity is not finite", id(i)));
-    if (time(i) < now_ * (1.0 - 1e-12)) faults.push_back(fmt::format("disk {}: its next event lies in the past", id(i)));
-    if (time(i) < epoch_length_ && !queue_.holds(*this, i))
-      faults.push_back(fmt::format("disk {}: the queue does not know its event", id(i)));
-    const CageCentre centre = lists_.centre(i);
-    for (int k = 0; k < 2; ++k) {
-      const double off = offset(k, a, k == 0 ? centre.x : centre.y);
-      if (!(std::abs(off) <= lists_.half_width() + slack))
-        faults.push_back(
-            fmt::format("disk {}: outside its cage along axis {} by {}", id(i), k, std::abs(off) - lists_.half_width()));
-      if (axes_[k].periodic) continue;
-      const double place = frame_.unit[k] * static_cast<double>(a.x[k]) + a.v[k] * now_;
-      const double out = std::abs(place) + layout_.radius(a) - (axes_[k].upper - axes_[k].lower) / 2.0;
-      if (out > 1e-12 * (axes_[k].upper - axes_[k].lower))
-        faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", id(i), out, k));
-    }
-    for (std::uint32_t n = 0; n < lists_.count(i); ++n) check_pair(i, lists_.ids(i)[n], faults);
-  }
-  if (count() > 2000) return faults;  // the rest compares all pairs
-  for (std::int32_t i = 0; i < count(); ++i) {
-    const std::int32_t* list = lists_.ids(i);
-    for (std::int32_t j = 0; j < count(); ++j) {
-      const bool listed = std::find(list, list + lists_.count(i), j) != list + lists_.count(i);
-      if (listed != (i != j && lists_.near(i, j)))
-        faults.push_back(
-            fmt::format("disks {} and {}: {}", id(i), id(j), listed ? "listed though not near" : "near but not listed"));
-      if (!listed && i < j) check_pair(i, j, faults);
-    }
-  }
-  return faults;
-}
-
-/// Two disks must not overlap, and must not meet before one of them has an event planned.
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::check_pair(std::int32_t i, std::int32_t j, std::vector<std::string>& faults) const {
-  const double sigma = layout_.radius(line(i)) + layout_.radius(line(j));
-  const double overlap = sigma - separation(line(i), line(j)).norm();
-  if (overlap > 1e-12 * sigma) faults.push_back(fmt::format("disks {} and {} overlap by {}", id(i), id(j), overlap));
-  const std::int32_t alone[8] = {j, i, i, i, i, i, i, i};
-  const double meeting = predicted(i, {{0, 0}, alone, 1}).pair_time;
-  const double planned = std::min({time(i), time(j), epoch_length_});
-  if (!(meeting < planned)) return;
-  // Times of close pairs are uncertain; how deep they would be in each other by then is not.
-  const Vec2<double> r = separation(line(i), line(j)), v(line(i).v[0] - line(j).v[0], line(i).v[1] - line(j).v[1]);
-  const double nearest = std::clamp(-r.dot(v) / v.squaredNorm(), 0.0, planned - now_);
-  const double depth = sigma - (r + nearest * v).norm();
-  if (depth > 1e-12 * (sigma + travel_[0] + travel_[1]))
-    faults.push_back(
-        fmt::format("disks {} and {} would be {} deep in each other before either has an event planned", id(i), id(j), depth));
 }
 
 }  // namespace carom

@@ -1,0 +1,72 @@
+#pragma once
+// What must hold in the fast engine at any time: nobody overlaps, everybody is in his cage and on the right lists, no collision
+// is overlooked, and the queue knows every event.
+
+#include "engine/engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+template <class Rule, class Layout>
+std::vector<std::string> Engine<Rule, Layout>::check_invariants() const {
+  std::vector<std::string> faults;
+  const double slack = 1e-9 * lists_.half_width();
+  for (std::int32_t i = 0; i < count(); ++i) {
+    const Line& a = line(i);
+    if (!std::isfinite(a.v[0]) || !std::isfinite(a.v[1]))
+      faults.push_back(fmt::format("disk {}: its velocity is not finite", id(i)));
+    if (time(i) < now_ * (1.0 - 1e-12)) faults.push_back(fmt::format("disk {}: its next event lies in the past", id(i)));
+    if (time(i) < epoch_length_ && !queue_.holds(*this, i))
+      faults.push_back(fmt::format("disk {}: the queue does not know its event", id(i)));
+    const CageCentre centre = lists_.centre(i);
+    for (int k = 0; k < 2; ++k) {
+      const double off = offset(k, a, k == 0 ? centre.x : centre.y);
+      if (!(std::abs(off) <= lists_.half_width() + slack))
+        faults.push_back(
+            fmt::format("disk {}: outside its cage along axis {} by {}", id(i), k, std::abs(off) - lists_.half_width()));
+      if (axes_[k].periodic) continue;
+      const double place = frame_.unit[k] * static_cast<double>(a.x[k]) + a.v[k] * now_;
+      const double out = std::abs(place) + layout_.radius(a) - (axes_[k].upper - axes_[k].lower) / 2.0;
+      if (out > 1e-12 * (axes_[k].upper - axes_[k].lower))
+        faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", id(i), out, k));
+    }
+    for (std::uint32_t n = 0; n < lists_.count(i); ++n) check_pair(i, lists_.ids(i)[n], faults);
+  }
+  if (count() > 2000) return faults;  // the rest compares all pairs
+  for (std::int32_t i = 0; i < count(); ++i) {
+    const std::int32_t* list = lists_.ids(i);
+    for (std::int32_t j = 0; j < count(); ++j) {
+      const bool listed = std::find(list, list + lists_.count(i), j) != list + lists_.count(i);
+      if (listed != (i != j && lists_.near(i, j)))
+        faults.push_back(
+            fmt::format("disks {} and {}: {}", id(i), id(j), listed ? "listed though not near" : "near but not listed"));
+      if (!listed && i < j) check_pair(i, j, faults);
+    }
+  }
+  return faults;
+}
+
+/// Two disks must not overlap, and must not meet before one of them has an event planned.
+template <class Rule, class Layout>
+void Engine<Rule, Layout>::check_pair(std::int32_t i, std::int32_t j, std::vector<std::string>& faults) const {
+  const double sigma = layout_.radius(line(i)) + layout_.radius(line(j));
+  const double overlap = sigma - separation(line(i), line(j)).norm();
+  if (overlap > 1e-12 * sigma) faults.push_back(fmt::format("disks {} and {} overlap by {}", id(i), id(j), overlap));
+  const std::int32_t alone[8] = {j, i, i, i, i, i, i, i};
+  const double meeting = predicted(i, {{0, 0}, alone, 1}).pair_time;
+  const double planned = std::min({time(i), time(j), epoch_length_});
+  if (!(meeting < planned)) return;
+  // Times of close pairs are uncertain; how deep they would be in each other by then is not.
+  const Vec2<double> r = separation(line(i), line(j)), v(line(i).v[0] - line(j).v[0], line(i).v[1] - line(j).v[1]);
+  const double nearest = std::clamp(-r.dot(v) / v.squaredNorm(), 0.0, planned - now_);
+  const double depth = sigma - (r + nearest * v).norm();
+  if (depth > 1e-12 * (sigma + travel_[0] + travel_[1]))
+    faults.push_back(
+        fmt::format("disks {} and {} would be {} deep in each other before either has an event planned", id(i), id(j), depth));
+}
+
+}  // namespace carom
