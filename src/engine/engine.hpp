@@ -17,6 +17,7 @@
 #include "core/large_memory.hpp"
 #include "core/prediction.hpp"
 #include "core/vec2.hpp"
+#include "effects/hard_wall.hpp"
 #include "effects/impact.hpp"
 #include "engine/layout.hpp"
 #include "neighbours/cage_tuner.hpp"
@@ -137,7 +138,7 @@ class Engine {
   /// A disk meets a wall: its velocity across the wall is reversed.
   void reflect(std::int32_t i, Wall wall) {
     Line& a = line(i);
-    const int across = wall >= wall_right ? 0 : 1;
+    const int across = axis_of(wall);
     const double v = a.v[across];
     ++totals_.wall;
     totals_.wall_impulse[static_cast<std::size_t>(-1 - wall)] += 2.0 * layout_.mass(a) * std::abs(v);
@@ -205,7 +206,8 @@ class Engine {
       }
     }
     // At one time with a lower partner it comes second: it will be found again after the collision.
-    if (mine.edge_time == mine.pair_time && mine.edge != cage && id(mine.partner) < id(i)) mine.edge_time = never;
+    if (mine.edge_time == mine.pair_time && mine.edge != cage && mine.partner >= 0 && id(mine.partner) < id(i))
+      mine.edge_time = never;
   }
 
   /// What lies beyond this epoch is found again when the next one begins.

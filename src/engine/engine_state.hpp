@@ -291,9 +291,9 @@ State Engine<Rule, Layout>::state() const {
       if (__builtin_add_overflow(a.x[k], way, &x)) image += way < 0 ? -1 : 1;
       const long double exact = axes_[k].position(x);
       double position = static_cast<double>(exact);
+      if (axes_[k].periodic && position < axes_[k].lower) position = axes_[k].lower;  // rounded an ulp below
       state.remainders(k, column) = static_cast<double>(exact - static_cast<long double>(position));
       if (axes_[k].periodic && position >= axes_[k].upper) position = axes_[k].lower, ++image;
-      if (axes_[k].periodic && position < axes_[k].lower) position = axes_[k].lower;  // rounded an ulp below
       state.positions(k, column) = position;
       state.velocities(k, column) = a.v[k];
       state.images(k, column) = image;

@@ -55,6 +55,16 @@ TEST(EngineOutrun, KeepsEqualDisksApart) {
       8);
 }
 
+TEST(EngineSlowest, ADiskThatReachesNoWallBeforeTimesOverflowExpectsNothing) {
+  // The way to the wall over the speed is more than the largest number, as is the time to leave a cage.
+  const Box box = square_box(1e6, Boundary::walls);
+  const System start = system_of(box, {{{5e5, 5e5}, {1e-304, 0.0}}, {{2e5, 2e5}, {0.0, 1e-304}}});
+  Engine<Specular, AnyDisks> engine(start.box, start.disks, start.state);
+  EXPECT_TRUE(engine.run_until(Instant{1e9, 0.0}, no_limit, no_limit));
+  EXPECT_EQ(engine.totals().wall, 0U);
+  EXPECT_TRUE(engine.check_invariants().empty());
+}
+
 /// Bytes per disk where n disks crowd in a small part of the box.
 double bytes_per_disk(std::int64_t n, double emptiness) {
   System start = system_of(gas_scene(n, 0.5, Boundary::periodic));
