@@ -109,10 +109,8 @@ class CageCells {
   void prefetch(const CageRange& range) const {
     for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y)
       for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x) {
-        const std::int32_t column = x < 0 ? x + range.cells[0] : x >= range.cells[0] ? x - range.cells[0] : x;
-        const std::int32_t row = y < 0 ? y + range.cells[1] : y >= range.cells[1] ? y - range.cells[1] : y;
-        const CageBlock& block =
-            blocks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(range.cells[0]) + static_cast<std::size_t>(column)];
+        const std::int32_t cell = folded(y, range.cells[1]) * range.cells[0] + folded(x, range.cells[0]);
+        const CageBlock& block = blocks_[static_cast<std::size_t>(cell)];
         __builtin_prefetch(&block);
         __builtin_prefetch(block.y);
       }

@@ -66,11 +66,6 @@ Ints near_eight(Ints x, Ints y, Floats radius, CageCentre centre, float own_radi
   return gap_x * gap_x + gap_y * gap_y <= sigma * sigma;
 }
 
-std::int32_t folded(std::int32_t cell, std::int32_t cells) {
-  const std::int32_t up = cell < 0 ? cell + cells : cell;
-  return up >= cells ? up - cells : up;
-}
-
 void search(const CageBlock* blocks, const std::int32_t* next, const CageRange& range, const CageQuery& query,
             const CageNearness& nearness, CagesFound& found) {
   std::int32_t* all = found.all + found.all_count;

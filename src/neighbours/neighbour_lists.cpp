@@ -29,13 +29,6 @@ NeighbourLists::NeighbourLists(const FixedAxis& x, const FixedAxis& y, const std
     steps_[a] = largest_ / (axes_[a].unit * 0x1p32);
     nearness_.unit[a] = static_cast<float>(1.0 / steps_[a]);
   }
-}
-
-void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> centres) {
-  half_width_ = half_width;
-  // A few steps of the centres, and of single precision, on the safe side.
-  const double h = half_width / largest_;
-  nearness_.two_halves = static_cast<float>(2.0 * h * (1.0 + 1e-6) + 4.0 / std::min(steps_[0], steps_[1]));
 
   std::map<int, std::pair<std::size_t, float>, std::greater<>> sizes;  // disks and largest radius, by exponent
   if (one_radius_) {
@@ -51,11 +44,18 @@ void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> cent
     layer_of_.resize(radius_.size());
     for (std::size_t i = 0; i < radius_.size(); ++i) layer_of_[i] = number[size_of(radius_[i])];
   }
+  for (const auto& size : sizes) sizes_.push_back({size.second.first, size.second.second});
+}
+
+void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> centres) {
+  half_width_ = half_width;
+  // A few steps of the centres, and of single precision, on the safe side.
+  const double h = half_width / largest_;
+  nearness_.two_halves = static_cast<float>(2.0 * h * (1.0 + 1e-6) + 4.0 / std::min(steps_[0], steps_[1]));
+
   layers_.clear();
-  for (const auto& size : sizes) {
-    const auto [disks, largest] = size.second;
-    layers_.emplace_back(axes_[0], axes_[1], largest, 2.0 * (largest + h) * largest_, disks);
-  }
+  for (const auto& [disks, largest] : sizes_)
+    layers_.emplace_back(axes_[0], axes_[1], largest, 2.0 * (static_cast<double>(largest) + h) * largest_, disks);
 
   around_.clear();
   const auto disks = static_cast<std::int32_t>(around_.disks());

@@ -71,7 +71,12 @@ class NeighbourLists {
   CageNearness nearness_;
 
   Neighbourhoods around_;
-  std::vector<CageCells> layers_;  ///< by falling size
+  struct Size {
+    std::size_t disks;
+    float largest;  ///< radius
+  };
+  std::vector<Size> sizes_;        ///< of the layers, falling
+  std::vector<CageCells> layers_;  ///< one per size
   std::vector<std::uint8_t> layer_of_;
 
   const CageKernel* kernel_;

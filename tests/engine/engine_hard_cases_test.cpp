@@ -209,14 +209,7 @@ RC_GTEST_PROP(PropertyEngineSuddenSpeed, ThePlanIsSoundAfterEveryEventWhateverTh
     };
     const auto component = [] { return *rc::gen::inRange(-8, 9) / 4.0; };
     const Placed disk{{in(0), in(1)}, {component(), component()}, radius, *rc::gen::element(1e-3, 1.0, 3.0, 1e6, 1e9)};
-    bool free = true;
-    for (const Placed& other : placed)
-      for (int x = -1; x <= 1; ++x)
-        for (int y = -1; y <= 1; ++y) {
-          const Eigen::Vector2d image(x * box.lengths()[0], y * box.lengths()[1]);
-          free = free && (disk.r - other.r + image).norm() >= disk.radius + other.radius;
-        }
-    if (free) placed.push_back(disk);
+    if (finds_room(box, placed, disk)) placed.push_back(disk);
   }
   const CollisionRule rule = *rc::gen::element(CollisionRule::specular, CollisionRule::reversal);
   expect_sound(system_of(box, placed), rule, 300);

@@ -117,14 +117,7 @@ RC_GTEST_PROP(PropertyTextbookTwin, AnySmallSystemHasTheSameEventsAsAllPairs, ()
     Placed disk{{in(0), in(1)}, {component(), component()}, radius, *rc::gen::element(0.25, 1.0, 3.0, 1e6)};
     for (int a = 0; a < 2; ++a)
       if (disk.r[a] >= box.upper[a]) disk.r[a] = box.lower[a];
-    bool free = true;
-    for (const Placed& other : placed)
-      for (int x = -1; x <= 1; ++x)
-        for (int y = -1; y <= 1; ++y) {
-          const Eigen::Vector2d image(x * box.lengths()[0], y * box.lengths()[1]);
-          free = free && (disk.r - other.r + image).norm() >= disk.radius + other.radius;
-        }
-    if (free) placed.push_back(disk);
+    if (finds_room(box, placed, disk)) placed.push_back(disk);
   }
   expect_same_events<Specular>(system_of(box, placed), 200);
   expect_same_events<Reversal>(system_of(box, placed), 200);

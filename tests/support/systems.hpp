@@ -34,6 +34,17 @@ struct Placed {
   double mass = 1.0;
 };
 
+/// Whether a disk overlaps none of those placed, nor their images.
+inline bool finds_room(const Box& box, const std::vector<Placed>& placed, const Placed& disk) {
+  for (const Placed& other : placed)
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y) {
+        const Eigen::Vector2d image(x * box.lengths()[0], y * box.lengths()[1]);
+        if ((disk.r - other.r + image).norm() < disk.radius + other.radius) return false;
+      }
+  return true;
+}
+
 inline System system_of(const Box& box, const std::vector<Placed>& placed) {
   System s{box, {}, {}};
   const auto n = static_cast<Eigen::Index>(placed.size());
