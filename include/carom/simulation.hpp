@@ -73,9 +73,11 @@ class Simulation {
 
  private:
   friend Simulation make_simulation(const Scene& scene, const std::string& engine);
+  friend Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine);
   friend struct RunResult run_schedule(Simulation& simulation, const struct RunHooks& hooks);
   struct Parts;
   explicit Simulation(std::unique_ptr<Parts> parts);
+  static Simulation begin(const Scene& scene, struct Start start, const std::string& engine);
   std::unique_ptr<Parts> parts_;
 };
 
@@ -83,6 +85,11 @@ class Simulation {
 /// Throws SceneError when the disks cannot be placed as the scene asks, or overlap, or lie outside the box;
 /// std::invalid_argument when there is no such engine.
 Simulation make_simulation(const Scene& scene, const std::string& engine = "auto");
+
+/// The same from a given state in place of the scene's own start: its positions, velocities and images, at time 0; its
+/// remainders are dropped, so that every engine begins with the same numbers. Throws
+/// std::invalid_argument too where the state does not have one finite position and velocity for each of the scene's disks.
+Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine = "auto");
 
 /// "textbook", "textbook-float", ...: the engines that can run a scene.
 std::vector<std::string> engine_names();

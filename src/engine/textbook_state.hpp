@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace carom {
 
@@ -35,6 +36,8 @@ State TextbookEngine<Real, Rule>::state() const {
   state.positions.resize(2, count());
   state.velocities.resize(2, count());
   state.images.resize(2, count());
+  constexpr bool wide = std::numeric_limits<Real>::digits > std::numeric_limits<double>::digits;
+  if (wide) state.remainders.resize(2, count());
   for (std::int32_t i = 0; i < count(); ++i) {
     Vec2<Real> r = position(record(i), now_);
     state.images.col(i) = images_.col(i) + domain_.wrap(r);
@@ -43,7 +46,9 @@ State TextbookEngine<Real, Rule>::state() const {
       if (!domain_.periodic[a] || state.positions(a, i) < static_cast<double>(domain_.upper[a])) continue;
       state.positions(a, i) = static_cast<double>(domain_.lower[a]);
       ++state.images(a, i);
+      r[a] -= domain_.length[a];
     }
+    if (wide) state.remainders.col(i) = (r - state.positions.col(i).template cast<Real>()).template cast<double>();
     state.velocities.col(i) = record(i).v.template cast<double>();
   }
   return state;

@@ -57,22 +57,38 @@ std::vector<std::string> engine_names() {
   return names;
 }
 
-Simulation make_simulation(const Scene& scene, const std::string& engine) {
+namespace {
+
+/// The named engine, or the first of the catalogue that covers the disks.
+const detail::EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine) {
   const auto& entries = detail::catalogue();
   const auto named = [&](const auto& entry) { return entry.name == engine; };
   if (engine != "auto" && std::none_of(entries.begin(), entries.end(), named))
     throw std::invalid_argument(
         fmt::format("there is no engine \"{}\"; choose one of auto, {}", engine, fmt::join(engine_names(), ", ")));
-  Start start = draw_start(scene);
-  const auto covering = [&](const auto& entry) { return (engine == "auto" || named(entry)) && entry.covers(scene, start.disks); };
+  const auto covering = [&](const auto& entry) { return (engine == "auto" || named(entry)) && entry.covers(scene, disks); };
   const auto entry = std::find_if(entries.begin(), entries.end(), covering);
   if (entry == entries.end())
     throw std::invalid_argument(
         fmt::format("the engine \"{}\" does not cover this scene: {}; leave the choice to carom, or take \"textbook\"", engine,
                     "its periodic box is too small, or its disks are, compared with the box"));
-  auto running = entry->make(scene, start.disks, std::move(start.state));
-  return Simulation(
-      std::unique_ptr<Simulation::Parts>(new Simulation::Parts{scene, std::move(start.disks), entry->name, std::move(running)}));
+  return *entry;
+}
+
+}  // namespace
+
+Simulation Simulation::begin(const Scene& scene, Start start, const std::string& engine) {
+  const detail::EngineEntry& entry = choose_engine(scene, start.disks, engine);
+  auto running = entry.make(scene, start.disks, std::move(start.state));
+  return Simulation(std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry.name, std::move(running)}));
+}
+
+Simulation make_simulation(const Scene& scene, const std::string& engine) {
+  return Simulation::begin(scene, draw_start(scene), engine);
+}
+
+Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine) {
+  return Simulation::begin(scene, start_from(scene, start), engine);
 }
 
 std::string to_string(StopReason reason) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <variant>
 #include <vector>
 
@@ -85,26 +86,55 @@ void require_room_to_move(const Scene& scene, const Start& start) {
   }
 }
 
-}  // namespace
-
-Start draw_start(const Scene& scene) {
-  Start start;
+Disks disks_of(const Scene& scene) {
+  Disks disks;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
     const Species& species = scene.species[s];
     require_complete(species);
     for (std::int64_t i = 0; i < species.count; ++i) {
       require_positive(species, species.radius_of(i), "radius");
       require_positive(species, species.mass_of(i), "mass");
-      start.disks.radius.push_back(species.radius_of(i));
-      start.disks.mass.push_back(species.mass_of(i));
-      start.disks.species.push_back(static_cast<std::int32_t>(s));
+      disks.radius.push_back(species.radius_of(i));
+      disks.mass.push_back(species.mass_of(i));
+      disks.species.push_back(static_cast<std::int32_t>(s));
     }
   }
+  return disks;
+}
+
+}  // namespace
+
+Start draw_start(const Scene& scene) {
+  Start start;
+  start.disks = disks_of(scene);
   start.state.positions = draw_positions(scene, start.disks);
   start.state.velocities = draw_velocities(scene, start.disks);
   require_room_to_move(scene, start);
   require_resolvable_scale(scene, start);
   start.state.images = Images::Zero(2, start.state.positions.cols());
+  return start;
+}
+
+Start start_from(const Scene& scene, const State& state) {
+  Start start{disks_of(scene), state};
+  const auto disks = static_cast<Eigen::Index>(start.disks.count());
+  if (state.positions.cols() != disks || state.velocities.cols() != disks)
+    throw std::invalid_argument(fmt::format("a state of {} positions and {} velocities is given for {} disks; give one per disk",
+                                            state.positions.cols(), state.velocities.cols(), disks));
+  if (!state.positions.allFinite() || !state.velocities.allFinite())
+    throw std::invalid_argument("a position or velocity of the given state is not finite");
+  for (int a = 0; a < 2; ++a) {
+    if (!scene.box.periodic(a) || disks == 0) continue;
+    if (state.positions.row(a).minCoeff() >= scene.box.lower[a] && state.positions.row(a).maxCoeff() < scene.box.upper[a])
+      continue;
+    throw std::invalid_argument(
+        fmt::format("the given state has a position outside the box in {}; fold it into [lower, upper)", a == 0 ? "x" : "y"));
+  }
+  require_room_to_move(scene, start);
+  require_resolvable_scale(scene, start);
+  start.state.time = 0.0;
+  start.state.remainders.resize(2, 0);
+  if (state.images.cols() != disks) start.state.images = Images::Zero(2, disks);
   return start;
 }
 

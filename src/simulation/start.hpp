@@ -16,6 +16,11 @@ struct Start {
 /// box by more than that, or move across a gap that they fill; and where a species that a program made is incomplete.
 Start draw_start(const Scene& scene);
 
+/// The scene's disks in a given state, at time 0. Throws std::invalid_argument where the state does not belong to the scene's
+/// number of disks, or is not finite, or a position lies outside the box along a periodic axis; SceneError for what the scene
+/// itself lacks. Disks may overlap; remainders are dropped, so that every engine starts from the same numbers.
+Start start_from(const Scene& scene, const State& state);
+
 /// Column i of `positions` for every disk of every species, in the order of ids. Throws as draw_start.
 Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks);
 
