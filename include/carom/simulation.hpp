@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,6 +35,12 @@ enum class StopReason {
 /// "time", "collisions", "interrupted", "jammed", "no_collisions"
 std::string to_string(StopReason reason);
 
+/// The method that exact events replace: move by v dt, look for contacts, move on.
+struct FixedStep {
+  std::string method = "guarded";  ///< a name of fixed_step_names()
+  double dt = 0.0;                 ///< time, > 0
+};
+
 class Simulation {
  public:
   Simulation(Simulation&&) noexcept;
@@ -42,7 +49,9 @@ class Simulation {
 
   [[nodiscard]] const Scene& scene() const;
   [[nodiscard]] const Disks& disks() const;
-  [[nodiscard]] const std::string& engine() const;  ///< the name of the engine that the catalogue chose
+  [[nodiscard]] const std::string& engine()
+      const;  ///< the name of the engine that the catalogue chose, or of a fixed-step method
+  [[nodiscard]] std::optional<double> time_step() const;  ///< dt of a fixed-step method; nothing where events are exact
 
   [[nodiscard]] double time() const;
   [[nodiscard]] const Totals& totals() const;
@@ -74,10 +83,13 @@ class Simulation {
  private:
   friend Simulation make_simulation(const Scene& scene, const std::string& engine);
   friend Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine);
+  friend Simulation make_simulation(const Scene& scene, const FixedStep& step);
+  friend Simulation make_simulation(const Scene& scene, const State& start, const FixedStep& step);
   friend struct RunResult run_schedule(Simulation& simulation, const struct RunHooks& hooks);
   struct Parts;
   explicit Simulation(std::unique_ptr<Parts> parts);
   static Simulation begin(const Scene& scene, struct Start start, const std::string& engine);
+  static Simulation begin(const Scene& scene, struct Start start, const FixedStep& step);
   std::unique_ptr<Parts> parts_;
 };
 
@@ -90,6 +102,16 @@ Simulation make_simulation(const Scene& scene, const std::string& engine = "auto
 /// remainders are dropped, so that every engine begins with the same numbers. Throws
 /// std::invalid_argument too where the state does not have one finite position and velocity for each of the scene's disks.
 Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine = "auto");
+
+/// The scene advanced by a fixed-step method in place of exact events, through the same door: states between two steps are those
+/// of the last one moved on, Totals::pair counts every change of a pair's velocities, Totals::other the steps, and a limit of
+/// collisions ends a run after the step that reaches it. Throws as above, and std::invalid_argument where there is no such method
+/// or dt is not positive, finite and short enough for positions to stay finite.
+Simulation make_simulation(const Scene& scene, const FixedStep& step);
+Simulation make_simulation(const Scene& scene, const State& start, const FixedStep& step);
+
+/// "naive", "naive-edge", "guarded", "grid"
+std::vector<std::string> fixed_step_names();
 
 /// "textbook", "textbook-float", ...: the engines that can run a scene.
 std::vector<std::string> engine_names();

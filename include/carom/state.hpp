@@ -50,7 +50,7 @@ struct Event {
 struct Totals {
   std::uint64_t pair = 0;   ///< collisions of two disks
   std::uint64_t wall = 0;   ///< collisions with a wall
-  std::uint64_t other = 0;  ///< cell crossings: bookkeeping of the engine, no physics
+  std::uint64_t other = 0;  ///< bookkeeping, no physics: cell crossings of an engine, steps of a fixed-step method
   std::uint64_t stale = 0;  ///< predictions that another collision had overtaken
   /// sum over pair collisions of sigma_ij * (normal impulse): mass length^2 / time; the virial of the hard-disk force
   double virial = 0.0;

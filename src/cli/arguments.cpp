@@ -70,6 +70,13 @@ void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
   command->add_flag("-v,--verbose", options->verbose, "Say on stderr what will be simulated");
   command->add_option("--progress", options->progress, "A progress line on stderr: auto (on a terminal), always or never")
       ->type_name("WHEN");
+  command
+      ->add_option("--method", options->method,
+                   fmt::format("exact (from event to event), or a fixed-step method to compare with: {}",
+                               fmt::join(fixed_step_names(), ", ")))
+      ->type_name("NAME");
+  command->add_option("--dt", options->dt, "Time step of a fixed-step method (default: the scene's run.sample_every)")
+      ->type_name("DT");
   command->callback([&action, options, invocation] { action = [options, invocation] { return run(*options, invocation); }; });
 }
 

@@ -40,6 +40,8 @@ struct RunOptions {
   bool quiet = false;
   bool verbose = false;
   std::string progress = "auto";
+  std::string method = "exact";  ///< or a fixed-step method
+  std::optional<double> dt;      ///< of a fixed-step method; absent: the sampling grid's
 };
 ExitCode run(const RunOptions& options, const Invocation& invocation);
 

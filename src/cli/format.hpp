@@ -2,6 +2,7 @@
 // Numbers and names as a person reads them.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,9 @@ std::string with_error(double value, double error);
 
 /// "1 disk", "2 disks"
 std::string counted(std::uint64_t number, std::string_view thing);
+
+/// "fast"; "naive, dt = 0.001" where there is a time step.
+std::string method_words(const std::string& name, std::optional<double> time_step);
 
 /// The text as one word of a POSIX shell, in quotes only where it needs them.
 std::string shell_quoted(const std::string& text);

@@ -22,10 +22,10 @@ std::string row(std::string_view quantity, std::string_view value, std::string_v
 }
 
 std::string heading(const RunReport& report, const Scene& scene) {
-  return fmt::format("{}\n{}, packing fraction {:.4g}; {}; seed {}, engine {}\n\n",
-                     report.title.empty() ? report.scene : report.title,
+  return fmt::format("{}\n{}, packing fraction {:.4g}; {}; seed {}, {}\n\n", report.title.empty() ? report.scene : report.title,
                      counted(static_cast<std::uint64_t>(report.disks), "disk"), report.packing_fraction,
-                     fmt::join(report.effects, ", "), scene.run.seed, report.engine);
+                     fmt::join(report.effects, ", "), scene.run.seed,
+                     (report.time_step ? "method " : "engine ") + method_words(report.engine, report.time_step));
 }
 
 std::string why_stopped(const RunReport& report, const Scene& scene) {
@@ -93,6 +93,7 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
   const std::filesystem::path here = std::filesystem::absolute(results.directory / "").lexically_normal().parent_path();
   const std::string elsewhere = std::filesystem::proximate(here).string();
   std::string text = "\nTry next\n";
+  if (report.time_step) text += fmt::format("  {} --out {}   # the same, exactly\n", rerun, shell_quoted(elsewhere + "-exact"));
   for (const std::string& file : results.files) {
     const std::string name = std::filesystem::path(file).filename().string();
     if (name != "trajectory.h5md") continue;

@@ -31,6 +31,7 @@ void write_parameters(hid_t file, const Scene& scene, const Provenance& provenan
   write_attribute(group, "resolved_scene", provenance.resolved_scene);
   write_attribute(group, "seed", scene.run.seed);
   write_attribute(group, "engine", provenance.engine);
+  if (provenance.time_step) write_attribute(group, "dt", *provenance.time_step);
   write_attribute(group, "command_line", provenance.command_line);
   write_attribute(group, "version", build_info().version);
   write_attribute(group, "commit", build_info().commit);

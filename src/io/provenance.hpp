@@ -1,14 +1,16 @@
 #pragma once
 // Where results come from: what every result file says about its run beside the scene itself and build_info().
 
+#include <optional>
 #include <string>
 
 namespace carom {
 
 struct Provenance {
-  std::string resolved_scene;  ///< the scene as TOML with every default filled in
-  std::string command_line;    ///< as the user typed it; empty when the library was called
-  std::string engine;          ///< the name of the engine that ran
+  std::string resolved_scene;            ///< the scene as TOML with every default filled in
+  std::string command_line;              ///< as the user typed it; empty when the library was called
+  std::string engine;                    ///< the name of the engine, or of the fixed-step method, that ran
+  std::optional<double> time_step = {};  ///< dt of a fixed-step method; empty where events are exact
 };
 
 }  // namespace carom

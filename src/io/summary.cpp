@@ -28,6 +28,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   json["scene"] = report.scene;
   json["seed"] = report.seed;
   json["engine"] = report.engine;
+  if (report.time_step) json["dt"] = number(report.time_step);
   json["effects"] = report.effects;
   json["disks"] = report.disks;
   json["packing_fraction"] = number(report.packing_fraction);

@@ -25,6 +25,7 @@ RunMeasurements::RunMeasurements(const Simulation& simulation) : simulation_(sim
   report_.title = scene.title;
   report_.seed = scene.run.seed;
   report_.engine = simulation.engine();
+  report_.time_step = simulation.time_step();
   report_.effects = effects_of(scene);
   report_.disks = scene.disk_count();
   report_.packing_fraction = scene.packing_fraction();

@@ -16,7 +16,8 @@ struct RunReport {
   std::string scene;  ///< the scene's source
   std::string title;
   std::uint64_t seed = 1;
-  std::string engine;
+  std::string engine;                ///< or the fixed-step method
+  std::optional<double> time_step;   ///< dt of a fixed-step method; empty where events are exact
   std::vector<std::string> effects;  ///< what acts beyond free flight: "specular", "walls", ...
   std::int64_t disks = 0;
   double packing_fraction = 0.0;

@@ -6,6 +6,7 @@
 #include "simulation/any_engine.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace carom {
@@ -15,6 +16,7 @@ struct Simulation::Parts {
   Disks disks;
   std::string engine_name;
   std::unique_ptr<detail::AnyEngine> engine;
+  std::optional<double> time_step = {};  ///< of a fixed-step method
 };
 
 }  // namespace carom

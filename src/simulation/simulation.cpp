@@ -34,6 +34,7 @@ Simulation::~Simulation() = default;
 const Scene& Simulation::scene() const { return parts_->scene; }
 const Disks& Simulation::disks() const { return parts_->disks; }
 const std::string& Simulation::engine() const { return parts_->engine_name; }
+std::optional<double> Simulation::time_step() const { return parts_->time_step; }
 double Simulation::time() const { return parts_->engine->now().high; }
 const Totals& Simulation::totals() const { return parts_->engine->totals(); }
 State Simulation::state() const { return parts_->engine->state(); }

@@ -1,0 +1,89 @@
+// From a scene to a fixed-step method with the scene's collision rule.
+
+#include "effects/reversal.hpp"
+#include "effects/specular.hpp"
+#include "simulation/catalogue.hpp"
+#include "simulation/parts.hpp"
+#include "simulation/start.hpp"
+#include "stepper/grid.hpp"
+#include "stepper/guarded.hpp"
+#include "stepper/naive.hpp"
+#include "stepper/stepper.hpp"
+
+#include <carom/simulation.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+using detail::AnyEngine;
+using detail::EngineAdapter;
+
+template <class Rule>
+using Naive = NaiveStep<Rule, WallMeets::centre>;
+template <class Rule>
+using NaiveEdge = NaiveStep<Rule, WallMeets::edge>;
+template <class Rule>
+using Guarded = GuardedStep<Rule, AllPairs>;
+template <class Rule>
+using Grid = GuardedStep<Rule, ClosePairs>;
+
+template <template <class> class Step>
+std::unique_ptr<AnyEngine> make(const Scene& scene, const Start& start, double dt) {
+  if (scene.rule == CollisionRule::reversal)
+    return std::make_unique<EngineAdapter<Stepper<Step<Reversal>>>>(scene.box, start.disks, start.state, dt);
+  return std::make_unique<EngineAdapter<Stepper<Step<Specular>>>>(scene.box, start.disks, start.state, dt);
+}
+
+struct Entry {
+  const char* name;
+  std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Start& start, double dt);
+};
+constexpr Entry entries[] = {
+    {"naive", &make<Naive>}, {"naive-edge", &make<NaiveEdge>}, {"guarded", &make<Guarded>}, {"grid", &make<Grid>}};
+
+void require_sound_step(const FixedStep& step, const Start& start) {
+  if (!(step.dt > 0.0 && std::isfinite(step.dt)))
+    throw std::invalid_argument(fmt::format("a time step of {:g} leads nowhere; dt must be positive and finite", step.dt));
+  const double fastest = start.disks.count() == 0 ? 0.0 : start.state.velocities.cwiseAbs().maxCoeff();
+  if (!(fastest * step.dt < 1e150))
+    throw std::invalid_argument(
+        fmt::format("in a time step of {:g} a disk would move by {:g}; take a shorter one", step.dt, fastest * step.dt));
+}
+
+}  // namespace
+
+std::vector<std::string> fixed_step_names() {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries) names.emplace_back(entry.name);
+  return names;
+}
+
+Simulation Simulation::begin(const Scene& scene, Start start, const FixedStep& step) {
+  const auto named = [&](const Entry& entry) { return entry.name == step.method; };
+  const auto* const entry = std::find_if(std::begin(entries), std::end(entries), named);
+  if (entry == std::end(entries))
+    throw std::invalid_argument(
+        fmt::format("there is no fixed-step method \"{}\"; choose one of {}", step.method, fmt::join(fixed_step_names(), ", ")));
+  require_sound_step(step, start);
+  auto running = entry->make(scene, start, step.dt);
+  return Simulation(std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry->name, std::move(running), step.dt}));
+}
+
+Simulation make_simulation(const Scene& scene, const FixedStep& step) {
+  return Simulation::begin(scene, draw_start(scene), step);
+}
+
+Simulation make_simulation(const Scene& scene, const State& start, const FixedStep& step) {
+  return Simulation::begin(scene, start_from(scene, start), step);
+}
+
+}  // namespace carom

@@ -1,0 +1,94 @@
+#pragma once
+// The guarded fixed-step method, the best that fixed steps can do simply. In each step:
+//
+//   1. a disk whose edge is beyond a wall and that moves outward is turned round;
+//   2. each pair (i, j), i < j in order, that is closer than the sum of the radii and approaches collides by the rule;
+//   3. record the positions; move by v dt.
+//
+// What it cannot know is when in the step they met: disks are up to |v| dt deep in each other before they turn, and a pair that
+// enters and leaves within one step has never met. Pairs are found by looking at all of them; grid.hpp finds the same ones
+// faster.
+
+#include "effects/impact.hpp"
+#include "stepper/bodies.hpp"
+#include "stepper/tally.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace carom {
+
+/// All pairs, one by one.
+class AllPairs {
+ public:
+  AllPairs(const Bodies& /*bodies*/, double /*dt*/) {}
+
+  /// Disk pairs that a step looks at.
+  [[nodiscard]] static double work(double disks) { return disks * disks / 2; }
+
+  void moved(const Bodies& /*bodies*/, double /*farthest*/) {}
+
+  /// Calls contact(i, j, r_i - r_j) for i < j closer than the sum of their radii, in the order of i, then of j. Requires that
+  /// no call moves a disk.
+  template <class Contact>
+  void for_contacts(const Bodies& bodies, Contact contact) const {
+    for (std::size_t i = 0; i < bodies.count(); ++i) {
+      for (std::size_t j = i + 1; j < bodies.count(); ++j) {
+        const double sigma = bodies.radius[i] + bodies.radius[j];
+        if (bodies.squared_distance(bodies.r[i], bodies.r[j]) < sigma * sigma)
+          contact(i, j, bodies.separation(bodies.r[i], bodies.r[j]));
+      }
+    }
+  }
+};
+
+template <class Rule, class Pairs>
+class GuardedStep {
+ public:
+  GuardedStep(const Bodies& bodies, double dt) : dt_(dt), pairs_(bodies, dt) {}
+
+  [[nodiscard]] static double work(double disks) { return Pairs::work(disks); }
+
+  void advance(Bodies& bodies) {
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < bodies.count(); ++i) {
+      bodies.move(i, bodies.v[i], dt_);
+      fastest = std::max(fastest, bodies.v[i].squaredNorm());
+    }
+    pairs_.moved(bodies, std::sqrt(fastest) * dt_);
+  }
+
+  void check(Bodies& bodies, Tally& tally) {
+    if (!bodies.domain.periodic[0] || !bodies.domain.periodic[1]) {
+      for (std::size_t i = 0; i < bodies.count(); ++i) reflect(bodies, i, tally);
+    }
+    pairs_.for_contacts(bodies, [&](std::size_t i, std::size_t j, const Vec2<double>& r) {
+      if (!(r.dot(bodies.v[i] - bodies.v[j]) < 0)) return;
+      const double virial = collide<Rule, double>(r, bodies.mass[i], bodies.v[i], bodies.mass[j], bodies.v[j]).virial;
+      tally.pair(i, j, virial, bodies.v[i], bodies.v[j]);
+    });
+  }
+
+  /// With which disk i leaves the last step.
+  [[nodiscard]] static const Vec2<double>& flight(const Bodies& bodies, std::size_t i) { return bodies.v[i]; }
+
+ private:
+  static void reflect(Bodies& bodies, std::size_t i, Tally& tally) {
+    for (int axis = 0; axis < 2; ++axis) {
+      if (bodies.domain.periodic[axis]) continue;
+      double& across = bodies.v[i][axis];
+      const bool below = across < 0 && bodies.r[i][axis] < bodies.domain.lower[axis] + bodies.radius[i];
+      const bool above = across > 0 && bodies.r[i][axis] > bodies.domain.upper[axis] - bodies.radius[i];
+      if (!below && !above) continue;
+      const double outward = above ? across : -across;
+      across = -across;
+      tally.wall(i, static_cast<Wall>(wall_left - 2 * axis - (above ? 1 : 0)), 2 * bodies.mass[i] * outward, bodies.v[i]);
+    }
+  }
+
+  double dt_;
+  Pairs pairs_;
+};
+
+}  // namespace carom

@@ -1,0 +1,123 @@
+#pragma once
+// The fixed-step method that the exact engines are compared with: check, record, move by v dt, and again. Step says what the
+// check does (naive.hpp, guarded.hpp); this file keeps the clock and answers the same questions as an engine, so that every
+// scene, sample and file works as there.
+//
+// Step k happens at k dt, the product taken exactly. Between steps disks fly straight, so a state at any time is that of the last
+// step, moved on; looking at it changes nothing.
+
+#include "core/instant.hpp"
+#include "stepper/bodies.hpp"
+#include "stepper/tally.hpp"
+
+#include <carom/state.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+template <class Step>
+class Stepper {
+ public:
+  /// Requires disks inside the box along periodic axes, everything finite, dt > 0.
+  Stepper(const Box& box, const Disks& disks, const State& start, double dt)
+      : bodies_(box, disks, start), step_(bodies_, dt), dt_(dt) {}
+
+  /// Takes every step at a time <= target (to rounding), then stands at target and returns true. Returns false after the step in which
+  /// totals().pair has reached `pair_limit`, and after about as much work as `event_limit` events of an engine.
+  bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
+    for (std::uint64_t left = steps_worth(event_limit); tally_.totals.pair < pair_limit && left > 0; --left) {
+      const Instant next = Instant::product(steps_, dt_);
+      if (target < next && !equal_to_rounding(next, target)) {
+        if (now_ < target) now_ = target;
+        return true;
+      }
+      take_step(next);
+    }
+    return false;
+  }
+
+  /// The time of the next step is always to come.
+  [[nodiscard]] static bool idle() { return false; }
+  [[nodiscard]] static bool jammed() { return false; }
+
+  [[nodiscard]] Instant now() const { return now_; }
+  [[nodiscard]] const Totals& totals() const { return tally_.totals; }
+  [[nodiscard]] std::size_t disk_count() const { return bodies_.count(); }
+
+  [[nodiscard]] State state() const {
+    Bodies seen = bodies_;
+    const double since_step = steps_ == 0 ? 0.0 : now_.template since<double>(Instant::product(steps_ - 1, dt_));
+    State state;
+    state.time = now_.high;
+    const auto disks = static_cast<Eigen::Index>(seen.count());
+    state.positions.resize(2, disks);
+    state.velocities.resize(2, disks);
+    for (Eigen::Index column = 0; column < disks; ++column) {
+      const auto i = static_cast<std::size_t>(column);
+      if (since_step != 0.0) seen.move(i, step_.flight(bodies_, i), since_step);
+      state.positions.col(column) = seen.r[i];
+      state.velocities.col(column) = seen.v[i];
+    }
+    state.images = seen.images;
+    return state;
+  }
+
+  /// Makes now the zero of time and forgets the totals. A step that has just been taken is not taken again; one that is under way
+  /// ends here, and the next is due at once.
+  void reset_clock() {
+    const double since_step = steps_ == 0 ? 0.0 : now_.template since<double>(Instant::product(steps_ - 1, dt_));
+    if (steps_ > 0 && since_step == 0.0) {
+      steps_ = 1;
+    } else {
+      for (std::size_t i = 0; i < bodies_.count(); ++i) bodies_.move(i, step_.flight(bodies_, i), since_step);
+      step_ = Step(bodies_, dt_);
+      steps_ = 0;
+    }
+    now_ = {};
+    tally_.totals = {};
+  }
+
+  void record_events(bool on) { tally_.recording = on; }
+  [[nodiscard]] std::vector<Event> take_events() { return std::exchange(tally_.log, {}); }
+
+  /// A fixed-step method plans nothing that could be wrong.
+  [[nodiscard]] static std::vector<std::string> check_invariants() { return {}; }
+
+ private:
+  /// dt and the target were decimal fractions once: 200 * 0.01 is later than 2 by its rounding, and yet meant to be 2.
+  [[nodiscard]] static bool equal_to_rounding(const Instant& a, const Instant& b) {
+    return std::abs(a.high - b.high) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(b.high);
+  }
+
+  void take_step(const Instant& when) {
+    if (steps_ > 0) step_.advance(bodies_);
+    now_ = when;
+    tally_.time = when.high;
+    step_.check(bodies_, tally_);
+    ++steps_;
+    ++tally_.totals.other;
+  }
+
+  /// An engine's event takes about as long as a thousand pairs.
+  [[nodiscard]] std::uint64_t steps_worth(std::uint64_t events) const {
+    const double steps = 1000.0 * static_cast<double>(events) / std::max(1.0, Step::work(static_cast<double>(bodies_.count())));
+    return steps < 1e18 ? std::max<std::uint64_t>(1, static_cast<std::uint64_t>(steps)) : events;
+  }
+
+  Bodies bodies_;
+  Step step_;
+  double dt_;
+  std::uint64_t steps_ = 0;  ///< taken since the clock's zero; the first is at 0
+  Instant now_;
+  Tally tally_;
+};
+
+}  // namespace carom

@@ -1,0 +1,41 @@
+#pragma once
+// What a step counts and logs: the same totals and the same event log as the engines keep, taken from what the method did,
+// whether or not it should have.
+
+#include "core/vec2.hpp"
+
+#include <carom/state.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace carom {
+
+class Tally {
+ public:
+  /// A pair's velocities were changed. `virial` is r . dp of the pair as it stood: negative where disks that were already
+  /// parting were sent back.
+  void pair(std::size_t i, std::size_t j, double virial, const Vec2<double>& v_i, const Vec2<double>& v_j) {
+    ++totals.pair;
+    totals.virial += virial;
+    if (!recording) return;
+    const bool in_order = i < j;
+    log.push_back({time, 0.0, static_cast<std::int32_t>(in_order ? i : j), static_cast<std::int32_t>(in_order ? j : i),
+                   in_order ? v_i : v_j, in_order ? v_j : v_i});
+  }
+
+  /// A velocity was turned round at a wall; `impulse` is what the wall took, outward positive.
+  void wall(std::size_t i, Wall which, double impulse, const Vec2<double>& v) {
+    ++totals.wall;
+    totals.wall_impulse[static_cast<std::size_t>(-1 - which)] += impulse;
+    if (recording) log.push_back({time, 0.0, static_cast<std::int32_t>(i), which, v, Eigen::Vector2d::Zero()});
+  }
+
+  Totals totals;
+  bool recording = false;
+  double time = 0.0;  ///< of the present step
+  std::vector<Event> log;
+};
+
+}  // namespace carom

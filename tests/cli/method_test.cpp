@@ -1,0 +1,106 @@
+// carom run --method: fixed steps through the same door, into the same files.
+
+#include "support/child_process.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string scene = R"([box]
+x = [0.0, 8.0]
+y = [0.0, 8.0]
+boundary = { x = "periodic", y = "walls" }
+
+[[disks]]
+count = 30
+radius = 0.4
+mass = 1.0
+positions = "random"
+velocities = { temperature = 1.0 }
+
+[collision]
+rule = "specular"
+
+[run]
+time = 2.0
+sample_every = 0.0625
+
+[output]
+csv = true
+xyz = true
+events = true
+)";
+
+class MethodOption : public ::testing::Test {
+ protected:
+  MethodOption() { write_text(directory_.path() / "gas.toml", scene); }
+  Outcome carom(const std::vector<std::string>& arguments) { return run_carom(directory_.path(), arguments); }
+  [[nodiscard]] std::string text(const std::string& name) const { return text_of(directory_.path() / name); }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(MethodOption, EveryMethodWritesTheSameFilesAsTheExactOne) {
+  ASSERT_EQ(carom({"run", "gas.toml", "--out", "exact"}).exit_code, 0);
+  for (const std::string method : {"naive", "naive-edge", "guarded", "grid"}) {
+    const Outcome outcome = carom({"run", "gas.toml", "--method", method, "--dt", "0.01", "--out", method});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, IsEmpty());
+    for (const char* file : {"summary.json", "trajectory.h5md", "trajectory.xyz", "samples.csv"})
+      EXPECT_TRUE(std::filesystem::exists(directory_.path() / method / file)) << method << " " << file;
+    const json summary = json::parse(text(method + "/summary.json"));
+    EXPECT_EQ(summary["engine"], method);
+    EXPECT_EQ(summary["dt"], 0.01);
+    EXPECT_EQ(summary["samples"], 33);
+    EXPECT_EQ(summary["events"]["other"], 201);  // steps, both ends included
+    EXPECT_GT(summary["overlap"]["max_relative"], 1e-6);
+  }
+  EXPECT_FALSE(json::parse(text("exact/summary.json")).contains("dt"));
+}
+
+TEST_F(MethodOption, TheFirstSampleIsTheSameStart) {
+  ASSERT_EQ(carom({"run", "gas.toml", "--out", "exact"}).exit_code, 0);
+  ASSERT_EQ(carom({"run", "gas.toml", "--method", "grid", "--out", "grid"}).exit_code, 0);
+  const std::string exact = text("exact/samples.csv"), grid = text("grid/samples.csv");
+  std::size_t lines = 0, end = 0;
+  while (lines < 31) end = exact.find('\n', end) + 1, ++lines;
+  EXPECT_EQ(exact.substr(0, end), grid.substr(0, end));
+}
+
+TEST_F(MethodOption, TheStepIsTheSamplingGridUnlessGiven) {
+  ASSERT_EQ(carom({"run", "gas.toml", "--method", "guarded"}).exit_code, 0);
+  EXPECT_EQ(json::parse(text("gas/summary.json"))["dt"], 0.0625);
+}
+
+TEST_F(MethodOption, WhatDoesNotFitTogetherIsRefusedInOneSentence) {
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& what) {
+    std::vector<std::string> arguments = {"run", "gas.toml"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = carom(arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(what));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(directory_.path() / "gas"));
+  };
+  refused({"--method", "leapfrog"}, "choose exact or one of: naive, naive-edge, guarded, grid");
+  refused({"--dt", "0.1"}, "exact events need none");
+  refused({"--method", "grid", "--engine", "textbook"}, "leave out one of the two");
+  refused({"--method", "grid", "--dt", "0"}, "dt must be positive and finite");
+  refused({"--method", "grid", "--dt", "-1"}, "dt must be positive and finite");
+  refused({"--method", "grid", "--dt", "nan"}, "dt must be positive and finite");
+  refused({"--method", "grid", "--dt", "1e300"}, "take a shorter one");
+  refused({"--method", "grid", "--dt", "soon"}, "--dt");
+}
+
+}  // namespace
+}  // namespace carom::test
