@@ -1,0 +1,147 @@
+// From the numbers of a plot to what plotly draws: traces and layout.
+"use strict";
+
+const symbols = ["circle", "square", "diamond", "triangle-up", "triangle-down", "cross", "x", "star"];
+
+/// Plotly takes HTML-like marks in names and titles for formatting; this keeps them what they are.
+function plotText(text) {
+  return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
+}
+
+/// Six digits, with a power of ten where plain digits would be hard to read.
+function plotNumber(value) {
+  const size = Math.abs(value);
+  if (value === 0 || (size >= 1e-3 && size < 1e6)) return String(Number(value.toPrecision(6)));
+  const [mantissa, exponent] = value.toExponential(4).split("e");
+  const raised = [...String(Number(exponent))].map((c) => (c === "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[c])).join("");
+  return `${mantissa} \u00d7 10${raised}`;
+}
+
+function isDrawable(value, axis) {
+  return value !== null && (!axis.log || value > 0);
+}
+
+/// Whether each point of a series is drawn.
+function drawnPoints(series, plot) {
+  return series.x.map((x, i) => isDrawable(x, plot.x) && isDrawable(series.y[i], plot.y));
+}
+
+function hoverText(series, plot, i) {
+  const range = series.y_low && series.y_low[i] !== null && series.y_high[i] !== null ? ` (${plotNumber(series.y_low[i])} to ${plotNumber(series.y_high[i])})` : "";
+  const lines = [`<b>${plotText(series.name)}</b>`];
+  if (series.labels && series.labels[i]) lines.push(plotText(series.labels[i]));
+  lines.push(`${plotText(plot.y.title || "y")}: ${plotNumber(series.y[i])}${range}`);
+  lines.push(`${plotText(plot.x.title || "x")}: ${plotNumber(series.x[i])}`);
+  return lines.join("<br>");
+}
+
+/// The outline of the region between y_low and y_high: one polygon for each stretch without a gap.
+function bandOutline(series, plot) {
+  const outline = { x: [], y: [] };
+  let begin = 0;
+  const isWhole = (i) => isDrawable(series.x[i], plot.x) && isDrawable(series.y_low[i], plot.y) && isDrawable(series.y_high[i], plot.y);
+  for (let i = 0; i <= series.x.length; ++i) {
+    if (i < series.x.length && isWhole(i)) continue;
+    if (i - begin > 1) {
+      const x = series.x.slice(begin, i);
+      outline.x.push(...x, ...x.toReversed(), null);
+      outline.y.push(...series.y_high.slice(begin, i), ...series.y_low.slice(begin, i).toReversed(), null);
+    }
+    begin = i + 1;
+  }
+  return outline;
+}
+
+function errorBars(series, colour) {
+  const difference = (high, low) => high.map((value, i) => (value === null || low[i] === null ? 0 : value - low[i]));
+  return {
+    type: "data",
+    symmetric: false,
+    array: difference(series.y_high, series.y),
+    arrayminus: difference(series.y, series.y_low),
+    color: colour,
+    thickness: 1.2,
+    width: 3,
+  };
+}
+
+function seriesTraces(series, k, plot, theme) {
+  const colour = theme.series[series.group % theme.series.length];
+  const isDrawn = drawnPoints(series, plot);
+  const isEmpty = !isDrawn.includes(true);
+  const keep = (values) => (isEmpty ? [null] : values.map((value, i) => (isDrawn[i] ? value : null)));
+  const shared = { type: "scatter", legendgroup: `series-${k}`, visible: series.visible ? true : "legendonly" };
+  const traces = [];
+  if (series.style === "band") {
+    traces.push({ ...shared, ...bandOutline(series, plot), mode: "none", fill: "toself", fillcolor: colour + "2e", hoverinfo: "skip", showlegend: false });
+  }
+  traces.push({
+    ...shared,
+    meta: { series: k },
+    name: plotText(series.name) + (isEmpty ? " (no data)" : ""),
+    x: keep(series.x),
+    y: keep(series.y),
+    mode: series.style === "points" ? "markers" : series.style === "line_and_points" ? "lines+markers" : "lines",
+    line: { color: colour, width: 2, dash: series.style === "dashed" ? "6px,4px" : "solid" },
+    marker: { color: colour, symbol: symbols[series.group % symbols.length], size: 8, line: { color: theme.paper, width: 1 } },
+    error_y: series.y_low && series.style !== "band" && !isEmpty ? errorBars(series, colour) : undefined,
+    hoverinfo: "text",
+    hovertext: isEmpty ? [] : isDrawn.map((drawn, i) => (drawn ? hoverText(series, plot, i) : "")),
+  });
+  return traces;
+}
+
+function markShape(mark, theme) {
+  const upright = mark.axis === "x";
+  const along = upright ? { xref: "x", x0: mark.value, x1: mark.value, yref: "paper", y0: 0, y1: 1 } : { yref: "y", y0: mark.value, y1: mark.value, xref: "paper", x0: 0, x1: 1 };
+  return {
+    ...along,
+    type: "line",
+    layer: "below",
+    line: { color: theme.muted, width: 1.2, dash: "2px,3px" },
+    label: { text: plotText(mark.label), textposition: "end", textangle: upright ? -90 : 0, yanchor: upright ? "top" : "bottom", font: { color: theme.muted, size: 12 } },
+  };
+}
+
+function axisLayout(axis, theme, isEmpty) {
+  return {
+    type: axis.log ? "log" : "linear",
+    title: { text: plotText(axis.title), standoff: 10 },
+    automargin: true,
+    exponentformat: "power",
+    showticklabels: !isEmpty,
+    gridcolor: theme.grid,
+    linecolor: theme.frame,
+    showline: true,
+    mirror: true,
+    ticks: isEmpty ? "" : "outside",
+    ticklen: 5,
+    tickcolor: theme.frame,
+    zeroline: false,
+  };
+}
+
+function plotFigure(plot, theme) {
+  const isEmpty = !plot.series.some((series) => drawnPoints(series, plot).includes(true));
+  const marks = isEmpty ? [] : plot.marks.filter((mark) => isDrawable(mark.value, plot[mark.axis]));
+  const noData = { text: "no data", xref: "paper", yref: "paper", x: 0.5, y: 0.5, showarrow: false, font: { color: theme.muted, size: 16 } };
+  return {
+    data: plot.series.flatMap((series, k) => seriesTraces(series, k, plot, theme)),
+    layout: {
+      uirevision: plot.id,
+      paper_bgcolor: "rgba(0,0,0,0)",
+      plot_bgcolor: "rgba(0,0,0,0)",
+      font: { family: theme.font, size: 13, color: theme.ink },
+      margin: { l: 64, r: 16, t: 40, b: 52 },
+      xaxis: axisLayout(plot.x, theme, isEmpty),
+      yaxis: axisLayout(plot.y, theme, isEmpty),
+      showlegend: plot.series.length > 1,
+      legend: { orientation: "h", x: 0, xanchor: "left", y: 1.02, yanchor: "bottom", bgcolor: "rgba(0,0,0,0)" },
+      hovermode: "closest",
+      hoverlabel: { bgcolor: theme.paper, font: { family: theme.font, size: 13, color: theme.ink }, align: "left", namelength: -1 },
+      modebar: { bgcolor: "rgba(0,0,0,0)", color: theme.muted, activecolor: theme.ink },
+      shapes: marks.map((mark) => markShape(mark, theme)),
+      annotations: isEmpty ? [noData] : [],
+    },
+  };
+}
