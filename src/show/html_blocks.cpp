@@ -39,7 +39,8 @@ std::string html(const Listing& listing) {
 
 std::string html(const Table& table) {
   for (const auto& row : table.rows) {
-    if (row.size() != table.columns.size()) throw std::invalid_argument("table " + table.title + ": a row is not as long as the columns");
+    if (row.size() != table.columns.size())
+      throw std::invalid_argument("table " + table.title + ": a row is not as long as the columns");
   }
   std::vector<const char*> attributes;
   for (std::size_t i = 0; i < table.columns.size(); ++i) attributes.push_back(is_numeric(table, i) ? " class=\"number\"" : "");

@@ -19,7 +19,8 @@ using detail::html_text;
 /// The browser itself keeps the page from fetching anything: nothing is allowed but what the file holds, and pictures that its
 /// scripts make.
 constexpr const char* policy =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'";
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; "
+    "form-action 'none'";
 
 constexpr std::size_t sections_without_contents = 3;  // more do not fit on a screen
 
@@ -29,7 +30,8 @@ void check_ids(const Page& page) {
     for (const Block& block : section.blocks) {
       const Plot* const plot = std::get_if<Plot>(&block);
       if (plot == nullptr) continue;
-      const bool is_fit = !plot->id.empty() && plot->id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
+      const bool is_fit =
+          !plot->id.empty() && plot->id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
       if (!is_fit) throw std::invalid_argument("\"" + plot->id + "\" cannot be the id of a plot");
       if (!ids.insert(plot->id).second) throw std::invalid_argument("two plots have the id " + plot->id);
     }
@@ -87,7 +89,9 @@ std::string footer(const Page& page) {
     for (const auto& [name, value] : page.facts) text += "<dt>" + html_text(name) + "</dt><dd>" + html_text(value) + "</dd>\n";
     text += "</dl>\n";
   }
-  return text + "<details class=\"licence\"><summary>Plots are drawn by plotly.js, which this file contains under the MIT licence</summary><pre>" +
+  return text +
+         "<details class=\"licence\"><summary>Plots are drawn by plotly.js, which this file contains under the MIT "
+         "licence</summary><pre>" +
          html_text(embedded_text("plotly/LICENSE")) + "</pre></details>\n</footer>\n";
 }
 
@@ -95,8 +99,10 @@ std::string footer(const Page& page) {
 
 std::string html_page(const Page& page) {
   check_ids(page);
-  std::string text = "<!doctype html>\n<html lang=\"en\">\n" + head(page) + "<body>\n" + header(page) + contents(page) + sections(page) + footer(page);
-  for (const char* const name : {"plotly/plotly-basic.min.js", "page/theme.js", "page/numbers.js", "page/figure.js", "page/export.js", "page/page.js"}) {
+  std::string text = "<!doctype html>\n<html lang=\"en\">\n" + head(page) + "<body>\n" + header(page) + contents(page) +
+                     sections(page) + footer(page);
+  for (const char* const name :
+       {"plotly/plotly-basic.min.js", "page/theme.js", "page/numbers.js", "page/figure.js", "page/export.js", "page/page.js"}) {
     text += script(name);
   }
   return text + "</body>\n</html>\n";

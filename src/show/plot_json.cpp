@@ -23,11 +23,16 @@ Json axis(const Axis& axis) { return {{"title", axis.title}, {"log", axis.log}};
 
 const char* style_name(Style style) {
   switch (style) {
-    case Style::line: return "line";
-    case Style::dashed: return "dashed";
-    case Style::points: return "points";
-    case Style::line_and_points: return "line_and_points";
-    case Style::band: return "band";
+    case Style::line:
+      return "line";
+    case Style::dashed:
+      return "dashed";
+    case Style::points:
+      return "points";
+    case Style::line_and_points:
+      return "line_and_points";
+    case Style::band:
+      return "band";
   }
   return "line";
 }
@@ -37,7 +42,9 @@ void check_lengths(const Plot& plot, const Series& series) {
   const auto fits = [n](std::size_t length) { return length == 0 || length == n; };
   const bool fit = series.y.size() == n && fits(series.y_low.size()) && series.y_high.size() == series.y_low.size() &&
                    fits(series.labels.size()) && (series.style != Style::band || series.y_low.size() == n);
-  if (!fit) throw std::invalid_argument("plot " + plot.id + ", series " + series.name + ": x, y and what goes with them differ in length");
+  if (!fit)
+    throw std::invalid_argument("plot " + plot.id + ", series " + series.name +
+                                ": x, y and what goes with them differ in length");
 }
 
 Json series_json(const Series& series) {

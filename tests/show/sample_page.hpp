@@ -27,14 +27,15 @@ inline Series work_precision(const std::string& name, int group, double order, d
 }
 
 inline Plot work_precision_plot() {
-  Plot plot{.id = "work-precision",
-            .title = "Error at the end against computing time",
-            .caption = "Each point is one step size; bars span the middle half of 20 runs. The event-driven run has no step to choose.",
-            .x = {.title = "computing time (s)", .log = true},
-            .y = {.title = "largest error of a position (box lengths)", .log = true}};
+  Plot plot{
+      .id = "work-precision",
+      .title = "Error at the end against computing time",
+      .caption = "Each point is one step size; bars span the middle half of 20 runs. The event-driven run has no step to choose.",
+      .x = {.title = "computing time (s)", .log = true},
+      .y = {.title = "largest error of a position (box lengths)", .log = true}};
   plot.series = {work_precision("event-driven", 0, 0.0, 3e-14, 3e-14), work_precision("first order", 1, 1.0, 0.3, 1e-15),
-                 work_precision("second order", 2, 2.0, 0.2, 3e-13), work_precision("fourth order", 3, 4.0, 0.1, 1e-12),
-                 work_precision("bisection", 4, 1.5, 0.05, 1e-11), work_precision("penalty force", 5, 0.5, 0.4, 1e-15)};
+                 work_precision("second order", 2, 2.0, 0.2, 3e-13),   work_precision("fourth order", 3, 4.0, 0.1, 1e-12),
+                 work_precision("bisection", 4, 1.5, 0.05, 1e-11),     work_precision("penalty force", 5, 0.5, 0.4, 1e-15)};
   plot.marks = {{.axis = Mark::Across::y, .value = 2.2e-16, .label = "one unit of rounding"}};
   return plot;
 }
@@ -55,14 +56,17 @@ inline Series growing_error(const std::string& name, int group, double begin, St
 }
 
 inline Plot growing_error_plot() {
-  Plot plot{.id = "error-growth",
-            .title = "Error against time",
-            .caption = "Median of 20 runs and the region that holds the middle half of them. Errors grow until nothing of the start is left.",
-            .x = {.title = "time t (scene units)"},
-            .y = {.title = "error of a position (box lengths)", .log = true}};
+  Plot plot{
+      .id = "error-growth",
+      .title = "Error against time",
+      .caption =
+          "Median of 20 runs and the region that holds the middle half of them. Errors grow until nothing of the start is left.",
+      .x = {.title = "time t (scene units)"},
+      .y = {.title = "error of a position (box lengths)", .log = true}};
   plot.series = {growing_error("event-driven", 0, 1e-15, Style::band), growing_error("second order", 2, 1e-7, Style::band),
                  growing_error("first order", 1, 1e-4, Style::band)};
-  plot.series.push_back({.name = "exp(6 t)", .x = {0.0, 5.0}, .y = {1e-15, 1e-15 * std::exp(30.0)}, .style = Style::dashed, .group = 6});
+  plot.series.push_back(
+      {.name = "exp(6 t)", .x = {0.0, 5.0}, .y = {1e-15, 1e-15 * std::exp(30.0)}, .style = Style::dashed, .group = 6});
   plot.marks = {{.axis = Mark::Across::x, .value = 1.9, .label = "first order lost"},
                 {.axis = Mark::Across::y, .value = 0.03, .label = "one radius"}};
   return plot;
@@ -96,8 +100,10 @@ inline Plot pressure_plot() {
 inline Page sample_page() {
   Page page{.title = "Event-driven against time-stepped: the classic box",
             .subtitle = "64 disks in a box with hard walls, centre-of-mass reversal, until t = 5",
-            .lead = "The event-driven run is exact to rounding and takes 0.02 s. The stepper needs `dt = 1e-6` and 400 times as long to come "
-                    "within one radius of it, and no step keeps it there beyond t = 3.1.",
+            .lead =
+                "The event-driven run is exact to rounding and takes 0.02 s. The stepper needs `dt = 1e-6` and 400 times as long "
+                "to come "
+                "within one radius of it, and no step keeps it there beyond t = 3.1.",
             .key_numbers = {{"400 \u00d7", "faster than the stepper at equal error"},
                             {"3.1", "time at which the best stepper has lost every disk"},
                             {"2.2\u00b710\u207b\u00b9\u2074", "energy drift of the event-driven run"}}};
@@ -109,13 +115,16 @@ inline Page sample_page() {
   table.caption = "The smallest error over all step sizes, and what it took on one core.";
   page.sections = {
       {"What accuracy costs",
-       {Paragraph{"Computing time counts the loop alone: reading the scene and writing files are left out."}, work_precision_plot(), table}},
-      {"How errors grow", {Paragraph{"Hard disks are chaotic: two runs that differ in the last bit part exponentially."}, growing_error_plot()}},
+       {Paragraph{"Computing time counts the loop alone: reading the scene and writing files are left out."},
+        work_precision_plot(), table}},
+      {"How errors grow",
+       {Paragraph{"Hard disks are chaotic: two runs that differ in the last bit part exponentially."}, growing_error_plot()}},
       {"What stays the same", {pressure_plot()}},
       {"What was not measured",
        {Plot{.id = "empty", .title = "A plot without points", .x = {.title = "x"}, .y = {.title = "y", .log = true}},
         Listing{"The scene", "[box]\nx = [-1.0, 1.0]\ny = [-1.0, 1.0]\nboundary = \"walls\"\n"}}}};
-  page.facts = {{"Program", "carom 0.1.0, commit 0123456789ab"}, {"Command", "carom compare docs/scenes/box.toml"}, {"Seed", "1"}};
+  page.facts = {
+      {"Program", "carom 0.1.0, commit 0123456789ab"}, {"Command", "carom compare docs/scenes/box.toml"}, {"Seed", "1"}};
   return page;
 }
 

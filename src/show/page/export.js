@@ -11,7 +11,8 @@ function savePicture(canvas, plot, format) {
   Object.assign(figure.layout, {
     paper_bgcolor: theme.paper,
     title: { text: plotText(plot.title), x: 0.02, xanchor: "left", y: 0.97, yanchor: "top", font: { size: 17 } },
-    margin: { ...figure.layout.margin, t: figure.layout.margin.t + picture.titleHeight },
+    legend: { ...figure.layout.legend, yref: "container", yanchor: "top", y: 1 - picture.titleHeight / picture.height },
+    margin: { ...figure.layout.margin, t: picture.titleHeight },
   });
   const options = { format, filename: plot.id, width: picture.width, height: picture.height, scale: format === "png" ? 2 : 1 };
   return Plotly.downloadImage({ ...figure, config: { displayModeBar: false } }, options);

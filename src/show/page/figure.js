@@ -1,17 +1,27 @@
 // From the numbers of a plot to what plotly draws: traces and layout.
 "use strict";
 
-const symbols = ["circle", "square", "diamond", "triangle-up", "triangle-down", "cross", "x", "star"];
+// Beside the colour, for readers and printers that see none. Sizes, in pixels, make them look equally large.
+const symbols = [
+  { symbol: "circle", size: 8 },
+  { symbol: "square", size: 8 },
+  { symbol: "diamond", size: 10 },
+  { symbol: "triangle-up", size: 10 },
+  { symbol: "triangle-down", size: 10 },
+  { symbol: "cross", size: 9 },
+  { symbol: "x", size: 8 },
+  { symbol: "star", size: 11 },
+];
 
 /// Plotly takes HTML-like marks in names and titles for formatting; this keeps them what they are.
 function plotText(text) {
   return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
 }
 
-/// Six digits, with a power of ten where plain digits would be hard to read.
+/// Five digits, with a power of ten where plain digits would be hard to read.
 function plotNumber(value) {
   const size = Math.abs(value);
-  if (value === 0 || (size >= 1e-3 && size < 1e6)) return String(Number(value.toPrecision(6)));
+  if (value === 0 || (size >= 1e-3 && size < 1e6)) return String(Number(value.toPrecision(5)));
   const [mantissa, exponent] = value.toExponential(4).split("e");
   const raised = [...String(Number(exponent))].map((c) => (c === "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[c])).join("");
   return `${mantissa} \u00d7 10${raised}`;
@@ -27,11 +37,12 @@ function drawnPoints(series, plot) {
 }
 
 function hoverText(series, plot, i) {
-  const range = series.y_low && series.y_low[i] !== null && series.y_high[i] !== null ? ` (${plotNumber(series.y_low[i])} to ${plotNumber(series.y_high[i])})` : "";
   const lines = [`<b>${plotText(series.name)}</b>`];
   if (series.labels && series.labels[i]) lines.push(plotText(series.labels[i]));
-  lines.push(`${plotText(plot.y.title || "y")}: ${plotNumber(series.y[i])}${range}`);
   lines.push(`${plotText(plot.x.title || "x")}: ${plotNumber(series.x[i])}`);
+  lines.push(`${plotText(plot.y.title || "y")}: ${plotNumber(series.y[i])}`);
+  const hasRange = series.y_low && series.y_low[i] !== null && series.y_high[i] !== null;
+  if (hasRange) lines.push(`from ${plotNumber(series.y_low[i])} to ${plotNumber(series.y_high[i])}`);
   return lines.join("<br>");
 }
 
@@ -83,24 +94,25 @@ function seriesTraces(series, k, plot, theme) {
     y: keep(series.y),
     mode: series.style === "points" ? "markers" : series.style === "line_and_points" ? "lines+markers" : "lines",
     line: { color: colour, width: 2, dash: series.style === "dashed" ? "6px,4px" : "solid" },
-    marker: { color: colour, symbol: symbols[series.group % symbols.length], size: 8, line: { color: theme.paper, width: 1 } },
+    marker: { ...symbols[series.group % symbols.length], color: colour, line: { color: theme.paper, width: 0.8 } },
     error_y: series.y_low && series.style !== "band" && !isEmpty ? errorBars(series, colour) : undefined,
     hoverinfo: "text",
+    hoverlabel: { bordercolor: colour },
     hovertext: isEmpty ? [] : isDrawn.map((drawn, i) => (drawn ? hoverText(series, plot, i) : "")),
   });
   return traces;
 }
 
-function markShape(mark, theme) {
-  const upright = mark.axis === "x";
-  const along = upright ? { xref: "x", x0: mark.value, x1: mark.value, yref: "paper", y0: 0, y1: 1 } : { yref: "y", y0: mark.value, y1: mark.value, xref: "paper", x0: 0, x1: 1 };
-  return {
-    ...along,
-    type: "line",
-    layer: "below",
-    line: { color: theme.muted, width: 1.2, dash: "2px,3px" },
-    label: { text: plotText(mark.label), textposition: "end", textangle: upright ? -90 : 0, yanchor: upright ? "top" : "bottom", font: { color: theme.muted, size: 12 } },
-  };
+function markLine(mark, theme) {
+  const along = mark.axis === "x" ? { xref: "x", x0: mark.value, x1: mark.value, yref: "paper", y0: 0, y1: 1 } : { yref: "y", y0: mark.value, y1: mark.value, xref: "paper", x0: 0, x1: 1 };
+  return { ...along, type: "line", layer: "below", line: { color: theme.muted, width: 1.2, dash: "2px,3px" } };
+}
+
+/// At the end of the line, inside the plot. Unlike shapes, annotations on a logarithmic axis stand at the logarithm.
+function markLabel(mark, plot, theme) {
+  const at = plot[mark.axis].log ? Math.log10(mark.value) : mark.value;
+  const place = mark.axis === "x" ? { xref: "x", x: at, yref: "paper", y: 0.99, xanchor: "right", yanchor: "top", textangle: -90 } : { yref: "y", y: at, xref: "paper", x: 0.995, xanchor: "right", yanchor: "bottom" };
+  return { ...place, text: plotText(mark.label), showarrow: false, bgcolor: theme.paper + "cc", font: { color: theme.muted, size: 12 } };
 }
 
 function axisLayout(axis, theme, isEmpty) {
@@ -109,7 +121,9 @@ function axisLayout(axis, theme, isEmpty) {
     title: { text: plotText(axis.title), standoff: 10 },
     automargin: true,
     exponentformat: "power",
+    tickfont: { size: axis.log ? 10.8 : 12 },  // plotly sets powers of ten a quarter larger
     showticklabels: !isEmpty,
+    showgrid: !isEmpty,
     gridcolor: theme.grid,
     linecolor: theme.frame,
     showline: true,
@@ -132,7 +146,7 @@ function plotFigure(plot, theme) {
       paper_bgcolor: "rgba(0,0,0,0)",
       plot_bgcolor: "rgba(0,0,0,0)",
       font: { family: theme.font, size: 13, color: theme.ink },
-      margin: { l: 64, r: 16, t: 40, b: 52 },
+      margin: { l: 64, r: 12, t: 12, b: 52 },
       xaxis: axisLayout(plot.x, theme, isEmpty),
       yaxis: axisLayout(plot.y, theme, isEmpty),
       showlegend: plot.series.length > 1,
@@ -140,8 +154,8 @@ function plotFigure(plot, theme) {
       hovermode: "closest",
       hoverlabel: { bgcolor: theme.paper, font: { family: theme.font, size: 13, color: theme.ink }, align: "left", namelength: -1 },
       modebar: { bgcolor: "rgba(0,0,0,0)", color: theme.muted, activecolor: theme.ink },
-      shapes: marks.map((mark) => markShape(mark, theme)),
-      annotations: isEmpty ? [noData] : [],
+      shapes: marks.map((mark) => markLine(mark, theme)),
+      annotations: isEmpty ? [noData] : marks.map((mark) => markLabel(mark, plot, theme)),
     },
   };
 }

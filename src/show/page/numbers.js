@@ -51,8 +51,9 @@ function saveText(text, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-/// Fills `details` when it is opened for the first time: large tables cost nothing until then.
+/// Fills `details` when it is opened for the first time: large tables cost nothing until then. Where there are no numbers, hides it.
 function offerNumbers(details, plot) {
+  details.hidden = !plot.series.some((series) => series.x.length > 0);
   details.addEventListener("toggle", () => {
     const place = details.querySelector("div");
     if (!details.open || place.childElementCount > 0) return;

@@ -4,8 +4,8 @@
 // data-errors all that went wrong.
 "use strict";
 
-const printWidth = 670;  // pixels that fit on A4 and on letter paper within the margins of page.css
-const drawn = [];        // {canvas, plot} of every plot
+const paperSize = { width: 670, height: 360 };  // in pixels; fits on A4 and on letter paper within the margins of page.css
+const drawn = [];                               // {canvas, plot} of every plot
 
 /// Points that plotly has put into the drawing, error bars and bands not counted.
 function pointsIn(canvas) {
@@ -19,9 +19,9 @@ function pointsIn(canvas) {
 }
 
 async function draw(figure) {
-  const plot = JSON.parse(figure.querySelector("script").textContent);
   const canvas = figure.querySelector(".canvas");
   try {
+    const plot = JSON.parse(figure.querySelector("script[type='application/json']").textContent);
     const { data, layout } = plotFigure(plot, currentTheme());
     await Plotly.newPlot(canvas, data, layout, { responsive: true, displaylogo: false, displayModeBar: true, modeBarButtons: plotButtons(plot) });
     const expected = plot.series.filter((series) => series.visible).flatMap((series) => drawnPoints(series, plot)).filter((is) => is).length;
@@ -30,7 +30,7 @@ async function draw(figure) {
     offerNumbers(figure.querySelector("details.numbers"), plot);
     drawn.push({ canvas, plot });
   } catch (error) {
-    pageError(`${plot.id}: ${error}`, canvas);
+    pageError(`${figure.id}: ${error}`, canvas);
   }
 }
 
@@ -46,8 +46,8 @@ async function drawAll() {
   for (const figure of document.querySelectorAll("figure.plot")) await draw(figure);
   document.documentElement.dataset.plots = drawn.length;
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => drawAgain(currentTheme(), {}));
-  window.addEventListener("beforeprint", () => drawAgain(lightTheme(), { width: printWidth }));
-  window.addEventListener("afterprint", () => drawAgain(currentTheme(), { width: undefined }));
+  window.addEventListener("beforeprint", () => drawAgain(lightTheme(), paperSize));
+  window.addEventListener("afterprint", () => drawAgain(currentTheme(), {}));
 }
 
 drawAll();
