@@ -14,6 +14,7 @@ const symbols = [
 ];
 
 /// Plotly takes HTML-like marks in names and titles for formatting; this keeps them what they are.
+/// (It fills in %{...} too, but only in figures that have `meta`.)
 function plotText(text) {
   return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
 }
@@ -88,7 +89,6 @@ function seriesTraces(series, k, plot, theme) {
   }
   traces.push({
     ...shared,
-    meta: { series: k },
     name: plotText(series.name) + (isEmpty ? " (no data)" : ""),
     x: keep(series.x),
     y: keep(series.y),

@@ -13,7 +13,7 @@ function pointsIn(canvas) {
   let count = 0;
   canvas.calcdata.forEach((points) => {
     const trace = points[0].trace;
-    if (trace.visible === true && trace.meta) count += points.filter((point) => isNumber(point.x) && isNumber(point.y)).length;
+    if (trace.visible === true && trace.hoverinfo !== "skip") count += points.filter((point) => isNumber(point.x) && isNumber(point.y)).length;
   });
   return count;
 }
