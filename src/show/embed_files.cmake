@@ -2,8 +2,8 @@
 # embedded again by the next build.
 #
 # Included by CMakeLists.txt, it adds the command; run by that command, as a script, it writes OUTPUT.
-set(carom_page_files page/page.css page/errors.js page/theme.js page/numbers.js page/figure.js page/export.js page/page.js
-    plotly/plotly-basic.min.js plotly/LICENSE)
+set(carom_page_files page/page.css page/errors.js page/theme.js page/numbers.js page/traces.js page/layout.js
+    page/export.js page/page.js plotly/plotly-basic.min.js plotly/LICENSE)
 
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   set(carom_embedded ${CMAKE_CURRENT_BINARY_DIR}/show/embedded_texts.cpp)

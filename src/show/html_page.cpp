@@ -101,8 +101,8 @@ std::string html_page(const Page& page) {
   check_ids(page);
   std::string text = "<!doctype html>\n<html lang=\"en\">\n" + head(page) + "<body>\n" + header(page) + contents(page) +
                      sections(page) + footer(page);
-  for (const char* const name :
-       {"plotly/plotly-basic.min.js", "page/theme.js", "page/numbers.js", "page/figure.js", "page/export.js", "page/page.js"}) {
+  for (const char* const name : {"plotly/plotly-basic.min.js", "page/theme.js", "page/numbers.js", "page/traces.js",
+                                 "page/layout.js", "page/export.js", "page/page.js"}) {
     text += script(name);
   }
   return text + "</body>\n</html>\n";

@@ -33,7 +33,7 @@ struct Series {
   std::vector<double> y_high = {};       ///< these are values, not differences from y
   std::vector<std::string> labels = {};  ///< a line of text per point, shown where the mouse is; empty, or as long as x
   Style style = Style::line_and_points;
-  int group = 0;        ///< colour and symbol: the same number is the same method in every plot of a page; 8 differ
+  int group = 0;        ///< colour and symbol: the same number is the same method in every plot of a page; 0 or more, 8 differ
   bool visible = true;  ///< false: only named in the legend until the reader clicks there
 };
 
@@ -94,8 +94,8 @@ struct Page {
   std::vector<std::pair<std::string, std::string>> facts = {};  ///< where the results come from, at the foot of the page
 };
 
-/// The page as one HTML file, about 1.2 MB and its numbers. Throws std::invalid_argument where lengths differ that must not, or
-/// an id is unfit or there twice.
+/// The page as one HTML file, about 1.2 MB and its numbers. Throws std::invalid_argument where lengths differ that must not, a
+/// group is negative, or an id is unfit or there twice.
 std::string html_page(const Page& page);
 
 }  // namespace carom

@@ -37,14 +37,14 @@ const char* style_name(Style style) {
   return "line";
 }
 
-void check_lengths(const Plot& plot, const Series& series) {
+void check(const Plot& plot, const Series& series) {
   const std::size_t n = series.x.size();
   const auto fits = [n](std::size_t length) { return length == 0 || length == n; };
   const bool fit = series.y.size() == n && fits(series.y_low.size()) && series.y_high.size() == series.y_low.size() &&
                    fits(series.labels.size()) && (series.style != Style::band || series.y_low.size() == n);
-  if (!fit)
-    throw std::invalid_argument("plot " + plot.id + ", series " + series.name +
-                                ": x, y and what goes with them differ in length");
+  const std::string name = "plot " + plot.id + ", series " + series.name;
+  if (!fit) throw std::invalid_argument(name + ": x, y and what goes with them differ in length");
+  if (series.group < 0) throw std::invalid_argument(name + ": a group is 0 or more");
 }
 
 Json series_json(const Series& series) {
@@ -65,7 +65,7 @@ std::string plot_json(const Plot& plot) {
   Json json = {{"id", plot.id}, {"title", plot.title}, {"x", axis(plot.x)}, {"y", axis(plot.y)}};
   json["series"] = Json::array();
   for (const Series& series : plot.series) {
-    check_lengths(plot, series);
+    check(plot, series);
     json["series"].push_back(series_json(series));
   }
   json["marks"] = Json::array();

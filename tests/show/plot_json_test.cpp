@@ -62,7 +62,7 @@ TEST(PlotJson, BytesThatAreNotUtf8AreReplaced) {
   EXPECT_EQ(Json::parse(plot_json({.id = "p", .title = "a\xff"}))["title"], "a\uFFFD");
 }
 
-TEST(PlotJson, LengthsThatDifferAreRefused) {
+TEST(PlotJson, LengthsThatDifferAndNegativeGroupsAreRefused) {
   const auto refused = [](const Series& series) {
     EXPECT_THROW(plot_json({.id = "p", .series = {series}}), std::invalid_argument);
   };
@@ -71,6 +71,7 @@ TEST(PlotJson, LengthsThatDifferAreRefused) {
   refused({.x = {1.0}, .y = {1.0}, .y_low = {1.0, 2.0}, .y_high = {1.0, 2.0}});
   refused({.x = {1.0}, .y = {1.0}, .labels = {"a", "b"}});
   refused({.x = {1.0}, .y = {1.0}, .style = Style::band});
+  refused({.x = {1.0}, .y = {1.0}, .group = -1});
 }
 
 }  // namespace

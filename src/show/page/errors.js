@@ -19,4 +19,4 @@ function pageError(message, place) {
 
 window.addEventListener("error", (event) => pageError(`${event.message} (line ${event.lineno})`));
 window.addEventListener("unhandledrejection", (event) => pageError(String(event.reason)));
-document.addEventListener("securitypolicyviolation", (event) => pageError(`refused to load ${event.blockedURI} (${event.violatedDirective})`));
+document.addEventListener("securitypolicyviolation", (event) => pageError(`refused to load ${event.blockedURI}`));

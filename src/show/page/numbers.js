@@ -51,7 +51,8 @@ function saveText(text, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-/// Fills `details` when it is opened for the first time: large tables cost nothing until then. Where there are no numbers, hides it.
+/// Fills `details` when it is opened for the first time: large tables cost nothing until then. Hides it where there
+/// are no numbers.
 function offerNumbers(details, plot) {
   details.hidden = !plot.series.some((series) => series.x.length > 0);
   details.addEventListener("toggle", () => {

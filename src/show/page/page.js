@@ -13,7 +13,8 @@ function pointsIn(canvas) {
   let count = 0;
   canvas.calcdata.forEach((points) => {
     const trace = points[0].trace;
-    if (trace.visible === true && trace.hoverinfo !== "skip") count += points.filter((point) => isNumber(point.x) && isNumber(point.y)).length;
+    const isSeries = trace.visible === true && trace.hoverinfo !== "skip";
+    if (isSeries) count += points.filter((point) => isNumber(point.x) && isNumber(point.y)).length;
   });
   return count;
 }
@@ -23,8 +24,10 @@ async function draw(figure) {
   try {
     const plot = JSON.parse(figure.querySelector("script[type='application/json']").textContent);
     const { data, layout } = plotFigure(plot, currentTheme());
-    await Plotly.newPlot(canvas, data, layout, { responsive: true, displaylogo: false, displayModeBar: true, modeBarButtons: plotButtons(plot) });
-    const expected = plot.series.filter((series) => series.visible).flatMap((series) => drawnPoints(series, plot)).filter((is) => is).length;
+    const buttons = { displaylogo: false, displayModeBar: true, modeBarButtons: plotButtons(plot) };
+    await Plotly.newPlot(canvas, data, layout, { responsive: true, ...buttons });
+    const visible = plot.series.filter((series) => series.visible);
+    const expected = visible.flatMap((series) => drawnPoints(series, plot)).filter((isDrawn) => isDrawn).length;
     figure.dataset.points = pointsIn(canvas);
     if (pointsIn(canvas) !== expected) pageError(`${plot.id} shows ${pointsIn(canvas)} of ${expected} points`);
     offerNumbers(figure.querySelector("details.numbers"), plot);

@@ -1,4 +1,4 @@
-// From the numbers of a plot to what plotly draws: traces and layout.
+// From the series of a plot to what plotly draws: its traces.
 "use strict";
 
 // Beside the colour, for readers and printers that see none. Sizes, in pixels, make them look equally large.
@@ -19,12 +19,14 @@ function plotText(text) {
   return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
 }
 
+const raisedDigits = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
+
 /// Five digits, with a power of ten where plain digits would be hard to read.
 function plotNumber(value) {
   const size = Math.abs(value);
   if (value === 0 || (size >= 1e-3 && size < 1e6)) return String(Number(value.toPrecision(5)));
   const [mantissa, exponent] = value.toExponential(4).split("e");
-  const raised = [...String(Number(exponent))].map((c) => (c === "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[c])).join("");
+  const raised = [...String(Number(exponent))].map((c) => (c === "-" ? "\u207b" : raisedDigits[c])).join("");
   return `${mantissa} \u00d7 10${raised}`;
 }
 
@@ -51,13 +53,14 @@ function hoverText(series, plot, i) {
 function bandOutline(series, plot) {
   const outline = { x: [], y: [] };
   let begin = 0;
-  const isWhole = (i) => isDrawable(series.x[i], plot.x) && isDrawable(series.y_low[i], plot.y) && isDrawable(series.y_high[i], plot.y);
+  const isWhole = (i) =>
+    isDrawable(series.x[i], plot.x) && isDrawable(series.y_low[i], plot.y) && isDrawable(series.y_high[i], plot.y);
   for (let i = 0; i <= series.x.length; ++i) {
     if (i < series.x.length && isWhole(i)) continue;
     if (i - begin > 1) {
       const x = series.x.slice(begin, i);
-      outline.x.push(...x, ...x.toReversed(), null);
-      outline.y.push(...series.y_high.slice(begin, i), ...series.y_low.slice(begin, i).toReversed(), null);
+      outline.x.push(...x, ...[...x].reverse(), null);
+      outline.y.push(...series.y_high.slice(begin, i), ...series.y_low.slice(begin, i).reverse(), null);
     }
     begin = i + 1;
   }
@@ -77,6 +80,8 @@ function errorBars(series, colour) {
   };
 }
 
+const modes = { line: "lines", dashed: "lines", points: "markers", line_and_points: "lines+markers", band: "lines" };
+
 function seriesTraces(series, k, plot, theme) {
   const colour = theme.series[series.group % theme.series.length];
   const isDrawn = drawnPoints(series, plot);
@@ -85,14 +90,15 @@ function seriesTraces(series, k, plot, theme) {
   const shared = { type: "scatter", legendgroup: `series-${k}`, visible: series.visible ? true : "legendonly" };
   const traces = [];
   if (series.style === "band") {
-    traces.push({ ...shared, ...bandOutline(series, plot), mode: "none", fill: "toself", fillcolor: colour + "2e", hoverinfo: "skip", showlegend: false });
+    const region = { mode: "none", fill: "toself", fillcolor: colour + "2e", hoverinfo: "skip", showlegend: false };
+    traces.push({ ...shared, ...bandOutline(series, plot), ...region });
   }
   traces.push({
     ...shared,
     name: plotText(series.name) + (isEmpty ? " (no data)" : ""),
     x: keep(series.x),
     y: keep(series.y),
-    mode: series.style === "points" ? "markers" : series.style === "line_and_points" ? "lines+markers" : "lines",
+    mode: modes[series.style],
     line: { color: colour, width: 2, dash: series.style === "dashed" ? "6px,4px" : "solid" },
     marker: { ...symbols[series.group % symbols.length], color: colour, line: { color: theme.paper, width: 0.8 } },
     error_y: series.y_low && series.style !== "band" && !isEmpty ? errorBars(series, colour) : undefined,
@@ -101,61 +107,4 @@ function seriesTraces(series, k, plot, theme) {
     hovertext: isEmpty ? [] : isDrawn.map((drawn, i) => (drawn ? hoverText(series, plot, i) : "")),
   });
   return traces;
-}
-
-function markLine(mark, theme) {
-  const along = mark.axis === "x" ? { xref: "x", x0: mark.value, x1: mark.value, yref: "paper", y0: 0, y1: 1 } : { yref: "y", y0: mark.value, y1: mark.value, xref: "paper", x0: 0, x1: 1 };
-  return { ...along, type: "line", layer: "below", line: { color: theme.muted, width: 1.2, dash: "2px,3px" } };
-}
-
-/// At the end of the line, inside the plot. Unlike shapes, annotations on a logarithmic axis stand at the logarithm.
-function markLabel(mark, plot, theme) {
-  const at = plot[mark.axis].log ? Math.log10(mark.value) : mark.value;
-  const place = mark.axis === "x" ? { xref: "x", x: at, yref: "paper", y: 0.99, xanchor: "right", yanchor: "top", textangle: -90 } : { yref: "y", y: at, xref: "paper", x: 0.995, xanchor: "right", yanchor: "bottom" };
-  return { ...place, text: plotText(mark.label), showarrow: false, bgcolor: theme.paper + "cc", font: { color: theme.muted, size: 12 } };
-}
-
-function axisLayout(axis, theme, isEmpty) {
-  return {
-    type: axis.log ? "log" : "linear",
-    title: { text: plotText(axis.title), standoff: 10 },
-    automargin: true,
-    exponentformat: "power",
-    tickfont: { size: axis.log ? 10.8 : 12 },  // plotly sets powers of ten a quarter larger
-    showticklabels: !isEmpty,
-    showgrid: !isEmpty,
-    gridcolor: theme.grid,
-    linecolor: theme.frame,
-    showline: true,
-    mirror: true,
-    ticks: isEmpty ? "" : "outside",
-    ticklen: 5,
-    tickcolor: theme.frame,
-    zeroline: false,
-  };
-}
-
-function plotFigure(plot, theme) {
-  const isEmpty = !plot.series.some((series) => drawnPoints(series, plot).includes(true));
-  const marks = isEmpty ? [] : plot.marks.filter((mark) => isDrawable(mark.value, plot[mark.axis]));
-  const noData = { text: "no data", xref: "paper", yref: "paper", x: 0.5, y: 0.5, showarrow: false, font: { color: theme.muted, size: 16 } };
-  return {
-    data: plot.series.flatMap((series, k) => seriesTraces(series, k, plot, theme)),
-    layout: {
-      uirevision: plot.id,
-      paper_bgcolor: "rgba(0,0,0,0)",
-      plot_bgcolor: "rgba(0,0,0,0)",
-      font: { family: theme.font, size: 13, color: theme.ink },
-      margin: { l: 64, r: 12, t: 12, b: 52 },
-      xaxis: axisLayout(plot.x, theme, isEmpty),
-      yaxis: axisLayout(plot.y, theme, isEmpty),
-      showlegend: plot.series.length > 1,
-      legend: { orientation: "h", x: 0, xanchor: "left", y: 1.02, yanchor: "bottom", bgcolor: "rgba(0,0,0,0)" },
-      hovermode: "closest",
-      hoverlabel: { bgcolor: theme.paper, font: { family: theme.font, size: 13, color: theme.ink }, align: "left", namelength: -1 },
-      modebar: { bgcolor: "rgba(0,0,0,0)", color: theme.muted, activecolor: theme.ink },
-      shapes: marks.map((mark) => markLine(mark, theme)),
-      annotations: isEmpty ? [noData] : marks.map((mark) => markLabel(mark, plot, theme)),
-    },
-  };
 }
