@@ -1,4 +1,4 @@
-// Runs the program as a child process. Its output goes to files, so that no pipe can fill up.
+// Runs programs as child processes. Their output goes to files, so that no pipe can fill up.
 
 #include "support/child_process.hpp"
 
@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 namespace carom::test {
 
@@ -29,11 +30,15 @@ TemporaryDirectory::~TemporaryDirectory() {
 
 Outcome run_carom(const fs::path& directory, const std::vector<std::string>& arguments,
                   const std::function<void(pid_t)>& meanwhile) {
+  std::vector<std::string> words = {CAROM_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run_program(directory, std::move(words), meanwhile);
+}
+
+Outcome run_program(const fs::path& directory, std::vector<std::string> words, const std::function<void(pid_t)>& meanwhile) {
   const TemporaryDirectory kept;
   const std::string out = kept.file("out");
   const std::string err = kept.file("err");
-  std::vector<std::string> words = {CAROM_PROGRAM};
-  words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -42,7 +47,7 @@ Outcome run_carom(const fs::path& directory, const std::vector<std::string>& arg
   if (child == 0) {
     const bool ready = chdir(directory.c_str()) == 0 && dup2(open("/dev/null", O_RDONLY), STDIN_FILENO) >= 0 &&
                        dup2(creat(out.c_str(), 0600), STDOUT_FILENO) >= 0 && dup2(creat(err.c_str(), 0600), STDERR_FILENO) >= 0;
-    if (ready) execv(argv[0], argv.data());
+    if (ready) execvp(argv[0], argv.data());
     _exit(127);
   }
   if (child < 0) throw std::runtime_error("cannot fork");

@@ -1,5 +1,6 @@
 #pragma once
-// Runs the program as a user does: as a child process in a directory of its own, with its output and exit code kept.
+// Runs the program as a user does: as a child process in a directory of its own, with its output and exit code kept. Runs
+// other programs too.
 
 #include <sys/types.h>
 #include <filesystem>
@@ -33,6 +34,10 @@ class TemporaryDirectory {
 /// Runs `carom arguments...` in `directory`. `meanwhile` is called with the child's id while it runs.
 Outcome run_carom(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
                   const std::function<void(pid_t)>& meanwhile = {});
+
+/// Runs the program words[0], looked for in PATH, in `directory`. Exit code 127 where there is none.
+Outcome run_program(const std::filesystem::path& directory, std::vector<std::string> words,
+                    const std::function<void(pid_t)>& meanwhile = {});
 
 std::string text_of(const std::filesystem::path& file);
 void write_text(const std::filesystem::path& file, const std::string& text);

@@ -1,0 +1,52 @@
+// Escapes text for HTML.
+
+#include "show/html_text.hpp"
+
+namespace carom::detail {
+
+std::string html_text(std::string_view text) {
+  std::string html;
+  html.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      case '\'':
+        html += "&#39;";
+        break;
+      default: {
+        const auto code = static_cast<unsigned char>(c);
+        const bool is_control = (code < 0x20 && c != '\n' && c != '\t') || code == 0x7f;
+        if (is_control) {
+          html += "\xEF\xBF\xBD";
+        } else {
+          html += c;
+        }
+      }
+    }
+  }
+  return html;
+}
+
+std::string html_prose(std::string_view text) {
+  std::string html;
+  while (true) {
+    const std::size_t open = text.find('`');
+    const std::size_t close = open == std::string_view::npos ? open : text.find('`', open + 1);
+    if (close == std::string_view::npos) return html + html_text(text);
+    html += html_text(text.substr(0, open)) + "<code>" + html_text(text.substr(open + 1, close - open - 1)) + "</code>";
+    text.remove_prefix(close + 1);
+  }
+}
+
+}  // namespace carom::detail

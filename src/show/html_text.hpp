@@ -1,0 +1,15 @@
+#pragma once
+// Plain text made safe for HTML.
+
+#include <string>
+#include <string_view>
+
+namespace carom::detail {
+
+/// Safe between tags and inside a quoted attribute. Control characters, which HTML cannot hold, become U+FFFD.
+std::string html_text(std::string_view text);
+
+/// The same, with what stands between two `backquotes` as code. An odd one stays as it is.
+std::string html_prose(std::string_view text);
+
+}  // namespace carom::detail

@@ -1,0 +1,65 @@
+// What stands around the curves of a plot, and the whole of it: axes, reference lines, legend.
+"use strict";
+
+function markLine(mark, theme) {
+  const { value } = mark;
+  const upright = { xref: "x", x0: value, x1: value, yref: "paper", y0: 0, y1: 1 };
+  const level = { xref: "paper", x0: 0, x1: 1, yref: "y", y0: value, y1: value };
+  const line = { color: theme.muted, width: 1.2, dash: "2px,3px" };
+  return { ...(mark.axis === "x" ? upright : level), type: "line", layer: "below", line };
+}
+
+/// At the end of the line, inside the plot. Unlike shapes, annotations on a logarithmic axis stand at the logarithm.
+function markLabel(mark, plot, theme) {
+  const at = plot[mark.axis].log ? Math.log10(mark.value) : mark.value;
+  const upright = { xref: "x", x: at, yref: "paper", y: 0.99, yanchor: "top", textangle: -90 };
+  const level = { xref: "paper", x: 0.995, yref: "y", y: at, yanchor: "bottom" };
+  const look = { xanchor: "right", showarrow: false, bgcolor: theme.paper + "cc", font: { color: theme.muted, size: 12 } };
+  return { ...(mark.axis === "x" ? upright : level), ...look, text: plotText(mark.label) };
+}
+
+function axisLayout(axis, theme, isEmpty) {
+  return {
+    type: axis.log ? "log" : "linear",
+    title: { text: plotText(axis.title), standoff: 10 },
+    automargin: true,
+    exponentformat: "power",
+    tickfont: { size: axis.log ? 10.8 : 12 },  // plotly sets powers of ten a quarter larger
+    showticklabels: !isEmpty,
+    showgrid: !isEmpty,
+    gridcolor: theme.grid,
+    linecolor: theme.frame,
+    showline: true,
+    mirror: true,
+    ticks: isEmpty ? "" : "outside",
+    ticklen: 5,
+    tickcolor: theme.frame,
+    zeroline: false,
+  };
+}
+
+function plotFigure(plot, theme) {
+  const isEmpty = !plot.series.some((series) => drawnPoints(series, plot).includes(true));
+  const marks = isEmpty ? [] : plot.marks.filter((mark) => isDrawable(mark.value, plot[mark.axis]));
+  const middle = { xref: "paper", yref: "paper", x: 0.5, y: 0.5, showarrow: false };
+  const noData = { ...middle, text: "no data", font: { color: theme.muted, size: 16 } };
+  return {
+    data: plot.series.flatMap((series, k) => seriesTraces(series, k, plot, theme)),
+    layout: {
+      uirevision: plot.id,
+      paper_bgcolor: "rgba(0,0,0,0)",
+      plot_bgcolor: "rgba(0,0,0,0)",
+      font: { family: theme.font, size: 13, color: theme.ink },
+      margin: { l: 64, r: 12, t: 12, b: 52 },
+      xaxis: axisLayout(plot.x, theme, isEmpty),
+      yaxis: axisLayout(plot.y, theme, isEmpty),
+      showlegend: plot.series.length > 1,
+      legend: { orientation: "h", x: 0, xanchor: "left", y: 1.02, yanchor: "bottom", bgcolor: "rgba(0,0,0,0)" },
+      hovermode: "closest",
+      hoverlabel: { bgcolor: theme.paper, font: { family: theme.font, size: 13, color: theme.ink }, align: "left" },
+      modebar: { bgcolor: "rgba(0,0,0,0)", color: theme.muted, activecolor: theme.ink },
+      shapes: marks.map((mark) => markLine(mark, theme)),
+      annotations: isEmpty ? [noData] : marks.map((mark) => markLabel(mark, plot, theme)),
+    },
+  };
+}
