@@ -1,0 +1,74 @@
+#pragma once
+// What a fixed-step method did to collisions: which it missed, which it repeated, which were none. Judged along the method's own
+// trajectory, step by step, so that no chaos comes between: where it stands wrong, what it does next is still right or wrong.
+
+#include <carom/scene.hpp>
+#include <carom/simulation.hpp>
+#include <carom/state.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <span>
+#include <utility>
+
+namespace carom {
+
+/// Counts over the steps that were looked at. An encounter is the time from a pair's first reversal until it is apart and was not reversed
+/// in the last step.
+struct StepCounts {
+  std::uint64_t steps = 0;
+  double time = 0.0;           ///< that they cover
+  std::uint64_t found = 0;     ///< encounters that begin with the reversal of an approaching pair: collisions
+  std::uint64_t spurious = 0;  ///< encounters that begin with the reversal of a pair that was parting
+  std::uint64_t repeated = 0;  ///< further reversals within an encounter
+  std::uint64_t missed = 0;    ///< pairs that flew into contact and out of it again between two steps
+  double depth_sum = 0.0;      ///< of (sigma - |r|) / sigma over `found`, at the reversal
+  double deepest = 0.0;        ///< the largest overlap of any pair in contact, in units of its sigma
+
+  [[nodiscard]] std::uint64_t collisions() const { return found + missed; }
+  /// Of the collisions that there were.
+  [[nodiscard]] double missed_fraction() const { return fraction(missed, collisions()); }
+  /// Of all reversals.
+  [[nodiscard]] double repeated_fraction() const { return fraction(repeated, found + spurious + repeated); }
+  [[nodiscard]] double spurious_fraction() const { return fraction(spurious, found + spurious + repeated); }
+  [[nodiscard]] double mean_depth() const { return found == 0 ? 0.0 : depth_sum / static_cast<double>(found); }
+
+ private:
+  [[nodiscard]] static double fraction(std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+  }
+};
+
+/// Looks on, step after step.
+class StepAudit {
+ public:
+  StepAudit(const Box& box, const Disks& disks, double dt) : box_(box), disks_(disks), dt_(dt) {}
+
+  /// The state at a step, after its check, and the reversals of that check in their order. O(N^2).
+  void step(const State& state, std::span<const Event> reversals);
+
+  [[nodiscard]] const StepCounts& counts() const { return counts_; }
+
+ private:
+  using Pair = std::pair<std::int32_t, std::int32_t>;
+
+  [[nodiscard]] Eigen::Vector2d separation(const State& state, const Pair& pair) const;
+  [[nodiscard]] double sigma(const Pair& pair) const;
+  void look_at_reversals(const State& state, std::span<const Event> reversals);
+  void look_at_flights(const State& state);
+
+  const Box& box_;
+  const Disks& disks_;
+  double dt_;
+  std::set<Pair> encounters_;           ///< that go on
+  std::set<Pair> reversed_last_step_;
+  StepCounts counts_;
+};
+
+/// Runs the method from `start` for `time`, or for as many steps as `pair_limit` looks at pairs allow, one at least. `proceed` is asked now
+/// and then; false ends it. Requires a fixed-step method.
+[[nodiscard]] StepCounts audit(const Scene& scene, const State& start, const FixedStep& method, double time, double pair_limit,
+                               const std::function<bool()>& proceed = {});
+
+}  // namespace carom
