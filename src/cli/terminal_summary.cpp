@@ -83,9 +83,7 @@ std::string what_it_measured(const RunReport& report) {
   return text;
 }
 
-std::string how_far_to_trust(const RunReport& report) {
-  return report.horizon ? sentence_of(*report.horizon) + "\n\n" : "";
-}
+std::string how_far_to_trust(const RunReport& report) { return report.horizon ? sentence_of(*report.horizon) + "\n\n" : ""; }
 
 std::string where_the_files_are(const Results& results) {
   std::vector<std::string> names;

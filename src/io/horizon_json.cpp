@@ -15,12 +15,8 @@ Json number(std::optional<double> value) { return value && std::isfinite(*value)
 
 Json json_of(const std::optional<FirstDifference>& found) {
   if (!found) return nullptr;
-  return {{"index", found->index},
-          {"time", number(found->time)},
-          {"disk", found->disk},
-          {"partner", found->partner},
-          {"other_disk", found->other_disk},
-          {"other_partner", found->other_partner}};
+  return {{"index", found->index},     {"time", number(found->time)},     {"disk", found->disk},
+          {"partner", found->partner}, {"other_disk", found->other_disk}, {"other_partner", found->other_partner}};
 }
 
 Json json_of(const std::optional<Lyapunov>& exponent) {

@@ -12,11 +12,11 @@ namespace carom {
 /// The largest Lyapunov exponent: the rate at which two trajectories part, by e per 1 / per_time.
 struct Lyapunov {
   double per_time = 0.0;
-  std::optional<double> per_time_error;        ///< standard error over blocks; empty with fewer than 8 blocks
-  double per_collision = 0.0;                  ///< lambda / omega, omega = collisions of one disk per time
-  std::optional<double> per_collision_error;   ///< the same, of the ratio
-  double collision_rate = 0.0;                 ///< omega
-  std::uint64_t collisions = 0;                ///< of pairs, that it was measured over
+  std::optional<double> per_time_error;       ///< standard error over blocks; empty with fewer than 8 blocks
+  double per_collision = 0.0;                 ///< lambda / omega, omega = collisions of one disk per time
+  std::optional<double> per_collision_error;  ///< the same, of the ratio
+  double collision_rate = 0.0;                ///< omega
+  std::uint64_t collisions = 0;               ///< of pairs, that it was measured over
 
   /// Different from zero by more than chance.
   [[nodiscard]] bool is_chaotic() const { return per_time_error && per_time > 4.0 * *per_time_error && per_time > 0.0; }
@@ -24,19 +24,19 @@ struct Lyapunov {
 
 /// Where two logs of events part.
 struct FirstDifference {
-  std::uint64_t index = 0;         ///< so many events before it are the same
-  double time = 0.0;               ///< of the event in the more precise log
-  std::int32_t disk = 0;           ///< of that event
-  std::int32_t partner = 0;        ///< of that event: a disk, or a Wall
-  std::int32_t other_disk = 0;     ///< of the event that the less precise log has in its place
+  std::uint64_t index = 0;      ///< so many events before it are the same
+  double time = 0.0;            ///< of the event in the more precise log
+  std::int32_t disk = 0;        ///< of that event
+  std::int32_t partner = 0;     ///< of that event: a disk, or a Wall
+  std::int32_t other_disk = 0;  ///< of the event that the less precise log has in its place
   std::int32_t other_partner = 0;
 };
 
 /// One engine against the next better one.
 struct HorizonRow {
   std::string engine;
-  int bits = 0;         ///< of the significand
-  std::string against;  ///< the engine of the next better precision; empty for the best, which has none
+  int bits = 0;                               ///< of the significand
+  std::string against;                        ///< the engine of the next better precision; empty for the best, which has none
   std::optional<double> time;                 ///< until then positions agree to the tolerance; empty: to the end
   std::optional<double> collisions_per_disk;  ///< until then
   bool estimated = false;                     ///< time is not measured but extrapolated with the Lyapunov exponent
@@ -55,10 +55,10 @@ enum class HorizonEnd {
 };
 
 struct Horizon {
-  double tolerance = 0.0;       ///< of the largest distance of a disk from itself, in units of sigma
-  double sigma = 0.0;           ///< mean contact distance: the mean diameter of the disks
-  double resolution = 0.0;      ///< time from one comparison to the next: horizons are known to this, rounded down
-  std::string engine;           ///< the one that runs the scene; a name in rows
+  double tolerance = 0.0;   ///< of the largest distance of a disk from itself, in units of sigma
+  double sigma = 0.0;       ///< mean contact distance: the mean diameter of the disks
+  double resolution = 0.0;  ///< time from one comparison to the next: horizons are known to this, rounded down
+  std::string engine;       ///< the one that runs the scene; a name in rows
   std::vector<HorizonRow> rows;
   std::optional<Lyapunov> lyapunov;  ///< empty where disks do not collide, or too rarely to tell
   double time = 0.0;                 ///< compared up to here
@@ -66,7 +66,7 @@ struct Horizon {
   std::uint64_t collisions = 0;      ///< of pairs, up to here, in the best precision
   double timed_until = 0.0;          ///< the stretch of time, from the start, that HorizonRow::seconds is of
   HorizonEnd ended = HorizonEnd::run;
-  std::optional<double> run_time;    ///< the end of the scene's own run, where it has one
+  std::optional<double> run_time;  ///< the end of the scene's own run, where it has one
 
   /// The row of that engine, or null.
   [[nodiscard]] const HorizonRow* row(const std::string& name) const {

@@ -221,8 +221,7 @@ class Measurement {
     result_.time = time;
     result_.collisions = best().totals().pair;
     result_.collisions_per_disk = collisions;
-    if (result_.timed_until == 0.0 ||
-        (best().totals().pair <= timed_pairs && all_events(best().totals()) <= timed_events))
+    if (result_.timed_until == 0.0 || (best().totals().pair <= timed_pairs && all_events(best().totals()) <= timed_events))
       result_.timed_until = time;
   }
 
@@ -256,7 +255,8 @@ class Measurement {
     for (std::size_t k = 0; k < result_.rows.size() && result_.timed_until > 0.0; ++k) {
       HorizonRow& row = result_.rows[k];
       const double done = static_cast<double>(k) / static_cast<double>(result_.rows.size());
-      if (!proceed("timing " + row.engine, lyapunov_share + lockstep_share + (1.0 - lyapunov_share - lockstep_share) * done)) break;
+      if (!proceed("timing " + row.engine, lyapunov_share + lockstep_share + (1.0 - lyapunov_share - lockstep_share) * done))
+        break;
       row.seconds = seconds_in_loop(scene_, start_, row.engine, result_.timed_until);
       if (row.engine == "textbook") base = row.seconds;
     }
@@ -268,7 +268,9 @@ class Measurement {
     return last > 0.0 ? std::min(1.0, result_.time / last) : 0.0;
   }
 
-  bool proceed(std::string doing, double fraction) const { return !options_.proceed || options_.proceed({std::move(doing), fraction}); }
+  bool proceed(std::string doing, double fraction) const {
+    return !options_.proceed || options_.proceed({std::move(doing), fraction});
+  }
 
   const Scene& scene_;
   State start_;

@@ -18,8 +18,8 @@ struct HorizonProgress {
 };
 
 struct HorizonOptions {
-  double tolerance = 1e-3;        ///< in units of the mean diameter; > 0
-  std::string engine = "auto";    ///< the one that is to run the scene: its row is the one that the user asks about
+  double tolerance = 1e-3;                ///< in units of the mean diameter; > 0
+  std::string engine = "auto";            ///< the one that is to run the scene: its row is the one that the user asks about
   std::uint64_t lyapunov_collisions = 0;  ///< of pairs, for the exponent; 0: see LyapunovOptions
   /// The limit of work: events of any kind in the best precision, a comparison counting one for each disk. 0: two million,
   /// or 200 per disk where that is more; minutes at most for a million disks or fewer.
@@ -27,8 +27,8 @@ struct HorizonOptions {
   std::function<bool(const HorizonProgress&)> proceed = {};  ///< several times a second; false ends it
 };
 
-/// Runs the scene from `start` in every precision in lockstep, comparing positions some eight times per mean free time, until each has
-/// left the next better one by the tolerance. Where nothing parts: to the end of the scene's run, or where disks are
+/// Runs the scene from `start` in every precision in lockstep, comparing positions some eight times per mean free time, until
+/// each has left the next better one by the tolerance. Where nothing parts: to the end of the scene's run, or where disks are
 /// chaotic and the run is shorter than they would take to part, three times as long as the exponent says, but no longer than
 /// 1000 collisions per disk. All engines begin with the numbers of `start`, rounded to single precision for the row of
 /// float: that rounding counts as its error. The best precision has no better one; its horizon is extrapolated.

@@ -13,7 +13,8 @@ struct Pace {
 };
 
 /// Looks at some thousand events or four per disk, whichever is more, but no longer than the fastest disk needs for about 4096
-/// times the mean spacing of disks times the root of their number: a scene where nothing meets ends too. Throws as make_simulation.
+/// times the mean spacing of disks times the root of their number: a scene where nothing meets ends too. Throws as
+/// make_simulation.
 Pace measure_pace(const Scene& scene, const State& start);
 
 /// All that happened, bookkeeping too.
