@@ -141,8 +141,8 @@ class Measurement {
       beyond_ = std::min(most_exponents * exponents / result_.lyapunov->per_time,
                          most_collisions_per_disk / result_.lyapunov->collision_rate);
     }
-    if (!scene_.run.time && beyond_ == 0.0) {
-      end_ = pace_.time;  // no time to run to: as far as was looked ahead, or four times as long as the collisions should take
+    if (!scene_.run.time) {  // four times as long as the collisions should take; or as far as was looked ahead
+      end_ = beyond_ > 0.0 ? 0.0 : pace_.time;
       if (scene_.run.collisions && pace_.collision_rate > 0.0)
         end_ = 4.0 * 2.0 * static_cast<double>(*scene_.run.collisions) / disks_ / pace_.collision_rate;
     }

@@ -38,14 +38,17 @@ double cost_of(const HorizonRow& dear, const HorizonRow* cheap) {
   return cheap != nullptr && cheap->seconds > 0.0 ? dear.seconds / cheap->seconds : 0.0;
 }
 
-/// ", at 25 times the cost": of the same engine in double precision, and of the engine that runs the scene.
+/// A ratio to two digits.
+std::string times(double ratio) { return fmt::format("{:.{}f} times", ratio, ratio < 9.95 ? 1 : 0); }
+
+/// " at 25 times the cost": of the same engine in double precision, and of the engine that runs the scene.
 std::string price(const Horizon& horizon, const HorizonRow& own, const HorizonRow& best) {
   const double of_own = cost_of(best, &own);
   if (!(of_own > 0.0)) return "";
-  if (own.engine != "fast") return fmt::format(" at {:.2g} times the cost", of_own);
+  if (own.engine != "fast") return fmt::format(" at {} the cost", times(of_own));
   const double of_double = cost_of(best, horizon.row("textbook"));
-  return fmt::format(" at {:.2g} times the cost of the same engine in double precision, {:.3g} times that of the fast one",
-                     of_double, of_own);
+  return fmt::format(" at {} the cost of the same engine in double precision, {} that of the fast one", times(of_double),
+                     times(of_own));
 }
 
 std::string how_far_the_best(const Horizon& horizon, const HorizonRow& own) {
@@ -72,19 +75,12 @@ std::string sentence_of(const Horizon& horizon) {
     return "Interrupted before anything was compared: nothing is known of how far this trajectory can be trusted.";
   const std::string in = fmt::format("{} {}", own->bits == 24 || own->bits == 53 ? "In" : "With", precision_name(own->bits));
   const std::string right = fmt::format("this trajectory is right to {:g} sigma", horizon.tolerance);
-  std::string text;
-  if (!own->time) {
-    text = fmt::format("{} {} {}", in, right, why_ended(horizon));
-    // Nothing parted from it, so there is nothing that a better precision would be needed for.
-    return text + ".";
-  }
+  if (!own->time) return fmt::format("{} {} {}.", in, right, why_ended(horizon));
   const std::string until =
       fmt::format("{}{}", own->estimated ? "about " : "", place(*own->time, own->collisions_per_disk.value_or(0.0)));
-  if (horizon.run_time && *own->time >= *horizon.run_time) {
+  std::string text = fmt::format("{} {} until {}", in, right, until);
+  if (horizon.run_time && *own->time >= *horizon.run_time)
     text = fmt::format("{} {} to the end of the run, t = {:.4g}, and would be until {}", in, right, *horizon.run_time, until);
-  } else {
-    text = fmt::format("{} {} until {}", in, right, until);
-  }
   std::string further = how_far_the_best(horizon, *own);
   if (further.ends_with(',')) further.pop_back();
   return text + further + ".";

@@ -1,7 +1,5 @@
 #include "study/lyapunov_tangent.hpp"
 
-#include "effects/hard_wall.hpp"
-
 #include <cmath>
 
 namespace carom {
@@ -19,7 +17,7 @@ void TangentFlow::follow(const Event& event) {
   bring(a, event.time, event.time_remainder);
   if (event.partner < 0) {
     // The delay is -dr / v across the wall, and dr + v tau - v' tau with v' = -v gives -dr there.
-    const int across = axis_of(static_cast<Wall>(event.partner));
+    const int across = event.partner >= wall_right ? 0 : 1;
     a.dr[across] = -a.dr[across];
     a.dv[across] = -a.dv[across];
     a.v = event.velocity;
