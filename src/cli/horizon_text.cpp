@@ -5,18 +5,25 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
+#include <cmath>
+#include <optional>
 
 namespace carom::cli {
 
 namespace {
 
+/// with_error(), and powers of ten where a number in units far from 1 would be all zeros.
+std::string in_any_unit(double value, std::optional<double> error) {
+  if (error && (std::abs(value) >= 1e6 || std::abs(value) < 1e-4)) return fmt::format("{:.3e} ± {:.1e}", value, *error);
+  return with_error(value, error.value_or(0.0));
+}
+
 std::string exponent(const Horizon& horizon) {
   if (!horizon.lyapunov) return "Lyapunov exponent: none, disks collide too rarely to tell\n";
   const Lyapunov& lambda = *horizon.lyapunov;
   return fmt::format("Lyapunov exponent: {} per time, {} per collision of a disk, over {} collisions\n",
-                     with_error(lambda.per_time, lambda.per_time_error.value_or(0.0)),
-                     with_error(lambda.per_collision, lambda.per_collision_error.value_or(0.0)), grouped(lambda.collisions));
+                     in_any_unit(lambda.per_time, lambda.per_time_error),
+                     in_any_unit(lambda.per_collision, lambda.per_collision_error), grouped(lambda.collisions));
 }
 
 std::string row(const HorizonRow& one) {
@@ -24,7 +31,7 @@ std::string row(const HorizonRow& one) {
   const std::string never = one.against.empty() ? "?" : "to the end";
   return fmt::format("  {:<22}{:>4}  {:>10}  {:>10}  {:>12}  {:>9}  {:>9}  {:>6}\n", one.engine, one.bits,
                      one.time ? about + fmt::format("{:.4g}", *one.time) : never,
-                     one.collisions_per_disk ? about + fmt::format("{:.1f}", *one.collisions_per_disk) : "",
+                     one.collisions_per_disk.value_or(0.0) > 0.0 ? about + fmt::format("{:.1f}", *one.collisions_per_disk) : "",
                      one.first_difference ? grouped(one.first_difference->index + 1) : "",
                      one.first_difference ? fmt::format("{:.4g}", one.first_difference->time) : "",
                      one.seconds > 0.0 ? duration(one.seconds) : "", one.price > 0.0 ? fmt::format("{:.2g}", one.price) : "");

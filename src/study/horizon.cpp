@@ -150,7 +150,7 @@ class Measurement {
     if (pace_.collision_rate > 0.0) step_ = 1.0 / (comparisons_per_collision * pace_.collision_rate);
     if (pace_.events_per_time > 0.0) step_ = std::min(step_, std::max(events_per_comparison, disks_) / pace_.events_per_time);
     result_.resolution = step_;
-    limit_ = options_.limit > 0 ? static_cast<double>(options_.limit) : std::max(2e6, 200.0 * disks_);
+    limit_ = options_.limit > 0 ? static_cast<double>(options_.limit) : std::clamp(1500.0 * disks_, 2e6, 2e8);
   }
 
   /// Where the scene's own run is over.
@@ -264,7 +264,7 @@ class Measurement {
   }
 
   [[nodiscard]] double share_done() const {
-    const double last = std::max(end_, beyond_ / most_exponents);
+    const double last = beyond_ > 0.0 ? beyond_ / most_exponents : end_;
     return last > 0.0 ? std::min(1.0, result_.time / last) : 0.0;
   }
 

@@ -21,8 +21,8 @@ struct HorizonOptions {
   double tolerance = 1e-3;                ///< in units of the mean diameter; > 0
   std::string engine = "auto";            ///< the one that is to run the scene: its row is the one that the user asks about
   std::uint64_t lyapunov_collisions = 0;  ///< of pairs, for the exponent; 0: see LyapunovOptions
-  /// The limit of work: events of any kind in the best precision, a comparison counting one for each disk. 0: two million,
-  /// or 200 per disk where that is more; minutes at most for a million disks or fewer.
+  /// The limit of work: events of any kind in the best precision, a comparison counting one for each disk. 0: 1500 per disk,
+  /// which is 100 collisions per disk or more, but two million at least and 200 million at most: a quarter of an hour.
   std::uint64_t limit = 0;
   std::function<bool(const HorizonProgress&)> proceed = {};  ///< several times a second; false ends it
 };
@@ -33,7 +33,7 @@ struct HorizonOptions {
 /// 1000 collisions per disk. All engines begin with the numbers of `start`, rounded to single precision for the row of
 /// float: that rounding counts as its error. The best precision has no better one; its horizon is extrapolated.
 ///
-/// Memory: all engines at once, about 5 kB per disk. A precision that is no better than the one before it (long double
+/// Memory: all engines at once, 2.5 kB per disk. A precision that is no better than the one before it (long double
 /// on some machines) is left out. Throws as make_simulation.
 Horizon measure_horizon(const Scene& scene, const State& start, const HorizonOptions& options = {});
 
