@@ -51,6 +51,9 @@ void add_scene_options(CLI::App& command, SceneOptions& scene) {
   command.add_option("--seed", scene.seed, "Seed of the random numbers; the same as --set run.seed=N")->type_name("N");
   command.add_option("--engine", scene.engine, fmt::format("Force an engine: {}", fmt::join(engine_names(), ", ")))
       ->type_name("NAME");
+}
+
+void add_output_options(CLI::App& command, SceneOptions& scene) {
   command.add_flag("--no-trajectory", scene.no_trajectory, "Do not write trajectory.h5md");
   command.add_flag("--xyz", scene.xyz, "Write trajectory.xyz too");
   command.add_flag("--csv", scene.csv, "Write samples.csv too");
@@ -58,18 +61,21 @@ void add_scene_options(CLI::App& command, SceneOptions& scene) {
   command.add_flag("--unwrapped", scene.unwrapped, "Let positions continue past periodic edges");
 }
 
+void add_progress(CLI::App& command, std::string& when) {
+  command.add_option("--progress", when, "A progress line on stderr: auto (on a terminal), always or never")->type_name("WHEN");
+}
+
 void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
   CLI::App* command = program.add_subcommand("run", "Run a scene and write its results");
   const auto options = std::make_shared<RunOptions>();
   add_scene_options(*command, options->scene);
+  add_output_options(*command, options->scene);
   command->add_option("--out", options->out, "Directory for the results (default: the scene's name without its ending)")
       ->type_name("DIR");
   command->add_flag("--force", options->force, "Replace the results that the directory holds");
   command->add_flag("--json", options->json, "Print summary.json in place of the summary for people");
   command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
   command->add_flag("-v,--verbose", options->verbose, "Say on stderr what will be simulated");
-  command->add_option("--progress", options->progress, "A progress line on stderr: auto (on a terminal), always or never")
-      ->type_name("WHEN");
   command
       ->add_option("--method", options->method,
                    fmt::format("exact (from event to event), or a fixed-step method to compare with: {}",
@@ -77,6 +83,9 @@ void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
       ->type_name("NAME");
   command->add_option("--dt", options->dt, "Time step of a fixed-step method (default: the scene's run.sample_every)")
       ->type_name("DT");
+  command->add_flag("--verify-horizon", options->verify_horizon,
+                    "Say too how far the trajectory can be trusted, by repeating its beginning in 24 to 113 bits");
+  add_progress(*command, options->progress);
   command->callback([&action, options, invocation] { action = [options, invocation] { return run(*options, invocation); }; });
 }
 
@@ -84,8 +93,19 @@ void add_check(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("check", "Validate a scene and say what it will simulate");
   const auto options = std::make_shared<CheckOptions>();
   add_scene_options(*command, options->scene);
+  add_output_options(*command, options->scene);
   command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
   command->callback([&action, options] { action = [options] { return check(*options); }; });
+}
+
+void add_horizon(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("horizon", "Say how far a scene's trajectory can be trusted, in 24 to 113 bits");
+  const auto options = std::make_shared<HorizonCommandOptions>();
+  add_scene_options(*command, options->scene);
+  command->add_flag("--json", options->json, "Print JSON in place of the table");
+  command->add_flag("-q,--quiet", options->quiet, "Print the sentence alone, and no progress");
+  add_progress(*command, options->progress);
+  command->callback([&action, options] { action = [options] { return horizon(*options); }; });
 }
 
 void add_init(CLI::App& program, Action& action, const Invocation& invocation) {
@@ -146,6 +166,7 @@ Action parse_arguments(int argc, char** argv) {
   program.require_subcommand(1);
   add_run(program, action, invocation);
   add_check(program, action);
+  add_horizon(program, action);
   add_init(program, action, invocation);
   add_info(program, action);
   add_bench(program, action);

@@ -39,6 +39,7 @@ struct RunOptions {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
+  bool verify_horizon = false;
   std::string progress = "auto";
   std::string method = "exact";  ///< or a fixed-step method
   std::optional<double> dt;      ///< of a fixed-step method; absent: the sampling grid's
@@ -50,6 +51,14 @@ struct CheckOptions {
   bool resolved = false;
 };
 ExitCode check(const CheckOptions& options);
+
+struct HorizonCommandOptions {
+  SceneOptions scene;
+  bool json = false;
+  bool quiet = false;
+  std::string progress = "auto";
+};
+ExitCode horizon(const HorizonCommandOptions& options);
 
 struct InitOptions {
   std::string preset = "box";

@@ -2,6 +2,7 @@
 
 #include "cli/progress.hpp"
 
+#include "cli/commands.hpp"
 #include "cli/format.hpp"
 
 #include <fmt/format.h>
@@ -26,6 +27,13 @@ double seconds(std::chrono::steady_clock::duration span) { return std::chrono::d
 
 }  // namespace
 
+ProgressMode progress_mode(const std::string& when, bool quiet) {
+  if (when == "always") return ProgressMode::always;
+  if (when == "never") return ProgressMode::never;
+  if (when != "auto") throw UsageError(fmt::format("--progress {}: it can be auto, always or never", when));
+  return quiet ? ProgressMode::never : ProgressMode::automatic;
+}
+
 ProgressLine::ProgressLine(ProgressMode mode, const Scene& scene)
     : scene_(scene), terminal_(isatty(STDERR_FILENO) == 1), phase_start_(Clock::now()) {
   shown_ = mode == ProgressMode::always || (mode == ProgressMode::automatic && terminal_);
@@ -42,9 +50,20 @@ void ProgressLine::update(const Progress& progress) {
     equilibrating_ = progress.equilibrating;
     phase_start_ = now;
   }
-  if (last_ && now - *last_ < (terminal_ ? Clock::duration(terminal_interval) : Clock::duration(log_interval))) return;
+  if (is_due(now)) show(line(progress, now), now);
+}
+
+void ProgressLine::update(const std::string& doing, double fraction) {
+  const Clock::time_point now = Clock::now();
+  if (shown_ && is_due(now)) show(fmt::format("{}  {:.0f} %", doing, 100.0 * std::clamp(fraction, 0.0, 1.0)), now);
+}
+
+bool ProgressLine::is_due(Clock::time_point now) const {
+  return !last_ || now - *last_ >= (terminal_ ? Clock::duration(terminal_interval) : Clock::duration(log_interval));
+}
+
+void ProgressLine::show(const std::string& text, Clock::time_point now) {
   last_ = now;
-  const std::string text = line(progress, now);
   if (terminal_) {
     std::fprintf(stderr, "%s%s", clear_line, text.c_str());
   } else {

@@ -6,10 +6,14 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
 
 namespace carom::cli {
 
 enum class ProgressMode { automatic, always, never };  ///< automatic: only where stderr is a terminal
+
+/// What --progress and --quiet ask for. Throws UsageError where `when` is not auto, always or never.
+ProgressMode progress_mode(const std::string& when, bool quiet);
 
 class ProgressLine {
  public:
@@ -21,9 +25,14 @@ class ProgressLine {
   /// Cheap when called more often than the line changes.
   void update(const Progress& progress);
 
+  /// The same for work that is not a run: what is being done, and how much of it is done (0 to 1).
+  void update(const std::string& doing, double fraction);
+
  private:
   using Clock = std::chrono::steady_clock;
 
+  [[nodiscard]] bool is_due(Clock::time_point now) const;
+  void show(const std::string& text, Clock::time_point now);
   [[nodiscard]] double fraction_done(const Progress& progress) const;
   [[nodiscard]] std::string line(const Progress& progress, Clock::time_point now) const;
 

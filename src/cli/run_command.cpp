@@ -3,6 +3,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
+#include "cli/horizon_text.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_description.hpp"
 #include "cli/signals.hpp"
@@ -21,6 +22,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <stdexcept>
 
 namespace carom::cli {
@@ -34,14 +36,6 @@ std::filesystem::path directory_for(const RunOptions& options) {
   return std::filesystem::path(options.scene.path).stem();
 }
 
-ProgressMode progress_mode(const RunOptions& options) {
-  if (options.progress == "always") return ProgressMode::always;
-  if (options.progress == "never") return ProgressMode::never;
-  if (options.progress != "auto")
-    throw UsageError(fmt::format("--progress {}: it can be auto, always or never", options.progress));
-  return options.quiet ? ProgressMode::never : ProgressMode::automatic;
-}
-
 /// By exact events or in fixed steps, as the options say.
 Simulation simulation_for(const RunOptions& options, const Scene& scene, const std::string& engine) {
   if (options.method == "exact") {
@@ -53,6 +47,9 @@ Simulation simulation_for(const RunOptions& options, const Scene& scene, const s
   if (std::find(names.begin(), names.end(), options.method) == names.end())
     throw UsageError(
         fmt::format("--method {}: there is no such method; choose exact or one of: {}", options.method, fmt::join(names, ", ")));
+  if (options.verify_horizon)
+    throw UsageError(fmt::format("--verify-horizon holds exact trajectories against each other; leave it out, or --method {}",
+                                 options.method));
   if (engine != "auto")
     throw UsageError(fmt::format("--engine {}: a fixed-step method has no engine; leave out one of the two", engine));
   if (!options.dt && !scene.run.sample_every)
@@ -76,14 +73,19 @@ ExitCode exit_code_of(const RunReport& report) {
                report.scene, report.max_relative_overlap);
     return exit_invalid_state;
   }
-  return report.stopped == StopReason::interrupted ? exit_interrupted : exit_done;
+  const bool interrupted = report.horizon && report.horizon->ended == HorizonEnd::interrupted;
+  return interrupted || report.stopped == StopReason::interrupted ? exit_interrupted : exit_done;
 }
 
+/// `measured_start`, where it is not null, receives the state in which the measured run begins.
 RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurements& measurements, ProgressMode mode,
-                          const StopRequest& stop) {
+                          const StopRequest& stop, std::optional<State>* measured_start) {
   ProgressLine line(mode, simulation.scene());
   RunHooks hooks;
-  hooks.start = [&](const State& start) { measurements.start(start); };
+  hooks.start = [&](const State& start) {
+    measurements.start(start);
+    if (measured_start != nullptr) *measured_start = start;
+  };
   hooks.sample = [&](std::uint64_t k, const State& state) {
     measurements.sample(state);
     writer.sample(k, state);
@@ -99,7 +101,7 @@ RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurem
 
 ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   const Clock::time_point began = Clock::now();
-  const ProgressMode progress = progress_mode(options);
+  const ProgressMode progress = progress_mode(options.progress, options.quiet);
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
   Simulation simulation = simulation_for(options, scene, engine);
@@ -122,9 +124,13 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   try {
     RunWriter writer(directory, scene, simulation.disks(), provenance);
     RunMeasurements measurements(simulation);
-    const RunResult result = run_with_output(simulation, writer, measurements, progress, stop);
+    std::optional<State> start;
+    const RunResult result =
+        run_with_output(simulation, writer, measurements, progress, stop, options.verify_horizon ? &start : nullptr);
     const double wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
-    const RunReport report = measurements.report(result, wall_seconds);
+    RunReport report = measurements.report(result, wall_seconds);
+    if (start && result.stopped != StopReason::interrupted)
+      report.horizon = horizon_with_progress(scene, *start, simulation.engine(), progress, stop);
     const std::vector<std::string> files = writer.finish(report);
     if (options.json) {
       fmt::print("{}\n", summary_json(report, provenance));

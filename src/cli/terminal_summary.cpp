@@ -4,6 +4,7 @@
 #include "cli/terminal_summary.hpp"
 
 #include "cli/format.hpp"
+#include "study/horizon_sentence.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -82,6 +83,8 @@ std::string what_it_measured(const RunReport& report) {
   return text;
 }
 
+std::string how_far_to_trust(const RunReport& report) { return report.horizon ? sentence_of(*report.horizon) + "\n\n" : ""; }
+
 std::string where_the_files_are(const Results& results) {
   std::vector<std::string> names;
   for (const std::string& file : results.files) names.push_back(std::filesystem::path(file).filename().string());
@@ -116,7 +119,7 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
 
 std::string terminal_summary(const RunReport& report, const Scene& scene, const Results& results) {
   return heading(report, scene) + what_happened(report, scene) + "\n" + how_exact(report) + "\n" + what_it_measured(report) +
-         "\n" + where_the_files_are(results) + what_to_try_next(report, scene, results);
+         "\n" + how_far_to_trust(report) + where_the_files_are(results) + what_to_try_next(report, scene, results);
 }
 
 }  // namespace carom::cli

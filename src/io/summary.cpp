@@ -2,6 +2,8 @@
 
 #include "io/summary.hpp"
 
+#include "io/horizon_json.hpp"
+
 #include <carom/version.hpp>
 #include <nlohmann/json.hpp>
 
@@ -58,6 +60,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
                           {"right", number(totals.wall_impulse[1])},
                           {"bottom", number(totals.wall_impulse[2])},
                           {"top", number(totals.wall_impulse[3])}};
+  if (report.horizon) json["horizon"] = horizon_json(*report.horizon);
   json["command_line"] = provenance.command_line;
   // A path or a command line need not be UTF-8, and JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace);

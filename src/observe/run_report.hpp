@@ -1,6 +1,8 @@
 #pragma once
 // The result of one run in numbers: what summary.json and the terminal's summary are made of.
 
+#include "observe/horizon_report.hpp"
+
 #include <carom/simulation.hpp>
 
 #include <Eigen/Core>
@@ -41,6 +43,7 @@ struct RunReport {
   double max_relative_overlap = 0.0;  ///< largest (sigma_ij - |r_ij|) / sigma_ij over all checked states, >= 0
   std::uint64_t overlap_checked = 0;  ///< number of states checked
   StopReason stopped = StopReason::time;
+  std::optional<Horizon> horizon;  ///< of the start of the measured run, where it was asked for
   bool measured = true;  ///< false where the run ended while it was still equilibrating: clock and totals are of that part
 
   /// (final - initial) / initial, 0 where the initial energy is 0

@@ -1,0 +1,88 @@
+// carom horizon SCENE: how far the scene's trajectory can be trusted, in a table and one sentence. Writes no files.
+
+#include "cli/commands.hpp"
+#include "cli/horizon_text.hpp"
+#include "io/horizon_json.hpp"
+#include "study/horizon_sentence.hpp"
+
+#include <fmt/format.h>
+#include <carom/simulation.hpp>
+#include <carom/version.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <new>
+#include <optional>
+#include <utility>
+
+namespace carom::cli {
+
+namespace {
+
+/// The state in which the scene's measured run begins: after its equilibration, by the engine that runs it. Empty where
+/// that was stopped, or ended for want of collisions.
+std::optional<State> measured_start(const Scene& scene, const std::string& engine, ProgressMode mode, const StopRequest& stop) {
+  Scene beginning = scene;
+  beginning.run.time = 0.0;
+  beginning.run.collisions.reset();
+  beginning.run.sample_every.reset();
+  Simulation simulation = make_simulation(beginning, engine);
+  std::optional<State> start;
+  ProgressLine line(mode, scene);
+  RunHooks hooks;
+  hooks.start = [&](const State& state) { start = state; };
+  hooks.proceed = [&](const Progress& progress) {
+    line.update(progress);
+    return !stop.made();
+  };
+  run_schedule(simulation, hooks);
+  return start;
+}
+
+std::string json_text(const Horizon& horizon, const Scene& scene) {
+  const BuildInfo& build = build_info();
+  nlohmann::ordered_json json;
+  json["carom"] = {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler}, {"flags", build.flags}};
+  json["scene"] = scene.source;
+  json["seed"] = scene.run.seed;
+  json["disks"] = scene.disk_count();
+  json["packing_fraction"] = scene.packing_fraction();
+  json["horizon"] = horizon_json(horizon);
+  json["sentence"] = sentence_of(horizon);
+  // A path need not be UTF-8, and JSON must be.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+ExitCode measure(const HorizonCommandOptions& options) {
+  const ProgressMode mode = progress_mode(options.progress, options.quiet);
+  const std::string& engine = checked_engine(options.scene);
+  const Scene scene = load(options.scene);
+  const StopRequest stop;
+  const std::optional<State> start = measured_start(scene, engine, mode, stop);
+  if (!start) {
+    fmt::print(stderr, "carom: {}: {} while equilibrating, before anything was compared\n", scene.source,
+               stop.made() ? "interrupted" : "the scene stopped");
+    return stop.made() ? exit_interrupted : exit_failed;
+  }
+  const Horizon horizon = horizon_with_progress(scene, *start, engine, mode, stop);
+  if (options.json) {
+    fmt::print("{}\n", json_text(horizon, scene));
+  } else {
+    fmt::print("{}{}\n", options.quiet ? "" : horizon_table(horizon, scene) + "\n", sentence_of(horizon));
+  }
+  return horizon.ended == HorizonEnd::interrupted ? exit_interrupted : exit_done;
+}
+
+}  // namespace
+
+ExitCode horizon(const HorizonCommandOptions& options) {
+  try {
+    return measure(options);
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(
+        fmt::format("{}: there is not enough memory to run this scene in every precision at once; fewer disks need less",
+                    options.scene.path));
+  }
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,22 @@
+#pragma once
+// Horizons for the person at the terminal.
+
+#include "cli/progress.hpp"
+#include "cli/signals.hpp"
+#include "observe/horizon_report.hpp"
+
+#include <carom/scene.hpp>
+#include <carom/state.hpp>
+
+#include <string>
+
+namespace carom::cli {
+
+/// Measures with a line of progress, until done or stopped. `engine` is the one that runs the scene.
+Horizon horizon_with_progress(const Scene& scene, const State& start, const std::string& engine, ProgressMode mode,
+                              const StopRequest& stop);
+
+/// What was compared, a table with a row per engine, and the Lyapunov exponent.
+std::string horizon_table(const Horizon& horizon, const Scene& scene);
+
+}  // namespace carom::cli

@@ -1,0 +1,82 @@
+#pragma once
+// How far a trajectory can be trusted, in numbers: what study/horizon.hpp finds and what JSON and terminal show.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// The largest Lyapunov exponent: the rate at which two trajectories part, by e per 1 / per_time.
+struct Lyapunov {
+  double per_time = 0.0;
+  std::optional<double> per_time_error;       ///< standard error over blocks; empty with fewer than 8 blocks
+  double per_collision = 0.0;                 ///< lambda / omega, omega = collisions of one disk per time
+  std::optional<double> per_collision_error;  ///< the same, of the ratio
+  double collision_rate = 0.0;                ///< omega
+  std::uint64_t collisions = 0;               ///< of pairs, that it was measured over
+
+  /// Different from zero by more than chance.
+  [[nodiscard]] bool is_chaotic() const { return per_time_error && per_time > 4.0 * *per_time_error && per_time > 0.0; }
+};
+
+/// Where two logs of events part.
+struct FirstDifference {
+  std::uint64_t index = 0;      ///< so many events before it are the same
+  double time = 0.0;            ///< of the event in the more precise log
+  std::int32_t disk = 0;        ///< of that event
+  std::int32_t partner = 0;     ///< of that event: a disk, or a Wall
+  std::int32_t other_disk = 0;  ///< of the event that the less precise log has in its place
+  std::int32_t other_partner = 0;
+};
+
+/// One engine against the next better one.
+struct HorizonRow {
+  std::string engine;
+  int bits = 0;                               ///< of the significand
+  std::string against;                        ///< the engine of the next better precision; empty for the best, which has none
+  std::optional<double> time;                 ///< until then positions agree to the tolerance; empty: to the end
+  std::optional<double> collisions_per_disk;  ///< until then
+  bool estimated = false;                     ///< time is not measured but extrapolated with the Lyapunov exponent
+  std::optional<FirstDifference> first_difference;  ///< empty: the same events to the end
+  double seconds = 0.0;  ///< of processor time in the event loop, from the start to Horizon::timed_until
+  double price = 0.0;    ///< seconds over those of the textbook engine in double precision; 0 where too few to tell
+};
+
+/// Why a measurement of horizons ended.
+enum class HorizonEnd {
+  parted,       ///< every precision has left the next better one
+  run,          ///< the run's end is reached, and positions still agree
+  limit,        ///< the limit of work is reached before
+  interrupted,  ///< the caller said stop
+  stuck,        ///< an engine ended early: disks without room collide without end at one instant
+};
+
+struct Horizon {
+  double tolerance = 0.0;   ///< of the largest distance of a disk from itself, in units of sigma
+  double sigma = 0.0;       ///< mean contact distance: the mean diameter of the disks
+  double resolution = 0.0;  ///< time from one comparison to the next: horizons are known to this, rounded down
+  std::string engine;       ///< the one that runs the scene; a name in rows
+  std::vector<HorizonRow> rows;
+  std::optional<Lyapunov> lyapunov;  ///< empty where disks do not collide, or too rarely to tell
+  double time = 0.0;                 ///< compared up to here
+  double collisions_per_disk = 0.0;  ///< up to here, in the best precision
+  std::uint64_t collisions = 0;      ///< of pairs, up to here, in the best precision
+  double timed_until = 0.0;          ///< the stretch of time, from the start, that HorizonRow::seconds is of
+  HorizonEnd ended = HorizonEnd::run;
+  std::optional<double> run_time;  ///< the end of the scene's own run, where it has one
+
+  /// The row of that engine, or null.
+  [[nodiscard]] const HorizonRow* row(const std::string& name) const {
+    for (const HorizonRow& one : rows)
+      if (one.engine == name) return &one;
+    return nullptr;
+  }
+};
+
+/// "parted", "run", "limit", "interrupted", "stuck"
+std::string to_string(HorizonEnd end);
+
+}  // namespace carom

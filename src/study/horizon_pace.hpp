@@ -1,0 +1,23 @@
+#pragma once
+// How fast things happen in a scene, from a short look ahead: what the studies choose their steps by.
+
+#include <carom/scene.hpp>
+#include <carom/state.hpp>
+
+namespace carom {
+
+struct Pace {
+  double time = 0.0;             ///< how long was looked; 0 where nothing moves
+  double collision_rate = 0.0;   ///< collisions of one disk per time, 0 where no pair met
+  double events_per_time = 0.0;  ///< of every kind, bookkeeping too
+};
+
+/// Looks at some thousand events or four per disk, whichever is more, but no longer than the fastest disk needs for about 4096
+/// times the mean spacing of disks times the root of their number: a scene where nothing meets ends too. Throws as
+/// make_simulation.
+Pace measure_pace(const Scene& scene, const State& start);
+
+/// All that happened, bookkeeping too.
+[[nodiscard]] std::uint64_t all_events(const Totals& totals);
+
+}  // namespace carom

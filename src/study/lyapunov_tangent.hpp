@@ -1,0 +1,63 @@
+#pragma once
+// How a vanishingly small difference of two trajectories grows: tangent-space dynamics of hard disks (Dellago, Posch & Hoover,
+// Phys. Rev. E 53, 1485 (1996), dellago1996), carried along an event log.
+//
+// Between events the difference (dr, dv) of a disk grows as dr += dv t. At an event the two trajectories collide at different
+// times. With M the map of the collision and tau the delay of the second trajectory, the difference of the two after both have
+// collided, taken back to one time, is
+//
+//     dr' = dM_r(dr + v tau) - v' tau,    dv' = dM_v(dr + v tau, dv).
+
+#include "core/vec2.hpp"
+
+#include <carom/box.hpp>
+#include <carom/scene.hpp>
+#include <carom/state.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace carom {
+
+/// A trajectory and one vector of its tangent space, moved from event to event. O(1) per event.
+class TangentFlow {
+ public:
+  /// Begins at `start`. `dr` and `dv` are 2 x N: the difference at that time, of any length.
+  TangentFlow(const Box& box, const Disks& disks, CollisionRule rule, const State& start, const Eigen::Matrix2Xd& dr,
+              const Eigen::Matrix2Xd& dv);
+
+  /// The next event of the trajectory. Requires all of them, in order.
+  void follow(const Event& event);
+
+  /// Brings every disk to one time, not before the last event. O(N).
+  void advance(double time);
+
+  /// The difference of all disks; of one time only just after advance().
+  [[nodiscard]] Eigen::Matrix2Xd dr() const;
+  [[nodiscard]] Eigen::Matrix2Xd dv() const;
+
+  /// sqrt(sum |dr|^2 / length^2 + sum |dv|^2 / speed^2), after advance().
+  [[nodiscard]] double norm(double length, double speed) const;
+  void scale(double factor);
+
+ private:
+  struct Disk {
+    Vec2<double> r;  ///< at time + remainder, not folded
+    Vec2<double> v;
+    Vec2<double> dr;
+    Vec2<double> dv;
+    double time = 0.0;
+    double remainder = 0.0;  ///< as in Event: late times keep their digits
+  };
+
+  [[nodiscard]] Disk& disk(std::int32_t i) { return all_[static_cast<std::size_t>(i)]; }
+  static void bring(Disk& a, double time, double remainder);
+  [[nodiscard]] Vec2<double> separation(const Disk& a, const Disk& b) const;
+
+  Box box_;
+  const Disks& disks_;
+  CollisionRule rule_;
+  std::vector<Disk> all_;
+};
+
+}  // namespace carom

@@ -1,0 +1,160 @@
+// carom horizon, and carom run --verify-horizon: what they print and how they end.
+
+#include "support/child_process.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <carom/version.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <string>
+
+namespace carom::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+namespace fs = std::filesystem;
+
+const std::string gas = R"([box]
+x = [0.0, 10.0]
+y = [0.0, 10.0]
+boundary = "periodic"
+
+[[disks]]
+count = 50
+radius = 0.3
+mass = 1.0
+positions = "random"
+velocities = { temperature = 1.0 }
+
+[collision]
+rule = "specular"
+
+[run]
+time = 2.0
+sample_every = 0.5
+equilibrate = { collisions_per_disk = 5 }
+)";
+
+class HorizonCommand : public ::testing::Test {
+ protected:
+  HorizonCommand() { write_text(directory_.path() / "gas.toml", gas); }
+
+  Outcome carom(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meanwhile = {}) {
+    return run_carom(directory_.path(), arguments, meanwhile);
+  }
+  [[nodiscard]] fs::path file(const std::string& name) const { return directory_.path() / name; }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(HorizonCommand, PrintsARowForEveryPrecisionAndOneSentenceAndWritesNothing) {
+  const Outcome outcome = carom({"horizon", "gas.toml"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("textbook-float"), HasSubstr("fast"), HasSubstr("textbook-quad"),
+                                 HasSubstr("Lyapunov exponent: "), HasSubstr("In double precision this trajectory is right")));
+  EXPECT_FALSE(fs::exists(file("gas")));
+}
+
+TEST_F(HorizonCommand, QuietPrintsTheSentenceAlone) {
+  const Outcome outcome = carom({"horizon", "gas.toml", "-q"});
+  EXPECT_THAT(outcome.out, StartsWith("In double precision this trajectory is right to 0.001 sigma"));
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
+}
+
+TEST_F(HorizonCommand, JsonHoldsEveryRowAndTheExponent) {
+  const Outcome outcome = carom({"horizon", "gas.toml", "--json", "--seed", "3"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, IsEmpty());
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result["carom"]["version"], build_info().version);
+  EXPECT_EQ(result["seed"], 3);
+  EXPECT_EQ(result["disks"], 50);
+  const json& horizon = result["horizon"];
+  EXPECT_EQ(horizon["tolerance"], 1e-3);
+  EXPECT_EQ(horizon["engine"], "fast");
+  EXPECT_EQ(horizon["ended"], "parted");
+  EXPECT_GT(horizon["lyapunov"]["per_time"], 0.0);
+  EXPECT_GT(horizon["lyapunov"]["per_collision_error"], 0.0);
+  EXPECT_GE(horizon["rows"].size(), 4U);
+  for (const json& row : horizon["rows"]) {
+    EXPECT_GT(row["time"], 0.0) << row;
+    EXPECT_GT(row["collisions_per_disk"], 0.0) << row;
+    EXPECT_GT(row["seconds"], 0.0) << row;
+    EXPECT_EQ(row["estimated"], row["against"].is_null()) << row;
+    EXPECT_EQ(row["first_difference"].is_null(), row["against"].is_null()) << row;
+  }
+  EXPECT_THAT(result["sentence"].get<std::string>(), StartsWith("In double precision"));
+}
+
+TEST_F(HorizonCommand, OverridesChangeTheScene) {
+  const Outcome outcome = carom({"horizon", "gas.toml", "--json", "--set", "disks.0.count=20", "--engine", "textbook"});
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result["disks"], 20);
+  EXPECT_EQ(result["horizon"]["engine"], "textbook");
+}
+
+TEST_F(HorizonCommand, SaysWhenThereIsNothingToPart) {
+  const Outcome outcome = carom({"horizon", "-q", CAROM_SOURCE_DIR "/docs/scenes/newtons_cradle.toml"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("to the end of the run"));
+}
+
+TEST_F(HorizonCommand, BrokenSceneExitsTwoWithOneSentence) {
+  write_text(file("gas.toml"), gas + "tiem = 3.0\n");
+  const Outcome outcome = carom({"horizon", "gas.toml"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_THAT(outcome.err, StartsWith("carom: gas.toml:20:"));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+}
+
+TEST_F(HorizonCommand, InterruptedSaysHowFarItCameAndExits130) {
+  const auto signal_soon = [&](pid_t child) {
+    EXPECT_TRUE(wait_until([&] { return fs::exists("/proc/" + std::to_string(child) + "/exe"); }));
+    const auto began = std::chrono::steady_clock::now();
+    wait_until([&] { return std::chrono::steady_clock::now() - began > std::chrono::milliseconds(500); });
+    kill(child, SIGINT);
+  };
+  const Outcome outcome = carom({"horizon", "gas.toml", "--set", "disks.0.count=10000", "--set", "box.x=[0.0,200.0]", "--set",
+                                 "box.y=[0.0,200.0]", "--set", "run.equilibrate.collisions_per_disk=1"},
+                                signal_soon);
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_THAT(outcome.out + outcome.err, HasSubstr("nterrupted"));
+}
+
+TEST_F(HorizonCommand, RunVerifiesItsOwnHorizonWhenAsked) {
+  const Outcome outcome = carom({"run", "gas.toml", "--verify-horizon"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("worst overlap"), HasSubstr("In double precision this trajectory is right to 0.001")));
+  const json summary = json::parse(text_of(file("gas/summary.json")));
+  EXPECT_EQ(summary["horizon"]["ended"], "parted");
+  EXPECT_EQ(summary["horizon"]["rows"][0]["engine"], "textbook-float");
+}
+
+TEST_F(HorizonCommand, RunSaysNothingOfHorizonsUnasked) {
+  const Outcome outcome = carom({"run", "gas.toml", "--json"});
+  EXPECT_FALSE(json::parse(outcome.out).contains("horizon"));
+}
+
+TEST_F(HorizonCommand, RunMeasuresTheSameHorizonAsTheCommand) {
+  const json alone = json::parse(carom({"horizon", "gas.toml", "--json"}).out)["horizon"];
+  const json beside = json::parse(carom({"run", "gas.toml", "--json", "--verify-horizon"}).out)["horizon"];
+  for (std::size_t k = 0; k < alone["rows"].size(); ++k) {
+    EXPECT_EQ(alone["rows"][k]["time"], beside["rows"][k]["time"]);
+    EXPECT_EQ(alone["rows"][k]["first_difference"], beside["rows"][k]["first_difference"]);
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
