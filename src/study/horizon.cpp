@@ -15,6 +15,9 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <ranges>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -64,6 +67,7 @@ struct Runner {
   State state = {};
   std::vector<Event> log = {};
   LogComparison events = {};
+  bool stalled = false;  ///< its time has stopped
 };
 
 /// The measurement, step by step; what it finds goes into a Horizon.
@@ -80,7 +84,11 @@ class Measurement {
     pace_ = measure_pace(scene_, start_);
     if (measure_exponent()) {
       choose_steps();
-      advance_all();
+      if (pace_.stuck) {
+        result_.ended = HorizonEnd::stuck;
+      } else {
+        advance_all();
+      }
       extrapolate();
       if (result_.ended != HorizonEnd::interrupted) measure_prices();
     } else {
@@ -95,6 +103,7 @@ class Measurement {
     result_.tolerance = options_.tolerance;
     result_.run_time = scene_.run.time;
     const std::vector<Precision> precisions = ladder();
+    const bool fast = make_simulation(scene_, start_).engine() == "fast";
     const auto add = [&](const std::string& engine, int bits, std::size_t against) {
       const std::size_t own = runners_.size();
       runners_.push_back({make_simulation(scene_, start_, engine), own, against});
@@ -109,11 +118,11 @@ class Measurement {
       const std::size_t better = runners_.empty() ? 0 : last_of_ladder_;
       last_of_ladder_ = runners_.size();
       add(precisions[k].engine, precisions[k].bits, better);
-      if (std::string(precisions[k].engine) == "textbook") {
-        if (make_simulation(scene_, start_).engine() == "fast") add("fast", precisions[k].bits, better);
-      }
+      if (fast && std::string(precisions[k].engine) == "textbook") add("fast", precisions[k].bits, better);
     }
-    result_.engine = make_simulation(scene_, start_, options_.engine).engine();
+    result_.engine = options_.engine == "auto" ? (fast ? "fast" : "textbook") : options_.engine;
+    if (result_.row(result_.engine) == nullptr)
+      throw std::invalid_argument(fmt::format("no horizon is measured for an engine \"{}\" in this scene", result_.engine));
     const Disks& disks = runners_.front().simulation.disks();
     const double radii = std::accumulate(disks.radius.begin(), disks.radius.end(), 0.0);
     disks_ = static_cast<double>(disks.count());
@@ -186,16 +195,20 @@ class Measurement {
     }
   }
 
-  /// Every engine to time k * step, or to `time` where k is 0. False where one stopped early or the caller said stop.
+  /// Every engine to time k * step, or to `time` where k is 0, the cheap ones first. False where time stopped for one or the
+  /// caller said stop. Single precision may lose its way without the others.
   bool advance_to(double time, std::uint64_t k) {
-    for (Runner& one : runners_) {
+    for (Runner& one : runners_ | std::views::reverse) {
+      if (one.stalled) continue;
       if (!proceed(fmt::format("time {:.6g}, {:.3g} collisions per disk", result_.time, result_.collisions_per_disk),
                    lyapunov_share + lockstep_share * share_done())) {
         result_.ended = HorizonEnd::interrupted;
         return false;
       }
-      const StopReason reason = k > 0 ? one.simulation.run_until_sample(k, step_) : one.simulation.run_until(time);
-      if (reason == StopReason::time) continue;
+      const std::uint64_t most = one.simulation.totals().pair + carom::stalled(one.simulation.disks().count());
+      const StopReason reason = k > 0 ? one.simulation.run_until_sample(k, step_, most) : one.simulation.run_until(time, most);
+      one.stalled = reason != StopReason::time;
+      if (!one.stalled || result_.rows[one.row].bits < std::numeric_limits<double>::digits) continue;
       result_.ended = HorizonEnd::stuck;
       return false;
     }
@@ -214,7 +227,8 @@ class Measurement {
       const Runner& better = runners_[one.against];
       one.events.add(one.log, better.log);
       row.first_difference = one.events.found();
-      if (row.time || largest_distance(scene_.box, one.state, better.state) <= options_.tolerance * result_.sigma) continue;
+      if (row.time) continue;
+      if (!one.stalled && largest_distance(scene_.box, one.state, better.state) <= options_.tolerance * result_.sigma) continue;
       row.time = result_.time;  // the last comparison that found them together
       row.collisions_per_disk = result_.collisions_per_disk;
     }
@@ -225,7 +239,7 @@ class Measurement {
       result_.timed_until = time;
   }
 
-  /// Positions have parted and events too; or positions have, so long ago that the tolerance has grown to a diameter squared.
+  /// Positions have parted and events too; or positions alone, for twice as long as the tolerance takes to become a diameter.
   [[nodiscard]] bool all_parted(double time) const {
     const double rate = result_.lyapunov && result_.lyapunov->is_chaotic() ? result_.lyapunov->per_time : 0.0;
     const double wait = rate > 0.0 ? -2.0 * std::log(std::min(options_.tolerance, 1.0)) / rate : 0.0;

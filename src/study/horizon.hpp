@@ -34,7 +34,7 @@ struct HorizonOptions {
 /// float: that rounding counts as its error. The best precision has no better one; its horizon is extrapolated.
 ///
 /// Memory: all engines at once, 2.5 kB per disk. A precision that is no better than the one before it (long double
-/// on some machines) is left out. Throws as make_simulation.
+/// on some machines) is left out. Throws as make_simulation, and std::invalid_argument where options.engine is none of the rows.
 Horizon measure_horizon(const Scene& scene, const State& start, const HorizonOptions& options = {});
 
 }  // namespace carom

@@ -10,6 +10,8 @@ namespace carom {
 
 std::uint64_t all_events(const Totals& totals) { return totals.pair + totals.wall + totals.other + totals.stale; }
 
+std::uint64_t stalled(std::uint64_t disks) { return 200'000 + 20 * disks; }
+
 Pace measure_pace(const Scene& scene, const State& start) {
   if (start.velocities.cols() == 0) return {};
   const double fastest = start.velocities.colwise().norm().maxCoeff();
@@ -19,11 +21,16 @@ Pace measure_pace(const Scene& scene, const State& start) {
   const double enough = std::max(4000.0, 4.0 * disks);
   Simulation simulation = make_simulation(scene, start);
   const auto events = [&] { return static_cast<double>(all_events(simulation.totals())); };
-  for (double time = passage; time <= 4096.0 * passage * std::sqrt(disks) && events() < enough; time *= 2.0)
-    if (simulation.run_until(time) != StopReason::time) break;  // jammed: what is known is all there is to know
-  if (!(simulation.time() > 0.0)) return {};
-  return {simulation.time(), 2.0 * static_cast<double>(simulation.totals().pair) / disks / simulation.time(),
-          events() / simulation.time()};
+  bool stuck = false;
+  for (double time = passage; time <= 4096.0 * passage * std::sqrt(disks) && events() < enough && !stuck; time *= 2.0)
+    stuck = simulation.run_until(time) != StopReason::time;
+  Pace pace;
+  pace.stuck = stuck;
+  if (!(simulation.time() > 0.0)) return pace;
+  pace.time = simulation.time();
+  pace.collision_rate = 2.0 * static_cast<double>(simulation.totals().pair) / disks / pace.time;
+  pace.events_per_time = events() / pace.time;
+  return pace;
 }
 
 }  // namespace carom

@@ -10,12 +10,16 @@ struct Pace {
   double time = 0.0;             ///< how long was looked; 0 where nothing moves
   double collision_rate = 0.0;   ///< collisions of one disk per time, 0 where no pair met
   double events_per_time = 0.0;  ///< of every kind, bookkeeping too
+  bool stuck = false;            ///< jammed at the time reached: collisions without end at one instant
 };
 
 /// Looks at some thousand events or four per disk, whichever is more, but no longer than the fastest disk needs for about 4096
 /// times the mean spacing of disks times the root of their number: a scene where nothing meets ends too. Throws as
 /// make_simulation.
 Pace measure_pace(const Scene& scene, const State& start);
+
+/// Collisions of pairs that no step of a study comes near, which holds a few per disk or 20,000 events: time has all but stopped.
+[[nodiscard]] std::uint64_t stalled(std::uint64_t disks);
 
 /// All that happened, bookkeeping too.
 [[nodiscard]] std::uint64_t all_events(const Totals& totals);

@@ -68,7 +68,7 @@ Eigen::Matrix2Xd any_direction(Eigen::Index disks, std::uint64_t seed, std::uint
 std::optional<Lyapunov> measure_lyapunov(const Scene& scene, const State& start, const Pace& pace,
                                          const LyapunovOptions& options) {
   const Eigen::Index disks = start.positions.cols();
-  if (!(pace.collision_rate > 0.0) || disks == 0) return std::nullopt;
+  if (!(pace.collision_rate > 0.0) || pace.stuck || disks == 0) return std::nullopt;
   const auto count = static_cast<double>(disks);
   const std::uint64_t asked =
       options.collisions > 0 ? options.collisions : std::max<std::uint64_t>(500'000, 100 * static_cast<std::uint64_t>(disks));
@@ -90,7 +90,7 @@ std::optional<Lyapunov> measure_lyapunov(const Scene& scene, const State& start,
   for (double from = 0.0; pairs < asked && from < patience;) {
     if (options.proceed && !options.proceed(static_cast<double>(pairs) / static_cast<double>(asked))) return std::nullopt;
     const double to = from + interval;
-    if (simulation.run_until(to) != StopReason::time) break;
+    if (simulation.run_until(to, pairs + stalled(simulation.disks().count())) != StopReason::time) break;
     for (const Event& event : simulation.take_events()) flow.follow(event);
     flow.advance(to);
     const double grown = flow.norm(length, speed);

@@ -248,6 +248,19 @@ TEST(Horizon, OfMassesAMillionApartIsFound) {
   EXPECT_NEAR(horizon.sigma, 0.8, 36 * std::numeric_limits<double>::epsilon()) << "the mean of 18 diameters of 1 and 18 of 0.6";
 }
 
+TEST(Horizon, OfAnUnknownEngineIsRefused) { EXPECT_THROW(horizon_of(gas(), {.engine = "steam"}), std::invalid_argument); }
+
+// Between the walls there is room for two diameters and no more: two disks that touch both walls and each other collide for ever.
+TEST(SlowHorizon, OfDisksWithoutRoomEnds) {
+  const Box box = {{0.0, 0.0}, {2.0, 4.0}, {Boundary::walls, Boundary::walls}};
+  Scene scene = placed_scene(box, {{{0.5, 2.0}, {1.0, 0.0}}, {{1.5, 2.0}, {-1.0, 0.0}}});
+  scene.run.time = 1.0;
+  const Horizon horizon = horizon_of(scene);
+  EXPECT_EQ(horizon.ended, HorizonEnd::stuck);
+  EXPECT_EQ(horizon.time, 0.0);
+  EXPECT_THAT(sentence_of(horizon), HasSubstr("disks without room"));
+}
+
 // ---------------------------------------------------------------------------------------------- how states and logs differ
 
 TEST(LargestDistance, IsToTheNearestImageAndCountsRemainders) {
