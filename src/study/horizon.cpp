@@ -3,8 +3,8 @@
 #include "core/real.hpp"
 #include "study/horizon_difference.hpp"
 #include "study/horizon_pace.hpp"
-#include "study/horizon_price.hpp"
 #include "study/lyapunov.hpp"
+#include "study/method.hpp"
 
 #include <carom/simulation.hpp>
 
@@ -271,7 +271,7 @@ class Measurement {
       const double done = static_cast<double>(k) / static_cast<double>(result_.rows.size());
       if (!proceed("timing " + row.engine, lyapunov_share + lockstep_share + (1.0 - lyapunov_share - lockstep_share) * done))
         break;
-      row.seconds = seconds_in_loop(scene_, start_, row.engine, result_.timed_until);
+      row.seconds = seconds_in_loop(scene_, start_, {row.engine}, {result_.timed_until}).front();
       if (row.engine == "textbook") base = row.seconds;
     }
     for (HorizonRow& row : result_.rows) row.price = base > 0.0 ? row.seconds / base : 0.0;

@@ -52,7 +52,8 @@ void StepAudit::look_at_reversals(const State& state, std::span<const Event> rev
   }
 }
 
-/// Pairs apart now and apart at the next step whose straight flights touch in between; and how deep those are that are in contact.
+/// Pairs apart now and apart at the next step whose straight flights touch in between; and how deep those are that are in
+/// contact.
 void StepAudit::look_at_flights(const State& state) {
   const auto disks = static_cast<std::int32_t>(state.positions.cols());
   const double fastest = disks == 0 ? 0.0 : state.velocities.colwise().norm().maxCoeff();
@@ -83,7 +84,8 @@ StepCounts audit(const Scene& scene, const State& start, const FixedStep& method
   simulation.record_events(true);
   StepAudit audit(scene.box, simulation.disks(), method.dt);
   const double disks = static_cast<double>(simulation.disks().count());
-  const double steps = std::clamp(std::floor(pair_limit / std::max(1.0, disks * disks / 2.0)), 1.0, std::floor(time / method.dt) + 1.0);
+  const double steps =
+      std::clamp(std::floor(pair_limit / std::max(1.0, disks * disks / 2.0)), 1.0, std::floor(time / method.dt) + 1.0);
   for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(steps); ++k) {
     if (proceed && k % 64 == 0 && !proceed()) break;
     simulation.run_until_sample(k, method.dt);

@@ -14,8 +14,8 @@
 
 namespace carom {
 
-/// Counts over the steps that were looked at. An encounter is the time from a pair's first reversal until it is apart and was not reversed
-/// in the last step.
+/// Counts over the steps that were looked at. An encounter is the time from a pair's first reversal until it is apart and was not
+/// reversed in the last step.
 struct StepCounts {
   std::uint64_t steps = 0;
   double time = 0.0;           ///< that they cover
@@ -61,13 +61,13 @@ class StepAudit {
   const Box& box_;
   const Disks& disks_;
   double dt_;
-  std::set<Pair> encounters_;           ///< that go on
+  std::set<Pair> encounters_;  ///< that go on
   std::set<Pair> reversed_last_step_;
   StepCounts counts_;
 };
 
-/// Runs the method from `start` for `time`, or for as many steps as `pair_limit` looks at pairs allow, one at least. `proceed` is asked now
-/// and then; false ends it. Requires a fixed-step method.
+/// Runs the method from `start` for `time`, or for as many steps as `pair_limit` looks at pairs allow, one at least. `proceed` is
+/// asked now and then; false ends it. Requires a fixed-step method.
 [[nodiscard]] StepCounts audit(const Scene& scene, const State& start, const FixedStep& method, double time, double pair_limit,
                                const std::function<bool()>& proceed = {});
 

@@ -1,0 +1,246 @@
+// The study from its plan to its last point. Every point is finished before the next begins, so that what is there can be kept.
+
+#include "study/compare.hpp"
+
+#include "neighbours/disks_at_rest.hpp"
+#include "observe/mechanics.hpp"
+#include "observe/pressure.hpp"
+#include "study/compare_costs.hpp"
+#include "study/horizon.hpp"
+#include "study/horizon_pace.hpp"
+#include "study/reference.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+/// Errors are compared until a quarter beyond the horizon, so that its coming is seen, and costs at an eighth of it, where
+/// errors have grown by four e-foldings or so and are still those of the method.
+constexpr double beyond_horizon = 1.25;
+constexpr double early_fraction = 0.125;
+
+constexpr std::uint64_t most_samples = 100;
+
+/// Pairs that an audit may look at: a quarter of a second.
+constexpr double audited_pairs = 2e8;
+
+/// Three per decade, from 2 mean free times down to 2e-4.
+std::vector<double> usual_ladder(double mean_free_time) {
+  std::vector<double> dts;
+  for (int k = 1; k >= -11; --k) dts.push_back(mean_free_time * std::pow(10.0, k / 3.0));
+  return dts;
+}
+
+class Study {
+ public:
+  Study(const Scene& scene, const CompareOptions& options, const CompareHooks& hooks, Comparison before)
+      : scene_(scene), options_(options), hooks_(hooks), result_(std::move(before)) {}
+
+  Comparison operator()() {
+    if (result_.plan.samples == 0 && !make_plan()) return result_;
+    for (const std::uint64_t seed : result_.plan.seeds) {
+      if (!compare_from(seed)) return result_;
+    }
+    if (options_.costs) {
+      const auto proceed = [&](const std::string& doing, double fraction) { return going_on(doing, 0.85 + 0.15 * fraction); };
+      if (!measure_costs(scene_, result_, proceed, hooks_.cost_done)) return result_;
+    }
+    result_.complete = true;
+    return result_;
+  }
+
+ private:
+  bool make_plan() {
+    ComparePlan& plan = result_.plan;
+    const std::optional<State> start = start_with(scene_.run.seed);
+    if (!start) return false;
+    const Pace pace = measure_pace(scene_, *start);
+    if (!(pace.collision_rate > 0.0))
+      throw std::invalid_argument("no two disks of this scene collide; there is nothing to compare");
+    HorizonOptions options;
+    options.engine = options_.engine;
+    options.proceed = [&](const HorizonProgress& progress) {
+      return going_on("measuring how far the trajectory can be trusted", 0.05 * progress.fraction);
+    };
+    plan.horizon = measure_horizon(scene_, *start, options);
+    if (plan.horizon.ended == HorizonEnd::interrupted) return false;
+    plan.sigma = plan.horizon.sigma;
+    plan.mean_free_time = 1.0 / (plan.horizon.lyapunov ? plan.horizon.lyapunov->collision_rate : pace.collision_rate);
+    plan.temperature = kinetic_temperature(scene_.box, make_simulation(scene_, *start).disks(), *start);
+    choose_samples(plan);
+    plan.dts = options_.dts.empty() ? usual_ladder(plan.mean_free_time) : options_.dts;
+    std::sort(plan.dts.rbegin(), plan.dts.rend());
+    for (std::uint64_t k = 0; k < options_.seeds; ++k) plan.seeds.push_back(scene_.run.seed + k);
+    plan.longest = options_.longest;
+    if (hooks_.planned) hooks_.planned(plan);
+    return true;
+  }
+
+  /// On the scene's own sampling grid, thinned where that is finer than a plot shows.
+  void choose_samples(ComparePlan& plan) const {
+    const HorizonRow* row = plan.horizon.row(plan.horizon.engine);
+    const double horizon = row != nullptr && row->time ? *row->time : std::max(plan.horizon.time, 20.0 * plan.mean_free_time);
+    const double wanted = beyond_horizon * horizon;
+    const double until = scene_.run.time && *scene_.run.time > 0.0 ? std::min(wanted, *scene_.run.time) : wanted;
+    plan.sample_step = until / static_cast<double>(most_samples);
+    if (scene_.run.sample_every && *scene_.run.sample_every <= until / 8.0)
+      plan.sample_step =
+          *scene_.run.sample_every * std::max(1.0, std::ceil(plan.sample_step / *scene_.run.sample_every * (1.0 - 1e-12)));
+    plan.samples = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(until / plan.sample_step * (1.0 + 1e-12)));
+    const double early = std::min(early_fraction * horizon, until) / plan.sample_step;
+    plan.early = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(std::nearbyint(early)), 1, plan.samples);
+  }
+
+  [[nodiscard]] std::optional<State> start_with(std::uint64_t seed) {
+    scene_.run.seed = seed;
+    return measured_start(scene_, options_.engine, [&](const Progress&) { return going_on("equilibrating", 0.0); });
+  }
+
+  [[nodiscard]] std::vector<Method> methods() const {
+    std::vector<Method> all;
+    for (const std::string& engine : compared_engines(scene_, options_.engine)) all.push_back({engine});
+    for (const double dt : result_.plan.dts)
+      for (const std::string& name : fixed_step_names()) all.push_back({name, dt});
+    return all;
+  }
+
+  [[nodiscard]] bool has(const Method& method, std::uint64_t seed) const {
+    const auto same = [&](const Method& m) { return m.name == method.name && m.dt == method.dt; };
+    return std::any_of(result_.runs.begin(), result_.runs.end(),
+                       [&](const MethodRun& run) { return same(run.method) && run.seed == seed; }) ||
+           std::any_of(result_.left_out.begin(), result_.left_out.end(), [&](const LeftOut& one) { return same(one.method); });
+  }
+
+  /// All methods from one start. False where the study was stopped.
+  bool compare_from(std::uint64_t seed) {
+    const std::vector<Method> all = methods();
+    std::optional<State> start;
+    std::optional<Reference> reference;
+    std::optional<Disks> disks;
+    const bool first = seed == result_.plan.seeds.front();
+    const double seeds = static_cast<double>(result_.plan.seeds.size());
+    const double before = static_cast<double>(seed - result_.plan.seeds.front()) / seeds;
+    double done = 0.0;
+    for (const Method& method : all) {
+      fraction_ = 0.05 + 0.8 * (before + done / static_cast<double>(all.size()) / seeds);
+      done += 1.0;
+      if (has(method, seed)) continue;
+      if (!start) {
+        start = start_with(seed);
+        if (!start) return false;
+        reference.emplace(scene_, *start, result_.plan.sample_step, result_.plan.samples,
+                          [&] { return going_on(fmt::format("seed {}: 113 bits", seed), fraction_); });
+        if (!reference->complete()) return false;
+        disks = make_simulation(scene_, *start).disks();
+      }
+      doing_ = method.exact() ? fmt::format("seed {}: {}", seed, method.name)
+                              : fmt::format("seed {}: {}, dt = {:.3g}", seed, method.name, method.dt);
+      std::uint64_t samples = result_.plan.samples;
+      if (!method.exact()) {
+        const double per_time = seconds_per_time(method, *start);
+        if (per_time * result_.plan.until() > result_.plan.longest) samples = result_.plan.early;
+        if (per_time * result_.plan.early_time() > result_.plan.longest) {
+          result_.left_out.push_back({method, per_time * result_.plan.early_time()});
+          continue;
+        }
+      }
+      std::optional<MethodRun> run = run_method(method, *start, *reference, *disks, samples);
+      if (!run) return false;
+      run->seed = seed;
+      if (first && !method.exact()) {
+        const double time = result_.plan.sample_step * static_cast<double>(samples);
+        run->counts =
+            audit(scene_, *start, {method.name, method.dt}, time, audited_pairs, [&] { return going_on(doing_, fraction_); });
+        if (stopped_) return false;
+      }
+      result_.runs.push_back(*run);
+      if (hooks_.run_done) hooks_.run_done(*run);
+    }
+    return true;
+  }
+
+  /// Foreseen, from a few steps.
+  [[nodiscard]] double seconds_per_time(const Method& method, const State& start) const {
+    Simulation pilot = begin(scene_, start, method);
+    const double began = thread_seconds();
+    std::uint64_t steps = 0;
+    for (std::uint64_t more = 1; thread_seconds() - began < 0.005 && steps < 10'000; more *= 2) {
+      steps += more;
+      pilot.run_until_sample(steps, method.dt);
+    }
+    return (thread_seconds() - began) / (static_cast<double>(steps) * method.dt);
+  }
+
+  std::optional<MethodRun> run_method(const Method& method, const State& start, const Reference& reference, const Disks& disks,
+                                      std::uint64_t samples) {
+    const ComparePlan& plan = result_.plan;
+    MethodRun run;
+    run.method = method;
+    Simulation simulation = begin(scene_, start, method);
+    double speeds = 0.0;
+    for (std::uint64_t k = 1; k <= samples; ++k) {
+      if (!going_on(doing_, fraction_)) return std::nullopt;
+      const double began = thread_seconds();
+      simulation.run_until_sample(k, plan.sample_step);
+      run.seconds += thread_seconds() - began;
+      if (k == plan.early) run.seconds_early = run.seconds;
+      const State state = simulation.state();
+      run.error.push_back(reference.rms_distance(k, state) / plan.sigma);
+      speeds += state.velocities.colwise().norm().mean();
+      run.worst_overlap =
+          std::max(run.worst_overlap, deepest_overlap(scene_.box, disks.radius, state.positions, state.remainders).relative);
+    }
+    run.time = simulation.time();
+    if (run.seconds < 0.05) {  // too short for a clock: again, undisturbed
+      const std::vector<double> least = seconds_in_loop(scene_, start, method, {plan.early_time(), run.time});
+      run.seconds_early = least[0];
+      run.seconds = least[1];
+    }
+    const Totals& totals = simulation.totals();
+    const double count = static_cast<double>(disks.count());
+    run.pair = totals.pair;
+    run.Z = compressibility(totals.virial / run.time, count, kinetic_temperature(scene_.box, disks, start));
+    run.collision_rate = 2.0 * static_cast<double>(totals.pair) / (count * run.time);
+    run.mean_free_path = totals.pair == 0 ? 0.0 : speeds / static_cast<double>(samples) / run.collision_rate;
+    run.energy_drift = kinetic_energy(disks, simulation.state()) / kinetic_energy(disks, start) - 1.0;
+    return run;
+  }
+
+  bool going_on(const std::string& doing, double fraction) {
+    stopped_ = stopped_ || (hooks_.proceed && !hooks_.proceed(doing, fraction));
+    return !stopped_;
+  }
+
+  Scene scene_;
+  const CompareOptions& options_;
+  const CompareHooks& hooks_;
+  Comparison result_;
+  std::string doing_;
+  double fraction_ = 0.0;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+std::vector<std::string> compared_engines(const Scene& scene, const std::string& engine) {
+  std::vector<std::string> names = {"textbook-float"};
+  const std::string runs_it = make_simulation(scene, engine).engine();
+  names.emplace_back("textbook");
+  if (runs_it == "fast") names.emplace_back("fast");
+  names.emplace_back("textbook-long-double");
+  return names;
+}
+
+Comparison compare(const Scene& scene, const CompareOptions& options, const CompareHooks& hooks, Comparison before) {
+  return Study(scene, options, hooks, std::move(before))();
+}
+
+}  // namespace carom
