@@ -109,7 +109,6 @@ Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
       kernel_(prediction_kernel<Line>()),
       lines_(disks.count()),
       plans_(disks.count()),
-      collisions_(disks.count()),
       images_(disks.count()),
       lists_(axes_[0], axes_[1], {}),
       spacing_(detail::mean_spacing(box, disks.count())),
@@ -185,7 +184,10 @@ void Engine<Rule, Layout>::rebase(double now) {
     Plan& mine = plan(i);
     mine.pair_time = std::max(mine.pair_time - now, 0.0);
     mine.edge_time = std::max(mine.edge_time - now, 0.0);
+    mine.foreseen = mine.partner >= 0 && is_stale(mine) ? 0 : 1;
   }
+  for (Plan& any : plans_) any.last_collided = 1;
+  stamp_ = 1;
   epoch_ = instant(now);
   now_ = 0.0;
 }
@@ -338,7 +340,6 @@ void Engine<Rule, Layout>::look_ahead(std::int64_t span) const {
   for (const std::int32_t i : queue_.ids_of(span + 4)) {
     const auto fetch = [this](std::int32_t k) {
       __builtin_prefetch(&line(k));
-      __builtin_prefetch(&collisions_[static_cast<std::size_t>(k)]);
       lists_.prefetch(k);
     };
     fetch(i);
@@ -362,8 +363,8 @@ void Engine<Rule, Layout>::look_ahead(std::int64_t span) const {
 
 template <class Rule, class Layout>
 std::size_t Engine<Rule, Layout>::bytes() const {
-  return lines_.capacity() * sizeof(Line) + plans_.capacity() * sizeof(Plan) + collisions_.capacity() * sizeof(std::uint32_t) +
-         ids_.capacity() * sizeof(std::int32_t) + images_.capacity() * sizeof(images_[0]) + lists_.bytes() + queue_.bytes();
+  return lines_.capacity() * sizeof(Line) + plans_.capacity() * sizeof(Plan) + ids_.capacity() * sizeof(std::int32_t) +
+         images_.capacity() * sizeof(images_[0]) + lists_.bytes() + queue_.bytes();
 }
 
 }  // namespace carom
