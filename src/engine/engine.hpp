@@ -12,6 +12,7 @@
 //
 // The files engine_state.hpp (beginning, epochs, what is seen from outside) and engine_check.hpp (invariants) hold the rest.
 
+#include "core/fetch.hpp"
 #include "core/fixed_axis.hpp"
 #include "core/instant.hpp"
 #include "core/large_memory.hpp"

@@ -334,30 +334,29 @@ void Engine<Rule, Layout>::log_reflection(std::int32_t i, Wall wall) {
 template <class Rule, class Layout>
 void Engine<Rule, Layout>::look_ahead(std::int64_t span) const {
   if (!fetching_) return;
-  asm volatile("");  // GCC 12 takes a function that only fetches for one without effect, and drops it
-  queue_.prefetch(span + 7);
-  for (const std::int32_t i : queue_.ids_of(span + 5)) __builtin_prefetch(&plan(i));
+  queue_.fetch_span(span + 7);
+  for (const std::int32_t i : queue_.ids_of(span + 5)) fetch(&plan(i));
   for (const std::int32_t i : queue_.ids_of(span + 4)) {
-    const auto fetch = [this](std::int32_t k) {
-      __builtin_prefetch(&line(k));
-      lists_.prefetch(k);
+    const auto fetch_disk = [this](std::int32_t k) {
+      fetch(&line(k));
+      lists_.fetch_list(k);
     };
-    fetch(i);
+    fetch_disk(i);
     if (plan(i).pair_time < plan(i).edge_time) {
-      __builtin_prefetch(&plan(plan(i).partner));
-      fetch(plan(i).partner);
+      fetch(&plan(plan(i).partner));
+      fetch_disk(plan(i).partner);
     }
   }
   for (const std::int32_t i : queue_.ids_of(span + 2)) {
     if (queue_.span_of(time(i)) != span + 2) continue;
-    const auto fetch = [this](std::int32_t k) {
+    const auto fetch_neighbours = [this](std::int32_t k) {
       const std::int32_t* ids = lists_.ids(k);
-      for (std::uint32_t n = 0, all = std::min(lists_.count(k), 16U); n < all; ++n) __builtin_prefetch(&line(ids[n]));
+      for (std::uint32_t n = 0, all = std::min(lists_.count(k), 16U); n < all; ++n) fetch(&line(ids[n]));
     };
     if (plan(i).pair_time < plan(i).edge_time)
-      fetch(i), fetch(plan(i).partner);
+      fetch_neighbours(i), fetch_neighbours(plan(i).partner);
     else
-      lists_.prefetch_cells(i);
+      lists_.fetch_cells(i);
   }
 }
 
