@@ -157,7 +157,7 @@ class Engine {
   /// with others stays as it is.
   void leave_cage(std::int32_t i) {
     ++totals_.other;
-    const auto fresh = lists_.move_cage(i, cage_around(i));
+    const auto fresh = lists_.move_cage(i, cage_around(i, now_));
     Prediction ahead =
         predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, fresh.data(), static_cast<std::uint32_t>(fresh.size())});
     Plan& mine = plan(i);
@@ -296,15 +296,15 @@ class Engine {
     return x;
   }
 
-  /// A cage round where disk i is now, somewhat ahead of it.
-  [[nodiscard]] CageCentre cage_around(std::int32_t i) const {
+  /// A cage round where disk i is at a time, somewhat ahead of it.
+  [[nodiscard]] CageCentre cage_around(std::int32_t i, double when) const {
     const Line& a = line(i);
     const double fastest = std::max(std::abs(a.v[0]), std::abs(a.v[1]));
     const double ahead = fastest > 0.0 ? cage_lead * lists_.half_width() / fastest : 0.0;
-    return {cage_centre(0, a, ahead), cage_centre(1, a, ahead)};
+    return {cage_centre(0, a, when, ahead), cage_centre(1, a, when, ahead)};
   }
-  [[nodiscard]] std::int32_t cage_centre(int axis, const Line& a, double ahead) const {
-    const auto x = static_cast<std::uint64_t>(a.x[axis]) + static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * now_)) +
+  [[nodiscard]] std::int32_t cage_centre(int axis, const Line& a, double when, double ahead) const {
+    const auto x = static_cast<std::uint64_t>(a.x[axis]) + static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * when)) +
                    static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * ahead));
     return static_cast<std::int32_t>((x + 0x80000000U) >> 32);
   }

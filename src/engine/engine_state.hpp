@@ -245,7 +245,7 @@ template <class Rule, class Layout>
 void Engine<Rule, Layout>::rebuild(double half_width) {
   frame_.half_width = half_width;
   std::vector<CageCentre> centres(lines_.size());
-  for (std::int32_t i = 0; i < count(); ++i) centres[static_cast<std::size_t>(i)] = cage_around(i);
+  for (std::int32_t i = 0; i < count(); ++i) centres[static_cast<std::size_t>(i)] = cage_around(i, now_);
   lists_.rebuild(half_width, centres);
 
   // Nearest images are right as long as a pair that may meet is less than half a box apart, now and along its lines back
@@ -356,7 +356,7 @@ void Engine<Rule, Layout>::look_ahead(std::int64_t span) const {
     if (plan(i).pair_time < plan(i).edge_time)
       fetch_neighbours(i), fetch_neighbours(plan(i).partner);
     else
-      lists_.fetch_cells(i);
+      lists_.fetch_cells(i, cage_around(i, plan(i).edge_time));
   }
 }
 

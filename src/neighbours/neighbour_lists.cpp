@@ -113,9 +113,9 @@ void NeighbourLists::search(std::int32_t i, CageCentre before, bool was_listed) 
   }
 }
 
-void NeighbourLists::fetch_cells(std::int32_t i) const {
+void NeighbourLists::fetch_cells(std::int32_t i, CageCentre to) const {
   const CageCells& layer = layers_[layer_of(i)];
-  layer.fetch_blocks(range_around(centre(i), radius(i), layer));
+  layer.fetch_blocks(range_around(to, radius(i), layer));
   for (std::uint32_t k = 0; k < count(i); ++k) fetch_list(ids(i)[k]);
 }
 

@@ -41,8 +41,8 @@ class NeighbourLists {
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
 
   void fetch_list(std::int32_t i) const { around_.fetch_list(i); }
-  /// What move_cage(i) will look through.
-  void fetch_cells(std::int32_t i) const;
+  /// What move_cage(i, to) will look through.
+  void fetch_cells(std::int32_t i, CageCentre to) const;
 
   /// Half of the disks have at most so many neighbours. O(disks).
   [[nodiscard]] std::uint32_t median_count() const;
