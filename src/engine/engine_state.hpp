@@ -351,7 +351,8 @@ void Engine<Rule, Layout>::look_ahead(std::int64_t span) const {
     if (queue_.span_of(time(i)) != span + 2) continue;
     const auto fetch_neighbours = [this](std::int32_t k) {
       const std::int32_t* ids = lists_.ids(k);
-      for (std::uint32_t n = 0, all = std::min(lists_.count(k), 16U); n < all; ++n) fetch(&line(ids[n]));
+      for (int n = 0; n < 8; ++n) fetch(&line(ids[n]));  // so many there always are, and no end of a loop to be guessed wrong
+      for (std::uint32_t n = 8, all = std::min(lists_.count(k), 16U); n < all; ++n) fetch(&line(ids[n]));
     };
     if (plan(i).pair_time < plan(i).edge_time)
       fetch_neighbours(i), fetch_neighbours(plan(i).partner);
