@@ -12,6 +12,7 @@
 //
 // The files engine_state.hpp (beginning, epochs, what is seen from outside) and engine_check.hpp (invariants) hold the rest.
 
+#include "core/fetch.hpp"
 #include "core/fixed_axis.hpp"
 #include "core/instant.hpp"
 #include "core/large_memory.hpp"
@@ -46,9 +47,9 @@ class Engine {
     double pair_time;  ///< of the earliest collision foreseen
     double edge_time;  ///< when it leaves its cage or meets a wall
     std::int32_t partner;
-    std::uint32_t partner_collisions;  ///< when the collision was foreseen
-    std::int32_t edge;                 ///< `cage` or a Wall
-    std::int32_t other;                ///< `edge` or `partner`, whichever comes first
+    std::int32_t edge;            ///< `cage` or a Wall
+    std::uint32_t foreseen;       ///< stamp of the collision after which the partner was found
+    std::uint32_t last_collided;  ///< stamp of the last collision of the disk itself
   };
 
  public:
@@ -118,8 +119,7 @@ class Engine {
     const auto impact = carom::collide<Rule, double>(separation(a, b), layout_.mass(a), va, layout_.mass(b), vb);
     ++totals_.pair;
     totals_.virial += impact.virial;
-    ++collisions_[static_cast<std::size_t>(i)];
-    ++collisions_[static_cast<std::size_t>(j)];
+    plan(i).last_collided = plan(j).last_collided = ++stamp_;
     if (recording_) log_collision(i, j, va, vb);
     if (outruns_epoch(va) || outruns_epoch(vb)) [[unlikely]]
       return begin_epoch_between(i, va, j, vb);
@@ -133,6 +133,8 @@ class Engine {
     plan_ahead(j, pair.ahead[1]);
     schedule(i);
     schedule(j);
+    if (stamp_ == last_stamp) [[unlikely]]
+      begin_epoch(now_);
   }
 
   /// A disk meets a wall: its velocity across the wall is reversed.
@@ -142,18 +144,20 @@ class Engine {
     const double v = a.v[across];
     ++totals_.wall;
     totals_.wall_impulse[static_cast<std::size_t>(-1 - wall)] += 2.0 * layout_.mass(a) * std::abs(v);
-    ++collisions_[static_cast<std::size_t>(i)];
+    plan(i).last_collided = ++stamp_;
     a.x[across] = moved(i, across, 2.0 * v * now_);
     a.v[across] = -v;
     if (recording_) log_reflection(i, wall);
     predict(i);
+    if (stamp_ == last_stamp) [[unlikely]]
+      begin_epoch(now_);
   }
 
   /// A disk leaves its cage, gets a new one round where it is, and may meet those who come within reach. What it has planned
   /// with others stays as it is.
   void leave_cage(std::int32_t i) {
     ++totals_.other;
-    const auto fresh = lists_.move_cage(i, cage_around(i));
+    const auto fresh = lists_.move_cage(i, cage_around(i, now_));
     Prediction ahead =
         predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, fresh.data(), static_cast<std::uint32_t>(fresh.size())});
     Plan& mine = plan(i);
@@ -179,7 +183,7 @@ class Engine {
     Plan& mine = plan(i);
     mine.pair_time = ahead.pair_time;
     mine.partner = ahead.partner;
-    if (ahead.partner >= 0) mine.partner_collisions = collisions_[static_cast<std::size_t>(ahead.partner)];
+    mine.foreseen = stamp_;
     plan_edge(i, ahead.edge_time);
   }
 
@@ -212,17 +216,13 @@ class Engine {
 
   /// What lies beyond this epoch is found again when the next one begins.
   void schedule(std::int32_t i) {
-    Plan& mine = plan(i);
-    const std::int32_t edge = -static_cast<std::int32_t>(edge_first(mine));  // all bits or none: a branch would be guessed wrong
-    mine.other = (mine.edge & edge) | (mine.partner & ~edge);
     const double next = time(i);
-    if (next < epoch_length_) queue_.push(*this, {next, i, mine.other});
+    if (next < epoch_length_) queue_.push(*this, {next, i, other(i)});
   }
 
-  /// The partner has collided since this was planned.
-  [[nodiscard]] bool is_stale(const Plan& mine) const {
-    return collisions_[static_cast<std::size_t>(mine.partner)] != mine.partner_collisions;
-  }
+  /// The partner has collided since this was planned. (The plan keeps a stamp of its own and not one of the partner: to read
+  /// that would be one more access to memory for every prediction.)
+  [[nodiscard]] bool is_stale(const Plan& mine) const { return plan(mine.partner).last_collided > mine.foreseen; }
 
   [[nodiscard]] std::pair<std::int32_t, std::int32_t> rank(const CalendarEntry& event) const {
     if (event.other == cage) return {cage, id(event.disk)};
@@ -245,7 +245,7 @@ class Engine {
   /// The same in the middle of a collision after which a disk is too fast for its line to be drawn from the old epoch.
   [[gnu::noinline, gnu::cold]] void begin_epoch_between(std::int32_t i, const Vec2<double>& va, std::int32_t j,
                                                         const Vec2<double>& vb);
-  /// Lets every line start, and every plan count, at `now`.
+  /// Lets every line start, and every plan and stamp count, at `now`: all have collided by stamp 1, plans found stale have 0.
   void rebase(double now);
   void start_queue();
   /// As long as the lines may become as the disks move now, rounded down to a power of two.
@@ -267,6 +267,8 @@ class Engine {
 
   /// Between two and eight there is no difference in speed; fewer take more memory.
   static constexpr double pushed_per_span = 6.0;
+  /// At which an epoch ends, if it has not before.
+  static constexpr std::uint32_t last_stamp = 0xFFFFFFFF;
   static constexpr std::int32_t cage = -100;
   static constexpr double never = infinity<double>;
 
@@ -294,15 +296,15 @@ class Engine {
     return x;
   }
 
-  /// A cage round where disk i is now, somewhat ahead of it.
-  [[nodiscard]] CageCentre cage_around(std::int32_t i) const {
+  /// A cage round where disk i is at a time, somewhat ahead of it.
+  [[nodiscard]] CageCentre cage_around(std::int32_t i, double when) const {
     const Line& a = line(i);
     const double fastest = std::max(std::abs(a.v[0]), std::abs(a.v[1]));
     const double ahead = fastest > 0.0 ? cage_lead * lists_.half_width() / fastest : 0.0;
-    return {cage_centre(0, a, ahead), cage_centre(1, a, ahead)};
+    return {cage_centre(0, a, when, ahead), cage_centre(1, a, when, ahead)};
   }
-  [[nodiscard]] std::int32_t cage_centre(int axis, const Line& a, double ahead) const {
-    const auto x = static_cast<std::uint64_t>(a.x[axis]) + static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * now_)) +
+  [[nodiscard]] std::int32_t cage_centre(int axis, const Line& a, double when, double ahead) const {
+    const auto x = static_cast<std::uint64_t>(a.x[axis]) + static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * when)) +
                    static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * ahead));
     return static_cast<std::int32_t>((x + 0x80000000U) >> 32);
   }
@@ -351,8 +353,7 @@ class Engine {
   const PredictionKernel<Line>& kernel_;
   LargeVector<Line> lines_;
   LargeVector<Plan> plans_;
-  LargeVector<std::uint32_t> collisions_;  ///< so far; tells whether a plan with this disk still holds
-  LargeVector<std::int32_t> ids_;          ///< what the world calls them: the engine keeps neighbours near each other in memory
+  LargeVector<std::int32_t> ids_;  ///< what the world calls them: the engine keeps neighbours near each other in memory
   LargeVector<std::array<std::int64_t, 2>> images_;
   NeighbourLists lists_;
   Queue queue_;
@@ -360,6 +361,7 @@ class Engine {
   Instant epoch_;  ///< the loop's zero of time
   double now_ = 0.0;
   double epoch_length_ = 0.0;
+  std::uint32_t stamp_ = 1;       ///< counts collisions with disks and walls since the epoch began; what was before has 0 or 1
   double spacing_;                ///< root of the area per disk
   double mean_speed_ = 0.0;       ///< mean of |v_x| + |v_y| when the epoch began
   double reach_ = 0.0;            ///< the largest contact distance
@@ -387,7 +389,11 @@ class Engine {
   // ------------------------------------------------------------------------------------- for the queue
 
   [[nodiscard]] double time(std::int32_t i) const { return std::min(plan(i).pair_time, plan(i).edge_time); }
-  [[nodiscard]] std::int32_t other(std::int32_t i) const { return plan(i).other; }
+  [[nodiscard]] std::int32_t other(std::int32_t i) const {
+    const Plan& mine = plan(i);
+    const std::int32_t edge = -static_cast<std::int32_t>(edge_first(mine));  // all bits or none: a branch would be guessed wrong
+    return (mine.edge & edge) | (mine.partner & ~edge);
+  }
 
   /// Ties: cages are left before anything else happens, so that everybody is foreseen; then the event with the lower disk
   /// first, then the one with the lower other disk; a wall is met before a disk.

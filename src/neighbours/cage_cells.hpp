@@ -1,6 +1,7 @@
 #pragma once
 // Cages sorted into cells by their centres, for disks of about one size.
 
+#include "core/fetch.hpp"
 #include "core/fixed_axis.hpp"
 #include "core/large_memory.hpp"
 #include "neighbours/cage_search.hpp"
@@ -106,13 +107,13 @@ class CageCells {
            static_cast<std::size_t>(range.last[1] - range.first[1] + 1);
   }
 
-  void prefetch(const CageRange& range) const {
+  void fetch_blocks(const CageRange& range) const {
     for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y)
       for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x) {
         const std::int32_t cell = folded(y, range.cells[1]) * range.cells[0] + folded(x, range.cells[0]);
         const CageBlock& block = blocks_[static_cast<std::size_t>(cell)];
-        __builtin_prefetch(&block);
-        __builtin_prefetch(block.y);
+        fetch(&block);
+        fetch(block.y);
       }
   }
 

@@ -113,11 +113,10 @@ void NeighbourLists::search(std::int32_t i, CageCentre before, bool was_listed) 
   }
 }
 
-void NeighbourLists::prefetch_cells(std::int32_t i) const {
-  asm volatile("");  // see Engine::look_ahead
+void NeighbourLists::fetch_cells(std::int32_t i, CageCentre to) const {
   const CageCells& layer = layers_[layer_of(i)];
-  layer.prefetch(range_around(centre(i), radius(i), layer));
-  for (std::uint32_t k = 0; k < count(i); ++k) prefetch(ids(i)[k]);
+  layer.fetch_blocks(range_around(to, radius(i), layer));
+  for (std::uint32_t k = 0; k < count(i); ++k) fetch_list(ids(i)[k]);
 }
 
 bool NeighbourLists::near(std::int32_t i, std::int32_t j) const {

@@ -40,9 +40,9 @@ class NeighbourLists {
   /// Entries that move_cage() has put on lists of others, or taken from them, so far.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
 
-  void prefetch(std::int32_t i) const { around_.prefetch(i); }
-  /// What move_cage(i) will look through.
-  void prefetch_cells(std::int32_t i) const;
+  void fetch_list(std::int32_t i) const { around_.fetch_list(i); }
+  /// What move_cage(i, to) will look through.
+  void fetch_cells(std::int32_t i, CageCentre to) const;
 
   /// Half of the disks have at most so many neighbours. O(disks).
   [[nodiscard]] std::uint32_t median_count() const;

@@ -2,6 +2,7 @@
 // The cage of every disk and the ids of its neighbours, in one cache line; lists too long for that line live in a pool. Any
 // number of neighbours finds room.
 
+#include "core/fetch.hpp"
 #include "core/large_memory.hpp"
 #include "neighbours/cage_search.hpp"
 
@@ -71,7 +72,7 @@ class Neighbourhoods {
     line(i).count = count;
   }
 
-  void prefetch(std::int32_t i) const { __builtin_prefetch(&line(i)); }
+  void fetch_list(std::int32_t i) const { fetch(&line(i)); }
 
   [[nodiscard]] std::size_t bytes() const { return lines_.capacity() * sizeof(Line) + pool_.capacity() * sizeof(std::int32_t); }
 

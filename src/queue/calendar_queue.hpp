@@ -9,6 +9,7 @@
 //
 // Ties: events at the same time are ordered by Events::precedes(a, b).
 
+#include "core/fetch.hpp"
 #include "core/large_memory.hpp"
 
 #include <algorithm>
@@ -97,7 +98,7 @@ class CalendarQueue {
   [[nodiscard]] std::span<const std::int32_t> ids_of(std::int64_t k) const {
     return {span(k & mask_).ids, counts_[static_cast<std::size_t>(k & mask_)]};
   }
-  void prefetch(std::int64_t k) const { __builtin_prefetch(&span(k & mask_)); }
+  void fetch_span(std::int64_t k) const { fetch(&span(k & mask_)); }
 
   /// The span into which a time falls.
   [[nodiscard]] std::int64_t span_of(double time) const {
