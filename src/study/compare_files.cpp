@@ -1,0 +1,241 @@
+#include "study/compare_files.hpp"
+
+#include "io/horizon_json.hpp"
+#include "study/compare_answers.hpp"
+
+#include <carom/version.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+double number(const Json& json) { return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>(); }
+
+Json json_of(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(number(value));
+  return list;
+}
+
+Json json_of(const StepCounts& counts) {
+  return {{"steps", counts.steps},         {"time", counts.time},         {"found", counts.found},
+          {"missed", counts.missed},       {"repeated", counts.repeated}, {"spurious", counts.spurious},
+          {"depth_sum", counts.depth_sum}, {"deepest", counts.deepest}};
+}
+
+Json json_of(const MethodRun& run) {
+  Json json = {{"method", run.method.name},
+               {"dt", run.method.dt},
+               {"seed", run.seed},
+               {"time", run.time},
+               {"seconds_early", run.seconds_early},
+               {"seconds", run.seconds},
+               {"pair", run.pair},
+               {"Z", number(run.Z)},
+               {"collision_rate", number(run.collision_rate)},
+               {"mean_free_path", number(run.mean_free_path)},
+               {"energy_drift", number(run.energy_drift)},
+               {"worst_overlap", number(run.worst_overlap)},
+               {"error", json_of(run.error)}};
+  if (run.counts) json["counts"] = json_of(*run.counts);
+  return json;
+}
+
+MethodRun run_of(const Json& json) {
+  MethodRun run;
+  run.method = {json.at("method"), json.at("dt")};
+  run.seed = json.at("seed");
+  run.time = json.at("time");
+  run.seconds_early = json.at("seconds_early");
+  run.seconds = json.at("seconds");
+  run.pair = json.at("pair");
+  run.Z = number(json.at("Z"));
+  run.collision_rate = number(json.at("collision_rate"));
+  run.mean_free_path = number(json.at("mean_free_path"));
+  run.energy_drift = number(json.at("energy_drift"));
+  run.worst_overlap = number(json.at("worst_overlap"));
+  for (const Json& error : json.at("error")) run.error.push_back(number(error));
+  if (!json.contains("counts")) return run;
+  const Json& counts = json["counts"];
+  run.counts = StepCounts{.steps = counts.at("steps"),
+                          .time = counts.at("time"),
+                          .found = counts.at("found"),
+                          .spurious = counts.at("spurious"),
+                          .repeated = counts.at("repeated"),
+                          .missed = counts.at("missed"),
+                          .depth_sum = counts.at("depth_sum"),
+                          .deepest = counts.at("deepest")};
+  return run;
+}
+
+Json json_of(const CostPoint& point) {
+  return {{"disks", point.disks},
+          {"packing_fraction", point.packing_fraction},
+          {"method", point.method},
+          {"dt", point.dt},
+          {"free_time", point.free_time},
+          {"seconds_per_disk_and_free_time", point.seconds},
+          {"Z", point.Z},
+          {"bias_slope", point.bias_slope}};
+}
+
+CostPoint cost_of(const Json& json) {
+  return {json.at("disks"), json.at("packing_fraction"), json.at("method"),
+          json.at("dt"),    json.at("free_time"),        json.at("seconds_per_disk_and_free_time"),
+          json.at("Z"),     json.at("bias_slope")};
+}
+
+Json json_of(const ComparePlan& plan) {
+  return {{"sigma", plan.sigma},
+          {"mean_free_time", plan.mean_free_time},
+          {"temperature", plan.temperature},
+          {"sample_step", plan.sample_step},
+          {"samples", plan.samples},
+          {"early_time", plan.early_time()},
+          {"until", plan.until()},
+          {"dt", plan.dts},
+          {"seeds", plan.seeds},
+          {"longest", plan.longest}};
+}
+
+Json json_of(const MethodSummary& s) {
+  Json json = {{"method", s.method.name},
+               {"dt", s.method.dt},
+               {"runs", s.runs},
+               {"error_early",
+                {{"median", number(s.error.median)},
+                 {"lower_quartile", number(s.error.lower)},
+                 {"upper_quartile", number(s.error.upper)}}},
+               {"seconds_early", number(s.seconds_early)},
+               {"seconds_per_time", number(s.seconds_per_time)}};
+  const auto with_error = [](const std::optional<Estimate>& e) {
+    return e ? Json{{"value", number(e->value)}, {"error", number(e->error)}} : Json(nullptr);
+  };
+  json["Z"] = with_error(s.Z);
+  json["collision_rate"] = with_error(s.collision_rate);
+  json["mean_free_path"] = with_error(s.mean_free_path);
+  json["worst_overlap"] = number(s.worst_overlap);
+  json["energy_drift"] = number(s.energy_drift);
+  return json;
+}
+
+}  // namespace
+
+std::string study_key(const Scene& scene, const CompareOptions& options) {
+  const Json key = {{"scene", resolved_toml(scene)},   {"dt", options.dts},
+                    {"seeds", options.seeds},          {"longest", options.longest},
+                    {"engine", options.engine},        {"costs", options.costs},
+                    {"version", build_info().version}, {"commit", build_info().commit}};
+  return key.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+PointsFile::PointsFile(std::filesystem::path path, const std::string& key, const Comparison& before) : path_(std::move(path)) {
+  {
+    std::ofstream file(path_, std::ios::trunc);
+    if (!file) throw detail::system_error(path_, "write it", errno);
+  }
+  write(Json{{"study", key}}.dump());
+  for (const MethodRun& run : before.runs) add(run);
+  for (const CostPoint& point : before.costs) add(point);
+}
+
+void PointsFile::add(const MethodRun& run) { write(Json{{"run", json_of(run)}}.dump()); }
+void PointsFile::add(const CostPoint& point) { write(Json{{"cost", json_of(point)}}.dump()); }
+
+void PointsFile::write(const std::string& line) {
+  std::ofstream file(path_, std::ios::app);
+  file << line << '\n' << std::flush;
+  if (!file) throw detail::system_error(path_, "write it", errno);
+}
+
+Comparison load_points(const std::filesystem::path& path, const std::string& key) {
+  std::ifstream file(path);
+  if (!file) throw detail::system_error(path, "read it", errno);
+  Comparison comparison;
+  bool ours = false;
+  for (std::string line; std::getline(file, line);) {
+    const Json json = Json::parse(line, nullptr, false);
+    if (json.is_discarded()) continue;  // the line that was being written when the study was killed
+    if (json.contains("study")) {
+      ours = json["study"] == key;
+    } else if (json.contains("run")) {
+      comparison.runs.push_back(run_of(json["run"]));
+    } else if (json.contains("cost")) {
+      comparison.costs.push_back(cost_of(json["cost"]));
+    }
+  }
+  if (!ours)
+    throw OutputError(
+        fmt::format("{}: these points are of another scene, other options or another build of carom; give the same again, or "
+                    "begin anew with --force",
+                    path.string()));
+  return comparison;
+}
+
+std::string compare_json(const Comparison& comparison, const Scene& scene, const std::string& command_line) {
+  const BuildInfo& build = build_info();
+  const Answers answers = answers_of(comparison);
+  Json json;
+  json["carom"] = {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler}, {"flags", build.flags}};
+  json["scene"] = scene.source;
+  json["title"] = scene.title;
+  json["disks"] = scene.disk_count();
+  json["packing_fraction"] = scene.packing_fraction();
+  json["command_line"] = command_line;
+  json["complete"] = comparison.complete;
+  json["sentences"] = answers.sentences;
+  json["plan"] = json_of(comparison.plan);
+  json["horizon"] = horizon_json(comparison.plan.horizon);
+  json["summary"] = Json::array();
+  for (const MethodSummary& summary : summaries_of(comparison)) json["summary"].push_back(json_of(summary));
+  json["time_to_Z"] = Json::array();
+  for (const TimeToZ& row : answers.time_to_Z)
+    json["time_to_Z"].push_back({{"method", row.method},
+                                 {"relative_error", row.accuracy},
+                                 {"dt", row.dt ? number(*row.dt) : Json(nullptr)},
+                                 {"seconds", row.seconds ? number(*row.seconds) : Json(nullptr)},
+                                 {"remark", row.remark}});
+  json["runs"] = Json::array();
+  for (const MethodRun& run : comparison.runs) json["runs"].push_back(json_of(run));
+  json["left_out"] = Json::array();
+  for (const LeftOut& one : comparison.left_out)
+    json["left_out"].push_back({{"method", one.method.name}, {"dt", one.method.dt}, {"seconds_foreseen", one.seconds}});
+  json["costs"] = Json::array();
+  for (const CostPoint& point : comparison.costs) json["costs"].push_back(json_of(point));
+  // A path or a command line need not be UTF-8, and JSON must be.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string compare_csv(const Comparison& comparison) {
+  std::string text =
+      "method,dt,seed,time,seconds_early,error_early,seconds,error_end,pair,Z,collision_rate,mean_free_path,energy_drift,worst_"
+      "overlap,"
+      "found,missed,repeated,spurious,mean_depth,deepest\n";
+  for (const MethodRun& run : comparison.runs) {
+    const std::size_t early = comparison.plan.early;
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", run.method.name, run.method.dt, run.seed, run.time,
+                        run.seconds_early, early >= 1 && run.error.size() >= early ? run.error[early - 1] : NAN, run.seconds,
+                        run.error.empty() ? NAN : run.error.back(), run.pair, run.Z, run.collision_rate, run.mean_free_path,
+                        run.energy_drift, run.worst_overlap);
+    if (run.counts) {
+      const StepCounts& c = *run.counts;
+      text += fmt::format(",{},{},{},{},{},{}\n", c.found, c.missed, c.repeated, c.spurious, c.mean_depth(), c.deepest);
+    } else {
+      text += ",,,,,,\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace carom
