@@ -96,7 +96,10 @@ TEST(Horizon, IsTheSameEveryTime) {
   ASSERT_EQ(a.rows.size(), b.rows.size());
   for (std::size_t k = 0; k < a.rows.size(); ++k) {
     EXPECT_EQ(a.rows[k].time, b.rows[k].time);
-    EXPECT_EQ(a.rows[k].first_difference->index, b.rows[k].first_difference->index);
+    ASSERT_EQ(a.rows[k].first_difference.has_value(), b.rows[k].first_difference.has_value());
+    if (a.rows[k].first_difference) {
+      EXPECT_EQ(a.rows[k].first_difference->index, b.rows[k].first_difference->index);
+    }
   }
 }
 
