@@ -102,6 +102,10 @@ void add_horizon(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("horizon", "Say how far a scene's trajectory can be trusted, in 24 to 113 bits");
   const auto options = std::make_shared<HorizonCommandOptions>();
   add_scene_options(*command, options->scene);
+  command
+      ->add_option("--collisions", options->collisions,
+                   "Collisions that the Lyapunov exponent is measured over (default: 500000, or 100 per disk)")
+      ->type_name("N");
   command->add_flag("--json", options->json, "Print JSON in place of the table");
   command->add_flag("-q,--quiet", options->quiet, "Print the sentence alone, and no progress");
   add_progress(*command, options->progress);

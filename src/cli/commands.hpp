@@ -54,6 +54,7 @@ ExitCode check(const CheckOptions& options);
 
 struct HorizonCommandOptions {
   SceneOptions scene;
+  std::optional<std::uint64_t> collisions;  ///< of pairs, for the exponent; absent: half a million, or 100 per disk
   bool json = false;
   bool quiet = false;
   std::string progress = "auto";

@@ -54,6 +54,7 @@ std::string json_text(const Horizon& horizon, const Scene& scene) {
 }
 
 ExitCode measure(const HorizonCommandOptions& options) {
+  if (options.collisions == 0) throw UsageError("--collisions 0: an exponent needs some collisions");
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
@@ -64,7 +65,8 @@ ExitCode measure(const HorizonCommandOptions& options) {
                stop.made() ? "interrupted" : "the scene stopped");
     return stop.made() ? exit_interrupted : exit_failed;
   }
-  const Horizon horizon = horizon_with_progress(scene, *start, engine, mode, stop);
+  const Horizon horizon =
+      horizon_with_progress(scene, *start, {.engine = engine, .lyapunov_collisions = options.collisions.value_or(0)}, mode, stop);
   if (options.json) {
     fmt::print("{}\n", json_text(horizon, scene));
   } else {

@@ -1,7 +1,6 @@
 #include "cli/horizon_text.hpp"
 
 #include "cli/format.hpp"
-#include "study/horizon.hpp"
 
 #include <fmt/format.h>
 
@@ -39,11 +38,9 @@ std::string row(const HorizonRow& one) {
 
 }  // namespace
 
-Horizon horizon_with_progress(const Scene& scene, const State& start, const std::string& engine, ProgressMode mode,
+Horizon horizon_with_progress(const Scene& scene, const State& start, HorizonOptions options, ProgressMode mode,
                               const StopRequest& stop) {
   ProgressLine line(mode, scene);
-  HorizonOptions options;
-  options.engine = engine;
   options.proceed = [&](const HorizonProgress& progress) {
     line.update("horizon: " + progress.doing, progress.fraction);
     return !stop.made();

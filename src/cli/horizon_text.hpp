@@ -3,7 +3,7 @@
 
 #include "cli/progress.hpp"
 #include "cli/signals.hpp"
-#include "observe/horizon_report.hpp"
+#include "study/horizon.hpp"
 
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
@@ -12,8 +12,8 @@
 
 namespace carom::cli {
 
-/// Measures with a line of progress, until done or stopped. `engine` is the one that runs the scene.
-Horizon horizon_with_progress(const Scene& scene, const State& start, const std::string& engine, ProgressMode mode,
+/// Measures with a line of progress, until done or stopped. `options` says all but what to do about progress.
+Horizon horizon_with_progress(const Scene& scene, const State& start, HorizonOptions options, ProgressMode mode,
                               const StopRequest& stop);
 
 /// What was compared, a table with a row per engine, and the Lyapunov exponent.

@@ -130,7 +130,7 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
     const double wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
     RunReport report = measurements.report(result, wall_seconds);
     if (start && result.stopped != StopReason::interrupted)
-      report.horizon = horizon_with_progress(scene, *start, simulation.engine(), progress, stop);
+      report.horizon = horizon_with_progress(scene, *start, {.engine = simulation.engine()}, progress, stop);
     const std::vector<std::string> files = writer.finish(report);
     if (options.json) {
       fmt::print("{}\n", summary_json(report, provenance));

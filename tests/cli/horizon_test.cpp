@@ -57,7 +57,7 @@ class HorizonCommand : public ::testing::Test {
 };
 
 TEST_F(HorizonCommand, PrintsARowForEveryPrecisionAndOneSentenceAndWritesNothing) {
-  const Outcome outcome = carom({"horizon", "gas.toml"});
+  const Outcome outcome = carom({"horizon", "gas.toml", "--collisions", "20000"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.err, IsEmpty());
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("textbook-float"), HasSubstr("fast"), HasSubstr("textbook-quad"),
@@ -66,13 +66,13 @@ TEST_F(HorizonCommand, PrintsARowForEveryPrecisionAndOneSentenceAndWritesNothing
 }
 
 TEST_F(HorizonCommand, QuietPrintsTheSentenceAlone) {
-  const Outcome outcome = carom({"horizon", "gas.toml", "-q"});
+  const Outcome outcome = carom({"horizon", "gas.toml", "--collisions", "20000", "-q"});
   EXPECT_THAT(outcome.out, StartsWith("In double precision this trajectory is right to 0.001 sigma"));
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
 }
 
 TEST_F(HorizonCommand, JsonHoldsEveryRowAndTheExponent) {
-  const Outcome outcome = carom({"horizon", "gas.toml", "--json", "--seed", "3"});
+  const Outcome outcome = carom({"horizon", "gas.toml", "--collisions", "20000", "--json", "--seed", "3"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.err, IsEmpty());
   const json result = json::parse(outcome.out);
@@ -97,21 +97,22 @@ TEST_F(HorizonCommand, JsonHoldsEveryRowAndTheExponent) {
 }
 
 TEST_F(HorizonCommand, OverridesChangeTheScene) {
-  const Outcome outcome = carom({"horizon", "gas.toml", "--json", "--set", "disks.0.count=20", "--engine", "textbook"});
+  const Outcome outcome =
+      carom({"horizon", "gas.toml", "--collisions", "20000", "--json", "--set", "disks.0.count=20", "--engine", "textbook"});
   const json result = json::parse(outcome.out);
   EXPECT_EQ(result["disks"], 20);
   EXPECT_EQ(result["horizon"]["engine"], "textbook");
 }
 
 TEST_F(HorizonCommand, SaysWhenThereIsNothingToPart) {
-  const Outcome outcome = carom({"horizon", "-q", CAROM_SOURCE_DIR "/docs/scenes/newtons_cradle.toml"});
+  const Outcome outcome = carom({"horizon", "-q", "--collisions", "20000", CAROM_SOURCE_DIR "/docs/scenes/newtons_cradle.toml"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out, HasSubstr("to the end of the run"));
 }
 
 TEST_F(HorizonCommand, BrokenSceneExitsTwoWithOneSentence) {
   write_text(file("gas.toml"), gas + "tiem = 3.0\n");
-  const Outcome outcome = carom({"horizon", "gas.toml"});
+  const Outcome outcome = carom({"horizon", "gas.toml", "--collisions", "20000"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.out, IsEmpty());
   EXPECT_THAT(outcome.err, StartsWith("carom: gas.toml:20:"));
@@ -125,21 +126,28 @@ TEST_F(HorizonCommand, InterruptedSaysHowFarItCameAndExits130) {
     wait_until([&] { return std::chrono::steady_clock::now() - began > std::chrono::milliseconds(500); });
     kill(child, SIGINT);
   };
-  const Outcome outcome = carom({"horizon", "gas.toml", "--set", "disks.0.count=10000", "--set", "box.x=[0.0,200.0]", "--set",
-                                 "box.y=[0.0,200.0]", "--set", "run.equilibrate.collisions_per_disk=1"},
-                                signal_soon);
+  const Outcome outcome =
+      carom({"horizon", "gas.toml", "--collisions", "20000", "--set", "disks.0.count=10000", "--set", "box.x=[0.0,200.0]",
+             "--set", "box.y=[0.0,200.0]", "--set", "run.equilibrate.collisions_per_disk=1"},
+            signal_soon);
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_THAT(outcome.out + outcome.err, HasSubstr("nterrupted"));
 }
 
-TEST_F(HorizonCommand, RunVerifiesItsOwnHorizonWhenAsked) {
+TEST_F(HorizonCommand, RunVerifiesItsOwnHorizonWhenAskedAsTheCommandDoes) {
   const Outcome outcome = carom({"run", "gas.toml", "--verify-horizon"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.err, IsEmpty());
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("worst overlap"), HasSubstr("In double precision this trajectory is right to 0.001")));
-  const json summary = json::parse(text_of(file("gas/summary.json")));
-  EXPECT_EQ(summary["horizon"]["ended"], "parted");
-  EXPECT_EQ(summary["horizon"]["rows"][0]["engine"], "textbook-float");
+  const json beside = json::parse(text_of(file("gas/summary.json")))["horizon"];
+  const json alone = json::parse(carom({"horizon", "gas.toml", "--json"}).out)["horizon"];
+  EXPECT_EQ(beside["ended"], "parted");
+  EXPECT_EQ(beside["lyapunov"], alone["lyapunov"]);
+  ASSERT_EQ(beside["rows"].size(), alone["rows"].size());
+  for (std::size_t k = 0; k < alone["rows"].size(); ++k) {
+    EXPECT_EQ(alone["rows"][k]["time"], beside["rows"][k]["time"]);
+    EXPECT_EQ(alone["rows"][k]["first_difference"], beside["rows"][k]["first_difference"]);
+  }
 }
 
 TEST_F(HorizonCommand, RunSaysNothingOfHorizonsUnasked) {
@@ -147,13 +155,10 @@ TEST_F(HorizonCommand, RunSaysNothingOfHorizonsUnasked) {
   EXPECT_FALSE(json::parse(outcome.out).contains("horizon"));
 }
 
-TEST_F(HorizonCommand, RunMeasuresTheSameHorizonAsTheCommand) {
-  const json alone = json::parse(carom({"horizon", "gas.toml", "--json"}).out)["horizon"];
-  const json beside = json::parse(carom({"run", "gas.toml", "--json", "--verify-horizon"}).out)["horizon"];
-  for (std::size_t k = 0; k < alone["rows"].size(); ++k) {
-    EXPECT_EQ(alone["rows"][k]["time"], beside["rows"][k]["time"]);
-    EXPECT_EQ(alone["rows"][k]["first_difference"], beside["rows"][k]["first_difference"]);
-  }
+TEST_F(HorizonCommand, AnExponentOfNoCollisionsIsRefused) {
+  const Outcome outcome = carom({"horizon", "gas.toml", "--collisions", "0"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, StartsWith("carom: --collisions 0: "));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 Horizon horizon_of(const Scene& scene, HorizonOptions options = {}) {
-  if (options.lyapunov_collisions == 0) options.lyapunov_collisions = 20'000;
+  if (options.lyapunov_collisions == 0) options.lyapunov_collisions = 10'000;
   return measure_horizon(scene, make_simulation(scene).state(), options);
 }
 
@@ -96,7 +96,10 @@ TEST(Horizon, IsTheSameEveryTime) {
   ASSERT_EQ(a.rows.size(), b.rows.size());
   for (std::size_t k = 0; k < a.rows.size(); ++k) {
     EXPECT_EQ(a.rows[k].time, b.rows[k].time);
-    EXPECT_EQ(a.rows[k].first_difference->index, b.rows[k].first_difference->index);
+    ASSERT_EQ(a.rows[k].first_difference.has_value(), b.rows[k].first_difference.has_value());
+    if (a.rows[k].first_difference) {
+      EXPECT_EQ(a.rows[k].first_difference->index, b.rows[k].first_difference->index);
+    }
   }
 }
 
@@ -214,19 +217,19 @@ TEST(Horizon, OfOneDiskOnDyadicDataIsTheEndOfTheRun) {
 // Two disks on a line in a periodic box, every number exact in binary: integrable, and no engine ever rounds.
 TEST(Horizon, OfTwoDisksOnALineIsTheEndOfTheRun) {
   Scene scene = placed_scene(square_box(8.0, Boundary::periodic), {{{1.0, 4.0}, {1.0, 0.0}}, {{5.0, 4.0}, {-1.0, 0.0}}});
-  scene.run.time = 2000.0;
+  scene.run.time = 500.0;
   const Horizon horizon = horizon_of(scene);
-  expect_agreement_to_the_end(horizon, 2000.0);
-  EXPECT_GT(horizon.collisions_per_disk, 100.0);
+  expect_agreement_to_the_end(horizon, 500.0);
+  EXPECT_GT(horizon.collisions_per_disk, 50.0);
 }
 
 TEST(Horizon, OfARunThatCountsCollisionsEndsWithThem) {
   Scene scene = placed_scene(square_box(8.0, Boundary::periodic), {{{1.0, 4.0}, {1.0, 0.0}}, {{5.0, 4.0}, {-1.0, 0.0}}});
-  scene.run.collisions = 5000;
+  scene.run.collisions = 1000;
   const Horizon horizon = horizon_of(scene);
   EXPECT_EQ(horizon.ended, HorizonEnd::run);
-  EXPECT_GE(horizon.collisions, 5000U);
-  EXPECT_LT(horizon.collisions, 5100U);
+  EXPECT_GE(horizon.collisions, 1000U);
+  EXPECT_LT(horizon.collisions, 1100U);
 }
 
 TEST(Horizon, OfDisksThatNeverMeetEnds) {
