@@ -112,6 +112,32 @@ void add_horizon(CLI::App& program, Action& action) {
   command->callback([&action, options] { action = [options] { return horizon(*options); }; });
 }
 
+void add_compare(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("compare", "Say what accuracy costs: exact events against fixed steps, on one page");
+  const auto options = std::make_shared<CompareCommandOptions>();
+  add_scene_options(*command, options->scene);
+  command->add_option("--out", options->out, "Directory for the results (default: the scene's name and -compare)")
+      ->type_name("DIR");
+  command->add_option("--dt", options->dts, "Time steps in place of three per decade about the mean free time; may be repeated")
+      ->type_name("DT")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--seeds", options->seeds, "How many starts: the scene's seed and those after it (default: 8)")
+      ->type_name("N");
+  command
+      ->add_option(
+          "--longest", options->longest,
+          "Seconds that one run of a fixed-step method may take (default: 0.5); a longer one is cut short, or left out and named")
+      ->type_name("SECONDS");
+  command->add_flag("--no-costs", options->no_costs, "Leave out cost against size and against packing fraction");
+  command->add_flag("--force", options->force, "Replace the results that the directory holds");
+  command->add_flag("--resume", options->resume, "Go on with an interrupted comparison, keeping its finished points");
+  command->add_flag("--json", options->json, "Print compare.json in place of the table");
+  command->add_flag("-q,--quiet", options->quiet, "Print the answer alone, and no progress");
+  add_progress(*command, options->progress);
+  command->callback([&action, options, invocation] { action = [options, invocation] { return compare(*options, invocation); }; });
+}
+
 void add_init(CLI::App& program, Action& action, const Invocation& invocation) {
   CLI::App* command = program.add_subcommand("init", "Write a commented scene to start from");
   const auto options = std::make_shared<InitOptions>();
@@ -171,6 +197,7 @@ Action parse_arguments(int argc, char** argv) {
   add_run(program, action, invocation);
   add_check(program, action);
   add_horizon(program, action);
+  add_compare(program, action, invocation);
   add_init(program, action, invocation);
   add_info(program, action);
   add_bench(program, action);

@@ -82,4 +82,19 @@ struct BenchOptions {
 };
 ExitCode bench(const BenchOptions& options);
 
+struct CompareCommandOptions {
+  SceneOptions scene;
+  std::string out;          ///< empty: the scene's name without its ending, and "-compare"
+  std::vector<double> dts;  ///< empty: the usual ladder
+  std::uint64_t seeds = 8;
+  double longest = 0.5;  ///< seconds
+  bool no_costs = false;
+  bool force = false;
+  bool resume = false;
+  bool json = false;
+  bool quiet = false;
+  std::string progress = "auto";
+};
+ExitCode compare(const CompareCommandOptions& options, const Invocation& invocation);
+
 }  // namespace carom::cli

@@ -17,7 +17,7 @@ std::string grouped(std::uint64_t number) {
 
 std::string duration(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0.0) return "unknown";
-  if (seconds < 0.00095) return "under 1 ms";
+  if (seconds < 0.00095) return fmt::format("{:.2g} ms", 1e3 * seconds);
   if (seconds < 0.95) return fmt::format("{:.0f} ms", 1000.0 * seconds);
   if (seconds < 9.95) return fmt::format("{:.2g} s", seconds);
   // Rounded once, so that 59.7 s is 1 min 0 s and not 60 s.

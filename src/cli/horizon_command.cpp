@@ -4,6 +4,7 @@
 #include "cli/horizon_text.hpp"
 #include "io/horizon_json.hpp"
 #include "study/horizon_sentence.hpp"
+#include "study/method.hpp"
 
 #include <fmt/format.h>
 #include <carom/simulation.hpp>
@@ -18,26 +19,6 @@
 namespace carom::cli {
 
 namespace {
-
-/// The state in which the scene's measured run begins: after its equilibration, by the engine that runs it. Empty where
-/// that was stopped, or ended for want of collisions.
-std::optional<State> measured_start(const Scene& scene, const std::string& engine, ProgressMode mode, const StopRequest& stop) {
-  Scene beginning = scene;
-  beginning.run.time = 0.0;
-  beginning.run.collisions.reset();
-  beginning.run.sample_every.reset();
-  Simulation simulation = make_simulation(beginning, engine);
-  std::optional<State> start;
-  ProgressLine line(mode, scene);
-  RunHooks hooks;
-  hooks.start = [&](const State& state) { start = state; };
-  hooks.proceed = [&](const Progress& progress) {
-    line.update(progress);
-    return !stop.made();
-  };
-  run_schedule(simulation, hooks);
-  return start;
-}
 
 std::string json_text(const Horizon& horizon, const Scene& scene) {
   const BuildInfo& build = build_info();
@@ -59,7 +40,13 @@ ExitCode measure(const HorizonCommandOptions& options) {
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
   const StopRequest stop;
-  const std::optional<State> start = measured_start(scene, engine, mode, stop);
+  const std::optional<State> start = [&] {
+    ProgressLine line(mode, scene);
+    return measured_start(scene, engine, [&](const Progress& progress) {
+      line.update(progress);
+      return !stop.made();
+    });
+  }();
   if (!start) {
     fmt::print(stderr, "carom: {}: {} while equilibrating, before anything was compared\n", scene.source,
                stop.made() ? "interrupted" : "the scene stopped");

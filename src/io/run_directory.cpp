@@ -29,14 +29,15 @@ void synchronise(const fs::path& path, int flags) {
 
 }  // namespace
 
-RunDirectory::RunDirectory(fs::path path, bool force) : path_(std::move(path)) {
+RunDirectory::RunDirectory(fs::path path, bool force, std::span<const std::string_view> products)
+    : path_(std::move(path)), products_(products) {
   if (path_.empty()) throw OutputError("the output directory has an empty name; name one with --out");
   try {
     create();
     check_for_results(force);
     check_writable();
     if (force) {
-      for (const std::string_view product : run_products) {
+      for (const std::string_view product : products_) {
         for (const fs::path& old : {final_name(product), partial_name(product)}) {
           std::error_code error;
           fs::remove(old, error);
@@ -77,7 +78,7 @@ void RunDirectory::create() {
 }
 
 void RunDirectory::check_for_results(bool force) const {
-  for (const std::string_view product : run_products) {
+  for (const std::string_view product : products_) {
     for (const fs::path& old : {final_name(product), partial_name(product)}) {
       std::error_code error;
       const fs::file_status status = fs::symlink_status(old, error);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <filesystem>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -21,7 +22,8 @@ class RunDirectory {
   /// earlier run left there (a product, or the .partial of a run that did not end) is removed where `force` is set.
   /// Throws OutputError where results are in the way without `force`, where `path` is not a directory, and where nothing can
   /// be written there; then nothing was changed.
-  RunDirectory(std::filesystem::path path, bool force);
+  /// `products` are the names that count as results; they must live as long as this.
+  RunDirectory(std::filesystem::path path, bool force, std::span<const std::string_view> products = run_products);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::filesystem::path final_name(std::string_view product) const;    ///< DIR/trajectory.h5md
@@ -42,6 +44,7 @@ class RunDirectory {
   void check_writable() const;
 
   std::filesystem::path path_;
+  std::span<const std::string_view> products_;
   std::vector<std::filesystem::path> created_;  ///< the deepest last
 };
 

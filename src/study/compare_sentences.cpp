@@ -54,7 +54,7 @@ std::string what_the_naive_does(const std::vector<MethodSummary>& summaries, con
   for (const MethodSummary& summary : summaries) {
     if (summary.method.name == answers.exact) exact = &summary;
     const bool smaller = naive == nullptr || summary.method.dt < naive->method.dt;
-    if (summary.method.name == "naive-edge" && summary.Z && smaller) naive = &summary;
+    if (summary.method.name == "naive" && summary.Z && smaller) naive = &summary;
   }
   if (exact == nullptr || naive == nullptr || !exact->Z || !naive->counts) return "";
   return fmt::format(

@@ -18,10 +18,11 @@ struct ComparePlan {
   double sigma = 0.0;           ///< mean diameter, the unit of every error
   double mean_free_time = 0.0;  ///< from one collision of a disk to the next, in the exact run
   double temperature = 0.0;     ///< kT of the start with the first seed
+  double thermal_speed = 0.0;   ///< sqrt(kT / m) where all disks are equal; else 0
   Horizon horizon;              ///< of the exact trajectory with the first seed
   double sample_step = 0.0;     ///< errors are taken at k * sample_step, k = 1 to samples
   std::uint64_t samples = 0;
-  std::uint64_t early = 0;  ///< the sample at which methods are compared before chaos takes over: an eighth of the horizon
+  std::uint64_t early = 0;  ///< the sample at which methods are compared before chaos takes over: a sixteenth of the horizon
   std::vector<double> dts;  ///< of the fixed-step methods, falling
   std::vector<std::uint64_t> seeds;
   double longest = 0.0;  ///< seconds of processor time that one run of a fixed-step method may be foreseen to take

@@ -40,6 +40,7 @@ void StepAudit::look_at_reversals(const State& state, std::span<const Event> rev
     if (event.partner < 0) continue;
     const Pair pair{event.disk, event.partner};
     reversed_last_step_.insert(pair);
+    unnoticed_.erase(pair);
     if (!encounters_.insert(pair).second) {
       ++counts_.repeated;
       continue;
@@ -65,6 +66,7 @@ void StepAudit::look_at_flights(const State& state) {
       if (square > reach * reach) continue;
       if (square < contact * contact) {
         counts_.deepest = std::max(counts_.deepest, 1.0 - std::sqrt(square) / contact);
+        if (!encounters_.contains({i, j})) unnoticed_.insert({i, j});
         continue;
       }
       const Eigen::Vector2d v = state.velocities.col(i) - state.velocities.col(j);

@@ -22,7 +22,7 @@ struct StepCounts {
   std::uint64_t found = 0;     ///< encounters that begin with the reversal of an approaching pair: collisions
   std::uint64_t spurious = 0;  ///< encounters that begin with the reversal of a pair that was parting
   std::uint64_t repeated = 0;  ///< further reversals within an encounter
-  std::uint64_t missed = 0;    ///< pairs that flew into contact and out of it again between two steps
+  std::uint64_t missed = 0;    ///< pairs that were in contact, between two steps or at some, and left it without a reversal
   double depth_sum = 0.0;      ///< of (sigma - |r|) / sigma over `found`, at the reversal
   double deepest = 0.0;        ///< the largest overlap of any pair in contact, in units of its sigma
 
@@ -63,6 +63,7 @@ class StepAudit {
   double dt_;
   std::set<Pair> encounters_;  ///< that go on
   std::set<Pair> reversed_last_step_;
+  std::set<Pair> unnoticed_;  ///< in contact at the last step, and not reversed since they came into it
   StepCounts counts_;
 };
 

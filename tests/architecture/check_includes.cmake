@@ -17,7 +17,7 @@ set(observe_may_use simulation effects neighbours scene core)
 set(theory_may_use simulation scene core)
 set(io_may_use observe theory simulation scene core)
 set(show_may_use study io observe theory simulation scene core)
-set(study_may_use io observe theory simulation scene core)
+set(study_may_use io observe theory simulation neighbours scene core)
 set(cli_may_use show study io observe theory simulation scene core)
 set(public_may_use nothing)  # include/carom/: the installed headers see nothing of src/
 

@@ -1,0 +1,147 @@
+// carom compare SCENE: what accuracy costs, in compare.json, compare.csv, report.html and a table. Every point is on the disk
+// when it is finished, so that an interrupted study goes on where it was.
+
+#include "cli/commands.hpp"
+#include "cli/compare_text.hpp"
+#include "cli/progress.hpp"
+#include "cli/signals.hpp"
+#include "io/run_directory.hpp"
+#include "io/text_file.hpp"
+#include "show/compare_page.hpp"
+#include "show/page.hpp"
+#include "study/compare.hpp"
+#include "study/compare_files.hpp"
+
+#include <fmt/format.h>
+#include <carom/simulation.hpp>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string_view>
+
+namespace carom::cli {
+
+namespace {
+
+/// compare.json comes last: where it is, the comparison is complete.
+constexpr std::array<std::string_view, 4> products = {"points.jsonl", "compare.csv", "report.html", "compare.json"};
+
+CompareOptions checked(const CompareCommandOptions& options) {
+  if (options.force && options.resume)
+    throw UsageError("--force begins anew and --resume goes on with what is there: give one of them");
+  if (options.seeds < 1 || options.seeds > 10'000)
+    throw UsageError(fmt::format("--seeds {}: it can be 1 to 10000", options.seeds));
+  if (!(options.longest > 0.0))
+    throw UsageError(fmt::format("--longest {:g}: a run takes some time; give a positive number", options.longest));
+  for (const double dt : options.dts)
+    if (!(dt > 0.0 && std::isfinite(dt))) throw UsageError(fmt::format("--dt {:g}: a time step must be positive and finite", dt));
+  return {options.dts, options.seeds, options.longest, checked_engine(options.scene), !options.no_costs};
+}
+
+std::filesystem::path directory_for(const CompareCommandOptions& options) {
+  if (!options.out.empty()) return options.out;
+  return std::filesystem::path(options.scene.path).stem().string() + "-compare";
+}
+
+void write_product(const RunDirectory& directory, std::string_view product, const std::string& text) {
+  detail::TextFile file(directory.partial_name(product));
+  file.buffer() += text;
+  file.end_record();
+  file.close();
+  directory.publish(product);
+}
+
+RunDirectory open_directory(const std::filesystem::path& path, const CompareCommandOptions& options) {
+  try {
+    // A study that is resumed finds its points in the way, and nothing else may be.
+    static constexpr std::array<std::string_view, 0> none = {};
+    return options.resume ? RunDirectory(path, false, none) : RunDirectory(path, options.force, products);
+  } catch (const OutputError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+Comparison earlier_points(const RunDirectory& directory, const std::string& key, const CompareCommandOptions& options) {
+  if (!options.resume) return {};
+  try {
+    return load_points(directory.final_name("points.jsonl"), key);
+  } catch (const OutputError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& invocation) {
+  const CompareOptions study = checked(options);
+  const ProgressMode mode = progress_mode(options.progress, options.quiet);
+  const Scene scene = load(options.scene);
+  (void)make_simulation(scene, study.engine);  // whatever is wrong with the scene is said before anything is written
+  const std::string key = study_key(scene, study);
+  const StopRequest stop;
+  const RunDirectory directory = open_directory(directory_for(options), options);
+  try {
+    Comparison before = earlier_points(directory, key, options);
+    std::unique_ptr<PointsFile> points;
+    ProgressLine line(mode, scene);
+    CompareHooks hooks;
+    hooks.proceed = [&](const std::string& doing, double fraction) {
+      line.update(doing, fraction);
+      return !stop.made();
+    };
+    hooks.planned = [&](const ComparePlan&) {
+      points = std::make_unique<PointsFile>(directory.final_name("points.jsonl"), key, before);
+    };
+    hooks.run_done = [&](const MethodRun& run) { points->add(run); };
+    hooks.cost_done = [&](const CostPoint& point) { points->add(point); };
+    const Comparison comparison = compare(scene, study, hooks, before);
+    line.update("", 1.0);
+    if (!comparison.complete) {
+      directory.discard_if_empty();
+      if (comparison.runs.empty()) {
+        fmt::print(stderr, "carom: {}: interrupted before the first point was finished\n", scene.source);
+      } else {
+        fmt::print(stderr,
+                   "carom: {}: interrupted; {} points are kept in {}: the same command with --resume goes on from there\n",
+                   scene.source, comparison.runs.size() + comparison.costs.size(), directory.final_name("points.jsonl").string());
+      }
+      return exit_interrupted;
+    }
+    const std::string json = compare_json(comparison, scene, invocation.command_line);
+    write_product(directory, "compare.csv", compare_csv(comparison));
+    write_product(directory, "report.html", html_page(compare_page(comparison, scene, invocation.command_line)));
+    write_product(directory, "compare.json", json + "\n");
+    if (options.json) {
+      fmt::print("{}\n", json);
+    } else {
+      fmt::print("{}", compare_text(comparison, scene, options.quiet));
+      if (!options.quiet)
+        fmt::print("\nFiles in {}: report.html, compare.json, compare.csv, points.jsonl\n", directory.path().string());
+    }
+    return exit_done;
+  } catch (const std::invalid_argument& error) {
+    directory.discard_if_empty();
+    throw UsageError(fmt::format("{}: {}", scene.source, error.what()));
+  } catch (...) {
+    directory.discard_if_empty();
+    throw;
+  }
+}
+
+}  // namespace
+
+ExitCode compare(const CompareCommandOptions& options, const Invocation& invocation) {
+  try {
+    return compare_scene(options, invocation);
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(
+        fmt::format("{}: there is not enough memory to keep this scene in 113 bits at every sample; fewer disks need less",
+                    options.scene.path));
+  }
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,159 @@
+#include "show/compare_page.hpp"
+
+#include "show/compare_plots.hpp"
+#include "study/compare_answers.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <carom/version.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+std::string seconds_text(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.3g} µs", 1e6 * seconds);
+  if (seconds < 1.0) return fmt::format("{:.3g} ms", 1e3 * seconds);
+  return seconds < 120.0 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.3g} min", seconds / 60.0);
+}
+
+std::string percent(double fraction) { return fmt::format("{:.3g} %", 100.0 * fraction); }
+
+Table table_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
+  Table table{.title = "Every method and step",
+              .columns = {"method", "dt", "dt / mean free time", "error", "time", "Z", "missed", "repeated", "spurious",
+                          "deepest overlap"},
+              .caption =
+                  "Error in diameters and processor time at the early sample: medians over the seeds. Z with its standard error. "
+                  "A dash: not "
+                  "measured, because the run was cut short or the method is exact."};
+  for (const MethodSummary& s : summaries) {
+    const auto counted = [&](double (StepCounts::*fraction)() const) {
+      return s.counts ? percent((*s.counts.*fraction)()) : "–";
+    };
+    table.rows.push_back({name_of(s.method.name), s.method.exact() ? "–" : fmt::format("{:.3g}", s.method.dt),
+                          s.method.exact() ? "–" : fmt::format("{:.2g}", comparison.plan.in_free_times(s.method.dt)),
+                          fmt::format("{:.2e}", s.error.median), seconds_text(s.seconds_early),
+                          s.Z ? fmt::format("{:.4g} ± {:.1g}", s.Z->value, s.Z->error) : "–",
+                          counted(&StepCounts::missed_fraction), counted(&StepCounts::repeated_fraction),
+                          counted(&StepCounts::spurious_fraction), s.counts ? fmt::format("{:.2g}", s.counts->deepest) : "–"});
+  }
+  return table;
+}
+
+Table horizon_table(const Horizon& horizon) {
+  Table table{
+      .title = "How far the exact trajectory can be trusted",
+      .columns = {"engine", "bits", "right until t", "collisions per disk", "price"},
+      .caption = fmt::format(
+          "Until the largest distance of a disk from where the next better precision has it reaches {:g} diameters, for the "
+          "first seed. ~: extrapolated with the Lyapunov exponent. Price: processor time over that of double precision "
+          "in the same engine.",
+          horizon.tolerance)};
+  for (const HorizonRow& row : horizon.rows) {
+    const std::string about = row.estimated ? "~" : "";
+    table.rows.push_back({name_of(row.engine), fmt::format("{}", row.bits),
+                          row.time ? about + fmt::format("{:.4g}", *row.time) : "to the end",
+                          row.collisions_per_disk ? about + fmt::format("{:.3g}", *row.collisions_per_disk) : "–",
+                          row.price > 0.0 ? fmt::format("{:.2g}", row.price) : "–"});
+  }
+  return table;
+}
+
+Table time_to_Z_table(const Answers& answers) {
+  Table table{
+      .title = "Time to know Z",
+      .columns = {"method", "to 1 %", "to 0.1 %"},
+      .caption = "Processor time until bias and chance together are that small; fixed steps at the dt for which it is shortest."};
+  for (const TimeToZ& row : answers.time_to_Z) {
+    const std::string cell =
+        row.seconds ? seconds_text(*row.seconds) + (row.dt ? fmt::format(" (dt = {:.2g})", *row.dt) : "") : row.remark;
+    if (row.accuracy == answers.time_to_Z.front().accuracy) {
+      table.rows.push_back({name_of(row.method), cell, "–"});
+    } else {
+      for (auto& cells : table.rows)
+        if (cells.front() == name_of(row.method)) cells.back() = cell;
+    }
+  }
+  return table;
+}
+
+std::vector<KeyNumber> key_numbers(const Comparison& comparison, const Answers& answers) {
+  std::vector<KeyNumber> numbers;
+  if (answers.to_millionth)
+    numbers.push_back({fmt::format("{:.2g} ×", answers.to_millionth->seconds / answers.exact_seconds),
+                       "the time of the exact engine, for fixed steps right to 10⁻⁶ diameters"});
+  numbers.push_back(
+      {fmt::format("{:.1e}", answers.exact_error),
+       fmt::format("diameters: error of the exact engine after {:.2g} collisions per disk, in {}",
+                   comparison.plan.in_free_times(comparison.plan.early_time()), seconds_text(answers.exact_seconds))});
+  if (answers.order)
+    numbers.push_back(
+        {fmt::format("{:.2f} ± {:.2f}", answers.order->value, answers.order->error), "order of the fixed step, fitted"});
+  const HorizonRow* row = comparison.plan.horizon.row(comparison.plan.horizon.engine);
+  if (row != nullptr && row->collisions_per_disk)
+    numbers.push_back(
+        {fmt::format("{:.0f}", *row->collisions_per_disk), "collisions per disk, then chaos has outgrown double precision"});
+  return numbers;
+}
+
+std::vector<Block> costs(const Comparison& comparison, const Answers& answers, const Scene& scene) {
+  std::vector<Block> blocks;
+  if (!answers.time_to_Z.empty()) blocks.emplace_back(time_to_Z_table(answers));
+  if (comparison.costs.empty()) return blocks;
+  blocks.emplace_back(Paragraph{"The scene at other sizes and densities: the same species in the same shares, in equilibrium."});
+  blocks.emplace_back(cost_against_size(comparison, scene.packing_fraction()));
+  blocks.emplace_back(cost_against_density(comparison));
+  return blocks;
+}
+
+std::string left_out(const Comparison& comparison) {
+  std::vector<std::string> names;
+  for (const LeftOut& one : comparison.left_out)
+    names.push_back(fmt::format("{} with dt = {:.2g} (about {})", one.method.name, one.method.dt, seconds_text(one.seconds)));
+  return fmt::format("Not run, as longer than {}: {}.", seconds_text(comparison.plan.longest), fmt::join(names, ", "));
+}
+
+}  // namespace
+
+Page compare_page(const Comparison& comparison, const Scene& scene, const std::string& command_line) {
+  const ComparePlan& plan = comparison.plan;
+  const Answers answers = answers_of(comparison);
+  const std::vector<MethodSummary> summaries = summaries_of(comparison);
+  Page page{
+      .title = "What accuracy costs: " + (scene.title.empty() ? scene.source : scene.title),
+      .subtitle = fmt::format("{} disks, packing fraction {:.4g}, {} rule; {} starts; mean free time {:.4g}", scene.disk_count(),
+                              scene.packing_fraction(), scene.rule == CollisionRule::reversal ? "reversal" : "specular",
+                              plan.seeds.size(), plan.mean_free_time),
+      .lead = fmt::format("{}", fmt::join(answers.sentences, " ")),
+      .key_numbers = key_numbers(comparison, answers)};
+  page.sections = {
+      {"Work and precision",
+       {Paragraph{"The same start, advanced by exact events and by fixed steps. Until chaos has made any error large, an error "
+                  "tells the method; "
+                  "that is where methods are compared."},
+        work_precision(comparison, summaries)}},
+      {"How errors grow", {error_in_time(comparison), horizon_table(plan.horizon)}},
+      {"What fixed steps do to collisions", {faults_of_steps(comparison, summaries), overlap_of_steps(comparison, summaries)}},
+      {"What they do to averages",
+       {bias_of(comparison, summaries, "bias-z", "Z", &MethodSummary::Z),
+        bias_of(comparison, summaries, "bias-rate", "the collision rate", &MethodSummary::collision_rate),
+        bias_of(comparison, summaries, "bias-path", "the mean free path", &MethodSummary::mean_free_path),
+        energy_of_steps(comparison, summaries)}}};
+  if (std::vector<Block> blocks = costs(comparison, answers, scene); !blocks.empty())
+    page.sections.push_back({"What an average costs", std::move(blocks)});
+  page.sections.push_back({"All numbers", {table_of(comparison, summaries), Listing{"The scene", resolved_toml(scene)}}});
+  if (!comparison.left_out.empty())
+    page.sections.back().blocks.insert(page.sections.back().blocks.begin() + 1, Paragraph{left_out(comparison)});
+  page.facts = {{"Scene", scene.source},
+                {"Command", command_line},
+                {"Program", fmt::format("carom {} (commit {}; {}; {})", build_info().version, build_info().commit,
+                                        build_info().compiler, build_info().flags)},
+                {"Seeds", fmt::format("{} to {}", plan.seeds.front(), plan.seeds.back())}};
+  return page;
+}
+
+}  // namespace carom

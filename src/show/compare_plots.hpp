@@ -1,0 +1,31 @@
+#pragma once
+// The plots of a comparison.
+
+#include "show/page.hpp"
+#include "study/compare_answers.hpp"
+#include "study/comparison.hpp"
+
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// The method's colour in every plot.
+[[nodiscard]] int group_of(const std::string& method);
+/// Its name for people: "double", "113 bits", "grid, fixed step".
+[[nodiscard]] std::string name_of(const std::string& method);
+
+[[nodiscard]] Plot error_in_time(const Comparison& comparison);
+[[nodiscard]] Plot work_precision(const Comparison& comparison, const std::vector<MethodSummary>& summaries);
+[[nodiscard]] Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries);
+[[nodiscard]] Plot overlap_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries);
+
+/// The relative difference from the exact engine of Z, the collision rate or the mean free path, with standard errors.
+[[nodiscard]] Plot bias_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries, const std::string& id,
+                           const std::string& what, std::optional<Estimate> MethodSummary::*quantity);
+[[nodiscard]] Plot energy_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries);
+
+[[nodiscard]] Plot cost_against_size(const Comparison& comparison, double packing_fraction);
+[[nodiscard]] Plot cost_against_density(const Comparison& comparison);
+
+}  // namespace carom

@@ -1,0 +1,56 @@
+#include "theory/fixed_step.hpp"
+
+#include <boost/math/quadrature/gauss.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::theory {
+
+namespace {
+
+using Rule = boost::math::quadrature::gauss<double, 30>;
+
+/// Over the speeds g (in v_T) with which pairs of a gas meet: g^2 exp(-g^2 / 4), cut off where it has fallen to 1e-16.
+template <class Function>
+double over_speeds(Function f) {
+  constexpr double fastest = 13.0;
+  const auto weighted = [&](double g) { return g * g * std::exp(-0.25 * g * g) * f(g); };
+  double sum = 0.0;
+  for (int k = 0; k < 4; ++k) sum += Rule::integrate(weighted, fastest * k / 4.0, fastest * (k + 1) / 4.0);
+  const double norm = 2.0 * std::sqrt(std::acos(-1.0));  // of g^2 exp(-g^2 / 4) from 0 to infinity
+  return sum / norm;
+}
+
+/// With w the length of a step's relative flight over the longest chord that is noticed, and chords c = sqrt(1 - b^2) of evenly
+/// distributed b: the mean of max(0, 1 - c / w).
+double missed_at(double w) {
+  if (w >= 1.0) return 1.0 - std::acos(-1.0) / (4.0 * w);
+  if (w < 1e-3) return w * w / 6.0;  // the rest is w^4 / 40
+  const double c = std::sqrt(1.0 - w * w);
+  return (1.0 - c) - (std::asin(w) - w * c) / (2.0 * w);
+}
+
+}  // namespace
+
+double missed_fraction(double step, Notices notices) {
+  // Contact lasts 2 sigma c / g, approach half as long.
+  const double per_speed = notices == Notices::contact ? step / 2.0 : step;
+  return over_speeds([&](double g) { return missed_at(g * per_speed); });
+}
+
+double mean_depth(double step) {
+  // At a time s after contact r^2 = 1 - 2 c x + x^2 with x = g s, in diameters; s is even on [0, min(dt, c / g)]. The
+  // substitution b = sin(angle) makes c smooth.
+  const auto depth_of = [&](double g) {
+    const auto over_chords = [&](double angle) {
+      const double c = std::cos(angle), longest = std::min(g * step, c);
+      const auto depth = [&](double x) { return 1.0 - std::sqrt(std::max(0.0, 1.0 - 2.0 * c * x + x * x)); };
+      return c * Rule::integrate(depth, 0.0, longest);
+    };
+    return Rule::integrate(over_chords, 0.0, std::acos(0.0)) / (g * step);
+  };
+  return over_speeds(depth_of) / (1.0 - missed_fraction(step, Notices::approaching));
+}
+
+}  // namespace carom::theory

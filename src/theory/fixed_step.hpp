@@ -1,0 +1,21 @@
+#pragma once
+// What a fixed step does to an isolated pair of equal disks, averaged over the collisions of a dilute gas at equilibrium. Derived
+// in docs/accuracy.md.
+
+namespace carom::theory {
+
+/// Which pairs in contact a method takes for colliding.
+enum class Notices {
+  contact,     ///< all (naive)
+  approaching  ///< those that approach (guarded)
+};
+
+/// The fraction of collisions that a step passes over. `step` = v_T dt / sigma with v_T = sqrt(kT / m). For small steps
+/// step^2 / 4 where contact is noticed, step^2 where approach is.
+[[nodiscard]] double missed_fraction(double step, Notices notices);
+
+/// Mean of (sigma - |r|) / sigma at the step at which a collision is noticed, of pairs that approach. For small steps
+/// (sqrt(pi) / 2) step.
+[[nodiscard]] double mean_depth(double step);
+
+}  // namespace carom::theory
