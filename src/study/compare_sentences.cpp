@@ -9,9 +9,14 @@ namespace carom {
 
 namespace {
 
-/// "420", "1.3", "2.1e+05": two digits, in full where that is short.
+/// Two digits and no more: "1.3", "420", "23,000", "2.1e+09".
 std::string two_digits(double value) {
-  return value >= 10.0 && value < 1e5 ? fmt::format("{:.0f}", value) : fmt::format("{:.2g}", value);
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  const double rounded = unit * std::nearbyint(value / unit);
+  if (!(rounded >= 10.0 && rounded < 1e7)) return fmt::format("{:.2g}", value);
+  std::string text = fmt::format("{:.0f}", rounded);
+  for (std::size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, ",");
+  return text;
 }
 
 std::string what_it_costs(const ComparePlan& plan, const Answers& answers) {
