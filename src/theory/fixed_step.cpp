@@ -11,13 +11,18 @@ namespace {
 
 using Rule = boost::math::quadrature::gauss<double, 30>;
 
-/// Over the speeds g (in v_T) with which pairs of a gas meet: g^2 exp(-g^2 / 4), cut off where it has fallen to 1e-16.
+/// Over the speeds g (in v_T) with which pairs of a gas meet: g^2 exp(-g^2 / 4), cut off where it has fallen to 1e-16. What is
+/// summed may bend at the speed `bend`.
 template <class Function>
-double over_speeds(Function f) {
+double over_speeds(double bend, Function f) {
   constexpr double fastest = 13.0;
   const auto weighted = [&](double g) { return g * g * std::exp(-0.25 * g * g) * f(g); };
-  double sum = 0.0;
-  for (int k = 0; k < 4; ++k) sum += Rule::integrate(weighted, fastest * k / 4.0, fastest * (k + 1) / 4.0);
+  double sum = 0.0, from = 0.0;
+  for (const double to : {std::min(bend, fastest), fastest}) {
+    const double panel = (to - from) / 4.0;
+    for (int k = 0; k < 4; ++k) sum += Rule::integrate(weighted, from + panel * k, from + panel * (k + 1));
+    from = to;
+  }
   const double norm = 2.0 * std::sqrt(std::acos(-1.0));  // of g^2 exp(-g^2 / 4) from 0 to infinity
   return sum / norm;
 }
@@ -36,7 +41,7 @@ double missed_at(double w) {
 double missed_fraction(double step, Notices notices) {
   // Contact lasts 2 sigma c / g, approach half as long.
   const double per_speed = notices == Notices::contact ? step / 2.0 : step;
-  return over_speeds([&](double g) { return missed_at(g * per_speed); });
+  return over_speeds(1.0 / per_speed, [&](double g) { return missed_at(g * per_speed); });
 }
 
 double mean_depth(double step) {
@@ -48,9 +53,10 @@ double mean_depth(double step) {
       const auto depth = [&](double x) { return 1.0 - std::sqrt(std::max(0.0, 1.0 - 2.0 * c * x + x * x)); };
       return c * Rule::integrate(depth, 0.0, longest);
     };
-    return Rule::integrate(over_chords, 0.0, std::acos(0.0)) / (g * step);
+    const double cut_short = std::acos(std::min(1.0, g * step));  // there the step ends within the chord
+    return (Rule::integrate(over_chords, 0.0, cut_short) + Rule::integrate(over_chords, cut_short, std::acos(0.0))) / (g * step);
   };
-  return over_speeds(depth_of) / (1.0 - missed_fraction(step, Notices::approaching));
+  return over_speeds(1.0 / step, depth_of) / (1.0 - missed_fraction(step, Notices::approaching));
 }
 
 }  // namespace carom::theory
