@@ -67,6 +67,7 @@ class Study {
       throw std::invalid_argument("no two disks of this scene collide; there is nothing to compare");
     HorizonOptions options;
     options.engine = options_.engine;
+    options.lyapunov_collisions = options_.lyapunov_collisions;
     options.proceed = [&](const HorizonProgress& progress) {
       return going_on("measuring how far the trajectory can be trusted", 0.05 * progress.fraction);
     };

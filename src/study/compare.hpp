@@ -18,7 +18,8 @@ struct CompareOptions {
   std::uint64_t seeds = 8;  ///< the scene's seed and those after it
   double longest = 0.5;     ///< seconds; see ComparePlan
   std::string engine = "auto";
-  bool costs = true;  ///< measure cost against size and density too
+  bool costs = true;                      ///< measure cost against size and density too
+  std::uint64_t lyapunov_collisions = 0;  ///< see HorizonOptions
 };
 
 struct CompareHooks {
