@@ -32,7 +32,8 @@ inline CompareOptions dozen_options(std::vector<double> dts = {0.02, 0.01, 0.005
 /// Four starts with one exact engine and one or more fixed-step methods, in closed form:
 ///
 ///   the exact engine   errs by 1e-15, takes exact_seconds until the early sample, and Z is 2 with deviations -d, -d, d, d;
-///   a fixed step       errs by error_per_dt dt at the early sample, takes step_seconds / dt until there, and Z is that times 1 + bias_per_dt dt.
+///   a fixed step       errs by error_per_dt dt at the early sample, takes step_seconds / dt until there, and Z is that times 1 +
+///   bias_per_dt dt.
 ///
 /// The early sample is at time 2, the end at time 8; costs are proportional to time.
 struct KnownLaws {
