@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <carom/simulation.hpp>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -24,6 +25,7 @@
 #include <new>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 namespace carom::cli {
 
@@ -42,6 +44,17 @@ CompareOptions checked(const CompareCommandOptions& options) {
   for (const double dt : options.dts)
     if (!(dt > 0.0 && std::isfinite(dt))) throw UsageError(fmt::format("--dt {:g}: a time step must be positive and finite", dt));
   return {options.dts, options.seeds, options.longest, checked_engine(options.scene), !options.no_costs};
+}
+
+/// The longest step, since what is wrong with a step is that it is too long.
+void check_steps(const Scene& scene, const std::vector<double>& dts) {
+  if (dts.empty()) return;
+  const double longest = *std::max_element(dts.begin(), dts.end());
+  try {
+    (void)make_simulation(scene, FixedStep{"grid", longest});
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--dt {:g}: {}", longest, error.what()));
+  }
 }
 
 std::filesystem::path directory_for(const CompareCommandOptions& options) {
@@ -81,6 +94,7 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const Scene scene = load(options.scene);
   (void)make_simulation(scene, study.engine);  // whatever is wrong with the scene is said before anything is written
+  check_steps(scene, study.dts);
   const std::string key = study_key(scene, study);
   const StopRequest stop;
   const RunDirectory directory = open_directory(directory_for(options), options);
