@@ -1,0 +1,202 @@
+// carom compare: what it writes and prints, that it can be interrupted and goes on, and what it refuses.
+
+#include "support/child_process.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+namespace fs = std::filesystem;
+
+const std::string gas = R"(title = "A dozen disks"
+
+[box]
+x = [0.0, 5.0]
+y = [0.0, 5.0]
+boundary = "periodic"
+
+[[disks]]
+count = 12
+radius = 0.5
+mass = 1.0
+positions = "random"
+velocities = { temperature = 1.0 }
+
+[collision]
+rule = "specular"
+
+[run]
+time = 5.0
+)";
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+class CompareCommand : public ::testing::Test {
+ protected:
+  CompareCommand() { write_text(file("gas.toml"), gas); }
+
+  /// A comparison of two fixed steps from one start, where nothing else is said.
+  Outcome compare(const std::vector<std::string>& options, const std::function<void(pid_t)>& meanwhile = {}) {
+    std::vector<std::string> arguments = {"compare", "gas.toml", "--no-costs"};
+    if (std::find(options.begin(), options.end(), "--seeds") == options.end())
+      arguments.insert(arguments.end(), {"--seeds", "1"});
+    if (std::find(options.begin(), options.end(), "--dt") == options.end())
+      arguments.insert(arguments.end(), {"--dt", "0.02,0.01"});
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return run_carom(directory_.path(), arguments, meanwhile);
+  }
+  [[nodiscard]] fs::path file(const std::string& name) const { return directory_.path() / name; }
+  [[nodiscard]] std::set<std::string> files_in(const std::string& name) const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(file(name))) names.insert(entry.path().filename().string());
+    return names;
+  }
+
+  /// Exit code 2, one sentence, and nothing new in the directory.
+  void expect_refused(const std::vector<std::string>& options, const std::string& beginning) {
+    SCOPED_TRACE(beginning);
+    const Outcome outcome = compare(options);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.out, IsEmpty());
+    EXPECT_THAT(outcome.err, StartsWith("carom: " + beginning));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+    EXPECT_EQ(files_in("."), std::set<std::string>{"gas.toml"});
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(CompareCommand, WritesPageTablesAndPointsAndPrintsTheAnswerAndKeepsWhatIsThere) {
+  const Outcome outcome = compare({});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_EQ(files_in("gas-compare"), (std::set<std::string>{"report.html", "compare.json", "compare.csv", "points.jsonl"}));
+  EXPECT_THAT(outcome.out, AllOf(StartsWith("A dozen disks\n12 disks"), HasSubstr("textbook-float"), HasSubstr("grid"),
+                                 HasSubstr("the exact engine"), HasSubstr("Files in gas-compare: ")));
+  const json all = json::parse(text_of(file("gas-compare/compare.json")));
+  EXPECT_EQ(all["runs"].size(), 4U + 2U * 3U);
+  EXPECT_EQ(all["complete"], true);
+  for (const json& sentence : all["sentences"]) EXPECT_THAT(outcome.out, HasSubstr(sentence.get<std::string>() + "\n"));
+  EXPECT_EQ(lines_of(text_of(file("gas-compare/compare.csv"))).size(), 1U + 10U);
+  EXPECT_EQ(lines_of(text_of(file("gas-compare/points.jsonl"))).size(), 1U + 10U);
+  EXPECT_THAT(text_of(file("gas-compare/report.html")), HasSubstr("<title>What accuracy costs: A dozen disks</title>"));
+
+  const std::string before = text_of(file("gas-compare/compare.json"));
+  const Outcome refused = compare({});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.out, IsEmpty());
+  EXPECT_THAT(refused.err, AllOf(StartsWith("carom: gas-compare"), HasSubstr("--force")));
+  EXPECT_EQ(text_of(file("gas-compare/compare.json")), before);
+
+  const Outcome forced = compare({"--force", "-q", "--dt", "0.02"});
+  EXPECT_EQ(forced.exit_code, 0) << forced.err;
+  const json replaced = json::parse(text_of(file("gas-compare/compare.json")));
+  EXPECT_EQ(replaced["runs"].size(), 4U + 3U);
+  std::string sentences;  // quiet: them alone
+  for (const json& sentence : replaced["sentences"]) sentences += sentence.get<std::string>() + "\n";
+  EXPECT_THAT(sentences, Not(IsEmpty()));
+  EXPECT_EQ(forced.out, sentences);
+}
+
+TEST_F(CompareCommand, JsonPrintsTheFileOfThatName) {
+  const Outcome outcome = compare({"--json", "--dt", "0.02", "--out", "elsewhere/deep", "--engine", "textbook", "--seed", "7"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, text_of(file("elsewhere/deep/compare.json")));
+  const json all = json::parse(outcome.out);
+  EXPECT_EQ(all["runs"].size(), 3U + 3U);
+  EXPECT_EQ(all["runs"][0]["seed"], 7);
+}
+
+TEST_F(CompareCommand, InterruptedItKeepsItsPointsAndGoesOnFromThere) {
+  const std::vector<std::string> options = {"--seeds", "3"};
+  const fs::path points = file("gas-compare/points.jsonl");
+  const Outcome stopped = compare(options, [&](pid_t child) {
+    EXPECT_TRUE(wait_until([&] { return lines_of(text_of(points)).size() > 4; }));
+    kill(child, SIGINT);
+  });
+  EXPECT_EQ(stopped.exit_code, 130);
+  EXPECT_THAT(stopped.out, IsEmpty());
+  EXPECT_THAT(stopped.err, AllOf(HasSubstr("interrupted"), HasSubstr("points.jsonl"), HasSubstr("--resume")));
+  EXPECT_EQ(files_in("gas-compare"), std::set<std::string>{"points.jsonl"});
+  const std::vector<std::string> before = lines_of(text_of(points));
+
+  const Outcome refused = compare({"--seeds", "3", "--dt", "0.03", "--resume"});  // points of another study
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("another scene, other options"));
+  EXPECT_EQ(lines_of(text_of(points)), before);
+  EXPECT_EQ(compare(options).exit_code, 2);  // they are results, and nobody said --force
+
+  const Outcome resumed = compare({"--seeds", "3", "--resume"});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  const std::vector<std::string> after = lines_of(text_of(points));
+  ASSERT_EQ(after.size(), 1U + 3U * 10U);
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), after.begin()));
+  std::set<std::tuple<std::string, double, int>> runs;
+  for (std::size_t k = 1; k < after.size(); ++k) {
+    const json run = json::parse(after[k])["run"];
+    runs.emplace(run["method"], run["dt"], run["seed"]);
+  }
+  EXPECT_EQ(runs.size(), 30U);
+  EXPECT_EQ(json::parse(text_of(file("gas-compare/compare.json")))["runs"].size(), 30U);
+}
+
+TEST_F(CompareCommand, InterruptedBeforeTheFirstPointItLeavesNothing) {
+  const Outcome outcome =
+      compare({"--set", "disks.0.count=2000", "--set", "box.x=[0.0,100.0]", "--set", "box.y=[0.0,100.0]"}, [&](pid_t child) {
+        EXPECT_TRUE(wait_until([&] { return fs::exists(file("gas-compare")); }));
+        kill(child, SIGINT);
+      });
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_THAT(outcome.err, HasSubstr("interrupted before the first point"));
+  EXPECT_EQ(files_in("."), std::set<std::string>{"gas.toml"});
+}
+
+TEST_F(CompareCommand, OptionsThatMakeNoSenseAreRefusedBeforeAnythingIsWritten) {
+  expect_refused({"--seeds", "0"}, "--seeds 0: ");
+  expect_refused({"--seeds", "10001"}, "--seeds 10001: ");
+  expect_refused({"--dt", "-1"}, "--dt -1: ");
+  expect_refused({"--dt", "0.01,0"}, "--dt 0: ");
+  expect_refused({"--dt", "inf"}, "--dt inf: ");
+  expect_refused({"--longest", "0"}, "--longest 0: ");
+  expect_refused({"--longest", "nan"}, "--longest nan: ");
+  expect_refused({"--force", "--resume"}, "--force ");
+  expect_refused({"--engine", "warp"}, "");
+  expect_refused({"--progress", "often"}, "");
+  expect_refused({"--set", "disks.0.radius=9"}, "");
+}
+
+TEST_F(CompareCommand, WithoutPointsThereIsNothingToResume) { expect_refused({"--resume"}, "gas-compare/points.jsonl"); }
+
+TEST_F(CompareCommand, AStepSoLongThatPositionsOverflowIsRefused) { expect_refused({"--dt", "0.01,1e200"}, "--dt 1e+200: "); }
+
+TEST_F(CompareCommand, ASceneWithoutCollisionsIsRefused) {
+  expect_refused({"--set", "disks.0.count=1"}, "gas.toml: no two disks");
+  expect_refused({"--set", "disks.0.count=0"}, "gas.toml: no two disks");
+}
+
+}  // namespace
+}  // namespace carom::test
