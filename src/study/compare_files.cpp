@@ -8,9 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 namespace carom {
@@ -141,6 +143,8 @@ std::string study_key(const Scene& scene, const CompareOptions& options) {
 }
 
 PointsFile::PointsFile(std::filesystem::path path, const std::string& key, const Comparison& before) : path_(std::move(path)) {
+  // `before` may have come from this very file: it is replaced only when all of it has been written again.
+  const std::filesystem::path final_path = std::exchange(path_, path_.string() + ".partial");
   {
     std::ofstream file(path_, std::ios::trunc);
     if (!file) throw detail::system_error(path_, "write it", errno);
@@ -148,6 +152,10 @@ PointsFile::PointsFile(std::filesystem::path path, const std::string& key, const
   write(Json{{"study", key}}.dump());
   for (const MethodRun& run : before.runs) add(run);
   for (const CostPoint& point : before.costs) add(point);
+  std::error_code error;
+  std::filesystem::rename(path_, final_path, error);
+  if (error) throw detail::system_error(final_path, "write it", error.value());
+  path_ = final_path;
 }
 
 void PointsFile::add(const MethodRun& run) { write(Json{{"run", json_of(run)}}.dump()); }
