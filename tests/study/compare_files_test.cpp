@@ -123,8 +123,13 @@ TEST_F(Points, OfAnEarlierStudyBeginANewFile) {
   write();
   const Comparison loaded = load_points(file(), "key");
   const std::string text = text_of(file());
-  const PointsFile again(file(), "key", loaded);
+  PointsFile again(file(), "key", loaded);
   EXPECT_EQ(text_of(file()), text);
+  again.add(awkward_cost());
+  EXPECT_EQ(load_points(file(), "key").costs.size(), 2U);
+  std::filesystem::remove(file());
+  std::filesystem::create_directory(file());  // which no file replaces
+  EXPECT_THROW(PointsFile(file(), "key", loaded), OutputError);
 }
 
 TEST_F(Points, ALineThatWasNotFinishedIsLeftOut) {

@@ -159,6 +159,7 @@ TEST(Compare, TheUsualStepsFallThreePerDecadeFromTwoFreeTimes) {
   ASSERT_EQ(plan.dts.size(), 21U);
   for (std::size_t k = 0; k + 3 < plan.dts.size(); ++k) EXPECT_NEAR(plan.dts[k] / plan.dts[k + 3], 10.0, 1e-13);  // rounding
   EXPECT_NEAR(plan.in_free_times(plan.dts[1]), 1.0, 1e-15);
+  EXPECT_EQ(plan_of(dozen_scene(), options).dts, plan.dts);  // to the last bit: a study that goes on finds its points by them
   options.dts = {0.01, 0.04, 0.02};
   EXPECT_EQ(plan_of(dozen_scene(), options).dts, (std::vector<double>{0.04, 0.02, 0.01}));
 }
