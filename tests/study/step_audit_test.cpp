@@ -107,6 +107,13 @@ TEST_F(Audit, APartingPairThatIsSentBackIsSpuriousAndNotMissed) {
   EXPECT_EQ(audit_.counts().mean_depth(), 0.0);  // of what was found
 }
 
+TEST_F(Audit, APartingPairThatIsSentBackAStepLaterIsSpuriousAndNotMissed) {
+  quiet_step({{0.25, 0.0}, {0.25, 0.0}});
+  step_with_reversal({{0.0, 0.0}, {0.25, 0.0}}, {{0.5, 0.0}, {0.0, 0.0}});
+  for (int k = 1; k < 8; ++k) quiet_step({{0.25 * k, 0.0}, {0.25, 0.0}}, {{0.5, 0.0}, {0.0, 0.0}});  // through each other
+  expect_counts(0, 0, 0, 1);
+}
+
 TEST_F(Audit, ReversalsBeforeThePairIsApartAgainAreRepeats) {
   quiet_step({{1.25, 0.0}, {-0.75, 0.0}});
   step_with_reversal({{0.0, 0.0}, {-0.25, 0.0}}, {{0.5, 0.0}, {0.0, 0.0}});
