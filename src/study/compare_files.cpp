@@ -172,15 +172,23 @@ Comparison load_points(const std::filesystem::path& path, const std::string& key
   if (!file) throw detail::system_error(path, "read it", errno);
   Comparison comparison;
   bool ours = false;
+  std::size_t number = 0;
   for (std::string line; std::getline(file, line);) {
+    ++number;
     const Json json = Json::parse(line, nullptr, false);
     if (json.is_discarded()) continue;  // the line that was being written when the study was killed
-    if (json.contains("study")) {
-      ours = json["study"] == key;
-    } else if (json.contains("run")) {
-      comparison.runs.push_back(run_of(json["run"]));
-    } else if (json.contains("cost")) {
-      comparison.costs.push_back(cost_of(json["cost"]));
+    try {
+      if (json.contains("study")) {
+        ours = json["study"] == key;
+      } else if (json.contains("run")) {
+        comparison.runs.push_back(run_of(json["run"]));
+      } else if (json.contains("cost")) {
+        comparison.costs.push_back(cost_of(json["cost"]));
+      }
+    } catch (const Json::exception&) {
+      throw OutputError(
+          fmt::format("{}:{}: this is no point that carom has written; take the line out, or begin anew with --force",
+                      path.string(), number));
     }
   }
   if (!ours)
