@@ -154,6 +154,14 @@ TEST_F(Points, OfAnotherStudyAreRefusedInASentence) {
   EXPECT_THAT(refusal_of("key"), HasSubstr(file()));
 }
 
+TEST_F(Points, ThatNobodyWroteAreRefusedWithTheirLine) {
+  for (const char* line : {R"({"run":{}})", R"({"run":{"method":7}})", R"({"cost":[]})", R"({"run":null})"}) {
+    write();
+    write_text(file(), text_of(file()) + line + "\n");
+    EXPECT_THAT(refusal_of("key"), AllOf(HasSubstr(file() + ":5: "), HasSubstr("--force"))) << line;
+  }
+}
+
 TEST_F(Points, ThatCannotBeWrittenAreReported) {
   EXPECT_THROW(PointsFile(file() + "/no/such/directory", "key", {}), OutputError);
 }
