@@ -2,6 +2,7 @@
 
 #include "show/compare_plots.hpp"
 #include "study/compare_answers.hpp"
+#include "study/compare_sentences.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -84,7 +85,7 @@ Table time_to_Z_table(const Answers& answers) {
 std::vector<KeyNumber> key_numbers(const Comparison& comparison, const Answers& answers) {
   std::vector<KeyNumber> numbers;
   if (answers.to_millionth)
-    numbers.push_back({fmt::format("{:.2g} ×", answers.to_millionth->seconds / answers.exact_seconds),
+    numbers.push_back({two_digits(answers.to_millionth->seconds / answers.exact_seconds) + " ×",
                        "the time of the exact engine, for fixed steps right to 10⁻⁶ diameters"});
   numbers.push_back(
       {fmt::format("{:.1e}", answers.exact_error),

@@ -7,9 +7,6 @@
 
 namespace carom {
 
-namespace {
-
-/// Two digits and no more: "1.3", "420", "23,000", "2.1e+09".
 std::string two_digits(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
   const double rounded = unit * std::nearbyint(value / unit);
@@ -19,13 +16,15 @@ std::string two_digits(double value) {
   return text;
 }
 
+namespace {
+
 std::string what_it_costs(const ComparePlan& plan, const Answers& answers) {
   const std::string when =
       fmt::format("after {:.2g} collisions per disk (t = {:.4g})", plan.in_free_times(plan.early_time()), plan.early_time());
   if (!answers.to_millionth)
     return fmt::format(
-        "{} the exact engine is right to {:.1e} sigma; the fixed step follows no law there, at any dt that was run.", when,
-        answers.exact_error);
+        "The exact engine is right to {:.1e} sigma {}; the fixed step shows no law of convergence there, at any dt that was run.",
+        answers.exact_error, when);
   const double ratio = answers.to_millionth->seconds / answers.exact_seconds;
   return fmt::format(
       "To reach an error of 1e-6 sigma {} the fixed step would need {} times the time of the exact engine, which is right to "
