@@ -3,6 +3,7 @@
 #include "show/compare_plots.hpp"
 #include "study/compare_answers.hpp"
 #include "study/compare_sentences.hpp"
+#include "study/horizon_sentence.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -136,8 +137,8 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
        {Paragraph{"The same start, advanced by exact events and by fixed steps. Until chaos has made any error large, an error "
                   "tells the method; "
                   "that is where methods are compared."},
-        work_precision(comparison, summaries)}},
-      {"How errors grow", {error_in_time(comparison), horizon_table(plan.horizon)}},
+        work_precision(comparison, summaries), Paragraph{answers.sentences.empty() ? "" : answers.sentences.front()}}},
+      {"How errors grow", {error_in_time(comparison), horizon_table(plan.horizon), Paragraph{sentence_of(plan.horizon)}}},
       {"What fixed steps do to collisions", {faults_of_steps(comparison, summaries), overlap_of_steps(comparison, summaries)}},
       {"What they do to averages",
        {bias_of(comparison, summaries, "bias-z", "Z", &MethodSummary::Z),
