@@ -22,6 +22,9 @@ using namespace carom;
 constexpr double now = 0.25;
 constexpr std::int32_t centres = 64;  // with all their neighbours they fit the first cache, as those of one region do
 
+struct Avx512 {
+  static constexpr auto name = "avx512";
+};
 struct Avx2 {
   static constexpr auto name = "avx2";
 };
@@ -181,10 +184,13 @@ void store_and_predict(benchmark::State& state) {
 
 void lists(benchmark::internal::Benchmark* benchmark) { benchmark->ArgName("neighbours")->Arg(4)->Arg(8)->Arg(16); }
 
+BENCHMARK_TEMPLATE(predict, Flight, Avx512)->Apply(lists);
 BENCHMARK_TEMPLATE(predict, Flight, Avx2)->Apply(lists);
 BENCHMARK_TEMPLATE(predict, Flight, Portable)->Apply(lists);
+BENCHMARK_TEMPLATE(store_and_predict, Flight, Avx512)->Apply(lists);
 BENCHMARK_TEMPLATE(store_and_predict, Flight, Avx2)->Apply(lists);
 BENCHMARK_TEMPLATE(store_and_predict, Flight, Portable)->Apply(lists);
+BENCHMARK_TEMPLATE(store_and_predict, SizedFlight, Avx512)->Apply(lists);
 BENCHMARK_TEMPLATE(store_and_predict, SizedFlight, Avx2)->Apply(lists);
 BENCHMARK_TEMPLATE(store_and_predict, SizedFlight, Portable)->Apply(lists);
 

@@ -93,7 +93,7 @@ Json json_of_machine() {
   const std::optional<std::size_t> cache = second_level_cache();
   return {{"carom", {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler}, {"flags", build.flags}}},
           {"machine", {{"processor", processor()}, {"second_level_cache", cache ? Json(*cache) : Json(nullptr)}}},
-          {"instructions", use_avx2() ? "avx2" : "portable"},
+          {"instructions", name_of(chosen_instructions())},
           {"turns", turns},
           {"rows", Json::array()},
           {"failed", Json::array()}};
@@ -104,7 +104,7 @@ void print_heading() {
   const std::optional<std::size_t> cache = second_level_cache();
   fmt::print("{}{}; carom {} (commit {}; {}; {}), {} instructions.\n\n", processor(),
              cache ? fmt::format(", {} KiB of second-level cache", *cache / 1024) : "", build.version, build.commit,
-             build.compiler, build.flags, use_avx2() ? "AVX2" : "portable");
+             build.compiler, build.flags, name_of(chosen_instructions()));
   fmt::print(
       "Pair collisions per second on one core, smooth equal disks in a periodic box; memory per disk, fast and textbook:\n\n"
       "| packing fraction |         N |     fast | textbook | ratio | bytes per disk |\n"

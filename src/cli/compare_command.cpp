@@ -43,7 +43,11 @@ CompareOptions checked(const CompareCommandOptions& options) {
     throw UsageError(fmt::format("--longest {:g}: a run takes some time; give a positive number", options.longest));
   for (const double dt : options.dts)
     if (!(dt > 0.0 && std::isfinite(dt))) throw UsageError(fmt::format("--dt {:g}: a time step must be positive and finite", dt));
-  return {options.dts, options.seeds, options.longest, checked_engine(options.scene), !options.no_costs};
+  const std::string& engine = checked_engine(options.scene);
+  if (engine != "auto" && engine != "fast" && engine != "textbook")
+    throw UsageError(fmt::format(
+        "--engine {}: every precision is compared anyway; choose auto, fast or textbook for the scene's own run", engine));
+  return {options.dts, options.seeds, options.longest, engine, !options.no_costs};
 }
 
 /// The longest step, since what is wrong with a step is that it is too long.

@@ -18,14 +18,23 @@ extern const PredictionKernel<SizedFlight> sized_flight_kernel;
 namespace avx2 = portable;
 #endif
 
+#if CAROM_HAS_AVX512
+namespace avx512 {
+extern const PredictionKernel<Flight> flight_kernel;
+extern const PredictionKernel<SizedFlight> sized_flight_kernel;
+}  // namespace avx512
+#else
+namespace avx512 = avx2;
+#endif
+
 template <>
 const PredictionKernel<Flight>& prediction_kernel() {
-  return use_avx2() ? avx2::flight_kernel : portable::flight_kernel;
+  return chosen_kernel(portable::flight_kernel, avx2::flight_kernel, avx512::flight_kernel);
 }
 
 template <>
 const PredictionKernel<SizedFlight>& prediction_kernel() {
-  return use_avx2() ? avx2::sized_flight_kernel : portable::sized_flight_kernel;
+  return chosen_kernel(portable::sized_flight_kernel, avx2::sized_flight_kernel, avx512::sized_flight_kernel);
 }
 
 }  // namespace carom

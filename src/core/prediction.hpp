@@ -1,7 +1,7 @@
 #pragma once
 // What lies ahead of a disk: which of its neighbours it meets first, and when it leaves its cage. The hot question of the
-// engine, answered for many neighbours at a time. One algorithm (prediction_kernel.hpp), compiled once for every machine
-// and once for those with AVX2; both give the same bits, and which one runs is decided when the program starts.
+// engine, answered for many neighbours at a time. One algorithm (prediction_kernel.hpp), compiled for every machine,
+// for those with AVX2 and for those with AVX-512; all give the same bits, and which one runs is decided when the program starts.
 
 #include "core/flight.hpp"
 

@@ -37,13 +37,17 @@ CAROM_INLINE Longs wrapped(Longs a, Longs b) {
   return reinterpret_cast<Longs>(reinterpret_cast<UnsignedLongs>(a) - reinterpret_cast<UnsignedLongs>(b));
 }
 
-/// Exactly what four conversions would give: the two halves of an integer become doubles by writing them into the
-/// significands of 2^84 and 2^52; the last addition alone rounds.
+/// Exactly what four conversions would give. Without an instruction for it the two halves of an integer become doubles by
+/// writing them into the significands of 2^84 and 2^52; the last addition alone rounds.
 CAROM_INLINE Doubles to_double(Longs x) {
+#if defined(__AVX512DQ__) && defined(__AVX512VL__)
+  return reinterpret_cast<Doubles>(_mm256_cvtepi64_pd(reinterpret_cast<__m256i>(x)));
+#else
   const auto bits = reinterpret_cast<UnsignedLongs>(x);
   const auto low = reinterpret_cast<Doubles>((bits & 0xFFFFFFFFULL) | 0x4330000000000000ULL);
   const auto high = reinterpret_cast<Doubles>((bits >> 32) ^ 0x4530000080000000ULL);
   return (high - all(0x1p84 + 0x1p63 + 0x1p52)) + low;
+#endif
 }
 
 CAROM_INLINE Doubles square_root(Doubles x) {

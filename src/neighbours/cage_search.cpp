@@ -7,6 +7,7 @@ namespace carom {
 namespace portable {
 extern const CageKernel cage_kernel;
 }
+
 #if CAROM_HAS_AVX2
 namespace avx2 {
 extern const CageKernel cage_kernel;
@@ -15,6 +16,14 @@ extern const CageKernel cage_kernel;
 namespace avx2 = portable;
 #endif
 
-const CageKernel& cage_kernel() { return use_avx2() ? avx2::cage_kernel : portable::cage_kernel; }
+#if CAROM_HAS_AVX512
+namespace avx512 {
+extern const CageKernel cage_kernel;
+}
+#else
+namespace avx512 = avx2;
+#endif
+
+const CageKernel& cage_kernel() { return chosen_kernel(portable::cage_kernel, avx2::cage_kernel, avx512::cage_kernel); }
 
 }  // namespace carom

@@ -1,6 +1,6 @@
 #pragma once
 // Which cages come within contact of a given one? Eight at a time, over the cells around it. Like core/prediction.hpp
-// compiled for every machine and for those with AVX2, with the same answers.
+// compiled for every machine, for those with AVX2 and for those with AVX-512, with the same answers.
 
 #include <cstddef>
 #include <cstdint>

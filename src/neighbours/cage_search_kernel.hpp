@@ -23,6 +23,7 @@ unsigned bits_of(Ints mask) {
 #endif
 }
 
+#if !defined(__AVX512VL__)
 /// For each set of lanes, the lanes in it, from the first on.
 struct LaneTable {
   alignas(64) unsigned char lanes[256][8];
@@ -36,15 +37,20 @@ struct LaneTable {
   }
 };
 constexpr LaneTable lane_table;
+#endif
 
 /// Writes the lanes of `ids` named by `bits` one after the other, with anything after them up to eight, and returns where
 /// they end. No branch: which cages are near is as good as random.
 std::int32_t* pack(Ints ids, unsigned bits, std::int32_t* to) {
+#if defined(__AVX512VL__)
+  const __m256i packed = _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), reinterpret_cast<__m256i>(ids));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), packed);
+#elif defined(__AVX2__)
   const unsigned char* lanes = lane_table.lanes[bits];
-#if defined(__AVX2__)
   const __m256i which = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(lanes)));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(reinterpret_cast<__m256i>(ids), which));
 #else
+  const unsigned char* lanes = lane_table.lanes[bits];
   for (int n = 0; n < 8; ++n) to[n] = ids[lanes[n]];
 #endif
   return to + __builtin_popcount(bits);

@@ -2,6 +2,8 @@
 
 #include "show/compare_plots.hpp"
 #include "study/compare_answers.hpp"
+#include "study/compare_sentences.hpp"
+#include "study/horizon_sentence.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -84,7 +86,7 @@ Table time_to_Z_table(const Answers& answers) {
 std::vector<KeyNumber> key_numbers(const Comparison& comparison, const Answers& answers) {
   std::vector<KeyNumber> numbers;
   if (answers.to_millionth)
-    numbers.push_back({fmt::format("{:.2g} ×", answers.to_millionth->seconds / answers.exact_seconds),
+    numbers.push_back({two_digits(answers.to_millionth->seconds / answers.exact_seconds) + " ×",
                        "the time of the exact engine, for fixed steps right to 10⁻⁶ diameters"});
   numbers.push_back(
       {fmt::format("{:.1e}", answers.exact_error),
@@ -135,8 +137,8 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
        {Paragraph{"The same start, advanced by exact events and by fixed steps. Until chaos has made any error large, an error "
                   "tells the method; "
                   "that is where methods are compared."},
-        work_precision(comparison, summaries)}},
-      {"How errors grow", {error_in_time(comparison), horizon_table(plan.horizon)}},
+        work_precision(comparison, summaries), Paragraph{answers.sentences.empty() ? "" : answers.sentences.front()}}},
+      {"How errors grow", {error_in_time(comparison), horizon_table(plan.horizon), Paragraph{sentence_of(plan.horizon)}}},
       {"What fixed steps do to collisions", {faults_of_steps(comparison, summaries), overlap_of_steps(comparison, summaries)}},
       {"What they do to averages",
        {bias_of(comparison, summaries, "bias-z", "Z", &MethodSummary::Z),

@@ -171,11 +171,12 @@ Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSumma
   Plot plot{.id = "faults",
             .title = "Missed, repeated and spurious collisions",
             .caption =
-                "Missed: pairs that flew into contact and out again between two steps, of all collisions that there were. "
+                "Missed: pairs that came into contact and left it without a reversal, of all collisions that there were. "
                 "Repeated: reversals "
                 "within an encounter that was already reversed; spurious: encounters that began with a pair already parting; "
                 "both of all "
-                "reversals. The dashed line is the isolated pair of a dilute gas.",
+                "reversals. None is not drawn. Guarded and grid are one trajectory. The dashed line is the isolated pair of a "
+                "dilute gas.",
             .x = {.title = in_free_times, .log = true},
             .y = {.title = "fraction", .log = true}};
   const auto add = [&](const std::string& what, double (StepCounts::*fraction)() const, bool visible) {

@@ -108,7 +108,11 @@ class Study {
 
   [[nodiscard]] std::optional<State> start_with(std::uint64_t seed) {
     scene_.run.seed = seed;
-    return measured_start(scene_, options_.engine, [&](const Progress&) { return going_on("equilibrating", 0.0); });
+    std::optional<State> start =
+        measured_start(scene_, options_.engine, [&](const Progress&) { return going_on("equilibrating", 0.0); });
+    if (!start && !stopped_)
+      throw std::invalid_argument("the scene stops while it equilibrates: no two disks collide, or they have no room to move");
+    return start;
   }
 
   [[nodiscard]] std::vector<Method> methods() const {

@@ -7,9 +7,6 @@
 
 namespace carom {
 
-namespace {
-
-/// Two digits and no more: "1.3", "420", "23,000", "2.1e+09".
 std::string two_digits(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
   const double rounded = unit * std::nearbyint(value / unit);
@@ -19,13 +16,15 @@ std::string two_digits(double value) {
   return text;
 }
 
+namespace {
+
 std::string what_it_costs(const ComparePlan& plan, const Answers& answers) {
   const std::string when =
       fmt::format("after {:.2g} collisions per disk (t = {:.4g})", plan.in_free_times(plan.early_time()), plan.early_time());
   if (!answers.to_millionth)
     return fmt::format(
-        "{} the exact engine is right to {:.1e} sigma; the fixed step follows no law there, at any dt that was run.", when,
-        answers.exact_error);
+        "The exact engine is right to {:.1e} sigma {}; the fixed step shows no law of convergence there, at any dt that was run.",
+        answers.exact_error, when);
   const double ratio = answers.to_millionth->seconds / answers.exact_seconds;
   return fmt::format(
       "To reach an error of 1e-6 sigma {} the fixed step would need {} times the time of the exact engine, which is right to "
@@ -41,10 +40,10 @@ std::string what_it_costs(const ComparePlan& plan, const Answers& answers) {
 std::string where_it_is_cheaper(const ComparePlan& plan, const std::vector<MethodSummary>& summaries, const Answers& answers) {
   if (answers.crossover_error)
     return fmt::format(
-        "For an answer cruder than {:.1g} sigma the fixed step is the cheaper way (dt above {:.2g} mean free times, with the "
+        "For an answer cruder than {} sigma the fixed step is the cheaper way (dt above {:.2g} mean free times, with the "
         "grid); for "
         "anything finer the exact engine is.",
-        *answers.crossover_error, plan.in_free_times(*answers.crossover_dt));
+        two_digits(*answers.crossover_error), plan.in_free_times(*answers.crossover_dt));
   double cheapest = INFINITY;
   for (const MethodSummary& summary : summaries)
     if (summary.method.name == "grid") cheapest = std::min(cheapest, summary.seconds_early);
@@ -62,11 +61,13 @@ std::string what_the_naive_does(const std::vector<MethodSummary>& summaries, con
     if (summary.method.name == "naive" && summary.Z && smaller) naive = &summary;
   }
   if (exact == nullptr || naive == nullptr || !exact->Z || !naive->counts) return "";
+  const double repeated = naive->counts->repeated_fraction();
   return fmt::format(
-      "The naive method at its smallest step (dt = {:.2g}) has Z = {:.4g} against {:.4g}, and {:.2g} % of its reversals are "
-      "repeats of one that "
-      "was already done; its energy has changed by {:.0e}, which shows nothing of it.",
-      naive->method.dt, naive->Z->value, exact->Z->value, 100.0 * naive->counts->repeated_fraction(), naive->energy_drift);
+      "The naive method with dt = {:.2g} has Z = {:.4g} against {:.4g}{}; its energy has {}, which shows nothing of it.",
+      naive->method.dt, naive->Z->value, exact->Z->value,
+      repeated > 0.0 ? fmt::format(", and {:.2g} % of its reversals are repeats of one that was already done", 100.0 * repeated)
+                     : "",
+      naive->energy_drift > 0.0 ? fmt::format("changed by {:.0e}", naive->energy_drift) : "not changed in any digit");
 }
 
 std::string what_pressure_costs(const Answers& answers) {

@@ -12,4 +12,7 @@ namespace carom {
 [[nodiscard]] std::vector<std::string> compare_sentences(const Comparison& comparison,
                                                          const std::vector<MethodSummary>& summaries, const Answers& answers);
 
+/// Two digits and no more: "1.3", "420", "23,000", "2.1e+09". Requires a positive value.
+[[nodiscard]] std::string two_digits(double value);
+
 }  // namespace carom

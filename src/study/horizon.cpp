@@ -15,7 +15,6 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <ranges>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -198,7 +197,8 @@ class Measurement {
   /// Every engine to time k * step, or to `time` where k is 0, the cheap ones first. False where time stopped for one or the
   /// caller said stop. Single precision may lose its way without the others.
   bool advance_to(double time, std::uint64_t k) {
-    for (Runner& one : runners_ | std::views::reverse) {
+    for (auto at = runners_.rbegin(); at != runners_.rend(); ++at) {
+      Runner& one = *at;
       if (one.stalled) continue;
       if (!proceed(fmt::format("time {:.6g}, {:.3g} collisions per disk", result_.time, result_.collisions_per_disk),
                    lyapunov_share + lockstep_share * share_done())) {

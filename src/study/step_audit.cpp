@@ -54,9 +54,10 @@ void StepAudit::look_at_reversals(const State& state, std::span<const Event> rev
   counts_.missed += std::erase_if(unnoticed_, [&](const Pair& pair) { return separation(state, pair).norm() >= sigma(pair); });
 }
 
-/// Pairs apart now and apart at the next step whose straight flights touch in between; and how deep those are that are in
-/// contact.
+/// Pairs that have left a contact in which nothing was done about them; pairs apart now and apart at the next step whose straight
+/// flights touch in between; and how deep those are that are in contact.
 void StepAudit::look_at_flights(const State& state) {
+  counts_.missed += std::erase_if(unnoticed_, [&](const Pair& pair) { return separation(state, pair).norm() >= sigma(pair); });
   const auto disks = static_cast<std::int32_t>(state.positions.cols());
   const double fastest = disks == 0 ? 0.0 : state.velocities.colwise().norm().maxCoeff();
   for (std::int32_t i = 0; i < disks; ++i) {

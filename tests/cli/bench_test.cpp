@@ -1,13 +1,15 @@
 // carom bench: what it prints, and that it prints nothing it does not believe. How fast anything is, no test asks.
 
+#include "core/instructions.hpp"
 #include "support/child_process.hpp"
+#include "support/instructions.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <carom/version.hpp>
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
+#include <string_view>
 
 namespace carom::test {
 namespace {
@@ -68,10 +70,11 @@ TEST(BenchCommand, JsonHoldsMachineBuildAndBothEngines) {
 }
 
 TEST(BenchCommand, SaysWhichInstructionsItMeasured) {
-  setenv("CAROM_INSTRUCTIONS", "portable", 1);
-  const Outcome outcome = bench({"--json", "--disks", "64", "--collisions", "500"});
-  unsetenv("CAROM_INSTRUCTIONS");
-  EXPECT_EQ(json::parse(outcome.out)["instructions"], "portable");
+  for (const std::string_view set : instruction_sets) {
+    const WithInstructions asked(set);
+    const Outcome outcome = bench({"--json", "--disks", "64", "--collisions", "500"});
+    EXPECT_EQ(json::parse(outcome.out)["instructions"], name_of(chosen_instructions()));
+  }
 }
 
 // Sixteen disks are too few for the first order in 1/N: at 0.6 their pressure lies 2 % below what it says.

@@ -1,8 +1,10 @@
-// The prediction kernels, for every machine and for those with AVX2, against the same operations one neighbour at a time,
+// The prediction kernels, of every instruction set that runs here, against the same operations one neighbour at a time,
 // bit by bit; and that twin against contact times in 113 bits.
 
 #include "core/prediction.hpp"
 #include "core/contact_time.hpp"
+#include "core/instructions.hpp"
+#include "support/instructions.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -10,10 +12,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace carom::test {
@@ -22,13 +25,11 @@ namespace {
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double u = 0x1p-53;
 
-/// The kernel that the environment asks for.
+/// The kernel of one instruction set, or the best where this machine lacks it.
 template <class Line>
-const PredictionKernel<Line>& kernel(bool portable) {
-  if (portable) setenv("CAROM_INSTRUCTIONS", "portable", 1);
-  const auto& chosen = prediction_kernel<Line>();
-  unsetenv("CAROM_INSTRUCTIONS");
-  return chosen;
+const PredictionKernel<Line>& kernel(std::string_view set) {
+  const WithInstructions asked(set);
+  return prediction_kernel<Line>();
 }
 
 double radius_of(const Flight& /*line*/) { return 0.0; }
@@ -172,7 +173,8 @@ Drawn draw(std::mt19937_64& random, std::size_t count) {
 }
 
 template <class Line>
-void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lines, std::mt19937_64& random, bool portable) {
+void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lines, std::mt19937_64& random,
+                                std::string_view set) {
   const auto count = static_cast<std::int32_t>(lines.size());
   std::vector<std::int32_t> others;
   for (std::int32_t j = 1; j < count; ++j) others.push_back(j);
@@ -188,7 +190,7 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
     list.centre[a] = kind == 3.0 ? static_cast<std::int32_t>(random()) : static_cast<std::int32_t>(place >> 32);
   }
   Prediction found;
-  kernel<Line>(portable).predict(lines.data(), drawn.frame, 0, list.around(), drawn.now, found);
+  kernel<Line>(set).predict(lines.data(), drawn.frame, 0, list.around(), drawn.now, found);
   expect_as_twin(lines, drawn.frame, 0, list, drawn.now, found);
 
   if (count < 2) return;
@@ -211,8 +213,8 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
   std::vector<Line> stored = lines;
   CollidedPair pair{{0, 1}, {list.around(), second.around()}, {}};
   const Line &a = after[0], &b = after[1];
-  kernel<Line>(portable).store_and_predict(stored.data(), drawn.frame, pair, drawn.now, a.x[0], a.x[1], b.x[0], b.x[1], a.v[0],
-                                           a.v[1], b.v[0], b.v[1]);
+  kernel<Line>(set).store_and_predict(stored.data(), drawn.frame, pair, drawn.now, a.x[0], a.x[1], b.x[0], b.x[1], a.v[0], a.v[1],
+                                      b.v[0], b.v[1]);
   for (std::size_t k = 0; k < 2; ++k)
     for (int axis = 0; axis < 2; ++axis) {
       ASSERT_EQ(stored[k].x[axis], after[k].x[axis]);
@@ -223,7 +225,12 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
   expect_as_twin(after, drawn.frame, 1, second, drawn.now, pair.ahead[1]);
 }
 
-class PredictionKernels : public testing::TestWithParam<bool> {};
+class PredictionKernels : public testing::TestWithParam<std::string_view> {
+ protected:
+  void SetUp() override {
+    if (kernel<Flight>(GetParam()).name != GetParam()) GTEST_SKIP() << "not on this machine, or not in this build";
+  }
+};
 
 TEST_P(PredictionKernels, GiveTheBitsOfOneNeighbourAtATime) {
   std::mt19937_64 random(1);
@@ -326,10 +333,24 @@ TEST_P(PredictionKernels, TouchingIsAnEventOnlyForDisksThatApproach) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(InstructionSets, PredictionKernels, testing::Bool(),
-                         [](const auto& set) { return std::string(set.param ? "Portable" : "Best"); });
+INSTANTIATE_TEST_SUITE_P(InstructionSets, PredictionKernels, testing::ValuesIn(instruction_sets),
+                         [](const auto& set) { return std::string(set.param); });
 
-TEST(Prediction, TheEnvironmentChoosesThePortableOne) { EXPECT_STREQ(kernel<Flight>(true).name, "portable"); }
+TEST(Instructions, AreThoseThatTheEnvironmentNamesOrTheBestThereAre) {
+  const Instructions best = chosen_instructions();
+  for (std::size_t k = 0; k < std::size(instruction_sets); ++k) {
+    const auto set = static_cast<Instructions>(k);
+    EXPECT_EQ(name_of(set), instruction_sets[k]);
+    const WithInstructions asked(instruction_sets[k]);
+    EXPECT_EQ(chosen_instructions(), std::min(set, best));
+    EXPECT_STREQ(prediction_kernel<Flight>().name, name_of(chosen_instructions()));
+    EXPECT_STREQ(prediction_kernel<SizedFlight>().name, name_of(chosen_instructions()));
+  }
+  for (const char* word : {"", "sse", "AVX2", "avx51", "avx512 "}) {
+    const WithInstructions asked(word);
+    EXPECT_EQ(chosen_instructions(), best) << word;
+  }
+}
 
 // -------------------------------------------------------------------------------------------------------- the formula
 

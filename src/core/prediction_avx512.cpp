@@ -1,0 +1,2 @@
+#define CAROM_INSTRUCTIONS avx512
+#include "core/prediction_kernel.hpp"

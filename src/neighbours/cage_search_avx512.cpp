@@ -1,0 +1,2 @@
+#define CAROM_INSTRUCTIONS avx512
+#include "neighbours/cage_search_kernel.hpp"
