@@ -172,9 +172,9 @@ Comparison load_points(const std::filesystem::path& path, const std::string& key
   if (!file) throw detail::system_error(path, "read it", errno);
   Comparison comparison;
   bool ours = false;
-  std::size_t number = 0;
+  std::size_t line_number = 0;
   for (std::string line; std::getline(file, line);) {
-    ++number;
+    ++line_number;
     const Json json = Json::parse(line, nullptr, false);
     if (json.is_discarded()) continue;  // the line that was being written when the study was killed
     try {
@@ -188,7 +188,7 @@ Comparison load_points(const std::filesystem::path& path, const std::string& key
     } catch (const Json::exception&) {
       throw OutputError(
           fmt::format("{}:{}: this is no point that carom has written; take the line out, or begin anew with --force",
-                      path.string(), number));
+                      path.string(), line_number));
     }
   }
   if (!ours)
