@@ -51,7 +51,6 @@ void StepAudit::look_at_reversals(const State& state, std::span<const Event> rev
     ++(approached ? counts_.found : counts_.spurious);
     if (approached) counts_.depth_sum += std::max(0.0, 1.0 - r.norm() / sigma(pair));
   }
-  counts_.missed += std::erase_if(unnoticed_, [&](const Pair& pair) { return separation(state, pair).norm() >= sigma(pair); });
 }
 
 /// Pairs that have left a contact in which nothing was done about them; pairs apart now and apart at the next step whose straight

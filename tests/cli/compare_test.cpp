@@ -185,6 +185,7 @@ TEST_F(CompareCommand, OptionsThatMakeNoSenseAreRefusedBeforeAnythingIsWritten) 
   expect_refused({"--longest", "nan"}, "--longest nan: ");
   expect_refused({"--force", "--resume"}, "--force ");
   expect_refused({"--engine", "warp"}, "");
+  expect_refused({"--engine", "textbook-quad"}, "--engine textbook-quad: ");
   expect_refused({"--progress", "often"}, "");
   expect_refused({"--set", "disks.0.radius=9"}, "");
 }
@@ -196,6 +197,7 @@ TEST_F(CompareCommand, AStepSoLongThatPositionsOverflowIsRefused) { expect_refus
 TEST_F(CompareCommand, ASceneWithoutCollisionsIsRefused) {
   expect_refused({"--set", "disks.0.count=1"}, "gas.toml: no two disks");
   expect_refused({"--set", "disks.0.count=0"}, "gas.toml: no two disks");
+  expect_refused({"--set", "disks.0.count=1", "--set", "run.equilibrate.collisions_per_disk=5"}, "gas.toml: the scene stops");
 }
 
 }  // namespace
