@@ -190,6 +190,8 @@ TEST(Compare, ScenesWithoutCollisionsAreRefusedInASentence) {
   empty.species.clear();
   for (const Scene& scene : {parallel, alone, empty})
     EXPECT_THAT(sentence(scene), HasSubstr("no two disks of this scene collide"));
+  parallel.run.equilibrate = Run::Equilibrate{5.0, std::nullopt};
+  EXPECT_THAT(sentence(parallel), HasSubstr("the scene stops while it equilibrates"));
 }
 
 TEST(Reference, DistancesAreThoseOfAPlainLoopOverNearestImages) {
