@@ -190,8 +190,11 @@ TEST(Compare, ScenesWithoutCollisionsAreRefusedInASentence) {
   empty.species.clear();
   for (const Scene& scene : {parallel, alone, empty})
     EXPECT_THAT(sentence(scene), HasSubstr("no two disks of this scene collide"));
-  parallel.run.equilibrate = Run::Equilibrate{5.0, std::nullopt};
-  EXPECT_THAT(sentence(parallel), HasSubstr("the scene stops while it equilibrates"));
+  Scene at_rest = parallel;
+  at_rest.species[0].velocities = AtRest{};
+  EXPECT_THAT(sentence(at_rest), HasSubstr("no two disks of this scene collide"));
+  at_rest.run.equilibrate = Run::Equilibrate{5.0, std::nullopt};
+  EXPECT_THAT(sentence(at_rest), HasSubstr("the scene stops while it equilibrates"));
 }
 
 TEST(Reference, DistancesAreThoseOfAPlainLoopOverNearestImages) {
