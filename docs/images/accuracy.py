@@ -77,12 +77,10 @@ save(figure, axes, "accuracy_growth.svg")
 figure, axes = panels(3.2)
 for axis, study in zip(axes, studies):
     plan = study["plan"]
-    exact = next(row for row in study["summary"] if row["method"] == study["horizon"]["engine"])
     for method in ("naive", "grid"):
-        rows = [row for row in study["summary"] if row["method"] == method and row["Z"]]
+        rows = [row for row in study["summary"] if row["method"] == method and row["bias"]["Z"]]
         axis.errorbar([row["dt"] / plan["mean_free_time"] for row in rows],
-                      [100 * (row["Z"]["value"] / exact["Z"]["value"] - 1) for row in rows],
-                      [100 * row["Z"]["error"] / exact["Z"]["value"] for row in rows], fmt="o-", markersize=3, linewidth=1,
+                      [100 * row["bias"]["Z"]["value"] for row in rows], [100 * row["bias"]["Z"]["error"] for row in rows], fmt="o-", markersize=3, linewidth=1,
                       color=colours[method], label=names[method])
     axis.axhline(0, color="grey", linewidth=0.5)
     axis.set(xscale="log", xlabel="dt (mean free times)")

@@ -86,7 +86,7 @@ struct CompareCommandOptions {
   SceneOptions scene;
   std::string out;          ///< empty: the scene's name without its ending, and "-compare"
   std::vector<double> dts;  ///< empty: the usual ladder
-  std::uint64_t seeds = 8;
+  std::int64_t seeds = 8;
   double longest = 0.5;  ///< seconds
   bool no_costs = false;
   bool force = false;

@@ -47,7 +47,7 @@ CompareOptions checked(const CompareCommandOptions& options) {
   if (engine != "auto" && engine != "fast" && engine != "textbook")
     throw UsageError(fmt::format(
         "--engine {}: every precision is compared anyway; choose auto, fast or textbook for the scene's own run", engine));
-  return {options.dts, options.seeds, options.longest, engine, !options.no_costs};
+  return {options.dts, static_cast<std::uint64_t>(options.seeds), options.longest, engine, !options.no_costs};
 }
 
 /// The longest step, since what is wrong with a step is that it is too long.
@@ -117,7 +117,6 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
     hooks.run_done = [&](const MethodRun& run) { points->add(run); };
     hooks.cost_done = [&](const CostPoint& point) { points->add(point); };
     const Comparison comparison = compare(scene, study, hooks, before);
-    line.update("", 1.0);
     if (!comparison.complete) {
       directory.discard_if_empty();
       if (comparison.runs.empty()) {

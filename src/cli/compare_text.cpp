@@ -12,18 +12,25 @@ namespace carom::cli {
 
 namespace {
 
-std::string percent(double fraction) { return fraction == 0.0 ? "0 %" : fmt::format("{:.2g} %", 100.0 * fraction); }
+std::string percent(double fraction) {
+  return fraction < 0.0995 ? fmt::format("{:.2g} %", 100.0 * fraction) : fmt::format("{:.0f} %", 100.0 * fraction);
+}
+
+/// Of so many events; a fraction of a handful says nothing.
+std::string percent_of(double fraction, std::uint64_t events) { return events < 20 ? "" : percent(fraction); }
 
 std::string row(const MethodSummary& s, const ComparePlan& plan, const MethodSummary* exact) {
   std::string Z;
   if (s.Z && exact != nullptr && exact->Z && exact->Z->value > 0.0)
     Z = s.method.name == exact->method.name ? fmt::format("Z = {:.4g}", s.Z->value)
-                                            : fmt::format("{:+.2f} %", 100.0 * (s.Z->value / exact->Z->value - 1.0));
+        : s.Z_bias                          ? fmt::format("{:+.2f} ± {:.2f}", 100.0 * s.Z_bias->value, 100.0 * s.Z_bias->error)
+                                            : "";
   const bool counted = s.counts.has_value();
-  return fmt::format("  {:<21}{:>10}  {:>10}  {:>9}  {:>11}  {:>8}  {:>9}\n", s.method.name,
+  return fmt::format("  {:<21}{:>10}  {:>10}  {:>9}  {:>15}  {:>8}  {:>9}\n", s.method.name,
                      s.method.exact() ? "" : fmt::format("{:.2g}", plan.in_free_times(s.method.dt)),
                      fmt::format("{:.1e}", s.error.median), duration(s.seconds_early), Z,
-                     counted ? percent(s.counts->missed_fraction()) : "", counted ? percent(s.counts->repeated_fraction()) : "");
+                     counted ? percent_of(s.counts->missed_fraction(), s.counts->collisions()) : "",
+                     counted ? percent_of(s.counts->repeated_fraction(), s.counts->reversals()) : "");
 }
 
 std::string table(const Comparison& comparison) {
@@ -32,8 +39,8 @@ std::string table(const Comparison& comparison) {
   for (const MethodSummary& summary : summaries)
     if (summary.method.name == comparison.plan.horizon.engine) exact = &summary;
   std::string text =
-      fmt::format("  {:<21}{:>10}  {:>10}  {:>9}  {:>11}  {:>8}  {:>9}\n", "", "dt / mean", "error /", "", "bias", "", "");
-  text += fmt::format("  {:<21}{:>10}  {:>10}  {:>9}  {:>11}  {:>8}  {:>9}\n", "method", "free time", "sigma", "time", "of Z",
+      fmt::format("  {:<21}{:>10}  {:>10}  {:>9}  {:>15}  {:>8}  {:>9}\n", "", "dt / mean", "error /", "", "bias", "", "");
+  text += fmt::format("  {:<21}{:>10}  {:>10}  {:>9}  {:>15}  {:>8}  {:>9}\n", "method", "free time", "sigma", "time", "of Z",
                       "missed", "repeated");
   for (const MethodSummary& summary : summaries)
     if (summary.method.exact()) text += row(summary, comparison.plan, exact);
@@ -62,7 +69,7 @@ std::string compare_text(const Comparison& comparison, const Scene& scene, bool 
   std::string text;
   if (!brief) {
     text = fmt::format(
-        "{}\n{}, packing fraction {:.4g}; {}; errors at t = {:.4g}, {:.2g} collisions per disk; mean free time {:.4g}\n\n",
+        "{}\n{}, packing fraction {:.4g}; {}; errors at t = {:.4g}, collisions per disk {:.2g}; mean free time {:.4g}\n\n",
         scene.title.empty() ? scene.source : scene.title, counted(static_cast<std::uint64_t>(scene.disk_count()), "disk"),
         scene.packing_fraction(), counted(plan.seeds.size(), "seed"), plan.early_time(), plan.in_free_times(plan.early_time()),
         plan.mean_free_time);

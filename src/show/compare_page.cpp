@@ -9,7 +9,9 @@
 #include <fmt/ranges.h>
 #include <carom/version.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace carom {
@@ -17,12 +19,15 @@ namespace carom {
 namespace {
 
 std::string seconds_text(double seconds) {
-  if (seconds < 1e-3) return fmt::format("{:.3g} µs", 1e6 * seconds);
+  if (seconds < 1e-3) return fmt::format("{:.2g} µs", 1e6 * seconds);
   if (seconds < 1.0) return fmt::format("{:.3g} ms", 1e3 * seconds);
   return seconds < 120.0 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.3g} min", seconds / 60.0);
 }
 
-std::string percent(double fraction) { return fmt::format("{:.3g} %", 100.0 * fraction); }
+/// Of so many events; a fraction of a handful says nothing.
+std::string percent_of(double fraction, std::uint64_t events) {
+  return events < 20 ? "–" : fmt::format("{:.2f} %", 100.0 * fraction);
+}
 
 Table table_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
   Table table{.title = "Every method and step",
@@ -33,15 +38,17 @@ Table table_of(const Comparison& comparison, const std::vector<MethodSummary>& s
                   "A dash: not "
                   "measured, because the run was cut short or the method is exact."};
   for (const MethodSummary& s : summaries) {
-    const auto counted = [&](double (StepCounts::*fraction)() const) {
-      return s.counts ? percent((*s.counts.*fraction)()) : "–";
+    const auto counted = [&](double (StepCounts::*fraction)() const, std::uint64_t (StepCounts::*of)() const) {
+      return s.counts ? percent_of((*s.counts.*fraction)(), (*s.counts.*of)()) : "–";
     };
     table.rows.push_back({name_of(s.method.name), s.method.exact() ? "–" : fmt::format("{:.3g}", s.method.dt),
                           s.method.exact() ? "–" : fmt::format("{:.2g}", comparison.plan.in_free_times(s.method.dt)),
                           fmt::format("{:.2e}", s.error.median), seconds_text(s.seconds_early),
                           s.Z ? fmt::format("{:.4g} ± {:.1g}", s.Z->value, s.Z->error) : "–",
-                          counted(&StepCounts::missed_fraction), counted(&StepCounts::repeated_fraction),
-                          counted(&StepCounts::spurious_fraction), s.counts ? fmt::format("{:.2g}", s.counts->deepest) : "–"});
+                          counted(&StepCounts::missed_fraction, &StepCounts::collisions),
+                          counted(&StepCounts::repeated_fraction, &StepCounts::reversals),
+                          counted(&StepCounts::spurious_fraction, &StepCounts::reversals),
+                          s.counts ? fmt::format("{:.2g}", s.counts->deepest) : "–"});
   }
   return table;
 }
@@ -112,6 +119,13 @@ std::vector<Block> costs(const Comparison& comparison, const Answers& answers, c
   return blocks;
 }
 
+Block energy_block(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
+  const bool changed = std::any_of(summaries.begin(), summaries.end(),
+                                   [](const MethodSummary& s) { return !s.method.exact() && s.energy_drift > 0.0; });
+  if (changed) return energy_of_steps(comparison, summaries);
+  return Paragraph{"And energy shows nothing of all this: no method, with no step, has changed it in any digit."};
+}
+
 std::string left_out(const Comparison& comparison) {
   std::vector<std::string> names;
   for (const LeftOut& one : comparison.left_out)
@@ -141,10 +155,10 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
       {"How errors grow", {error_in_time(comparison), horizon_table(plan.horizon), Paragraph{sentence_of(plan.horizon)}}},
       {"What fixed steps do to collisions", {faults_of_steps(comparison, summaries), overlap_of_steps(comparison, summaries)}},
       {"What they do to averages",
-       {bias_of(comparison, summaries, "bias-z", "Z", &MethodSummary::Z),
-        bias_of(comparison, summaries, "bias-rate", "the collision rate", &MethodSummary::collision_rate),
-        bias_of(comparison, summaries, "bias-path", "the mean free path", &MethodSummary::mean_free_path),
-        energy_of_steps(comparison, summaries)}}};
+       {bias_of(comparison, summaries, "bias-z", "Z", &MethodSummary::Z_bias),
+        bias_of(comparison, summaries, "bias-rate", "the collision rate", &MethodSummary::rate_bias),
+        bias_of(comparison, summaries, "bias-path", "the mean free path", &MethodSummary::path_bias),
+        energy_block(comparison, summaries)}}};
   if (std::vector<Block> blocks = costs(comparison, answers, scene); !blocks.empty())
     page.sections.push_back({"What an average costs", std::move(blocks)});
   page.sections.push_back({"All numbers", {table_of(comparison, summaries), Listing{"The scene", resolved_toml(scene)}}});

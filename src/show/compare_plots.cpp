@@ -60,8 +60,10 @@ template <class Function>
 Series dashed_line(const Comparison& comparison, const std::string& name, Function function) {
   Series line{.name = name, .style = Style::dashed, .group = 6};
   for (const double dt : comparison.plan.dts) {
+    const double y = function(dt);
+    if (y < 1e-6) continue;  // below anything that was counted or seen
     line.x.push_back(comparison.plan.in_free_times(dt));
-    line.y.push_back(function(dt));
+    line.y.push_back(y);
   }
   return line;
 }
@@ -179,19 +181,20 @@ Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSumma
                 "dilute gas.",
             .x = {.title = in_free_times, .log = true},
             .y = {.title = "fraction", .log = true}};
-  const auto add = [&](const std::string& what, double (StepCounts::*fraction)() const, bool visible) {
+  const auto add = [&](const std::string& what, double (StepCounts::*fraction)() const, Style style) {
     for (Series& series : over_steps(comparison, summaries, [&](const MethodSummary& s) -> std::optional<Estimate> {
-           if (!s.counts) return std::nullopt;
+           if (!s.counts || (*s.counts.*fraction)() == 0.0) return std::nullopt;
            return Estimate{(*s.counts.*fraction)(), 0.0};
          })) {
-      series.visible = visible || series.name == name_of("naive");
+      series.visible = style != Style::points || series.name == name_of("naive");
       series.name = what + ": " + series.name;
+      series.style = style;
       plot.series.push_back(std::move(series));
     }
   };
-  add("missed", &StepCounts::missed_fraction, true);
-  add("repeated", &StepCounts::repeated_fraction, false);
-  add("spurious", &StepCounts::spurious_fraction, false);
+  add("missed", &StepCounts::missed_fraction, Style::line_and_points);
+  add("repeated", &StepCounts::repeated_fraction, Style::dashed);
+  add("spurious", &StepCounts::spurious_fraction, Style::points);
   if (comparison.plan.thermal_speed == 0.0) return plot;
   const double speed = comparison.plan.thermal_speed / comparison.plan.sigma;
   plot.series.push_back(dashed_line(comparison, "missed by guarded steps, isolated pair", [&](double dt) {
@@ -231,22 +234,13 @@ Plot overlap_of_steps(const Comparison& comparison, const std::vector<MethodSumm
 }
 
 Plot bias_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries, const std::string& id,
-             const std::string& what, std::optional<Estimate> MethodSummary::*quantity) {
+             const std::string& what, std::optional<Estimate> MethodSummary::*bias) {
   Plot plot{.id = id,
             .title = fmt::format("Bias of {}", what),
-            .caption = "Relative difference from the exact engine, with standard errors over the seeds.",
+            .caption = "Relative difference from the exact engine, seed by seed, with standard errors over the seeds.",
             .x = {.title = in_free_times, .log = true},
             .y = {.title = fmt::format("relative bias of {}", what)}};
-  const MethodSummary* exact = nullptr;
-  for (const MethodSummary& summary : summaries)
-    if (summary.method.name == comparison.plan.horizon.engine) exact = &summary;
-  if (exact == nullptr || !(exact->*quantity)) return plot;
-  const Estimate reference = *(exact->*quantity);
-  plot.series = over_steps(comparison, summaries, [&](const MethodSummary& s) -> std::optional<Estimate> {
-    if (!(s.*quantity)) return std::nullopt;
-    const double ratio = (s.*quantity)->value / reference.value;
-    return Estimate{ratio - 1.0, std::hypot((s.*quantity)->error, ratio * reference.error) / reference.value};
-  });
+  plot.series = over_steps(comparison, summaries, [&](const MethodSummary& s) { return s.*bias; });
   plot.marks = {{.axis = Mark::Across::y, .value = 0.0, .label = "exact"}};
   return plot;
 }

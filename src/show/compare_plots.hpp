@@ -20,9 +20,9 @@ namespace carom {
 [[nodiscard]] Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries);
 [[nodiscard]] Plot overlap_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries);
 
-/// The relative difference from the exact engine of Z, the collision rate or the mean free path, with standard errors.
+/// One of MethodSummary's biases over dt.
 [[nodiscard]] Plot bias_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries, const std::string& id,
-                           const std::string& what, std::optional<Estimate> MethodSummary::*quantity);
+                           const std::string& what, std::optional<Estimate> MethodSummary::*bias);
 [[nodiscard]] Plot energy_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries);
 
 [[nodiscard]] Plot cost_against_size(const Comparison& comparison, double packing_fraction);

@@ -2,12 +2,24 @@
 
 #include "show/html_text.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace carom::detail {
+
+namespace {
+
+/// A path need not be UTF-8, and a page must be.
+std::string as_utf8(std::string_view text) {
+  const nlohmann::json json(text);
+  return nlohmann::json::parse(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)).get<std::string>();
+}
+
+}  // namespace
 
 std::string html_text(std::string_view text) {
   std::string html;
   html.reserve(text.size());
-  for (const char c : text) {
+  for (const char c : as_utf8(text)) {
     switch (c) {
       case '&':
         html += "&amp;";

@@ -23,10 +23,17 @@ std::optional<Estimate> mean_of(const std::vector<double>& values) {
   return Estimate{mean, values.size() < 2 ? 0.0 : std::sqrt(squares / (n - 1.0) / n)};
 }
 
+/// The run of the engine that runs the scene, from the same start.
+const MethodRun* exact_twin(const Comparison& comparison, const MethodRun& run) {
+  for (const MethodRun& one : comparison.runs)
+    if (one.method.name == comparison.plan.horizon.engine && one.seed == run.seed) return &one;
+  return nullptr;
+}
+
 MethodSummary summary_of(const Comparison& comparison, const Method& method) {
   MethodSummary summary;
   summary.method = method;
-  std::vector<double> error, seconds, per_time, Z, rate, path;
+  std::vector<double> error, seconds, per_time, Z, rate, path, Z_bias, rate_bias, path_bias;
   const std::size_t early = comparison.plan.early;
   for (const MethodRun& run : comparison.runs) {
     if (run.method.name != method.name || run.method.dt != method.dt) continue;
@@ -38,6 +45,12 @@ MethodSummary summary_of(const Comparison& comparison, const Method& method) {
       Z.push_back(run.Z);
       rate.push_back(run.collision_rate);
       if (run.pair > 0) path.push_back(run.mean_free_path);
+      const MethodRun* exact = exact_twin(comparison, run);
+      if (exact != nullptr && exact->pair > 0) {
+        Z_bias.push_back(run.Z / exact->Z - 1.0);
+        rate_bias.push_back(run.collision_rate / exact->collision_rate - 1.0);
+        if (run.pair > 0) path_bias.push_back(run.mean_free_path / exact->mean_free_path - 1.0);
+      }
     }
     summary.worst_overlap = std::max(summary.worst_overlap, run.worst_overlap);
     summary.energy_drift = std::max(summary.energy_drift, std::abs(run.energy_drift));
@@ -49,6 +62,9 @@ MethodSummary summary_of(const Comparison& comparison, const Method& method) {
   summary.Z = mean_of(Z);
   summary.collision_rate = mean_of(rate);
   summary.mean_free_path = mean_of(path);
+  summary.Z_bias = mean_of(Z_bias);
+  summary.rate_bias = mean_of(rate_bias);
+  summary.path_bias = mean_of(path_bias);
   return summary;
 }
 
@@ -89,6 +105,7 @@ void find_crossover(const std::vector<MethodSummary>& summaries, Answers& answer
   for (std::size_t k = 0; k + 1 < steps.size(); ++k) {
     const MethodSummary &cheap = *steps[k], &dear = *steps[k + 1];
     if (!(cheap.seconds_early < answers.exact_seconds && dear.seconds_early >= answers.exact_seconds)) continue;
+    if (!(dear.error.median > 0.0) || !std::isfinite(cheap.error.median)) continue;
     const double at = std::log(answers.exact_seconds / cheap.seconds_early) / std::log(dear.seconds_early / cheap.seconds_early);
     answers.crossover_error = std::exp(std::lerp(std::log(cheap.error.median), std::log(dear.error.median), at));
     answers.crossover_dt = std::exp(std::lerp(std::log(cheap.method.dt), std::log(dear.method.dt), at));

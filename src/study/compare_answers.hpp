@@ -33,6 +33,10 @@ struct MethodSummary {
   std::optional<Estimate> Z;      ///< empty where the method was cut short
   std::optional<Estimate> collision_rate;
   std::optional<Estimate> mean_free_path;
+  /// Relative differences from the exact engine, seed by seed: both have the same starts, so most of chance cancels.
+  std::optional<Estimate> Z_bias;
+  std::optional<Estimate> rate_bias;
+  std::optional<Estimate> path_bias;
   double worst_overlap = 0.0;  ///< over all
   double energy_drift = 0.0;   ///< the largest, with its sign left off
   std::optional<StepCounts> counts;

@@ -23,9 +23,24 @@ constexpr std::int64_t usual_size = 1024;
 /// Collisions of every disk before anything is measured, and with which the exact Z is known.
 constexpr std::uint64_t run_up = 40, measured = 200;
 
-/// The methods with whose steps the bias of Z is taken, in mean free times, and for how many of them.
-constexpr double bias_steps[] = {0.2, 0.1, 0.05};
-constexpr double bias_time = 60.0;
+/// The longest of the three steps with which the bias of Z is taken: so short that disks go a tenth of a diameter in it, and a
+/// fifth of a mean free path. Beyond, a bias is no longer proportional to dt.
+constexpr double longest_in_diameters = 0.1, longest_in_free_times = 0.2;
+constexpr double bias_free_times = 60.0;
+
+using Proceed = std::function<bool()>;
+
+/// In slices, so that a wish to stop is heard. False where there was one.
+bool run_collisions(Simulation& simulation, std::uint64_t collisions, const Proceed& proceed) {
+  const std::uint64_t end = simulation.totals().pair + collisions;
+  while (simulation.totals().pair < end) {
+    if (!proceed()) return false;
+    const std::uint64_t before = simulation.totals().pair;
+    simulation.run_until(1e300, std::min(end, before + 50'000));
+    if (simulation.totals().pair == before) return false;  // no collision to wait for
+  }
+  return true;
+}
 
 /// A gas in equilibrium, and what is exact about it.
 struct Gas {
@@ -33,32 +48,42 @@ struct Gas {
   State state;
   double free_time = 0.0;
   double Z = 0.0;
+  double longest_step = 0.0;  ///< with which a bias is still proportional to dt
 };
 
-std::optional<Gas> gas_like(const Scene& scene, std::int64_t disks, double packing_fraction, double temperature) {
+std::optional<Gas> gas_like(const Scene& scene, std::int64_t disks, double packing_fraction, double temperature,
+                            const Proceed& proceed) {
   const std::optional<Scene> like = scene_like(scene, disks, packing_fraction, temperature);
   if (!like) return std::nullopt;
   Gas gas{*like, {}};
   Simulation exact = make_simulation(gas.scene);
   const auto count = static_cast<std::uint64_t>(exact.disks().count());
-  exact.run_until(1e300, run_up * count / 2);
+  if (!run_collisions(exact, run_up * count / 2, proceed)) return std::nullopt;
   exact.reset_clock();
-  exact.run_until(1e300, measured * count / 2);
+  if (!run_collisions(exact, measured * count / 2, proceed)) return std::nullopt;
   gas.state = exact.state();
   gas.free_time = exact.time() * static_cast<double>(count) / (2.0 * static_cast<double>(exact.totals().pair));
   gas.Z = compressibility(exact.totals().virial / exact.time(), static_cast<double>(count), temperature);
+  double diameters = 0.0;
+  for (const double radius : exact.disks().radius) diameters += 2.0 * radius / static_cast<double>(count);
+  const double speed = std::sqrt(gas.state.velocities.squaredNorm() / (2.0 * static_cast<double>(count)));
+  gas.longest_step = std::min(longest_in_free_times * gas.free_time, longest_in_diameters * diameters / speed);
   return gas;
 }
 
-/// Relative bias of Z per dt, dt in mean free times: a line through nothing at dt = 0, fitted to three steps.
-double bias_slope(const Gas& gas, double temperature) {
+/// Relative bias of Z per dt: a line through nothing at dt = 0, fitted to three steps. Empty where stopped.
+std::optional<double> bias_slope(const Gas& gas, double temperature, const Proceed& proceed) {
   double numerator = 0.0, denominator = 0.0;
-  for (const double step : bias_steps) {
-    Simulation grid = make_simulation(gas.scene, gas.state, FixedStep{"grid", step * gas.free_time});
-    grid.run_until(bias_time * gas.free_time);
+  for (const double share : {1.0, 0.5, 0.25}) {
+    const double dt = share * gas.longest_step;
+    Simulation grid = make_simulation(gas.scene, gas.state, FixedStep{"grid", dt});
+    for (int slice = 1; slice <= 30; ++slice) {
+      if (!proceed()) return std::nullopt;
+      grid.run_until(bias_free_times * gas.free_time * slice / 30.0);
+    }
     const double Z = compressibility(grid.totals().virial / grid.time(), static_cast<double>(grid.disks().count()), temperature);
-    numerator += step * (Z / gas.Z - 1.0);
-    denominator += step * step;
+    numerator += dt * (Z / gas.Z - 1.0);
+    denominator += dt * dt;
   }
   return numerator / denominator;
 }
@@ -89,10 +114,18 @@ bool measure_costs(const Scene& scene, Comparison& comparison,
       return point.disks == disks && point.packing_fraction == density;
     };
     if (std::any_of(comparison.costs.begin(), comparison.costs.end(), here)) continue;
-    const std::optional<Gas> gas = gas_like(scene, disks, density, temperature);
+    bool stopped = false;
+    const Proceed go_on = [&, disks = disks, density = density] {
+      const std::string doing = fmt::format("cost of {} disks at packing fraction {:.2g}", disks, density);
+      stopped = stopped || !proceed(doing, begun / static_cast<double>(points.size()));
+      return !stopped;
+    };
+    const std::optional<Gas> gas = gas_like(scene, disks, density, temperature, go_on);
+    if (stopped) return false;
     if (!gas) continue;
-    const double slope = bias_slope(*gas, temperature);
-    const double dt = std::min(1.0, 0.01 / std::max(1e-6, std::abs(slope))) * gas->free_time;
+    const std::optional<double> slope = bias_slope(*gas, temperature, go_on);
+    if (!slope) return false;
+    const double dt = std::min(gas->longest_step, 0.01 / std::max(1e-300, std::abs(*slope)));
     std::vector<Method> methods = {{make_simulation(gas->scene).engine()}, {"textbook"}, {"grid", dt}};
     if (disks <= usual_size) methods.push_back({"guarded", dt});
     std::vector<CostPoint> measured_here;
@@ -101,7 +134,7 @@ bool measure_costs(const Scene& scene, Comparison& comparison,
                    begun / static_cast<double>(points.size())))
         return false;
       measured_here.push_back({disks, density, method.name, method.dt, gas->free_time,
-                               seconds_per_disk_and_free_time(*gas, method), gas->Z, method.exact() ? 0.0 : slope});
+                               seconds_per_disk_and_free_time(*gas, method), gas->Z, method.exact() ? 0.0 : *slope});
     }
     for (const CostPoint& point : measured_here) {
       comparison.costs.push_back(point);

@@ -127,6 +127,8 @@ Json json_of(const MethodSummary& s) {
   json["Z"] = with_error(s.Z);
   json["collision_rate"] = with_error(s.collision_rate);
   json["mean_free_path"] = with_error(s.mean_free_path);
+  json["bias"] = {
+      {"Z", with_error(s.Z_bias)}, {"collision_rate", with_error(s.rate_bias)}, {"mean_free_path", with_error(s.path_bias)}};
   json["worst_overlap"] = number(s.worst_overlap);
   json["energy_drift"] = number(s.energy_drift);
   return json;
@@ -211,6 +213,17 @@ std::string compare_json(const Comparison& comparison, const Scene& scene, const
   json["command_line"] = command_line;
   json["complete"] = comparison.complete;
   json["sentences"] = answers.sentences;
+  json["answers"] = {
+      {"exact", answers.exact},
+      {"exact_seconds", number(answers.exact_seconds)},
+      {"exact_error", number(answers.exact_error)},
+      {"order", answers.order ? Json{{"value", answers.order->value}, {"error", answers.order->error}} : Json(nullptr)},
+      {"to_millionth", answers.to_millionth ? Json{{"dt", answers.to_millionth->dt},
+                                                   {"seconds", answers.to_millionth->seconds},
+                                                   {"extrapolated", answers.to_millionth->extrapolated}}
+                                            : Json(nullptr)},
+      {"crossover",
+       answers.crossover_error ? Json{{"error", *answers.crossover_error}, {"dt", *answers.crossover_dt}} : Json(nullptr)}};
   json["plan"] = json_of(comparison.plan);
   json["horizon"] = horizon_json(comparison.plan.horizon);
   json["summary"] = Json::array();

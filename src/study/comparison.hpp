@@ -61,11 +61,11 @@ struct CostPoint {
   std::int64_t disks = 0;
   double packing_fraction = 0.0;
   std::string method;
-  double dt = 0.0;          ///< the step with which the bias of Z is 1 %; 0: exact
+  double dt = 0.0;          ///< the step with which the bias of Z is 1 %, or the longest whose bias is known; 0: exact
   double free_time = 0.0;   ///< mean, there
   double seconds = 0.0;     ///< of processor time per disk and mean free time
   double Z = 0.0;           ///< exact, there
-  double bias_slope = 0.0;  ///< of fixed steps: relative bias of Z per dt, in free times
+  double bias_slope = 0.0;  ///< of fixed steps: relative bias of Z per dt
 };
 
 struct Comparison {

@@ -27,6 +27,7 @@ struct StepCounts {
   double deepest = 0.0;        ///< the largest overlap of any pair in contact, in units of its sigma
 
   [[nodiscard]] std::uint64_t collisions() const { return found + missed; }
+  [[nodiscard]] std::uint64_t reversals() const { return found + spurious + repeated; }
   /// Of the collisions that there were.
   [[nodiscard]] double missed_fraction() const { return fraction(missed, collisions()); }
   /// Of all reversals.

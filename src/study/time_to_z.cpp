@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace carom {
 
@@ -10,7 +9,6 @@ namespace {
 
 struct Exact {
   double Z = 0.0;
-  double Z_error = 0.0;
   double scatter = 0.0;  ///< C: relative standard deviation of Z times the root of the number of collisions
   double collisions_per_time = 0.0;
 };
@@ -31,7 +29,7 @@ std::optional<Exact> exact_of(const Comparison& comparison) {
   for (const double z : Z) mean += z / n;
   for (const double z : Z) squares += (z - mean) * (z - mean);
   const double deviation = std::sqrt(squares / (n - 1.0));
-  return Exact{mean, deviation / std::sqrt(n), deviation / mean * std::sqrt(pairs / n), pairs / time};
+  return Exact{mean, deviation / mean * std::sqrt(pairs / n), pairs / time};
 }
 
 std::vector<const MethodSummary*> with_pressure(const std::vector<MethodSummary>& summaries, const std::string& method) {
@@ -42,18 +40,31 @@ std::vector<const MethodSummary*> with_pressure(const std::vector<MethodSummary>
   return steps;
 }
 
-/// Relative bias of Z per dt, where it is below a third: a line through nothing, each point weighted by its error.
-std::optional<double> bias_per_dt(const std::vector<const MethodSummary*>& steps, const Exact& exact) {
+/// Where collisions still transfer nearly what they should, a bias is proportional to dt: up to a tenth of Z - 1.
+constexpr double lawful_share = 0.1;
+
+/// The bias of Z of the guarded methods: slope times dt up to the largest dt for which that holds.
+struct BiasLaw {
+  double slope = 0.0;  ///< relative bias of Z per dt
+  double up_to = 0.0;
+};
+
+/// A line through nothing, each point weighted by its error; three points at least.
+std::optional<BiasLaw> bias_law(const std::vector<const MethodSummary*>& steps, const Exact& exact) {
   double numerator = 0.0, denominator = 0.0;
-  for (const auto* step : steps) {
-    const double bias = step->Z->value / exact.Z - 1.0;
-    if (std::abs(bias) > 1.0 / 3.0) continue;
-    const double error = std::max(1e-12, std::hypot(step->Z->error, exact.Z_error) / exact.Z);
-    numerator += step->method.dt * bias / (error * error);
+  BiasLaw law;
+  int points = 0;
+  for (const auto* step : steps) {  // by rising dt
+    if (!step->Z_bias || std::abs(step->Z_bias->value) > lawful_share * (exact.Z - 1.0) / exact.Z) break;
+    const double error = std::max(1e-12, step->Z_bias->error);
+    numerator += step->method.dt * step->Z_bias->value / (error * error);
     denominator += step->method.dt * step->method.dt / (error * error);
+    law.up_to = step->method.dt;
+    ++points;
   }
-  if (!(denominator > 0.0)) return std::nullopt;
-  return numerator / denominator;
+  if (points < 3 || !(denominator > 0.0)) return std::nullopt;
+  law.slope = numerator / denominator;
+  return law;
 }
 
 /// Seconds per unit of time with that step: between the steps that were run by a power law, beyond them by 1/dt.
@@ -73,27 +84,47 @@ double time_for_chance(const Exact& exact, double chance) {
   return std::pow(exact.scatter / chance, 2) / exact.collisions_per_time;
 }
 
+/// The best of the steps that were looked at.
+struct Best {
+  const Exact& exact;
+  const std::vector<const MethodSummary*>& steps;
+  double accuracy;
+  TimeToZ& row;
+
+  void consider(double dt, double bias) {
+    if (!(bias < accuracy)) return;
+    const double chance = std::sqrt(accuracy * accuracy - bias * bias);
+    const double seconds = time_for_chance(exact, chance) * seconds_per_time(steps, dt);
+    if (!row.seconds || seconds < *row.seconds) row.seconds = seconds, row.dt = dt;
+  }
+  void consider_as_run(double longer_than) {
+    for (const auto* step : steps)
+      if (step->Z_bias && step->method.dt > longer_than)
+        consider(step->method.dt, std::abs(step->Z_bias->value) + step->Z_bias->error);
+  }
+};
+
 TimeToZ guarded(const std::string& method, double accuracy, const std::vector<const MethodSummary*>& steps, const Exact& exact) {
   TimeToZ row{method, accuracy, std::nullopt, std::nullopt, ""};
-  const std::optional<double> slope = bias_per_dt(steps, exact);
-  if (!slope) return row.remark = "not known from these runs", row;
-  double least = std::numeric_limits<double>::infinity();
+  const std::optional<BiasLaw> law = bias_law(steps, exact);
+  if (!law) return row.remark = "not known: too few steps whose bias is proportional to dt", row;
+  Best best{exact, steps, accuracy, row};
   for (double bias = 0.02 * accuracy; bias < 0.99 * accuracy; bias *= 1.02) {
-    const double dt = std::min(bias / std::max(std::abs(*slope), 1e-300), steps.back()->method.dt);
-    const double seconds = time_for_chance(exact, std::sqrt(accuracy * accuracy - bias * bias)) * seconds_per_time(steps, dt);
-    if (seconds < least) least = seconds, row.dt = dt;
+    const double dt = std::min(bias / std::max(std::abs(law->slope), 1e-300), law->up_to);
+    best.consider(dt, std::abs(law->slope) * dt);
   }
-  row.seconds = least;
+  best.consider_as_run(law->up_to);
   return row;
 }
 
 TimeToZ naive(const std::string& method, double accuracy, const std::vector<const MethodSummary*>& steps, const Exact& exact) {
-  TimeToZ row{method, accuracy, std::nullopt, std::nullopt, "never: its bias is larger at every dt that was run"};
-  for (const auto* step : steps) {
-    const double bias = std::abs(step->Z->value / exact.Z - 1.0);
-    const double error = std::hypot(step->Z->error, exact.Z_error) / exact.Z;
-    if (bias < accuracy + 2.0 * error) row.remark = "not known: its bias and its chance cannot be told apart in these runs";
-  }
+  TimeToZ row{method, accuracy, std::nullopt, std::nullopt, ""};
+  Best{exact, steps, accuracy, row}.consider_as_run(0.0);
+  if (row.seconds) return row;
+  row.remark = "never: its bias is larger at every dt that was run";
+  for (const auto* step : steps)
+    if (step->Z_bias && std::abs(step->Z_bias->value) < accuracy + 2.0 * step->Z_bias->error)
+      row.remark = "not known: its bias and its chance cannot be told apart in these runs";
   return row;
 }
 

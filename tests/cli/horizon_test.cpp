@@ -127,8 +127,8 @@ TEST_F(HorizonCommand, InterruptedSaysHowFarItCameAndExits130) {
     kill(child, SIGINT);
   };
   const Outcome outcome =
-      carom({"horizon", "gas.toml", "--collisions", "20000", "--set", "disks.0.count=10000", "--set", "box.x=[0.0,200.0]",
-             "--set", "box.y=[0.0,200.0]", "--set", "run.equilibrate.collisions_per_disk=1"},
+      carom({"horizon", "gas.toml", "--set", "disks.0.count=40000", "--set", "box.x=[0.0,400.0]", "--set", "box.y=[0.0,400.0]",
+             "--set", "run.time=200.0", "--set", "run.equilibrate.collisions_per_disk=1"},
             signal_soon);
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_THAT(outcome.out + outcome.err, HasSubstr("nterrupted"));

@@ -33,7 +33,7 @@ inline CompareOptions dozen_options(std::vector<double> dts = {0.02, 0.01, 0.005
 ///
 ///   the exact engine   errs by 1e-15, takes exact_seconds until the early sample, and Z is 2 with deviations -d, -d, d, d;
 ///   a fixed step       errs by error_per_dt dt at the early sample, takes step_seconds / dt until there, and Z is that times 1 +
-///   bias_per_dt dt.
+///   bias_per_dt dt + e, - e, + e, - e.
 ///
 /// The early sample is at time 2, the end at time 8; costs are proportional to time.
 struct KnownLaws {
@@ -43,6 +43,7 @@ struct KnownLaws {
   double step_seconds = 1e-6;
   double bias_per_dt = 0.5;
   double d = 0.02;
+  double e = 0.001;
   std::uint64_t pairs = 10'000;
 
   static constexpr double end = 8.0, early_time = 2.0;
@@ -57,7 +58,8 @@ struct KnownLaws {
     run.seconds = run.seconds_early * end / early_time;
     run.time = end;
     run.pair = pairs;
-    run.Z = (2.0 + (seed <= 2 ? -d : d)) * (1.0 + bias_per_dt * method.dt);
+    run.Z = 2.0 + (seed <= 2 ? -d : d);
+    if (!method.exact()) run.Z *= 1.0 + bias_per_dt * method.dt + (seed % 2 == 1 ? e : -e);
     run.collision_rate = 3.0;
     run.mean_free_path = 0.25;
     return run;
