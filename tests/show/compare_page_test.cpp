@@ -114,10 +114,18 @@ TEST(ComparePage, CostsAreThereWhereTheyWereMeasuredAndInOrder) {
   comparison.costs = some_costs(scene.packing_fraction());
   const Page page = compare_page(comparison, scene, "");
   EXPECT_THAT(ids_of(page), ElementsAre("work-precision", "error-in-time", "faults", "overlap", "bias-z", "bias-rate",
-                                        "bias-path", "energy", "cost-size", "cost-density"));
+                                        "bias-path", "cost-size", "cost-density"));
   const std::vector<Plot> plots = plots_of(page);
-  EXPECT_THAT(plots[8].series.front().x, ElementsAre(64.0, 256.0, 1024.0));
-  EXPECT_THAT(plots[9].series.front().x, ElementsAre(0.1, scene.packing_fraction(), 0.7));
+  EXPECT_THAT(plots[7].series.front().x, ElementsAre(64.0, 256.0, 1024.0));
+  EXPECT_THAT(plots[8].series.front().x, ElementsAre(0.1, scene.packing_fraction(), 0.7));
+}
+
+TEST(ComparePage, EnergyHasAPlotWhereItHasChangedAndASentenceWhereItHasNot) {
+  Comparison comparison = KnownLaws{}.comparison();
+  const Scene scene = dozen_scene();
+  EXPECT_THAT(html_page(compare_page(comparison, scene, "")), HasSubstr("has changed it in any digit"));
+  comparison.runs[1].energy_drift = 3e-16;
+  EXPECT_THAT(ids_of(compare_page(comparison, scene, "")), Contains("energy"));
 }
 
 TEST(ComparePage, TheTableHasARowForEveryMethodAndStepAndNamesWhatWasLeftOut) {
