@@ -17,8 +17,8 @@ std::string grouped(std::uint64_t number) {
 
 std::string duration(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0.0) return "unknown";
-  if (seconds < 0.95e-6) return fmt::format("{:.2g} ns", 1e9 * seconds);
-  if (seconds < 0.95e-3) return fmt::format("{:.2g} µs", 1e6 * seconds);
+  if (seconds < 0.95e-6) return fmt::format("{:.0f} ns", 1e9 * seconds);
+  if (seconds < 0.95e-3) return fmt::format("{:.{}f} µs", 1e6 * seconds, seconds < 1e-5 ? 1 : 0);
   if (seconds < 0.95) return fmt::format("{:.0f} ms", 1000.0 * seconds);
   if (seconds < 9.95) return fmt::format("{:.2g} s", seconds);
   // Rounded once, so that 59.7 s is 1 min 0 s and not 60 s.

@@ -11,7 +11,7 @@ namespace carom::cli {
 /// 1234567 as "1,234,567"
 std::string grouped(std::uint64_t number);
 
-/// A duration in seconds as "12 ms", "1.5 s", "48 s", "3 min 20 s" or "2 h 5 min"
+/// A duration in seconds as "340 µs", "12 ms", "1.5 s", "48 s", "3 min 20 s" or "2 h 5 min"
 std::string duration(double seconds);
 
 /// A number of bytes as "16 MB"

@@ -19,7 +19,7 @@ namespace carom {
 namespace {
 
 std::string seconds_text(double seconds) {
-  if (seconds < 1e-3) return fmt::format("{:.2g} µs", 1e6 * seconds);
+  if (seconds < 1e-3) return fmt::format("{:.{}f} µs", 1e6 * seconds, seconds < 1e-5 ? 1 : 0);
   if (seconds < 1.0) return fmt::format("{:.3g} ms", 1e3 * seconds);
   return seconds < 120.0 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.3g} min", seconds / 60.0);
 }
