@@ -38,7 +38,7 @@ def panels(height):
 
 def save(figure, axes, name):
     handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncols=len(labels), frameon=False)
+    figure.legend(handles, labels, loc="lower center", ncols=len(labels), frameon=False, fontsize=7, columnspacing=1.2)
     figure.tight_layout(rect=(0, 0.07, 1, 1))
     figure.savefig(here / name, metadata={"Date": None})
 
