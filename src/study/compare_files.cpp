@@ -166,7 +166,8 @@ void PointsFile::add(const CostPoint& point) { write(Json{{"cost", json_of(point
 void PointsFile::write(const std::string& line) {
   std::ofstream file(path_, std::ios::app);
   file << line << '\n' << std::flush;
-  if (!file) throw detail::system_error(path_, "write it", errno);
+  if (!file)
+    throw detail::system_error(path_, "write it", errno, "finished points are kept, and the same command with --resume goes on");
 }
 
 Comparison load_points(const std::filesystem::path& path, const std::string& key) {
