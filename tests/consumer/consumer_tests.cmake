@@ -20,5 +20,5 @@ endfunction()
 add_consumer_test(find_package -DCMAKE_PREFIX_PATH=${consumer_directory}/prefix -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}")
 set_tests_properties(package.find_package PROPERTIES FIXTURES_REQUIRED carom_installed)
 
-add_consumer_test(add_subdirectory -DCAROM_SOURCE_DIRECTORY=${PROJECT_SOURCE_DIR} -DCMAKE_BUILD_TYPE=Debug)
+add_consumer_test(add_subdirectory -DCAROM_SOURCE_DIRECTORY=${PROJECT_SOURCE_DIR} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0)
 set_tests_properties(package.add_subdirectory PROPERTIES COST 1000 PROCESSORS 2)
