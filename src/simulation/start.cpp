@@ -86,7 +86,16 @@ void require_room_to_move(const Scene& scene, const Start& start) {
   }
 }
 
+/// Of a scene that a program has made; those from a file have been checked.
+void require_sound_box(const Box& box) {
+  if (box.lower.allFinite() && box.upper.allFinite() && (box.lower.array() < box.upper.array()).all()) return;
+  throw SceneError({"box", 0, 0},
+                   fmt::format("the limits are [{:g}, {:g}] x [{:g}, {:g}]; each must be finite, the lower below the upper",
+                               box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y()));
+}
+
 Disks disks_of(const Scene& scene) {
+  require_sound_box(scene.box);
   Disks disks;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
     const Species& species = scene.species[s];

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace carom::test {
 namespace {
 
@@ -12,6 +14,19 @@ TEST(StartRefusals, SpeedsWhoseSquaresOverflowOrVanish) {
     Scene scene = gas_scene(4, 0.1, Boundary::walls);
     scene.species.front().velocities = FixedSpeed{speed};
     EXPECT_THROW(make_simulation(scene), SceneError) << speed;
+  }
+}
+
+TEST(StartRefusals, BoxesThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  for (const double upper : {0.0, -1.0, nan, infinity}) {
+    for (const int axis : {0, 1}) {
+      Scene scene = gas_scene(4, 0.1, Boundary::periodic);
+      scene.box.upper[axis] = upper;
+      EXPECT_THROW(make_simulation(scene), SceneError) << upper;
+      scene.species.clear();
+      EXPECT_THROW(make_simulation(scene), SceneError) << upper;
+    }
   }
 }
 

@@ -191,7 +191,8 @@ TEST(Horizon, OfTheEngineAskedForIsWhatTheSentenceSays) {
 // ------------------------------------------------------------------------------------------- nothing that could part
 
 TEST(Horizon, WithoutDisksIsTheEndOfTheRun) {
-  Scene scene = gas_scene(0, 0.3, Boundary::periodic);
+  Scene scene = gas_scene(4, 0.3, Boundary::periodic);
+  scene.species.clear();
   scene.box = square_box(4.0, Boundary::periodic);
   scene.run.time = 3.0;
   expect_agreement_to_the_end(horizon_of(scene), 3.0);
