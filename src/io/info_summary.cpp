@@ -1,4 +1,4 @@
-// What a summary.json says.
+// What a summary.json says, or the compare.json of a comparison.
 
 #include "io/info_parts.hpp"
 #include "io/output_error.hpp"
@@ -38,6 +38,18 @@ std::string described(const Json& json) {
          info_line("overlap", fmt::format("at most {} of a contact distance", text_of(json.at("overlap").at("max_relative"))));
 }
 
+std::string described_comparison(const Json& json) {
+  std::string text = info_line("written by", fmt::format("carom {} ({})", text_of(json.at("carom").at("version")),
+                                                         text_of(json.at("carom").at("commit"))));
+  text += info_line("scene", text_of(json.at("scene")));
+  text +=
+      info_line("disks", fmt::format("{}, packing fraction {}", text_of(json.at("disks")), text_of(json.at("packing_fraction"))));
+  text += info_line("runs", fmt::format("{}, {} starts, {} time steps", json.at("runs").size(),
+                                        json.at("plan").at("seeds").size(), json.at("plan").at("dt").size()));
+  for (const Json& sentence : json.at("sentences")) text += info_line("answer", text_of(sentence));
+  return text;
+}
+
 }  // namespace
 
 std::string describe_summary(const std::filesystem::path& path) {
@@ -50,6 +62,8 @@ std::string describe_summary(const std::filesystem::path& path) {
         fmt::format("{}: this is not whole JSON (it breaks at byte {}); it is damaged or cut short", path.string(), error.byte));
   }
   try {
+    if (json.contains("sentences"))
+      return fmt::format("{}: comparison of methods\n{}", path.string(), described_comparison(json));
     return fmt::format("{}: summary of a run\n{}", path.string(), described(json));
   } catch (const Json::exception&) {
     throw OutputError(fmt::format("{}: this JSON is not the summary of a run: keys that every summary of Carom has are missing",

@@ -104,6 +104,9 @@ TEST_F(CompareCommand, WritesPageTablesAndPointsAndPrintsTheAnswerAndKeepsWhatIs
   EXPECT_EQ(lines_of(text_of(file("gas-compare/compare.csv"))).size(), 1U + 10U);
   EXPECT_EQ(lines_of(text_of(file("gas-compare/points.jsonl"))).size(), 1U + 10U);
   EXPECT_THAT(text_of(file("gas-compare/report.html")), HasSubstr("<title>What accuracy costs: A dozen disks</title>"));
+  const Outcome info = run_carom(directory_.path(), {"info", "gas-compare/compare.json"});
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_THAT(info.out, AllOf(HasSubstr("comparison of methods"), HasSubstr(all["sentences"][0].get<std::string>())));
 
   const std::string before = text_of(file("gas-compare/compare.json"));
   const Outcome refused = compare({});
