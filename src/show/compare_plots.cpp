@@ -177,8 +177,7 @@ Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSumma
                 "Repeated: reversals "
                 "within an encounter that was already reversed; spurious: encounters that began with a pair already parting; "
                 "both of all "
-                "reversals. None is not drawn. Guarded and grid are one trajectory. The dashed line is the isolated pair of a "
-                "dilute gas.",
+                "reversals. None is not drawn. Guarded and grid are one trajectory.",
             .x = {.title = in_free_times, .log = true},
             .y = {.title = "fraction", .log = true}};
   const auto add = [&](const std::string& what, double (StepCounts::*fraction)() const, Style style) {
@@ -196,6 +195,7 @@ Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSumma
   add("repeated", &StepCounts::repeated_fraction, Style::dashed);
   add("spurious", &StepCounts::spurious_fraction, Style::points);
   if (comparison.plan.thermal_speed == 0.0) return plot;
+  plot.caption += " The black dashed line is the isolated pair of a dilute gas.";
   const double speed = comparison.plan.thermal_speed / comparison.plan.sigma;
   plot.series.push_back(dashed_line(comparison, "missed by guarded steps, isolated pair", [&](double dt) {
     return theory::missed_fraction(speed * dt, theory::Notices::approaching);
@@ -204,14 +204,12 @@ Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSumma
 }
 
 Plot overlap_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
-  Plot plot{.id = "overlap",
-            .title = "How deep disks are in each other",
-            .caption =
-                "Mean depth at the moment a collision is found, and the deepest overlap of any pair at any step, in diameters. "
-                "The dashed "
-                "line is the mean of an isolated pair.",
-            .x = {.title = in_free_times, .log = true},
-            .y = {.title = "overlap (diameters)", .log = true}};
+  Plot plot{
+      .id = "overlap",
+      .title = "How deep disks are in each other",
+      .caption = "Mean depth at the moment a collision is found, and the deepest overlap of any pair at any step, in diameters.",
+      .x = {.title = in_free_times, .log = true},
+      .y = {.title = "overlap (diameters)", .log = true}};
   const auto add = [&](const std::string& what, auto depth, Style style) {
     for (Series& series : over_steps(comparison, summaries, [&](const MethodSummary& s) -> std::optional<Estimate> {
            if (!s.counts || s.counts->found == 0) return std::nullopt;
@@ -227,6 +225,7 @@ Plot overlap_of_steps(const Comparison& comparison, const std::vector<MethodSumm
   add(
       "deepest", [](const StepCounts& counts) { return counts.deepest; }, Style::points);
   if (comparison.plan.thermal_speed == 0.0) return plot;
+  plot.caption += " The dashed line is the mean of an isolated pair.";
   const double speed = comparison.plan.thermal_speed / comparison.plan.sigma;
   plot.series.push_back(
       dashed_line(comparison, "mean, isolated pair", [&](double dt) { return theory::mean_depth(speed * dt); }));
