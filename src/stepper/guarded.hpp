@@ -12,6 +12,7 @@
 #include "effects/impact.hpp"
 #include "stepper/bodies.hpp"
 #include "stepper/tally.hpp"
+#include "stepper/turn_at_wall.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -77,13 +78,10 @@ class GuardedStep {
   static void reflect(Bodies& bodies, std::size_t i, Tally& tally) {
     for (int axis = 0; axis < 2; ++axis) {
       if (bodies.domain.periodic[axis]) continue;
-      double& across = bodies.v[i][axis];
+      const double across = bodies.v[i][axis];
       const bool below = across < 0 && bodies.r[i][axis] < bodies.domain.lower[axis] + bodies.radius[i];
       const bool above = across > 0 && bodies.r[i][axis] > bodies.domain.upper[axis] - bodies.radius[i];
-      if (!below && !above) continue;
-      const double outward = above ? across : -across;
-      across = -across;
-      tally.wall(i, static_cast<Wall>(wall_left - 2 * axis - (above ? 1 : 0)), 2 * bodies.mass[i] * outward, bodies.v[i]);
+      if (below || above) turn_at_wall(bodies, i, axis, above, tally);
     }
   }
 

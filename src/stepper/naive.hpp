@@ -13,6 +13,7 @@
 
 #include "stepper/bodies.hpp"
 #include "stepper/tally.hpp"
+#include "stepper/turn_at_wall.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -60,11 +61,7 @@ class NaiveStep {
       if (bodies.domain.periodic[axis]) continue;
       const bool below = bodies.r[i][axis] < bodies.domain.lower[axis] + room;
       const bool above = bodies.r[i][axis] > bodies.domain.upper[axis] - room;
-      if (!below && !above) continue;
-      double& across = bodies.v[i][axis];
-      const double outward = above ? across : -across;
-      across = -across;
-      tally.wall(i, static_cast<Wall>(wall_left - 2 * axis - (above ? 1 : 0)), 2 * bodies.mass[i] * outward, bodies.v[i]);
+      if (below || above) turn_at_wall(bodies, i, axis, above, tally);
     }
   }
 

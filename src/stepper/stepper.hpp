@@ -30,8 +30,8 @@ class Stepper {
   Stepper(const Box& box, const Disks& disks, const State& start, double dt)
       : bodies_(box, disks, start), step_(bodies_, dt), dt_(dt) {}
 
-  /// Takes every step at a time <= target (to rounding), then stands at target and returns true. Returns false after the step in which
-  /// totals().pair has reached `pair_limit`, and after about as much work as `event_limit` events of an engine.
+  /// Takes every step at a time <= target (to rounding), then stands at target and returns true. Returns false after the step in
+  /// which totals().pair has reached `pair_limit`, and after about as much work as `event_limit` events of an engine.
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
     for (std::uint64_t left = steps_worth(event_limit); tally_.totals.pair < pair_limit && left > 0; --left) {
       const Instant next = Instant::product(steps_, dt_);
