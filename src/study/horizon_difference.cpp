@@ -1,23 +1,25 @@
 #include "study/horizon_difference.hpp"
 
+#include "core/nearest_image.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace carom {
 
+Eigen::Vector2d displacement(const Box& box, const State& a, const State& b, Eigen::Index i) {
+  // The doubles of two disks that are close differ by no rounding; the remainders are added to that.
+  Eigen::Vector2d apart = nearest_image(box, a.positions.col(i) - b.positions.col(i));
+  if (a.remainders.cols() > i) apart += a.remainders.col(i);
+  if (b.remainders.cols() > i) apart -= b.remainders.col(i);
+  return apart;
+}
+
 double largest_distance(const Box& box, const State& a, const State& b) {
   double largest = 0.0;
   for (Eigen::Index i = 0; i < a.positions.cols(); ++i) {
-    // The doubles of two disks that are close differ by no rounding; the remainders are added to that.
-    Eigen::Vector2d apart = a.positions.col(i) - b.positions.col(i);
-    for (int k = 0; k < 2; ++k) {
-      const double length = box.lengths()[k];
-      if (box.periodic(k)) apart[k] -= length * std::round(apart[k] / length);
-    }
-    if (a.remainders.cols() > i) apart += a.remainders.col(i);
-    if (b.remainders.cols() > i) apart -= b.remainders.col(i);
-    const double distance = apart.norm();
+    const double distance = displacement(box, a, b, i).norm();
     if (!std::isfinite(distance)) return std::numeric_limits<double>::infinity();
     largest = std::max(largest, distance);
   }

@@ -12,6 +12,10 @@
 
 namespace carom {
 
+/// From where disk i is in state b to where it is in state a, to the nearest image along periodic axes, with what the states
+/// know beyond doubles (State::remainders).
+[[nodiscard]] Eigen::Vector2d displacement(const Box& box, const State& a, const State& b, Eigen::Index i);
+
 /// The largest distance of a disk in one state from itself in the other, to the nearest image along periodic axes; with
 /// what the states know beyond doubles (State::remainders). Infinite where a position is not finite. Both states of one time.
 [[nodiscard]] double largest_distance(const Box& box, const State& a, const State& b);

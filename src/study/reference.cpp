@@ -1,9 +1,12 @@
 #include "study/reference.hpp"
 
+#include "study/horizon_difference.hpp"
+
 #include <carom/simulation.hpp>
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace carom {
 
@@ -15,21 +18,17 @@ Reference::Reference(const Scene& scene, const State& start, double step, std::u
     if (!proceed()) return;
     exact.run_until_sample(k, step);
     State state = exact.state();
-    samples_.push_back({std::move(state.positions), std::move(state.remainders)});
+    state.velocities.resize(2, 0);  // not asked for, and half of the memory
+    state.images.resize(2, 0);
+    samples_.push_back(std::move(state));
   }
   complete_ = true;
 }
 
 double Reference::rms_distance(std::uint64_t k, const State& state) const {
-  const Sample& exact = samples_[k - 1];
-  Eigen::Matrix2Xd apart = state.positions - exact.positions;
-  for (int axis = 0; axis < 2; ++axis) {
-    if (!box_.periodic(axis)) continue;
-    const double length = box_.lengths()[axis];
-    for (double& d : apart.row(axis)) d -= length * std::nearbyint(d / length);
-  }
-  if (exact.remainders.cols() > 0) apart -= exact.remainders;
-  if (state.remainders.cols() > 0) apart += state.remainders;
+  const State& exact = samples_[k - 1];
+  Eigen::Matrix2Xd apart(2, state.positions.cols());
+  for (Eigen::Index i = 0; i < apart.cols(); ++i) apart.col(i) = displacement(box_, state, exact, i);
   if (!apart.allFinite()) return std::numeric_limits<double>::infinity();
   return apart.cols() == 0 ? 0.0 : std::sqrt(apart.squaredNorm() / static_cast<double>(apart.cols()));
 }

@@ -21,12 +21,8 @@ class Reference {
   [[nodiscard]] double rms_distance(std::uint64_t k, const State& state) const;
 
  private:
-  struct Sample {
-    Eigen::Matrix2Xd positions;
-    Eigen::Matrix2Xd remainders;
-  };
   Box box_;
-  std::vector<Sample> samples_;
+  std::vector<State> samples_;  ///< positions and remainders alone
   bool complete_ = false;
 };
 

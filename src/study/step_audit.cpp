@@ -1,23 +1,15 @@
 #include "study/step_audit.hpp"
 
+#include "core/nearest_image.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace carom {
 
-namespace {
-
-double nearest(double apart, double length) { return apart - length * std::nearbyint(apart / length); }
-
-}  // namespace
-
 Eigen::Vector2d StepAudit::separation(const State& state, const Pair& pair) const {
-  Eigen::Vector2d r = state.positions.col(pair.first) - state.positions.col(pair.second);
-  for (int axis = 0; axis < 2; ++axis) {
-    if (box_.periodic(axis)) r[axis] = nearest(r[axis], box_.lengths()[axis]);
-  }
-  return r;
+  return nearest_image(box_, state.positions.col(pair.first) - state.positions.col(pair.second));
 }
 
 double StepAudit::sigma(const Pair& pair) const {
