@@ -1,6 +1,6 @@
 // carom compare: what it writes and prints, that it can be interrupted and goes on, and what it refuses.
 
-#include "support/child_process.hpp"
+#include "support/program_test.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -55,9 +55,9 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-class CompareCommand : public ::testing::Test {
+class CompareCommand : public ProgramTest {
  protected:
-  CompareCommand() { write_text(file("gas.toml"), gas); }
+  CompareCommand() : ProgramTest(gas) {}
 
   /// A comparison of two fixed steps from one start, where nothing else is said.
   Outcome compare(const std::vector<std::string>& options, const std::function<void(pid_t)>& meanwhile = {}) {
@@ -67,9 +67,8 @@ class CompareCommand : public ::testing::Test {
     if (std::find(options.begin(), options.end(), "--dt") == options.end())
       arguments.insert(arguments.end(), {"--dt", "0.02,0.01"});
     arguments.insert(arguments.end(), options.begin(), options.end());
-    return run_carom(directory_.path(), arguments, meanwhile);
+    return carom(arguments, meanwhile);
   }
-  [[nodiscard]] fs::path file(const std::string& name) const { return directory_.path() / name; }
   [[nodiscard]] std::set<std::string> files_in(const std::string& name) const {
     std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator(file(name))) names.insert(entry.path().filename().string());
@@ -86,8 +85,6 @@ class CompareCommand : public ::testing::Test {
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
     EXPECT_EQ(files_in("."), std::set<std::string>{"gas.toml"});
   }
-
-  TemporaryDirectory directory_;
 };
 
 TEST_F(CompareCommand, WritesPageTablesAndPointsAndPrintsTheAnswerAndKeepsWhatIsThere) {

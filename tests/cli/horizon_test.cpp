@@ -1,6 +1,6 @@
 // carom horizon, and carom run --verify-horizon: what they print and how they end.
 
-#include "support/child_process.hpp"
+#include "support/program_test.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,37 +23,11 @@ using ::testing::StartsWith;
 
 namespace fs = std::filesystem;
 
-const std::string gas = R"([box]
-x = [0.0, 10.0]
-y = [0.0, 10.0]
-boundary = "periodic"
+const std::string gas = fifty_disks + "equilibrate = { collisions_per_disk = 5 }\n";
 
-[[disks]]
-count = 50
-radius = 0.3
-mass = 1.0
-positions = "random"
-velocities = { temperature = 1.0 }
-
-[collision]
-rule = "specular"
-
-[run]
-time = 2.0
-sample_every = 0.5
-equilibrate = { collisions_per_disk = 5 }
-)";
-
-class HorizonCommand : public ::testing::Test {
+class HorizonCommand : public ProgramTest {
  protected:
-  HorizonCommand() { write_text(directory_.path() / "gas.toml", gas); }
-
-  Outcome carom(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meanwhile = {}) {
-    return run_carom(directory_.path(), arguments, meanwhile);
-  }
-  [[nodiscard]] fs::path file(const std::string& name) const { return directory_.path() / name; }
-
-  TemporaryDirectory directory_;
+  HorizonCommand() : ProgramTest(gas) {}
 };
 
 TEST_F(HorizonCommand, PrintsARowForEveryPrecisionAndOneSentenceAndWritesNothing) {

@@ -1,6 +1,6 @@
 // carom run --method: fixed steps through the same door, into the same files.
 
-#include "support/child_process.hpp"
+#include "support/program_test.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,13 +41,10 @@ xyz = true
 events = true
 )";
 
-class MethodOption : public ::testing::Test {
+class MethodOption : public ProgramTest {
  protected:
-  MethodOption() { write_text(directory_.path() / "gas.toml", scene); }
-  Outcome carom(const std::vector<std::string>& arguments) { return run_carom(directory_.path(), arguments); }
-  [[nodiscard]] std::string text(const std::string& name) const { return text_of(directory_.path() / name); }
-
-  TemporaryDirectory directory_;
+  MethodOption() : ProgramTest(scene) {}
+  [[nodiscard]] std::string text(const std::string& name) const { return text_of(file(name)); }
 };
 
 TEST_F(MethodOption, EveryMethodWritesTheSameFilesAsTheExactOne) {

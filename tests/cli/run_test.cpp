@@ -1,6 +1,6 @@
 // carom run: where it writes, what it prints, and what it leaves alone.
 
-#include "support/child_process.hpp"
+#include "support/program_test.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,37 +21,10 @@ using ::testing::StartsWith;
 
 namespace fs = std::filesystem;
 
-const std::string gas = R"([box]
-x = [0.0, 10.0]
-y = [0.0, 10.0]
-boundary = "periodic"
-
-[[disks]]
-count = 50
-radius = 0.3
-mass = 1.0
-positions = "random"
-velocities = { temperature = 1.0 }
-
-[collision]
-rule = "specular"
-
-[run]
-time = 2.0
-sample_every = 0.5
-)";
-
-class RunCommand : public ::testing::Test {
+class RunCommand : public ProgramTest {
  protected:
-  RunCommand() { write_text(directory_.path() / "gas.toml", gas); }
-
-  Outcome carom(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meanwhile = {}) {
-    return run_carom(directory_.path(), arguments, meanwhile);
-  }
-  [[nodiscard]] fs::path file(const std::string& name) const { return directory_.path() / name; }
+  RunCommand() : ProgramTest(fifty_disks) {}
   [[nodiscard]] json summary(const std::string& name = "gas") const { return json::parse(text_of(file(name) / "summary.json")); }
-
-  TemporaryDirectory directory_;
 };
 
 TEST_F(RunCommand, SummaryGoesToStdoutAndNothingToStderr) {
@@ -113,7 +86,7 @@ TEST_F(RunCommand, OutputMayBeAskedForOnTheCommandLine) {
 }
 
 TEST_F(RunCommand, BrokenSceneSaysWhereAndWritesNothing) {
-  write_text(file("gas.toml"), gas + "tiem = 3.0\n");
+  write_text(file("gas.toml"), fifty_disks + "tiem = 3.0\n");
   const Outcome outcome = carom({"run", "gas.toml"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.out, IsEmpty());
@@ -154,7 +127,7 @@ TEST_F(RunCommand, PlaceThatCannotHoldResultsExitsTwo) {
     EXPECT_THAT(outcome.out, IsEmpty());
     EXPECT_THAT(outcome.err, StartsWith(std::string("carom: ") + out));
   }
-  EXPECT_EQ(text_of(file("gas.toml")), gas);
+  EXPECT_EQ(text_of(file("gas.toml")), fifty_disks);
 }
 
 class Interrupted : public RunCommand, public ::testing::WithParamInterface<int> {};

@@ -1,0 +1,50 @@
+#pragma once
+// A directory of its own with one scene in it, gas.toml, and the program run there.
+
+#include "support/child_process.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+
+class ProgramTest : public ::testing::Test {
+ protected:
+  explicit ProgramTest(const std::string& scene) { write_text(file("gas.toml"), scene); }
+
+  Outcome carom(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meanwhile = {}) {
+    return run_carom(directory_.path(), arguments, meanwhile);
+  }
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return directory_.path() / name; }
+
+  TemporaryDirectory directory_;
+};
+
+/// Fifty disks in a periodic box, without the end of its [run] table, to which a test may add.
+inline const std::string fifty_disks = R"([box]
+x = [0.0, 10.0]
+y = [0.0, 10.0]
+boundary = "periodic"
+
+[[disks]]
+count = 50
+radius = 0.3
+mass = 1.0
+positions = "random"
+velocities = { temperature = 1.0 }
+
+[collision]
+rule = "specular"
+
+[run]
+time = 2.0
+sample_every = 0.5
+)";
+
+}  // namespace carom::test
