@@ -3,6 +3,7 @@
 // with every default, and checked. Nothing here is computed beyond what the file says.
 
 #include <carom/box.hpp>
+#include <carom/effects.hpp>
 
 #include <Eigen/Core>
 
@@ -14,13 +15,6 @@
 #include <vector>
 
 namespace carom {
-
-/// Where the user said something: a file with line and column (both from 1), or a command-line override (line 0).
-struct Location {
-  std::string source;
-  int line = 0;
-  int column = 0;
-};
 
 /// The scene is wrong. what() is one sentence: "file:line:column: what is wrong; what would be right".
 class SceneError : public std::runtime_error {
@@ -42,7 +36,10 @@ struct FilePositions {
   std::string path;  ///< absolute; a scene's relative path is relative to the scene file
   std::vector<Eigen::Vector2d> values;
 };
-using Positions = std::variant<RandomPositions, SquareLattice, HexagonalLattice, ListedPositions, FilePositions>;
+struct GrownPositions {           ///< random and dense: small disks grown to their size while they move and collide
+  double packing_fraction = 0.0;  ///< of all disks of the scene together
+};
+using Positions = std::variant<RandomPositions, SquareLattice, HexagonalLattice, ListedPositions, FilePositions, GrownPositions>;
 
 struct UniformVelocities {
   double maximum = 0.0;  ///< each component uniform in [-maximum, maximum]
@@ -80,8 +77,6 @@ struct Species {
   [[nodiscard]] double mass_of(std::int64_t i) const { return masses.empty() ? mass : masses[static_cast<std::size_t>(i)]; }
 };
 
-enum class CollisionRule { reversal, specular };
-
 /// The [run] table. At least one of time and collisions is present.
 struct Run {
   struct Equilibrate {
@@ -109,7 +104,7 @@ struct Scene {
   std::string title;
   Box box;
   std::vector<Species> species;
-  CollisionRule rule = CollisionRule::specular;
+  Effects effects;
   Run run;
   Output output;
 

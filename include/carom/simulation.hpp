@@ -29,10 +29,12 @@ enum class StopReason {
   collisions,     ///< the number of pair collisions asked for was reached
   interrupted,    ///< the caller's `proceed` said stop
   jammed,         ///< time has stopped: ten million events at one instant, of disks that touch and have no room to move
+  collapsed,      ///< time has stopped: inelastic disks collide at ever shorter intervals (see elastic_below)
+  grown,          ///< the packing fraction or pressure at which growth is to end was reached
   no_collisions,  ///< only a number of collisions was asked for, and no pair will ever (or seems ever to) collide
 };
 
-/// "time", "collisions", "interrupted", "jammed", "no_collisions"
+/// "time", "collisions", "interrupted", "jammed", "collapsed", "grown", "no_collisions"
 std::string to_string(StopReason reason);
 
 /// The method that exact events replace: move by v dt, look for contacts, move on.

@@ -23,7 +23,14 @@ struct Disks {
 /// How many box lengths each disk has travelled past the periodic edges. Column i belongs to disk i.
 using Images = Eigen::Matrix<std::int64_t, 2, Eigen::Dynamic>;
 
-/// Positions and velocities of all disks at one instant. Column i belongs to disk i.
+/// One side of the box at one instant.
+struct WallState {
+  double position = 0.0;  ///< along its axis
+  double velocity = 0.0;
+};
+
+/// Positions and velocities of all disks at one instant. Column i belongs to disk i. What comes after the remainders is there
+/// for scenes with effects; in others it stays as it is here.
 struct State {
   double time = 0.0;            ///< since the start of the measured run
   Eigen::Matrix2Xd positions;   ///< 2 x N; on periodic axes inside [lower, upper)
@@ -31,17 +38,26 @@ struct State {
   Images images;                ///< 2 x N; the unwrapped position is positions + images * box length (0 on walled axes)
   Eigen::Matrix2Xd
       remainders;  ///< 2 x N; exact position minus `positions`; 2 x 0 where the engine knows no more than doubles hold
+
+  Eigen::VectorXd spins;            ///< N angular velocities, 1 / time, counter-clockwise; of length 0 where disks are smooth
+  double scale = 1.0;               ///< radii are scale * Disks::radius (growth)
+  std::vector<WallState> walls;     ///< left, right, bottom, top; empty where none of them moves
+  std::uint64_t bonds = 0;          ///< pairs inside each other's square well
+  double shear_displacement = 0.0;  ///< of the images above against those below, in [0, length along x)
 };
 
 /// What a disk hits where it does not hit another disk. The values stand in the place of a partner's id.
 enum Wall : std::int32_t { wall_left = -1, wall_right = -2, wall_bottom = -3, wall_top = -4 };
+
+/// The same for obstacle k of the scene: -1000 - k.
+inline constexpr std::int32_t first_obstacle = -1000;
 
 /// One collision, as the event log keeps it.
 struct Event {
   double time = 0.0;            ///< since the start of the measured run, rounded to double
   double time_remainder = 0.0;  ///< exact time minus `time`; their unevaluated sum is good to twice the digits
   std::int32_t disk = 0;        ///< the lower id of a pair
-  std::int32_t partner = 0;     ///< the higher id of a pair, or a Wall
+  std::int32_t partner = 0;     ///< the higher id of a pair, or a Wall, or first_obstacle - k
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();          ///< of `disk`, just after
   Eigen::Vector2d partner_velocity = Eigen::Vector2d::Zero();  ///< of `partner`, just after; zero for a wall
 };
@@ -54,8 +70,18 @@ struct Totals {
   std::uint64_t stale = 0;  ///< predictions that another collision had overtaken
   /// sum over pair collisions of sigma_ij * (normal impulse): mass length^2 / time; the virial of the hard-disk force
   double virial = 0.0;
+  std::uint64_t obstacle = 0;  ///< collisions with an obstacle
+  std::uint64_t kicks = 0;     ///< velocities redrawn by a thermostat
   /// sum over wall collisions of the impulse that the wall took, outward positive, for left, right, bottom, top
   std::array<double, 4> wall_impulse{};
+  /// sum over wall collisions of the energy that the wall took, for left, right, bottom, top: heat and work
+  std::array<double, 4> wall_energy{};
+  double dissipated = 0.0;     ///< energy that collisions of pairs took away
+  double kick_energy = 0.0;    ///< energy that the thermostat gave
+  double growth_energy = 0.0;  ///< energy that growing disks gave, less what the rescaling of velocities took
+  double shear_energy = 0.0;   ///< energy that disks gained as they crossed the sheared edges
+  double virial_xy = 0.0;      ///< sum over pair collisions of r_x times the impulse along y; kept where there is shear
+  Eigen::Vector2d obstacle_impulse = Eigen::Vector2d::Zero();  ///< that the obstacles took
 };
 
 }  // namespace carom

@@ -30,6 +30,7 @@ std::string words(const Positions& positions) {
   return std::visit(Overloaded{[](const RandomPositions&) { return std::string("at random places"); },
                                [](const SquareLattice&) { return std::string("on a square lattice"); },
                                [](const HexagonalLattice&) { return std::string("on a hexagonal lattice"); },
+                               [](const GrownPositions&) { return std::string("at random places, grown to their size"); },
                                [](const ListedPositions&) { return std::string("at the places listed"); },
                                [](const FilePositions& file) { return fmt::format("at the places in {}", file.path); }},
                     positions);
@@ -79,7 +80,7 @@ std::string describe(const Scene& scene) {
                         words(species.positions), words(species.velocities));
   }
   text += fmt::format("  box         {}; packing fraction {:.4g}\n", words(scene.box), scene.packing_fraction());
-  text += fmt::format("  collisions  {}\n", scene.rule == CollisionRule::reversal
+  text += fmt::format("  collisions  {}\n", scene.effects.collision.rule == CollisionRule::reversal
                                                 ? "reversal: the whole relative velocity turns round, in the centre-of-mass frame"
                                                 : "specular: the relative velocity along the line of centres turns round");
   return text + fmt::format("  run         {}\n", words(scene.run));

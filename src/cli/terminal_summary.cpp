@@ -39,6 +39,11 @@ std::string why_stopped(const RunReport& report, const Scene& scene) {
       return report.measured ? "interrupted here; everything up to here is saved" : "interrupted while still equilibrating";
     case StopReason::jammed:
       return "jammed: disks that touch on all sides collide without end at this instant; give them more room";
+    case StopReason::collapsed:
+      return "collapsed: inelastic disks collide at ever shorter intervals and time stands still; give collision.elastic_below, "
+             "such as { time = 1e-6 }, to go on";
+    case StopReason::grown:
+      return "grown as far as asked";
     case StopReason::no_collisions:
       return report.measured ? "stopped: no pair of disks collides any more"
                              : "stopped while equilibrating: no pair of disks collides";
@@ -105,7 +110,7 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
     text += fmt::format("  python3 -c {}\n",
                         shell_quoted(fmt::format("import MDAnalysis as m; print(m.Universe(\"{}\").trajectory)", path.string())));
   }
-  if (scene.rule == CollisionRule::reversal) {
+  if (scene.effects.collision.rule == CollisionRule::reversal) {
     text += fmt::format("  {} --set collision.rule=specular --out {}   # smooth hard disks\n", rerun,
                         shell_quoted(elsewhere + "-specular"));
   } else {

@@ -58,7 +58,7 @@ std::string describe_scene(const fs::path& path) {
   for (const Species& species : scene.species)
     text += detail::info_line("disks", fmt::format("{} {}", species.count, species.name));
   text += detail::info_line("packing", fmt::format("fraction {:.4g}", scene.packing_fraction()));
-  text += detail::info_line("collisions", scene.rule == CollisionRule::reversal ? "reversal" : "specular");
+  text += detail::info_line("collisions", scene.effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular");
   return text + detail::info_line("seed", fmt::format("{}", scene.run.seed));
 }
 

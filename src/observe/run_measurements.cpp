@@ -9,16 +9,6 @@
 
 namespace carom {
 
-namespace {
-
-std::vector<std::string> effects_of(const Scene& scene) {
-  std::vector<std::string> effects = {scene.rule == CollisionRule::reversal ? "reversal" : "specular"};
-  if (!scene.box.periodic(0) || !scene.box.periodic(1)) effects.emplace_back("walls");
-  return effects;
-}
-
-}  // namespace
-
 RunMeasurements::RunMeasurements(const Simulation& simulation) : simulation_(simulation) {
   const Scene& scene = simulation.scene();
   report_.scene = scene.source;
@@ -26,7 +16,7 @@ RunMeasurements::RunMeasurements(const Simulation& simulation) : simulation_(sim
   report_.seed = scene.run.seed;
   report_.engine = simulation.engine();
   report_.time_step = simulation.time_step();
-  report_.effects = effects_of(scene);
+  report_.effects = names_of(scene.effects, !scene.box.periodic(0) || !scene.box.periodic(1));
   report_.disks = scene.disk_count();
   report_.packing_fraction = scene.packing_fraction();
 }

@@ -15,7 +15,7 @@ DisksDraft read_disks(const toml::table& table, const std::string& path, const s
 /// Fills positions, and with them count, rows and whatever the columns of a start file give.
 void read_positions(const TableReader& table, const std::string& directory, DisksDraft& disks);
 void read_velocities(const TableReader& table, DisksDraft& disks);
-CollisionRule read_collision(const toml::table& table);
+Collision read_collision(const toml::table& table);
 Run read_run(const toml::table& table);
 /// `sampled` is whether [run] has sample_every: files of samples need it.
 Output read_output(const toml::table* table, bool sampled);

@@ -49,6 +49,9 @@ struct PutPositions {
   void operator()(const SquareLattice&) const { put(out, "positions = \"square\"\n"); }
   void operator()(const HexagonalLattice&) const { put(out, "positions = \"hexagonal\"\n"); }
   void operator()(const FilePositions& file) const { put(out, "positions = {{ file = {} }}\n", quoted(file.path)); }
+  void operator()(const GrownPositions& grown) const {
+    put(out, "positions = {{ packing_fraction = {} }}\n", number_text(grown.packing_fraction));
+  }
   void operator()(const ListedPositions& list) const {
     put(out, "positions = ");
     put_pairs(out, list.values);
@@ -110,7 +113,7 @@ std::string resolved_toml(const Scene& scene) {
       number_text(scene.box.lower[1]), number_text(scene.box.upper[1]));
   put(out, "boundary = {{ x = \"{}\", y = \"{}\" }}\n", boundary(0), boundary(1));
   for (const Species& species : scene.species) put_species(out, species);
-  put(out, "\n[collision]\nrule = \"{}\"\n", scene.rule == CollisionRule::reversal ? "reversal" : "specular");
+  put(out, "\n[collision]\nrule = \"{}\"\n", scene.effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular");
   put_run(out, scene.run);
   put(out, "\n[output]\ntrajectory = {}\nxyz = {}\ncsv = {}\nevents = {}\nunwrapped = {}\n", scene.output.trajectory,
       scene.output.xyz, scene.output.csv, scene.output.events, scene.output.unwrapped);

@@ -58,7 +58,8 @@ detail::SceneDraft read_document(const toml::table& document, const std::string&
     scene.title = reader.string("title", "title = \"Disks in a box\"").value_or("");
     draft.box = detail::read_box(require_table(reader, "box", "give limits x and y, and the boundary"));
     draft.disks = read_all_disks(reader, directory);
-    scene.rule = detail::read_collision(require_table(reader, "collision", "choose rule = \"reversal\" or rule = \"specular\""));
+    scene.effects.collision =
+        detail::read_collision(require_table(reader, "collision", "choose rule = \"reversal\" or rule = \"specular\""));
     const toml::table& run = require_table(reader, "run", "give time = 5.0, collisions = 1_000_000, or both");
     draft.run_where = detail::location_of(run);
     scene.run = detail::read_run(run);

@@ -142,7 +142,7 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
   Page page{
       .title = "What accuracy costs: " + (scene.title.empty() ? scene.source : scene.title),
       .subtitle = fmt::format("{} disks, packing fraction {:.4g}, {} rule; {} starts; mean free time {:.4g}", scene.disk_count(),
-                              scene.packing_fraction(), scene.rule == CollisionRule::reversal ? "reversal" : "specular",
+                              scene.packing_fraction(), scene.effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular",
                               plan.seeds.size(), plan.mean_free_time),
       .lead = fmt::format("{}", fmt::join(answers.sentences, " ")),
       .key_numbers = key_numbers(comparison, answers)};

@@ -38,7 +38,7 @@ using Grid = GuardedStep<Rule, ClosePairs>;
 
 template <template <class> class Step>
 std::unique_ptr<AnyEngine> make(const Scene& scene, const Start& start, double dt) {
-  if (scene.rule == CollisionRule::reversal)
+  if (scene.effects.collision.rule == CollisionRule::reversal)
     return std::make_unique<EngineAdapter<Stepper<Step<Reversal>>>>(scene.box, start.disks, start.state, dt);
   return std::make_unique<EngineAdapter<Stepper<Step<Specular>>>>(scene.box, start.disks, start.state, dt);
 }

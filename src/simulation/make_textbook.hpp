@@ -10,7 +10,7 @@ namespace carom::detail {
 
 template <class Real>
 std::unique_ptr<AnyEngine> make_textbook(const Scene& scene, const Disks& disks, State start) {
-  if (scene.rule == CollisionRule::reversal)
+  if (scene.effects.collision.rule == CollisionRule::reversal)
     return std::make_unique<EngineAdapter<TextbookEngine<Real, Reversal>>>(scene.box, disks, start);
   return std::make_unique<EngineAdapter<TextbookEngine<Real, Specular>>>(scene.box, disks, start);
 }

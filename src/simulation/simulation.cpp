@@ -102,6 +102,10 @@ std::string to_string(StopReason reason) {
       return "interrupted";
     case StopReason::jammed:
       return "jammed";
+    case StopReason::collapsed:
+      return "collapsed";
+    case StopReason::grown:
+      return "grown";
     case StopReason::no_collisions:
       return "no_collisions";
   }

@@ -79,7 +79,7 @@ std::optional<Lyapunov> measure_lyapunov(const Scene& scene, const State& start,
   const double speed = std::sqrt(start.velocities.squaredNorm() / (2.0 * count));
 
   Simulation simulation = make_simulation(scene, start);
-  TangentFlow flow(scene.box, simulation.disks(), scene.rule, simulation.state(),
+  TangentFlow flow(scene.box, simulation.disks(), scene.effects.collision.rule, simulation.state(),
                    length * any_direction(disks, scene.run.seed, 0), speed * any_direction(disks, scene.run.seed, 1));
   flow.scale(1.0 / flow.norm(length, speed));
   simulation.record_events(true);

@@ -56,7 +56,7 @@ TEST(RunMeasurements, ReportsAGasFromStartToEnd) {
   Scene scene = mixture_scene(36, 0.4, Boundary::periodic);
   scene.source = "gas.toml";
   scene.title = "A gas";
-  scene.rule = CollisionRule::specular;
+  scene.effects.collision.rule = CollisionRule::specular;
   scene.run.time = 30.0;
   scene.run.sample_every = 0.5;
   scene.run.equilibrate = {.collisions_per_disk = 2.0, .time = {}};
@@ -92,7 +92,7 @@ TEST(RunMeasurements, ReportsAGasFromStartToEnd) {
 
 TEST(RunMeasurements, WallsAreAnEffectAndTakeNoMomentumFromTheTemperature) {
   Scene scene = gas_scene(16, 0.3, Boundary::walls);
-  scene.rule = CollisionRule::reversal;
+  scene.effects.collision.rule = CollisionRule::reversal;
   scene.run.time = 2.0;
   scene.run.sample_every = 1.0;
   const RunReport report = measure(scene).report;

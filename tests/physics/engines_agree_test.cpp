@@ -20,7 +20,7 @@ struct Measured {
 Measured measure(double packing_fraction, CollisionRule rule, const char* engine, bool mixture) {
   Scene scene =
       mixture ? mixture_scene(144, packing_fraction, Boundary::periodic) : gas_scene(144, packing_fraction, Boundary::periodic);
-  scene.rule = rule;
+  scene.effects.collision.rule = rule;
   scene.run.equilibrate = Run::Equilibrate{100.0, {}};
   scene.run.collisions = 1'000'000;
   Simulation simulation = make_simulation(scene, engine);

@@ -11,7 +11,7 @@ namespace {
 
 void expect_pressure(double packing_fraction, CollisionRule rule) {
   Scene scene = gas_scene(256, packing_fraction, Boundary::periodic);
-  scene.rule = rule;
+  scene.effects.collision.rule = rule;
   scene.run.equilibrate = Run::Equilibrate{100.0, {}};
   scene.run.collisions = 2'000'000;
   Simulation simulation = make_simulation(scene);

@@ -23,8 +23,8 @@ TEST(Overrides, ReplaceAValue) {
 }
 
 TEST(Overrides, BareWordsAreStrings) {
-  EXPECT_EQ(with({"collision.rule=reversal"}).rule, CollisionRule::reversal);
-  EXPECT_EQ(with({"collision.rule=\"reversal\""}).rule, CollisionRule::reversal);
+  EXPECT_EQ(with({"collision.rule=reversal"}).effects.collision.rule, CollisionRule::reversal);
+  EXPECT_EQ(with({"collision.rule=\"reversal\""}).effects.collision.rule, CollisionRule::reversal);
   EXPECT_EQ(with({"title=Many disks, in a box"}).title, "Many disks, in a box");
 }
 

@@ -71,7 +71,7 @@ TEST(ExampleScenes, TheClassicSceneIsTheClassicScene) {
   const Scene scene = load_scene((scenes / "box.toml").string());
   EXPECT_EQ(scene.box.lower, Eigen::Vector2d(-1.0, -1.0));
   EXPECT_EQ(scene.box.upper, Eigen::Vector2d(1.0, 1.0));
-  EXPECT_EQ(scene.rule, CollisionRule::reversal);
+  EXPECT_EQ(scene.effects.collision.rule, CollisionRule::reversal);
   EXPECT_EQ(*scene.run.time, 5000 * *scene.run.sample_every);
   EXPECT_NEAR(scene.packing_fraction(), 64 * std::numbers::pi * 0.03 * 0.03 / 4.0, 1e-15);
 }

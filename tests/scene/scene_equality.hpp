@@ -25,7 +25,7 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
   if (a.title != b.title) return "title";
   if (!same_pair(a.box.lower, b.box.lower) || !same_pair(a.box.upper, b.box.upper)) return "box limits";
   if (a.box.boundary != b.box.boundary) return "box.boundary";
-  if (a.rule != b.rule) return "collision.rule";
+  if (a.effects.collision.rule != b.effects.collision.rule) return "collision.rule";
   if (!same_maybe(a.run.time, b.run.time)) return "run.time";
   if (a.run.collisions != b.run.collisions) return "run.collisions";
   if (!same_maybe(a.run.sample_every, b.run.sample_every)) return "run.sample_every";

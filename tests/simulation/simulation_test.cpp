@@ -70,7 +70,7 @@ TEST(Simulation, TimesThatAreNotFiniteAreRefused) {
 
 TEST(Simulation, EventsAreCompleteAndInOrderAndTellTheFinalVelocities) {
   Scene scene = mixture_scene(20, 0.4, Boundary::walls);
-  scene.rule = CollisionRule::reversal;
+  scene.effects.collision.rule = CollisionRule::reversal;
   Simulation simulation = make_simulation(scene);
   simulation.record_events(true);
   Eigen::Matrix2Xd velocities = simulation.state().velocities;

@@ -88,7 +88,7 @@ RC_GTEST_PROP(PropertyGrid, IsTheSearchOfAllPairsForAnyDisks, ()) {
                          *rc::gen::arbitrary<bool>() ? Boundary::walls : Boundary::periodic);
   const int disks = *rc::gen::inRange(0, 40);
   Scene scene = scene_of(box, {});
-  scene.rule = *rc::gen::arbitrary<bool>() ? CollisionRule::specular : CollisionRule::reversal;
+  scene.effects.collision.rule = *rc::gen::arbitrary<bool>() ? CollisionRule::specular : CollisionRule::reversal;
   std::vector<Placed> placed;
   for (int i = 0; i < disks; ++i) {  // anywhere, upon each other too
     const Placed disk{{number(0.0, 0.999) * box.lengths()[0], number(0.0, 0.999) * box.lengths()[1]},

@@ -14,7 +14,7 @@ namespace {
 Simulation naive(const std::vector<Placed>& disks, double dt, CollisionRule rule = CollisionRule::reversal,
                  const std::string& method = "naive") {
   Scene scene = scene_of({{-8.0, -8.0}, {8.0, 8.0}, {Boundary::walls, Boundary::walls}}, {});
-  scene.rule = rule;
+  scene.effects.collision.rule = rule;
   const System system = system_of(scene.box, disks);
   for (std::size_t i = 0; i < disks.size(); ++i)
     scene.species.push_back(
@@ -121,7 +121,7 @@ TEST(Naive, CentreUponCentreHasNoDirectionAndNothingHappens) {
 TEST(Naive, EnergyAndMomentumShowNothingOfAllThis) {
   Scene scene = mixture_scene(30, 0.5, Boundary::periodic);
   for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal}) {
-    scene.rule = rule;
+    scene.effects.collision.rule = rule;
     Simulation s = make_simulation(scene, FixedStep{"naive", 0.05});
     const auto energy = [&] {
       const State state = s.state();

@@ -42,7 +42,7 @@ Difference finite_difference(const Scene& scene, const State& start, const Diffe
 
 Difference tangent(const Scene& scene, const State& start, const Difference& d, double time) {
   Simulation simulation = make_simulation(scene, start, "textbook-quad");
-  TangentFlow flow(scene.box, simulation.disks(), scene.rule, start, d.topRows<2>(), d.bottomRows<2>());
+  TangentFlow flow(scene.box, simulation.disks(), scene.effects.collision.rule, start, d.topRows<2>(), d.bottomRows<2>());
   simulation.record_events(true);
   simulation.run_until(time);
   for (const Event& event : simulation.take_events()) flow.follow(event);
@@ -73,7 +73,7 @@ class TangentOf : public ::testing::TestWithParam<Flow> {};
 TEST_P(TangentOf, ATrajectoryIsTheLimitOfFiniteDifferences) {
   const Flow& flow = GetParam();
   Scene scene = flow.mixture ? mixture_scene(16, 0.4, flow.boundary) : gas_scene(16, 0.4, flow.boundary);
-  scene.rule = flow.rule;
+  scene.effects.collision.rule = flow.rule;
   Simulation simulation = make_simulation(scene);
   simulation.run_until(10.0);  // away from the lattice, whose disks may lie on an edge
   State start = simulation.state();
@@ -176,7 +176,7 @@ class PhysicsLyapunov : public ::testing::TestWithParam<Known> {};
 // that each start has an exponent of its own: those of 12 starts scatter by 0.0085.
 TEST_P(PhysicsLyapunov, PerCollisionIsTheKnownValue) {
   Scene scene = gas_scene(64, GetParam().density * std::numbers::pi / 4.0, Boundary::periodic);
-  scene.rule = GetParam().rule;
+  scene.effects.collision.rule = GetParam().rule;
   const std::optional<Lyapunov> lambda = exponent_of(scene);
   ASSERT_TRUE(lambda && lambda->per_collision_error);
   const double known = GetParam().per_collision;

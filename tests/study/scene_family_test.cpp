@@ -18,7 +18,7 @@ namespace {
 TEST(SceneFamily, HasTheSizeTheDensityAndTheTemperatureThatWereAskedFor) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::walls}) {
     Scene scene = gas_scene(36, 0.3, boundary, 5);
-    scene.rule = CollisionRule::reversal;
+    scene.effects.collision.rule = CollisionRule::reversal;
     scene.run.collisions = 7;
     for (const std::int64_t disks : {16, 100, 900}) {
       for (const double density : {0.05, 0.3, 0.6}) {
@@ -26,7 +26,7 @@ TEST(SceneFamily, HasTheSizeTheDensityAndTheTemperatureThatWereAskedFor) {
         ASSERT_TRUE(like) << disks << " at " << density;
         EXPECT_EQ(like->disk_count(), disks);
         EXPECT_NEAR(like->packing_fraction(), density, 1e-14);  // a root, a product and a quotient
-        EXPECT_EQ(like->rule, CollisionRule::reversal);
+        EXPECT_EQ(like->effects.collision.rule, CollisionRule::reversal);
         EXPECT_EQ(like->box.boundary[0], boundary);
         EXPECT_EQ(like->run.seed, 5U);
         EXPECT_FALSE(like->run.collisions);  // the run is another's

@@ -173,7 +173,7 @@ StepCounts audit_of(const std::vector<Placed>& placed, const FixedStep& method, 
                     CollisionRule rule = CollisionRule::specular, double pair_limit = 1e9,
                     const std::function<bool()>& proceed = {}) {
   Scene scene = scene_with(placed);
-  scene.rule = rule;
+  scene.effects.collision.rule = rule;
   return audit(scene, system_of(scene.box, placed).state, method, time, pair_limit, proceed);
 }
 

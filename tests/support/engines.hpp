@@ -18,7 +18,7 @@ inline std::unique_ptr<AnyEngine> make_engine(const std::string& name, const Sys
                                               CollisionRule rule = CollisionRule::specular) {
   Scene scene;
   scene.box = system.box;
-  scene.rule = rule;
+  scene.effects.collision.rule = rule;
   const Start start{system.disks, system.state};
   for (const auto& entry : detail::catalogue()) {
     if (entry.name != name) continue;
