@@ -21,7 +21,7 @@ char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned 
 /// A key that is right in another table is a misplaced key, not a misspelt one.
 std::string_view home_of(std::string_view key) {
   using Home = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Home, 44> homes = {{{"x", "[box]"},
+  static constexpr std::array<Home, 43> homes = {{{"x", "[box]"},
                                                   {"y", "[box]"},
                                                   {"aspect", "[box]"},
                                                   {"boundary", "[box]"},
@@ -33,7 +33,7 @@ std::string_view home_of(std::string_view key) {
                                                   {"positions", "[[disks]]"},
                                                   {"velocities", "[[disks]]"},
                                                   {"rule", "[collision]"},
-                                                  {"restitution", "[collision]"},
+                                                  {"restitution", "[collision] or a wall in [walls]"},
                                                   {"roughness", "[collision]"},
                                                   {"elastic_below", "[collision]"},
                                                   {"acceleration", "[gravity]"},
@@ -49,7 +49,6 @@ std::string_view home_of(std::string_view key) {
                                                   {"centre", "a disk in [[obstacles]]"},
                                                   {"from", "a segment in [[obstacles]]"},
                                                   {"to", "a segment in [[obstacles]]"},
-                                                  {"width", "[square_well]"},
                                                   {"depth", "[square_well]"},
                                                   {"time", "[run]"},
                                                   {"collisions", "[run]"},
