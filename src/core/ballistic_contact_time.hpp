@@ -38,6 +38,12 @@ struct BallisticApproach {
     return {at.squaredNorm() - reach * reach, 2 * (at.dot(velocity(t)) - reach * growth)};
   }
 
+  /// More than overlap(t) is wrong by.
+  [[nodiscard]] Real rounding(Real t) const {
+    const Real reach = sigma + growth * t;
+    return 128 * epsilon<Real> * (r.squaredNorm() + t * t * (v.squaredNorm() + t * t * g.squaredNorm()) + reach * reach);
+  }
+
   /// A time from which on the disks recede for ever: at t >= 8 x where |v| and growth are at most |g| x, |r| and sigma at most
   /// |g| x^2, rate(t) > |g|^2 t^3 / 4.
   [[nodiscard]] Real horizon() const {
@@ -67,11 +73,11 @@ struct BallisticApproach {
 /// touch or overlap by rounding and recede, but turn back before they are apart, are in contact when they turn back. Touching
 /// exactly in passing counts as contact.
 ///
-/// sigma > 0 (length), growth >= 0 (length/time), until >= 0, infinity allowed. g = 0 gives the bits of contact_time.
-/// Error: with H = |r| + |v| t + |g| t^2/2 + sigma + growth t and u = epsilon/2, the distance at the time t returned differs from
-/// sigma + growth t by at most 16 u H for disks that are apart, and no contact is missed, nor one found where there is none,
-/// unless the smallest gap of that approach is within 16 u H of zero. No overflow or underflow of squares is assumed, at t up to
-/// the smaller of `until` and horizon().
+/// sigma > 0 (length), growth >= 0 (length/time), until >= 0, infinity allowed; it cuts, but the bits of the time do not depend
+/// on it. g = 0 gives the bits of contact_time. Error: with H = |r| + |v| t + |g| t^2/2 + sigma + growth t and u = epsilon/2, the
+/// distance at the time t returned differs from sigma + growth t by at most 16 u H for disks that are apart, and no contact is
+/// missed, nor one found where there is none, unless the smallest gap of that approach is within 16 u H of zero. No overflow or
+/// underflow of squares is assumed, at t up to horizon().
 template <class Real>
 [[nodiscard]] Real ballistic_contact_time(const Vec2<Real>& r, const Vec2<Real>& v, const Vec2<Real>& g, Real sigma, Real growth,
                                           Real until) {
@@ -88,39 +94,37 @@ template <class Real>
   };
   const auto overlap = [&approach](Real t) { return approach.overlap(t); };
 
-  const Real end = std::min<Real>(until, approach.horizon());
+  const Real end = approach.horizon();
   const auto [first_bend, second_bend] = approach.bends();
 
   // `falling`: the gap shrinks, and has done so since `top`.
   const ValueAndSlope<Real> start = rate(Real(0));
   bool falling = start.value < 0 || (start.value == 0 && (start.slope < 0 || (start.slope == 0 && g.dot(v) < 0)));
   Real top = 0;
-  const auto meets_before = [&](Real bottom) {  // of the piece [top, bottom]; sets `top` to the contact
-    if (top == 0) {
-      const Real distance = sqrt(r.squaredNorm());
-      if (distance <= sigma) return true;
-    } else if (overlap(top).value <= 0) {
-      return true;
-    }
-    if (overlap(bottom).value > 0) return false;
-    top = bracketed_root<Real>(overlap, top, bottom);
-    return true;
-  };
+  const auto overlaps_at_top = [&] { return top == 0 ? sqrt(r.squaredNorm()) <= sigma : !(overlap(top).value > 0); };
 
   Real from = 0;
-  for (const Real& piece : {first_bend, second_bend, end}) {
-    const Real to = std::min<Real>(piece, end);
+  for (const Real& bend : {first_bend, second_bend, end}) {
+    const Real to = std::min<Real>(bend, end);
     if (!(to > from)) continue;
     const bool falls_at_end = rate(to).value < 0;
-    if (falling && !falls_at_end) {
-      if (meets_before(bracketed_root<Real>(rate, to, from))) return top;
-    } else if (!falling && falls_at_end) {
+    if (!falling && falls_at_end) {
       top = bracketed_root<Real>(receding_rate, to, from);
+      if (top > until) return infinity<Real>;
+    } else if (falling && !falls_at_end) {
+      if (overlaps_at_top()) return top <= until ? top : infinity<Real>;
+      if (until < to && rate(until).value < 0 && overlap(until).value > approach.rounding(until)) return infinity<Real>;
+      const Real bottom = bracketed_root<Real>(rate, to, from);
+      if (!(overlap(bottom).value > 0)) {
+        const Real t = bracketed_root<Real>(overlap, top, bottom);
+        return t <= until ? t : infinity<Real>;
+      }
     }
     falling = falls_at_end;
     from = to;
+    if (from > until && !falling) return infinity<Real>;
   }
-  return falling && meets_before(end) ? top : infinity<Real>;
+  return infinity<Real>;
 }
 
 }  // namespace carom
