@@ -25,14 +25,12 @@ using namespace carom;
 
 using Fast = Engine<Specular, EqualDisks>;
 using FastOfAnySize = Engine<Specular, AnyDisks>;
-template <class Real>
-using TextbookIn = TextbookEngine<Real, Specular>;
-using Textbook = TextbookIn<double>;
+using Textbook = TextbookEngine<double>;
 
 template <class Engine>
 constexpr double rounding = epsilon<double>;
-template <class Real, class Rule>
-constexpr double rounding<TextbookEngine<Real, Rule>> = static_cast<double>(epsilon<Real>);
+template <class Real>
+constexpr double rounding<TextbookEngine<Real>> = static_cast<double>(epsilon<Real>);
 
 constexpr double unknown = 0.0;  ///< a pressure that nothing is known of
 
@@ -180,8 +178,8 @@ BENCHMARK(two_sizes<FastOfAnySize>)->Apply(at<40, 10'000, 100'000>);
 BENCHMARK(two_sizes<Textbook>)->Apply(at<40, 10'000, 100'000>);
 BENCHMARK(one_large<FastOfAnySize>)->Apply(at<40, 1'000, 10'000, 100'000>);
 BENCHMARK(one_large<Textbook>)->Apply(at<40, 1'000>);  // 10'000 take it half a minute per 10'000 collisions
-BENCHMARK(gas<TextbookIn<float>>)->Apply(at<60, 1'000>);
-BENCHMARK(gas<TextbookIn<long double>>)->Apply(at<60, 1'000>);
-BENCHMARK(gas<TextbookIn<Quad>>)->Apply(at<60, 1'000>);
+BENCHMARK(gas<TextbookEngine<float>>)->Apply(at<60, 1'000>);
+BENCHMARK(gas<TextbookEngine<long double>>)->Apply(at<60, 1'000>);
+BENCHMARK(gas<TextbookEngine<Quad>>)->Apply(at<60, 1'000>);
 
 }  // namespace

@@ -104,6 +104,8 @@ struct Effects {
   /// Whether nothing is there but the collision rule and hard walls at rest: every other effect is absent or at its neutral
   /// value.
   [[nodiscard]] bool neutral() const;
+  /// Whether any contact takes energy away, so that time may come to a stand (inelastic collapse).
+  [[nodiscard]] bool dissipate() const;
 };
 
 /// What acts, in the words of the scene format, in its order: "specular", "walls" (where an axis has them), "restitution", ...

@@ -71,6 +71,7 @@ struct Totals {
   /// sum over pair collisions of sigma_ij * (normal impulse): mass length^2 / time; the virial of the hard-disk force
   double virial = 0.0;
   std::uint64_t obstacle = 0;  ///< collisions with an obstacle
+  std::uint64_t well = 0;      ///< passages of the edge of a square well, or bounces there
   std::uint64_t kicks = 0;     ///< velocities redrawn by a thermostat
   /// sum over wall collisions of the impulse that the wall took, outward positive, for left, right, bottom, top
   std::array<double, 4> wall_impulse{};

@@ -1,6 +1,7 @@
 // carom check SCENE: reads a scene, draws its initial state, and says what would be simulated, without simulating.
 
 #include "cli/commands.hpp"
+#include "cli/effects_description.hpp"
 #include "cli/format.hpp"
 #include "cli/scene_description.hpp"
 #include "observe/mechanics.hpp"
@@ -59,9 +60,7 @@ ExitCode check(const CheckOptions& options) {
   }
   fmt::print("{}: this scene is right{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
   fmt::print("{}{}{}", describe(scene), start, files(scene));
-  fmt::print(
-      "  not here    gravity, loss of energy, friction and spin, walls that move or heat, growing disks, obstacles,\n"
-      "              thermostat, shear, attraction: between collisions disks fly straight\n");
+  if (const std::string missing = absent(scene.effects); !missing.empty()) fmt::print("  not here    {}\n", missing);
   return exit_done;
 }
 

@@ -2,6 +2,7 @@
 
 #include "cli/scene_description.hpp"
 
+#include "cli/effects_description.hpp"
 #include "cli/format.hpp"
 
 #include <fmt/format.h>
@@ -47,12 +48,15 @@ std::string words(const Velocities& velocities) {
       velocities);
 }
 
-std::string words(const Box& box) {
+std::string words(const Box& box, const std::array<WallProperties, 4>& properties) {
+  const bool hard = std::none_of(properties.begin(), properties.end(), [](const WallProperties& wall) { return wall.present(); });
+  const std::string walls = hard ? "hard walls" : "walls";  // the others are described among the effects
+
   const std::string limits =
       fmt::format("[{:.6g}, {:.6g}] x [{:.6g}, {:.6g}]", box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y());
   if (box.periodic(0) && box.periodic(1)) return limits + ", periodic";
-  if (!box.periodic(0) && !box.periodic(1)) return limits + ", hard walls on all sides";
-  return limits + (box.periodic(0) ? ", periodic in x, hard walls in y" : ", hard walls in x, periodic in y");
+  if (!box.periodic(0) && !box.periodic(1)) return fmt::format("{}, {} on all sides", limits, walls);
+  return fmt::format("{}, periodic in {}, {} in {}", limits, box.periodic(0) ? "x" : "y", walls, box.periodic(0) ? "y" : "x");
 }
 
 std::string words(const Run& run) {
@@ -79,10 +83,9 @@ std::string describe(const Scene& scene) {
                         species.name, value_or_range(species.radius, species.radii), value_or_range(species.mass, species.masses),
                         words(species.positions), words(species.velocities));
   }
-  text += fmt::format("  box         {}; packing fraction {:.4g}\n", words(scene.box), scene.packing_fraction());
-  text += fmt::format("  collisions  {}\n", scene.effects.collision.rule == CollisionRule::reversal
-                                                ? "reversal: the whole relative velocity turns round, in the centre-of-mass frame"
-                                                : "specular: the relative velocity along the line of centres turns round");
+  text +=
+      fmt::format("  box         {}; packing fraction {:.4g}\n", words(scene.box, scene.effects.walls), scene.packing_fraction());
+  text += describe(scene.effects);
   return text + fmt::format("  run         {}\n", words(scene.run));
 }
 

@@ -9,7 +9,7 @@
 
 namespace carom::cli {
 
-/// Lines of "  disks      64 of radius 0.03 ...": disks, box, collisions, run. Ends with a newline.
+/// Lines of "  disks      64 of radius 0.03 ...": disks, box, collisions, effects, run. Ends with a newline.
 std::string describe(const Scene& scene);
 
 /// Samples from 0 to the end of the run, both included; empty where their number is not known beforehand.

@@ -15,10 +15,17 @@
 
 namespace carom {
 
-/// The momentum that passed between two disks at contact, as r . dp_i: mass length^2 / time, >= 0. The virial.
 template <class Real>
 struct ImpactResult {
-  Real virial = 0;
+  Real virial = 0;  ///< the momentum that passed between the disks, as r . dp_i: mass length^2 / time
+  Real energy = 0;  ///< that the two disks gained: negative where the collision is inelastic
+};
+
+/// How a collision differs from that of elastic disks of constant size.
+template <class Real>
+struct Inelasticity {
+  Real turn = 1;    ///< (1 + e) / 2 for restitution e: the share of d that is turned round
+  Real growth = 0;  ///< of the contact distance: length / time, >= 0
 };
 
 namespace detail {
@@ -27,14 +34,41 @@ namespace detail {
 /// impulses that change velocities by an ulp or so, and energy by less than its own rounding. Without it a grazing pair
 /// could collide for ever at one instant.
 template <class Real>
-[[gnu::noinline, gnu::cold]] void recede(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j) {
+[[gnu::noinline, gnu::cold]] void recede(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j,
+                                         Real least = 0) {
   using std::sqrt;
   const Real speed = sqrt(v_i.squaredNorm()) + sqrt(v_j.squaredNorm());
   const Vec2<Real> n = (speed / sqrt(r.squaredNorm())) * r;
-  for (Real push = epsilon<Real>; r.dot(v_i - v_j) < 0; push *= 2) {
+  for (Real push = epsilon<Real>; r.dot(v_i - v_j) < least; push *= 2) {
     v_i += (push * m_j / (m_i + m_j)) * n;
     v_j -= (push * m_i / (m_i + m_j)) * n;
   }
+}
+
+/// Gives the partners of a pair of relative velocity v their shares of -2 d.
+template <class Real>
+void share_out(const Vec2<Real>& v, const Vec2<Real>& d, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j) {
+  if (m_i == m_j) {
+    v_i -= d;
+    v_j += d;
+    return;
+  }
+  const bool i_is_light = m_i < m_j;
+  Vec2<Real>& light = i_is_light ? v_i : v_j;
+  Vec2<Real>& heavy = i_is_light ? v_j : v_i;
+  const Real k = 2 * (i_is_light ? m_i : m_j) / (m_i + m_j);
+  const Vec2<Real> sent = i_is_light ? d : -d;  // d, light relative to heavy
+  const Vec2<Real> kept = i_is_light ? Vec2<Real>(v - 2 * d) : Vec2<Real>(2 * d - v);
+  heavy += k * sent;
+  light = heavy + kept;
+}
+
+/// 2 mu = 2 m_i m_j / (m_i + m_j) times x, as elastic collisions have always rounded it.
+template <class Real>
+Real twice_reduced(Real x, Real m_i, Real m_j) {
+  if (m_i == m_j) return x * m_i;
+  const Real k = 2 * (m_i < m_j ? m_i : m_j) / (m_i + m_j);
+  return x * k * (m_i < m_j ? m_j : m_i);
 }
 
 }  // namespace detail
@@ -47,29 +81,35 @@ ImpactResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real 
   const Real b = r.dot(v);
   if (!(b < 0)) return {};
 
-  const Vec2<Real> d = Rule::turned(r, v, b);
-  Real virial;
-  if (m_i == m_j) {
-    virial = -b * m_i;
-    if (Rule::exchanges_velocities) {
-      std::swap(v_i, v_j);
-      return {virial};
-    }
-    v_i -= d;
-    v_j += d;
-  } else {
-    const bool i_is_light = m_i < m_j;
-    Vec2<Real>& light = i_is_light ? v_i : v_j;
-    Vec2<Real>& heavy = i_is_light ? v_j : v_i;
-    const Real k = 2 * (i_is_light ? m_i : m_j) / (m_i + m_j);
-    virial = -b * k * (i_is_light ? m_j : m_i);
-    const Vec2<Real> sent = i_is_light ? d : -d;  // d, light relative to heavy
-    const Vec2<Real> kept = i_is_light ? Vec2<Real>(v - 2 * d) : Vec2<Real>(2 * d - v);
-    heavy += k * sent;
-    light = heavy + kept;
+  const ImpactResult<Real> result{detail::twice_reduced(-b, m_i, m_j), 0};
+  if (Rule::exchanges_velocities && m_i == m_j) {
+    std::swap(v_i, v_j);
+    return result;
   }
+  detail::share_out<Real>(v, Rule::turned(r, v, b), m_i, v_i, m_j, v_j);
   if (r.dot(v_i - v_j) < 0) detail::recede(r, m_i, v_i, m_j, v_j);
-  return {virial};
+  return result;
+}
+
+/// The same for disks that lose energy or grow: the rule acts on the velocity v - a n with which their surfaces approach, a the
+/// growth of the contact distance. With turn 1 and growth 0 the bits are those of the function above.
+template <class Rule, class Real>
+ImpactResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j,
+                           const Inelasticity<Real>& how) {
+  if (how.turn == 1 && how.growth == 0) return collide<Rule, Real>(r, m_i, v_i, m_j, v_j);
+  using std::sqrt;
+  const Vec2<Real> v = v_i - v_j;
+  const Real least = how.growth * sqrt(r.squaredNorm());  // of r . v, for surfaces that do not approach
+  const Real b = r.dot(v) - least;
+  if (!(b < 0)) return {};
+
+  const Vec2<Real> surfaces = v - (how.growth / sqrt(r.squaredNorm())) * r;
+  const Vec2<Real> d = how.turn * Rule::turned(r, surfaces, b);
+  // mu / 2 (|v - 2 d|^2 - v^2) = 2 mu (d^2 - d . v)
+  const Real gained = detail::twice_reduced<Real>(d.dot(d - v), m_i, m_j);
+  detail::share_out<Real>(v, d, m_i, v_i, m_j, v_j);
+  if (r.dot(v_i - v_j) < least) detail::recede(r, m_i, v_i, m_j, v_j, least);
+  return {detail::twice_reduced<Real>(-b * how.turn, m_i, m_j), gained};
 }
 
 }  // namespace carom

@@ -31,6 +31,12 @@ template <class Disks, class VelocityOf>
   return std::ldexp(1.0, std::ilogb(std::max(passes, std::numeric_limits<double>::min())) + 1);
 }
 
+/// Not longer than it takes to fall those 16 spacings from rest at the acceleration `pull`, as a power of two.
+[[nodiscard]] inline double shortened_epoch(double length, double spacing, double pull) {
+  if (!(pull > 0.0)) return length;
+  return std::min(length, std::ldexp(1.0, std::ilogb(std::sqrt(32.0 * spacing / pull)) + 1));
+}
+
 /// A disk that has become so fast that it has more than 64 box lengths behind it in this epoch, at its speed now: rounding
 /// a time would move it by more than 64 box lengths * 2^-53, so a new epoch is due. (A light disk squeezed between two
 /// heavy ones can be a thousand times faster than anything was when the epoch began.)

@@ -7,12 +7,17 @@
 // is a function of the two records alone, so it does not matter when, how often or from which side it is predicted:
 // cells, stale plans, sampling and stopping leave no trace in the bits, and an all-pairs search without any of these
 // finds the same trajectory to the last bit (tests/engine/textbook_twin_test.cpp).
+//
+// What a scene may add to straight flight between hard walls lives in effects/, one file each: how a disk falls, what contact
+// does, what the sides of the box are, obstacles, wells. At its neutral value each leaves the bits as they are.
 
 #include "core/contact_time.hpp"
 #include "core/domain.hpp"
 #include "core/instant.hpp"
-#include "effects/hard_wall.hpp"
-#include "effects/impact.hpp"
+#include "effects/any_impact.hpp"
+#include "effects/gravity.hpp"
+#include "effects/obstacles.hpp"
+#include "effects/walls.hpp"
 #include "engine/epoch.hpp"
 #include "neighbours/cell_grid.hpp"
 #include "queue/event_queue.hpp"
@@ -29,11 +34,12 @@
 
 namespace carom {
 
-template <class Real, class Rule>
+template <class Real>
 class TextbookEngine {
  public:
-  /// Requires disks inside the box, radii and masses > 0, everything finite. Real may round what it is given.
-  TextbookEngine(const Box& box, const Disks& disks, const State& start);
+  /// Requires disks inside the box, radii and masses > 0, everything finite. Real may round what it is given. `seed`: of the
+  /// random numbers that effects draw.
+  TextbookEngine(const Box& box, const Disks& disks, const State& start, const Effects& effects = {}, std::uint64_t seed = 1);
 
   // ---------------------------------------------------------------------------------------------------- the loop
 
@@ -60,7 +66,7 @@ class TextbookEngine {
   [[nodiscard]] bool idle() const { return queue_.empty() || queue_.next().time == infinity<Real>; }
 
   /// Time has stopped: millions of events at one instant, as of disks that touch on all sides and still are to move.
-  [[nodiscard]] bool jammed() const { return at_one_instant_ > 10'000'000 + 100 * records_.size(); }
+  [[nodiscard]] bool jammed() const { return at_one_instant_ > patience_ + 100 * records_.size(); }
 
  private:
   /// The next event of all.
@@ -70,8 +76,10 @@ class TextbookEngine {
     now_ = std::max(now_, event.time);
     if (event.higher == cell_crossing) {
       cross_cell(event.disk);
+    } else if (event.higher <= first_obstacle) {
+      hit_obstacle(event.disk, first_obstacle - event.higher);
     } else if (event.higher < 0) {
-      reflect(event.disk, static_cast<Wall>(event.higher));
+      hit_wall(event.disk, static_cast<Wall>(event.higher));
     } else if (is_stale(event.disk)) {
       ++totals_.stale;
       predict(event.disk);
@@ -82,7 +90,7 @@ class TextbookEngine {
 
   // -------------------------------------------------------------------------------------------------- the events
 
-  /// Two disks meet: bring both to the place of contact, exchange momentum by the rule, predict anew.
+  /// Two disks meet: bring both to the place of contact, let them exchange momentum, predict anew.
   void collide(std::int32_t i, std::int32_t j, Winding shift) {
     shift -= bring_to_now(i) - bring_to_now(j);
     if (j < i) {
@@ -91,9 +99,9 @@ class TextbookEngine {
     }
     Record& a = record(i);
     Record& b = record(j);
-    const ImpactResult<Real> impact = carom::collide<Rule, Real>(separation(a, b, now_, shift), a.mass, a.v, b.mass, b.v);
-    ++totals_.pair;
-    totals_.virial += static_cast<double>(impact.virial);
+    const Vec2<Real> r = separation(a, b, now_, shift);
+    impact_.meet(r, (a.radius + b.radius) * growth_, {i, a.mass, radius_at(a, now_), a.v}, {j, b.mass, radius_at(b, now_), b.v},
+                 now_, totals_);
     if (recording_) log_event(i, j, a.v, b.v);
     if (outruns_epoch(a.v, now_, box_size_) || outruns_epoch(b.v, now_, box_size_)) {
       begin_epoch(now_);
@@ -103,16 +111,30 @@ class TextbookEngine {
     predict(j);
   }
 
-  /// A disk meets a wall: its velocity across the wall is reversed.
-  void reflect(std::int32_t i, Wall wall) {
+  /// A disk meets a side of the box, which may move, heat or give way.
+  void hit_wall(std::int32_t i, Wall wall) {
     bring_to_now(i);
     Record& a = record(i);
-    Real& across = a.v[axis_of(wall)];
     ++totals_.wall;
-    using std::abs;
-    totals_.wall_impulse[static_cast<std::size_t>(-1 - wall)] += 2 * static_cast<double>(a.mass * abs(across));
-    across = -across;
+    const auto hit = walls_.meet(wall, a.v, falling_.g, a.mass, a.radius, a.radius * growth_, impact_.rests(i, now_), now_);
+    totals_.wall_impulse[index_of(wall)] += static_cast<double>(hit.impulse);
+    totals_.wall_energy[index_of(wall)] += static_cast<double>(hit.energy);
+    impact_.touched(i, now_);
     if (recording_) log_event(i, wall, a.v, Vec2<Real>(0, 0));
+    if (walls_.is_piston(wall)) plan_boundaries_anew();
+    predict(i);
+  }
+
+  /// A disk meets a fixed obstacle: smooth and elastic.
+  void hit_obstacle(std::int32_t i, std::int32_t obstacle) {
+    bring_to_now(i);
+    Record& a = record(i);
+    ++totals_.obstacle;
+    totals_.obstacle_impulse +=
+        bounce_off<Real>(obstacles_.from_nearest_point(obstacle, a.r), a.v, falling_.g, a.mass, a.radius, a.radius * growth_)
+            .template cast<double>();
+    impact_.touched(i, now_);
+    if (recording_) log_event(i, first_obstacle - obstacle, a.v, Vec2<Real>(0, 0));
     predict(i);
   }
 
@@ -123,7 +145,7 @@ class TextbookEngine {
     ++totals_.other;
     grid_.cross(i, crossing);
     grid_.for_neighbours_ahead(i, crossing, [&](std::int32_t j, const Winding& shift) { consider(i, j, shift); });
-    mine.crossing = grid_.next_crossing(i, record(i).r, record(i).v, record(i).t);
+    plan_surroundings(i);
     queue_.update(next_of(i));
   }
 
@@ -134,21 +156,56 @@ class TextbookEngine {
     queue_.update(next_of(i));
   }
 
-  /// Disk i against every neighbour, its walls and the edges of its cell.
+  /// Disk i against every neighbour, the edges of its cell, walls and obstacles.
   void make_plan(std::int32_t i) {
-    const Record& a = record(i);
     Plan& mine = plan(i);
     mine.pair_time = infinity<Real>;
     mine.partner = nobody;
     grid_.for_neighbours(i, [&](std::int32_t j, const Winding& shift) { consider(i, j, shift); });
-    mine.wall = next_wall_contact(domain_, a.r, a.v, a.radius, a.t);
-    mine.crossing = grid_.next_crossing(i, a.r, a.v, a.t);
+    plan_surroundings(i);
+  }
+
+  /// When disk i leaves its cell, and what it hits before that.
+  void plan_surroundings(std::int32_t i) {
+    const Record& a = record(i);
+    Plan& mine = plan(i);
+    mine.crossing = falling_.present() ? grid_.next_crossing(i, position(a, now_), velocity(a, now_), falling_.g, now_)
+                                       : grid_.next_crossing(i, a.r, a.v, falling_.g, a.t);
+    mine.boundary = {};
+    for (int axis = 0; axis < 2; ++axis)
+      if (!domain_.periodic[axis])
+        for (const bool upper : {false, true}) consider_wall(i, wall_of(axis, upper));
+    if (obstacles_.empty()) return;
+    const Real until = std::min(mine.crossing.time, mine.boundary.time) - a.t;
+    const auto meeting = obstacles_.next(a.r, a.v, falling_.g, radius_at(a, a.t), a.radius * growth_, until);
+    if (a.t + meeting.time < mine.boundary.time) mine.boundary = {a.t + meeting.time, first_obstacle - meeting.obstacle};
+  }
+
+  /// Like a pair, a disk and a side of the box meet at a time that depends on their two records alone.
+  void consider_wall(std::int32_t i, Wall wall) {
+    const Record& a = record(i);
+    BoundaryContact& first = plan(i).boundary;
+    const Real t = std::max(a.t, walls_.since(wall));
+    const int axis = axis_of(wall);
+    const Real r = position(a, t)[axis], v = velocity(a, t)[axis], g = falling_.g[axis];
+    const Real radius = radius_at(a, t), growth = a.radius * growth_;
+    const Real time = t + (is_upper(wall) ? walls_.contact(wall, (domain_.upper[axis] - radius) - r, v, g, growth, t)
+                                          : walls_.contact(wall, r - (domain_.lower[axis] + radius), -v, -g, growth, t));
+    if (time < first.time) first = {time, wall};
+  }
+
+  /// A piston has changed its motion: what everybody had planned with it is void.
+  void plan_boundaries_anew() {
+    for (std::int32_t i = 0; i < count(); ++i) {
+      plan_surroundings(i);
+      queue_.update(next_of(i));
+    }
   }
 
   /// Keeps the collision with disk j if it comes before the one planned so far.
   void consider(std::int32_t i, std::int32_t j, const Winding& shift) {
     Plan& mine = plan(i);
-    const Real time = pair_time(record(i), record(j), shift);
+    const Real time = pair_time(i, j, shift);
     if (time < mine.pair_time || (time == mine.pair_time && wins_tie(i, j, shift))) {
       mine.pair_time = time;
       mine.partner = j;
@@ -169,9 +226,9 @@ class TextbookEngine {
   [[nodiscard]] QueuedEvent<Real> next_of(std::int32_t i) const {
     const Plan& mine = plan(i);
     QueuedEvent<Real> next{mine.pair_time, std::min(i, mine.partner), std::max(i, mine.partner), i};
-    const QueuedEvent<Real> wall{mine.wall.time, i, mine.wall.wall, i};
+    const QueuedEvent<Real> boundary{mine.boundary.time, i, mine.boundary.what, i};
     const QueuedEvent<Real> crossing{mine.crossing.time, i, cell_crossing, i};
-    if (wall.before(next)) next = wall;
+    if (boundary.before(next)) next = boundary;
     if (crossing.before(next)) next = crossing;
     return next;
   }
@@ -191,8 +248,12 @@ class TextbookEngine {
       record(i).t = 0;
     }
     epoch_ = instant(now_);
+    walls_.rebase(now_);
+    impact_.rebase(now_);
+    scale_ += growth_ * now_;
     now_ = 0;
     epoch_length_ = suitable_epoch_length();
+    suit_grid();
     grid_.clear();
     for (std::int32_t i = 0; i < count(); ++i) grid_.insert(i, record(i).r);
     std::vector<QueuedEvent<Real>> events;
@@ -206,6 +267,9 @@ class TextbookEngine {
 
   /// epoch_length() for the disks as they move now.
   [[nodiscard]] Real suitable_epoch_length() const;
+  /// Cells for the box as it is and for disks as large as they will become in this epoch.
+  void suit_grid();
+  void find_wells();
 
   // ----------------------------------------------------------------------------------------------- disks in flight
 
@@ -219,19 +283,27 @@ class TextbookEngine {
     std::uint32_t collisions = 0;  ///< so far; tells whether a plan with this disk still holds
   };
 
+  /// The next wall or obstacle that a disk hits.
+  struct BoundaryContact {
+    Real time = infinity<Real>;
+    std::int32_t what = wall_left;
+  };
+
   struct Plan {
     Real pair_time = infinity<Real>;
     std::int32_t partner = nobody;
     std::uint32_t partner_collisions = 0;
     Winding shift = Winding::Zero();  ///< box lengths between this disk and that image of the partner
-    WallContact<Real> wall;
+    BoundaryContact boundary;
     CellCrossing<Real> crossing;
   };
 
   static constexpr std::int32_t nobody = -1;
   static constexpr std::int32_t cell_crossing = -100;  ///< in the place of a partner; below every wall: crossed before it is hit
 
-  [[nodiscard]] static Vec2<Real> position(const Record& a, Real t) { return a.r + a.v * (t - a.t); }
+  [[nodiscard]] Vec2<Real> position(const Record& a, Real t) const { return falling_.position(a.r, a.v, t - a.t); }
+  [[nodiscard]] Vec2<Real> velocity(const Record& a, Real t) const { return falling_.velocity(a.v, t - a.t); }
+  [[nodiscard]] Real radius_at(const Record& a, Real t) const { return a.radius * (scale_ + growth_ * t); }
 
   [[nodiscard]] Vec2<Real> separation(const Record& a, const Record& b, Real t, const Winding& shift) const {
     Vec2<Real> r = position(a, t) - position(b, t);
@@ -240,16 +312,25 @@ class TextbookEngine {
     return r;
   }
 
-  /// When the two records meet; the same whichever is called a, and whenever it is asked.
-  [[nodiscard]] Real pair_time(const Record& a, const Record& b, const Winding& shift) const {
+  /// When the two records meet; the same whichever is called i, and whenever it is asked.
+  [[nodiscard]] Real pair_time(std::int32_t i, std::int32_t j, const Winding& shift) const {
+    const Record &a = record(i), &b = record(j);
     const Real t = std::max(a.t, b.t);
-    return t + contact_time<Real>(separation(a, b, t, shift), a.v - b.v, a.radius + b.radius);
+    const Vec2<Real> r = separation(a, b, t, shift), v = velocity(a, t) - velocity(b, t);
+    const Real sigma = a.radius + b.radius;
+    if (impact_.wells().present()) {
+      const SquareWells<Real>& wells = impact_.wells();
+      return t + wells.next_time(wells.holds(i, j, r, sigma), r, v, sigma);
+    }
+    return t + contact_time<Real>(r, v, sigma * (scale_ + growth_ * t), sigma * growth_);
   }
 
   /// Rewrites the record of disk i at the present moment, inside the box. Plans that know the old record become stale.
   Winding bring_to_now(std::int32_t i) {
     Record& a = record(i);
-    a.r = position(a, now_);
+    const Vec2<Real> r = position(a, now_);
+    a.v = velocity(a, now_);
+    a.r = r;
     a.t = now_;
     ++a.collisions;
     const Winding winding = domain_.wrap(a.r);
@@ -274,7 +355,15 @@ class TextbookEngine {
   [[nodiscard]] Plan& plan(std::int32_t i) { return plans_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const Plan& plan(std::int32_t i) const { return plans_[static_cast<std::size_t>(i)]; }
 
-  Domain<Real> domain_;
+  Box box_;
+  Domain<Real> domain_;  ///< of the box as it was at the start
+  Falling<Real> falling_;
+  Walls<Real> walls_;
+  Obstacles<Real> obstacles_;
+  AnyImpact<Real> impact_;
+  Real scale_ = 1;   ///< of all radii, when the epoch began
+  Real growth_ = 0;  ///< of the scale, per time
+
   CellGrid<Real> grid_;
   EventQueue<Real> queue_;
   std::vector<Record> records_;
@@ -284,7 +373,9 @@ class TextbookEngine {
   Instant epoch_;  ///< the loop's zero of time
   Real now_ = 0;   ///< since the epoch
   Real epoch_length_ = 0;
-  double box_size_;                   ///< root of the area
+  double box_size_;  ///< root of the area
+  double largest_radius_;
+  std::uint64_t patience_;            ///< events at one instant after which time is taken to stand still
   std::uint64_t at_one_instant_ = 0;  ///< events since time last advanced
   Totals totals_;
   bool recording_ = false;
@@ -305,6 +396,25 @@ class TextbookEngine {
     begin_epoch(now_);
     epoch_ = Instant{};
     totals_ = Totals{};
+  }
+
+  /// Something from outside gives disk i a new velocity and, where disks spin, a new spin.
+  void set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) {
+    bring_to_now(i);
+    record(i).v = v.cast<Real>();
+    if (impact_.spinning()) impact_.spin(i) = Real(spin);
+    if (outruns_epoch(record(i).v, now_, box_size_)) return begin_epoch(now_);
+    predict(i);
+  }
+
+  /// All velocities and spins become `factor` times what they are.
+  void scale_velocities(double factor) {
+    for (std::int32_t i = 0; i < count(); ++i) {
+      bring_to_now(i);
+      record(i).v *= Real(factor);
+      if (impact_.spinning()) impact_.spin(i) *= Real(factor);
+    }
+    begin_epoch(now_);
   }
 
   void record_events(bool on) { recording_ = on; }

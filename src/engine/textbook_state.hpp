@@ -10,27 +10,70 @@
 
 namespace carom {
 
-template <class Real, class Rule>
-TextbookEngine<Real, Rule>::TextbookEngine(const Box& box, const Disks& disks, const State& start)
-    : domain_(box),
-      grid_(domain_, disks.count() == 0 ? Real(1) : 2 * Real(*std::max_element(disks.radius.begin(), disks.radius.end())),
-            disks.count()),
+template <class Real>
+TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const State& start, const Effects& effects,
+                                     std::uint64_t seed)
+    : box_(box),
+      domain_(box),
+      falling_(effects.gravity),
+      walls_(box, effects.walls, seed),
+      obstacles_(box, effects.obstacles),
+      impact_(effects, disks.count()),
+      scale_(Real(start.scale)),
+      growth_(effects.growth ? Real(effects.growth->rate) : Real(0)),
+      grid_(domain_, Real(1), 0),
       records_(disks.count()),
       plans_(disks.count()),
       images_(Images::Zero(2, static_cast<Eigen::Index>(disks.count()))),
-      box_size_(std::sqrt(box.lengths()[0]) * std::sqrt(box.lengths()[1])) {
+      box_size_(std::sqrt(box.lengths()[0]) * std::sqrt(box.lengths()[1])),
+      largest_radius_(disks.count() == 0 ? 0.5 : *std::max_element(disks.radius.begin(), disks.radius.end())),
+      patience_(effects.dissipate() ? 100'000 : 10'000'000) {
   for (std::int32_t i = 0; i < count(); ++i) {
-    record(i).r = start.positions.col(i).cast<Real>();
-    record(i).v = start.velocities.col(i).cast<Real>();
+    record(i).r = start.positions.col(i).template cast<Real>();
+    record(i).v = start.velocities.col(i).template cast<Real>();
     record(i).radius = Real(disks.radius[static_cast<std::size_t>(i)]);
     record(i).mass = Real(disks.mass[static_cast<std::size_t>(i)]);
     if (start.images.cols() > i) images_.col(i) = start.images.col(i);
+    if (impact_.spinning() && start.spins.size() > i) impact_.spin(i) = Real(start.spins[i]);
   }
+  walls_.start_from(start.walls);
+  suit_grid();
+  grid_.clear();
+  for (std::int32_t i = 0; i < count(); ++i) grid_.insert(i, record(i).r);
+  find_wells();
   begin_epoch(Real(0));
 }
 
-template <class Real, class Rule>
-State TextbookEngine<Real, Rule>::state() const {
+/// Who begins inside whose well.
+template <class Real>
+void TextbookEngine<Real>::find_wells() {
+  SquareWells<Real>& wells = impact_.wells();
+  if (!wells.present()) return;
+  for (std::int32_t i = 0; i < count(); ++i)
+    grid_.for_neighbours(i, [&](std::int32_t j, const Winding& shift) {
+      const Real edge = wells.reach() * (record(i).radius + record(j).radius);
+      if (i < j && separation(record(i), record(j), 0, shift).squaredNorm() < edge * edge) wells.enter(i, j);
+    });
+}
+
+template <class Real>
+void TextbookEngine<Real>::suit_grid() {
+  const bool same = growth_ == 0 && !walls_.any_moves() && grid_.disks() == records_.size();
+  if (same) return;
+  Box now = box_;
+  for (const Wall wall : {wall_left, wall_right, wall_bottom, wall_top}) {
+    if (now.periodic(axis_of(wall))) continue;
+    const double displacement = static_cast<double>(walls_.displacement(wall, 0));
+    (is_upper(wall) ? now.upper : now.lower)[axis_of(wall)] += is_upper(wall) ? displacement : -displacement;
+  }
+  for (int axis = 0; axis < 2; ++axis)  // walls may have closed in upon each other: a grid needs some width
+    now.upper[axis] = std::max(now.upper[axis], now.lower[axis] + largest_radius_);
+  const Real scale = growth_ > 0 && epoch_length_ < infinity<Real> ? scale_ + growth_ * epoch_length_ : scale_;
+  grid_ = CellGrid<Real>(Domain<Real>(now), 2 * Real(largest_radius_) * scale * impact_.wells().reach(), records_.size());
+}
+
+template <class Real>
+State TextbookEngine<Real>::state() const {
   State state;
   state.time = now().high;
   state.positions.resize(2, count());
@@ -49,19 +92,30 @@ State TextbookEngine<Real, Rule>::state() const {
       r[a] -= domain_.length[a];
     }
     if (wide) state.remainders.col(i) = (r - state.positions.col(i).template cast<Real>()).template cast<double>();
-    state.velocities.col(i) = record(i).v.template cast<double>();
+    state.velocities.col(i) = velocity(record(i), now_).template cast<double>();
   }
+  if (impact_.spinning()) {
+    state.spins.resize(count());
+    for (std::int32_t i = 0; i < count(); ++i) state.spins[i] = static_cast<double>(impact_.spin(i));
+  }
+  state.scale = static_cast<double>(scale_ + growth_ * now_);
+  state.walls = walls_.states(now_);
+  state.bonds = impact_.wells().pairs();
   return state;
 }
 
-template <class Real, class Rule>
-Real TextbookEngine<Real, Rule>::suitable_epoch_length() const {
-  const double speed = rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; });
-  return Real(epoch_length(box_size_ / std::sqrt(std::max(count(), 1)), speed));
+template <class Real>
+Real TextbookEngine<Real>::suitable_epoch_length() const {
+  const double spacing = box_size_ / std::sqrt(std::max(count(), 1));
+  const double speed = std::max(rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; }),
+                                static_cast<double>(walls_.fastest(0)));
+  const double pull = std::max(static_cast<double>(falling_.g.cwiseAbs().maxCoeff()), static_cast<double>(walls_.strongest()));
+  const double length = shortened_epoch(epoch_length(spacing, speed), spacing, pull);
+  return growth_ > 0 ? std::min<Real>(Real(length), scale_ / (64 * growth_)) : Real(length);
 }
 
-template <class Real, class Rule>
-std::vector<std::string> TextbookEngine<Real, Rule>::check_invariants() const {
+template <class Real>
+std::vector<std::string> TextbookEngine<Real>::check_invariants() const {
   std::vector<std::string> faults;
   const Real tolerance = Real(1e-12) + 1000 * epsilon<Real>;
   for (std::int32_t i = 0; i < count(); ++i) {
@@ -75,7 +129,9 @@ std::vector<std::string> TextbookEngine<Real, Rule>::check_invariants() const {
       const Real beyond = std::max<Real>(from[axis] - r[axis], r[axis] - from[axis] - grid_.width()[axis]);
       if (beyond > slack && domain_.periodic[axis])
         faults.push_back(fmt::format("disk {}: outside its cell along axis {}", i, axis));
-      const Real out = std::max<Real>(domain_.lower[axis] + a.radius - r[axis], r[axis] - domain_.upper[axis] + a.radius);
+      const Real radius = radius_at(a, now_);
+      const Real out = std::max<Real>(domain_.lower[axis] + radius - r[axis] - walls_.displacement(wall_of(axis, false), now_),
+                                      r[axis] - domain_.upper[axis] + radius - walls_.displacement(wall_of(axis, true), now_));
       if (!domain_.periodic[axis] && out > tolerance * domain_.length[axis])
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", i, static_cast<double>(out), axis));
     }
@@ -91,12 +147,12 @@ std::vector<std::string> TextbookEngine<Real, Rule>::check_invariants() const {
         if (domain_.periodic[axis])
           nearest[axis] = static_cast<std::int64_t>(floor(apart[axis] / domain_.length[axis] + Real(0.5)));
       }
-      const Real sigma = record(i).radius + record(j).radius;
+      const Real sigma = radius_at(record(i), now_) + radius_at(record(j), now_);
       using std::sqrt;
       const Real gap = sqrt(separation(record(i), record(j), now_, nearest).squaredNorm()) - sigma;
       if (gap < -tolerance * sigma)
         faults.push_back(fmt::format("disks {} and {} overlap by {}", i, j, static_cast<double>(-gap)));
-      const Real meeting = pair_time(record(i), record(j), nearest);
+      const Real meeting = pair_time(i, j, nearest);
       if (meeting < std::min(next_of(i).time, next_of(j).time))
         faults.push_back(fmt::format("disks {} and {} meet before either has an event planned", i, j));
     }

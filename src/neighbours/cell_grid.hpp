@@ -8,6 +8,7 @@
 // Works with one or two cells per axis too: then one disk is its neighbour's neighbour through several images.
 
 #include "core/domain.hpp"
+#include "core/fall_time.hpp"
 
 #include <algorithm>
 #include <array>
@@ -59,19 +60,20 @@ class CellGrid {
 
   void clear() { std::fill(first_.begin(), first_.end(), none); }
 
-  /// When the disk with the given record leaves its cell. Never before t.
-  [[nodiscard]] CellCrossing<Real> next_crossing(std::int32_t i, const Vec2<Real>& r, const Vec2<Real>& v, Real t) const {
+  /// When disk i, at position r with velocity v at time t and acceleration g, leaves its cell. Never before t. Where there is an
+  /// acceleration, t must be the present: a path that comes back might else be found to have left long ago.
+  [[nodiscard]] CellCrossing<Real> next_crossing(std::int32_t i, const Vec2<Real>& r, const Vec2<Real>& v, const Vec2<Real>& g,
+                                                 Real t) const {
     const Place& place = at(i);
     CellCrossing<Real> next;
     for (int a = 0; a < 2; ++a) {
-      if (v[a] == 0) continue;
-      const bool up = v[a] > 0;
-      if (!domain_.periodic[a] && place.cell[a] == (up ? count_[a] - 1 : 0)) continue;  // a wall is there
-      const Real edge =
-          domain_.lower[a] + Real(place.cell[a] + (up ? 1 : 0)) * width_[a] + Real(place.winding[a]) * domain_.length[a];
-      const Real way = up ? edge - r[a] : r[a] - edge;
-      const Real time = way > 0 ? t + way / (up ? v[a] : -v[a]) : t;
-      if (time < next.time) next = {time, static_cast<std::int8_t>(a), static_cast<std::int8_t>(up ? 1 : -1)};
+      for (const bool up : {false, true}) {
+        if (!domain_.periodic[a] && place.cell[a] == (up ? count_[a] - 1 : 0)) continue;  // a wall is there
+        const Real edge =
+            domain_.lower[a] + Real(place.cell[a] + (up ? 1 : 0)) * width_[a] + Real(place.winding[a]) * domain_.length[a];
+        const Real time = t + (up ? fall_time<Real>(edge - r[a], -v[a], -g[a]) : fall_time<Real>(r[a] - edge, v[a], g[a]));
+        if (time < next.time) next = {time, static_cast<std::int8_t>(a), static_cast<std::int8_t>(up ? 1 : -1)};
+      }
     }
     return next;
   }
@@ -120,6 +122,7 @@ class CellGrid {
       corner[a] = domain_.lower[a] + Real(place.cell[a]) * width_[a] + Real(place.winding[a]) * domain_.length[a];
     return corner;
   }
+  [[nodiscard]] std::size_t disks() const { return places_.size(); }
   [[nodiscard]] Vec2<Real> width() const { return {width_[0], width_[1]}; }
 
  private:

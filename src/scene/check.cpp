@@ -1,38 +1,21 @@
 // What the parts of a scene must agree on: names, room for the disks, density, given positions, and an end to the run.
 
 #include "neighbours/disks_at_rest.hpp"
-#include "scene/excerpt.hpp"
+#include "scene/checks.hpp"
 #include "scene/read_tables.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 #include <span>
 
 namespace carom::detail {
 namespace {
 
-/// Given positions may miss a wall or each other by this fraction of the contact distance: what decimal input rounds away.
-constexpr double touching = 1e-9;
-/// pi / (2 sqrt 3): no arrangement of equal disks is denser, in a rectangle or on a torus.
-constexpr double closest_packing = std::numbers::pi / (2.0 * std::numbers::sqrt3);
 /// The jamming density of random sequential addition of equal disks in the plane. Boxes of a few diameters can exceed it.
 constexpr double random_limit = 0.547;
 constexpr double random_limit_diameters = 5.0;
-constexpr const char* axis_names[] = {"x", "y"};
-
-/// The place of disk i of a species: its row where it has one, else what the caller names.
-Location place(const DisksDraft& disks, std::size_t i, const Location& otherwise) {
-  return i < disks.rows.places.size() ? disks.rows.of(i) : otherwise;
-}
-
-std::span<const Eigen::Vector2d> given_positions(const Species& species) {
-  if (const auto* listed = std::get_if<ListedPositions>(&species.positions)) return listed->values;
-  if (const auto* file = std::get_if<FilePositions>(&species.positions)) return file->values;
-  return {};
-}
 
 void check_names(const Scene& scene) {
   for (std::size_t i = 0; i < scene.species.size(); ++i) {
@@ -94,29 +77,25 @@ void check_positions_inside(const Box& box, const DisksDraft& disks, const Speci
 }
 
 void check_density(const Scene& scene) {
-  double smallest = std::numeric_limits<double>::infinity();
-  double largest = 0.0;
   bool all_random = true;
   const Species* first = nullptr;
   for (const Species& species : scene.species) {
     if (species.count == 0) continue;
     if (first == nullptr) first = &species;
-    const auto [low, high] = std::minmax_element(species.radii.begin(), species.radii.end());
-    smallest = std::min(smallest, species.radii.empty() ? species.radius : *low);
-    largest = std::max(largest, species.radii.empty() ? species.radius : *high);
     all_random = all_random && std::holds_alternative<RandomPositions>(species.positions);
   }
   if (first == nullptr) return;
   const double fraction = scene.packing_fraction();
-  const bool equal = largest <= smallest * (1.0 + touching);
-  const double limit = (equal ? closest_packing : 1.0) * (1.0 + touching);
+  const Radii radii = radii_of(scene);
+  const bool equal = radii.equal();
+  const double limit = radii.densest() * (1.0 + touching);
   if (fraction > limit) {
     throw SceneError(first->where,
                      fmt::format("the packing fraction would be {:.6g}, but {} cannot exceed {:.4g}; take fewer or smaller "
                                  "disks, or a larger box",
                                  fraction, equal ? "that of equal disks" : "it", limit));
   }
-  const bool wide = scene.box.lengths().minCoeff() >= random_limit_diameters * 2.0 * largest;
+  const bool wide = scene.box.lengths().minCoeff() >= random_limit_diameters * 2.0 * radii.largest;
   if (all_random && equal && wide && fraction > random_limit) {
     throw SceneError(
         first->positions_where,
@@ -191,6 +170,8 @@ void check_scene(const SceneDraft& draft) {
   }
   check_density(scene);
   check_overlaps(draft);
+  check_obstacles(draft);
+  check_effects(scene);
   check_end(draft);
 }
 

@@ -26,6 +26,12 @@ bool Effects::neutral() const {
          (!shear || shear->rate == 0.0) && (!square_well || square_well->depth == 0.0);
 }
 
+bool Effects::dissipate() const {
+  const double roughness = collision.roughness.value_or(-1.0);
+  return collision.restitution.value_or(1.0) < 1.0 || (roughness > -1.0 && roughness < 1.0) ||
+         any(walls, [](const WallProperties& wall) { return wall.restitution.value_or(1.0) < 1.0; });
+}
+
 std::vector<std::string> names_of(const Effects& effects, bool walled) {
   std::vector<std::string> names = {effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular"};
   const auto put = [&](bool present, const char* name) {

@@ -21,7 +21,7 @@ char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned 
 /// A key that is right in another table is a misplaced key, not a misspelt one.
 std::string_view home_of(std::string_view key) {
   using Home = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Home, 28> homes = {{{"x", "[box]"},
+  static constexpr std::array<Home, 43> homes = {{{"x", "[box]"},
                                                   {"y", "[box]"},
                                                   {"aspect", "[box]"},
                                                   {"boundary", "[box]"},
@@ -33,8 +33,23 @@ std::string_view home_of(std::string_view key) {
                                                   {"positions", "[[disks]]"},
                                                   {"velocities", "[[disks]]"},
                                                   {"rule", "[collision]"},
-                                                  {"restitution", "[collision]"},
+                                                  {"restitution", "[collision] or a wall in [walls]"},
                                                   {"roughness", "[collision]"},
+                                                  {"elastic_below", "[collision]"},
+                                                  {"acceleration", "[gravity]"},
+                                                  {"left", "[walls]"},
+                                                  {"right", "[walls]"},
+                                                  {"bottom", "[walls]"},
+                                                  {"top", "[walls]"},
+                                                  {"load", "a wall in [walls]"},
+                                                  {"until", "[growth]"},
+                                                  {"rate", "[growth], [thermostat] or [shear]"},
+                                                  {"disk", "[[obstacles]]"},
+                                                  {"segment", "[[obstacles]]"},
+                                                  {"centre", "a disk in [[obstacles]]"},
+                                                  {"from", "a segment in [[obstacles]]"},
+                                                  {"to", "a segment in [[obstacles]]"},
+                                                  {"depth", "[square_well]"},
                                                   {"time", "[run]"},
                                                   {"collisions", "[run]"},
                                                   {"sample_every", "[run]"},
@@ -47,8 +62,8 @@ std::string_view home_of(std::string_view key) {
                                                   {"events", "[output]"},
                                                   {"unwrapped", "[output]"},
                                                   {"uniform", "velocities = { ... }"},
-                                                  {"temperature", "velocities = { ... }"},
-                                                  {"speed", "velocities = { ... }"}}};
+                                                  {"speed", "velocities = { ... }"},
+                                                  {"temperature", "velocities = { ... }, a wall in [walls] or [thermostat]"}}};
   const auto home = std::find_if(homes.begin(), homes.end(), [&](const Home& entry) { return entry.first == key; });
   return home == homes.end() ? std::string_view() : home->second;
 }
@@ -90,24 +105,26 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
 std::string table_title(std::string_view path) {
   if (path.empty()) return "the scene";
   if (path.find('.') == std::string_view::npos) return fmt::format("[{}]", path);
-  if (path.starts_with("disks.") && path.find('.', 6) == std::string_view::npos) return "[[disks]]";
+  for (const std::string_view list : {"disks", "obstacles"}) {
+    const bool entry = path.starts_with(list) && path.find('.', list.size() + 1) == std::string_view::npos;
+    if (entry) return fmt::format("[[{}]]", list);
+  }
   return std::string(path);
 }
 
 std::string unknown_key_sentence(std::string_view key, std::string_view path, std::span<const std::string_view> known) {
   const std::string problem = fmt::format("{} has no key \"{}\"", table_title(path), excerpt(key, 60));
-  if (const std::string_view home = home_of(key); !home.empty()) return fmt::format("{}; it belongs to {}", problem, home);
+  // One edit away from a key of this table is a slip of the finger, whatever the word means elsewhere: [[disk]] for [[disks]].
+  const std::string_view near = nearest_word(key, known);
+  const std::string_view home = !near.empty() && edit_distance(key, near) == 1 ? std::string_view() : home_of(key);
+  if (!home.empty()) return fmt::format("{}; it belongs to {}", problem, home);
   if (key == "title") return problem + "; it belongs to the top of the file, before the first [table]";
-  if (const std::string_view near = nearest_word(key, known); !near.empty()) {
-    return fmt::format("{}; did you mean \"{}\"?", problem, near);
-  }
+  if (!near.empty()) return fmt::format("{}; did you mean \"{}\"?", problem, near);
   return fmt::format("{}; its keys are {}", problem, fmt::join(known, ", "));
 }
 
 std::string planned_sentence(std::string_view key, std::string_view path, bool is_table) {
-  const std::string subject = !is_table            ? fmt::format("{} in {}", key, table_title(path))
-                              : key == "obstacles" ? "[[obstacles]]"
-                                                   : fmt::format("[{}]", key);
+  const std::string subject = is_table ? fmt::format("[{}]", key) : fmt::format("{} in {}", key, table_title(path));
   return fmt::format("{} is part of the scene format but this version of Carom does not simulate it yet; remove the {}", subject,
                      is_table ? "table" : "key");
 }

@@ -45,7 +45,8 @@ DisksDraft read_disks(const toml::table& node, const std::string& path, const st
     const toml::node& mass = table.require("mass", "every disk has one, such as " + example);
     disks.species.mass = read_number(mass, table.path("mass"), Range::above_zero, example);
   }
-  if (!disks.radius && !disks.radii_from_file && !disks.packing_fraction) {
+  const bool grown = std::holds_alternative<GrownPositions>(disks.species.positions);
+  if (!disks.radius && !disks.radii_from_file && !disks.packing_fraction && !grown) {
     throw SceneError(table.where(), "[[disks]] lacks radius; give one, such as radius = 0.03, or a packing_fraction");
   }
   if (!disks.velocities_from_file) read_velocities(table, disks);

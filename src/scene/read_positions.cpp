@@ -12,7 +12,8 @@
 namespace carom::detail {
 namespace {
 
-constexpr const char* kinds = R"("random", "square", "hexagonal", [[x, y], ...] or { file = "start.csv" })";
+constexpr const char* kinds =
+    R"("random", "square", "hexagonal", [[x, y], ...], { file = "start.csv" } or { packing_fraction = 0.7 })";
 
 Positions named(const toml::node& node, const std::string& name, const std::string& path) {
   if (name == "random") return RandomPositions{};
@@ -21,11 +22,9 @@ Positions named(const toml::node& node, const std::string& name, const std::stri
   refuse(node, path, kinds);
 }
 
-FilePositions from_file(const toml::table& node, const std::string& path, const std::string& directory, DisksDraft& disks) {
-  const TableReader table(node, path, {"file"}, {"packing_fraction"});
-  const std::string example = R"({ file = "start.csv" })";
-  const toml::node& name = table.require("file", "name it, such as " + example);
-  const std::string written = read_string(name, table.path("file"), example);
+FilePositions from_file(const TableReader& table, const std::string& directory, DisksDraft& disks) {
+  const toml::node& name = *table.find("file");
+  const std::string written = read_string(name, table.path("file"), R"({ file = "start.csv" })");
   // Relative paths are relative to the scene; the absolute one still resolves when the resolved scene lies elsewhere.
   const std::filesystem::path seen = (std::filesystem::path(directory) / written).lexically_normal();
   FilePositions positions{std::filesystem::absolute(seen).lexically_normal().string(), {}};
@@ -51,6 +50,19 @@ FilePositions from_file(const toml::table& node, const std::string& path, const 
   return positions;
 }
 
+Positions from_table(const toml::table& node, const std::string& path, const std::string& directory, DisksDraft& disks) {
+  const TableReader table(node, path, {"file", "packing_fraction"});
+  const std::optional<double> fraction = table.number("packing_fraction", Range::above_zero, "{ packing_fraction = 0.7 }");
+  const bool file = table.find("file") != nullptr;
+  if (file == fraction.has_value()) {
+    throw SceneError(table.where(),
+                     fmt::format("{} has {}; give exactly one, {{ file = \"start.csv\" }} or {{ packing_fraction = 0.7 }}", path,
+                                 file ? "both file and packing_fraction" : "neither of its keys"));
+  }
+  if (fraction) return GrownPositions{*fraction};
+  return from_file(table, directory, disks);
+}
+
 }  // namespace
 
 void read_positions(const TableReader& table, const std::string& directory, DisksDraft& disks) {
@@ -64,10 +76,9 @@ void read_positions(const TableReader& table, const std::string& directory, Disk
     ListedPositions positions{read_pairs(*list, path, "[0.5, 0.5]", &disks.rows)};
     listed = positions.values.size();
     disks.species.positions = std::move(positions);
-  } else if (const auto* file = node.as_table()) {
-    FilePositions positions = from_file(*file, path, directory, disks);
-    listed = positions.values.size();
-    disks.species.positions = std::move(positions);
+  } else if (const auto* table_of_one = node.as_table()) {
+    disks.species.positions = from_table(*table_of_one, path, directory, disks);
+    if (const auto* file = std::get_if<FilePositions>(&disks.species.positions)) listed = file->values.size();
   } else {
     refuse(node, path, kinds);
   }

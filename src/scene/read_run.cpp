@@ -1,4 +1,4 @@
-// The tables [collision], [run] and [output].
+// The tables [run] and [output].
 
 #include "scene/read_tables.hpp"
 
@@ -35,16 +35,6 @@ void check_sample_count(const TableReader& table, const Run& run) {
 }
 
 }  // namespace
-
-Collision read_collision(const toml::table& node) {
-  const TableReader table(node, "collision", {"rule"}, {"restitution", "roughness", "elastic_below"});
-  const std::string kinds = R"("reversal" (the whole relative velocity) or "specular" (its part along the line of centres))";
-  const toml::node& rule = table.require("rule", "choose " + kinds);
-  const auto* name = rule.as_string();
-  if (name != nullptr && name->get() == "reversal") return {CollisionRule::reversal, {}, {}, {}};
-  if (name != nullptr && name->get() == "specular") return {CollisionRule::specular, {}, {}, {}};
-  refuse(rule, "collision.rule", kinds);
-}
 
 Run read_run(const toml::table& node) {
   const TableReader table(node, "run", {"time", "collisions", "sample_every", "equilibrate", "seed", "keep_momentum"});

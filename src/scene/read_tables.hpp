@@ -5,7 +5,9 @@
 #include "scene/draft.hpp"
 #include "scene/table_reader.hpp"
 
+#include <array>
 #include <string>
+#include <vector>
 
 namespace carom::detail {
 
@@ -16,6 +18,11 @@ DisksDraft read_disks(const toml::table& table, const std::string& path, const s
 void read_positions(const TableReader& table, const std::string& directory, DisksDraft& disks);
 void read_velocities(const TableReader& table, DisksDraft& disks);
 Collision read_collision(const toml::table& table);
+/// Fills everything but the collision from the tables of the scene.
+void read_effects(const TableReader& scene, Effects& effects);
+std::array<WallProperties, 4> read_walls(const toml::table& table);
+/// `node` is the value of `obstacles`, a list of tables.
+std::vector<Obstacle> read_obstacles(const toml::node& node);
 Run read_run(const toml::table& table);
 /// `sampled` is whether [run] has sample_every: files of samples need it.
 Output read_output(const toml::table* table, bool sampled);

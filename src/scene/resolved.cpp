@@ -3,6 +3,7 @@
 #include <carom/scene.hpp>
 
 #include "scene/number_text.hpp"
+#include "scene/resolved_effects.hpp"
 
 #include <fmt/format.h>
 
@@ -113,7 +114,7 @@ std::string resolved_toml(const Scene& scene) {
       number_text(scene.box.lower[1]), number_text(scene.box.upper[1]));
   put(out, "boundary = {{ x = \"{}\", y = \"{}\" }}\n", boundary(0), boundary(1));
   for (const Species& species : scene.species) put_species(out, species);
-  put(out, "\n[collision]\nrule = \"{}\"\n", scene.effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular");
+  put(out, "{}", detail::effects_toml(scene.effects));
   put_run(out, scene.run);
   put(out, "\n[output]\ntrajectory = {}\nxyz = {}\ncsv = {}\nevents = {}\nunwrapped = {}\n", scene.output.trajectory,
       scene.output.xyz, scene.output.csv, scene.output.events, scene.output.unwrapped);

@@ -46,13 +46,14 @@ std::vector<detail::DisksDraft> read_all_disks(const detail::TableReader& scene,
   return disks;
 }
 
+const std::vector<std::string_view> tables = {"title",     "box",   "disks",      "collision",   "gravity", "walls", "growth",
+                                              "obstacles", "shear", "thermostat", "square_well", "run",     "output"};
 /// Top-level words that the format has and this version does not build.
-const std::vector<std::string_view> planned_tables = {"gravity",    "walls", "growth",      "obstacles",
-                                                      "thermostat", "shear", "square_well", "observe"};
+const std::vector<std::string_view> planned_tables = {"observe"};
 
 detail::SceneDraft read_document(const toml::table& document, const std::string& source, const std::string& directory) {
   try {
-    const detail::TableReader reader(document, "", {"title", "box", "disks", "collision", "run", "output"}, planned_tables);
+    const detail::TableReader reader(document, "", tables, planned_tables);
     detail::SceneDraft draft;
     Scene& scene = draft.scene;
     scene.title = reader.string("title", "title = \"Disks in a box\"").value_or("");
@@ -60,6 +61,7 @@ detail::SceneDraft read_document(const toml::table& document, const std::string&
     draft.disks = read_all_disks(reader, directory);
     scene.effects.collision =
         detail::read_collision(require_table(reader, "collision", "choose rule = \"reversal\" or rule = \"specular\""));
+    detail::read_effects(reader, scene.effects);
     const toml::table& run = require_table(reader, "run", "give time = 5.0, collisions = 1_000_000, or both");
     draft.run_where = detail::location_of(run);
     scene.run = detail::read_run(run);

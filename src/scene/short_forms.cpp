@@ -1,7 +1,9 @@
 // The short forms: of count, radius, box and packing fraction three give the fourth. A species' packing fraction is its
-// own share of the box, sum of pi r^2 over its disks / area, so that the shares of a mixture add up.
+// own share of the box, sum of pi r^2 over its disks / area, so that the shares of a mixture add up. That of a grown start is of
+// all disks together, and may stand for one radius or for the size of the box.
 
 #include "scene/read_tables.hpp"
+#include "scene/shares.hpp"
 
 #include <fmt/format.h>
 
@@ -13,38 +15,30 @@
 namespace carom::detail {
 namespace {
 
-/// Redundant values must agree to this relative difference: the digits that an error message shows are enough.
-constexpr double agreement = 1e-6;
-
-bool agree(double a, double b) { return std::abs(a - b) <= agreement * std::abs(b); }
-
-/// The area that a species' disks cover; empty where count or radius is still unknown.
-std::optional<double> disk_area(const DisksDraft& disks) {
-  double sum = 0.0;
-  if (disks.radii_from_file) {
-    for (const double radius : disks.species.radii) sum += radius * radius;
-  } else if (disks.count && disks.radius) {
-    sum = static_cast<double>(*disks.count) * *disks.radius * *disks.radius;
-  } else {
-    return std::nullopt;
-  }
-  return std::numbers::pi * sum;
+Share share_of(const DisksDraft& disks) {
+  return {*disks.packing_fraction, disks.path + ".packing_fraction", disks.packing_fraction_where};
 }
 
-/// The box of a scene with `aspect`: [0, Lx] x [0, Ly] with Lx / Ly = aspect, of the area that the first species with
-/// count, radius and packing fraction asks for.
-void size_box(const BoxDraft& draft, const std::vector<DisksDraft>& species, Box& box) {
+/// [0, Lx] x [0, Ly] with Lx / Ly = aspect, of which disks of area `covered` are the given share.
+void set_size(Box& box, double aspect, double covered, const Share& share) {
+  const double area = covered / share.value;
+  box.lower = {0.0, 0.0};
+  box.upper = {std::sqrt(area * aspect), std::sqrt(area / aspect)};
+  if (std::isnormal(box.area())) return;
+  throw SceneError(share.where, fmt::format("{} = {} and the disks' area {:.6g} give no box; give at least one disk of a radius "
+                                            "that double precision can square",
+                                            share.path, share.value, covered));
+}
+
+/// The box of a scene with `aspect`, of the size that the first species with count, radius and packing fraction asks for, or
+/// else the grown start of all disks.
+void size_box(const BoxDraft& draft, const std::vector<DisksDraft>& species, const std::optional<Share>& grown, Box& box) {
   for (const DisksDraft& disks : species) {
     const std::optional<double> covered = disks.packing_fraction ? disk_area(disks) : std::nullopt;
-    if (!covered) continue;
-    const double area = *covered / *disks.packing_fraction;
-    box.lower = {0.0, 0.0};
-    box.upper = {std::sqrt(area * *draft.aspect), std::sqrt(area / *draft.aspect)};
-    if (std::isnormal(box.area())) return;
-    throw SceneError(disks.packing_fraction_where,
-                     fmt::format("{}.packing_fraction = {} and the disks' area {:.6g} give no box; give at least one disk of a "
-                                 "radius that double precision can square",
-                                 disks.path, *disks.packing_fraction, *covered));
+    if (covered) return set_size(box, *draft.aspect, *covered, share_of(disks));
+  }
+  if (const std::optional<double> covered = grown ? total_area(species) : std::nullopt) {
+    return set_size(box, *draft.aspect, *covered, *grown);
   }
   throw SceneError(draft.where,
                    "box.aspect leaves the size open; give packing_fraction beside count and radius in one [[disks]] "
@@ -96,14 +90,14 @@ void complete_short_forms(SceneDraft& draft) {
   Scene& scene = draft.scene;
   scene.box = draft.box.box;
   for (const DisksDraft& disks : draft.disks) {
-    if (disks.packing_fraction.value_or(0.5) < 1.0) continue;
-    throw SceneError(
-        disks.packing_fraction_where,
-        fmt::format("{}.packing_fraction is {}; it must lie between 0 and 1, such as 0.5", disks.path, *disks.packing_fraction));
+    if (disks.packing_fraction) require_fraction(share_of(disks));
   }
-  if (draft.box.aspect) size_box(draft.box, draft.disks, scene.box);
+  const std::optional<Share> grown = grown_share(draft.disks);
+  if (draft.box.aspect) size_box(draft.box, draft.disks, grown, scene.box);
+  const double area = scene.box.area();
+  for (DisksDraft& disks : draft.disks) complete(disks, area);
+  if (grown) complete_grown(draft.disks, *grown, area);
   for (DisksDraft& disks : draft.disks) {
-    complete(disks, scene.box.area());
     disks.species.count = *disks.count;
     disks.species.radius = disks.radius.value_or(0.0);
     scene.species.push_back(std::move(disks.species));

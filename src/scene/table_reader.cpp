@@ -53,6 +53,15 @@ double read_number(const toml::node& node, const std::string& path, Range range,
   return value;
 }
 
+double read_number_between(const toml::node& node, const std::string& path, double least, double most,
+                           const std::string& example) {
+  const std::string expected = fmt::format("a number from {} to {}, such as {}", least, most, example);
+  if (!node.is_number()) refuse(node, path, expected);
+  const double value = node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
+  if (!(value >= least && value <= most)) refuse(node, path, expected);
+  return value;
+}
+
 std::int64_t read_integer(const toml::node& node, const std::string& path, const std::string& example) {
   const auto* integer = node.as_integer();
   if (integer == nullptr || integer->get() < 0) refuse(node, path, "a whole number, zero or more, such as " + example);
@@ -131,6 +140,16 @@ const toml::node& TableReader::require(std::string_view key, const std::string& 
 std::optional<double> TableReader::number(std::string_view key, Range range, const std::string& example) const {
   const toml::node* node = find(key);
   return node == nullptr ? std::nullopt : std::optional(read_number(*node, path(key), range, example));
+}
+
+double TableReader::required_number(std::string_view key, Range range, const std::string& example) const {
+  return read_number(require(key, "give it, such as " + example), path(key), range, example);
+}
+
+std::optional<double> TableReader::number_between(std::string_view key, double least, double most,
+                                                  const std::string& example) const {
+  const toml::node* node = find(key);
+  return node == nullptr ? std::nullopt : std::optional(read_number_between(*node, path(key), least, most, example));
 }
 
 std::optional<std::int64_t> TableReader::integer(std::string_view key, const std::string& example) const {

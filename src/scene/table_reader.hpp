@@ -27,6 +27,9 @@ enum class Range { any, zero_or_more, above_zero };
 
 /// `example` is what the key could look like: "time = 5.0". `path` is the key's full name: "run.time".
 double read_number(const toml::node& node, const std::string& path, Range range, const std::string& example);
+/// A number from `least` to `most`, both included.
+double read_number_between(const toml::node& node, const std::string& path, double least, double most,
+                           const std::string& example);
 std::int64_t read_integer(const toml::node& node, const std::string& path, const std::string& example);  ///< zero or more
 bool read_switch(const toml::node& node, const std::string& path, const std::string& example);
 std::string read_string(const toml::node& node, const std::string& path, const std::string& example);
@@ -54,6 +57,9 @@ class TableReader {
   [[nodiscard]] const toml::node& require(std::string_view key, const std::string& advice) const;
 
   [[nodiscard]] std::optional<double> number(std::string_view key, Range range, const std::string& example) const;
+  [[nodiscard]] double required_number(std::string_view key, Range range, const std::string& example) const;
+  [[nodiscard]] std::optional<double> number_between(std::string_view key, double least, double most,
+                                                     const std::string& example) const;
   [[nodiscard]] std::optional<std::int64_t> integer(std::string_view key, const std::string& example) const;
   [[nodiscard]] std::optional<bool> on_or_off(std::string_view key) const;
   [[nodiscard]] std::optional<std::string> string(std::string_view key, const std::string& example) const;

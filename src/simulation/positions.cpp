@@ -2,6 +2,7 @@
 
 #include "core/random.hpp"
 #include "neighbours/disks_at_rest.hpp"
+#include "scene/obstacle_overlap.hpp"
 #include "simulation/start.hpp"
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace carom {
 
@@ -43,6 +45,7 @@ class Placement {
   }
 
   Eigen::Matrix2Xd run() {
+    refuse_grown();
     for (std::size_t s = 0; s < ids_.size(); ++s) {
       if (const auto* listed = std::get_if<ListedPositions>(&scene_.species[s].positions)) place_listed(s, listed->values);
       if (const auto* file = std::get_if<FilePositions>(&scene_.species[s].positions)) place_listed(s, file->values);
@@ -54,6 +57,14 @@ class Placement {
   }
 
  private:
+  void refuse_grown() const {
+    for (const Species& species : scene_.species) {
+      if (species.count == 0 || !std::holds_alternative<GrownPositions>(species.positions)) continue;
+      throw SceneError(species.positions_where,
+                       "a start that is grown to its packing fraction cannot be placed yet; use positions = \"hexagonal\"");
+    }
+  }
+
   void put(std::int64_t i, const Eigen::Vector2d& position) {
     positions_.col(i) = position;
     in_place_.insert(static_cast<std::int32_t>(i), position);
@@ -76,10 +87,23 @@ class Placement {
     }
   }
 
+  [[nodiscard]] std::optional<ObstacleOverlap> upon_obstacle(std::int64_t i, const Eigen::Vector2d& position,
+                                                             double tolerance) const {
+    return overlapped_obstacle(scene_.box, scene_.effects.obstacles, position, disks_.radius[static_cast<std::size_t>(i)],
+                               tolerance);
+  }
+
   void place_listed(std::size_t s, const std::vector<Eigen::Vector2d>& values) {
     for (std::int64_t i = ids_[s].begin; i < ids_[s].end; ++i) {
       const Eigen::Vector2d& position = values[static_cast<std::size_t>(i - ids_[s].begin)];
       require_inside(i, position);
+      if (const auto obstacle = upon_obstacle(i, position, accepted_overlap)) {
+        throw SceneError(
+            scene_.species[s].positions_where,
+            fmt::format("disk {} overlaps obstacles.{} by {:.3g} of their contact distance {:g}; move it away or make it "
+                        "smaller",
+                        i, obstacle->obstacle, obstacle->depth / obstacle->contact, obstacle->contact));
+      }
       const auto found = in_place_.deepest(position, disks_.radius[static_cast<std::size_t>(i)], static_cast<std::int32_t>(i));
       if (found.relative_overlap > accepted_overlap) {
         throw SceneError(
@@ -119,6 +143,12 @@ class Placement {
     for (std::size_t k = 0; k < ids.size(); ++k) {
       const Eigen::Vector2d site = lattice.sites.col(static_cast<Eigen::Index>(k));
       require_inside(ids[k], site);
+      if (const auto obstacle = upon_obstacle(ids[k], site, accepted_overlap)) {
+        throw SceneError(where,
+                         fmt::format("the {} lattice puts disk {} upon obstacles.{}; give all positions one by one, or ask for "
+                                     "\"random\"",
+                                     name, ids[k], obstacle->obstacle));
+      }
       const auto found =
           in_place_.deepest(site, disks_.radius[static_cast<std::size_t>(ids[k])], static_cast<std::int32_t>(ids[k]));
       if (found.relative_overlap > accepted_overlap) {
@@ -170,7 +200,7 @@ class Placement {
         const double to = scene_.box.upper[a] - margin;
         position[a] = from < to ? boost::random::uniform_real_distribution<double>(from, to)(random) : 0.5 * (from + to);
       }
-      if (in_place_.deepest(position, radius).disk < 0) return position;
+      if (in_place_.deepest(position, radius).disk < 0 && !upon_obstacle(i, position, 0.0)) return position;
     }
     throw SceneError(
         scene_.species[species].positions_where,

@@ -26,6 +26,7 @@ set(room_of_carom/box.hpp core)
 set(room_of_carom/effects.hpp scene)
 set(room_of_carom/state.hpp core)
 set(room_of_carom/version.hpp core)
+set(room_of_carom/effects.hpp scene)
 set(room_of_carom/scene.hpp scene)
 set(room_of_carom/simulation.hpp simulation)
 

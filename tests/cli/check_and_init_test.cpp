@@ -27,6 +27,22 @@ TEST(CheckCommand, SaysWhatWillBeSimulatedAndWritesNothing) {
   EXPECT_TRUE(fs::is_empty(directory.path()));
 }
 
+TEST(CheckCommand, DescribesEachEffectAndNamesTheAbsent) {
+  const TemporaryDirectory directory;
+  const Outcome plain = run_carom(directory.path(), {"check", CAROM_SOURCE_DIR "/docs/scenes/box.toml"});
+  EXPECT_THAT(plain.out,
+              AllOf(HasSubstr("hard walls on all sides"), HasSubstr("not here    loss of energy, friction and spin, gravity, ")));
+  const Outcome outcome = run_carom(
+      directory.path(), {"check", CAROM_SOURCE_DIR "/docs/scenes/box.toml", "--set", "gravity.acceleration=[0.0, -1.0]", "--set",
+                         "walls={ left = { temperature = 2.0 }, top = { restitution = 0.8 } }", "--set",
+                         "obstacles=[{ disk = { centre = [0.0, 0.0], radius = 0.1 } }]", "--set", "collision.restitution=0.9"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("; restitution 0.9\n"), HasSubstr("  gravity     acceleration (0, -1)\n"),
+                                 HasSubstr("  wall        left: velocities drawn anew at kT = 2\n"),
+                                 HasSubstr("  wall        top: restitution 0.8\n"), HasSubstr("  obstacles   1 fixed disk\n"),
+                                 HasSubstr("  not here    friction and spin, growing disks, a thermostat, shear, attraction\n")));
+}
+
 TEST(CheckCommand, ResolvedSceneResolvesToItself) {
   const TemporaryDirectory directory;
   const Outcome once = run_carom(directory.path(), {"check", CAROM_SOURCE_DIR "/docs/scenes/box.toml", "--resolved"});

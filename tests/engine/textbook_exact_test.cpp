@@ -13,8 +13,8 @@ namespace carom::test {
 namespace {
 
 template <class Real = double, class Rule = Specular>
-TextbookEngine<Real, Rule> engine_for(const System& system) {
-  return TextbookEngine<Real, Rule>(system.box, system.disks, system.state);
+TextbookEngine<Real> engine_for(const System& system) {
+  return TextbookEngine<Real>(system.box, system.disks, system.state, rule_only<Rule>);
 }
 
 template <class Engine>

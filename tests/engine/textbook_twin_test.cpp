@@ -15,7 +15,7 @@ namespace {
 
 template <class Rule>
 void expect_same_events(const System& system, int events) {
-  TextbookEngine<double, Rule> engine(system.box, system.disks, system.state);
+  TextbookEngine<double> engine(system.box, system.disks, system.state, rule_only<Rule>);
   AllPairs<Rule> twin(system.box, system.disks, system.state);
   engine.record_events(true);
   std::vector<Event> log;

@@ -115,7 +115,7 @@ TEST(CellGrid, ADiskCrossesEveryCellOnceOnItsWayRound) {
   grid.clear();
   grid.insert(0, {0.5, 0.5});
   for (int k = 0; k < 1000; ++k) {
-    const CellCrossing<double> crossing = grid.next_crossing(0, {0.5, 0.5}, {-1.0, 0.0}, 0.0);
+    const CellCrossing<double> crossing = grid.next_crossing(0, {0.5, 0.5}, {-1.0, 0.0}, {0.0, 0.0}, 0.0);
     ASSERT_EQ(crossing.time, 0.5 + k);
     ASSERT_EQ(crossing.axis, 0);
     ASSERT_EQ(crossing.step, -1);

@@ -29,5 +29,18 @@ TEST(KnownKeys, NearestIsEmptyWhereNothingIsNear) {
   EXPECT_EQ(nearest_word(std::string(1'000'000, 't'), words), "");
 }
 
+TEST(KnownKeys, ASlipIsNotTakenForAKeyOfAnotherTable) {
+  constexpr std::array<std::string_view, 2> tables = {"disks", "obstacles"};
+  EXPECT_EQ(unknown_key_sentence("disk", "", tables), "the scene has no key \"disk\"; did you mean \"disks\"?");
+  EXPECT_EQ(unknown_key_sentence("disk", "box", {}), "[box] has no key \"disk\"; it belongs to [[obstacles]]");
+}
+
+TEST(KnownKeys, TablesAreNamedAsTheyAreWritten) {
+  EXPECT_EQ(table_title("walls"), "[walls]");
+  EXPECT_EQ(table_title("obstacles.3"), "[[obstacles]]");
+  EXPECT_EQ(table_title("obstacles.3.disk"), "obstacles.3.disk");
+  EXPECT_EQ(table_title("walls.left"), "walls.left");
+}
+
 }  // namespace
 }  // namespace carom::detail

@@ -73,10 +73,20 @@ TEST(Overrides, UnknownKeysNameTheNearest) {
 }
 
 TEST(Overrides, PlannedTablesAreRefusedHereToo) {
-  EXPECT_EQ(refusal("gravity.acceleration=[0, -1]"),
-            "--set gravity.acceleration=[0, -1]: [gravity] is part of the scene format but this version of Carom does not "
-            "simulate it yet; "
+  EXPECT_EQ(refusal("observe.msd=true"),
+            "--set observe.msd=true: [observe] is part of the scene format but this version of Carom does not simulate it yet; "
             "remove the table");
+}
+
+TEST(Overrides, EffectsMayBeAddedAndAreCheckedHereToo) {
+  const Scene scene = parse_scene(std::string(testing_support::small_scene), "s",
+                                  {"gravity.acceleration=[0, -1]", "obstacles=[{ disk = { centre = [5, 4], radius = 1 } }]"});
+  EXPECT_EQ(scene.effects.gravity->acceleration.y(), -1.0);
+  EXPECT_EQ(scene.effects.obstacles.size(), 1U);
+  EXPECT_EQ(
+      refusal("shear.rate=0.1"),
+      "--set shear.rate=0.1: [shear] moves periodic images past each other, but x has walls; take boundary = \"periodic\", or "
+      "remove [shear]");
 }
 
 TEST(Overrides, MalformedOnesSayHowTheyShouldLook) {

@@ -90,16 +90,20 @@ std::vector<std::string> scenes_of_the_page() {
 
 TEST(FormatPage, ItsScenesAreValid) {
   const std::vector<std::string> blocks = scenes_of_the_page();
-  ASSERT_EQ(blocks.size(), 2U);
+  ASSERT_EQ(blocks.size(), 3U);
   EXPECT_EQ(parse_scene(blocks[0]).disk_count(), 64);
   // The second shows the short form of box and disks alone; its comment gives the length that follows.
   const Scene scene = parse_scene(blocks[1] + "[collision]\nrule = \"specular\"\n[run]\ntime = 1.0\n");
   EXPECT_NEAR(scene.box.upper[0], 25.89, 0.005);
+  // The third adds effects to the first.
+  EXPECT_THAT(
+      names_of(parse_scene(blocks[0] + blocks[2]).effects, true),
+      testing::ElementsAre("reversal", "walls", "gravity", "inelastic_walls", "thermal_walls", "obstacles", "thermostat"));
 }
 
 TEST(FormatPage, NamesEveryKeyOfAResolvedScene) {
   const std::string page = text_of(scenes.parent_path() / "scene-format.md");
-  std::istringstream resolved(resolved_toml(parse_scene(scenes_of_the_page()[0])));
+  std::istringstream resolved(resolved_toml(parse_scene(scenes_of_the_page()[0] + scenes_of_the_page()[2])));
   for (std::string line; std::getline(resolved, line);) {
     const std::size_t equals = line.find(" = ");
     if (equals == std::string::npos) continue;

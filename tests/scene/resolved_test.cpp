@@ -5,18 +5,22 @@
 #include <rapidcheck/gtest.h>
 
 #include "scene/number_text.hpp"
+#include "scene/random_numbers.hpp"
 #include "scene/scene_equality.hpp"
 #include "scene/scene_texts.hpp"
 
-#include <cmath>
 #include <limits>
 
 namespace carom {
 namespace {
 
 using detail::number_text;
+using testing_support::any_double;
 using testing_support::changed;
 using testing_support::first_difference;
+using testing_support::pair_text;
+using testing_support::positive_double;
+using testing_support::unit_interval;
 
 TEST(Resolved, PrintsEveryDefault) {
   EXPECT_EQ(resolved_toml(parse_scene(std::string(testing_support::small_scene))), R"(title = ""
@@ -79,20 +83,6 @@ TEST(Resolved, OverridesAreInIt) {
   const Scene scene = parse_scene(std::string(testing_support::small_scene), "s", {"run.seed=7"});
   EXPECT_THAT(resolved_toml(scene), testing::HasSubstr("seed = 7\n"));
 }
-
-/// Any finite double, the extreme ones as often as the usual.
-double any_double() {
-  const auto mantissa = *rc::gen::arbitrary<std::int64_t>();
-  const int exponent = *rc::gen::element(0, 0, -60, -30, 10, 900, -1000, -1130);
-  return *rc::gen::element(1.0, -0.0, std::ldexp(static_cast<double>(mantissa), exponent));
-}
-double positive_double() {
-  const double value = std::abs(any_double());
-  return value > 0.0 ? value : 0.5;
-}
-double unit_interval() { return std::ldexp(static_cast<double>(*rc::gen::inRange<std::int64_t>(0, std::int64_t{1} << 53)), -53); }
-
-std::string pair_text(double a, double b) { return "[" + number_text(a) + ", " + number_text(b) + "]"; }
 
 /// Valid scenes in text: every spelling, with numbers that need all their digits.
 class SceneMaker {

@@ -5,16 +5,65 @@
 
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace carom::testing_support {
 
+inline bool same_bits(double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); }
+inline bool same_bits(const std::optional<double>& x, const std::optional<double>& y) {
+  return x.has_value() == y.has_value() && (!x || same_bits(*x, *y));
+}
+inline bool same_bits(const Eigen::Vector2d& x, const Eigen::Vector2d& y) {
+  return same_bits(x[0], y[0]) && same_bits(x[1], y[1]);
+}
+
+inline bool same_shape(const Obstacle& a, const Obstacle& b) {
+  if (a.shape.index() != b.shape.index()) return false;
+  if (const auto* disk = std::get_if<DiskObstacle>(&a.shape)) {
+    const auto& other = std::get<DiskObstacle>(b.shape);
+    return same_bits(disk->centre, other.centre) && same_bits(disk->radius, other.radius);
+  }
+  const auto &segment = std::get<SegmentObstacle>(a.shape), &other = std::get<SegmentObstacle>(b.shape);
+  return same_bits(segment.from, other.from) && same_bits(segment.to, other.to);
+}
+
+/// The name of the first effect in which two scenes differ; empty where they call for the same.
+inline std::string first_difference(const Effects& a, const Effects& b) {
+  const auto differ = [](const auto& x, const auto& y, const auto&... members) {
+    if (x.has_value() != y.has_value()) return true;
+    return x && !(same_bits((*x).*members, (*y).*members) && ...);
+  };
+  const Collision &c = a.collision, &d = b.collision;
+  if (c.rule != d.rule) return "collision.rule";
+  if (!same_bits(c.restitution, d.restitution)) return "collision.restitution";
+  if (!same_bits(c.roughness, d.roughness)) return "collision.roughness";
+  if (!same_bits(c.elastic_below, d.elastic_below)) return "collision.elastic_below";
+  if (differ(a.gravity, b.gravity, &Gravity::acceleration)) return "gravity";
+  for (std::size_t w = 0; w < a.walls.size(); ++w) {
+    const WallProperties &x = a.walls[w], &y = b.walls[w];
+    if (!same_bits(x.restitution, y.restitution) || !same_bits(x.temperature, y.temperature) ||
+        !same_bits(x.velocity, y.velocity) || !same_bits(x.mass, y.mass) || !same_bits(x.load, y.load)) {
+      return "walls." + std::to_string(w);
+    }
+  }
+  if (a.obstacles.size() != b.obstacles.size()) return "number of obstacles";
+  for (std::size_t o = 0; o < a.obstacles.size(); ++o) {
+    if (!same_shape(a.obstacles[o], b.obstacles[o])) return "obstacles." + std::to_string(o);
+  }
+  if (differ(a.growth, b.growth, &Growth::rate, &Growth::packing_fraction, &Growth::reduced_pressure)) return "growth";
+  if (differ(a.thermostat, b.thermostat, &Thermostat::temperature, &Thermostat::rate)) return "thermostat";
+  if (differ(a.shear, b.shear, &Shear::rate)) return "shear";
+  if (differ(a.square_well, b.square_well, &SquareWell::width, &SquareWell::depth)) return "square_well";
+  return {};
+}
+
 /// The name of the first field in which the scenes differ; empty where they are the same.
 inline std::string first_difference(const Scene& a, const Scene& b) {
-  const auto same = [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); };
-  const auto same_maybe = [&](const auto& x, const auto& y) { return x.has_value() == y.has_value() && (!x || same(*x, *y)); };
-  const auto same_pair = [&](const Eigen::Vector2d& x, const Eigen::Vector2d& y) { return same(x[0], y[0]) && same(x[1], y[1]); };
+  const auto same = [](double x, double y) { return same_bits(x, y); };
+  const auto same_maybe = [](const std::optional<double>& x, const std::optional<double>& y) { return same_bits(x, y); };
+  const auto same_pair = [](const Eigen::Vector2d& x, const Eigen::Vector2d& y) { return same_bits(x, y); };
   const auto same_list = [&](const auto& x, const auto& y, const auto& same_entry) {
     if (x.size() != y.size()) return false;
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -25,7 +74,7 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
   if (a.title != b.title) return "title";
   if (!same_pair(a.box.lower, b.box.lower) || !same_pair(a.box.upper, b.box.upper)) return "box limits";
   if (a.box.boundary != b.box.boundary) return "box.boundary";
-  if (a.effects.collision.rule != b.effects.collision.rule) return "collision.rule";
+  if (const std::string difference = first_difference(a.effects, b.effects); !difference.empty()) return difference;
   if (!same_maybe(a.run.time, b.run.time)) return "run.time";
   if (a.run.collisions != b.run.collisions) return "run.collisions";
   if (!same_maybe(a.run.sample_every, b.run.sample_every)) return "run.sample_every";
@@ -53,6 +102,9 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
     if (const auto* file = std::get_if<FilePositions>(&x.positions)) {
       const auto& other = std::get<FilePositions>(y.positions);
       if (file->path != other.path || !same_list(file->values, other.values, same_pair)) return at + " start file";
+    }
+    if (const auto* grown = std::get_if<GrownPositions>(&x.positions)) {
+      if (!same(grown->packing_fraction, std::get<GrownPositions>(y.positions).packing_fraction)) return at + " packing fraction";
     }
     if (x.velocities.index() != y.velocities.index()) return at + " kind of velocities";
     const bool same_velocities = std::visit(

@@ -85,5 +85,40 @@ TEST(ShortForms, FileRadiiSizeTheBox) {
   EXPECT_NEAR(scene.box.area(), 1.25 * pi / 0.1, 1e-12);
 }
 
+TEST(ShortForms, AGrownStartGivesTheRadius) {
+  const Scene scene = parse({{"radius = 0.25\n", ""}, {"\"random\"", "{ packing_fraction = 0.8 }"}});
+  EXPECT_EQ(std::get<GrownPositions>(scene.species[0].positions).packing_fraction, 0.8);
+  EXPECT_NEAR(scene.packing_fraction(), 0.8, 1e-15);
+}
+
+TEST(ShortForms, AGrownStartSizesTheBox) {
+  const Scene scene = parse({{limits, "aspect = 2.0"}, {"\"random\"", "{ packing_fraction = 0.8 }"}});
+  EXPECT_NEAR(scene.box.upper[0] / scene.box.upper[1], 2.0, 1e-15);
+  EXPECT_NEAR(scene.packing_fraction(), 0.8, 1e-15);
+}
+
+TEST(ShortForms, AGrownMixtureSharesOnePackingFraction) {
+  const std::string big =
+      "[[disks]]\ncount = 4\nradius = 1.0\nmass = 4.0\npositions = { packing_fraction = 0.8 }\nvelocities = \"rest\"\n";
+  const Scene sized = parse_scene(changed({{limits, "aspect = 1.0"}, {"\"random\"", "{ packing_fraction = 0.8 }"}}) + big);
+  EXPECT_NEAR(sized.packing_fraction(), 0.8, 1e-15);
+  // The four large disks cover 4 pi of 80; the ten others have what is left of 0.8.
+  const Scene filled = parse_scene(changed({{"radius = 0.25\n", ""}, {"\"random\"", "{ packing_fraction = 0.8 }"}}) + big);
+  EXPECT_NEAR(filled.species[0].radius, std::sqrt((0.8 * 80.0 - 4.0 * pi) / (10.0 * pi)), 1e-14);
+  EXPECT_EQ(filled.species[1].radius, 1.0);
+}
+
+TEST(ShortForms, AGrownMixtureMayGiveTheShareOfEachSpecies) {
+  const Scene scene =
+      parse_scene(changed({{"radius = 0.25", "packing_fraction = 0.5"}, {"\"random\"", "{ packing_fraction = 0.8 }"}}) +
+                  "[[disks]]\ncount = 4\nmass = 4.0\npositions = { packing_fraction = 0.8 }\nvelocities = \"rest\"\n");
+  EXPECT_NEAR(scene.species[1].radius, std::sqrt(0.3 * 80.0 / (4.0 * pi)), 1e-14);
+}
+
+TEST(ShortForms, AGrownStartMayRepeatWhatIsKnown) {
+  // 10 pi / 16 / 80 = 0.0245436926
+  EXPECT_EQ(parse({{"\"random\"", "{ packing_fraction = 0.02454369 }"}}).species[0].radius, 0.25);
+}
+
 }  // namespace
 }  // namespace carom

@@ -118,7 +118,7 @@ class FreeFlight {
 
   [[nodiscard]] Disk& disk(std::int32_t i) { return disks_[static_cast<std::size_t>(i)]; }
 
-  void plan(std::int32_t i) { disk(i).crossing = grid_.next_crossing(i, disk(i).r, disk(i).v, disk(i).t); }
+  void plan(std::int32_t i) { disk(i).crossing = grid_.next_crossing(i, disk(i).r, disk(i).v, Vec2<double>::Zero(), disk(i).t); }
 
   [[nodiscard]] Next next() const {
     Next first{infinity<double>, 0, -1};

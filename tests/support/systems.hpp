@@ -18,6 +18,11 @@ namespace carom::test {
 
 inline constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
 
+/// No effect but the collision rule.
+template <class Rule>
+inline const Effects rule_only{
+    {Rule::exchanges_velocities ? CollisionRule::reversal : CollisionRule::specular, {}, {}, {}}, {}, {}, {}, {}, {}, {}, {}};
+
 struct System {
   Box box;
   Disks disks;

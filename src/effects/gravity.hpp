@@ -1,0 +1,31 @@
+#pragma once
+// How disks move between events: uniformly accelerated, all alike. Two disks never notice it from each other, since it cancels in
+// their relative motion; only walls, obstacles and the edges of cells do.
+
+#include "core/vec2.hpp"
+
+#include <carom/effects.hpp>
+
+#include <optional>
+
+namespace carom {
+
+template <class Real>
+struct Falling {
+  Vec2<Real> g = Vec2<Real>::Zero();
+
+  Falling() = default;
+  explicit Falling(const std::optional<Gravity>& gravity) {
+    if (gravity) g = gravity->acceleration.cast<Real>();
+  }
+
+  [[nodiscard]] bool present() const { return g[0] != 0 || g[1] != 0; }
+
+  /// From r and v, after a time t.
+  [[nodiscard]] Vec2<Real> position(const Vec2<Real>& r, const Vec2<Real>& v, Real t) const {
+    return (r + v * t) + (g * t) * (t / 2);  // t * t may overflow where g is zero
+  }
+  [[nodiscard]] Vec2<Real> velocity(const Vec2<Real>& v, Real t) const { return v + g * t; }
+};
+
+}  // namespace carom

@@ -1,0 +1,41 @@
+#pragma once
+// Velocities in equilibrium at a temperature, drawn from a stream of their own: the n-th draw of a use is always the same.
+
+#include "core/random.hpp"
+#include "core/vec2.hpp"
+
+#include <boost/random/normal_distribution.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+namespace carom {
+
+/// Three independent normal deviates of variance 1.
+struct Normals {
+  double a, b, c;
+};
+
+inline Normals draw_normals(RandomStream& random) {
+  boost::random::normal_distribution<double> normal;
+  const double a = normal(random);
+  const double b = normal(random);
+  const double c = normal(random);
+  return {a, b, c};
+}
+
+/// The velocity of a disk that leaves a diffuse wall at temperature kT: the speed along the normal has the density
+/// (m s / kT) exp(-m s^2 / 2 kT) of those who cross a plane, which is that of the length of two normal deviates; half a Gaussian,
+/// the density of those who stand before it, would leave the gas too cold. The velocity along the wall is normal.
+struct DiffuseVelocity {
+  double inward;  ///< > 0
+  double along;
+};
+
+inline DiffuseVelocity diffuse_velocity(RandomStream& random, double temperature, double mass) {
+  const Normals normals = draw_normals(random);
+  const double scale = std::sqrt(temperature / mass);
+  return {scale * std::sqrt(normals.a * normals.a + normals.b * normals.b), scale * normals.c};
+}
+
+}  // namespace carom

@@ -1,0 +1,177 @@
+#pragma once
+// The four sides of the box, each by itself: hard, inelastic, diffuse at a temperature, moving at constant speed, or a free
+// piston under a load. Where nothing is asked of a side, the component of the velocity across it is reversed when the disk's edge
+// reaches it.
+//
+// A side is like a disk of infinite width: a displacement, a velocity and an acceleration since a time of its own. Speeds
+// here are outward ones, positive towards the left at the left wall, so that all four sides are treated alike.
+
+#include "core/domain.hpp"
+#include "core/fall_time.hpp"
+#include "core/random.hpp"
+#include "core/sides.hpp"
+#include "effects/maxwell.hpp"
+#include "effects/rebound.hpp"
+
+#include <carom/effects.hpp>
+#include <carom/state.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace carom {
+
+template <class Real>
+class Walls {
+ public:
+  Walls(const Box& box, const std::array<WallProperties, 4>& properties, std::uint64_t seed) : box_(box), seed_(seed) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto wall = static_cast<Wall>(-1 - static_cast<int>(k));
+      const WallProperties& asked = properties[k];
+      Side& side = sides_[k];
+      side.restitution = Real(asked.restitution.value_or(1.0));
+      side.temperature = asked.temperature.value_or(0.0);
+      side.velocity = Real(asked.velocity.value_or(0.0)) * (is_upper(wall) ? 1 : -1);
+      side.mass = Real(asked.mass.value_or(0.0));
+      if (asked.mass) side.acceleration = -Real(asked.load.value_or(0.0) * box.lengths()[1 - axis_of(wall)] / *asked.mass);
+    }
+  }
+
+  /// From when on the motion of the side is known: contact is predicted from there, or from where the disk's own flight is known.
+  [[nodiscard]] Real since(Wall wall) const { return side(wall).t; }
+
+  /// How long it takes a disk to reach the side, from time t >= since(wall). `room`: from the disk's edge to where the side of
+  /// the box was at the start, `outward` and `acceleration`: the disk's, `growth`: of its radius, all at t. Infinite for never.
+  [[nodiscard]] Real contact(Wall wall, Real room, Real outward, Real acceleration, Real growth, Real t) const {
+    const Side& s = side(wall);
+    return fall_time<Real>(room + s.displacement_at(t), (s.velocity_at(t) - outward) - growth, s.acceleration - acceleration);
+  }
+
+  /// What a contact did.
+  struct Hit {
+    Real impulse = 0;  ///< that the side took, outward
+    Real energy = 0;   ///< that the side took from the disk
+  };
+
+  /// The disk hits the side at time t: changes its velocity, and a piston's. `g` is the acceleration of the disk, `elastic`
+  /// whether it may lose nothing (TC model).
+  Hit meet(Wall wall, Vec2<Real>& v, const Vec2<Real>& g, Real mass, Real radius, Real growth, bool elastic, Real t) {
+    Side& s = side(wall);
+    const int axis = axis_of(wall);
+    const Real sign = is_upper(wall) ? 1 : -1;
+    const Real outward = sign * v[axis];
+    const Real surface = s.velocity_at(t);
+    const Real before = v.squaredNorm();
+    using std::max;
+    const Real closing = max<Real>((outward + growth) - surface, 0);
+    Real after;
+    if (s.temperature > 0) {
+      RandomStream random(seed_, Stream::thermal_walls, 4 * draws_++ + index_of(wall));
+      const DiffuseVelocity drawn = diffuse_velocity(random, s.temperature, static_cast<double>(mass));
+      after = (surface - growth) - Real(drawn.inward);
+      v[1 - axis] = Real(drawn.along);
+    } else {
+      const Real parting = rebound<Real>(closing, elastic ? Real(1) : s.restitution, sign * g[axis] - s.acceleration, radius);
+      after = (surface - growth) - parting;
+      if (s.mass > 0) {
+        // Shares of the change of the relative velocity, by mass.
+        const Real change = closing + parting;
+        after = outward - change * (s.mass / (mass + s.mass));
+        s.displacement = s.displacement_at(t);
+        s.velocity = surface + change * (mass / (mass + s.mass));
+        s.t = t;
+      }
+    }
+    v[axis] = sign * after;
+    return {mass * (outward - after), mass * (before - v.squaredNorm()) / 2};
+  }
+
+  /// Whether the side moves by itself after a contact, so that all predictions with it are void.
+  [[nodiscard]] bool is_piston(Wall wall) const { return side(wall).mass > 0; }
+  [[nodiscard]] bool any_moves() const {
+    return std::any_of(sides_.begin(), sides_.end(), [](const Side& s) { return s.velocity != 0 || s.mass > 0; });
+  }
+  /// The fastest that any of the sides moves at time t.
+  [[nodiscard]] Real fastest(Real t) const {
+    using std::abs;
+    Real most = 0;
+    for (const Side& s : sides_) most = std::max<Real>(most, abs(s.velocity_at(t)));
+    return most;
+  }
+
+  /// The strongest acceleration of any of the sides.
+  [[nodiscard]] Real strongest() const {
+    using std::abs;
+    Real most = 0;
+    for (const Side& s : sides_) most = std::max<Real>(most, abs(s.acceleration));
+    return most;
+  }
+
+  /// How far a side has moved outward at time t.
+  [[nodiscard]] Real displacement(Wall wall, Real t) const { return side(wall).displacement_at(t); }
+
+  /// The clock's zero moves to `now`.
+  void rebase(Real now) {
+    for (Side& s : sides_) {
+      const Real displacement = s.displacement_at(now), velocity = s.velocity_at(now);
+      s.displacement = displacement;
+      s.velocity = velocity;
+      s.t = 0;
+    }
+  }
+
+  /// Continues from a state, at time 0.
+  void start_from(const std::vector<WallState>& walls) {
+    for (std::size_t k = 0; k < std::min<std::size_t>(walls.size(), 4); ++k) {
+      const auto wall = static_cast<Wall>(-1 - static_cast<int>(k));
+      const double sign = is_upper(wall) ? 1.0 : -1.0;
+      const double edge = is_upper(wall) ? box_.upper[axis_of(wall)] : box_.lower[axis_of(wall)];
+      sides_[k].displacement = Real(sign * (walls[k].position - edge));
+      sides_[k].velocity = Real(sign * walls[k].velocity);
+    }
+  }
+
+  /// Left, right, bottom, top at time t; empty where none moves.
+  [[nodiscard]] std::vector<WallState> states(Real t) const {
+    std::vector<WallState> walls;
+    if (!any_moves()) return walls;
+    for (const Wall wall : {wall_left, wall_right, wall_bottom, wall_top}) {
+      const double sign = is_upper(wall) ? 1.0 : -1.0;
+      const double edge = is_upper(wall) ? box_.upper[axis_of(wall)] : box_.lower[axis_of(wall)];
+      walls.push_back({edge + sign * static_cast<double>(side(wall).displacement_at(t)),
+                       sign * static_cast<double>(side(wall).velocity_at(t)) + 0.0});
+    }
+    return walls;
+  }
+
+ private:
+  struct Side {
+    Real displacement = 0;  ///< outward, at time t
+    Real velocity = 0;      ///< outward, at time t
+    Real acceleration = 0;  ///< outward: a load's is negative
+    Real t = 0;
+    Real restitution = 1;
+    Real mass = 0;             ///< of a piston; 0: no contact moves the side
+    double temperature = 0.0;  ///< 0: not diffuse
+
+    [[nodiscard]] Real displacement_at(Real when) const {
+      const Real dt = when - t;
+      return displacement + (velocity * dt + (acceleration * dt) * (dt / 2));
+    }
+    [[nodiscard]] Real velocity_at(Real when) const { return velocity + acceleration * (when - t); }
+  };
+
+  [[nodiscard]] Side& side(Wall wall) { return sides_[index_of(wall)]; }
+  [[nodiscard]] const Side& side(Wall wall) const { return sides_[index_of(wall)]; }
+
+  Box box_;
+  std::array<Side, 4> sides_;
+  std::uint64_t seed_;
+  std::uint64_t draws_ = 0;  ///< from diffuse walls so far
+};
+
+}  // namespace carom

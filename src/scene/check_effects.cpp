@@ -1,0 +1,70 @@
+// Which effects cannot act together, and which need a box of another kind.
+
+#include "scene/checks.hpp"
+
+#include <fmt/format.h>
+
+namespace carom::detail {
+namespace {
+
+[[noreturn]] void refuse_together(const Location& where, const char* one, const char* other) {
+  throw SceneError(where, fmt::format("{} and {} cannot be combined; remove one of the two", one, other));
+}
+
+void check_gravity(const Scene& scene) {
+  if (!scene.effects.gravity) return;
+  const Gravity& gravity = *scene.effects.gravity;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!scene.box.periodic(axis) || gravity.acceleration[axis] == 0.0) continue;
+    throw SceneError(
+        gravity.where,
+        fmt::format("gravity.acceleration is {} in {}, where the box is periodic, so the disks would fall for ever; make "
+                    "it 0 there, or give that axis walls",
+                    gravity.acceleration[axis], axis_names[axis]));
+  }
+}
+
+void check_shear(const Scene& scene) {
+  const Effects& effects = scene.effects;
+  if (!effects.shear) return;
+  const Location& where = effects.shear->where;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (scene.box.periodic(axis)) continue;
+    throw SceneError(where, fmt::format("[shear] moves periodic images past each other, but {} has walls; take boundary = "
+                                        "\"periodic\", or remove [shear]",
+                                        axis_names[axis]));
+  }
+  if (effects.gravity) refuse_together(where, "[shear]", "[gravity]");
+  if (!effects.obstacles.empty()) refuse_together(where, "[shear]", "[[obstacles]]");
+  if (effects.growth) refuse_together(where, "[shear]", "[growth]");
+  if (effects.square_well) refuse_together(where, "[shear]", "[square_well]");
+}
+
+/// Two disks must not feel each other across the box and through its edge at once.
+void check_square_well(const Scene& scene) {
+  if (!scene.effects.square_well) return;
+  const SquareWell& well = *scene.effects.square_well;
+  if (scene.effects.growth) refuse_together(well.where, "[square_well]", "[growth]");
+  const double reach = well.width * 2.0 * radii_of(scene).largest;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double half = 0.5 * scene.box.lengths()[axis];
+    if (!scene.box.periodic(axis) || reach < half) continue;
+    throw SceneError(
+        well.where,
+        fmt::format("square_well.width = {} reaches {:.6g} from disk to disk, but on a periodic axis it must stay below "
+                    "half of the length, {:.6g} in {}; make it smaller, or the box larger",
+                    well.width, reach, half, axis_names[axis]));
+  }
+}
+
+}  // namespace
+
+void check_effects(const Scene& scene) {
+  check_gravity(scene);
+  check_shear(scene);
+  check_square_well(scene);
+  check_walls(scene);
+  check_growth(scene);
+}
+
+}  // namespace carom::detail

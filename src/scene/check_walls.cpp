@@ -1,0 +1,88 @@
+// Walls with properties stand where the box has walls, and moving ones leave room for the disks and stop short of obstacles.
+
+#include "scene/checks.hpp"
+#include "scene/wall_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace carom::detail {
+namespace {
+
+double velocity_of(const WallProperties& wall) { return wall.velocity.value_or(0.0); }
+
+/// How long walls move for certain; a time to equilibrate comes before that of the run.
+double duration(const Run& run) {
+  const double before = run.equilibrate ? run.equilibrate->time.value_or(0.0) : 0.0;
+  return before + run.time.value_or(0.0);
+}
+
+/// Of the two walls across an axis, the one to blame for their coming together.
+std::size_t faster_inward(const Effects& effects, std::size_t lower) {
+  return velocity_of(effects.walls[lower]) >= -velocity_of(effects.walls[lower + 1]) ? lower : lower + 1;
+}
+
+void check_gap(const Scene& scene, int axis) {
+  const std::size_t lower = 2 * static_cast<std::size_t>(axis);
+  const double closing = velocity_of(scene.effects.walls[lower]) - velocity_of(scene.effects.walls[lower + 1]);
+  if (!(closing > 0.0)) return;
+  const double time = duration(scene.run);
+  const double diameter = 2.0 * radii_of(scene).largest;
+  const double gap = scene.box.lengths()[axis] - closing * time;
+  if (gap > 0.0 && gap >= diameter) return;
+  const std::size_t wall = faster_inward(scene.effects, lower);
+  const double room = (scene.box.lengths()[axis] - diameter) / closing;
+  throw SceneError(
+      scene.effects.walls[wall].where,
+      fmt::format("by time {:.6g} the moving walls would leave {:.6g} between {} and {}, but the largest disk is {:.6g} "
+                  "across; make walls.{} slower, or end before time {:.6g}",
+                  time, gap, wall_names[lower], wall_names[lower + 1], diameter, wall_names[wall], room));
+}
+
+/// The lower and upper end of an obstacle along an axis.
+Eigen::Vector2d extent(const Obstacle& obstacle, int axis) {
+  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
+    return {disk->centre[axis] - disk->radius, disk->centre[axis] + disk->radius};
+  }
+  const auto& segment = std::get<SegmentObstacle>(obstacle.shape);
+  return {std::min(segment.from[axis], segment.to[axis]), std::max(segment.from[axis], segment.to[axis])};
+}
+
+void check_sweep(const Scene& scene, std::size_t w) {
+  const WallProperties& wall = scene.effects.walls[w];
+  const int axis = axis_of_wall(w);
+  const bool upper = w % 2 == 1;
+  const double inward = upper ? -velocity_of(wall) : velocity_of(wall);
+  if (!(inward > 0.0)) return;
+  const double travel = inward * duration(scene.run);
+  for (std::size_t o = 0; o < scene.effects.obstacles.size(); ++o) {
+    const Eigen::Vector2d ends = extent(scene.effects.obstacles[o], axis);
+    const double room = upper ? scene.box.upper[axis] - ends[1] : ends[0] - scene.box.lower[axis];
+    if (travel <= room) continue;
+    throw SceneError(wall.where,
+                     fmt::format("walls.{} would run into obstacles.{} at time {:.6g}; make it slower, or end before that",
+                                 wall_names[w], o, room / inward));
+  }
+}
+
+}  // namespace
+
+void check_walls(const Scene& scene) {
+  for (std::size_t w = 0; w < scene.effects.walls.size(); ++w) {
+    const WallProperties& wall = scene.effects.walls[w];
+    const int axis = axis_of_wall(w);
+    if (!wall.present()) continue;
+    if (scene.box.periodic(axis)) {
+      throw SceneError(wall.where,
+                       fmt::format("walls.{} is given, but the box is periodic in {} and has no wall there; remove it, or "
+                                   "take boundary.{} = \"walls\"",
+                                   wall_names[w], axis_names[axis], axis_names[axis]));
+    }
+    check_sweep(scene, w);
+  }
+  check_gap(scene, 0);
+  check_gap(scene, 1);
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,31 @@
+// What the checks of a scene ask of it.
+
+#include "scene/checks.hpp"
+
+#include <algorithm>
+
+namespace carom::detail {
+
+Location place(const DisksDraft& disks, std::size_t i, const Location& otherwise) {
+  return i < disks.rows.places.size() ? disks.rows.of(i) : otherwise;
+}
+
+std::span<const Eigen::Vector2d> given_positions(const Species& species) {
+  if (const auto* listed = std::get_if<ListedPositions>(&species.positions)) return listed->values;
+  if (const auto* file = std::get_if<FilePositions>(&species.positions)) return file->values;
+  return {};
+}
+
+Radii radii_of(const Scene& scene) {
+  Radii radii;
+  for (const Species& species : scene.species) {
+    if (species.count == 0) continue;
+    const auto [low, high] = std::minmax_element(species.radii.begin(), species.radii.end());
+    const double smallest = species.radii.empty() ? species.radius : *low;
+    radii.smallest = radii.smallest == 0.0 ? smallest : std::min(radii.smallest, smallest);
+    radii.largest = std::max(radii.largest, species.radii.empty() ? species.radius : *high);
+  }
+  return radii;
+}
+
+}  // namespace carom::detail

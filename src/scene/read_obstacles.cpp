@@ -1,0 +1,58 @@
+// The [[obstacles]] tables: fixed disks and fixed segments.
+
+#include "scene/read_tables.hpp"
+
+#include <fmt/format.h>
+
+namespace carom::detail {
+namespace {
+
+constexpr const char* disk_example = "{ centre = [0.0, 0.0], radius = 0.3 }";
+constexpr const char* segment_example = "{ from = [0.0, -1.0], to = [0.0, -0.1] }";
+
+Eigen::Vector2d read_point(const TableReader& table, const char* key, const char* example) {
+  return read_pair(table.require(key, fmt::format("give it, such as {}", example)), table.path(key), example);
+}
+
+DiskObstacle read_disk(const toml::table& node, const std::string& path) {
+  const TableReader table(node, path, {"centre", "radius"});
+  return {read_point(table, "centre", disk_example), table.required_number("radius", Range::above_zero, disk_example)};
+}
+
+SegmentObstacle read_segment(const toml::table& node, const std::string& path) {
+  const TableReader table(node, path, {"from", "to"});
+  const SegmentObstacle segment = {read_point(table, "from", segment_example), read_point(table, "to", segment_example)};
+  if (segment.from != segment.to) return segment;
+  throw SceneError(table.where(), fmt::format("{} runs from ({}, {}) to the same place; give it two different ends, such as {}",
+                                              path, segment.from.x(), segment.from.y(), segment_example));
+}
+
+Obstacle read_obstacle(const toml::table& node, const std::string& path) {
+  const TableReader table(node, path, {"disk", "segment"});
+  const toml::table* disk = table.table("disk", disk_example);
+  const toml::table* segment = table.table("segment", segment_example);
+  if ((disk == nullptr) == (segment == nullptr)) {
+    throw SceneError(table.where(), fmt::format("{} has {}; give exactly one, disk = {} or segment = {}", path,
+                                                disk == nullptr ? "neither disk nor segment" : "both disk and segment",
+                                                disk_example, segment_example));
+  }
+  if (disk != nullptr) return {read_disk(*disk, table.path("disk")), table.where()};
+  return {read_segment(*segment, table.path("segment")), table.where()};
+}
+
+}  // namespace
+
+std::vector<Obstacle> read_obstacles(const toml::node& node) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr) refuse(node, "obstacles", "a list of tables: write [[obstacles]] with double brackets");
+  std::vector<Obstacle> obstacles;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const std::string path = fmt::format("obstacles.{}", i);
+    const toml::node& entry = (*list)[i];
+    if (!entry.is_table()) refuse(entry, path, "a table: write [[obstacles]] with double brackets");
+    obstacles.push_back(read_obstacle(*entry.as_table(), path));
+  }
+  return obstacles;
+}
+
+}  // namespace carom::detail

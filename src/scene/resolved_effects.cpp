@@ -1,0 +1,88 @@
+// Writes the tables of the effects: doubles with as many digits as it takes to read the same bits again.
+
+#include "scene/resolved_effects.hpp"
+
+#include "scene/number_text.hpp"
+#include "scene/wall_names.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+#include <vector>
+
+namespace carom::detail {
+namespace {
+
+std::string pair(const Eigen::Vector2d& value) { return fmt::format("[{}, {}]", number_text(value.x()), number_text(value.y())); }
+
+std::string line(const char* key, double value) { return fmt::format("{} = {}\n", key, number_text(value)); }
+
+std::string line(const char* key, const std::optional<double>& value) { return value ? line(key, *value) : std::string(); }
+
+std::string collision(const Collision& collision) {
+  std::string text =
+      fmt::format("\n[collision]\nrule = \"{}\"\n", collision.rule == CollisionRule::reversal ? "reversal" : "specular");
+  text += line("restitution", collision.restitution) + line("roughness", collision.roughness);
+  if (collision.elastic_below) text += fmt::format("elastic_below = {{ time = {} }}\n", number_text(*collision.elastic_below));
+  return text;
+}
+
+std::string wall(const char* name, const WallProperties& wall) {
+  std::vector<std::string> entries;
+  const auto put = [&](const char* key, const std::optional<double>& value) {
+    if (value) entries.push_back(fmt::format("{} = {}", key, number_text(*value)));
+  };
+  put("restitution", wall.restitution);
+  put("temperature", wall.temperature);
+  put("velocity", wall.velocity);
+  put("mass", wall.mass);
+  put("load", wall.load);
+  return fmt::format("{} = {{ {} }}\n", name, fmt::join(entries, ", "));
+}
+
+std::string walls(const std::array<WallProperties, 4>& walls) {
+  std::string text;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    if (walls[w].present()) text += wall(wall_names[w], walls[w]);
+  }
+  return text.empty() ? text : "\n[walls]\n" + text;
+}
+
+std::string obstacle(const Obstacle& obstacle) {
+  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
+    return fmt::format("\n[[obstacles]]\ndisk = {{ centre = {}, radius = {} }}\n", pair(disk->centre), number_text(disk->radius));
+  }
+  const auto& segment = std::get<SegmentObstacle>(obstacle.shape);
+  return fmt::format("\n[[obstacles]]\nsegment = {{ from = {}, to = {} }}\n", pair(segment.from), pair(segment.to));
+}
+
+std::string growth(const Growth& growth) {
+  std::string text = "\n[growth]\n" + line("rate", growth.rate);
+  const auto until = [&](const char* key, double value) {
+    text += fmt::format("until = {{ {} = {} }}\n", key, number_text(value));
+  };
+  if (growth.packing_fraction) until("packing_fraction", *growth.packing_fraction);
+  if (growth.reduced_pressure) until("pressure", *growth.reduced_pressure);
+  return text;
+}
+
+}  // namespace
+
+std::string effects_toml(const Effects& effects) {
+  std::string text = collision(effects.collision);
+  if (effects.gravity) text += fmt::format("\n[gravity]\nacceleration = {}\n", pair(effects.gravity->acceleration));
+  text += walls(effects.walls);
+  if (effects.growth) text += growth(*effects.growth);
+  for (const Obstacle& each : effects.obstacles) text += obstacle(each);
+  if (effects.thermostat) {
+    text += "\n[thermostat]\n" + line("temperature", effects.thermostat->temperature) + line("rate", effects.thermostat->rate);
+  }
+  if (effects.shear) text += "\n[shear]\n" + line("rate", effects.shear->rate);
+  if (effects.square_well) {
+    text += "\n[square_well]\n" + line("width", effects.square_well->width) + line("depth", effects.square_well->depth);
+  }
+  return text;
+}
+
+}  // namespace carom::detail

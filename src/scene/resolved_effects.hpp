@@ -1,0 +1,13 @@
+#pragma once
+// The effects of a scene as TOML.
+
+#include <carom/effects.hpp>
+
+#include <string>
+
+namespace carom::detail {
+
+/// The table [collision] and one for every effect that is there; each begins with an empty line.
+std::string effects_toml(const Effects& effects);
+
+}  // namespace carom::detail

@@ -1,0 +1,37 @@
+#pragma once
+// Packing fractions as a scene writes them: the share of one species, and that of all disks together which a grown start names.
+
+#include "scene/draft.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom::detail {
+
+/// A packing fraction as it was written.
+struct Share {
+  double value = 0.0;
+  std::string path;  ///< "disks.0.packing_fraction"
+  Location where;
+};
+
+/// Throws unless it is below 1.
+void require_fraction(const Share& share);
+
+/// Whether values that say the same twice are near enough.
+bool agree(double a, double b);
+
+/// The area that a species' disks cover; empty where count or radius is still unknown.
+std::optional<double> disk_area(const DisksDraft& disks);
+/// The area that all disks cover; empty where that of a species is still unknown.
+std::optional<double> total_area(const std::vector<DisksDraft>& species);
+
+/// What the grown start of a scene asks for; empty where nothing is grown. All species are grown together or none is.
+std::optional<Share> grown_share(const std::vector<DisksDraft>& species);
+
+/// Fills the one radius that may be left open, from what the other species leave of the grown share. Throws where two are open,
+/// or where count, radius and box make the share another. Requires every count.
+void complete_grown(std::vector<DisksDraft>& species, const Share& grown, double area);
+
+}  // namespace carom::detail

@@ -1,0 +1,30 @@
+#pragma once
+// Numbers for random scenes, in RapidCheck's hands: those that need all their digits.
+
+#include "scene/number_text.hpp"
+
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace carom::testing_support {
+
+/// Any finite double, the extreme ones as often as the usual.
+inline double any_double() {
+  const auto mantissa = *rc::gen::arbitrary<std::int64_t>();
+  const int exponent = *rc::gen::element(0, 0, -60, -30, 10, 900, -1000, -1130);
+  return *rc::gen::element(1.0, -0.0, std::ldexp(static_cast<double>(mantissa), exponent));
+}
+inline double positive_double() {
+  const double value = std::abs(any_double());
+  return value > 0.0 ? value : 0.5;
+}
+inline double unit_interval() {
+  return std::ldexp(static_cast<double>(*rc::gen::inRange<std::int64_t>(0, std::int64_t{1} << 53)), -53);
+}
+
+inline std::string pair_text(double a, double b) { return "[" + detail::number_text(a) + ", " + detail::number_text(b) + "]"; }
+
+}  // namespace carom::testing_support
