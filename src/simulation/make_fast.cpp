@@ -20,11 +20,13 @@ std::unique_ptr<AnyEngine> make(const Scene& scene, const Disks& disks, State st
 
 }  // namespace
 
-bool fast_covers(const Scene& scene, const Disks& disks) { return Engine<Specular, AnyDisks>::covers(scene.box, disks); }
+bool fast_covers(const Scene& scene, const Disks& disks) {
+  return scene.effects.neutral() && Engine<Specular, AnyDisks>::covers(scene.box, disks);
+}
 
 std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Disks& disks, State start) {
   return scene.effects.collision.rule == CollisionRule::reversal ? make<Reversal>(scene, disks, std::move(start))
-                                               : make<Specular>(scene, disks, std::move(start));
+                                                                 : make<Specular>(scene, disks, std::move(start));
 }
 
 }  // namespace carom::detail
