@@ -23,8 +23,8 @@ namespace {
 
 using namespace carom;
 
-using Fast = Engine<Specular, EqualDisks>;
-using FastOfAnySize = Engine<Specular, AnyDisks>;
+using Fast = Engine<Elastic<Specular>, EqualDisks, PlainWorld>;
+using FastOfAnySize = Engine<Elastic<Specular>, AnyDisks, PlainWorld>;
 using Textbook = TextbookEngine<double>;
 
 template <class Engine>

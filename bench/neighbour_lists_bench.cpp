@@ -29,7 +29,7 @@ class Gas {
       : system_(test::system_of(test::gas_scene(disks, packing_fraction, Boundary::periodic))),
         axes_{{system_.box, 0, 0.0}, {system_.box, 1, 0.0}},
         lists(axes_[0], axes_[1], system_.disks.radius) {
-    Engine<Specular, EqualDisks> engine(system_.box, system_.disks, system_.state);
+    Engine<Elastic<Specular>, EqualDisks, PlainWorld> engine(system_.box, system_.disks, system_.state);
     engine.run_until(forever, 10 * disks, test::no_limit);
     const State state = engine.state();
     std::uniform_real_distribution<double> angle(0.0, 2.0 * std::numbers::pi);

@@ -28,4 +28,13 @@ template <class Real>
   return (w + (d > 0 ? sqrt(d) : Real(0))) / -a;
 }
 
+/// The only time at which a height that is not positive now is zero while it falls: the body rises above the floor first and
+/// comes back. Infinity where it does not. Error as above.
+template <class Real>
+[[nodiscard]] Real return_time(Real h, Real w, Real a) {
+  using std::sqrt;
+  const Real d = w * w - 2 * a * h;
+  return w > 0 && a < 0 && d > 0 ? (w + sqrt(d)) / -a : infinity<Real>;
+}
+
 }  // namespace carom

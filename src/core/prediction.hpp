@@ -6,6 +6,7 @@
 #include "core/flight.hpp"
 
 #include <cstdint>
+#include <vector>
 
 namespace carom {
 
@@ -17,7 +18,14 @@ struct PredictionFrame {
   /// The time at which a disk leaves its cage is rounded down to steps of this length (a power of two; 0 for none). It is nothing
   /// physical, and with a time of few bits as `now` the predictions made then are exact for dyadic data.
   double edge_step = 0.0;
+  double scale = 1.0;   ///< of all radii at the epoch; beyond 1 only for the kernel of growing disks
+  double growth = 0.0;  ///< of the scale, per time
+  double well = 1.0;    ///< outer over hard diameter; beyond 1 only for the kernel of wells
+  const std::vector<std::int32_t>* inside = nullptr;  ///< for that kernel: of each disk, those inside its well
 };
+
+/// What a pair of disks comes to: hard cores, hard cores that grow, or wells with hard cores.
+enum class Contact { hard, growing, wells };
 
 /// Where a disk is to be looked for: a square round `centre` (in steps of 2^32 of a coordinate), and the ids of the disks that it
 /// may meet there, padded with its own id, with which it never collides, to eight at least and to a multiple
@@ -55,8 +63,8 @@ struct PredictionKernel {
   const char* name;  ///< of the instruction set
 };
 
-/// The best kernel for this machine; see core/instructions.hpp.
+/// The best kernel for this machine; see core/instructions.hpp. That of wells is the same on all.
 template <class Line>
-const PredictionKernel<Line>& prediction_kernel();
+const PredictionKernel<Line>& prediction_kernel(Contact contact = Contact::hard);
 
 }  // namespace carom

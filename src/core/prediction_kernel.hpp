@@ -92,8 +92,9 @@ CAROM_INLINE Longs load(const Line& line) {
   return *reinterpret_cast<const StoredLongs*>(&line);
 }
 
-/// When `mine` meets each of four others.
-template <class Line>
+/// When `mine` meets each of four others. Growing disks: core/contact_time.hpp has the formulas; without growth they are the
+/// same.
+template <bool growing, class Line>
 CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& frame, const Mine& mine, const std::int32_t* ids,
                                    double now) {
   const Line &l0 = lines[ids[0]], &l1 = lines[ids[1]], &l2 = lines[ids[2]], &l3 = lines[ids[3]];
@@ -109,15 +110,34 @@ CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& fra
 
   Doubles sigma = all(frame.sigma);
   if constexpr (sizeof(Line) > 32) sigma = all(mine.radius) + Doubles{l0.radius, l1.radius, l2.radius, l3.radius};
-  const Doubles sigma2 = sigma * sigma;
-  const Doubles b = x * vx + y * vy;
-  const Doubles s = x * vy - y * vx;
-  const Doubles d = sigma2 * (vx * vx + vy * vy) - s * s;
-  const Doubles c = (x * x + y * y) - sigma2;
-  Doubles wait = c / (square_root(d) - b);
-  wait = wait > all(0.0) ? wait : all(0.0);
-  const Longs meets = (b < all(0.0)) & (d >= all(0.0));
-  return meets ? all(now) + wait : all(never);
+  if constexpr (!growing) {
+    const Doubles sigma2 = sigma * sigma;
+    const Doubles b = x * vx + y * vy;
+    const Doubles s = x * vy - y * vx;
+    const Doubles d = sigma2 * (vx * vx + vy * vy) - s * s;
+    const Doubles c = (x * x + y * y) - sigma2;
+    Doubles wait = c / (square_root(d) - b);
+    wait = wait > all(0.0) ? wait : all(0.0);
+    const Longs meets = (b < all(0.0)) & (d >= all(0.0));
+    return meets ? all(now) + wait : all(never);
+  } else {
+    const Doubles a = sigma * all(frame.growth);
+    sigma = sigma * all(frame.scale + frame.growth * now);
+    const Doubles h = a / sigma, wx = vx - h * x, wy = vy - h * y;
+    const Doubles sigma2 = sigma * sigma;
+    const Doubles b = (x * vx + y * vy) - sigma * a;
+    const Doubles s = x * vy - y * vx;
+    const Doubles d = sigma2 * (wx * wx + wy * wy) - s * s;
+    const Doubles c = (x * x + y * y) - sigma2;
+    const Doubles shrinking = (vx * vx + vy * vy) - a * a;  // below zero: the disks grow faster than they part
+    const Doubles root = square_root(d);
+    const Longs approach = b < all(0.0);
+    Doubles wait = approach ? c / (root - b) : (b + root) / -shrinking;
+    wait = wait > all(0.0) ? wait : all(0.0);
+    // A disk does not meet itself, which it is padded with: there is no distance.
+    const Longs meets = (d >= all(0.0)) & (approach | (shrinking < all(0.0))) & ((x * x + y * y) > all(0.0));
+    return meets ? all(now) + wait : all(never);
+  }
 }
 
 /// The earliest of eight times, into `first`.
@@ -134,12 +154,12 @@ CAROM_INLINE void earliest(Doubles t0, Doubles t1, const std::int32_t* ids, Pred
 }
 
 /// Everybody beyond the first eight, four at a time.
-template <class Line>
+template <bool growing, class Line>
 void search_on(const Line* lines, const PredictionFrame& frame, const Mine& mine, const Surroundings& around, double now,
                Prediction& first) {
   for (std::uint32_t k = 8; k < around.count; k += 4) {
     Prediction next;
-    earliest(meeting_times(lines, frame, mine, around.ids + k, now), all(never), around.ids + k, next);
+    earliest(meeting_times<growing>(lines, frame, mine, around.ids + k, now), all(never), around.ids + k, next);
     if (next.pair_time < first.pair_time) {
       first.pair_time = next.pair_time;
       first.partner = next.partner;
@@ -169,19 +189,19 @@ CAROM_INLINE Doubles leaving_times(const PredictionFrame& frame, Longs x, Double
   return v != all(0.0) ? time : all(never);
 }
 
-template <class Line>
+template <bool growing, class Line>
 void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around, double now,
              Prediction& ahead) {
   const Line& line = lines[i];
   const Mine mine = spread(line.x[0], line.x[1], line.v[0], line.v[1], line);
-  const Doubles t0 = meeting_times(lines, frame, mine, around.ids, now);
+  const Doubles t0 = meeting_times<growing>(lines, frame, mine, around.ids, now);
   Doubles t1 = all(never);
-  if (around.count > 4) t1 = meeting_times(lines, frame, mine, around.ids + 4, now);  // those new on a list are few
+  if (around.count > 4) t1 = meeting_times<growing>(lines, frame, mine, around.ids + 4, now);  // those new on a list are few
   const Doubles leaving = leaving_times(frame, Longs{line.x[0], line.x[1], 0, 0}, Doubles{line.v[0], line.v[1], 1.0, 1.0},
                                         Longs{around.centre[0], around.centre[1], 0, 0}, now);
   ahead.edge_time = leaving[0] < leaving[1] ? leaving[0] : leaving[1];
   earliest(t0, t1, around.ids, ahead);
-  if (around.count > 8) search_on(lines, frame, mine, around, now, ahead);
+  if (around.count > 8) search_on<growing>(lines, frame, mine, around, now, ahead);
 }
 
 template <class Line>
@@ -191,7 +211,7 @@ CAROM_INLINE void store(Line& line, Longs x, Doubles v, bool upper) {
       upper ? __builtin_shufflevector(x, bits, 2, 3, 6, 7) : __builtin_shufflevector(x, bits, 0, 1, 4, 5);
 }
 
-template <class Line>
+template <bool growing, class Line>
 void store_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, std::int64_t ax,
                        std::int64_t ay, std::int64_t bx, std::int64_t by, double avx, double avy, double bvx, double bvy) {
   Line& a = lines[pair.disk[0]];
@@ -203,10 +223,10 @@ void store_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& 
   store(b, x, v, true);
 
   const Mine mine_a = spread(ax, ay, avx, avy, a), mine_b = spread(bx, by, bvx, bvy, b);
-  const Doubles a0 = meeting_times(lines, frame, mine_a, near_a.ids, now);
-  const Doubles b0 = meeting_times(lines, frame, mine_b, near_b.ids, now);
-  const Doubles a1 = meeting_times(lines, frame, mine_a, near_a.ids + 4, now);
-  const Doubles b1 = meeting_times(lines, frame, mine_b, near_b.ids + 4, now);
+  const Doubles a0 = meeting_times<growing>(lines, frame, mine_a, near_a.ids, now);
+  const Doubles b0 = meeting_times<growing>(lines, frame, mine_b, near_b.ids, now);
+  const Doubles a1 = meeting_times<growing>(lines, frame, mine_a, near_a.ids + 4, now);
+  const Doubles b1 = meeting_times<growing>(lines, frame, mine_b, near_b.ids + 4, now);
   const Longs centre = {near_a.centre[0], near_a.centre[1], near_b.centre[0], near_b.centre[1]};
   const Doubles leaving = leaving_times(frame, x, v, centre, now);
   const Doubles edge = lesser(leaving, __builtin_shufflevector(leaving, leaving, 1, 0, 3, 2));
@@ -214,17 +234,20 @@ void store_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& 
   pair.ahead[1].edge_time = edge[2];
   earliest(a0, a1, near_a.ids, pair.ahead[0]);
   earliest(b0, b1, near_b.ids, pair.ahead[1]);
-  if (near_a.count > 8) search_on(lines, frame, mine_a, near_a, now, pair.ahead[0]);
-  if (near_b.count > 8) search_on(lines, frame, mine_b, near_b, now, pair.ahead[1]);
+  if (near_a.count > 8) search_on<growing>(lines, frame, mine_a, near_a, now, pair.ahead[0]);
+  if (near_b.count > 8) search_on<growing>(lines, frame, mine_b, near_b, now, pair.ahead[1]);
 }
 
 }  // namespace
 
 #define CAROM_TEXT_OF(name) #name
 #define CAROM_TEXT(name) CAROM_TEXT_OF(name)
-extern const PredictionKernel<Flight> flight_kernel = {&predict<Flight>, &store_and_predict<Flight>,
-                                                       CAROM_TEXT(CAROM_INSTRUCTIONS)};
-extern const PredictionKernel<SizedFlight> sized_flight_kernel = {&predict<SizedFlight>, &store_and_predict<SizedFlight>,
-                                                                  CAROM_TEXT(CAROM_INSTRUCTIONS)};
+#define CAROM_KERNEL(name, growing, Line)                                                                 \
+  extern const PredictionKernel<Line> name = {&predict<growing, Line>, &store_and_predict<growing, Line>, \
+                                              CAROM_TEXT(CAROM_INSTRUCTIONS)};
+CAROM_KERNEL(flight_kernel, false, Flight)
+CAROM_KERNEL(sized_flight_kernel, false, SizedFlight)
+CAROM_KERNEL(growing_flight_kernel, true, Flight)
+CAROM_KERNEL(growing_sized_flight_kernel, true, SizedFlight)
 
 }  // namespace carom::CAROM_INSTRUCTIONS

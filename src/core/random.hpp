@@ -11,7 +11,14 @@
 namespace carom {
 
 /// One name per use. The values are part of what a seed means: never renumber, only append.
-enum class Stream : std::uint32_t { positions = 1, velocities = 2, lattice_sites = 3, perturbations = 4, thermal_walls = 5, thermostat = 6 };
+enum class Stream : std::uint32_t {
+  positions = 1,
+  velocities = 2,
+  lattice_sites = 3,
+  perturbations = 4,
+  thermal_walls = 5,
+  thermostat = 6
+};
 
 /// A uniform random bit generator (32 bits a draw, 2^32 blocks of four) for Boost.Random's distributions.
 class RandomStream : public r123::MicroURNG<r123::Philox4x32> {

@@ -21,6 +21,8 @@ namespace carom {
 template <class Real>
 class AnyImpact {
  public:
+  static constexpr bool plain = false;
+
   AnyImpact(const Effects& effects, std::size_t disks) : AnyImpact(effects.collision, effects.square_well, disks) {}
   AnyImpact(const Collision& law, const std::optional<SquareWell>& well, std::size_t disks)
       : rule_(law.rule),

@@ -54,6 +54,8 @@ class SquareWells {
     --pairs_;
   }
   [[nodiscard]] std::uint64_t pairs() const { return pairs_; }
+  /// For each disk, those inside its well.
+  [[nodiscard]] const std::vector<std::int32_t>* table() const { return partners_.data(); }
   /// Those inside the well of disk i.
   [[nodiscard]] const std::vector<std::int32_t>& of(std::int32_t i) const { return partners_[static_cast<std::size_t>(i)]; }
 

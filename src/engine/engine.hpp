@@ -10,6 +10,10 @@
 // meets a wall. Of two partners the one predicted last foresees the collision; a plan whose partner has collided since is stale
 // and made anew when its time comes.
 //
+// Three slots say what acts: Impact (what two disks do to each other), World (what else there is round them) and Layout (what a
+// disk carries). Uniform gravity costs nothing where disks meet: lines are drawn in a frame that falls with the disks from the
+// epoch on, in which they are straight, and only walls and obstacles are looked for along the parabola.
+//
 // The files engine_state.hpp (beginning, epochs, what is seen from outside) and engine_check.hpp (invariants) hold the rest.
 
 #include "core/fetch.hpp"
@@ -19,7 +23,9 @@
 #include "core/prediction.hpp"
 #include "core/sides.hpp"
 #include "core/vec2.hpp"
-#include "effects/impact.hpp"
+#include "effects/any_impact.hpp"
+#include "effects/elastic.hpp"
+#include "effects/world.hpp"
 #include "engine/layout.hpp"
 #include "neighbours/cage_tuner.hpp"
 #include "neighbours/neighbour_lists.hpp"
@@ -38,27 +44,28 @@
 
 namespace carom {
 
-template <class Rule, class Layout>
+template <class Impact, class Layout, class World>
 class Engine {
   using Line = typename Layout::Line;
 
   /// What a disk expects. Half a cache line.
   struct alignas(32) Plan {
     double pair_time;  ///< of the earliest collision foreseen
-    double edge_time;  ///< when it leaves its cage or meets a wall
+    double edge_time;  ///< when it leaves its cage or meets a wall or an obstacle
     std::int32_t partner;
-    std::int32_t edge;            ///< `cage` or a Wall
+    std::int32_t edge;            ///< `cage`, a Wall, or an obstacle
     std::uint32_t foreseen;       ///< stamp of the collision after which the partner was found
     std::uint32_t last_collided;  ///< stamp of the last collision of the disk itself
   };
 
  public:
   /// Whether this engine can run these disks: periodic boxes must be wide enough for the nearest image to be the only one that a
-  /// disk can meet, disks not so small that the resolution of cages would show, and the layout the right one.
-  [[nodiscard]] static bool covers(const Box& box, const Disks& disks);
+  /// disk can meet, disks not so small that the resolution of cages would show, and slots the right ones.
+  [[nodiscard]] static bool covers(const Box& box, const Disks& disks, const Effects& effects = {});
 
-  /// Requires covers(box, disks), disks inside the box, radii and masses > 0, everything finite.
-  Engine(const Box& box, const Disks& disks, State start);
+  /// Requires covers(box, disks, effects), disks inside the box, radii and masses > 0, everything finite. `seed`: of the random
+  /// numbers that effects draw.
+  Engine(const Box& box, const Disks& disks, State start, const Effects& effects = {}, std::uint64_t seed = 1);
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
@@ -86,11 +93,11 @@ class Engine {
     return false;
   }
 
-  /// Nothing will ever happen again: nothing moves.
+  /// Nothing will ever happen again: nothing moves, and nothing makes it move.
   [[nodiscard]] bool idle() const { return epoch_length_ == never; }
 
   /// Time has stopped: millions of events at one instant, as of disks that touch on all sides and still are to move.
-  [[nodiscard]] bool jammed() const { return at_one_instant_ > 10'000'000 + 100 * lines_.size(); }
+  [[nodiscard]] bool jammed() const { return at_one_instant_ > patience_ + 100 * lines_.size(); }
 
  private:
   /// The next event of all.
@@ -100,7 +107,7 @@ class Engine {
     now_ = std::max(now_, time);
     const Plan& mine = plan(i);
     if (edge_first(mine)) {
-      mine.edge == cage ? leave_cage(i) : reflect(i, static_cast<Wall>(mine.edge));
+      mine.edge == cage ? leave_cage(i) : hit(i, mine.edge);
     } else if (is_stale(mine)) {
       ++totals_.stale;
       predict(i);
@@ -111,14 +118,14 @@ class Engine {
 
   // -------------------------------------------------------------------------------------------------- the events
 
-  /// Two disks meet: exchange momentum by the rule, go on along new lines, predict anew.
+  /// Two disks meet: they exchange momentum, go on along new lines, are predicted anew.
   void collide(std::int32_t i, std::int32_t j) {
     const Line &a = line(i), &b = line(j);
     Vec2<double> va(a.v[0], a.v[1]), vb(b.v[0], b.v[1]);
     const Vec2<double> before_a = va, before_b = vb;
-    const auto impact = carom::collide<Rule, double>(separation(a, b), layout_.mass(a), va, layout_.mass(b), vb);
-    ++totals_.pair;
-    totals_.virial += impact.virial;
+    const double scale = world_.scale(now_), radius_a = layout_.radius(a), radius_b = layout_.radius(b);
+    impact_.meet(separation(a, b), (radius_a + radius_b) * world_.growth(), {i, layout_.mass(a), radius_a * scale, va},
+                 {j, layout_.mass(b), radius_b * scale, vb}, now_, totals_);
     plan(i).last_collided = plan(j).last_collided = ++stamp_;
     if (recording_) log_collision(i, j, va, vb);
     if (outruns_epoch(va) || outruns_epoch(vb)) [[unlikely]]
@@ -137,17 +144,29 @@ class Engine {
       begin_epoch(now_);
   }
 
-  /// A disk meets a wall: its velocity across the wall is reversed.
-  void reflect(std::int32_t i, Wall wall) {
-    Line& a = line(i);
-    const int across = axis_of(wall);
-    const double v = a.v[across];
-    ++totals_.wall;
-    totals_.wall_impulse[static_cast<std::size_t>(-1 - wall)] += 2.0 * layout_.mass(a) * std::abs(v);
+  /// A disk meets a wall or an obstacle.
+  void hit(std::int32_t i, std::int32_t what) {
+    const Line& a = line(i);
+    Vec2<double> v = velocity(a);
+    world_.meet(what, {place(a), layout_.mass(a), layout_.radius(a) * world_.scale(now_), impact_.rests(i, now_)}, v, now_,
+                totals_);
+    impact_.touched(i, now_);
+    if (recording_) log_hit(i, what, v);
+    turn(i, v);
+    if (world_.gives_way(what)) plan_edges_anew();
+  }
+
+  /// From now on disk i moves with velocity v.
+  void turn(std::int32_t i, const Vec2<double>& v) {
     plan(i).last_collided = ++stamp_;
-    a.x[across] = moved(i, across, 2.0 * v * now_);
-    a.v[across] = -v;
-    if (recording_) log_reflection(i, wall);
+    const Vec2<double> along(v[0] - world_.g()[0] * now_, v[1] - world_.g()[1] * now_);
+    if (outruns_epoch(along)) [[unlikely]]
+      return begin_epoch_between(i, along, i, along);
+    Line& a = line(i);
+    for (int k = 0; k < 2; ++k) {
+      a.x[k] = moved(i, k, (a.v[k] - along[k]) * now_);
+      a.v[k] = along[k];
+    }
     predict(i);
     if (stamp_ == last_stamp) [[unlikely]]
       begin_epoch(now_);
@@ -171,7 +190,7 @@ class Engine {
 
   // -------------------------------------------------------------------------------------------------- prediction
 
-  /// Disk i against all its neighbours, its walls and the edges of its cage.
+  /// Disk i against all its neighbours, walls, obstacles and the edges of its cage.
   void predict(std::int32_t i) {
     plan_ahead(i, predicted(i, surroundings(i)));
     schedule(i);
@@ -190,11 +209,15 @@ class Engine {
   void plan_edge(std::int32_t i, double leaving_time) {
     plan(i).edge_time = leaving_time;
     plan(i).edge = cage;
-    if (walled_) plan_wall(i);
+    if constexpr (World::plain) {
+      if (walled_) plan_hard_wall(i);
+    } else {
+      plan_world(i);
+    }
   }
 
   /// Puts the next contact with a wall in the place of the edge of the cage where it comes first.
-  void plan_wall(std::int32_t i) {
+  void plan_hard_wall(std::int32_t i) {
     const Line& a = line(i);
     Plan& mine = plan(i);
     for (int axis = 0; axis < 2; ++axis) {
@@ -209,9 +232,46 @@ class Engine {
         mine.edge = wall_left - 2 * axis - (up ? 1 : 0);
       }
     }
-    // At one time with a lower partner it comes second: it will be found again after the collision.
+    yield_to_lower_partner(i);
+  }
+
+  /// The same where walls may move, disks fall and grow, and obstacles stand.
+  void plan_world(std::int32_t i) {
+    const Line& a = line(i);
+    Plan& mine = plan(i);
+    const double radius = layout_.radius(a) * world_.scale(now_), growth = layout_.radius(a) * world_.growth();
+    const auto consider = [&](double time, std::int32_t what) {
+      if (time < mine.edge_time || (time == mine.edge_time && mine.edge == cage)) mine.edge_time = time, mine.edge = what;
+    };
+    for (int axis = 0; axis < 2 && walled_; ++axis) {
+      if (axes_[axis].periodic) continue;
+      const double v = a.v[axis] + world_.g()[axis] * now_, g = world_.g()[axis];
+      for (const int sign : {-1, 1}) {
+        const Wall wall = wall_of(axis, sign > 0);
+        consider(now_ + world_.walls.contact(wall, room(a, axis, sign, radius), sign * v, sign * g, growth, now_), wall);
+      }
+    }
+    if (!world_.obstacles.empty()) {
+      const auto meeting = world_.obstacles.next(place(a), velocity(a), world_.g(), radius, growth, mine.edge_time - now_);
+      if (meeting.obstacle >= 0) consider(now_ + meeting.time, first_obstacle - meeting.obstacle);
+    }
+    yield_to_lower_partner(i);
+  }
+
+  /// A wall or obstacle at one time with a lower partner comes second: it will be found again after the collision.
+  void yield_to_lower_partner(std::int32_t i) {
+    Plan& mine = plan(i);
     if (mine.edge_time == mine.pair_time && mine.edge != cage && mine.partner >= 0 && id(mine.partner) < id(i))
       mine.edge_time = never;
+  }
+
+  /// A piston has changed its motion: what everybody had planned with it is void.
+  void plan_edges_anew() {
+    for (std::int32_t i = 0; i < count(); ++i) {
+      const double before = time(i);
+      plan_edge(i, plan(i).edge == cage ? plan(i).edge_time : predicted(i, surroundings(i)).edge_time);
+      if (time(i) != before) schedule(i);
+    }
   }
 
   /// What lies beyond this epoch is found again when the next one begins.
@@ -242,14 +302,26 @@ class Engine {
   /// A new zero for the loop's clock at time `now`: every line starts there, every plan counts from there. Short times keep
   /// their digits, and no line gets so long that coordinates wrap unseen.
   [[gnu::noinline]] void begin_epoch(double now);
-  /// The same in the middle of a collision after which a disk is too fast for its line to be drawn from the old epoch.
+  /// The same in the middle of a collision after which a disk is too fast for its line to be drawn from the old epoch. Velocities
+  /// are those of lines. The two may be one and the same disk.
   [[gnu::noinline, gnu::cold]] void begin_epoch_between(std::int32_t i, const Vec2<double>& va, std::int32_t j,
                                                         const Vec2<double>& vb);
   /// Lets every line start, and every plan and stamp count, at `now`: all have collided by stamp 1, plans found stale have 0.
   void rebase(double now);
   void start_queue();
+  /// What an epoch begins with once everything counts from it.
+  void go_on();
+  /// The sides of the box have moved out so far that coordinates get short of room.
+  void widen();
+  /// Empty lists, for disks as large as they will be at the end of the epoch.
+  void make_lists();
+  /// Disks have grown: new lists, and new plans with them.
+  void list_larger();
+  /// Who begins inside whose well.
+  void find_wells();
   /// As long as the lines may become as the disks move now, rounded down to a power of two.
   void choose_epoch_length();
+  [[nodiscard]] double longest_by_world() const;
   /// Chooses the width of cages by the work done since the last choice.
   void tune_cages(double elapsed);
   /// New cages round all disks, and new lists. The plans must be made anew as well.
@@ -280,6 +352,23 @@ class Engine {
     return r;
   }
 
+  /// Where a disk is now, to double precision; along periodic axes it may lie beyond the edges.
+  [[nodiscard]] Vec2<double> place(const Line& a) const {
+    Vec2<double> r;
+    for (int k = 0; k < 2; ++k)
+      r[k] = middle_[k] + (frame_.unit[k] * static_cast<double>(a.x[k]) + (a.v[k] * now_ + world_.fallen(k, now_)));
+    return r;
+  }
+  [[nodiscard]] Vec2<double> velocity(const Line& a) const {
+    if constexpr (World::plain) return {a.v[0], a.v[1]};
+    return {a.v[0] + world_.g()[0] * now_, a.v[1] + world_.g()[1] * now_};
+  }
+  /// From the edge of a disk to where a side of the box was at the start, the upper one of an axis (sign 1) or the lower (-1).
+  [[nodiscard]] double room(const Line& a, int axis, int sign, double radius) const {
+    const std::int64_t limit = half_[axis] - axes_[axis].steps_of(radius);
+    const double start = frame_.unit[axis] * static_cast<double>(sign > 0 ? limit - a.x[axis] : a.x[axis] + limit);
+    return (start - sign * a.v[axis] * now_) - sign * world_.fallen(axis, now_);
+  }
   /// Where the line of a disk is now along an axis, from the centre of its cage.
   [[nodiscard]] double offset(int axis, const Line& a, std::int32_t centre) const {
     const auto wide = static_cast<std::int64_t>(static_cast<std::uint64_t>(centre) << 32);
@@ -328,7 +417,7 @@ class Engine {
   [[nodiscard, gnu::noinline, gnu::cold]] std::int32_t lowest_of_tied(std::int32_t i, const Prediction& ahead) const;
 
   [[gnu::noinline]] void log_collision(std::int32_t i, std::int32_t j, const Vec2<double>& va, const Vec2<double>& vb);
-  [[gnu::noinline]] void log_reflection(std::int32_t i, Wall wall);
+  [[gnu::noinline]] void log_hit(std::int32_t i, std::int32_t what, const Vec2<double>& v);
   [[gnu::noinline]] void look_ahead(std::int64_t span) const;
 
   [[nodiscard]] Instant instant(double t) const { return epoch_.plus(t); }
@@ -348,8 +437,11 @@ class Engine {
 
   FixedAxis axes_[2];
   std::int64_t half_[2];  ///< from the middle to a wall
+  double middle_[2];      ///< of the box
   Layout layout_;
   PredictionFrame frame_;
+  Impact impact_;
+  World world_;
   const PredictionKernel<Line>& kernel_;
   LargeVector<Line> lines_;
   LargeVector<Plan> plans_;
@@ -361,14 +453,17 @@ class Engine {
   Instant epoch_;  ///< the loop's zero of time
   double now_ = 0.0;
   double epoch_length_ = 0.0;
-  std::uint32_t stamp_ = 1;       ///< counts collisions with disks and walls since the epoch began; what was before has 0 or 1
-  double spacing_;                ///< root of the area per disk
-  double mean_speed_ = 0.0;       ///< mean of |v_x| + |v_y| when the epoch began
-  double reach_ = 0.0;            ///< the largest contact distance
-  double travel_[2] = {};         ///< the longest that a line may be along each axis
-  double speed_limit_[2] = {};    ///< with which a line stays shorter than that until the epoch ends
-  double span_ = 0.0;             ///< of the queue
-  std::uint64_t begun_with_ = 0;  ///< events that the queue got at the beginning of the epoch
+  std::uint32_t stamp_ = 1;     ///< counts collisions with disks and walls since the epoch began; what was before has 0 or 1
+  std::vector<double> radius_;  ///< in the order of memory, where lists have to be made for larger disks; else empty
+  std::vector<std::int32_t> places_;  ///< of the disks by id, once anybody asks
+  double spacing_;                    ///< root of the area per disk
+  double mean_speed_ = 0.0;           ///< mean of |v_x| + |v_y| when the epoch began
+  double reach_ = 0.0;                ///< the largest distance at which two disks notice each other
+  double largest_contact_ = 0.0;      ///< the largest contact distance, at scale 1
+  double travel_[2] = {};             ///< the longest that a line may be along each axis
+  double speed_limit_[2] = {};        ///< with which a line stays shorter than that until the epoch ends
+  double span_ = 0.0;                 ///< of the queue
+  std::uint64_t begun_with_ = 0;      ///< events that the queue got at the beginning of the epoch
   bool walled_;
   bool fetching_ = false;  ///< the data do not fit the cache
 
@@ -380,6 +475,7 @@ class Engine {
   std::uint64_t changed_ = 0;  ///< lists_.changes() at that time
   std::uint64_t looks_ = 0;    ///< since then: more_looks() of those who collided
 
+  std::uint64_t patience_;  ///< events at one instant after which time is taken to stand still
   std::uint64_t at_one_instant_ = 0;
   Totals totals_;
   bool recording_ = false;
@@ -415,6 +511,11 @@ class Engine {
     left_ -= totals_.other;  // wraps, as the difference to it will
     totals_ = Totals{};
   }
+
+  /// Something from outside gives disk i a new velocity and, where disks spin, a new spin.
+  void set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin);
+  /// All velocities and spins become `factor` times what they are.
+  void scale_velocities(double factor);
 
   void record_events(bool on) { recording_ = on; }
   [[nodiscard]] std::vector<carom::Event> take_events() { return std::exchange(log_, {}); }

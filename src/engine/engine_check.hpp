@@ -11,8 +11,8 @@
 
 namespace carom {
 
-template <class Rule, class Layout>
-std::vector<std::string> Engine<Rule, Layout>::check_invariants() const {
+template <class Impact, class Layout, class World>
+std::vector<std::string> Engine<Impact, Layout, World>::check_invariants() const {
   std::vector<std::string> faults;
   const double slack = 1e-9 * lists_.half_width();
   for (std::int32_t i = 0; i < count(); ++i) {
@@ -29,8 +29,12 @@ std::vector<std::string> Engine<Rule, Layout>::check_invariants() const {
         faults.push_back(
             fmt::format("disk {}: outside its cage along axis {} by {}", id(i), k, std::abs(off) - lists_.half_width()));
       if (axes_[k].periodic) continue;
-      const double place = frame_.unit[k] * static_cast<double>(a.x[k]) + a.v[k] * now_;
-      const double out = std::abs(place) + layout_.radius(a) - (axes_[k].upper - axes_[k].lower) / 2.0;
+      double out = -never;
+      for (const int sign : {-1, 1}) {
+        double left = room(a, k, sign, layout_.radius(a) * world_.scale(now_));
+        if constexpr (!World::plain) left += world_.walls.displacement(wall_of(k, sign > 0), now_);
+        out = std::max(out, -left);
+      }
       if (out > 1e-12 * (axes_[k].upper - axes_[k].lower))
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", id(i), out, k));
     }
@@ -51,15 +55,16 @@ std::vector<std::string> Engine<Rule, Layout>::check_invariants() const {
 }
 
 /// Two disks must not overlap, and must not meet before one of them has an event planned.
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::check_pair(std::int32_t i, std::int32_t j, std::vector<std::string>& faults) const {
-  const double sigma = layout_.radius(line(i)) + layout_.radius(line(j));
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::check_pair(std::int32_t i, std::int32_t j, std::vector<std::string>& faults) const {
+  const double sigma = (layout_.radius(line(i)) + layout_.radius(line(j))) * world_.scale(now_);
   const double overlap = sigma - separation(line(i), line(j)).norm();
   if (overlap > 1e-12 * sigma) faults.push_back(fmt::format("disks {} and {} overlap by {}", id(i), id(j), overlap));
-  const std::int32_t alone[8] = {j, i, i, i, i, i, i, i};
-  const double meeting = predicted(i, {{0, 0}, alone, 1}).pair_time;
+  const std::int32_t one[8] = {j, i, i, i, i, i, i, i};
+  const double meeting = predicted(i, {{0, 0}, one, 1}).pair_time;
   const double planned = std::min({time(i), time(j), epoch_length_});
   if (!(meeting < planned)) return;
+  if (world_.growth() > 0.0 || frame_.inside != nullptr) return;  // how deep they would be is another question there
   // Times of close pairs are uncertain; how deep they would be in each other by then is not.
   const Vec2<double> r = separation(line(i), line(j)), v(line(i).v[0] - line(j).v[0], line(i).v[1] - line(j).v[1]);
   const double nearest = std::clamp(-r.dot(v) / v.squaredNorm(), 0.0, planned - now_);

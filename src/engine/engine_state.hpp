@@ -87,6 +87,23 @@ inline std::vector<double> in_order(const std::vector<double>& radius, const Lar
   return ordered;
 }
 
+/// Of the disks' radii, times the width of their wells: as large as they may become in a run.
+inline double largest_scale(const Box& box, const Disks& disks, const Effects& effects) {
+  double scale = effects.square_well && effects.square_well->depth != 0.0 ? effects.square_well->width : 1.0;
+  if (!effects.growth || effects.growth->rate == 0.0) return scale;
+  double squares = 0.0;
+  for (const double radius : disks.radius) squares += radius * radius;
+  const double fraction = 3.141592653589793 * squares / box.area();
+  return scale * std::sqrt(effects.growth->packing_fraction.value_or(1.0) / fraction);  // no disks fill more than the box
+}
+
+template <class Line>
+const PredictionKernel<Line>& kernel_for(const Effects& effects) {
+  if (effects.growth && effects.growth->rate > 0.0) return prediction_kernel<Line>(Contact::growing);
+  if (effects.square_well && effects.square_well->depth != 0.0) return prediction_kernel<Line>(Contact::wells);
+  return prediction_kernel<Line>(Contact::hard);
+}
+
 /// Fetching ahead costs 5 to 15 per cent where the data fit the second-level cache and gains 20 to 60 where they are many times
 /// larger. It pays from about three times its size on: much of the data is rarely used.
 inline bool exceeds_cache(std::size_t bytes) {
@@ -100,22 +117,26 @@ inline bool exceeds_cache(std::size_t bytes) {
 
 }  // namespace detail
 
-template <class Rule, class Layout>
-Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
+template <class Impact, class Layout, class World>
+Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State start, const Effects& effects, std::uint64_t seed)
     : axes_{detail::fixed_axis(box, 0, disks.count()), detail::fixed_axis(box, 1, disks.count())},
       half_{axes_[0].at(axes_[0].upper), axes_[1].at(axes_[1].upper)},
+      middle_{static_cast<double>(axes_[0].middle), static_cast<double>(axes_[1].middle)},
       layout_(disks),
       frame_{{axes_[0].unit, axes_[1].unit}, disks.count() > 0 ? 2.0 * disks.radius[0] : 0.0, 0.0, 0.0},
-      kernel_(prediction_kernel<Line>()),
+      impact_(effects, disks.count()),
+      world_(box, effects, start, seed),
+      kernel_(detail::kernel_for<Line>(effects)),
       lines_(disks.count()),
       plans_(disks.count()),
       images_(disks.count()),
       lists_(axes_[0], axes_[1], {}),
       spacing_(detail::mean_spacing(box, disks.count())),
-      walled_(!box.periodic(0) || !box.periodic(1)) {
+      walled_(!box.periodic(0) || !box.periodic(1)),
+      patience_(effects.dissipate() ? 100'000 : 10'000'000) {
   detail::OrderInSpace order = detail::order_in_space(axes_[0], axes_[1], start);
   ids_ = std::move(order.ids);
-  lists_ = NeighbourLists(axes_[0], axes_[1], detail::in_order(disks.radius, ids_));
+  radius_ = detail::in_order(disks.radius, ids_);
   for (std::int32_t i = 0; i < count(); ++i) {
     const auto column = static_cast<Eigen::Index>(id(i));
     Line& a = line(i);
@@ -131,56 +152,162 @@ Engine<Rule, Layout>::Engine(const Box& box, const Disks& disks, State start)
 
   const double sigma = 2.0 * std::accumulate(disks.radius.begin(), disks.radius.end(), 0.0) /
                        static_cast<double>(std::max<std::size_t>(disks.count(), 1));
-  reach_ = detail::largest_contact_distance(disks);
+  largest_contact_ = detail::largest_contact_distance(disks);
+  if constexpr (!Impact::plain) {
+    if (impact_.wells().present()) {
+      frame_.well = impact_.wells().reach();
+      frame_.inside = impact_.wells().table();
+    }
+    for (std::int32_t i = 0; i < count() && impact_.spinning(); ++i)
+      if (start.spins.size() > id(i)) impact_.spin(i) = start.spins[id(i)];
+  }
+  frame_.scale = world_.scale(0.0);
+  frame_.growth = world_.growth();
+  make_lists();
+  if (World::plain) radius_ = {};                          // nothing will ask for them again
   widest_ = std::max(box.lengths()[0], box.lengths()[1]);  // that cage holds the box
   for (const FixedAxis& axis : axes_)
     if (axis.periodic) widest_ = std::min(widest_, ((axis.upper - axis.lower) / 2.0 - reach_) / 6.0);
   start = State{};  // makes room for what follows
-  double half_width = std::min(CageTuner::first_half_width(sigma, order.area), widest_);
+  double half_width = std::min(CageTuner::first_half_width(sigma * world_.scale(0.0), order.area), widest_);
   for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sigma; rebuild(half_width)) half_width *= 0.7;
+  find_wells();
   choose_epoch_length();
   predict_all();
   begin_epoch(0.0);
   fetching_ = detail::exceeds_cache(bytes());
 }
 
-template <class Rule, class Layout>
-bool Engine<Rule, Layout>::covers(const Box& box, const Disks& disks) {
+template <class Impact, class Layout, class World>
+bool Engine<Impact, Layout, World>::covers(const Box& box, const Disks& disks, const Effects& effects) {
+  if ((Impact::plain || World::plain) && !effects.neutral()) return false;
+  if (effects.shear) return false;
   if (disks.count() == 0) return true;
   const double smallest = *std::min_element(disks.radius.begin(), disks.radius.end());
+  const double reach = detail::largest_contact_distance(disks) * detail::largest_scale(box, disks, effects);
   for (int k = 0; k < 2; ++k) {
     const FixedAxis axis = detail::fixed_axis(box, k, disks.count());
-    if (axis.periodic && axis.upper - axis.lower < 2.5 * detail::largest_contact_distance(disks)) return false;
+    if (axis.periodic && axis.upper - axis.lower < 2.5 * reach) return false;
     if (axis.unit * 0x1p32 > 1e-3 * smallest) return false;
   }
   return Layout::covers(disks);
 }
 
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::begin_epoch(double now) {
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::begin_epoch(double now) {
   rebase(now);
-  if (now > 0.0) tune_cages(now);
+  if constexpr (!World::plain) widen();
+  if (now > 0.0 && world_.growth() == 0.0) tune_cages(now);
   choose_epoch_length();
+  if (world_.growth() > 0.0) list_larger();
   // Too few events tell nothing: an epoch may have been cut short.
   const std::uint64_t pushed = queue_.pushed() - begun_with_;
   if (pushed > lines_.size() / 4 + 16) span_ = pushed_per_span * now / static_cast<double>(pushed);
   start_queue();
 }
 
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::begin_epoch_between(std::int32_t i, const Vec2<double>& va, std::int32_t j, const Vec2<double>& vb) {
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::begin_epoch_between(std::int32_t i, const Vec2<double>& va, std::int32_t j,
+                                                        const Vec2<double>& vb) {
+  const Vec2<double> fallen = world_.g() * now_;
   rebase(now_);
-  for (int k = 0; k < 2; ++k) line(i).v[k] = va[k], line(j).v[k] = vb[k];
+  for (int k = 0; k < 2; ++k) line(i).v[k] = va[k] + fallen[k], line(j).v[k] = vb[k] + fallen[k];
+  go_on();
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::go_on() {
+  if constexpr (!World::plain) widen();
   choose_epoch_length();
-  for (const std::int32_t k : {i, j}) plan_ahead(k, predicted(k, surroundings(k)));
+  if (world_.growth() > 0.0) list_larger();
+  predict_all();
   start_queue();
 }
 
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::rebase(double now) {
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eigen::Vector2d& v, double spin) {
+  if (places_.empty()) {
+    places_.resize(lines_.size());
+    for (std::int32_t i = 0; i < count(); ++i) places_[static_cast<std::size_t>(id(i))] = i;
+  }
+  const std::int32_t i = places_[static_cast<std::size_t>(disk)];
+  if constexpr (!Impact::plain)
+    if (impact_.spinning()) impact_.spin(i) = spin;
+  turn(i, v);
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::scale_velocities(double factor) {
+  rebase(now_);
+  for (Line& a : lines_)
+    for (int k = 0; k < 2; ++k) a.v[k] *= factor;
+  if constexpr (!Impact::plain)
+    for (std::int32_t i = 0; i < count() && impact_.spinning(); ++i) impact_.spin(i) *= factor;
+  go_on();
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::make_lists() {
+  const double end = epoch_length_ < never ? world_.scale(epoch_length_) : world_.scale(0.0);
+  const double factor = end * frame_.well;
+  reach_ = largest_contact_ * factor;
+  std::vector<double> radius = radius_;
+  for (double& one : radius) one *= factor;
+  lists_ = NeighbourLists(axes_[0], axes_[1], radius);
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::list_larger() {
+  make_lists();
+  rebuild(frame_.half_width);
+  predict_all();
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::find_wells() {
+  if constexpr (!Impact::plain) {
+    auto& wells = impact_.wells();
+    for (std::int32_t i = 0; i < count() && wells.present(); ++i)
+      for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
+        const std::int32_t j = lists_.ids(i)[n];
+        const double edge = wells.reach() * (layout_.radius(line(i)) + layout_.radius(line(j)));
+        if (i < j && separation(line(i), line(j)).squaredNorm() < edge * edge) wells.enter(i, j);
+      }
+  }
+}
+
+/// A line has the length of the box and some spacings of room on either side. When walls have used up half of that, coordinates
+/// are made coarser: by a power of two, so that nothing but their last digits changes.
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::widen() {
+  bool wider = false;
+  for (int k = 0; k < 2; ++k) {
+    if (axes_[k].periodic) continue;
+    const double out =
+        std::max(world_.walls.displacement(wall_of(k, false), 0.0), world_.walls.displacement(wall_of(k, true), 0.0));
+    const double length = axes_[k].upper - axes_[k].lower;
+    const double range = 0x1p63 * axes_[k].unit;  // from the middle
+    if (4.0 * (length / 2.0 + out + detail::free_path * spacing_) <= range * 2.0) continue;
+    axes_[k].unit *= 2.0;
+    axes_[k].steps /= 2.0;
+    half_[k] /= 2;
+    frame_.unit[k] = axes_[k].unit;
+    for (Line& a : lines_) a.x[k] >>= 1;
+    wider = true;
+  }
+  if (!wider) return;
+  list_larger();
+  widen();
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::rebase(double now) {
   for (std::int32_t i = 0; i < count(); ++i) {
     Line& a = line(i);
-    for (int k = 0; k < 2; ++k) a.x[k] = moved(i, k, a.v[k] * now);
+    for (int k = 0; k < 2; ++k) {
+      a.x[k] = moved(i, k, a.v[k] * now + world_.fallen(k, now));
+      if constexpr (!World::plain) a.v[k] += world_.g()[k] * now;
+    }
     Plan& mine = plan(i);
     mine.pair_time = std::max(mine.pair_time - now, 0.0);
     mine.edge_time = std::max(mine.edge_time - now, 0.0);
@@ -188,20 +315,23 @@ void Engine<Rule, Layout>::rebase(double now) {
   }
   for (Plan& any : plans_) any.last_collided = 1;
   stamp_ = 1;
+  impact_.rebase(now);
+  world_.rebase(now);
+  frame_.scale = world_.scale(0.0);
   epoch_ = instant(now);
   now_ = 0.0;
 }
 
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::start_queue() {
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::start_queue() {
   if (span_ == 0.0) span_ = first_span();
   queue_.start(span_, lines_.size());
   for (std::int32_t i = 0; i < count(); ++i) schedule(i);
   begun_with_ = queue_.pushed();
 }
 
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::choose_epoch_length() {
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::choose_epoch_length() {
   double fastest[2] = {0.0, 0.0}, sum = 0.0;
   for (const Line& a : lines_)
     for (int k = 0; k < 2; ++k) {
@@ -213,13 +343,25 @@ void Engine<Rule, Layout>::choose_epoch_length() {
   // that coordinates have, were the fastest to become somewhat faster.
   double longest = 4.0 * spacing_ / mean_speed_;
   for (int k = 0; k < 2; ++k) longest = std::min(longest, travel_[k] / (1.2 * fastest[k]));
+  if constexpr (!World::plain) longest = std::min(longest, longest_by_world());
   epoch_length_ = longest < 0x1p1000 ? std::ldexp(1.0, std::ilogb(longest)) : never;
   frame_.edge_step = epoch_length_ < never ? 0x1p-20 * epoch_length_ : 0.0;
   for (int k = 0; k < 2; ++k) speed_limit_[k] = epoch_length_ < never ? travel_[k] / epoch_length_ : 0.0;
 }
 
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::tune_cages(double elapsed) {
+/// How long an epoch may be for what disks and walls will do that they do not do yet.
+template <class Impact, class Layout, class World>
+double Engine<Impact, Layout, World>::longest_by_world() const {
+  double longest = never;
+  const double pull = std::max(world_.g().cwiseAbs().maxCoeff(), world_.walls.strongest());
+  if (pull > 0.0) longest = std::sqrt(8.0 * spacing_ / pull);
+  if (world_.walls.fastest(0.0) > 0.0) longest = std::min(longest, 4.0 * spacing_ / world_.walls.fastest(0.0));
+  if (world_.growth() > 0.0) longest = std::min(longest, world_.scale(0.0) / (64.0 * world_.growth()));
+  return longest;
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::tune_cages(double elapsed) {
   travelled_ += mean_speed_ * elapsed;
   const std::uint64_t left = totals_.other - left_;
   if (settling_) {  // after all cages were made at once, nobody leaves for a while
@@ -241,8 +383,8 @@ void Engine<Rule, Layout>::tune_cages(double elapsed) {
   looks_ = 0;
 }
 
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::rebuild(double half_width) {
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::rebuild(double half_width) {
   frame_.half_width = half_width;
   std::vector<CageCentre> centres(lines_.size());
   for (std::int32_t i = 0; i < count(); ++i) centres[static_cast<std::size_t>(i)] = cage_around(i, now_);
@@ -258,14 +400,14 @@ void Engine<Rule, Layout>::rebuild(double half_width) {
 }
 
 /// Everybody anew.
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::predict_all() {
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::predict_all() {
   for (std::int32_t i = 0; i < count(); ++i) plan_ahead(i, predicted(i, surroundings(i)));
 }
 
 /// From the times of the first events: half of them come within the median.
-template <class Rule, class Layout>
-double Engine<Rule, Layout>::first_span() const {
+template <class Impact, class Layout, class World>
+double Engine<Impact, Layout, World>::first_span() const {
   if (count() == 0) return 1.0;
   std::vector<double> times(lines_.size());
   for (std::int32_t i = 0; i < count(); ++i) times[static_cast<std::size_t>(i)] = time(i);
@@ -275,8 +417,8 @@ double Engine<Rule, Layout>::first_span() const {
   return span > 0.0 && span < never ? span : epoch_length_ < never ? epoch_length_ : 1.0;
 }
 
-template <class Rule, class Layout>
-State Engine<Rule, Layout>::state() const {
+template <class Impact, class Layout, class World>
+State Engine<Impact, Layout, World>::state() const {
   State state;
   state.time = now().high;
   state.positions.resize(2, count());
@@ -289,7 +431,7 @@ State Engine<Rule, Layout>::state() const {
     for (int k = 0; k < 2; ++k) {
       std::int64_t x;
       std::int64_t image = images_[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
-      const std::int64_t way = axes_[k].steps_of(a.v[k] * now_);
+      const std::int64_t way = axes_[k].steps_of(a.v[k] * now_ + world_.fallen(k, now_));
       if (__builtin_add_overflow(a.x[k], way, &x)) image += way < 0 ? -1 : 1;
       const long double exact = axes_[k].position(x);
       double position = static_cast<double>(exact);
@@ -297,15 +439,22 @@ State Engine<Rule, Layout>::state() const {
       state.remainders(k, column) = static_cast<double>(exact - static_cast<long double>(position));
       if (axes_[k].periodic && position >= axes_[k].upper) position = axes_[k].lower, ++image;
       state.positions(k, column) = position;
-      state.velocities(k, column) = a.v[k];
+      state.velocities(k, column) = velocity(a)[k];
       state.images(k, column) = image;
     }
+  }
+  state.scale = world_.scale(now_);
+  if constexpr (!World::plain) state.walls = world_.walls.states(now_);
+  if constexpr (!Impact::plain) {
+    state.bonds = impact_.wells().pairs();
+    if (impact_.spinning()) state.spins.resize(count());
+    for (std::int32_t i = 0; i < count() && impact_.spinning(); ++i) state.spins[id(i)] = impact_.spin(i);
   }
   return state;
 }
 
-template <class Rule, class Layout>
-std::int32_t Engine<Rule, Layout>::lowest_of_tied(std::int32_t i, const Prediction& ahead) const {
+template <class Impact, class Layout, class World>
+std::int32_t Engine<Impact, Layout, World>::lowest_of_tied(std::int32_t i, const Prediction& ahead) const {
   std::int32_t lowest = ahead.partner;
   const auto consider = [&](std::int32_t j) {
     const std::int32_t alone[8] = {j, i, i, i, i, i, i, i};
@@ -315,24 +464,26 @@ std::int32_t Engine<Rule, Layout>::lowest_of_tied(std::int32_t i, const Predicti
   return lowest;
 }
 
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::log_collision(std::int32_t i, std::int32_t j, const Vec2<double>& va, const Vec2<double>& vb) {
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::log_collision(std::int32_t i, std::int32_t j, const Vec2<double>& va,
+                                                  const Vec2<double>& vb) {
   const Instant when = now();
+  const Vec2<double> fallen = world_.g() * now_;
   if (id(i) < id(j))
-    log_.push_back({when.high, when.low, id(i), id(j), va, vb});
+    log_.push_back({when.high, when.low, id(i), id(j), va + fallen, vb + fallen});
   else
-    log_.push_back({when.high, when.low, id(j), id(i), vb, va});
+    log_.push_back({when.high, when.low, id(j), id(i), vb + fallen, va + fallen});
 }
 
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::log_reflection(std::int32_t i, Wall wall) {
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::log_hit(std::int32_t i, std::int32_t what, const Vec2<double>& v) {
   const Instant when = now();
-  log_.push_back({when.high, when.low, id(i), wall, {line(i).v[0], line(i).v[1]}, {0.0, 0.0}});
+  log_.push_back({when.high, when.low, id(i), what, v, {0.0, 0.0}});
 }
 
 /// Fetches what the events of the spans to come will need, in three stages: plans; lines and lists; what the lists name.
-template <class Rule, class Layout>
-void Engine<Rule, Layout>::look_ahead(std::int64_t span) const {
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::look_ahead(std::int64_t span) const {
   if (!fetching_) return;
   queue_.fetch_span(span + 7);
   for (const std::int32_t i : queue_.ids_of(span + 5)) fetch(&plan(i));
@@ -361,10 +512,11 @@ void Engine<Rule, Layout>::look_ahead(std::int64_t span) const {
   }
 }
 
-template <class Rule, class Layout>
-std::size_t Engine<Rule, Layout>::bytes() const {
+template <class Impact, class Layout, class World>
+std::size_t Engine<Impact, Layout, World>::bytes() const {
   return lines_.capacity() * sizeof(Line) + plans_.capacity() * sizeof(Plan) + ids_.capacity() * sizeof(std::int32_t) +
-         images_.capacity() * sizeof(images_[0]) + lists_.bytes() + queue_.bytes();
+         images_.capacity() * sizeof(images_[0]) + lists_.bytes() + queue_.bytes() + impact_.bytes() +
+         (radius_.capacity() * sizeof(double)) + places_.capacity() * sizeof(std::int32_t);
 }
 
 }  // namespace carom

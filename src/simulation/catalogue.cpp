@@ -28,6 +28,7 @@ bool always(const Scene& /*scene*/, const Disks& /*disks*/) { return true; }
 const std::vector<EngineEntry>& catalogue() {
   static const std::vector<EngineEntry> entries = {
       {"fast", &fast_covers, &make_fast},
+      {"general", &general_covers, &make_general},
       {"textbook", &always, &make_textbook<double>},
       {"textbook-float", &always, &make_textbook<float>},
       {"textbook-long-double", &always, &make_textbook<long double>},

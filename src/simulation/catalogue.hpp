@@ -32,6 +32,10 @@ std::unique_ptr<AnyEngine> make_engine(const EngineEntry& entry, const Scene& sc
 bool fast_covers(const Scene& scene, const Disks& disks);
 std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Disks& disks, State start);
 
+/// The fast engine with every effect.
+bool general_covers(const Scene& scene, const Disks& disks);
+std::unique_ptr<AnyEngine> make_general(const Scene& scene, const Disks& disks, State start);
+
 /// The textbook engine in one number type; instantiated in textbook_<type>.cpp, one file each because they are slow to
 /// compile.
 template <class Real>

@@ -98,6 +98,15 @@ TEST_F(FallTime, TouchingTheFloorAtTheLowestPointIsNever) {
   EXPECT_LT(fall_time(1.0, -2.0 - 0x1p-40, 2.0), 1.0);
 }
 
+TEST_F(FallTime, ComesBackOnlyFromAboveTheFloor) {
+  EXPECT_EQ(return_time(-3.0, 4.0, -2.0), 3.0);
+  EXPECT_EQ(return_time(0.0, 3.0, -2.0), 3.0);
+  EXPECT_EQ(return_time(-4.0, 4.0, -2.0), infinity<double>) << "just touches";
+  EXPECT_EQ(return_time(-3.0, -4.0, -2.0), infinity<double>);
+  EXPECT_EQ(return_time(-3.0, 4.0, 0.0), infinity<double>);
+  EXPECT_EQ(return_time(-3.0, 4.0, 2.0), infinity<double>);
+}
+
 RC_GTEST_PROP(PropertyFallTime, NothingIsBelowTheFloorBefore, ()) {
   const auto number = [] { return *rc::gen::inRange(-1'000'000, 1'000'000) / 65536.0; };
   const double h = std::abs(number());

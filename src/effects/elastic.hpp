@@ -1,0 +1,41 @@
+#pragma once
+// What happens when two disks meet, where nothing but the collision rule acts: the lean answer in the place of any_impact.hpp.
+
+#include "effects/impact.hpp"
+
+#include <carom/effects.hpp>
+#include <carom/state.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace carom {
+
+template <class Rule>
+class Elastic {
+ public:
+  Elastic(const Effects& /*effects*/, std::size_t /*disks*/) {}
+
+  static constexpr bool plain = true;
+
+  struct Body {
+    std::int32_t disk;
+    double mass;
+    double radius;
+    Vec2<double>& v;
+  };
+
+  /// Disks i and j meet at separation r = r_i - r_j.
+  static void meet(const Vec2<double>& r, double /*growth*/, const Body& i, const Body& j, double /*now*/, Totals& totals) {
+    const ImpactResult<double> impact = collide<Rule, double>(r, i.mass, i.v, j.mass, j.v);
+    ++totals.pair;
+    totals.virial += impact.virial;
+  }
+
+  [[nodiscard]] static bool rests(std::int32_t /*i*/, double /*now*/) { return false; }
+  static void touched(std::int32_t /*i*/, double /*now*/) {}
+  static void rebase(double /*now*/) {}
+  [[nodiscard]] static std::size_t bytes() { return 0; }
+};
+
+}  // namespace carom

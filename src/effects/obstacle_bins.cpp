@@ -1,0 +1,138 @@
+// Which obstacles a path may meet.
+
+#include "effects/obstacle_bins.hpp"
+
+#include "core/fall_time.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// Of the box: far above the rounding of bin numbers, far below anything that costs time.
+constexpr double margin = 1e-9;
+
+}  // namespace
+
+ObstacleBins::ObstacleBins(const Box& box, const std::vector<ObstacleBounds>& bounds) : box_(box) {
+  choose_counts(bounds);
+  const auto for_bins = [&](auto&& act) {
+    for (std::size_t o = 0; o < bounds.size(); ++o) {
+      const Range range = range_of(bounds[o].lower, bounds[o].upper);
+      for (std::int64_t row = range.first[1]; row <= range.last[1]; ++row)
+        for (std::int64_t column = range.first[0]; column <= range.last[0]; ++column) act(o, range, column, row);
+    }
+  };
+  begin_.assign(static_cast<std::size_t>(count_[0] * count_[1]) + 1, 0);
+  for_bins([&](std::size_t, const Range&, std::int64_t column, std::int64_t row) {
+    ++begin_[index(place(0, column).bin, place(1, row).bin) + 1];
+  });
+  for (std::size_t k = 1; k < begin_.size(); ++k) begin_[k] += begin_[k - 1];
+  items_.resize(begin_.back());
+  std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+  for_bins([&](std::size_t o, const Range& range, std::int64_t column, std::int64_t row) {
+    const std::array<Place, 2> places{place(0, column), place(1, row)};
+    Item& item = items_[next[index(places[0].bin, places[1].bin)]++];
+    item.obstacle = static_cast<std::int32_t>(o);
+    for (std::size_t a = 0; a < 2; ++a) {
+      item.image[a] = static_cast<std::int32_t>(-places[a].image);
+      item.first[a] = static_cast<std::int32_t>(range.first[a] - places[a].image * count_[a]);
+    }
+  });
+}
+
+/// Bins about as many as obstacles; fewer where long segments would fill too many of them.
+void ObstacleBins::choose_counts(const std::vector<ObstacleBounds>& bounds) {
+  const double obstacles = std::max<double>(1.0, static_cast<double>(bounds.size()));
+  const Eigen::Vector2d lengths = box_.lengths();
+  for (double width = std::sqrt(box_.area() / obstacles);; width *= 1.5) {
+    const auto count = [&](int a) {
+      return static_cast<std::int64_t>(std::clamp(std::floor(lengths[a] / width), 1.0, 4.0 * obstacles));
+    };
+    set_counts(count(0), count(1));
+    if (count_[0] * count_[1] == 1) return;
+    double items = 0.0;
+    for (const ObstacleBounds& b : bounds) {
+      const Range range = range_of(b.lower, b.upper);
+      items += static_cast<double>((range.last[0] - range.first[0] + 1) * (range.last[1] - range.first[1] + 1));
+    }
+    if (items <= 32.0 * obstacles + 256.0) return;
+  }
+}
+
+void ObstacleBins::set_counts(std::int64_t columns, std::int64_t rows) {
+  count_ = {columns, rows};
+  width_ = box_.lengths().cwiseQuotient(Eigen::Vector2d(static_cast<double>(columns), static_cast<double>(rows)));
+}
+
+double ObstacleBins::end_of(const SearchPath& path) const {
+  if (path.until < never) return path.until;
+  double until = never;
+  const Eigen::Vector2d lengths = box_.lengths();
+  for (int a = 0; a < 2; ++a) {
+    if (!box_.periodic(a)) {
+      until = std::min(until, fall_time(path.r[a] - box_.lower[a], path.v[a], path.g[a]));
+      until = std::min(until, fall_time(box_.upper[a] - path.r[a], -path.v[a], -path.g[a]));
+    } else if (path.v[a] != 0.0) {
+      until = std::min(until, far * lengths.maxCoeff() / path.v.cwiseAbs().maxCoeff());
+    }
+  }
+  if (path.growth > 0.0) until = std::min(until, 2.0 * lengths.sum() / path.growth);  // has filled the box by then
+  return until;
+}
+
+/// A piece is about a bin long.
+double ObstacleBins::end_of_piece(const SearchPath& path, double from, double until) const {
+  double time = never;
+  const Eigen::Vector2d v = path.v + from * path.g;
+  for (int a = 0; a < 2; ++a) {
+    if (v[a] != 0.0) time = std::min(time, width_[a] / std::abs(v[a]));
+    if (path.g[a] != 0.0) time = std::min(time, std::sqrt(width_[a] / std::abs(path.g[a])));
+  }
+  if (path.growth > 0.0) time = std::min(time, width_.minCoeff() / path.growth);
+  return std::min(until, from + std::max(time, 1e-12 * from));
+}
+
+ObstacleBins::Range ObstacleBins::range_of(const SearchPath& path, double from, double to) const {
+  const auto at = [&path](double t) { return Eigen::Vector2d(path.r + t * (path.v + t / 2 * path.g)); };
+  const bool rests = path.v.isZero(0.0) && path.g.isZero(0.0);  // and `to` may be infinite
+  const Eigen::Vector2d first = rests ? path.r : at(from);
+  const Eigen::Vector2d last = rests ? path.r : at(to);
+  const double moving = rests && path.growth == 0.0 ? 0.0 : to;
+  const double reach = path.radius + path.growth * moving;
+  const double sag = path.g.norm() * (moving - from) * (moving - from) / 8;  // of a parabola, from its chord
+  const double way = path.r.norm() + box_.lengths().sum() + moving * (path.v.norm() + moving / 2 * path.g.norm()) + reach;
+  const Eigen::Vector2d around = Eigen::Vector2d::Constant(reach + sag + 64 * path.rounding * way);
+  return range_of(first.cwiseMin(last) - around, first.cwiseMax(last) + around);
+}
+
+ObstacleBins::Range ObstacleBins::range_of(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) const {
+  Range range{};
+  for (int a = 0; a < 2; ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    const double around = margin * box_.lengths()[a];
+    range.first[k] = static_cast<std::int64_t>(std::floor((lower[a] - around - box_.lower[a]) / width_[a]));
+    range.last[k] = static_cast<std::int64_t>(std::floor((upper[a] + around - box_.lower[a]) / width_[a]));
+    if (box_.periodic(a)) continue;
+    range.first[k] = std::clamp<std::int64_t>(range.first[k], 0, count_[k] - 1);  // what is beyond a wall is listed at it
+    range.last[k] = std::clamp<std::int64_t>(range.last[k], 0, count_[k] - 1);
+  }
+  return range;
+}
+
+ObstacleBins::Place ObstacleBins::place(int axis, std::int64_t line) const {
+  const std::int64_t count = count_[static_cast<std::size_t>(axis)];
+  const std::int64_t image = line >= 0 ? line / count : -((count - 1 - line) / count);
+  return {line - image * count, image};
+}
+
+std::size_t ObstacleBins::index(std::int64_t column, std::int64_t row) const {
+  return static_cast<std::size_t>(row * count_[0] + column);
+}
+
+}  // namespace carom

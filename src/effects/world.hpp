@@ -1,0 +1,100 @@
+#pragma once
+// What is round the disks besides other disks: how they fall, the sides of the box, obstacles; and how they grow. Two answers:
+// PlainWorld, where there are hard walls at rest or none, and AnyWorld.
+
+#include "core/sides.hpp"
+#include "effects/gravity.hpp"
+#include "effects/obstacles.hpp"
+#include "effects/rebound.hpp"
+#include "effects/walls.hpp"
+
+#include <carom/effects.hpp>
+#include <carom/state.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+namespace carom {
+
+/// A disk as it meets something that is no disk.
+struct Visitor {
+  Vec2<double> r;
+  double mass;
+  double radius;
+  bool elastic;  ///< loses nothing, whatever it hits (TC model)
+};
+
+struct PlainWorld {
+  static constexpr bool plain = true;
+
+  PlainWorld(const Box& /*box*/, const Effects& /*effects*/, const State& /*start*/, std::uint64_t /*seed*/) {}
+
+  [[nodiscard]] static Vec2<double> g() { return Vec2<double>::Zero(); }
+  [[nodiscard]] static double fallen(int /*axis*/, double /*t*/) { return 0.0; }
+  [[nodiscard]] static double scale(double /*t*/) { return 1.0; }
+  [[nodiscard]] static double growth() { return 0.0; }
+
+  /// The component of the velocity across the wall is reversed.
+  static void meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double /*now*/, Totals& totals) {
+    const Wall wall = static_cast<Wall>(what);
+    double& across = v[axis_of(wall)];
+    ++totals.wall;
+    totals.wall_impulse[index_of(wall)] += 2.0 * disk.mass * std::abs(across);
+    across = -across;
+  }
+  [[nodiscard]] static bool gives_way(std::int32_t /*what*/) { return false; }
+  static void rebase(double /*now*/) {}
+};
+
+struct AnyWorld {
+  static constexpr bool plain = false;
+
+  AnyWorld(const Box& box, const Effects& effects, const State& start, std::uint64_t seed)
+      : falling(effects.gravity),
+        walls(box, effects.walls, seed),
+        obstacles(box, effects.obstacles),
+        scale_(start.scale),
+        growth_(effects.growth ? effects.growth->rate : 0.0) {
+    walls.start_from(start.walls);
+  }
+
+  [[nodiscard]] const Vec2<double>& g() const { return falling.g; }
+  /// How far a disk falls from rest in a time t.
+  [[nodiscard]] double fallen(int axis, double t) const { return (falling.g[axis] * t) * (t / 2); }
+  /// Of all radii, at time t.
+  [[nodiscard]] double scale(double t) const { return scale_ + growth_ * t; }
+  [[nodiscard]] double growth() const { return growth_; }
+
+  void meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double now, Totals& totals) {
+    const double growth = growth_ * disk.radius / scale(now);
+    if (what <= first_obstacle) {
+      ++totals.obstacle;
+      totals.obstacle_impulse += bounce_off<double>(obstacles.from_nearest_point(first_obstacle - what, disk.r), v, falling.g,
+                                                    disk.mass, disk.radius, growth);
+      return;
+    }
+    const Wall wall = static_cast<Wall>(what);
+    ++totals.wall;
+    const auto hit = walls.meet(wall, v, falling.g, disk.mass, disk.radius, growth, disk.elastic, now);
+    totals.wall_impulse[index_of(wall)] += hit.impulse;
+    totals.wall_energy[index_of(wall)] += hit.energy;
+  }
+  /// A piston, whose motion a contact changes.
+  [[nodiscard]] bool gives_way(std::int32_t what) const {
+    return what > first_obstacle && walls.is_piston(static_cast<Wall>(what));
+  }
+  void rebase(double now) {
+    walls.rebase(now);
+    scale_ += growth_ * now;
+  }
+
+  Falling<double> falling;
+  Walls<double> walls;
+  Obstacles<double> obstacles;
+
+ private:
+  double scale_;
+  double growth_;
+};
+
+}  // namespace carom

@@ -1,0 +1,85 @@
+#pragma once
+// One disk among obstacles: the smallest loop that bounces, to test obstacles without an engine.
+
+#include "core/domain.hpp"
+#include "effects/obstacles.hpp"
+
+#include <initializer_list>
+#include <vector>
+
+namespace carom::test {
+
+inline Obstacle fixed_disk(double x, double y, double radius) {
+  Obstacle obstacle;
+  obstacle.shape = DiskObstacle{{x, y}, radius};
+  return obstacle;
+}
+
+inline Obstacle fixed_segment(Eigen::Vector2d from, Eigen::Vector2d to) {
+  Obstacle obstacle;
+  obstacle.shape = SegmentObstacle{from, to};
+  return obstacle;
+}
+
+inline std::vector<Obstacle> polygon(const std::vector<Eigen::Vector2d>& corners) {
+  std::vector<Obstacle> sides;
+  for (std::size_t k = 0; k < corners.size(); ++k) sides.push_back(fixed_segment(corners[k], corners[(k + 1) % corners.size()]));
+  return sides;
+}
+
+inline Box box_of(double width, double height, Boundary x, Boundary y) {
+  Box box;
+  box.upper = {width, height};
+  box.boundary = {x, y};
+  return box;
+}
+
+struct Billiard {
+  Box box;
+  Obstacles<double> obstacles;
+  Vec2<double> r;
+  Vec2<double> v;
+  Vec2<double> g = Vec2<double>::Zero();
+  double radius = 0.5;
+  double growth = 0.0;
+  double path = 0.0;  ///< length of the straight paths so far
+
+  Billiard(const Box& room, const std::vector<Obstacle>& list, const Vec2<double>& place, const Vec2<double>& velocity,
+           double size)
+      : box(room), obstacles(room, list), r(place), v(velocity), radius(size) {}
+
+  [[nodiscard]] Obstacles<double>::Meeting next(double until = infinity<double>) const {
+    return obstacles.next(r, v, g, radius, growth, until);
+  }
+  void fly(double t) {
+    path += t * v.norm();
+    r += t * (v + t / 2 * g);
+    v += t * g;
+    static_cast<void>(Domain<double>(box).wrap(r));
+  }
+  void bounce(std::int32_t obstacle) {
+    const Vec2<double> n = obstacles.from_nearest_point(obstacle, r);
+    v -= 2 * (v.dot(n) / n.squaredNorm()) * n;
+  }
+  /// To the next obstacle and off it.
+  Obstacles<double>::Meeting step(double until = infinity<double>) {
+    const auto meeting = next(until);
+    if (meeting.obstacle < 0) return meeting;
+    fly(meeting.time);
+    bounce(meeting.obstacle);
+    return meeting;
+  }
+  /// From the nearest obstacle's edge to the disk's, of `count` obstacles; negative where they overlap.
+  [[nodiscard]] double clearance(const std::vector<Obstacle>& list) const {
+    double least = infinity<double>;
+    for (std::size_t o = 0; o < list.size(); ++o) {
+      const auto* disk = std::get_if<DiskObstacle>(&list[o].shape);
+      const double apart = obstacles.from_nearest_point(static_cast<std::int32_t>(o), r).norm();
+      least = std::min(least, apart - radius - (disk ? disk->radius : 0.0));
+    }
+    return least;
+  }
+  [[nodiscard]] double energy() const { return v.squaredNorm() / 2 - g.dot(r); }
+};
+
+}  // namespace carom::test
