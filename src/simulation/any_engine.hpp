@@ -6,12 +6,15 @@
 
 #include <carom/state.hpp>
 
+#include <Eigen/Core>
+
 #include <cstdint>
 #if CAROM_CHECK_INVARIANTS
 #include <cstdio>
 #include <cstdlib>
 #endif
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,9 +31,19 @@ class AnyEngine {
   virtual bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) = 0;
   [[nodiscard]] virtual bool idle() const = 0;
   [[nodiscard]] virtual bool jammed() const = 0;
+  /// Disks that grew have reached the packing fraction or pressure at which they were to end: run_until returns false from then
+  /// on.
+  [[nodiscard]] virtual bool grown() const { return false; }
   [[nodiscard]] virtual Instant now() const = 0;
   [[nodiscard]] virtual const Totals& totals() const = 0;
   [[nodiscard]] virtual State state() const = 0;
+  /// Of one disk, now.
+  [[nodiscard]] virtual Eigen::Vector2d velocity_of(std::int32_t i) const = 0;
+  [[nodiscard]] virtual double spin_of(std::int32_t i) const = 0;
+  /// Something from outside changes how disks move, at now(). Spins are left alone where disks are smooth.
+  virtual void set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) = 0;
+  /// All velocities and spins become `factor` times what they are.
+  virtual void scale_velocities(double factor) = 0;
   virtual void reset_clock() = 0;
   virtual void record_events(bool on) = 0;
   [[nodiscard]] virtual std::vector<Event> take_events() = 0;
@@ -55,6 +68,23 @@ class EngineAdapter final : public AnyEngine {
   [[nodiscard]] Instant now() const override { return engine_.now(); }
   [[nodiscard]] const Totals& totals() const override { return engine_.totals(); }
   [[nodiscard]] State state() const override { return engine_.state(); }
+  [[nodiscard]] Eigen::Vector2d velocity_of(std::int32_t i) const override {
+    if constexpr (requires { engine_.velocity_of(i); }) return engine_.velocity_of(i);
+    return engine_.state().velocities.col(i);
+  }
+  [[nodiscard]] double spin_of(std::int32_t i) const override {
+    if constexpr (requires { engine_.spin_of(i); }) return engine_.spin_of(i);
+    const State state = engine_.state();
+    return state.spins.size() > i ? state.spins[i] : 0.0;
+  }
+  void set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
+    if constexpr (requires { engine_.set_velocity(i, v, spin); }) return engine_.set_velocity(i, v, spin);
+    refuse_to_be_driven();
+  }
+  void scale_velocities(double factor) override {
+    if constexpr (requires { engine_.scale_velocities(factor); }) return engine_.scale_velocities(factor);
+    refuse_to_be_driven();
+  }
   void reset_clock() override {
     engine_.reset_clock();
 #if CAROM_CHECK_INVARIANTS
@@ -66,6 +96,10 @@ class EngineAdapter final : public AnyEngine {
   [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_.check_invariants(); }
 
  private:
+  /// Which engine runs a scene is decided before: no scene gets here.
+  [[noreturn]] static void refuse_to_be_driven() {
+    throw std::logic_error("this engine does not let velocities be changed from outside");
+  }
 #if CAROM_CHECK_INVARIANTS
   /// Once per collision of every disk: ends the program with the first fault.
   void check_now_and_then() {

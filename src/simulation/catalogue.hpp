@@ -21,6 +21,13 @@ struct EngineEntry {
 /// In the order in which they are considered: the first that covers a scene runs it.
 const std::vector<EngineEntry>& catalogue();
 
+/// The named engine, or for "auto" the first of the catalogue that covers the scene. Throws std::invalid_argument where there is
+/// no such engine, or it does not cover the scene.
+const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine);
+
+/// An engine of that entry, driven from outside where the scene asks for it.
+std::unique_ptr<AnyEngine> make_engine(const EngineEntry& entry, const Scene& scene, const Disks& disks, State start);
+
 /// The fast engine, for equal disks or for any.
 bool fast_covers(const Scene& scene, const Disks& disks);
 std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Disks& disks, State start);

@@ -45,7 +45,6 @@ class Placement {
   }
 
   Eigen::Matrix2Xd run() {
-    refuse_grown();
     for (std::size_t s = 0; s < ids_.size(); ++s) {
       if (const auto* listed = std::get_if<ListedPositions>(&scene_.species[s].positions)) place_listed(s, listed->values);
       if (const auto* file = std::get_if<FilePositions>(&scene_.species[s].positions)) place_listed(s, file->values);
@@ -57,14 +56,6 @@ class Placement {
   }
 
  private:
-  void refuse_grown() const {
-    for (const Species& species : scene_.species) {
-      if (species.count == 0 || !std::holds_alternative<GrownPositions>(species.positions)) continue;
-      throw SceneError(species.positions_where,
-                       "a start that is grown to its packing fraction cannot be placed yet; use positions = \"hexagonal\"");
-    }
-  }
-
   void put(std::int64_t i, const Eigen::Vector2d& position) {
     positions_.col(i) = position;
     in_place_.insert(static_cast<std::int32_t>(i), position);
@@ -219,6 +210,8 @@ class Placement {
 
 }  // namespace
 
-Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks) { return Placement(scene, disks).run(); }
+Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks) {
+  return are_grown(scene) ? grown_positions(scene, disks) : Placement(scene, disks).run();
+}
 
 }  // namespace carom

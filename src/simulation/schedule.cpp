@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace carom {
@@ -24,12 +25,18 @@ constexpr std::uint64_t stretch_events = 20'000;
 /// each other for ever, as far as anyone can tell.
 constexpr std::uint64_t patience = 1'000'000'000;
 
-std::uint64_t all_events(const Totals& totals) { return totals.pair + totals.wall + totals.other + totals.stale; }
+std::uint64_t all_events(const Totals& totals) {
+  return totals.pair + totals.wall + totals.other + totals.stale + totals.obstacle + totals.well + totals.kicks;
+}
+
+/// Growth to a packing fraction comes to its end whether disks collide or not.
+bool ends_by_growth(const std::optional<Growth>& growth) { return growth && growth->rate > 0.0 && growth->packing_fraction; }
 
 class Schedule {
  public:
   Schedule(const Scene& scene, detail::AnyEngine& engine, std::uint64_t disks, const RunHooks& hooks)
       : run_(scene.run),
+        effects_(scene.effects),
         engine_(engine),
         hooks_(hooks),
         block_collisions_(std::max<std::uint64_t>(16, disks / 2)),
@@ -112,7 +119,7 @@ class Schedule {
       }
       if (engine_.totals().pair >= collisions) return stop(StopReason::collisions);
       if (arrived && target < forever) return true;
-      if (engine_.jammed()) return stop(StopReason::jammed);
+      if (const auto reason = detail::why_stopped(engine_, effects_)) return stop(*reason);
       if (is_hopeless()) return stop(StopReason::no_collisions);
     }
   }
@@ -131,7 +138,7 @@ class Schedule {
 
   /// Only collisions can end this, and none will come.
   [[nodiscard]] bool is_hopeless() const {
-    return !ends_by_time_ && (disks_ < 2 || engine_.idle() || without_collision_ > patience);
+    return !ends_by_time_ && !ends_by_growth(effects_.growth) && (disks_ < 2 || engine_.idle() || without_collision_ > patience);
   }
 
   void hand_on_events() {
@@ -147,6 +154,7 @@ class Schedule {
   [[nodiscard]] Progress progress() const { return {engine_.now().high, engine_.totals(), result_.loop_seconds, equilibrating_}; }
 
   const Run& run_;
+  const Effects& effects_;
   detail::AnyEngine& engine_;
   const RunHooks& hooks_;
   const std::uint64_t block_collisions_;
@@ -160,7 +168,7 @@ class Schedule {
 };
 
 /// Scenes from a file have been checked; those that a program has put together have not.
-void require_sound_schedule(const Run& run) {
+void require_sound_schedule(const Run& run, const Effects& effects) {
   const auto refuse = [](const char* what) { throw SceneError({"run", 0, 0}, what); };
   const auto negative = [](const std::optional<double>& number) { return number && !(*number >= 0.0 && std::isfinite(*number)); };
   if (!run.time && !run.collisions) refuse("the run has neither time nor collisions and would never end; give one of them");
@@ -168,6 +176,7 @@ void require_sound_schedule(const Run& run) {
   if (run.sample_every && !(*run.sample_every > 0.0 && std::isfinite(*run.sample_every)))
     refuse("run.sample_every must be positive and finite");
   if (!run.equilibrate) return;
+  if (effects.growth && effects.growth->rate > 0.0) refuse("growing disks cannot be equilibrated; leave out run.equilibrate");
   if (run.equilibrate->time.has_value() == run.equilibrate->collisions_per_disk.has_value())
     refuse("run.equilibrate needs either time or collisions_per_disk");
   if (negative(run.equilibrate->time) || negative(run.equilibrate->collisions_per_disk))
@@ -188,7 +197,7 @@ std::uint64_t last_sample(const Run& run) {
 
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   auto& parts = *simulation.parts_;
-  require_sound_schedule(parts.scene.run);
+  require_sound_schedule(parts.scene.run, parts.scene.effects);
   return Schedule(parts.scene, *parts.engine, parts.disks.count(), hooks)();
 }
 

@@ -6,10 +6,6 @@
 #include "simulation/parts.hpp"
 #include "simulation/start.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -17,11 +13,11 @@ namespace carom {
 
 namespace {
 
-StopReason run_to(detail::AnyEngine& engine, const Instant& target, std::uint64_t collision_limit) {
+StopReason run_to(detail::AnyEngine& engine, const Effects& effects, const Instant& target, std::uint64_t collision_limit) {
   if (!std::isfinite(target.high) || !std::isfinite(target.low))
     throw std::invalid_argument("a simulation runs to a finite time only");
   if (engine.run_until(target, collision_limit, std::numeric_limits<std::uint64_t>::max())) return StopReason::time;
-  return engine.jammed() ? StopReason::jammed : StopReason::collisions;
+  return detail::why_stopped(engine, effects).value_or(StopReason::collisions);
 }
 
 }  // namespace
@@ -40,11 +36,11 @@ const Totals& Simulation::totals() const { return parts_->engine->totals(); }
 State Simulation::state() const { return parts_->engine->state(); }
 
 StopReason Simulation::run_until(double time, std::uint64_t collision_limit) {
-  return run_to(*parts_->engine, {time, 0.0}, collision_limit);
+  return run_to(*parts_->engine, parts_->scene.effects, {time, 0.0}, collision_limit);
 }
 
 StopReason Simulation::run_until_sample(std::uint64_t k, double dt, std::uint64_t collision_limit) {
-  return run_to(*parts_->engine, Instant::product(k, dt), collision_limit);
+  return run_to(*parts_->engine, parts_->scene.effects, Instant::product(k, dt), collision_limit);
 }
 
 void Simulation::reset_clock() { parts_->engine->reset_clock(); }
@@ -58,29 +54,9 @@ std::vector<std::string> engine_names() {
   return names;
 }
 
-namespace {
-
-/// The named engine, or the first of the catalogue that covers the disks.
-const detail::EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine) {
-  const auto& entries = detail::catalogue();
-  const auto named = [&](const auto& entry) { return entry.name == engine; };
-  if (engine != "auto" && std::none_of(entries.begin(), entries.end(), named))
-    throw std::invalid_argument(
-        fmt::format("there is no engine \"{}\"; choose one of auto, {}", engine, fmt::join(engine_names(), ", ")));
-  const auto covering = [&](const auto& entry) { return (engine == "auto" || named(entry)) && entry.covers(scene, disks); };
-  const auto entry = std::find_if(entries.begin(), entries.end(), covering);
-  if (entry == entries.end())
-    throw std::invalid_argument(
-        fmt::format("the engine \"{}\" does not cover this scene: {}; leave the choice to carom, or take \"textbook\"", engine,
-                    "its periodic box is too small, or its disks are, compared with the box"));
-  return *entry;
-}
-
-}  // namespace
-
 Simulation Simulation::begin(const Scene& scene, Start start, const std::string& engine) {
-  const detail::EngineEntry& entry = choose_engine(scene, start.disks, engine);
-  auto running = entry.make(scene, start.disks, std::move(start.state));
+  const detail::EngineEntry& entry = detail::choose_engine(scene, start.disks, engine);
+  auto running = detail::make_engine(entry, scene, start.disks, std::move(start.state));
   return Simulation(std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry.name, std::move(running)}));
 }
 

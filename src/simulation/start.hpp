@@ -24,6 +24,12 @@ Start start_from(const Scene& scene, const State& state);
 /// Column i of `positions` for every disk of every species, in the order of ids. Throws as draw_start.
 Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks);
 
+/// Whether the scene asks for a dense start (`GrownPositions`). Throws SceneError where only some of its disks are to be grown.
+bool are_grown(const Scene& scene);
+
+/// The dense start. Throws SceneError where the disks jam before they have their size.
+Eigen::Matrix2Xd grown_positions(const Scene& scene, const Disks& disks);
+
 /// The same for velocities. Where no velocity is given one by one, the total momentum along periodic axes is removed;
 /// temperatures are met exactly. Neither is done where the scene keeps momentum.
 Eigen::Matrix2Xd draw_velocities(const Scene& scene, const Disks& disks);

@@ -1,0 +1,206 @@
+#include "simulation/driven_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace carom::detail {
+
+namespace {
+
+std::uint64_t all_events(const Totals& totals) {
+  return totals.pair + totals.wall + totals.other + totals.stale + totals.obstacle + totals.well;
+}
+
+/// `time` on a clock whose zero is at `zero`.
+Instant moved(const Instant& time, const Instant& zero) {
+  return time < forever ? time.plus(-zero.high).plus(-zero.low) : forever;
+}
+
+/// Of translation, that a temperature is shared among: the common motion along a periodic axis is not heat.
+double degrees_of_freedom(const Scene& scene) {
+  const int conserved = (scene.box.periodic(0) ? 1 : 0) + (scene.box.periodic(1) ? 1 : 0);
+  return std::max(1.0, 2.0 * static_cast<double>(scene.disk_count()) - conserved);
+}
+
+/// a / b to twice the digits
+Instant ratio(double a, double b) {
+  const double quotient = a / b;
+  return Instant::sum(quotient, std::fma(-quotient, b, a) / b);
+}
+
+double rate_of(const std::optional<Growth>& growth) { return growth ? growth->rate : 0.0; }
+
+}  // namespace
+
+bool DrivenEngine::needed_by(const Effects& effects) {
+  return rate_of(effects.growth) > 0.0 || (effects.thermostat && effects.thermostat->rate > 0.0);
+}
+
+DrivenEngine::DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene, Disks disks)
+    : engine_(std::move(engine)),
+      disks_(std::move(disks)),
+      andersen_(scene.effects.thermostat, static_cast<std::int32_t>(disks_.count()), scene.run.seed),
+      spinning_(scene.effects.collision.roughness.has_value()),
+      growth_rate_(rate_of(scene.effects.growth)),
+      packing_fraction_(scene.packing_fraction()),
+      keeps_energy_(growth_rate_ > 0.0 && !andersen_.acts()),
+      between_stock_(std::max<std::uint64_t>(1, disks_.count() / 2)),
+      window_(disks_.count(), degrees_of_freedom(scene)) {
+  if (andersen_.acts()) {
+    next_ = andersen_.kick(0);
+    kick_time_ = engine_->now().plus(next_.wait);
+  }
+  if (growth_rate_ > 0.0) {
+    const Growth& growth = *scene.effects.growth;
+    if (growth.packing_fraction) end_scale_ = std::sqrt(*growth.packing_fraction / packing_fraction_);
+    end_pressure_ = growth.reduced_pressure.value_or(0.0);
+  }
+  begin();
+}
+
+bool DrivenEngine::run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
+  bool arrived = false;
+  while (!grown_ && event_limit > 0) {
+    const Instant stop = std::min({target, kick_time_, end_});
+    const std::uint64_t before = all_events(engine_->totals());
+    arrived = engine_->run_until(stop, std::min(pair_limit, stock_at_), event_limit);
+    event_limit -= std::min(event_limit, all_events(engine_->totals()) - before);
+    if (engine_->totals().pair >= stock_at_) {
+      arrived = false;
+      take_stock();
+      if (engine_->totals().pair >= pair_limit) break;
+    } else if (!arrived || target < std::min(kick_time_, end_)) {
+      break;
+    } else if (!(stop < end_) && end_ < forever) {
+      grown_ = true;
+      arrived = false;
+    } else if (!(stop < kick_time_) && kick_time_ < forever) {
+      kick();
+      event_limit -= std::min<std::uint64_t>(event_limit, 1);
+      arrived = false;
+    } else {
+      break;
+    }
+  }
+  count();
+  return arrived;
+}
+
+/// Disks that nothing moves now may be kicked later, or grow until they touch.
+bool DrivenEngine::idle() const {
+  const bool grows = growth_rate_ > 0.0 && !grown_;
+  return engine_->idle() && !(andersen_.acts() || grows);
+}
+
+State DrivenEngine::state() const {
+  State state = engine_->state();
+  if (grown_ && end_scale_ > 0.0 && !(now() < end_)) state.scale = end_scale_;  // what was asked for, not its sum over epochs
+  return state;
+}
+
+void DrivenEngine::reset_clock() {
+  const Instant zero = engine_->now();
+  engine_->reset_clock();
+  kick_time_ = moved(kick_time_, zero);
+  begin();
+}
+
+/// Whatever is counted from where the clock stands at 0.
+void DrivenEngine::begin() {
+  counted_kicks_ = 0;
+  kick_energy_ = rescaling_energy_ = 0.0;
+  if (growth_rate_ > 0.0) {
+    start_scale_ = engine_->state().scale;
+    if (end_scale_ > 0.0) end_ = ratio(std::max(0.0, end_scale_ - start_scale_), growth_rate_);
+    const Energy now = energy();
+    energy_at_start_ = now.total();
+    stock_at_ = between_stock_;
+    stretch_start_ = {};
+    stretch_pairs_ = 0;
+    stretch_virial_ = 0.0;
+    stretch_energy_ = now.translation;
+  }
+  count();
+}
+
+double DrivenEngine::scale() const { return start_scale_ + growth_rate_ * now().high; }
+
+/// Of a uniform disk.
+double DrivenEngine::moment_of_inertia(std::size_t i) const {
+  const double radius = scale() * disks_.radius[i];
+  return 0.5 * disks_.mass[i] * radius * radius;
+}
+
+DrivenEngine::Energy DrivenEngine::energy() const {
+  const State state = engine_->state();
+  Energy energy;
+  for (std::size_t i = 0; i < disks_.count(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const double x = state.velocities(0, column);
+    const double y = state.velocities(1, column);
+    energy.translation += 0.5 * disks_.mass[i] * (x * x + y * y);
+    if (state.spins.size() > column) energy.rotation += 0.5 * moment_of_inertia(i) * state.spins[column] * state.spins[column];
+  }
+  return energy;
+}
+
+void DrivenEngine::kick() {
+  const auto disk = static_cast<std::size_t>(next_.disk);
+  const double mass = disks_.mass[disk];
+  const Eigen::Vector2d v = andersen_.velocity(next_, mass);
+  const Eigen::Vector2d before = engine_->velocity_of(next_.disk);
+  kick_energy_ += 0.5 * mass * ((v[0] * v[0] + v[1] * v[1]) - (before[0] * before[0] + before[1] * before[1]));
+  double spin = 0.0;
+  if (spinning_) {
+    const double inertia = moment_of_inertia(disk);
+    const double was = engine_->spin_of(next_.disk);
+    spin = andersen_.spin(next_, inertia);
+    kick_energy_ += 0.5 * inertia * (spin * spin - was * was);
+  }
+  engine_->set_velocity(next_.disk, v, spin);
+  ++counted_kicks_;
+  next_ = andersen_.kick(++kicks_);
+  kick_time_ = kick_time_.plus(next_.wait);
+}
+
+/// Each time that every disk has collided about once on average.
+void DrivenEngine::take_stock() {
+  stock_at_ += between_stock_;
+  const Energy now = energy();
+  if (end_pressure_ > 0.0) measure_pressure(now);
+  if (keeps_energy_) rescale(now);
+}
+
+void DrivenEngine::measure_pressure(const Energy& now) {
+  const Totals& totals = engine_->totals();
+  window_.add(engine_->now().since<double>(stretch_start_), totals.pair - stretch_pairs_, totals.virial - stretch_virial_,
+              stretch_energy_, now.translation);
+  stretch_start_ = engine_->now();
+  stretch_pairs_ = totals.pair;
+  stretch_virial_ = totals.virial;
+  stretch_energy_ = now.translation;
+  if (!window_.complete()) return;
+  const double packing_fraction = packing_fraction_ * scale() * scale();
+  if (window_.take(packing_fraction) >= end_pressure_) grown_ = true;
+}
+
+/// Growing disks push each other apart faster than they came, so the gas heats up without end. What they gave is taken away
+/// again from all alike. Disks that began at rest have no temperature that could be kept.
+void DrivenEngine::rescale(const Energy& now) {
+  if (!(energy_at_start_ > 0.0 && now.total() > 0.0)) return;
+  const double factor = std::sqrt(energy_at_start_ / now.total());
+  engine_->scale_velocities(factor);
+  const double kept = factor * factor;
+  rescaling_energy_ += (kept - 1.0) * now.total();
+  stretch_energy_ = kept * now.translation;
+}
+
+void DrivenEngine::count() {
+  totals_ = engine_->totals();
+  totals_.kicks += counted_kicks_;
+  totals_.kick_energy += kick_energy_;
+  totals_.growth_energy += rescaling_energy_;
+}
+
+}  // namespace carom::detail

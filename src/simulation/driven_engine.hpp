@@ -1,0 +1,99 @@
+#pragma once
+// An engine that something drives from outside, between events: a thermostat that kicks disks, and the schedule by which disks
+// grow (Lubachevsky & Stillinger 1990), which rescales velocities and says when to stop. Both are so rare that the loop need not
+// know of them: it runs to the time, or the number of collisions, at which the next of them is due.
+
+#include "effects/andersen.hpp"
+#include "simulation/any_engine.hpp"
+#include "simulation/pressure_window.hpp"
+
+#include <carom/scene.hpp>
+#include <carom/state.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace carom::detail {
+
+class DrivenEngine final : public AnyEngine {
+ public:
+  /// Whether anything in the scene drives an engine; a thermostat or growth at rate 0 does not.
+  [[nodiscard]] static bool needed_by(const Effects& effects);
+
+  /// `engine` runs the scene with these disks and knows by itself how they grow.
+  DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene, Disks disks);
+
+  bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override;
+  [[nodiscard]] bool idle() const override;
+  [[nodiscard]] bool jammed() const override { return engine_->jammed(); }
+  [[nodiscard]] bool grown() const override { return grown_; }
+  [[nodiscard]] Instant now() const override { return engine_->now(); }
+  [[nodiscard]] const Totals& totals() const override { return totals_; }
+  [[nodiscard]] State state() const override;
+  [[nodiscard]] Eigen::Vector2d velocity_of(std::int32_t i) const override { return engine_->velocity_of(i); }
+  [[nodiscard]] double spin_of(std::int32_t i) const override { return engine_->spin_of(i); }
+  void set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override { engine_->set_velocity(i, v, spin); }
+  void scale_velocities(double factor) override { engine_->scale_velocities(factor); }
+  void reset_clock() override;
+  void record_events(bool on) override { engine_->record_events(on); }
+  [[nodiscard]] std::vector<Event> take_events() override { return engine_->take_events(); }
+  [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_->check_invariants(); }
+
+ private:
+  static constexpr auto never = std::numeric_limits<std::uint64_t>::max();
+
+  /// Sums over all disks, in the order of their ids.
+  struct Energy {
+    double translation = 0.0;
+    double rotation = 0.0;
+    [[nodiscard]] double total() const { return translation + rotation; }
+  };
+  [[nodiscard]] Energy energy() const;
+  [[nodiscard]] double scale() const;
+  [[nodiscard]] double moment_of_inertia(std::size_t i) const;
+
+  void begin();
+  void kick();
+  void take_stock();
+  void measure_pressure(const Energy& energy);
+  void rescale(const Energy& energy);
+  void count();
+
+  std::unique_ptr<AnyEngine> engine_;
+  Disks disks_;
+  Andersen andersen_;
+  bool spinning_;
+
+  std::uint64_t kicks_ = 0;  ///< ever
+  Kick next_;                ///< number kicks_
+  Instant kick_time_ = forever;
+
+  double growth_rate_;
+  double start_scale_ = 1.0;        ///< when the clock stood at 0
+  double end_scale_ = 0.0;          ///< at which growth ends; 0 where no packing fraction is asked for
+  double end_pressure_ = 0.0;       ///< the same for the reduced pressure
+  double packing_fraction_;         ///< at scale 1
+  Instant end_ = forever;           ///< when end_scale_ is reached
+  bool grown_ = false;              ///< the end is reached
+  bool keeps_energy_;               ///< velocities are rescaled
+  std::uint64_t between_stock_;     ///< collisions of pairs from one look at the gas to the next
+  std::uint64_t stock_at_ = never;  ///< Totals::pair at which velocities are rescaled and the pressure is measured
+  PressureWindow window_;
+  double energy_at_start_ = 0.0;  ///< kinetic, when the clock stood at 0
+
+  /// Where the current stretch of the pressure's window began.
+  Instant stretch_start_{};
+  std::uint64_t stretch_pairs_ = 0;
+  double stretch_virial_ = 0.0;
+  double stretch_energy_ = 0.0;  ///< of translation
+
+  Totals totals_;  ///< the engine's, with what came from outside
+  std::uint64_t counted_kicks_ = 0;
+  double kick_energy_ = 0.0;
+  double rescaling_energy_ = 0.0;
+};
+
+}  // namespace carom::detail

@@ -1,0 +1,194 @@
+// Dense starts without order: the disks are placed at random while they are small, then grown to their size as they move and
+// collide (Lubachevsky & Stillinger 1990). Random placement alone ends at a packing fraction of 0.547.
+
+#include "core/random.hpp"
+#include "neighbours/disks_at_rest.hpp"
+#include "scene/obstacle_overlap.hpp"
+#include "simulation/catalogue.hpp"
+#include "simulation/start.hpp"
+
+#include <fmt/format.h>
+#include <boost/random/normal_distribution.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+/// Packing fraction of the small disks. At this one try in two succeeds, and a gas is still one.
+constexpr double placed_fraction = 0.3;
+
+/// Tries for one disk, and the factor by which all are made smaller still where they fail: among many obstacles.
+constexpr int placement_tries = 10'000;
+constexpr double shrinkage = 0.8;
+
+/// How fast the mean diameter grows up to that packing fraction, in units of the thermal speed. The slower, the denser and the
+/// more ordered disks become before they jam. With these 1000 equal disks pass 0.86, equal numbers of disks of radii 1 : 1.4 pass
+/// 0.84, after 300 to 500 collisions of pairs per disk; at 0.1 all the way both jam at 0.83.
+struct Stage {
+  double until;
+  double speed;
+};
+constexpr Stage stages[] = {{0.6, 0.3}, {0.75, 0.05}, {0.8, 0.02}, {1.0, 0.005}};
+
+/// Disks that jam are grown again from the last stage that they passed easily, this much more slowly.
+constexpr double patience = 8.0;
+constexpr double passed_easily = 0.75;
+
+/// P* at which disks count as jammed: the packing fraction then is within 2e-4 of where all motion ends.
+constexpr double jammed_pressure = 1e4;
+
+/// Numbers in the stream of velocities that no disk's start uses.
+constexpr std::uint64_t stirring = 1ull << 40;
+
+class Growing {
+ public:
+  Growing(const Scene& scene, const Disks& disks) : scene_(scene), disks_(disks), final_fraction_(scene.packing_fraction()) {
+    scene_.effects = Effects{};
+    scene_.effects.obstacles = scene.effects.obstacles;
+    disks_.mass.assign(disks.count(), 1.0);  // equal masses share their energy soonest
+    double squares = 0.0;
+    for (const double radius : disks.radius) squares += 4.0 * radius * radius;
+    require_room();
+    diameter_ = std::sqrt(squares / static_cast<double>(disks.count()));
+  }
+
+  Eigen::Matrix2Xd run() {
+    State state = small_disks();
+    if (!grow(state, 1.0) && !grow(state, patience)) refuse();
+    return state.positions;
+  }
+
+ private:
+  /// Scenes that were read are right here; those that a program makes may not be.
+  void require_room() const {
+    const double diameter = 2.0 * *std::max_element(disks_.radius.begin(), disks_.radius.end());
+    for (int a = 0; a < 2; ++a) {
+      const double length = scene_.box.lengths()[a];
+      if (diameter < length || (diameter == length && !scene_.box.periodic(a))) continue;
+      throw SceneError(where(), fmt::format("the largest disk is {:g} across, but the box is {:g} long in {}; make it smaller",
+                                            diameter, length, a == 0 ? "x" : "y"));
+    }
+  }
+
+  /// True where all stages are passed. Where not, `state` is the one from which to try again.
+  bool grow(State& state, double slower) {
+    State now = state;
+    for (const Stage& stage : stages) {
+      const double target = std::min(stage.until, final_fraction_);
+      if (now.scale >= std::sqrt(target / final_fraction_)) continue;
+      if (!grow_until(now, target, stage.speed / slower)) return false;
+      if (target <= passed_easily || target == final_fraction_) state = now;
+    }
+    return true;
+  }
+
+  bool grow_until(State& state, double packing_fraction, double speed) {
+    scene_.effects.growth = Growth{speed / diameter_, packing_fraction, jammed_pressure, {}};
+    const auto engine = detail::make_engine(detail::choose_engine(scene_, disks_, "auto"), scene_, disks_, state);
+    constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
+    engine->run_until(forever, no_limit, no_limit);
+    state = engine->state();
+    state.time = 0.0;
+    state.remainders.resize(2, 0);
+    reached_ = std::max(reached_, state.scale * state.scale * final_fraction_);
+    return state.scale >= std::sqrt(packing_fraction / final_fraction_);
+  }
+
+  /// At random, without overlap, in places where they will still be clear of walls and obstacles when they are grown.
+  State small_disks() const {
+    State state;
+    state.scale = std::min(1.0, std::sqrt(placed_fraction / final_fraction_));
+    std::optional<Eigen::Matrix2Xd> positions;
+    for (; !(positions = placed(state.scale)); state.scale *= shrinkage) {
+      if (state.scale < 1e-3)
+        throw SceneError(where(), "there is no place for the disks among the obstacles; make either smaller");
+    }
+    state.positions = std::move(*positions);
+    const Eigen::Index disks = state.positions.cols();
+    state.images = Images::Zero(2, disks);
+    state.velocities.resize(2, disks);
+    for (Eigen::Index i = 0; i < disks; ++i) {
+      RandomStream random(scene_.run.seed, Stream::velocities, stirring + static_cast<std::uint64_t>(i));
+      boost::random::normal_distribution<double> component;
+      state.velocities(0, i) = component(random);
+      state.velocities(1, i) = component(random);
+    }
+    return state;
+  }
+
+  [[nodiscard]] std::optional<Eigen::Matrix2Xd> placed(double scale) const {
+    std::vector<double> radius = disks_.radius;
+    for (double& r : radius) r *= scale;
+    std::vector<std::size_t> order(radius.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return radius[i] > radius[j]; });
+    DisksAtRest in_place(scene_.box, radius);
+    Eigen::Matrix2Xd positions(2, static_cast<Eigen::Index>(radius.size()));
+    for (const std::size_t i : order) {
+      const std::optional<Eigen::Vector2d> position = room_for(i, radius[i], in_place);
+      if (!position) return std::nullopt;
+      positions.col(static_cast<Eigen::Index>(i)) = *position;
+      in_place.insert(static_cast<std::int32_t>(i), *position);
+    }
+    return positions;
+  }
+
+  [[nodiscard]] std::optional<Eigen::Vector2d> room_for(std::size_t i, double radius, const DisksAtRest& in_place) const {
+    RandomStream random(scene_.run.seed, Stream::positions, i);
+    for (int tries = 0; tries < placement_tries; ++tries) {
+      Eigen::Vector2d position;
+      for (int a = 0; a < 2; ++a) {
+        const double margin = scene_.box.periodic(a) ? 0.0 : disks_.radius[i];
+        const double from = scene_.box.lower[a] + margin;
+        const double to = scene_.box.upper[a] - margin;
+        position[a] = from < to ? boost::random::uniform_real_distribution<double>(from, to)(random) : 0.5 * (from + to);
+      }
+      if (in_place.deepest(position, radius).disk >= 0) continue;
+      if (!overlapped_obstacle(scene_.box, scene_.effects.obstacles, position, disks_.radius[i], 0.0)) return position;
+    }
+    return std::nullopt;
+  }
+
+  [[noreturn]] void refuse() const {
+    throw SceneError(where(),
+                     fmt::format("the disks jam at a packing fraction of {:.4f} on their way to {:.6g}; ask for less, or for "
+                                 "positions = \"hexagonal\"",
+                                 reached_, final_fraction_));
+  }
+
+  [[nodiscard]] const Location& where() const { return scene_.species.front().positions_where; }
+
+  Scene scene_;  ///< nothing but its disks, its box and its obstacles
+  Disks disks_;
+  double final_fraction_;
+  double diameter_ = 1.0;  ///< root mean square
+  double reached_ = 0.0;
+};
+
+}  // namespace
+
+bool are_grown(const Scene& scene) {
+  const Species* grown = nullptr;
+  const Species* other = nullptr;
+  for (const Species& species : scene.species) {
+    if (species.count == 0) continue;
+    (std::holds_alternative<GrownPositions>(species.positions) ? grown : other) = &species;
+  }
+  if (grown != nullptr && other != nullptr)
+    throw SceneError(other->positions_where,
+                     "a start is grown with all disks or none; give every species the same packing_fraction");
+  return grown != nullptr;
+}
+
+Eigen::Matrix2Xd grown_positions(const Scene& scene, const Disks& disks) { return Growing(scene, disks).run(); }
+
+}  // namespace carom
