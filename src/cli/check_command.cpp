@@ -27,7 +27,7 @@ std::string start_and_engine(const Scene& scene, const std::string& engine) {
   }
   const Simulation simulation = make_simulation(scene, engine);
   return fmt::format("  start       drawn: every disk has its place, none overlap; kT = {:.4g}\n  engine      {}\n",
-                     kinetic_temperature(scene.box, simulation.disks(), simulation.state()), simulation.engine());
+                     kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state()), simulation.engine());
 }
 
 std::string files(const Scene& scene) {

@@ -3,7 +3,10 @@
 
 #include "cli/terminal_summary.hpp"
 
+#include "cli/effects_summary.hpp"
 #include "cli/format.hpp"
+#include "cli/summary_row.hpp"
+#include "observe/equilibrium.hpp"
 #include "study/horizon_sentence.hpp"
 
 #include <fmt/format.h>
@@ -15,12 +18,6 @@
 namespace carom::cli {
 
 namespace {
-
-/// One line of the table: a quantity, its value, and a remark where there is one.
-std::string row(std::string_view quantity, std::string_view value, std::string_view remark = "") {
-  if (remark.empty()) return fmt::format("  {:<18}{}\n", quantity, value);
-  return fmt::format("  {:<18}{:<19} {}\n", quantity, value, remark);
-}
 
 std::string heading(const RunReport& report, const Scene& scene) {
   return fmt::format("{}\n{}, packing fraction {:.4g}; {}; seed {}, {}\n\n", report.title.empty() ? report.scene : report.title,
@@ -43,7 +40,9 @@ std::string why_stopped(const RunReport& report, const Scene& scene) {
       return "collapsed: inelastic disks collide at ever shorter intervals and time stands still; give collision.elastic_below, "
              "such as { time = 1e-6 }, to go on";
     case StopReason::grown:
-      return "grown as far as asked";
+      return report.of_effects.growth
+                 ? fmt::format("grown as far as asked, to packing fraction {:.5g}", report.of_effects.growth->packing_fraction)
+                 : "grown as far as asked";
     case StopReason::no_collisions:
       return report.measured ? "stopped: no pair of disks collides any more"
                              : "stopped while equilibrating: no pair of disks collides";
@@ -57,6 +56,7 @@ std::string what_happened(const RunReport& report, const Scene& scene) {
   text += row("pair collisions", grouped(totals.pair),
               report.collisions_per_second() > 0.0 ? fmt::format("{} per second", rate(report.collisions_per_second())) : "");
   text += row("wall collisions", grouped(totals.wall));
+  text += rows_of_events(report);
   if (totals.pair > 0 && report.disks > 0) {
     const double per_disk = 2.0 * static_cast<double>(totals.pair) / static_cast<double>(report.disks);
     text +=
@@ -69,19 +69,24 @@ std::string what_happened(const RunReport& report, const Scene& scene) {
 }
 
 std::string how_exact(const RunReport& report) {
-  std::string text =
-      row("energy", fmt::format("{:.6g}", report.energy_final),
-          report.relative_energy_drift() == 0.0 ? "no drift in any digit"
-                                                : fmt::format("relative drift {:.1e}", report.relative_energy_drift()));
+  const std::string text = row_of_energy(report);
   const std::string checked = "in " + counted(report.overlap_checked, "state") + " checked";
   if (report.overlap_checked == 0) return text + row("worst overlap", "not checked");
   if (report.max_relative_overlap == 0.0) return text + row("worst overlap", "none", checked);
   return text + row("worst overlap", fmt::format("{:.1e} diameters", report.max_relative_overlap), checked);
 }
 
-std::string what_it_measured(const RunReport& report) {
+std::string why_there_is_no_Z(const RunReport& report, const Scene& scene) {
+  if (const std::string_view reason = why_no_Z(scene.effects); !reason.empty()) return std::string(reason);
+  if (report.totals.pair == 0) return "no pair of disks has collided";
+  return report.measured && temperature_fluctuates(scene.effects) ? "no samples tell the mean temperature"
+                                                                  : "nothing was measured";
+}
+
+std::string what_it_measured(const RunReport& report, const Scene& scene) {
   std::string text = row("temperature kT", fmt::format("{:.5g}", report.temperature_mean), "kinetic, without common motion");
-  if (!report.Z) return text + row("Z = PA/(NkT)", "none", "no pair of disks has collided");
+  text += rows_of_effects(report, scene);
+  if (!report.Z) return text + row("Z = PA/(NkT)", "none", why_there_is_no_Z(report, scene));
   text += row("Z = PA/(NkT)", report.Z_error ? with_error(*report.Z, *report.Z_error) : fmt::format("{:.5g}", *report.Z),
               report.Z_error ? "from the momentum transfer" : "from too short a run for an error");
   if (report.reduced_pressure) text += row("P sigma^2/kT", fmt::format("{:.5g}", *report.reduced_pressure));
@@ -123,8 +128,9 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
 }  // namespace
 
 std::string terminal_summary(const RunReport& report, const Scene& scene, const Results& results) {
-  return heading(report, scene) + what_happened(report, scene) + "\n" + how_exact(report) + "\n" + what_it_measured(report) +
-         "\n" + how_far_to_trust(report) + where_the_files_are(results) + what_to_try_next(report, scene, results);
+  return heading(report, scene) + what_happened(report, scene) + "\n" + how_exact(report) + "\n" +
+         what_it_measured(report, scene) + "\n" + how_far_to_trust(report) + where_the_files_are(results) +
+         what_to_try_next(report, scene, results);
 }
 
 }  // namespace carom::cli

@@ -51,17 +51,23 @@ template <class Real>
   const Real a = v.squaredNorm() - growth * growth;
   if (!(b < 0) && !(a < 0)) return infinity<Real>;  // the gap never shrinks
 
+  const auto beyond_contact = [&r, sigma] {
+    const Real distance = sqrt(r.squaredNorm());
+    return (distance - sigma) * (distance + sigma);
+  };
+  if (a < 0) {  // growth wins: they are sure to meet
+    const Real c = beyond_contact();
+    if (b < 0 && c <= 0) return 0;
+    const Real d = b * b - a * c;  // of one sign, but for an overlap by rounding
+    const Real root = d > 0 ? sqrt(d) : Real(0);
+    return b < 0 ? c / (root - b) : (b + root) / -a;
+  }
+
   const Vec2<Real> w = v - (growth / sigma) * r;  // relative to the expansion that sigma takes part in: r x w = r x v
   const Real s = cross<Real>(r, v);
-  Real d = sigma * sigma * w.squaredNorm() - s * s;  // b^2 - a c
-  if (d < 0) {
-    if (!(a < 0)) return infinity<Real>;  // they pass each other
-    d = 0;                                // growth wins: only rounding, or an overlap, makes it negative
-  }
-  if (!(b < 0)) return (b + sqrt(d)) / -a;
-
-  const Real distance = sqrt(r.squaredNorm());
-  const Real c = (distance - sigma) * (distance + sigma);
+  const Real d = sigma * sigma * w.squaredNorm() - s * s;  // b^2 - a c, whose terms cancel here
+  if (d < 0) return infinity<Real>;                        // they pass each other
+  const Real c = beyond_contact();
   if (c <= 0) return 0;  // touching or overlapping, and approaching
   return c / (sqrt(d) - b);
 }

@@ -77,7 +77,7 @@ struct PathAtSegment {
     using std::abs;
     const Real x = abreast.at(t);
     const Real slack = rounding + 8 * epsilon<Real> * t * (abs(abreast.v) + t / 2 * abs(abreast.a));
-    return x >= -slack && x <= length + slack;
+    return length > 0 && x >= -slack && x <= length + slack;
   }
   /// Whether the gap to the face that the centre is in front of shrinks at time t.
   [[nodiscard]] bool approaches(Real t, Real growth) const {

@@ -59,8 +59,11 @@ struct AnyWorld {
   }
 
   [[nodiscard]] const Vec2<double>& g() const { return falling.g; }
-  /// How far a disk falls from rest in a time t.
-  [[nodiscard]] double fallen(int axis, double t) const { return (falling.g[axis] * t) * (t / 2); }
+  /// How far the frame in which lines are straight has fallen at time t. At the zero of the clock it stands still, where it has
+  /// come to.
+  [[nodiscard]] double fallen(int axis, double t) const { return depth_[axis] + (falling.g[axis] * t) * (t / 2); }
+  /// The frame goes back to where it has come from.
+  void rise() { depth_.setZero(); }
   /// Of all radii, at time t.
   [[nodiscard]] double scale(double t) const { return scale_ + growth_ * t; }
   [[nodiscard]] double growth() const { return growth_; }
@@ -84,6 +87,7 @@ struct AnyWorld {
     return what > first_obstacle && walls.is_piston(static_cast<Wall>(what));
   }
   void rebase(double now) {
+    for (int axis = 0; axis < 2; ++axis) depth_[axis] = fallen(axis, now);
     walls.rebase(now);
     scale_ += growth_ * now;
   }
@@ -93,6 +97,7 @@ struct AnyWorld {
   Obstacles<double> obstacles;
 
  private:
+  Vec2<double> depth_ = Vec2<double>::Zero();
   double scale_;
   double growth_;
 };

@@ -311,6 +311,7 @@ class Engine {
   void start_queue();
   /// What an epoch begins with once everything counts from it.
   void go_on();
+  void draw_up_frame();
   /// The sides of the box have moved out so far that coordinates get short of room.
   void widen();
   /// Empty lists, for disks as large as they will be at the end of the epoch.

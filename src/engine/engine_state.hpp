@@ -196,7 +196,7 @@ bool Engine<Impact, Layout, World>::covers(const Box& box, const Disks& disks, c
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::begin_epoch(double now) {
   rebase(now);
-  if constexpr (!World::plain) widen();
+  if constexpr (!World::plain) draw_up_frame(), widen();
   if (now > 0.0 && world_.growth() == 0.0) tune_cages(now);
   choose_epoch_length();
   if (world_.growth() > 0.0) list_larger();
@@ -217,7 +217,7 @@ void Engine<Impact, Layout, World>::begin_epoch_between(std::int32_t i, const Ve
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::go_on() {
-  if constexpr (!World::plain) widen();
+  if constexpr (!World::plain) draw_up_frame(), widen();
   choose_epoch_length();
   if (world_.growth() > 0.0) list_larger();
   predict_all();
@@ -276,6 +276,18 @@ void Engine<Impact, Layout, World>::find_wells() {
   }
 }
 
+/// The frame of the lines falls on from epoch to epoch, with the cages in it. Before it leaves the box behind it is drawn up.
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::draw_up_frame() {
+  const double depth[2] = {world_.fallen(0, 0.0), world_.fallen(1, 0.0)};
+  if (std::max(std::abs(depth[0]), std::abs(depth[1])) < 4.0 * spacing_) return;
+  for (std::int32_t i = 0; i < count(); ++i)
+    for (int k = 0; k < 2; ++k) line(i).x[k] += axes_[k].steps_of(depth[k]);
+  world_.rise();
+  rebuild(frame_.half_width);
+  predict_all();
+}
+
 /// A line has the length of the box and some spacings of room on either side. When walls have used up half of that, coordinates
 /// are made coarser: by a power of two, so that nothing but their last digits changes.
 template <class Impact, class Layout, class World>
@@ -305,7 +317,7 @@ void Engine<Impact, Layout, World>::rebase(double now) {
   for (std::int32_t i = 0; i < count(); ++i) {
     Line& a = line(i);
     for (int k = 0; k < 2; ++k) {
-      a.x[k] = moved(i, k, a.v[k] * now + world_.fallen(k, now));
+      a.x[k] = moved(i, k, a.v[k] * now);
       if constexpr (!World::plain) a.v[k] += world_.g()[k] * now;
     }
     Plan& mine = plan(i);

@@ -1,5 +1,5 @@
 #pragma once
-// samples.csv: one line per disk and sample, time,id,x,y,vx,vy.
+// samples.csv: one line per disk and sample, time,id,x,y,vx,vy, and spin where disks are rough.
 
 #include "io/text_file.hpp"
 
@@ -13,7 +13,7 @@ namespace carom {
 /// Every number is written with the fewest digits that read back as the same double.
 class CsvWriter {
  public:
-  explicit CsvWriter(std::filesystem::path path);
+  explicit CsvWriter(std::filesystem::path path, bool rough = false);
 
   void sample(const State& state);  ///< positions are written as they are
   void flush() { file_.flush(); }
@@ -23,6 +23,7 @@ class CsvWriter {
 
  private:
   detail::TextFile file_;
+  bool rough_;
 };
 
 }  // namespace carom

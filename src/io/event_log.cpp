@@ -14,7 +14,7 @@ Hdf5Id described_group(hid_t file) {
   write_attribute(group.get(), "about",
                   std::string("every collision in order of time; velocities are those just after it; the exact time is time + "
                               "time_remainder to twice the digits of a double; partner < 0 is a wall: -1 left, -2 right, "
-                              "-3 bottom, -4 top"));
+                              "-3 bottom, -4 top; partner <= -1000 is obstacle -1000 - partner of the scene, counted from 0"));
   return group;
 }
 

@@ -3,13 +3,12 @@
 
 #include "io/h5md_frames.hpp"
 
-#include "observe/mechanics.hpp"
+#include "io/frame_layout.hpp"
+#include "observe/geometry.hpp"
 
 #include <fmt/format.h>
-#include <carom/simulation.hpp>
 
-#include <algorithm>
-#include <limits>
+#include <array>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -21,20 +20,6 @@ namespace {
 const std::string length_unit = "Angstrom";
 const std::string time_unit = "ps";
 const std::string velocity_unit = "Angstrom ps-1";
-
-std::uint64_t expected_frames(const Run& run) {
-  return run.time && run.sample_every ? last_sample(run) + 1 : std::numeric_limits<std::uint64_t>::max();
-}
-
-DatasetLayout frame_layout(const Scene& scene, std::size_t bytes_per_number, std::vector<hsize_t> row) {
-  const std::size_t numbers = std::accumulate(row.begin(), row.end(), std::size_t{1}, std::multiplies<>());
-  return {.row = std::move(row), .rows_per_chunk = rows_per_chunk(numbers * bytes_per_number, expected_frames(scene.run))};
-}
-
-std::array<double, 3> box_lengths(const Scene& scene, const Disks& disks) {
-  const double thickness = disks.radius.empty() ? 1.0 : 2.0 * *std::max_element(disks.radius.begin(), disks.radius.end());
-  return {scene.box.lengths().x(), scene.box.lengths().y(), thickness};
-}
 
 std::string boundary_name(const Box& box, int axis) { return box.periodic(axis) ? "periodic" : "none"; }
 
@@ -48,32 +33,23 @@ struct H5mdFrames::Groups {
         edges(create_group(box.get(), "edges")),
         position(create_group(trajectory.get(), "position")),
         velocity(create_group(trajectory.get(), "velocity")),
-        image(create_group(trajectory.get(), "image")),
-        observables(create_group(file, "observables")),
-        kinetic_energy(create_group(observables.get(), "kinetic_energy")),
-        temperature(create_group(observables.get(), "temperature")) {}
+        image(create_group(trajectory.get(), "image")) {}
 
-  Hdf5Id particles, trajectory, box, edges, position, velocity, image, observables, kinetic_energy, temperature;
+  Hdf5Id particles, trajectory, box, edges, position, velocity, image;
 };
 
 H5mdFrames::H5mdFrames(hid_t file, const Scene& scene, const Disks& disks) : H5mdFrames(file, Groups(file), scene, disks) {}
 
 H5mdFrames::H5mdFrames(hid_t file, const Groups& groups, const Scene& scene, const Disks& disks)
     : box_(scene.box),
-      lengths_(box_lengths(scene, disks)),
       step_(groups.position.get(), "step", frame_layout(scene, sizeof(std::int64_t), {})),
       time_(groups.position.get(), "time", frame_layout(scene, sizeof(double), {})),
       position_(groups.position.get(), "value", frame_layout(scene, sizeof(double), {disks.count(), 3})),
       velocity_(groups.velocity.get(), "value", frame_layout(scene, sizeof(double), {disks.count(), 3})),
       image_(groups.image.get(), "value", frame_layout(scene, sizeof(std::int32_t), {disks.count(), 3})),
       edges_(groups.edges.get(), "value", frame_layout(scene, sizeof(double), {3, 3})),
-      kinetic_energy_(groups.kinetic_energy.get(), "value", frame_layout(scene, sizeof(double), {})),
-      temperature_(groups.temperature.get(), "value", frame_layout(scene, sizeof(double), {})) {
-  for (const std::string group : {"particles/trajectory/velocity", "particles/trajectory/image", "particles/trajectory/box/edges",
-                                  "observables/kinetic_energy", "observables/temperature"}) {
-    link_hard(file, "particles/trajectory/position/step", group + "/step");
-    link_hard(file, "particles/trajectory/position/time", group + "/time");
-  }
+      observables_(file, scene, disks) {
+  for (const std::string group : {"velocity", "image", "box/edges"}) link_steps_and_times(file, "particles/trajectory/" + group);
   write_attribute(time_.id(), "unit", time_unit);
   write_attribute(position_.id(), "unit", length_unit);
   write_attribute(velocity_.id(), "unit", velocity_unit);
@@ -82,7 +58,8 @@ H5mdFrames::H5mdFrames(hid_t file, const Groups& groups, const Scene& scene, con
   write_attribute(groups.box.get(), "dimension", std::int64_t{3});
   write_attribute(groups.box.get(), "boundary", std::vector<std::string>{boundary_name(box_, 0), boundary_name(box_, 1), "none"});
   // H5MD 1.1 has no place for it, and its readers take the box to begin at zero.
-  write_attribute(groups.box.get(), "origin", std::array{box_.lower.x(), box_.lower.y(), -0.5 * lengths_[2]});
+  write_attribute(groups.box.get(), "origin",
+                  std::array{box_.lower.x(), box_.lower.y(), -0.5 * largest_diameter(disks, State{})});
 
   std::vector<std::int32_t> ids(disks.count());
   std::iota(ids.begin(), ids.end(), 0);
@@ -92,13 +69,15 @@ H5mdFrames::H5mdFrames(hid_t file, const Groups& groups, const Scene& scene, con
   write_fixed(groups.trajectory.get(), "radius", disks.radius);
 }
 
-void H5mdFrames::append(std::uint64_t k, const Disks& disks, const State& state) {
+void H5mdFrames::append(std::uint64_t k, const Disks& disks, const State& state, const Eigen::Matrix2Xd& positions) {
   step_.add(static_cast<std::int64_t>(k));
   time_.add(state.time);
-  kinetic_energy_.add(carom::kinetic_energy(disks, state));
-  temperature_.add(kinetic_temperature(box_, disks, state));
+  observables_.append(disks, state);
+  const Eigen::Vector2d lengths = box_of(box_, state).lengths();
   const auto edges = edges_.add_row();
-  for (std::size_t axis = 0; axis < 3; ++axis) edges[4 * axis] = lengths_[axis];
+  edges[0] = lengths.x();
+  edges[4] = lengths.y();
+  edges[8] = largest_diameter(disks, state);
 
   const auto position = position_.add_row();
   const auto velocity = velocity_.add_row();
@@ -107,7 +86,7 @@ void H5mdFrames::append(std::uint64_t k, const Disks& disks, const State& state)
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i, at += 3) {
     for (int axis = 0; axis < 2; ++axis) {
       const std::size_t place = at + static_cast<std::size_t>(axis);
-      position[place] = state.positions(axis, i);
+      position[place] = positions(axis, i);
       velocity[place] = state.velocities(axis, i);
       const auto narrow = static_cast<std::int32_t>(state.images(axis, i));
       if (narrow != state.images(axis, i))
@@ -123,19 +102,20 @@ void H5mdFrames::append(std::uint64_t k, const Disks& disks, const State& state)
 void H5mdFrames::write() {
   step_.write();
   image_.write();
-  for (auto* column : {&time_, &position_, &velocity_, &edges_, &kinetic_energy_, &temperature_}) column->write();
+  observables_.write();
+  for (auto* column : {&time_, &position_, &velocity_, &edges_}) column->write();
 }
 
 void H5mdFrames::close() {
   step_.close();
   image_.close();
-  for (auto* column : {&time_, &position_, &velocity_, &edges_, &kinetic_energy_, &temperature_}) column->close();
+  observables_.close();
+  for (auto* column : {&time_, &position_, &velocity_, &edges_}) column->close();
 }
 
 std::size_t H5mdFrames::buffered_bytes() const {
-  std::size_t bytes = step_.buffered_bytes() + image_.buffered_bytes();
-  for (const auto* column : {&time_, &position_, &velocity_, &edges_, &kinetic_energy_, &temperature_})
-    bytes += column->buffered_bytes();
+  std::size_t bytes = step_.buffered_bytes() + image_.buffered_bytes() + observables_.buffered_bytes();
+  for (const auto* column : {&time_, &position_, &velocity_, &edges_}) bytes += column->buffered_bytes();
   return bytes;
 }
 

@@ -2,11 +2,11 @@
 // The groups /particles/trajectory and /observables of trajectory.h5md: one row per sample.
 
 #include "io/growing_dataset.hpp"
+#include "io/h5md_observables.hpp"
 
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -17,8 +17,9 @@ class H5mdFrames {
   /// Creates the groups, and writes what no sample changes: box, id, species, mass, radius. Throws Hdf5Error.
   H5mdFrames(hid_t file, const Scene& scene, const Disks& disks);
 
-  /// Throws Hdf5Error, also where a disk has crossed the periodic edges more than 2^31 times.
-  void append(std::uint64_t k, const Disks& disks, const State& state);
+  /// Throws Hdf5Error, also where a disk has crossed the periodic edges more than 2^31 times. `positions` are those to write:
+  /// the state's, or unwrapped ones.
+  void append(std::uint64_t k, const Disks& disks, const State& state, const Eigen::Matrix2Xd& positions);
   void write();  ///< hands everything to HDF5
   void close();
 
@@ -30,15 +31,13 @@ class H5mdFrames {
   H5mdFrames(hid_t file, const Groups& groups, const Scene& scene, const Disks& disks);
 
   Box box_;
-  std::array<double, 3> lengths_;
   GrowingDataset<std::int64_t> step_;
   GrowingDataset<double> time_;
   GrowingDataset<double> position_;
   GrowingDataset<double> velocity_;
   GrowingDataset<std::int32_t> image_;
   GrowingDataset<double> edges_;
-  GrowingDataset<double> kinetic_energy_;
-  GrowingDataset<double> temperature_;
+  H5mdObservables observables_;
 };
 
 }  // namespace carom::detail

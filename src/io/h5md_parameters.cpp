@@ -38,6 +38,8 @@ void write_parameters(hid_t file, const Scene& scene, const Provenance& provenan
   write_attribute(group, "compiler", build_info().compiler);
   write_attribute(group, "flags", build_info().flags);
 
+  write_attribute(group, "effects", names_of(scene.effects, !scene.box.periodic(0) || !scene.box.periodic(1)));
+
   std::vector<std::string> species;
   for (const Species& one : scene.species) species.push_back(one.name);
   if (!species.empty()) write_attribute(group, "species_names", species);

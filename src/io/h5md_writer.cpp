@@ -66,8 +66,8 @@ H5mdWriter::~H5mdWriter() {
   h5_.reset();
 }
 
-void H5mdWriter::sample(std::uint64_t k, const State& state) {
-  guard([&] { frames_->append(k, disks_, state); });
+void H5mdWriter::sample(std::uint64_t k, const State& state, const Eigen::Matrix2Xd& positions) {
+  guard([&] { frames_->append(k, disks_, state, positions); });
   if (file_.bytes_written() - bytes_at_flush_ > most_bytes_between_flushes) flush();
 }
 

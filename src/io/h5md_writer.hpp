@@ -28,9 +28,11 @@ class H5mdWriter {
   H5mdWriter(const H5mdWriter&) = delete;
   H5mdWriter& operator=(const H5mdWriter&) = delete;
 
-  void sample(std::uint64_t k, const State& state);  ///< positions are written as they are
-  void events(std::span<const Event> events);        ///< nothing where scene.output.events is not set
-  void flush();                                      ///< from now on all samples so far survive whatever happens
+  void sample(std::uint64_t k, const State& state) { sample(k, state, state.positions); }
+  /// The same with other positions, unwrapped ones, in the file.
+  void sample(std::uint64_t k, const State& state, const Eigen::Matrix2Xd& positions);
+  void events(std::span<const Event> events);  ///< nothing where scene.output.events is not set
+  void flush();                                ///< from now on all samples so far survive whatever happens
   void close();
 
   [[nodiscard]] std::uint64_t safe_samples() const { return safe_samples_; }  ///< up to the last flush

@@ -51,6 +51,11 @@ Hdf5Id open_attribute(hid_t file, const std::string& object, const std::string& 
   return {H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose};
 }
 
+herr_t append_name(hid_t /*group*/, const char* name, const H5L_info_t* /*link*/, void* names) {
+  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  return 0;
+}
+
 herr_t innermost_reason(unsigned /*depth*/, const H5E_error2_t* error, void* reason) {
   if (error->desc != nullptr) *static_cast<std::string*>(reason) = error->desc;
   return 1;  // the first one is enough
@@ -156,6 +161,13 @@ std::uint64_t read_unsigned_attribute(hid_t file, const std::string& object, con
   std::uint64_t value = 0;
   checked(H5Aread(open_attribute(file, object, name).get(), H5T_NATIVE_UINT64, &value));
   return value;
+}
+
+std::vector<std::string> members_of(hid_t file, const std::string& group) {
+  std::vector<std::string> names;
+  if (exists(file, group))
+    checked(H5Literate_by_name(file, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, append_name, &names, H5P_DEFAULT));
+  return names;
 }
 
 std::vector<hsize_t> extents_of(hid_t file, const std::string& dataset) {

@@ -97,6 +97,8 @@ void write_fixed(hid_t parent, const std::string& name, std::span<const std::int
 /// Every element of an attribute of numbers; empty where there is none, or it holds something else.
 [[nodiscard]] std::vector<double> read_numbers_attribute(hid_t file, const std::string& object, const std::string& name);
 [[nodiscard]] std::uint64_t read_unsigned_attribute(hid_t file, const std::string& object, const std::string& name);
+/// The names in a group, in alphabetical order; empty where there is none.
+[[nodiscard]] std::vector<std::string> members_of(hid_t file, const std::string& group);
 /// The extents of a dataset; empty where there is none.
 [[nodiscard]] std::vector<hsize_t> extents_of(hid_t file, const std::string& dataset);
 /// Rows [first, first + count) of a dataset, as doubles. Throws Hdf5Error.

@@ -1,17 +1,15 @@
 #include "io/horizon_json.hpp"
 
-#include <nlohmann/json.hpp>
+#include "io/json_number.hpp"
 
-#include <cmath>
 #include <optional>
 
 namespace carom {
 
+using detail::Json;
+using detail::number;
+
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(std::optional<double> value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
 
 Json json_of(const std::optional<FirstDifference>& found) {
   if (!found) return nullptr;

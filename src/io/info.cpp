@@ -6,12 +6,14 @@
 #include "io/run_directory.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <carom/scene.hpp>
 
 #include <array>
 #include <cerrno>
 #include <fstream>
 #include <system_error>
+#include <vector>
 
 namespace carom {
 
@@ -59,6 +61,9 @@ std::string describe_scene(const fs::path& path) {
     text += detail::info_line("disks", fmt::format("{} {}", species.count, species.name));
   text += detail::info_line("packing", fmt::format("fraction {:.4g}", scene.packing_fraction()));
   text += detail::info_line("collisions", scene.effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular");
+  const std::vector<std::string> effects = names_of(scene.effects, !scene.box.periodic(0) || !scene.box.periodic(1));
+  if (effects.size() > 1)
+    text += detail::info_line("effects", fmt::format("{}", fmt::join(effects.begin() + 1, effects.end(), ", ")));
   return text + detail::info_line("seed", fmt::format("{}", scene.run.seed));
 }
 

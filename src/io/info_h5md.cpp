@@ -37,8 +37,13 @@ std::string box_line(hid_t file, hsize_t samples) {
   text += boundary[1] == "none" ? "walls" : boundary[1];
   if (samples == 0) return text;
   const std::vector<double> edges = read_rows(file, particles + "/box/edges/value", 0, 1);
+  const std::vector<double> last = read_rows(file, particles + "/box/edges/value", samples - 1, 1);
+  if (edges.at(0) != last.at(0) || edges.at(4) != last.at(4)) text += fmt::format("; at the end {} x {}", last.at(0), last.at(4));
   return fmt::format("{} x {} from ({}, {}); {}", edges.at(0), edges.at(4), origin[0], origin[1], text);
 }
+
+/// "kinetic_energy, temperature, spin", by name
+std::string observables_line(hid_t file) { return fmt::format("{}", fmt::join(members_of(file, "/observables"), ", ")); }
 
 std::string described(hid_t file) {
   const std::vector<hsize_t> extents = extents_of(file, particles + "/position/value");
@@ -53,6 +58,8 @@ std::string described(hid_t file) {
   text += info_line("scene", title.empty() ? source : fmt::format("{} ({})", title, source));
   text += info_line("seed", fmt::format("{}", read_unsigned_attribute(file, parameters, "seed")));
   text += info_line("engine", read_string_attribute(file, parameters, "engine"));
+  const std::vector<std::string> effects = read_strings_attribute(file, parameters, "effects");
+  if (!effects.empty()) text += info_line("effects", fmt::format("{}", fmt::join(effects, ", ")));
   text += info_line("disks", species_line(file, disks));
   text += info_line("box", box_line(file, samples));
 
@@ -64,6 +71,10 @@ std::string described(hid_t file) {
     if (dt.size() == 1) line += fmt::format(", every {}", dt[0]);
   }
   text += info_line("samples", line);
+  text += info_line("observables", observables_line(file));
+  if (samples > 0 && !extents_of(file, "/observables/scale/value").empty())
+    text += info_line("grown", fmt::format("radii to {} times those in the file",
+                                           read_rows(file, "/observables/scale/value", samples - 1, 1).at(0)));
   const std::vector<hsize_t> events = extents_of(file, "/events/time");
   if (!events.empty()) text += info_line("events", fmt::format("{} in /events", counted(events[0], "collision")));
   return text;

@@ -18,20 +18,70 @@ std::string text_of(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.is_null() ? "none" : value.dump();
 }
 
+/// "left 2.5, right 2.5", where walls are and have a pressure
+std::string wall_pressures(const Json& walls) {
+  std::string text;
+  for (const auto& [name, wall] : walls.items())
+    if (!wall.at("pressure").is_null())
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, text_of(wall.at("pressure")));
+  return text;
+}
+
+/// One line for each effect that has something to tell.
+std::string lines_of_effects(const Json& json) {
+  std::string text;
+  if (json.at("energy").contains("given"))
+    text += info_line("given", fmt::format("energy {}, unexplained {}", text_of(json.at("energy").at("given")),
+                                           text_of(json.at("energy").at("unexplained"))));
+  if (json.at("temperature").contains("spin_mean"))
+    text += info_line("spin", fmt::format("temperature {}", text_of(json.at("temperature").at("spin_mean"))));
+  if (json.contains("walls")) {
+    const std::string pressures = wall_pressures(json.at("walls"));
+    if (!pressures.empty()) text += info_line("pressure on", pressures);
+  }
+  if (json.contains("dissipated")) text += info_line("dissipated", fmt::format("energy {}", text_of(json.at("dissipated"))));
+  if (json.contains("thermostat"))
+    text += info_line("thermostat", fmt::format("{} kicks, energy {}", text_of(json.at("thermostat").at("kicks")),
+                                                text_of(json.at("thermostat").at("energy"))));
+  if (json.contains("growth"))
+    text += info_line("grown", fmt::format("radii to {} times, packing fraction {}", text_of(json.at("growth").at("scale")),
+                                           text_of(json.at("growth").at("packing_fraction"))));
+  if (json.contains("shear"))
+    text += info_line("shear", fmt::format("strain {}, viscosity {}", text_of(json.at("shear").at("strain")),
+                                           text_of(json.at("shear").at("viscosity"))));
+  if (json.contains("square_well")) text += info_line("bonds", text_of(json.at("square_well").at("bonds")));
+  return text;
+}
+
+/// "1000 pair, 20 wall", and what else happened
+std::string events_line(const Json& events) {
+  std::string text = fmt::format("{} pair, {} wall", text_of(events.at("pair")), text_of(events.at("wall")));
+  if (events.contains("obstacle")) text += fmt::format(", {} obstacle", text_of(events.at("obstacle")));
+  if (events.contains("kicks")) text += fmt::format(", {} kicks", text_of(events.at("kicks")));
+  return text;
+}
+
+std::string effects_line(const Json& effects) {
+  std::string text;
+  for (const Json& effect : effects) text += (text.empty() ? "" : ", ") + text_of(effect);
+  return text;
+}
+
 std::string described(const Json& json) {
   std::string text = info_line("written by", fmt::format("carom {} ({})", text_of(json.at("carom").at("version")),
                                                          text_of(json.at("carom").at("commit"))));
   text += info_line("scene", text_of(json.at("scene")));
   text += info_line("seed", text_of(json.at("seed")));
   text += info_line("engine", text_of(json.at("engine")));
+  text += info_line("effects", effects_line(json.at("effects")));
   text +=
       info_line("disks", fmt::format("{}, packing fraction {}", text_of(json.at("disks")), text_of(json.at("packing_fraction"))));
   text += info_line("time", fmt::format("{}, {} samples, stopped by {}", text_of(json.at("time")), text_of(json.at("samples")),
                                         text_of(json.at("stopped"))));
-  const Json& events = json.at("events");
-  text += info_line("events", fmt::format("{} pair, {} wall", text_of(events.at("pair")), text_of(events.at("wall"))));
+  text += info_line("events", events_line(json.at("events")));
   text += info_line("energy", fmt::format("{}, relative drift {}", text_of(json.at("energy").at("final")),
                                           text_of(json.at("energy").at("relative_drift"))));
+  text += lines_of_effects(json);
   const Json& pressure = json.at("pressure");
   text += info_line("Z", fmt::format("{}, standard error {}", text_of(pressure.at("Z")), text_of(pressure.at("Z_error"))));
   return text +

@@ -97,7 +97,9 @@ std::string describe_csv(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;
   std::getline(file, line);
-  if (line != "time,id,x,y,vx,vy")
+  const std::string heading = line;
+  const bool rough = heading == "time,id,x,y,vx,vy,spin";
+  if (heading != "time,id,x,y,vx,vy" && !rough)
     throw OutputError(
         fmt::format("{}: this table is not one of samples; Carom's begin with the line time,id,x,y,vx,vy", path.string()));
 
@@ -124,15 +126,16 @@ std::string describe_csv(const std::filesystem::path& path) {
     const auto time = leading_number<double>(std::string_view(line).substr(0, comma));
     const auto id =
         comma == std::string::npos ? std::nullopt : leading_number<std::uint64_t>(std::string_view(line).substr(comma + 1));
-    if (!time || !id || std::count(line.begin(), line.end(), ',') != 5)
-      throw OutputError(fmt::format("{}:{}: this line has not six numbers, as every line of samples has; the file is damaged",
-                                    path.string(), number));
+    if (!time || !id || std::count(line.begin(), line.end(), ',') != (rough ? 6 : 5))
+      throw OutputError(
+          fmt::format("{}:{}: this line has not {} numbers, as every line of these samples has; the file is damaged",
+                      path.string(), number, rough ? "seven" : "six"));
     if (*id == 0) end_sample();
     current = *time;
     ++rows;
   }
   end_sample();
-  std::string text = fmt::format("{}: table of samples, time,id,x,y,vx,vy\n", path.string());
+  std::string text = fmt::format("{}: table of samples, {}\n", path.string(), heading);
   text += info_line("disks", fmt::format("{}", disks));
   text += info_line("samples", samples_text(tally.samples, tally.first, tally.last));
   return text + state_of(torn);

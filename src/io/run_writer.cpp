@@ -37,7 +37,7 @@ RunWriter::RunWriter(const RunDirectory& directory, const Scene& scene, const Di
   try {
     if ((scene.output.trajectory && samples) || scene.output.events) h5md_.emplace(open(h5md_name), scene, disks, provenance);
     if (scene.output.xyz && samples) xyz_.emplace(open(xyz_name), scene, disks);
-    if (scene.output.csv && samples) csv_.emplace(open(csv_name));
+    if (scene.output.csv && samples) csv_.emplace(open(csv_name), scene.effects.collision.roughness.has_value());
   } catch (...) {
     discard_partials();
     throw;
@@ -61,7 +61,7 @@ void RunWriter::sample(std::uint64_t k, const State& state) {
     written = &unwrapped_state_;
   }
   holds_data_ = true;
-  if (h5md_ && trajectory_) h5md_->sample(k, *written);
+  if (h5md_ && trajectory_) h5md_->sample(k, state, written->positions);
   if (xyz_) xyz_->sample(*written);
   if (csv_) csv_->sample(*written);
   flush_now_and_then();

@@ -2,23 +2,28 @@
 
 #include "io/summary.hpp"
 
+#include "io/effects_json.hpp"
 #include "io/horizon_json.hpp"
+#include "io/json_number.hpp"
 
 #include <carom/version.hpp>
-#include <nlohmann/json.hpp>
-
-#include <cmath>
-#include <optional>
 
 namespace carom {
 
+using detail::Json;
+using detail::number;
+using detail::vector;
+
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json number(std::optional<double> value) { return value ? number(*value) : Json(nullptr); }
-Json vector(const Eigen::Vector2d& value) { return Json::array({number(value.x()), number(value.y())}); }
+Json events_json(const RunReport& report) {
+  const Totals& totals = report.totals;
+  Json json = {{"pair", totals.pair}, {"wall", totals.wall}, {"other", totals.other}, {"stale", totals.stale}};
+  if (report.of_effects.obstacles) json["obstacle"] = totals.obstacle;
+  if (report.of_effects.thermostat) json["kicks"] = totals.kicks;
+  json["total"] = totals.pair + totals.wall + totals.other + totals.stale + totals.obstacle + totals.kicks;
+  return json;
+}
 
 }  // namespace
 
@@ -36,11 +41,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   json["packing_fraction"] = number(report.packing_fraction);
   json["time"] = number(report.time);
   json["samples"] = report.samples;
-  json["events"] = {{"pair", totals.pair},
-                    {"wall", totals.wall},
-                    {"other", totals.other},
-                    {"stale", totals.stale},
-                    {"total", totals.pair + totals.wall + totals.other + totals.stale}};
+  json["events"] = events_json(report);
   json["wall_seconds"] = number(report.wall_seconds);
   json["collisions_per_second"] = report.loop_seconds > 0.0 ? number(report.collisions_per_second()) : Json(nullptr);
   json["energy"] = {{"initial", number(report.energy_initial)},
@@ -60,6 +61,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
                           {"right", number(totals.wall_impulse[1])},
                           {"bottom", number(totals.wall_impulse[2])},
                           {"top", number(totals.wall_impulse[3])}};
+  detail::add_effects(json, report);
   if (report.horizon) json["horizon"] = horizon_json(*report.horizon);
   json["command_line"] = provenance.command_line;
   // A path or a command line need not be UTF-8, and JSON must be.

@@ -2,9 +2,10 @@
 
 #include "io/xyz_writer.hpp"
 
+#include "observe/geometry.hpp"
+
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <iterator>
 #include <map>
@@ -27,27 +28,39 @@ constexpr std::array<std::string_view, 118> symbols = {
 std::string_view chemical_symbol(std::int32_t species) { return symbols[static_cast<std::size_t>(species) % symbols.size()]; }
 
 XyzWriter::XyzWriter(std::filesystem::path path, const Scene& scene, const Disks& disks)
-    : file_(std::move(path)), species_(disks.species) {
-  const double thickness = disks.radius.empty() ? 1.0 : 2.0 * *std::max_element(disks.radius.begin(), disks.radius.end());
-  const Eigen::Vector2d lengths = scene.box.lengths();
-  head_ = fmt::format(
-      "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" Origin=\"{} {} {}\" pbc=\"{} {} F\" "
-      "Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1 Time=",
-      disks.count(), lengths.x(), lengths.y(), thickness, scene.box.lower.x(), scene.box.lower.y(), -0.5 * thickness,
-      scene.box.periodic(0) ? 'T' : 'F', scene.box.periodic(1) ? 'T' : 'F');
-
-  // Radius and mass never change, and formatting them anew for every disk and sample would take a third of the time.
+    : file_(std::move(path)), box_(scene.box), diameter_(largest_diameter(disks, State{})), species_(disks.species) {
   std::map<std::pair<double, double>, std::size_t> known;
   tail_.reserve(disks.count());
   for (std::size_t i = 0; i < disks.count(); ++i) {
-    const auto [entry, is_new] = known.try_emplace({disks.radius[i], disks.mass[i]}, tails_.size());
-    if (is_new) tails_.push_back(fmt::format(" 0 {} {} ", disks.radius[i], disks.mass[i]));
+    const auto [entry, is_new] = known.try_emplace({disks.radius[i], disks.mass[i]}, kinds_.size());
+    if (is_new) kinds_.push_back({disks.radius[i], disks.mass[i]});
     tail_.push_back(entry->second);
   }
+  describe_box(State{});
+  describe_kinds(1.0);
+}
+
+void XyzWriter::describe_box(const State& state) {
+  const Box now = box_of(box_, state);
+  const double thickness = diameter_ * state.scale;
+  head_ = fmt::format(
+      "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" Origin=\"{} {} {}\" pbc=\"{} {} F\" "
+      "Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1 Time=",
+      species_.size(), now.lengths().x(), now.lengths().y(), thickness, now.lower.x(), now.lower.y(), -0.5 * thickness,
+      box_.periodic(0) ? 'T' : 'F', box_.periodic(1) ? 'T' : 'F');
+}
+
+// Formatting radius and mass anew for every disk and sample would take a third of the time.
+void XyzWriter::describe_kinds(double scale) {
+  tails_.clear();
+  for (const Kind& kind : kinds_) tails_.push_back(fmt::format(" 0 {} {} ", scale * kind.radius, kind.mass));
+  tails_scale_ = scale;
 }
 
 void XyzWriter::sample(const State& state) {
   const auto out = [this] { return std::back_inserter(file_.buffer()); };
+  if (!state.walls.empty() || state.scale != tails_scale_) describe_box(state);
+  if (state.scale != tails_scale_) describe_kinds(state.scale);
   fmt::format_to(out(), "{}{}\n", head_, state.time);
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
     const auto disk = static_cast<std::size_t>(i);

@@ -24,16 +24,27 @@ class XyzWriter {
  public:
   XyzWriter(std::filesystem::path path, const Scene& scene, const Disks& disks);
 
-  void sample(const State& state);  ///< positions are written as they are
+  void sample(const State& state);  ///< positions are written as they are, radii as they have grown
   void flush() { file_.flush(); }
   void close() { file_.close(); }
 
   [[nodiscard]] std::size_t buffered_bytes() const { return file_.buffered_bytes(); }
 
  private:
+  struct Kind {  ///< of equal disks
+    double radius;
+    double mass;
+  };
+  void describe_box(const State& state);
+  void describe_kinds(double scale);
+
   detail::TextFile file_;
-  std::string head_;                ///< the comment line up to the time
-  std::vector<std::string> tails_;  ///< of equal disks: " radius mass "
+  Box box_;
+  double diameter_;   ///< of the largest disk at scale 1
+  std::string head_;  ///< the comment line up to the time
+  std::vector<Kind> kinds_;
+  double tails_scale_ = 1.0;        ///< for which tails_ are
+  std::vector<std::string> tails_;  ///< per kind: " radius mass "
   std::vector<std::size_t> tail_;   ///< per disk, which of them
   std::vector<std::int32_t> species_;
 };

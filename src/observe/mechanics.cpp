@@ -1,5 +1,11 @@
 #include "observe/mechanics.hpp"
 
+#include "observe/energy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
 namespace carom {
 
 // Sums are taken in extended precision: a sum over a million disks is then good to the last digit, and what is left of
@@ -22,18 +28,68 @@ Eigen::Vector2d total_momentum(const Disks& disks, const State& state) {
   return sum.cast<double>();
 }
 
-double kinetic_temperature(const Box& box, const Disks& disks, const State& state) {
+namespace {
+
+double temperature_of(const std::array<bool, 2>& keeps_momentum, const Disks& disks, const State& state) {
   long double mass = 0.0L;
   for (const double m : disks.mass) mass += static_cast<long double>(m);
   const Eigen::Vector2d momentum = total_momentum(disks, state);
   double kinetic = kinetic_energy(disks, state);
   double freedom = 2.0 * static_cast<double>(disks.count());
-  for (int a = 0; a < 2; ++a) {
-    if (!box.periodic(a) || disks.count() == 0) continue;
-    kinetic -= momentum[a] * momentum[a] / (2.0 * static_cast<double>(mass));
+  for (std::size_t a = 0; a < 2; ++a) {
+    if (!keeps_momentum[a] || disks.count() == 0) continue;
+    const double along = momentum[static_cast<Eigen::Index>(a)];
+    kinetic -= along * along / (2.0 * static_cast<double>(mass));
     freedom -= 1.0;
   }
   return freedom > 0.0 ? 2.0 * kinetic / freedom : 0.0;
+}
+
+/// Whether something beside the other disks pushes a disk along periodic axes.
+bool pushes_along_edges(const Effects& effects) {
+  return (effects.thermostat && effects.thermostat->rate > 0.0) || !effects.obstacles.empty() ||
+         std::any_of(effects.walls.begin(), effects.walls.end(),
+                     [](const WallProperties& wall) { return wall.temperature.has_value(); });
+}
+
+}  // namespace
+
+double kinetic_temperature(const Box& box, const Disks& disks, const State& state) {
+  return temperature_of({box.periodic(0), box.periodic(1)}, disks, state);
+}
+
+double kinetic_temperature(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
+  const bool pushed = pushes_along_edges(effects);
+  const std::array<bool, 2> keeps_momentum = {!pushed && box.periodic(0), !pushed && box.periodic(1)};
+  if (!effects.shear || effects.shear->rate == 0.0) return temperature_of(keeps_momentum, disks, state);
+  State in_flow;
+  in_flow.velocities = velocities_in_flow(effects.shear->rate, disks, state);
+  return temperature_of(keeps_momentum, disks, in_flow);
+}
+
+double spin_temperature(const Disks& disks, const State& state) {
+  return disks.count() == 0 ? 0.0 : 2.0 * spin_energy(disks, state) / static_cast<double>(disks.count());
+}
+
+Eigen::Matrix2Xd velocities_in_flow(double rate, const Disks& disks, const State& state) {
+  State in_flow;
+  in_flow.velocities = state.velocities;
+  in_flow.velocities.row(0) -= rate * state.positions.row(1);
+  double mass = 0.0;
+  for (const double m : disks.mass) mass += m;
+  if (mass > 0.0) in_flow.velocities.colwise() -= total_momentum(disks, in_flow) / mass;
+  return in_flow.velocities;
+}
+
+double momentum_flow_xy(double rate, const Disks& disks, const State& state) {
+  const Eigen::Matrix2Xd u = velocities_in_flow(rate, disks, state);
+  long double sum = 0.0L;
+  for (std::size_t i = 0; i < disks.count(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    sum +=
+        static_cast<long double>(disks.mass[i]) * static_cast<long double>(u(0, column)) * static_cast<long double>(u(1, column));
+  }
+  return static_cast<double>(sum);
 }
 
 }  // namespace carom

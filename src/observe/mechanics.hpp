@@ -2,6 +2,7 @@
 // Energy, momentum and temperature of a state.
 
 #include <carom/box.hpp>
+#include <carom/effects.hpp>
 #include <carom/state.hpp>
 
 #include <Eigen/Core>
@@ -17,5 +18,18 @@ namespace carom {
 /// kT = 2 K' / f: K' is the kinetic energy without that of the common motion along periodic axes, whose momentum no
 /// collision changes, and f = 2 N minus the number of such axes. 0 where no degree of freedom is left.
 [[nodiscard]] double kinetic_temperature(const Box& box, const Disks& disks, const State& state);
+
+/// The same under the scene's effects. Where a thermostat, thermal walls or obstacles change momentum along periodic axes too,
+/// the common motion along them is heat like any other. Under shear velocities are taken relative to the flow.
+[[nodiscard]] double kinetic_temperature(const Box& box, const Effects& effects, const Disks& disks, const State& state);
+
+/// kT of the spins, 2 sum of (I w^2 / 2) / N, I = m r^2 / 2; 0 where disks are smooth
+[[nodiscard]] double spin_temperature(const Disks& disks, const State& state);
+
+/// Velocities relative to the flow v_x = rate y and to the common motion. Requires positions inside the box.
+[[nodiscard]] Eigen::Matrix2Xd velocities_in_flow(double rate, const Disks& disks, const State& state);
+
+/// sum of m u_x u_y, u relative to the flow: the part of P_xy times the area that flight carries
+[[nodiscard]] double momentum_flow_xy(double rate, const Disks& disks, const State& state);
 
 }  // namespace carom

@@ -1,10 +1,12 @@
 #include "observe/run_measurements.hpp"
 
-#include "neighbours/disks_at_rest.hpp"
+#include "observe/effects_report.hpp"
+#include "observe/energy.hpp"
+#include "observe/equilibrium.hpp"
 #include "observe/mechanics.hpp"
+#include "observe/overlap.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace carom {
@@ -22,50 +24,82 @@ RunMeasurements::RunMeasurements(const Simulation& simulation) : simulation_(sim
 }
 
 void RunMeasurements::start(const State& state) {
-  report_.energy_initial = kinetic_energy(simulation_.disks(), state);
+  const Scene& scene = simulation_.scene();
+  const Energies energies = energies_of(scene.box, scene.effects, simulation_.disks(), state);
+  report_.energy_initial = energies.total();
+  if (has_potential(scene.effects)) report_.energy_scale = energies.scale();
   report_.momentum_initial = total_momentum(simulation_.disks(), state);
   look_for_overlap(state);
 }
 
 void RunMeasurements::sample(const State& state) {
-  temperature_sum_ += kinetic_temperature(simulation_.scene().box, simulation_.disks(), state);
-  ++temperatures_;
+  const Scene& scene = simulation_.scene();
+  const Disks& disks = simulation_.disks();
+  temperature_sum_ += kinetic_temperature(scene.box, scene.effects, disks, state);
+  if (scene.effects.collision.roughness) spin_temperature_sum_ += spin_temperature(disks, state);
+  if (scene.effects.shear) momentum_flow_sum_ += momentum_flow_xy(scene.effects.shear->rate, disks, state);
+  ++samples_;
   look_for_overlap(state);
 }
 
 void RunMeasurements::block(const Progress& progress) { virial_.add(progress.time, progress.totals.virial); }
 
 void RunMeasurements::look_for_overlap(const State& state) {
-  const DeepestOverlap deepest =
-      deepest_overlap(simulation_.scene().box, simulation_.disks().radius, state.positions, state.remainders);
+  const Scene& scene = simulation_.scene();
+  const DeepestOverlap deepest = deepest_overlap(scene.box, scene.effects, simulation_.disks(), state);
   report_.max_relative_overlap = std::max(report_.max_relative_overlap, deepest.relative);
   ++report_.overlap_checked;
 }
 
-RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) {
-  const State state = simulation_.state();
-  report_.measured = result.measured;
-  if (!result.measured) start(state);
-  look_for_overlap(state);
-  const double temperature = kinetic_temperature(simulation_.scene().box, simulation_.disks(), state);
-
-  report_.time = simulation_.time();
-  report_.samples = result.samples;
-  report_.totals = simulation_.totals();
-  report_.wall_seconds = wall_seconds;
-  report_.loop_seconds = result.loop_seconds;
-  report_.energy_final = kinetic_energy(simulation_.disks(), state);
-  report_.momentum_final = total_momentum(simulation_.disks(), state);
-  report_.temperature_mean = temperatures_ > 0 ? temperature_sum_ / static_cast<double>(temperatures_) : temperature;
-  report_.stopped = result.stopped;
-
+void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
   virial_.add(report_.time, report_.totals.virial);
+  const Effects& effects = simulation_.scene().effects;
+  if (!why_no_Z(effects).empty()) return;
+  if (temperature_fluctuates(effects)) temperature = samples_ > 0 ? report_.temperature_mean : 0.0;
   if (result.measured && report_.totals.pair > 0 && virial_.rate() && temperature > 0.0) {
     const double disks = static_cast<double>(report_.disks);
     report_.Z = compressibility(*virial_.rate(), disks, temperature);
     if (virial_.standard_error()) report_.Z_error = *virial_.standard_error() / (2.0 * disks * temperature);
     report_.reduced_pressure = 4.0 * report_.packing_fraction / std::numbers::pi * *report_.Z;
   }
+}
+
+void RunMeasurements::finish_samples(const State& end) {
+  const Scene& scene = simulation_.scene();
+  const double samples = static_cast<double>(samples_);
+  EffectsReport& of_effects = report_.of_effects;
+  if (scene.effects.collision.roughness)
+    of_effects.spin_temperature = samples_ > 0 ? spin_temperature_sum_ / samples : spin_temperature(simulation_.disks(), end);
+  if (!of_effects.shear || samples_ == 0) return;
+  ShearReport& shear = *of_effects.shear;
+  shear.pressure_xy_of_flight = momentum_flow_sum_ / samples / scene.box.area();
+  const double rate = scene.effects.shear->rate;
+  if (shear.pressure_xy_of_collisions && rate != 0.0)
+    shear.viscosity = -(*shear.pressure_xy_of_collisions + *shear.pressure_xy_of_flight) / rate;
+}
+
+RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) {
+  const Scene& scene = simulation_.scene();
+  const Disks& disks = simulation_.disks();
+  const State state = simulation_.state();
+  report_.measured = result.measured;
+  if (!result.measured) start(state);
+  look_for_overlap(state);
+  const double temperature = kinetic_temperature(scene.box, scene.effects, disks, state);
+
+  report_.time = simulation_.time();
+  report_.samples = result.samples;
+  report_.totals = simulation_.totals();
+  report_.wall_seconds = wall_seconds;
+  report_.loop_seconds = result.loop_seconds;
+  report_.energy_final = total_energy(scene.box, scene.effects, disks, state);
+  report_.momentum_final = total_momentum(disks, state);
+  report_.temperature_mean = samples_ > 0 ? temperature_sum_ / static_cast<double>(samples_) : temperature;
+  report_.stopped = result.stopped;
+  report_.of_effects = effects_report(scene, disks, report_.totals, state);
+  if (!result.measured) report_.of_effects.energy_given.reset();  // totals began before the initial energy did
+  finish_samples(state);
+  measure_Z(result, temperature);
   return report_;
 }
 

@@ -22,12 +22,16 @@ class RunMeasurements {
 
  private:
   void look_for_overlap(const State& state);
+  void measure_Z(const RunResult& result, double temperature);
+  void finish_samples(const State& end);
 
   const Simulation& simulation_;
   RunReport report_;
   BlockedRate virial_;
   double temperature_sum_ = 0.0;
-  std::uint64_t temperatures_ = 0;
+  double spin_temperature_sum_ = 0.0;
+  double momentum_flow_sum_ = 0.0;  ///< of m u_x u_y, u relative to the flow
+  std::uint64_t samples_ = 0;
 };
 
 }  // namespace carom

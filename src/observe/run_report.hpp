@@ -1,12 +1,15 @@
 #pragma once
 // The result of one run in numbers: what summary.json and the terminal's summary are made of.
 
+#include "observe/effects_report.hpp"
 #include "observe/horizon_report.hpp"
 
 #include <carom/simulation.hpp>
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -30,25 +33,36 @@ struct RunReport {
   double wall_seconds = 0.0;  ///< of the whole run, from scene to files
   double loop_seconds = 0.0;  ///< of the event loop alone
 
-  double energy_initial = 0.0;
+  double energy_initial = 0.0;  ///< of disks and pistons together: see observe/energy.hpp
   double energy_final = 0.0;
+  std::optional<double> energy_scale;  ///< sum of the sizes of its parts, where there is more than kinetic energy
   Eigen::Vector2d momentum_initial = Eigen::Vector2d::Zero();
   Eigen::Vector2d momentum_final = Eigen::Vector2d::Zero();
   double temperature_mean = 0.0;  ///< mean kT of the samples; of the final state where there are none
 
-  std::optional<double> Z;                 ///< compressibility factor from momentum transfer; empty without collisions
+  std::optional<double> Z;                 ///< compressibility factor from momentum transfer; empty where it has no meaning
   std::optional<double> Z_error;           ///< standard error over blocks; empty with fewer than 8 blocks
   std::optional<double> reduced_pressure;  ///< beta P <sigma^2> = (4 eta / pi) Z; empty where Z is
 
   double max_relative_overlap = 0.0;  ///< largest (sigma_ij - |r_ij|) / sigma_ij over all checked states, >= 0
   std::uint64_t overlap_checked = 0;  ///< number of states checked
   StopReason stopped = StopReason::time;
+  EffectsReport of_effects;
   std::optional<Horizon> horizon;  ///< of the start of the measured run, where it was asked for
   bool measured = true;  ///< false where the run ended while it was still equilibrating: clock and totals are of that part
 
-  /// (final - initial) / initial, 0 where the initial energy is 0
+  /// (final - initial) / initial, 0 where the initial energy is 0. Where potential energy may cancel kinetic energy it is
+  /// relative to energy_scale.
   [[nodiscard]] double relative_energy_drift() const {
-    return energy_initial == 0.0 ? 0.0 : (energy_final - energy_initial) / energy_initial;
+    const double scale = energy_scale.value_or(energy_initial);
+    return scale == 0.0 ? 0.0 : (energy_final - energy_initial) / scale;
+  }
+  /// The part of that which nothing explains: (final - initial - given) / the larger of initial and final. Empty where nothing
+  /// gives or takes energy, and relative_energy_drift says it all.
+  [[nodiscard]] std::optional<double> unexplained_energy_drift() const {
+    if (!of_effects.energy_given) return std::nullopt;
+    const double scale = std::max(energy_scale.value_or(energy_initial), std::abs(energy_final));
+    return scale == 0.0 ? 0.0 : (energy_final - energy_initial - *of_effects.energy_given) / scale;
   }
   [[nodiscard]] double collisions_per_second() const {
     return loop_seconds > 0.0 ? static_cast<double>(totals.pair) / loop_seconds : 0.0;

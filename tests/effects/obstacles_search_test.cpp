@@ -1,5 +1,6 @@
 // The bins of the obstacles against a search of all of them and of all their images, and long flights in crowded rooms.
 
+#include "support/all_obstacles.hpp"
 #include "support/billiard.hpp"
 
 #include <gtest/gtest.h>
@@ -45,6 +46,7 @@ TEST_F(ObstacleSearch, AsksWhoeverMatters) {
     const Box box = box_of(between(0.5, 12.0), between(0.5, 12.0), boundary(), boundary());
     const std::vector<Obstacle> list = crowd(box, 1 + static_cast<int>(random() % 40), between(0.01, 1.5));
     const Obstacles<double> obstacles(box, list);
+    const AllObstacles all(box, list);
     for (int k = 0; k < 20; ++k) {
       const Vec2<double> r = place(box) + (k % 4 == 0 ? arrow(2.0) : Vec2<double>(0.0, 0.0));
       const Vec2<double> v = k % 5 == 0 ? Vec2<double>(0.0, 0.0) : arrow(between(0.0, 3.0));
@@ -55,7 +57,7 @@ TEST_F(ObstacleSearch, AsksWhoeverMatters) {
       const auto images = static_cast<std::int64_t>(std::ceil((8.0 + 12.0 + 16.0 + 8.0) / box.lengths().minCoeff()));
       if (images > 20 && k > 2) continue;
       const auto fast = obstacles.next(r, v, g, radius, growth, until);
-      const auto slow = obstacles.next_of_all(r, v, g, radius, growth, until, images);
+      const auto slow = all.next({r, v, g, radius, growth}, until, images);
       ASSERT_EQ(fast.time, slow.time) << n << ", " << k;
       ASSERT_EQ(fast.obstacle, slow.obstacle) << n << ", " << k;
       met += fast.obstacle >= 0;
@@ -67,12 +69,13 @@ TEST_F(ObstacleSearch, AsksWhoeverMatters) {
 TEST_F(ObstacleSearch, AsksWhoeverMattersOnPathsWithoutEnd) {
   for (int n = 0; n < 300; ++n) {
     const Box box = box_of(between(3.0, 12.0), between(3.0, 12.0), boundary(), Boundary::periodic);
-    const Obstacles<double> obstacles(box, crowd(box, 12, 1.0));
+    const std::vector<Obstacle> list = crowd(box, 12, 1.0);
+    const Obstacles<double> obstacles(box, list);
     const Vec2<double> r = place(box);
     const Vec2<double> v = arrow(between(0.1, 3.0));
     const auto fast = obstacles.next(r, v, {0.0, 0.0}, 0.1, 0.0, infinity<double>);
     if (!(fast.time * v.norm() < 100.0)) continue;
-    const auto slow = obstacles.next_of_all(r, v, {0.0, 0.0}, 0.1, 0.0, infinity<double>, 40);
+    const auto slow = AllObstacles(box, list).next({r, v, {0.0, 0.0}, 0.1, 0.0}, infinity<double>, 40);
     ASSERT_EQ(fast.time, slow.time) << n;
     ASSERT_EQ(fast.obstacle, slow.obstacle) << n;
   }

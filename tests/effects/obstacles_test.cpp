@@ -2,6 +2,7 @@
 
 #include "effects/obstacles.hpp"
 
+#include "support/all_obstacles.hpp"
 #include "support/billiard.hpp"
 
 #include <gtest/gtest.h>
@@ -53,10 +54,11 @@ TEST(Obstacles, ImagesAreMetAcrossPeriodicEdges) {
 TEST(Obstacles, LongPathsAreFollowedThroughManyBoxes) {
   // Slope 1/1024: passes the disk at x = 4 + 8 k with the height 1/8 more each time, 0.5 + k/128 above y = 0; reach 0.5 + 0.25
   // of 4.
-  const Billiard slow(torus, {fixed_disk(4.0, 4.0, 0.5)}, {4.0, 0.5}, {1.0, 0x1p-10}, 0.25);
+  const std::vector<Obstacle> list = {fixed_disk(4.0, 4.0, 0.5)};
+  const Billiard slow(torus, list, {4.0, 0.5}, {1.0, 0x1p-10}, 0.25);
   const auto meeting = slow.next();
   EXPECT_NEAR(slow.r.y() + meeting.time * slow.v.y(), 3.25, 0.05);
-  EXPECT_EQ(slow.obstacles.next_of_all(slow.r, slow.v, slow.g, slow.radius, 0.0, infinity<double>, 400).time, meeting.time);
+  EXPECT_EQ(AllObstacles(torus, list).next({slow.r, slow.v, slow.g, slow.radius, 0.0}, infinity<double>, 400).time, meeting.time);
 }
 
 TEST(Obstacles, ASegmentIsHardFromBothSidesAndAtItsEnds) {
@@ -101,6 +103,10 @@ TEST(Obstacles, OfTwoAtTheSameTimeTheLowerIndexComesFirst) {
   const Obstacle right = fixed_disk(5.0, 6.0, 0.5);
   for (const auto& list : {std::vector<Obstacle>{left, right}, std::vector<Obstacle>{right, left}})
     EXPECT_EQ(Billiard(room, list, {4.0, 2.0}, {0.0, 1.0}, 0.75).next().obstacle, 0);
+}
+
+TEST(Obstacles, ASegmentWithoutLengthIsAPoint) {
+  EXPECT_EQ(Billiard(room, {fixed_segment({4.0, 4.0}, {4.0, 4.0})}, {1.0, 4.0}, {1.0, 0.0}, 0.5).next().time, 2.5);
 }
 
 TEST(Obstacles, GrowingDisksMeetWhatTheyGrowInto) {

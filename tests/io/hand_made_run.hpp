@@ -107,6 +107,34 @@ inline State state_at(std::uint64_t k, const Scene& scene) {
   return state;
 }
 
+/// The same scene with effects that leave their marks in files, all at once: rough disks that attract and grow, between a bottom
+/// that moves and a piston at the top, in gravity.
+inline Scene scene_with_effects(std::int64_t large, std::int64_t small) {
+  Scene scene = scene_of(large, small);
+  scene.effects.collision.restitution = 0.9;
+  scene.effects.collision.roughness = 0.5;
+  scene.effects.gravity = Gravity{.acceleration = {0.0, -1.0}, .where = {}};
+  scene.effects.walls[2].velocity = 0.5;
+  scene.effects.walls[3].mass = 8.0;
+  scene.effects.walls[3].load = 0.25;
+  scene.effects.growth = Growth{.rate = 0.5, .packing_fraction = 0.8, .reduced_pressure = {}, .where = {}};
+  scene.effects.square_well = SquareWell{.width = 1.5, .depth = 2.0, .where = {}};
+  return scene;
+}
+
+/// Sample k of it: everything moves by its own amount.
+inline State state_with_effects_at(std::uint64_t k, const Scene& scene) {
+  State state = state_at(k, scene);
+  const auto steps = static_cast<double>(k);
+  state.spins.resize(state.positions.cols());
+  for (Eigen::Index i = 0; i < state.spins.size(); ++i) state.spins[i] = std::cos(steps + 0.3 * static_cast<double>(i));
+  state.scale = 1.0 + 0.0625 * steps;
+  state.walls = {{scene.box.lower.x(), 0.0}, {scene.box.upper.x(), 0.0}, {10.0 - 0.25 * steps, 0.5}, {12.5 + 0.5 * steps, 1.0}};
+  state.bonds = 2 * k;
+  state.shear_displacement = 0.125 * steps;
+  return state;
+}
+
 inline Event event_number(std::size_t e) {
   const auto value = static_cast<double>(e);
   Event event;

@@ -4,6 +4,7 @@
 
 #include "io/hand_made_run.hpp"
 #include "io/run_writer.hpp"
+#include "observe/effects_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -85,6 +86,26 @@ TEST_F(Info, DescribesARunDirectoryFileByFile) {
 TEST_F(Info, DescribesAScene) {
   EXPECT_THAT(describe_file(fs::path(CAROM_SOURCE_DIR) / "docs/scenes/box.toml"),
               AllOf(HasSubstr("a scene for Carom, Disks in a square box"), HasSubstr("64 gas"), HasSubstr("reversal")));
+}
+
+TEST_F(Info, DescribesWhatEffectsLeftInAllFiles) {
+  Scene scene = scene_with_effects(3, 2);
+  scene.output = {.trajectory = true, .xyz = true, .csv = true, .events = false};
+  const fs::path out = temporary_.path() / "effects";
+  RunWriter writer(RunDirectory(out, false), scene, disks_of(scene), provenance());
+  for (std::uint64_t k = 0; k < 5; ++k) writer.sample(k, state_with_effects_at(k, scene));
+  RunReport report = report_of(scene);
+  report.of_effects = effects_report(scene, disks_of(scene), report.totals, state_with_effects_at(4, scene));
+  report.of_effects.spin_temperature = 1.25;
+  writer.finish(report);
+  EXPECT_THAT(describe_file(out / "trajectory.h5md"),
+              AllOf(HasSubstr("effects     specular, walls, restitution, roughness"),
+                    HasSubstr("4 x 2.5 from (-1, 10); x periodic, y walls; at the end 4 x 5.5"), HasSubstr("radii to 1.25 times"),
+                    HasSubstr("bonds, kinetic_energy, packing_fraction"), HasSubstr("spin, ")));
+  EXPECT_THAT(describe_file(out / "summary.json"),
+              AllOf(HasSubstr("temperature 1.25"), HasSubstr("dissipated"), HasSubstr("grown       radii to 1.25 times"),
+                    HasSubstr("bonds       8"), HasSubstr("pressure on bottom ")));
+  EXPECT_THAT(describe_file(out / "samples.csv"), AllOf(HasSubstr("vx,vy,spin"), HasSubstr("5, from time 0 to 0.4")));
 }
 
 TEST_F(Info, SaysOfAPartialFileThatItIsIncomplete) {

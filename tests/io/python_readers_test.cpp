@@ -38,5 +38,19 @@ TEST(PythonReaders, H5pyAndMdanalysisSeeTheSamplesThatWereWritten) {
   EXPECT_EQ(code, 0);
 }
 
+TEST(PythonReaders, H5pyAndMdanalysisFollowABoxThatMovesAndDisksThatSpinAndGrow) {
+  const TemporaryDirectory temporary;
+  Scene scene = scene_with_effects(7, 4);
+  scene.output.csv = true;
+  scene.output.events = true;
+  RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
+  for (std::uint64_t k = 0; k < 23; ++k) writer.sample(k, state_with_effects_at(k, scene));
+  writer.events(events_up_to(100));
+  writer.finish(report_of(scene));
+  const int code = run_script(temporary.path().string() + " 23 11 4 2.5 effects");
+  if (code == 77) GTEST_SKIP() << "python3-h5py, python3-numpy or python3-mdanalysis is not installed";
+  EXPECT_EQ(code, 0);
+}
+
 }  // namespace
 }  // namespace carom::test

@@ -151,6 +151,49 @@ TEST(XyzWriter, DisksOfManySizesKeepTheirOwnRadiusAndMass) {
   }
 }
 
+TEST(CsvWriter, RoughDisksHaveAColumnOfSpins) {
+  const TemporaryDirectory temporary;
+  const Scene scene = scene_with_effects(2, 1);
+  CsvWriter writer(temporary.path() / "samples.csv", true);
+  writer.sample(state_with_effects_at(1, scene));
+  State smooth = state_at(2, scene);  // an engine that keeps no spins
+  writer.sample(smooth);
+  writer.close();
+  std::ifstream file(temporary.path() / "samples.csv");
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, "time,id,x,y,vx,vy,spin");
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    ASSERT_TRUE(std::getline(file, line));
+    const std::vector<std::string> fields = split(line, ',');
+    ASSERT_EQ(fields.size(), 7u);
+    EXPECT_EQ(exact(fields[6]), i < 3 ? state_with_effects_at(1, scene).spins[i] : 0.0);
+  }
+}
+
+TEST(XyzWriter, RadiiGrowAndTheLatticeFollowsTheWalls) {
+  const TemporaryDirectory temporary;
+  const Scene scene = scene_with_effects(1, 1);
+  XyzWriter writer(temporary.path() / "t.xyz", scene, disks_of(scene));
+  writer.sample(state_with_effects_at(0, scene));
+  writer.sample(state_with_effects_at(4, scene));  // scale 1.25, from 9 to 14.5
+  writer.sample(state_at(5, scene));               // back in the scene's own box
+  writer.close();
+  std::ifstream file(temporary.path() / "t.xyz");
+  std::string line;
+  for (const bool moved : {false, true, false}) {
+    std::getline(file, line);
+    std::getline(file, line);
+    const std::string lattice = moved ? "Lattice=\"4 0 0 0 5.5 0 0 0 0.075\" Origin=\"-1 9 -0.0375\" "
+                                      : "Lattice=\"4 0 0 0 2.5 0 0 0 0.06\" Origin=\"-1 10 -0.03\" ";
+    EXPECT_EQ(line.substr(0, lattice.size()), lattice);
+    for (const double radius : {0.03, 0.01}) {
+      std::getline(file, line);
+      EXPECT_EQ(exact(split(line, ' ').at(7)), moved ? 1.25 * radius : radius);
+    }
+  }
+}
+
 TEST(TextWriters, AFileThatCannotBeCreatedIsNamed) {
   try {
     const CsvWriter writer("/proc/samples.csv");

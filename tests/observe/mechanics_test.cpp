@@ -38,6 +38,57 @@ TEST(Mechanics, TemperatureDoesNotKnowTheFrameOfAPeriodicBox) {
   EXPECT_NEAR(kinetic_temperature(box, pair.disks, moving), kinetic_temperature(box, pair.disks, pair.state), 1e-12);
 }
 
+TEST(Mechanics, WithoutEffectsTheTemperatureIsTheSameToTheLastBit) {
+  for (const Boundary boundary : {Boundary::walls, Boundary::periodic}) {
+    const Box box = square_box(10.0, boundary);
+    EXPECT_EQ(kinetic_temperature(box, Effects{}, pair.disks, pair.state), kinetic_temperature(box, pair.disks, pair.state));
+  }
+}
+
+TEST(Mechanics, CommonMotionIsHeatWhereMoreThanDisksPushesDisks) {
+  const Box box = square_box(10.0, Boundary::periodic);
+  Effects effects;
+  effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.0, .where = {}};
+  EXPECT_EQ(kinetic_temperature(box, effects, pair.disks, pair.state), kinetic_temperature(box, pair.disks, pair.state));
+  effects.thermostat->rate = 0.1;
+  EXPECT_EQ(kinetic_temperature(box, effects, pair.disks, pair.state), 23.5 / 2.0);
+  Effects pushed;
+  pushed.obstacles.emplace_back();
+  EXPECT_EQ(kinetic_temperature(box, pushed, pair.disks, pair.state), 23.5 / 2.0);
+  Box channel = box;
+  channel.boundary[1] = Boundary::walls;
+  Effects warm;
+  warm.walls[3].temperature = 1.0;
+  EXPECT_EQ(kinetic_temperature(channel, warm, pair.disks, pair.state), 23.5 / 2.0);
+}
+
+TEST(Mechanics, TheFlowOfShearIsNoHeat) {
+  const Box box = square_box(10.0, Boundary::periodic);
+  System flowing = pair;
+  flowing.state.positions.col(1) << 5.0, 7.0;
+  Effects effects;
+  effects.shear = Shear{.rate = 0.25, .where = {}};
+  const double at_rest = kinetic_temperature(box, flowing.disks, flowing.state);
+  flowing.state.velocities.row(0) += 0.25 * flowing.state.positions.row(1);
+  EXPECT_NEAR(kinetic_temperature(box, effects, flowing.disks, flowing.state), at_rest, 1e-13);
+}
+
+TEST(Mechanics, MomentumFlowIsTakenInTheFrameOfTheFlow) {
+  System flowing =
+      system_of(square_box(10.0, Boundary::periodic), {{{1, 2}, {1.0, 2.0}, 0.5, 3.0}, {{5, 6}, {-1.0, -2.0}, 0.5, 3.0}});
+  flowing.state.velocities.row(0) += 0.5 * flowing.state.positions.row(1);
+  EXPECT_NEAR(momentum_flow_xy(0.5, flowing.disks, flowing.state), 12.0, 1e-13);
+}
+
+TEST(Mechanics, SpinsHaveATemperatureOfTheirOwn) {
+  State state = pair.state;
+  EXPECT_EQ(spin_temperature(pair.disks, state), 0.0);
+  state.spins.resize(2);
+  state.spins << 4.0, -2.0;
+  EXPECT_EQ(spin_temperature(pair.disks, state), 3.0);  // 2 (2 + 1) / 2
+  EXPECT_EQ(spin_temperature(Disks{}, State{}), 0.0);
+}
+
 TEST(Mechanics, NothingHasNoTemperature) {
   for (const Boundary boundary : {Boundary::walls, Boundary::periodic}) {
     const System none = system_of(square_box(1.0, boundary), {});

@@ -1,0 +1,41 @@
+#pragma once
+// The group /observables of trajectory.h5md: one row per sample of everything that is no position or velocity. Energy and
+// temperature are always there, the others where an effect of the scene makes them worth having.
+
+#include "io/growing_dataset.hpp"
+
+#include <carom/scene.hpp>
+#include <carom/state.hpp>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace carom::detail {
+
+class H5mdObservables {
+ public:
+  /// Requires particles/trajectory/position/step and time to be in the file. Throws Hdf5Error, as every function here.
+  H5mdObservables(hid_t file, const Scene& scene, const Disks& disks);
+
+  void append(const Disks& disks, const State& state);  ///< requires positions inside the box
+  void write();                                         ///< hands everything to HDF5
+  void close();
+
+  [[nodiscard]] std::size_t buffered_bytes() const;
+
+ private:
+  /// Fills a row of zeros from a state.
+  using Measure = void (*)(const Box& box, const Effects& effects, const Disks& disks, const State& state, std::span<double> row);
+  struct Column {
+    Measure measure;
+    GrowingDataset<double> values;
+  };
+
+  Box box_;
+  Effects effects_;
+  std::vector<Column> columns_;
+};
+
+}  // namespace carom::detail

@@ -1,0 +1,18 @@
+#pragma once
+// Numbers and vectors as JSON: null stands for what has no meaning and for what is not finite.
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <optional>
+
+namespace carom::detail {
+
+using Json = nlohmann::ordered_json;
+
+inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+inline Json number(std::optional<double> value) { return value ? number(*value) : Json(nullptr); }
+inline Json vector(const Eigen::Vector2d& value) { return Json::array({number(value.x()), number(value.y())}); }
+
+}  // namespace carom::detail

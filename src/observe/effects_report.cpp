@@ -1,0 +1,79 @@
+#include "observe/effects_report.hpp"
+
+#include "observe/geometry.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace carom {
+
+namespace {
+
+constexpr std::array<const char*, 4> wall_names = {"left", "right", "bottom", "top"};
+
+bool moves(const WallProperties& wall) { return wall.mass || wall.velocity; }
+
+template <class Property>
+bool any_wall(const Effects& effects, Property property) {
+  return std::any_of(effects.walls.begin(), effects.walls.end(), property);
+}
+
+WallReport wall_report(const Scene& scene, const Totals& totals, const State& end, std::size_t side) {
+  WallReport wall;
+  wall.name = wall_names[side];
+  wall.momentum = totals.wall_impulse[side];
+  wall.energy = totals.wall_energy[side];
+  const std::size_t across = side < 2 ? 2 : 0;  // the walls that this one runs between
+  const bool keeps_length = !moves(scene.effects.walls[across]) && !moves(scene.effects.walls[across + 1]);
+  if (end.time > 0.0) {
+    wall.force = wall.momentum / end.time;
+    if (keeps_length) wall.pressure = *wall.force / scene.box.lengths()[side < 2 ? 1 : 0];
+  }
+  if (moves(scene.effects.walls[side]) && end.walls.size() == 4) wall.end = end.walls[side];
+  return wall;
+}
+
+std::optional<double> energy_given(const Effects& effects, const Totals& totals) {
+  const auto gives = [](const WallProperties& wall) { return wall.restitution || wall.temperature || wall.velocity; };
+  const bool something = effects.collision.restitution || effects.collision.roughness || effects.growth || effects.thermostat ||
+                         effects.shear || any_wall(effects, gives);
+  const bool untold =
+      any_wall(effects, [](const WallProperties& wall) { return wall.mass && (wall.restitution || wall.temperature); });
+  if (!something || untold) return std::nullopt;
+  double given = totals.kick_energy + totals.growth_energy + totals.shear_energy - totals.dissipated;
+  for (std::size_t side = 0; side < 4; ++side)
+    if (!effects.walls[side].mass) given -= totals.wall_energy[side];
+  return given;
+}
+
+ShearReport shear_report(const Scene& scene, const Totals& totals, const State& end) {
+  ShearReport shear;
+  shear.strain = scene.effects.shear->rate * end.time;
+  shear.energy = totals.shear_energy;
+  if (end.time > 0.0) shear.pressure_xy_of_collisions = totals.virial_xy / (scene.box.area() * end.time);
+  return shear;
+}
+
+}  // namespace
+
+EffectsReport effects_report(const Scene& scene, const Disks& disks, const Totals& totals, const State& end) {
+  const Effects& effects = scene.effects;
+  EffectsReport report;
+  for (std::size_t side = 0; side < 4; ++side)
+    if (!scene.box.periodic(side < 2 ? 0 : 1)) report.walls.push_back(wall_report(scene, totals, end, side));
+  if (any_wall(effects, moves)) report.packing_fraction_end = packing_fraction(scene.box, disks, end);
+  if (has_more_than_kinetic_energy(effects)) report.energies_end = energies_of(scene.box, effects, disks, end);
+  if (effects.collision.restitution || effects.collision.roughness) report.dissipated = totals.dissipated;
+  if (!effects.obstacles.empty()) report.obstacles = totals.obstacle_impulse;
+  if (effects.thermostat) report.thermostat = {.kicks = totals.kicks, .energy = totals.kick_energy};
+  if (effects.growth)
+    report.growth = {
+        .scale = end.scale, .packing_fraction = packing_fraction(scene.box, disks, end), .energy = totals.growth_energy};
+  if (effects.shear) report.shear = shear_report(scene, totals, end);
+  if (effects.square_well) report.bonds = end.bonds;
+  report.energy_given = energy_given(effects, totals);
+  return report;
+}
+
+}  // namespace carom

@@ -1,0 +1,69 @@
+#pragma once
+// What the effects of a scene have done in a run: what walls, thermostat, growth and shear gave and took. Each part is there only
+// where the scene names its effect.
+
+#include "observe/energy.hpp"
+
+#include <carom/scene.hpp>
+#include <carom/state.hpp>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// One wall: what disks gave it, and where it ended.
+struct WallReport {
+  std::string name;                ///< "left", "right", "bottom", "top"
+  double momentum = 0.0;           ///< given to it, outward positive
+  double energy = 0.0;             ///< given to it: heat and work
+  std::optional<double> force;     ///< momentum / time; empty at time 0
+  std::optional<double> pressure;  ///< force / length; empty where other walls change the length
+  std::optional<WallState> end;    ///< of a wall that moves
+};
+
+struct ThermostatReport {
+  std::uint64_t kicks = 0;
+  double energy = 0.0;  ///< given to the disks
+};
+
+struct GrowthReport {
+  double scale = 1.0;  ///< radii at the end over those of the scene
+  double packing_fraction = 0.0;
+  double energy = 0.0;  ///< given to the disks
+};
+
+struct ShearReport {
+  double strain = 0.0;                              ///< rate * time
+  double energy = 0.0;                              ///< given to the disks
+  std::optional<double> pressure_xy_of_collisions;  ///< sum of r_x J_y / (area time); empty at time 0
+  std::optional<double> pressure_xy_of_flight;      ///< mean over samples of sum m u_x u_y / area, u relative to the flow
+  std::optional<double> viscosity;                  ///< - pressure_xy / rate
+};
+
+struct EffectsReport {
+  std::vector<WallReport> walls;               ///< of axes with walls, whatever their kind
+  std::optional<double> packing_fraction_end;  ///< where walls move
+  std::optional<Energies> energies_end;        ///< where there is more than kinetic energy
+  std::optional<double> spin_temperature;      ///< mean over samples, or of the final state where there are none
+  std::optional<double> dissipated;            ///< by collisions of pairs
+  std::optional<Eigen::Vector2d> obstacles;    ///< momentum given to them
+  std::optional<ThermostatReport> thermostat;
+  std::optional<GrowthReport> growth;
+  std::optional<ShearReport> shear;
+  std::optional<std::uint64_t> bonds;  ///< at the end
+
+  /// Energy that disks and pistons got from outside, less what they lost; where anything gives or takes any. Empty too where a
+  /// piston is inelastic or warm: what it took and what it lost are then not told apart.
+  std::optional<double> energy_given;
+};
+
+/// From the totals of a run and its last state. What only samples tell (spin_temperature, pressure_xy_of_flight, viscosity) is
+/// left empty.
+[[nodiscard]] EffectsReport effects_report(const Scene& scene, const Disks& disks, const Totals& totals, const State& end);
+
+}  // namespace carom

@@ -1,0 +1,46 @@
+#pragma once
+// All energy that a scene's disks and pistons hold: what collisions and flight keep where nothing gives or takes any.
+//
+// `box` and `effects` are the scene's; heights and displacements are measured from that box.
+
+#include <carom/box.hpp>
+#include <carom/effects.hpp>
+#include <carom/state.hpp>
+
+#include <cmath>
+
+namespace carom {
+
+/// sum of I w^2 / 2, I = m r^2 / 2 with the radii of the state; 0 where disks are smooth
+[[nodiscard]] double spin_energy(const Disks& disks, const State& state);
+
+/// The work still to be got from gravity, wells and loads, the sum of
+///   m |g| h over disks, h the height of the centre above the side of the box to which that component of g points;
+///   - depth over pairs inside each other's well;
+///   load * length of the wall * way outward from its place in `box`, over pistons.
+[[nodiscard]] double potential_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state);
+
+/// sum of M u^2 / 2 over pistons
+[[nodiscard]] double piston_energy(const Effects& effects, const State& state);
+
+/// Energy, and of what kind it is.
+struct Energies {
+  double kinetic = 0.0;
+  double spin = 0.0;
+  double potential = 0.0;
+  double pistons = 0.0;
+
+  [[nodiscard]] double total() const { return kinetic + spin + potential + pistons; }
+  /// What a change of the total is small against, where parts of opposite sign may leave no total.
+  [[nodiscard]] double scale() const { return kinetic + spin + std::abs(potential) + pistons; }
+};
+[[nodiscard]] Energies energies_of(const Box& box, const Effects& effects, const Disks& disks, const State& state);
+
+[[nodiscard]] double total_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state);
+
+/// Whether energy is more than that of disks in flight.
+[[nodiscard]] bool has_potential(const Effects& effects);
+[[nodiscard]] bool has_pistons(const Effects& effects);
+[[nodiscard]] bool has_more_than_kinetic_energy(const Effects& effects);
+
+}  // namespace carom

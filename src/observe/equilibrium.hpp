@@ -1,0 +1,18 @@
+#pragma once
+// When a compressibility factor Z = P A / (N kT) is one number that a run can measure.
+
+#include <carom/box.hpp>
+#include <carom/effects.hpp>
+
+#include <string_view>
+
+namespace carom {
+
+/// Why there is no such number, as the end of a sentence; empty where there is one. An effect at its neutral value does no harm.
+[[nodiscard]] std::string_view why_no_Z(const Effects& effects);
+
+/// Whether kinetic energy changes from moment to moment, because a heat bath, spins or wells take part in it: Z is then told with
+/// the mean of the temperature, and not with that of one state.
+[[nodiscard]] bool temperature_fluctuates(const Effects& effects);
+
+}  // namespace carom

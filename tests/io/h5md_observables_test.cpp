@@ -1,0 +1,131 @@
+// What the effects of a scene add to trajectory.h5md.
+
+#include "io/h5md_observables.hpp"
+
+#include "io/h5md_reader.hpp"
+#include "io/h5md_writer.hpp"
+#include "io/hand_made_run.hpp"
+#include "io/run_writer.hpp"
+#include "observe/energy.hpp"
+#include "observe/geometry.hpp"
+#include "observe/mechanics.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace carom::test {
+namespace {
+
+using ::testing::ElementsAre;
+
+const std::string particles = "/particles/trajectory";
+
+class H5mdObservables : public ::testing::Test {
+ protected:
+  std::filesystem::path write(const Scene& scene, std::uint64_t frames) {
+    const std::filesystem::path path = temporary_.path() / "trajectory.h5md";
+    H5mdWriter writer(path, scene, disks_of(scene), provenance());
+    for (std::uint64_t k = 0; k < frames; ++k) writer.sample(k, state_with_effects_at(k, scene));
+    writer.close();
+    return path;
+  }
+
+  TemporaryDirectory temporary_;
+};
+
+TEST_F(H5mdObservables, AreEnergyAndTemperatureWhereNoEffectActs) {
+  const H5Reader file(write(scene_of(2, 1), 2));
+  EXPECT_THAT(file.members("/observables"), ElementsAre("kinetic_energy", "temperature"));
+  EXPECT_THAT(file.strings("/parameters", "effects"), ElementsAre("specular", "walls"));
+}
+
+TEST_F(H5mdObservables, AreThereForWhatTheSceneNames) {
+  EXPECT_THAT(H5Reader(write(scene_with_effects(2, 1), 2)).members("/observables"),
+              ElementsAre("bonds", "kinetic_energy", "packing_fraction", "piston_energy", "potential_energy", "scale", "spin",
+                          "spin_energy", "spin_temperature", "temperature", "total_energy", "walls"));
+  Scene sheared = scene_of(2, 1);
+  sheared.effects.shear = Shear{.rate = 0.5, .where = {}};
+  EXPECT_THAT(H5Reader(write(sheared, 2)).members("/observables"),
+              ElementsAre("kinetic_energy", "shear_displacement", "temperature"));
+}
+
+TEST_F(H5mdObservables, AreMeasuredOnEverySample) {
+  const Scene scene = scene_with_effects(2, 1);
+  const Disks disks = disks_of(scene);
+  const H5Reader file(write(scene, 4));
+  const auto value = [&](const std::string& name) { return file.doubles("/observables/" + name + "/value"); };
+  EXPECT_THAT(file.extents("/observables/spin/value"), ElementsAre(4, 3));
+  EXPECT_THAT(file.extents("/observables/walls/value"), ElementsAre(4, 4));
+  for (std::size_t k = 0; k < 4; ++k) {
+    const State state = state_with_effects_at(k, scene);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(value("spin")[3 * k + i], state.spins[static_cast<Eigen::Index>(i)]);
+    for (std::size_t side = 0; side < 4; ++side) EXPECT_EQ(value("walls")[4 * k + side], state.walls[side].position);
+    EXPECT_EQ(value("scale")[k], state.scale);
+    EXPECT_EQ(value("bonds")[k], static_cast<double>(state.bonds));
+    EXPECT_EQ(value("packing_fraction")[k], packing_fraction(scene.box, disks, state));
+    EXPECT_EQ(value("spin_energy")[k], spin_energy(disks, state));
+    EXPECT_EQ(value("spin_temperature")[k], spin_temperature(disks, state));
+    EXPECT_EQ(value("potential_energy")[k], potential_energy(scene.box, scene.effects, disks, state));
+    EXPECT_EQ(value("piston_energy")[k], piston_energy(scene.effects, state));
+    EXPECT_EQ(value("total_energy")[k], total_energy(scene.box, scene.effects, disks, state));
+  }
+}
+
+TEST_F(H5mdObservables, ShareTheStepsAndTimesOfTheSamples) {
+  const H5Reader file(write(scene_with_effects(2, 1), 2));
+  for (const std::string& name : file.members("/observables")) {
+    EXPECT_TRUE(file.same_object(particles + "/position/step", "/observables/" + name + "/step")) << name;
+    EXPECT_TRUE(file.same_object(particles + "/position/time", "/observables/" + name + "/time")) << name;
+  }
+}
+
+TEST_F(H5mdObservables, TheBoxFollowsWallsAndDisksWhileItsOriginStays) {
+  const H5Reader file(write(scene_with_effects(2, 1), 5));
+  EXPECT_THAT(file.numbers<double>(particles + "/box", "origin", H5T_NATIVE_DOUBLE), ElementsAre(-1.0, 10.0, -0.03));
+  const std::vector<double> edges = file.doubles(particles + "/box/edges/value");
+  for (std::size_t k = 0; k < 5; ++k) {
+    const double steps = static_cast<double>(k);
+    EXPECT_EQ(edges[9 * k], 4.0);
+    EXPECT_EQ(edges[9 * k + 4], 2.5 + 0.75 * steps);
+    EXPECT_DOUBLE_EQ(edges[9 * k + 8], 0.06 * (1.0 + 0.0625 * steps));
+  }
+  EXPECT_THAT(file.doubles(particles + "/radius"), ElementsAre(0.03, 0.03, 0.01)) << "as the scene has them";
+}
+
+TEST_F(H5mdObservables, SpinsThatAnEngineDoesNotKeepAreZero) {
+  const Scene scene = scene_with_effects(2, 1);
+  const std::filesystem::path path = temporary_.path() / "t.h5md";
+  H5mdWriter writer(path, scene, disks_of(scene), provenance());
+  writer.sample(0, state_at(0, scene));
+  writer.close();
+  EXPECT_THAT(H5Reader(path).doubles("/observables/spin/value"), ElementsAre(0.0, 0.0, 0.0));
+}
+
+TEST_F(H5mdObservables, NoDisksHaveNoSpins) {
+  Scene scene = scene_with_effects(0, 0);
+  scene.species.clear();
+  const H5Reader file(write(scene, 2));
+  EXPECT_THAT(file.extents("/observables/spin/value"), ElementsAre(2, 0));
+  EXPECT_THAT(file.extents("/observables/walls/value"), ElementsAre(2, 4));
+}
+
+TEST_F(H5mdObservables, AreThoseOfTheStateWhereUnwrappedPositionsAreWritten) {
+  Scene scene = scene_of(3, 2);
+  scene.box.boundary = {Boundary::periodic, Boundary::periodic};
+  scene.effects.shear = Shear{.rate = 0.5, .where = {}};
+  scene.output = {.trajectory = true, .unwrapped = true};
+  State state = state_at(3, scene);
+  state.images.row(1).setConstant(-2);
+  {
+    RunWriter writer(RunDirectory(temporary_.path() / "out", false), scene, disks_of(scene), provenance());
+    writer.sample(0, state);
+    writer.finish(report_of(scene));
+  }
+  const H5Reader file(temporary_.path() / "out/trajectory.h5md");
+  EXPECT_EQ(file.doubles("/observables/temperature/value")[0],
+            kinetic_temperature(scene.box, scene.effects, disks_of(scene), state));
+  EXPECT_EQ(file.doubles(particles + "/position/value")[1], state.positions(1, 0) - 2 * 2.5);
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,73 @@
+// For which scenes Z is one number.
+
+#include "observe/equilibrium.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace carom::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Effects with(const std::function<void(Effects&)>& change) {
+  Effects effects;
+  change(effects);
+  return effects;
+}
+
+TEST(Equilibrium, EveryEffectAtItsNeutralValueKeepsZ) {
+  const Effects neutral = with([](Effects& e) {
+    e.collision.restitution = 1.0;
+    e.collision.roughness = -1.0;
+    e.gravity = Gravity{};
+    e.walls[0].restitution = 1.0;
+    e.walls[1].velocity = 0.0;
+    e.growth = Growth{};
+    e.thermostat = Thermostat{.temperature = 2.0, .rate = 0.0, .where = {}};
+    e.shear = Shear{};
+    e.square_well = SquareWell{.width = 2.0, .depth = 0.0, .where = {}};
+  });
+  EXPECT_THAT(why_no_Z(neutral), IsEmpty());
+  EXPECT_FALSE(temperature_fluctuates(neutral));
+}
+
+TEST(Equilibrium, ABathSpinsAndWellsKeepZAndLetTheTemperatureFluctuate) {
+  for (const Effects& effects :
+       {with([](Effects& e) { e.thermostat = Thermostat{.temperature = 2.0, .rate = 0.1, .where = {}}; }),
+        with([](Effects& e) { e.walls[0].temperature = e.walls[3].temperature = 2.0; }),
+        with([](Effects& e) { e.collision.roughness = 1.0; }),
+        with([](Effects& e) { e.square_well = SquareWell{.width = 2.0, .depth = -1.0, .where = {}}; })}) {
+    EXPECT_THAT(why_no_Z(effects), IsEmpty());
+    EXPECT_TRUE(temperature_fluctuates(effects));
+  }
+}
+
+TEST(Equilibrium, OutOfItThereIsNoZ) {
+  EXPECT_THAT(why_no_Z(with([](Effects& e) { e.collision.restitution = 0.9; })), HasSubstr("collisions"));
+  EXPECT_THAT(why_no_Z(with([](Effects& e) { e.collision.roughness = 0.5; })), HasSubstr("collisions"));
+  EXPECT_THAT(why_no_Z(with([](Effects& e) {
+                e.gravity = Gravity{.acceleration = {0.0, -1.0}, .where = {}};
+              })),
+              HasSubstr("height"));
+  EXPECT_THAT(why_no_Z(with([](Effects& e) { e.walls[3].velocity = 0.1; })), HasSubstr("area"));
+  EXPECT_THAT(why_no_Z(with([](Effects& e) { e.walls[3].mass = 1.0; })), HasSubstr("area"));
+  EXPECT_THAT(why_no_Z(with([](Effects& e) { e.walls[3].restitution = 0.5; })), HasSubstr("walls take"));
+  EXPECT_THAT(why_no_Z(with([](Effects& e) {
+                e.walls[0].temperature = 1.0;
+                e.walls[1].temperature = 2.0;
+              })),
+              HasSubstr("differ"));
+  EXPECT_THAT(why_no_Z(with([](Effects& e) { e.obstacles.emplace_back(); })), HasSubstr("obstacles"));
+  EXPECT_THAT(why_no_Z(with([](Effects& e) {
+                e.growth = Growth{.rate = 0.1, .packing_fraction = {}, .reduced_pressure = {}, .where = {}};
+              })),
+              HasSubstr("grow"));
+  EXPECT_THAT(why_no_Z(with([](Effects& e) { e.shear = Shear{.rate = 0.1, .where = {}}; })), HasSubstr("shear"));
+}
+
+}  // namespace
+}  // namespace carom::test
