@@ -17,6 +17,7 @@
 #include "effects/any_impact.hpp"
 #include "effects/gravity.hpp"
 #include "effects/obstacles.hpp"
+#include "effects/shear.hpp"
 #include "effects/walls.hpp"
 #include "engine/epoch.hpp"
 #include "neighbours/cell_grid.hpp"
@@ -78,6 +79,8 @@ class TextbookEngine {
       cross_cell(event.disk);
     } else if (event.higher <= first_obstacle) {
       hit_obstacle(event.disk, first_obstacle - event.higher);
+    } else if (event.higher < 0 && sliding_.present()) {
+      cross_sliding_edge(event.disk, static_cast<Wall>(event.higher));
     } else if (event.higher < 0) {
       hit_wall(event.disk, static_cast<Wall>(event.higher));
     } else if (is_stale(event.disk)) {
@@ -100,8 +103,10 @@ class TextbookEngine {
     Record& a = record(i);
     Record& b = record(j);
     const Vec2<Real> r = separation(a, b, now_, shift);
+    b.v[0] += Real(shift[1]) * sliding_.speed();  // as the image that i meets
     impact_.meet(r, (a.radius + b.radius) * growth_, {i, a.mass, radius_at(a, now_), a.v}, {j, b.mass, radius_at(b, now_), b.v},
                  now_, totals_);
+    b.v[0] -= Real(shift[1]) * sliding_.speed();
     if (recording_) log_event(i, j, a.v, b.v);
     if (outruns_epoch(a.v, now_, box_size_) || outruns_epoch(b.v, now_, box_size_)) {
       begin_epoch(now_);
@@ -122,6 +127,23 @@ class TextbookEngine {
     impact_.touched(i, now_);
     if (recording_) log_event(i, wall, a.v, Vec2<Real>(0, 0));
     if (walls_.is_piston(wall)) plan_boundaries_anew();
+    predict(i);
+  }
+
+  /// A disk leaves a sheared box above or below, and comes back on the other side as one of the images there.
+  void cross_sliding_edge(std::int32_t i, Wall edge) {
+    bring_to_now(i);
+    Record& a = record(i);
+    const Real up = is_upper(edge) ? 1 : -1;
+    const Real before = a.v.squaredNorm();
+    ++totals_.other;
+    a.r.y() = is_upper(edge) ? domain_.lower.y() : domain_.upper.y();
+    a.r.x() -= up * sliding_.displacement(now_);
+    a.v.x() -= up * sliding_.speed();
+    totals_.shear_energy += static_cast<double>(a.mass * (a.v.squaredNorm() - before)) / 2;
+    images_.col(i) += domain_.wrap(a.r);
+    images_(1, i) += is_upper(edge) ? 1 : -1;
+    grid_.move(i, a.r);
     predict(i);
   }
 
@@ -189,6 +211,12 @@ class TextbookEngine {
     const int axis = axis_of(wall);
     const Real r = position(a, t)[axis], v = velocity(a, t)[axis], g = falling_.g[axis];
     const Real radius = radius_at(a, t), growth = a.radius * growth_;
+    if (sliding_.present()) {  // no wall: the disk's centre leaves the box
+      const Real leaves =
+          t + fall_time<Real>(is_upper(wall) ? domain_.upper[axis] - r : r - domain_.lower[axis], is_upper(wall) ? -v : v, 0);
+      if (leaves < first.time) first = {leaves, wall};
+      return;
+    }
     const Real time = t + (is_upper(wall) ? walls_.contact(wall, (domain_.upper[axis] - radius) - r, v, g, growth, t)
                                           : walls_.contact(wall, r - (domain_.lower[axis] + radius), -v, -g, growth, t));
     if (time < first.time) first = {time, wall};
@@ -250,6 +278,7 @@ class TextbookEngine {
     epoch_ = instant(now_);
     walls_.rebase(now_);
     impact_.rebase(now_);
+    sliding_.rebase(now_);
     scale_ += growth_ * now_;
     now_ = 0;
     epoch_length_ = suitable_epoch_length();
@@ -309,6 +338,7 @@ class TextbookEngine {
     Vec2<Real> r = position(a, t) - position(b, t);
     if (shift[0] != 0) r[0] -= Real(shift[0]) * domain_.length[0];
     if (shift[1] != 0) r[1] -= Real(shift[1]) * domain_.length[1];
+    if (shift[1] != 0 && sliding_.present()) r[0] -= Real(shift[1]) * sliding_.displacement(t);
     return r;
   }
 
@@ -316,7 +346,9 @@ class TextbookEngine {
   [[nodiscard]] Real pair_time(std::int32_t i, std::int32_t j, const Winding& shift) const {
     const Record &a = record(i), &b = record(j);
     const Real t = std::max(a.t, b.t);
-    const Vec2<Real> r = separation(a, b, t, shift), v = velocity(a, t) - velocity(b, t);
+    const Vec2<Real> r = separation(a, b, t, shift);
+    Vec2<Real> v = velocity(a, t) - velocity(b, t);
+    v[0] -= Real(shift[1]) * sliding_.speed();
     const Real sigma = a.radius + b.radius;
     if (impact_.wells().present()) {
       const SquareWells<Real>& wells = impact_.wells();
@@ -360,6 +392,7 @@ class TextbookEngine {
   Falling<Real> falling_;
   Walls<Real> walls_;
   Obstacles<Real> obstacles_;
+  SlidingImages<Real> sliding_;
   AnyImpact<Real> impact_;
   Real scale_ = 1;   ///< of all radii, when the epoch began
   Real growth_ = 0;  ///< of the scale, per time
@@ -398,10 +431,12 @@ class TextbookEngine {
     totals_ = Totals{};
   }
 
-  /// Something from outside gives disk i a new velocity and, where disks spin, a new spin.
+  /// Something from outside gives disk i a new velocity, in a sheared box relative to the flow, and, where disks spin, a new
+  /// spin.
   void set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) {
     bring_to_now(i);
     record(i).v = v.cast<Real>();
+    record(i).v[0] += sliding_.flow(record(i).r[1]);
     if (impact_.spinning()) impact_.spin(i) = Real(spin);
     if (outruns_epoch(record(i).v, now_, box_size_)) return begin_epoch(now_);
     predict(i);

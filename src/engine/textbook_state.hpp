@@ -10,14 +10,21 @@
 
 namespace carom {
 
+/// A sheared box repeats along x only, as far as cells and coordinates are concerned: effects/shear.hpp does the rest.
+inline Box without_images_above(Box box) {
+  box.boundary[1] = Boundary::walls;
+  return box;
+}
+
 template <class Real>
 TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const State& start, const Effects& effects,
                                      std::uint64_t seed)
-    : box_(box),
-      domain_(box),
+    : box_(effects.shear ? without_images_above(box) : box),
+      domain_(box_),
       falling_(effects.gravity),
       walls_(box, effects.walls, seed),
       obstacles_(box, effects.obstacles),
+      sliding_(box, effects.shear, start.shear_displacement),
       impact_(effects, disks.count()),
       scale_(Real(start.scale)),
       growth_(effects.growth ? Real(effects.growth->rate) : Real(0)),
@@ -58,6 +65,12 @@ void TextbookEngine<Real>::find_wells() {
 
 template <class Real>
 void TextbookEngine<Real>::suit_grid() {
+  if (sliding_.present()) {
+    if (grid_.disks() != records_.size()) grid_ = CellGrid<Real>(domain_, 2 * Real(largest_radius_), records_.size());
+    const Real from = sliding_.displacement(0), to = sliding_.displacement(epoch_length_ < infinity<Real> ? epoch_length_ : 0);
+    grid_.slide(std::min(from, to), std::max(from, to));
+    return;
+  }
   const bool same = growth_ == 0 && !walls_.any_moves() && grid_.disks() == records_.size();
   if (same) return;
   Box now = box_;
@@ -101,6 +114,11 @@ State TextbookEngine<Real>::state() const {
   state.scale = static_cast<double>(scale_ + growth_ * now_);
   state.walls = walls_.states(now_);
   state.bonds = impact_.wells().pairs();
+  if (sliding_.present()) {
+    SlidingImages<Real> now = sliding_;
+    now.rebase(now_);
+    state.shear_displacement = static_cast<double>(now.displacement(0));
+  }
   return state;
 }
 
@@ -111,6 +129,10 @@ Real TextbookEngine<Real>::suitable_epoch_length() const {
                                 static_cast<double>(walls_.fastest(0)));
   const double pull = std::max(static_cast<double>(falling_.g.cwiseAbs().maxCoeff()), static_cast<double>(walls_.strongest()));
   const double length = shortened_epoch(epoch_length(spacing, speed), spacing, pull);
+  if (sliding_.speed() != 0) {  // images slide by one contact distance at most
+    using std::abs;
+    return std::min<Real>(Real(length), 2 * Real(largest_radius_) / abs(sliding_.speed()));
+  }
   return growth_ > 0 ? std::min<Real>(Real(length), scale_ / (64 * growth_)) : Real(length);
 }
 

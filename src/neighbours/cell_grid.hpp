@@ -6,6 +6,9 @@
 // On periodic axes cells repeat for ever. A disk's `winding` counts the box lengths between the frame of its recorded
 // position and its cell; neighbours come with the image shift s for which r_i - r_j - s * length is the separation.
 // Works with one or two cells per axis too: then one disk is its neighbour's neighbour through several images.
+//
+// Where the images above and below slide (effects/shear.hpp), the rows of cells beyond the upper and lower edge are those of the
+// other end, displaced by any amount; slide() says by how much they may be.
 
 #include "core/domain.hpp"
 #include "core/fall_time.hpp"
@@ -58,6 +61,22 @@ class CellGrid {
     link(i);
   }
 
+  /// The axis y is to be one without images of its own; beyond its edges lie images displaced by anything from `least` to `most`
+  /// upwards, and by as much the other way downwards.
+  void slide(Real least, Real most) {
+    using std::ceil;
+    using std::floor;
+    sliding_ = true;
+    slid_least_ = static_cast<std::int32_t>(floor(least / width_[0]));
+    slid_most_ = static_cast<std::int32_t>(ceil(most / width_[0]));
+  }
+
+  /// Disk i is somewhere else: at r, inside the box.
+  void move(std::int32_t i, const Vec2<Real>& r) {
+    unlink(i);
+    insert(i, r);
+  }
+
   void clear() { std::fill(first_.begin(), first_.end(), none); }
 
   /// When disk i, at position r with velocity v at time t and acceleration g, leaves its cell. Never before t. Where there is an
@@ -97,21 +116,15 @@ class CellGrid {
   template <class Visit>
   void for_neighbours(std::int32_t i, Visit&& visit) const {
     const Place& place = at(i);
-    const Lines columns{line(0, place.cell[0] - 1), line(0, place.cell[0]), line(0, place.cell[0] + 1)};
-    const Lines rows{line(1, place.cell[1] - 1), line(1, place.cell[1]), line(1, place.cell[1] + 1)};
-    for (const Line& row : rows)
-      for (const Line& column : columns) visit_cell(i, column, row, visit);
+    for (int side = -1; side <= 1; ++side) visit_row(i, place.cell[1] + side, -1, 1, visit);
   }
 
   /// The same for the three cells that come into reach when disk i has just made the given crossing.
   template <class Visit>
   void for_neighbours_ahead(std::int32_t i, const CellCrossing<Real>& crossing, Visit&& visit) const {
     const Place& place = at(i);
-    for (int side = -1; side <= 1; ++side) {
-      const Line column = line(0, place.cell[0] + (crossing.axis == 0 ? crossing.step : side));
-      const Line row = line(1, place.cell[1] + (crossing.axis == 1 ? crossing.step : side));
-      visit_cell(i, column, row, visit);
-    }
+    if (crossing.axis == 1) return visit_row(i, place.cell[1] + crossing.step, -1, 1, visit);
+    for (int side = -1; side <= 1; ++side) visit_row(i, place.cell[1] + side, crossing.step, crossing.step, visit);
   }
 
   /// Lower corner and upper corner of the cell of disk i, in the frame of its recorded position.
@@ -161,12 +174,31 @@ class CellGrid {
     std::int32_t cell;  ///< none beyond a wall
     std::int32_t beyond;
   };
-  using Lines = std::array<Line, 3>;
 
   [[nodiscard]] Line line(int axis, std::int32_t cell) const {
     if (cell >= 0 && cell < count_[axis]) return {cell, 0};
     if (!domain_.periodic[axis]) return {none, 0};
     return cell < 0 ? Line{cell + count_[axis], -1} : Line{cell - count_[axis], 1};
+  }
+
+  /// The cells of a row from `first` to `last` columns away from disk i, and as many more as its images may have slid.
+  template <class Visit>
+  void visit_row(std::int32_t i, std::int32_t row, int first, int last, Visit& visit) const {
+    const std::int32_t column = at(i).cell[0];
+    if (sliding_ && (row < 0 || row >= count_[1])) {
+      const bool above = row >= count_[1];
+      const Line beyond{above ? row - count_[1] : row + count_[1], above ? 1 : -1};
+      const std::int32_t from = first - (above ? slid_most_ : -slid_least_), to = last + (above ? -slid_least_ : slid_most_);
+      for (std::int32_t k = from; k <= to; ++k) visit_cell(i, repeated(column + k), beyond, visit);
+      return;
+    }
+    for (int k = first; k <= last; ++k) visit_cell(i, line(0, column + k), line(1, row), visit);
+  }
+
+  /// The column of a periodic axis, however many boxes away.
+  [[nodiscard]] Line repeated(std::int32_t column) const {
+    const std::int32_t beyond = column >= 0 ? column / count_[0] : -((count_[0] - 1 - column) / count_[0]);
+    return {column - beyond * count_[0], beyond};
   }
 
   template <class Visit>
@@ -180,6 +212,9 @@ class CellGrid {
   Domain<Real> domain_;
   std::int32_t count_[2];
   Real width_[2];
+  bool sliding_ = false;
+  std::int32_t slid_least_ = 0;  ///< whole columns by which images above are displaced at least
+  std::int32_t slid_most_ = 0;
   std::vector<std::int32_t> first_;
   std::vector<Place> places_;
 };

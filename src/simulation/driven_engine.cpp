@@ -73,7 +73,7 @@ bool DrivenEngine::run_until(const Instant& target, std::uint64_t pair_limit, st
     } else if (!arrived || target < std::min(kick_time_, end_)) {
       break;
     } else if (!(stop < end_) && end_ < forever) {
-      grown_ = true;
+      grown_ = at_end_scale_ = true;
       arrived = false;
     } else if (!(stop < kick_time_) && kick_time_ < forever) {
       kick();
@@ -95,7 +95,7 @@ bool DrivenEngine::idle() const {
 
 State DrivenEngine::state() const {
   State state = engine_->state();
-  if (grown_ && end_scale_ > 0.0 && !(now() < end_)) state.scale = end_scale_;  // what was asked for, not its sum over epochs
+  if (at_end_scale_) state.scale = end_scale_;  // what was asked for, not its sum over epochs
   return state;
 }
 

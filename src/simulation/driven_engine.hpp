@@ -78,6 +78,7 @@ class DrivenEngine final : public AnyEngine {
   double packing_fraction_;         ///< at scale 1
   Instant end_ = forever;           ///< when end_scale_ is reached
   bool grown_ = false;              ///< the end is reached
+  bool at_end_scale_ = false;       ///< it was the packing fraction's
   bool keeps_energy_;               ///< velocities are rescaled
   std::uint64_t between_stock_;     ///< collisions of pairs from one look at the gas to the next
   std::uint64_t stock_at_ = never;  ///< Totals::pair at which velocities are rescaled and the pressure is measured

@@ -106,7 +106,7 @@ class Growing {
   /// At random, without overlap, in places where they will still be clear of walls and obstacles when they are grown.
   State small_disks() const {
     State state;
-    state.scale = std::min(1.0, std::sqrt(placed_fraction / final_fraction_));
+    state.scale = disks_.count() == 1 ? 1.0 : std::min(1.0, std::sqrt(placed_fraction / final_fraction_));
     std::optional<Eigen::Matrix2Xd> positions;
     for (; !(positions = placed(state.scale)); state.scale *= shrinkage) {
       if (state.scale < 1e-3)

@@ -27,7 +27,7 @@ void expect_sound(const System& start, std::uint64_t collisions) {
 TEST(EngineOutrun, CountsImagesInAThinBox) {
   const Box box{{0.0, 0.0}, {1000.0, 3.0}, {Boundary::periodic, Boundary::periodic}};
   const System start = system_of(box, {{{100.0, 1.5}, {1.0, 0.0}}, {{200.0, 0.8}, {0.0, 0.0}}});
-  Engine<Specular, EqualDisks> engine(start.box, start.disks, start.state);
+  Engine<Elastic<Specular>, EqualDisks, PlainWorld> engine(start.box, start.disks, start.state);
   engine.run_until(Instant{99.5, 0.0}, no_limit, no_limit);
   ASSERT_EQ(engine.totals().pair, 1U);
   EXPECT_NEAR(unwrapped_sum(box, engine.state())[1], 1.5 + 0.8, 1e-9);
@@ -35,7 +35,7 @@ TEST(EngineOutrun, CountsImagesInAThinBox) {
 
 TEST(EngineOutrun, KeepsHeavyAndLightDisksApart) {
   const Box box{{0.0, 0.0}, {0x1.cfec63c5b38acp+3, 0x1.cfec63c5b38acp+3}, {Boundary::walls, Boundary::periodic}};
-  expect_sound<Engine<Specular, AnyDisks>>(
+  expect_sound<Engine<Elastic<Specular>, AnyDisks, PlainWorld>>(
       system_of(box, {{{0x1.aea74e31f6f88p+1, 0x1.5ffc90714d51ap+3},
                        {0x1.142f5c94c9561p-2, 0x1.ed069c3b0504bp-1},
                        0x1.05c75e94c903dp+0,
@@ -47,7 +47,7 @@ TEST(EngineOutrun, KeepsHeavyAndLightDisksApart) {
 TEST(EngineOutrun, KeepsEqualDisksApart) {
   const double half = 0x1.7be587ab0b804p+1;
   const Box box{{-half, half}, {half, 0x1.1cec25c048a03p+3}, {Boundary::periodic, Boundary::walls}};
-  expect_sound<Engine<Specular, AnyDisks>>(
+  expect_sound<Engine<Elastic<Specular>, AnyDisks, PlainWorld>>(
       system_of(box, {{{0x1.19632794d0494p-1, 0x1.8c1eb00e52c08p+2}, {-0x1.1049afd15ccf3p-29, -0x1.4aea4f0392578p-34}, 1.0},
                       {{-0x1.a887c33370054p-1, 0x1.03942269e37eep+2}, {-0x1.7ea9f718220ebp-38, -0x1.076b5aaf1df9p-38}, 1.0},
                       {{0x1.7022f36b485ap+0, 0x1.157400e26024p+2}, {-0x1.74c20c28fb117p-36, 0x1.381fb4fa1a564p-38}, 1.0},
@@ -59,7 +59,7 @@ TEST(EngineSlowest, ADiskThatReachesNoWallBeforeTimesOverflowExpectsNothing) {
   // The way to the wall over the speed is more than the largest number, as is the time to leave a cage.
   const Box box = square_box(1e6, Boundary::walls);
   const System start = system_of(box, {{{5e5, 5e5}, {1e-304, 0.0}}, {{2e5, 2e5}, {0.0, 1e-304}}});
-  Engine<Specular, AnyDisks> engine(start.box, start.disks, start.state);
+  Engine<Elastic<Specular>, AnyDisks, PlainWorld> engine(start.box, start.disks, start.state);
   EXPECT_TRUE(engine.run_until(Instant{1e9, 0.0}, no_limit, no_limit));
   EXPECT_EQ(engine.totals().wall, 0U);
   EXPECT_TRUE(engine.check_invariants().empty());
@@ -69,7 +69,7 @@ TEST(EngineSlowest, ADiskThatReachesNoWallBeforeTimesOverflowExpectsNothing) {
 double bytes_per_disk(std::int64_t n, double emptiness) {
   System start = system_of(gas_scene(n, 0.5, Boundary::periodic));
   start.box.upper *= emptiness;
-  const Engine<Specular, EqualDisks> engine(start.box, start.disks, start.state);
+  const Engine<Elastic<Specular>, EqualDisks, PlainWorld> engine(start.box, start.disks, start.state);
   return static_cast<double>(engine.bytes()) / static_cast<double>(n);
 }
 

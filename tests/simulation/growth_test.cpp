@@ -32,13 +32,13 @@ TEST(Growth, TwoDisksMeetWhereTheirRadiiReachAndPartFasterByTwiceTheGrowth) {
     EXPECT_EQ(simulation.run_until(100.0, 1), StopReason::collisions);
     const std::vector<Event> events = simulation.take_events();
     ASSERT_EQ(events.size(), 1U);
-    EXPECT_NEAR(events[0].time, 2.4, 1e-15);
+    EXPECT_NEAR(events[0].time, 2.4, 1.1e-14);  // contact_time's bound: 16 u (|r| + sigma + (|v| + a) t), over 1 + a
     EXPECT_NEAR(events[0].velocity.x(), -0.5 - 0.25, 1e-15);  // u_n' = -u_n + 2 a, half of it each
     EXPECT_NEAR(events[0].partner_velocity.x(), 0.5 + 0.25, 1e-15);
     // One collision of every disk: what growth gave is taken away at once.
     EXPECT_NEAR(kinetic_energy(simulation.disks(), simulation.state()), 0.25, 1e-15);
     EXPECT_NEAR(simulation.totals().growth_energy, 0.0, 1e-15);
-    EXPECT_NEAR(simulation.state().scale, 1.0 + 0.25 * 2.4, 1e-15);
+    EXPECT_NEAR(simulation.state().scale, 1.0 + 0.25 * 2.4, 1e-14);  // some ten epochs, each rounded by 2e-16
     EXPECT_EQ(simulation.disks().radius[0], 0.5) << "the scene's; the state's scale tells";
   }
 }
@@ -99,7 +99,7 @@ TEST(Growth, StopsAtTheTimeOfTheRunWhereThatComesFirst) {
   scene.run.time = 3.0;
   Simulation simulation = make_simulation(scene);
   EXPECT_EQ(run_schedule(simulation).stopped, StopReason::time);
-  EXPECT_NEAR(simulation.state().scale, 1.15, 1e-15);
+  EXPECT_NEAR(simulation.state().scale, 1.15, 1e-14);  // some ten epochs, each rounded by 2e-16
 }
 
 TEST(Growth, KeepsTheEnergyOfTheStartAndAnHonestAccount) {
@@ -167,26 +167,24 @@ TEST(Growth, IsNotEquilibrated) {
 }
 
 TEST(InelasticRun, ThatComesToAStandIsCollapsed) {
-  // Three disks on a line with e below 7 - 4 sqrt(3) = 0.0718 (McNamara & Young 1992).
-  Scene scene = scene_of(box_of(20.0, 10.0, Boundary::walls),
-                         {species_of(3, 0.5, 1.0, ListedPositions{{{5.0, 5.0}, {6.1, 5.0}, {9.0, 5.0}}},
-                                     ListedVelocities{{{1.0, 0.0}, {0.0, 0.0}, {-1.0, 0.0}}})});
-  scene.effects.collision.restitution = 0.05;
-  Simulation simulation = make_simulation(scene, "textbook");
-  EXPECT_EQ(simulation.run_until(20.0), StopReason::collapsed);
+  // Two disks that fill the way from wall to wall: elastic ones are jammed (StartRefusals), these lose a little each time.
+  Scene scene = scene_of(box_of(2.0, 1.5, Boundary::walls), {species_of(2, 0.5, 1.0, ListedPositions{{{0.5, 0.75}, {1.5, 0.75}}},
+                                                                        ListedVelocities{{{1.0, 0.0}, {0.0, 0.0}}})});
+  scene.effects.collision.restitution = 0.9999;
+  Simulation simulation = make_simulation(scene);
+  EXPECT_EQ(simulation.run_until(1.0), StopReason::collapsed);
+  EXPECT_EQ(simulation.time(), 0.0);
 }
 
 TEST(PhysicsGrowth, StopsAtThePressureAskedFor) {
   const double asked = 4.0 * 0.5 / std::numbers::pi * theory::kolafa_rottner(0.5);
-  for (const Boundary boundary : {Boundary::periodic}) {
-    Scene scene = growing(gas_scene(64, 0.3, boundary), 2e-4, {}, asked);
-    Simulation simulation = make_simulation(scene);
-    EXPECT_EQ(simulation.run_until(1e6), StopReason::grown);
-    // A window of 32 * 64 collisions knows Z - 1 to 2.2 %; four times that in P* is 2.6 % in eta, as d ln P* / d ln eta = 3.4.
-    // The window lasts 9 units of time, in which eta grows by 0.0018.
-    const double reached = scene.packing_fraction() * std::pow(simulation.state().scale, 2);
-    EXPECT_NEAR(reached, 0.5, 0.013 + 0.002);
-  }
+  const Scene scene = growing(gas_scene(64, 0.3, Boundary::periodic), 2e-4, {}, asked);
+  Simulation simulation = make_simulation(scene);
+  EXPECT_EQ(simulation.run_until(1e6), StopReason::grown);
+  // A window of 32 * 64 collisions knows Z - 1 to 2.2 %; four times that in P* is 2.6 % in eta, as d ln P* / d ln eta = 3.4.
+  // The window lasts 9 units of time, in which eta grows by 0.0018.
+  const double reached = scene.packing_fraction() * std::pow(simulation.state().scale, 2);
+  EXPECT_NEAR(reached, 0.5, 0.013 + 0.002);
 }
 
 TEST(PhysicsGrowth, OfAThousandDisksMakesNoOverlap) {

@@ -1,0 +1,51 @@
+#pragma once
+// Lees-Edwards boundaries (Lees & Edwards, J. Phys. C 5, 1921 (1972)): a flow v_x = rate y without walls. The images above slide
+// past those below: by `displacement` to the right, at the speed rate times the height of the box. A disk that leaves upwards
+// comes back from below, by so much farther left and slower.
+
+#include "core/vec2.hpp"
+
+#include <carom/box.hpp>
+#include <carom/effects.hpp>
+
+#include <cmath>
+#include <optional>
+
+namespace carom {
+
+template <class Real>
+class SlidingImages {
+ public:
+  SlidingImages(const Box& box, const std::optional<Shear>& shear, double displacement)
+      : present_(shear.has_value()),
+        rate_(shear ? Real(shear->rate) : Real(0)),
+        speed_(rate_ * Real(box.lengths()[1])),
+        length_(Real(box.lengths()[0])),
+        middle_(Real((box.lower[1] + box.upper[1]) / 2.0)),
+        displacement_(Real(displacement)) {}
+
+  [[nodiscard]] bool present() const { return present_; }
+  /// Of the images one box height above.
+  [[nodiscard]] Real speed() const { return speed_; }
+  [[nodiscard]] Real displacement(Real t) const { return displacement_ + speed_ * t; }
+  /// Of the flow where a disk is, along x.
+  [[nodiscard]] Real flow(Real y) const { return rate_ * (y - middle_); }
+
+  /// The clock's zero moves to `now`. Whole box lengths of displacement are none.
+  void rebase(Real now) {
+    using std::floor;
+    displacement_ = displacement(now);
+    displacement_ -= length_ * floor(displacement_ / length_);
+    if (displacement_ >= length_) displacement_ = 0;
+  }
+
+ private:
+  bool present_;
+  Real rate_;
+  Real speed_;
+  Real length_;
+  Real middle_;
+  Real displacement_;  ///< at the clock's zero, in [0, length)
+};
+
+}  // namespace carom
