@@ -15,8 +15,8 @@ namespace carom::test {
 namespace {
 
 /// 4900 disks at equilibrium at kT = 1, which then begin to lose energy.
-Simulation cooling(double packing_fraction, double restitution) {
-  Scene scene = gas_scene(4900, packing_fraction, Boundary::periodic);
+Simulation cooling(double packing_fraction, double restitution, std::uint64_t seed = 1) {
+  Scene scene = gas_scene(4900, packing_fraction, Boundary::periodic, seed);
   Simulation elastic = make_simulation(scene);
   elastic.run_until(1e9, 4900 * 10);
   scene.effects.collision.restitution = restitution;
@@ -45,15 +45,23 @@ TEST(PhysicsCooling, FollowsHaffsLaw) {
 }
 
 TEST(PhysicsCooling, LosesTheSameShareOfItsHeatWithEveryCollision) {
-  // d ln T / d tau = -(1 - e^2) / 2, tau the collisions per disk; at e = 0.95 within 1 %, errors as above.
+  // d ln T / d tau = -(1 - e^2) / 2, tau the collisions per disk, times 1 + a2 / 4, where a2 = 16 (1 - e) (1 - 2 e^2) /
+  // (57 - 25 e + 30 (1 - e) e^2) = -0.019 tells how far velocities are from Maxwell's (van Noije & Ernst, Granular Matter 1, 57
+  // (1998)). What a collision takes is as uncertain as it is large: 5 standard errors of 10 times 24500 collisions are 1 %. Ten
+  // collisions per disk are too few for the disks to have found their way into streams, in which they collide less hard.
   constexpr double e = 0.95;
-  Simulation gas = cooling(0.1, e);
-  const double start = temperature(gas);
-  gas.run_until(1e9, 4900 * 15);
-  const double tau = 2.0 * static_cast<double>(gas.totals().pair) / 4900;
-  const double slope = std::log(start / temperature(gas)) / tau;
-  RecordProperty("ratio", testing::PrintToString(slope / ((1 - e * e) / 2)));
-  EXPECT_NEAR(slope / ((1 - e * e) / 2), 1.0, 0.01);
+  constexpr double a2 = 16 * (1 - e) * (1 - 2 * e * e) / (57 - 25 * e + 30 * (1 - e) * e * e);
+  double ratio = 0.0, collisions = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Simulation gas = cooling(0.1, e, seed);
+    const double start = temperature(gas);
+    gas.run_until(1e9, 4900 * 5);
+    const auto pairs = static_cast<double>(gas.totals().pair);
+    ratio += std::log(start / temperature(gas)) / (2 * pairs / 4900) / ((1 - e * e) / 2) / 10;
+    collisions += pairs;
+  }
+  RecordProperty("ratio", testing::PrintToString(ratio));
+  EXPECT_NEAR(ratio, 1 + a2 / 4, 5 / std::sqrt(collisions));
 }
 
 TEST(PhysicsRoughDisks, GiveSpinItsShare) {
@@ -78,14 +86,14 @@ TEST(PhysicsRoughDisks, GiveSpinItsShare) {
 }
 
 TEST(PhysicsGranular, ADenseGasWithTheTcModelGoesOnWhereItWouldCollapse) {
-  Scene scene = gas_scene(400, 0.7, Boundary::periodic);
+  Scene scene = gas_scene(100, 0.7, Boundary::periodic);
   scene.effects.collision.restitution = 0.3;
   Simulation without = make_simulation(scene);
-  EXPECT_EQ(without.run_until(1000.0), StopReason::collapsed);
+  EXPECT_EQ(without.run_until(200.0), StopReason::collapsed);
   scene.effects.collision.elastic_below = 1e-3;
   Simulation with = make_simulation(scene);
-  EXPECT_EQ(with.run_until(1000.0), StopReason::time);
-  EXPECT_EQ(with.time(), 1000.0);
+  EXPECT_EQ(with.run_until(200.0), StopReason::time);
+  EXPECT_EQ(with.time(), 200.0);
   EXPECT_TRUE(with.check_invariants().empty());
 }
 
