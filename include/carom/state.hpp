@@ -80,7 +80,7 @@ struct Totals {
   double dissipated = 0.0;     ///< energy that collisions of pairs took away
   double kick_energy = 0.0;    ///< energy that the thermostat gave
   double growth_energy = 0.0;  ///< energy that growing disks gave, less what the rescaling of velocities took
-  double shear_energy = 0.0;   ///< energy that disks gained as they crossed the sheared edges
+  double shear_energy = 0.0;   ///< energy that disks gained across the edges of a sheared box
   double virial_xy = 0.0;      ///< sum over pair collisions of r_x times the impulse along y; kept where there is shear
   Eigen::Vector2d obstacle_impulse = Eigen::Vector2d::Zero();  ///< that the obstacles took
 };

@@ -17,13 +17,15 @@ template <class Real>
 class SlidingImages {
  public:
   SlidingImages(const Box& box, const std::optional<Shear>& shear, double displacement)
-      : present_(shear.has_value()),
+      : present_(acts(shear)),
         rate_(shear ? Real(shear->rate) : Real(0)),
         speed_(rate_ * Real(box.lengths()[1])),
         length_(Real(box.lengths()[0])),
         middle_(Real((box.lower[1] + box.upper[1]) / 2.0)),
         displacement_(Real(displacement)) {}
 
+  /// At rate 0 nothing slides.
+  [[nodiscard]] static bool acts(const std::optional<Shear>& shear) { return shear && shear->rate != 0.0; }
   [[nodiscard]] bool present() const { return present_; }
   /// Of the images one box height above.
   [[nodiscard]] Real speed() const { return speed_; }

@@ -515,8 +515,8 @@ class Engine {
     totals_ = Totals{};
   }
 
-  /// Something from outside gives disk i a new velocity and, where disks spin, a new spin.
-  void set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin);
+  /// Something from outside gives disk i a new velocity and, where disks spin, a new spin. Returns the energy that it gained.
+  double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin);
   /// All velocities and spins become `factor` times what they are.
   void scale_velocities(double factor);
 

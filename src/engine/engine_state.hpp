@@ -181,7 +181,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
 template <class Impact, class Layout, class World>
 bool Engine<Impact, Layout, World>::covers(const Box& box, const Disks& disks, const Effects& effects) {
   if ((Impact::plain || World::plain) && !effects.neutral()) return false;
-  if (effects.shear) return false;
+  if (effects.shear && effects.shear->rate != 0.0) return false;
   if (disks.count() == 0) return true;
   const double smallest = *std::min_element(disks.radius.begin(), disks.radius.end());
   const double reach = detail::largest_contact_distance(disks) * detail::largest_scale(box, disks, effects);
@@ -228,15 +228,22 @@ void Engine<Impact, Layout, World>::go_on() {
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eigen::Vector2d& v, double spin) {
+double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eigen::Vector2d& v, double spin) {
   if (places_.empty()) {
     places_.resize(lines_.size());
     for (std::int32_t i = 0; i < count(); ++i) places_[static_cast<std::size_t>(id(i))] = i;
   }
   const std::int32_t i = places_[static_cast<std::size_t>(disk)];
+  const double mass = layout_.mass(line(i));
+  double gained = mass * (v.squaredNorm() - velocity(line(i)).squaredNorm()) / 2.0;
   if constexpr (!Impact::plain)
-    if (impact_.spinning()) impact_.spin(i) = spin;
+    if (impact_.spinning()) {
+      const double radius = layout_.radius(line(i)) * world_.scale(now_);
+      gained += mass * radius * radius * (spin * spin - impact_.spin(i) * impact_.spin(i)) / 4.0;
+      impact_.spin(i) = spin;
+    }
   turn(i, v);
+  return gained;
 }
 
 template <class Impact, class Layout, class World>

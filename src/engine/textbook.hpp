@@ -103,10 +103,13 @@ class TextbookEngine {
     Record& a = record(i);
     Record& b = record(j);
     const Vec2<Real> r = separation(a, b, now_, shift);
-    b.v[0] += Real(shift[1]) * sliding_.speed();  // as the image that i meets
+    const Real image_speed = Real(shift[1]) * sliding_.speed();
+    b.v[0] += image_speed;  // as the image that i meets
+    const Real image_before = b.v[0];
     impact_.meet(r, (a.radius + b.radius) * growth_, {i, a.mass, radius_at(a, now_), a.v}, {j, b.mass, radius_at(b, now_), b.v},
                  now_, totals_);
-    b.v[0] -= Real(shift[1]) * sliding_.speed();
+    if (image_speed != 0) totals_.shear_energy += static_cast<double>(b.mass * (image_before - b.v[0]) * image_speed);
+    b.v[0] -= image_speed;
     if (recording_) log_event(i, j, a.v, b.v);
     if (outruns_epoch(a.v, now_, box_size_) || outruns_epoch(b.v, now_, box_size_)) {
       begin_epoch(now_);
@@ -432,14 +435,27 @@ class TextbookEngine {
   }
 
   /// Something from outside gives disk i a new velocity, in a sheared box relative to the flow, and, where disks spin, a new
-  /// spin.
-  void set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) {
+  /// spin. Returns the energy that it gained.
+  double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) {
     bring_to_now(i);
-    record(i).v = v.cast<Real>();
-    record(i).v[0] += sliding_.flow(record(i).r[1]);
+    Record& a = record(i);
+    const double before = kinetic_energy(i);
+    a.v = v.cast<Real>();
+    a.v[0] += sliding_.flow(a.r[1]);
     if (impact_.spinning()) impact_.spin(i) = Real(spin);
-    if (outruns_epoch(record(i).v, now_, box_size_)) return begin_epoch(now_);
-    predict(i);
+    const double gained = kinetic_energy(i) - before;
+    if (outruns_epoch(a.v, now_, box_size_))
+      begin_epoch(now_);
+    else
+      predict(i);
+    return gained;
+  }
+
+  /// Of a disk whose record is of now, with its spin.
+  [[nodiscard]] double kinetic_energy(std::int32_t i) const {
+    const Record& a = record(i);
+    const Real around = impact_.spinning() ? impact_.spin(i) * radius_at(a, now_) : Real(0);
+    return static_cast<double>(a.mass * (a.v.squaredNorm() / 2 + around * around / 4));
   }
 
   /// All velocities and spins become `factor` times what they are.

@@ -37,11 +37,9 @@ class AnyEngine {
   [[nodiscard]] virtual Instant now() const = 0;
   [[nodiscard]] virtual const Totals& totals() const = 0;
   [[nodiscard]] virtual State state() const = 0;
-  /// Of one disk, now.
-  [[nodiscard]] virtual Eigen::Vector2d velocity_of(std::int32_t i) const = 0;
-  [[nodiscard]] virtual double spin_of(std::int32_t i) const = 0;
-  /// Something from outside changes how disks move, at now(). Spins are left alone where disks are smooth.
-  virtual void set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) = 0;
+  /// Something from outside changes how a disk moves, at now(); returns the energy that it gave. In a sheared box v is relative
+  /// to the flow. Spins are left alone where disks are smooth.
+  virtual double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) = 0;
   /// All velocities and spins become `factor` times what they are.
   virtual void scale_velocities(double factor) = 0;
   virtual void reset_clock() = 0;
@@ -68,16 +66,7 @@ class EngineAdapter final : public AnyEngine {
   [[nodiscard]] Instant now() const override { return engine_.now(); }
   [[nodiscard]] const Totals& totals() const override { return engine_.totals(); }
   [[nodiscard]] State state() const override { return engine_.state(); }
-  [[nodiscard]] Eigen::Vector2d velocity_of(std::int32_t i) const override {
-    if constexpr (requires { engine_.velocity_of(i); }) return engine_.velocity_of(i);
-    return engine_.state().velocities.col(i);
-  }
-  [[nodiscard]] double spin_of(std::int32_t i) const override {
-    if constexpr (requires { engine_.spin_of(i); }) return engine_.spin_of(i);
-    const State state = engine_.state();
-    return state.spins.size() > i ? state.spins[i] : 0.0;
-  }
-  void set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
+  double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
     if constexpr (requires { engine_.set_velocity(i, v, spin); }) return engine_.set_velocity(i, v, spin);
     refuse_to_be_driven();
   }

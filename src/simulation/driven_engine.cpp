@@ -147,18 +147,9 @@ DrivenEngine::Energy DrivenEngine::energy() const {
 
 void DrivenEngine::kick() {
   const auto disk = static_cast<std::size_t>(next_.disk);
-  const double mass = disks_.mass[disk];
-  const Eigen::Vector2d v = andersen_.velocity(next_, mass);
-  const Eigen::Vector2d before = engine_->velocity_of(next_.disk);
-  kick_energy_ += 0.5 * mass * ((v[0] * v[0] + v[1] * v[1]) - (before[0] * before[0] + before[1] * before[1]));
-  double spin = 0.0;
-  if (spinning_) {
-    const double inertia = moment_of_inertia(disk);
-    const double was = engine_->spin_of(next_.disk);
-    spin = andersen_.spin(next_, inertia);
-    kick_energy_ += 0.5 * inertia * (spin * spin - was * was);
-  }
-  engine_->set_velocity(next_.disk, v, spin);
+  const Eigen::Vector2d v = andersen_.velocity(next_, disks_.mass[disk]);
+  const double spin = spinning_ ? andersen_.spin(next_, moment_of_inertia(disk)) : 0.0;
+  kick_energy_ += engine_->set_velocity(next_.disk, v, spin);
   ++counted_kicks_;
   next_ = andersen_.kick(++kicks_);
   kick_time_ = kick_time_.plus(next_.wait);

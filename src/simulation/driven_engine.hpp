@@ -33,9 +33,9 @@ class DrivenEngine final : public AnyEngine {
   [[nodiscard]] Instant now() const override { return engine_->now(); }
   [[nodiscard]] const Totals& totals() const override { return totals_; }
   [[nodiscard]] State state() const override;
-  [[nodiscard]] Eigen::Vector2d velocity_of(std::int32_t i) const override { return engine_->velocity_of(i); }
-  [[nodiscard]] double spin_of(std::int32_t i) const override { return engine_->spin_of(i); }
-  void set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override { engine_->set_velocity(i, v, spin); }
+  double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
+    return engine_->set_velocity(i, v, spin);
+  }
   void scale_velocities(double factor) override { engine_->scale_velocities(factor); }
   void reset_clock() override;
   void record_events(bool on) override { engine_->record_events(on); }

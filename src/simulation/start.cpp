@@ -111,6 +111,18 @@ Disks disks_of(const Scene& scene) {
   return disks;
 }
 
+/// In a sheared box velocities are drawn relative to the flow; those given one by one are what they are.
+void add_flow(const Scene& scene, Start& start) {
+  if (!scene.effects.shear) return;
+  const double middle = (scene.box.lower.y() + scene.box.upper.y()) / 2.0;
+  for (std::size_t i = 0; i < start.disks.count(); ++i) {
+    const Velocities& law = scene.species[static_cast<std::size_t>(start.disks.species[i])].velocities;
+    if (std::holds_alternative<ListedVelocities>(law) || std::holds_alternative<FileVelocities>(law)) continue;
+    const auto column = static_cast<Eigen::Index>(i);
+    start.state.velocities(0, column) += scene.effects.shear->rate * (start.state.positions(1, column) - middle);
+  }
+}
+
 }  // namespace
 
 Start draw_start(const Scene& scene) {
@@ -118,6 +130,7 @@ Start draw_start(const Scene& scene) {
   start.disks = disks_of(scene);
   start.state.positions = draw_positions(scene, start.disks);
   start.state.velocities = draw_velocities(scene, start.disks);
+  add_flow(scene, start);
   require_room_to_move(scene, start);
   require_resolvable_scale(scene, start);
   start.state.images = Images::Zero(2, start.state.positions.cols());
