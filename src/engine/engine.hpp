@@ -331,6 +331,8 @@ class Engine {
   /// A length for the first spans of the queue.
   [[nodiscard]] double first_span() const;
 
+  /// Whether the frame of the lines does.
+  [[nodiscard]] bool falls() const { return world_.g()[0] != 0.0 || world_.g()[1] != 0.0; }
   /// A disk so fast that its line could wrap before the epoch ends.
   [[nodiscard]] bool outruns_epoch(const Vec2<double>& v) const {
     return std::abs(v[0]) > speed_limit_[0] || std::abs(v[1]) > speed_limit_[1];

@@ -196,7 +196,10 @@ void Engine<Impact, Layout, World>::begin_epoch(double now) {
   if constexpr (!World::plain) draw_up_frame(), widen();
   if (now > 0.0 && world_.growth() == 0.0) tune_cages(now);
   choose_epoch_length();
-  if (world_.growth() > 0.0) list_larger();
+  if (world_.growth() > 0.0)
+    list_larger();
+  else if (falls())
+    predict_all();  // the frame starts from rest again, and disks leave their cages at other times
   // Too few events tell nothing: an epoch may have been cut short.
   const std::uint64_t pushed = queue_.pushed() - begun_with_;
   if (pushed > lines_.size() / 4 + 16) span_ = pushed_per_span * now / static_cast<double>(pushed);
@@ -287,6 +290,7 @@ void Engine<Impact, Layout, World>::find_wells() {
 }
 
 /// The frame of the lines falls on from epoch to epoch, with the cages in it. Before it leaves the box behind it is drawn up.
+/// Everybody is to be predicted anew then.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::draw_up_frame() {
   const double depth[2] = {world_.fallen(0, 0.0), world_.fallen(1, 0.0)};
@@ -295,7 +299,6 @@ void Engine<Impact, Layout, World>::draw_up_frame() {
     for (int k = 0; k < 2; ++k) line(i).x[k] += axes_[k].steps_of(depth[k]);
   world_.rise();
   rebuild(frame_.half_width);
-  predict_all();
 }
 
 /// A line has the length of the box and some spacings of room on either side. When walls have used up half of that, coordinates

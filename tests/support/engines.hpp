@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace carom::test {
@@ -26,6 +27,21 @@ inline std::unique_ptr<AnyEngine> make_engine(const std::string& name, const Sys
     return entry.make(scene, start.disks, start.state);
   }
   throw std::invalid_argument("there is no engine " + name);
+}
+
+/// The same for a scene with all that acts in it.
+inline std::unique_ptr<AnyEngine> make_engine(const std::string& name, const Scene& scene) {
+  Start start = draw_start(scene);
+  return detail::make_engine(detail::choose_engine(scene, start.disks, name), scene, start.disks, std::move(start.state));
+}
+
+/// The engines of the catalogue that cover a scene, in its order.
+inline std::vector<std::string> engines_covering(const Scene& scene) {
+  const Start start = draw_start(scene);
+  std::vector<std::string> names;
+  for (const auto& entry : detail::catalogue())
+    if (entry.covers(scene, start.disks)) names.push_back(entry.name);
+  return names;
 }
 
 inline void run_to(AnyEngine& engine, double time) { engine.run_until(Instant{time, 0.0}, no_limit, no_limit); }

@@ -1,0 +1,223 @@
+// Inelastic collisions: [collision] restitution, and walls that take energy.
+
+#include "observe/mechanics.hpp"
+#include "support/effect_scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace carom::test {
+namespace {
+
+using V = Eigen::Vector2d;
+
+Scene inelastic(Scene scene, double restitution) {
+  scene.effects.collision.restitution = restitution;
+  return scene;
+}
+
+/// Two disks that will meet at t = 1.2 with the line of centres along (0.8, 0.6), the second one at rest.
+Scene off_centre(double mass, double target_mass, double restitution) {
+  return inelastic(scene_of({{-4.0, -4.0}, {4.0, 4.0}, {Boundary::walls, Boundary::walls}},
+                            {{{-1.0, 0.0}, {1.0, 0.0}, 0.5, mass}, {{1.0, 0.6}, {0.0, 0.0}, 0.5, target_mass}}),
+                   restitution);
+}
+
+// A few roundings of each term, relative to the speed 1 with which all this begins.
+constexpr double few_ulps = 32 * 0x1p-53;
+
+TEST(Restitution, TwoDisksPartAsTheClosedFormSays) {
+  for (const char* engine : engines_with_effects)
+    for (const double e : {0.0, 0.3, 0.9, 1.0})
+      for (const double ratio : {1.0, 3.0, 1e12, 1e-12}) {
+        SCOPED_TRACE(testing::Message() << engine << ", e = " << e << ", masses 1 : " << ratio);
+        const Ran ran = run(off_centre(1.0, ratio, e), engine, 1.5);
+        ASSERT_EQ(ran.events.size(), 1U);
+        const V n(-0.8, -0.6);  // from disk 1 to disk 0 at contact
+        const double u = n.x();
+        const V impulse = -(1 + e) * u / (1 + 1 / ratio) * n;
+        EXPECT_NEAR(ran.events[0].time, 1.2, few_ulps * 4);
+        EXPECT_LE((ran.events[0].velocity - (V(1.0, 0.0) + impulse)).norm(), 4 * few_ulps);
+        EXPECT_LE((ran.events[0].partner_velocity + impulse / ratio).norm(), 4 * few_ulps / std::min(1.0, ratio) * 1.0);
+        // mu (1 - e^2) u^2 / 2 is gone.
+        const double mu = ratio / (1 + ratio);
+        EXPECT_NEAR(ran.simulation.totals().dissipated, mu * (1 - e * e) * u * u / 2, 4 * few_ulps * mu);
+      }
+}
+
+TEST(Restitution, ScalesTheWholeRelativeVelocityUnderReversal) {
+  for (const char* engine : engines_with_effects) {
+    Scene scene = off_centre(1.0, 1.0, 0.5);
+    scene.effects.collision.rule = CollisionRule::reversal;
+    const Ran ran = run(scene, engine, 1.5);
+    ASSERT_EQ(ran.events.size(), 1U);
+    EXPECT_LE((ran.events[0].velocity - V(0.25, 0.0)).norm(), few_ulps);
+    EXPECT_LE((ran.events[0].partner_velocity - V(0.75, 0.0)).norm(), few_ulps);
+    EXPECT_NEAR(ran.simulation.totals().dissipated, 0.5 * 0.5 * (1 - 0.25), few_ulps);
+  }
+}
+
+TEST(Restitution, ZeroLeavesAPairThatGoesOnTogether) {
+  for (const char* engine : engines_with_effects) {
+    // Head on: both go on at half the speed, touching, and never collide again. The wall is 1e3 away.
+    const Scene scene = inelastic(scene_of({{0.0, 0.0}, {1024.0, 4.0}, {Boundary::walls, Boundary::walls}},
+                                           {{{1.0, 2.0}, {1.0, 0.0}}, {{4.0, 2.0}, {0.0, 0.0}}}),
+                                  0.0);
+    const Ran ran = run(scene, engine, 1000.0);
+    EXPECT_EQ(ran.stopped, StopReason::time);
+    EXPECT_EQ(ran.events.size(), 1U);
+    EXPECT_EQ(ran.simulation.state().velocities.col(0), V(0.5, 0.0));
+    EXPECT_EQ(ran.simulation.state().velocities.col(1), V(0.5, 0.0));
+    EXPECT_EQ(ran.simulation.totals().dissipated, 0.25);
+  }
+}
+
+TEST(Restitution, EnergyLostIsEnergyCountedAndMomentumIsKept) {
+  // 1e5 collisions of 64 disks at e = 0.999 leave e^-3 of the energy. Every collision rounds the energies of a pair a few
+  // times: as in tests/physics/laws_test.cpp 1e-12 of what there was at first, a hundred times what a random walk gives.
+  for (const char* engine : engines_with_effects)
+    for (const bool mixture : {false, true}) {
+      SCOPED_TRACE(engine);
+      const Scene scene =
+          inelastic(mixture ? mixture_scene(64, 0.4, Boundary::periodic) : gas_scene(64, 0.4, Boundary::periodic), 0.999);
+      Simulation simulation = make_simulation(scene, engine);
+      const State start = simulation.state();
+      EXPECT_EQ(simulation.run_until(1e9, 100'000), StopReason::collisions);
+      const State end = simulation.state();
+      const double first = kinetic_energy(simulation.disks(), start), last = kinetic_energy(simulation.disks(), end);
+      EXPECT_LT(last, 0.1 * first);
+      EXPECT_NEAR((last + simulation.totals().dissipated) / first, 1.0, 1e-12);
+      EXPECT_LE((total_momentum(simulation.disks(), end) - total_momentum(simulation.disks(), start)).norm(), 1e-12 * 64);
+      EXPECT_TRUE(simulation.check_invariants().empty());
+    }
+}
+
+// ------------------------------------------------------------------------------------------------ a wall
+
+/// A ball of radius 0.5 falls from rest for 1 = sqrt(2 h / g), h = 2, onto a floor.
+Scene bouncing_ball(double restitution) {
+  Scene scene = scene_of(box_of(4.0, 4.0, Boundary::walls), {{{2.0, 2.5}, {0.0, 0.0}}});
+  scene.effects.gravity = Gravity{{0.0, -4.0}, {}};
+  scene.effects.walls[2].restitution = restitution;
+  return scene;
+}
+
+TEST(Restitution, ABallBouncesAtTheTimesOfTheClosedFormUntilTimeStandsStill) {
+  constexpr double e = 0.9;
+  for (const char* engine : engines_with_effects) {
+    SCOPED_TRACE(engine);
+    const Ran ran = run(bouncing_ball(e), engine, 25.0);
+    EXPECT_EQ(ran.stopped, StopReason::collapsed);
+    // After k bounces it is to rise by 2 e^(2 k): by less than an ulp of the height of its centre, 1/2, from k = 178 on. Where
+    // the floor is put so that this height is 0, the clock itself stalls, after 322.
+    EXPECT_NEAR(ran.simulation.time(), 1.0 + 2.0 * e / (1 - e), 1e-6);
+    std::size_t bounces = 1;
+    while (bounces < ran.events.size() && ran.events[bounces].time > ran.events[bounces - 1].time) ++bounces;
+    EXPECT_GT(bounces, 150U);
+    EXPECT_LT(bounces, 340U);
+
+    double time = 1.0, speed = 4.0, error = 0.0;
+    for (std::size_t k = 0; k < bounces; ++k) {
+      // Times are rounded like 19, and heights like the box: 4 u of height are 4 u / speed of time at every bounce.
+      error += 8 * 0x1p-53 * (19.0 + 4.0 / speed);
+      ASSERT_NEAR(ran.events[k].time, time, error) << "bounce " << k;
+      speed *= e;
+      time += 2.0 * speed / 4.0;
+    }
+  }
+}
+
+TEST(Restitution, ABallOnAFloorThatTakesAllCollapsesAtTheFirstBounce) {
+  for (const char* engine : engines_with_effects) {
+    const Ran ran = run(bouncing_ball(0.0), engine, 25.0);
+    EXPECT_EQ(ran.stopped, StopReason::collapsed);
+    EXPECT_NEAR(ran.simulation.time(), 1.0, 1e-12);
+    EXPECT_NEAR(ran.simulation.state().positions(1, 0), 0.5, 1e-12);
+  }
+}
+
+TEST(Restitution, WallsScaleTheVelocityAcrossThemAndTellWhatTheyTook) {
+  for (const char* engine : engines_with_effects) {
+    Scene scene = scene_of(box_of(4.0, 4.0, Boundary::walls), {{{2.0, 2.0}, {-1.0, 0.25}, 0.5, 2.0}});
+    scene.effects.walls[0].restitution = 0.5;
+    const Ran ran = run(scene, engine, 2.0);
+    EXPECT_EQ(ran.simulation.state().velocities.col(0), V(0.5, 0.25));
+    EXPECT_EQ(ran.simulation.totals().wall_impulse[0], 3.0);
+    EXPECT_EQ(ran.simulation.totals().wall_energy[0], 0.75);
+  }
+}
+
+// --------------------------------------------------------------------------------------- inelastic collapse
+
+/// A disk runs into two that rest and touch nothing, all on one line; the clock stops long before the walls.
+Ran three_in_a_row(const char* engine, double e) {
+  const Scene scene = inelastic(scene_of({{-4.0, -1.0}, {1020.0, 1.0}, {Boundary::walls, Boundary::walls}},
+                                         {{{-2.0, 0.0}, {1.0, 0.0}}, {{0.0, 0.0}, {0.0, 0.0}}, {{1.5, 0.0}, {0.0, 0.0}}}),
+                                e);
+  return run(scene, engine, 1000.0);
+}
+
+/// How many collisions they have: of the closing speeds p of the pair that collides and q of the other one, a collision makes
+/// -e p and q + (1 + e) p / 2. -1: no end (McNamara & Young 1992).
+int collisions_of_three(double e) {
+  double p = 1.0, q = 0.0;
+  for (int count = 1; count < 1000; ++count) {
+    const double next = q + (1 + e) / 2 * p;
+    q = -e * p;
+    p = next;
+    if (!(p > 0)) return count;
+  }
+  return -1;
+}
+
+TEST(Restitution, ThreeDisksOnALineCollideAsOftenAsTheMapSays) {
+  EXPECT_EQ(collisions_of_three(0.07), -1) << "below 7 - 4 sqrt(3) = 0.0718";
+  for (const char* engine : engines_with_effects) {
+    for (const double e : {1.0, 0.5, 0.2, 0.1, 0.08, 0.075}) {
+      const Ran ran = three_in_a_row(engine, e);
+      EXPECT_EQ(ran.stopped, StopReason::time);
+      EXPECT_EQ(static_cast<int>(ran.events.size()), collisions_of_three(e)) << engine << ", e = " << e;
+    }
+    // Below it they collide until nothing of their relative motion is left, or until the clock stands still; never for ever.
+    const Ran ran = three_in_a_row(engine, 0.05);
+    EXPECT_GT(ran.events.size(), 20U);
+    const Eigen::Matrix2Xd v = ran.simulation.state().velocities;
+    EXPECT_LT(v.row(0).maxCoeff() - v.row(0).minCoeff(), 1e-12) << to_string(ran.stopped);
+  }
+}
+
+TEST(Restitution, ADenseColumnCollapsesAndSaysSo) {
+  for (const char* engine : engines_with_effects) {
+    std::vector<Placed> column;
+    for (int k = 0; k < 10; ++k) column.push_back({{1.0, 0.75 + 1.25 * k}, {0.0, 0.0}});
+    Scene scene = inelastic(scene_of(box_of(2.0, 20.0, Boundary::walls), column), 0.3);
+    scene.effects.gravity = Gravity{{0.0, -1.0}, {}};
+    scene.effects.walls[2].restitution = 0.3;
+    const Ran ran = run(scene, engine, 100.0);
+    EXPECT_EQ(ran.stopped, StopReason::collapsed) << engine;
+    EXPECT_LT(ran.simulation.time(), 20.0);
+    EXPECT_TRUE(ran.simulation.state().positions.allFinite());
+  }
+}
+
+TEST(Restitution, TouchingDisksOfWildlyDifferentMassDoNotOverlapOrGainEnergy) {
+  // A cradle in which each disk is 1e12 times lighter than the one before.
+  for (const char* engine : engines_with_effects)
+    for (const double e : {0.0, 0.5, 1.0}) {
+      const Scene scene = inelastic(
+          scene_of(
+              {{-4.0, -1.0}, {60.0, 1.0}, {Boundary::walls, Boundary::walls}},
+              {{{-2.0, 0.0}, {1.0, 0.0}, 0.5, 1.0}, {{0.0, 0.0}, {0.0, 0.0}, 0.5, 1e-12}, {{1.0, 0.0}, {0.0, 0.0}, 0.5, 1e-24}}),
+          e);
+      const Ran ran = run(scene, engine, 3.0);
+      EXPECT_TRUE(ran.stopped == StopReason::time || ran.stopped == StopReason::collapsed);
+      const State end = ran.simulation.state();
+      EXPECT_GE(smallest_distance(scene.box, end.positions), 1.0 - 1e-12) << engine << ", e = " << e;
+      EXPECT_NEAR(kinetic_energy(ran.simulation.disks(), end) + ran.simulation.totals().dissipated, 0.5, 1e-12);
+    }
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,102 @@
+// An effect at its neutral value leaves the same bits as the engine without it, on every example scene and every engine; and an
+// engine that has every effect gives the same bits as one that has none, where none acts.
+
+#include "support/engines.hpp"
+#include "support/scene_files.hpp"
+#include "support/scenes.hpp"
+
+#include <carom/simulation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+/// Some collisions of every disk are enough for a single different bit to have spread to all.
+constexpr double collisions_per_disk = 10.0;
+
+struct End {
+  State state;
+  Totals totals;
+};
+
+End end_of(const Scene& scene, const std::string& engine) {
+  const auto running = make_engine(engine, scene);
+  const auto pairs = static_cast<std::uint64_t>(collisions_per_disk / 2.0 * static_cast<double>(scene.disk_count()));
+  running->run_until(scene.run.time ? Instant{*scene.run.time, 0.0} : forever, pairs, 200'000);
+  return {running->state(), running->totals()};
+}
+
+void expect_same(const End& one, const End& other, const std::string& what) {
+  EXPECT_TRUE(same_bits(one.state, other.state)) << what;
+  EXPECT_EQ(one.totals.pair, other.totals.pair) << what;
+  EXPECT_EQ(one.totals.wall, other.totals.wall) << what;
+  EXPECT_EQ(one.totals.virial, other.totals.virial) << what;
+  EXPECT_EQ(one.totals.wall_impulse, other.totals.wall_impulse) << what;
+}
+
+/// The scene with one effect more, at its neutral value. Tables that the scene has already stay as they are.
+struct Neutral {
+  std::string name;
+  Scene scene;
+};
+
+std::vector<Neutral> with_neutral_effects(const Scene& scene) {
+  std::vector<Neutral> all;
+  const auto add = [&](const char* name, auto&& change) {
+    all.push_back({name, scene});
+    change(all.back().scene.effects);
+  };
+  const Effects& effects = scene.effects;
+  const bool shear = effects.shear.has_value();
+  if (!effects.collision.restitution) add("restitution", [](Effects& e) { e.collision.restitution = 1.0; });
+  if (!effects.collision.roughness && effects.collision.rule == CollisionRule::specular)
+    add("roughness", [](Effects& e) { e.collision.roughness = -1.0; });
+  if (!effects.collision.elastic_below) add("elastic_below", [](Effects& e) { e.collision.elastic_below = 0.0; });
+  if (!effects.gravity && !shear) add("gravity", [](Effects& e) { e.gravity = Gravity{}; });
+  for (std::size_t wall = 0; wall < 4; ++wall) {
+    const WallProperties& properties = effects.walls[wall];
+    if (scene.box.periodic(static_cast<int>(wall / 2)) || properties.temperature) continue;
+    if (!properties.restitution) add("wall restitution", [&](Effects& e) { e.walls[wall].restitution = 1.0; });
+    if (!properties.velocity && !properties.mass) add("wall velocity", [&](Effects& e) { e.walls[wall].velocity = 0.0; });
+  }
+  if (!effects.square_well && !effects.growth && !shear)
+    add("square_well", [](Effects& e) { e.square_well = SquareWell{1.5, 0.0, {}}; });
+  if (!effects.growth && !effects.square_well && !shear) add("growth", [](Effects& e) { e.growth = Growth{}; });
+  if (!effects.thermostat) add("thermostat", [](Effects& e) { e.thermostat = Thermostat{1.0, 0.0, {}}; });
+  if (effects.neutral() && scene.box.periodic(0) && scene.box.periodic(1)) add("shear", [](Effects& e) { e.shear = Shear{}; });
+  return all;
+}
+
+class EnginesNeutral : public testing::TestWithParam<std::string> {
+ protected:
+  const Scene scene = load_scene(example_path(GetParam()));
+};
+
+TEST_P(EnginesNeutral, EveryEffectAtItsNeutralValueLeavesTheSameBits) {
+  for (const char* engine : {"general", "textbook"}) {
+    const End plain = end_of(scene, engine);
+    for (const Neutral& neutral : with_neutral_effects(scene))
+      expect_same(plain, end_of(neutral.scene, engine), engine + (": " + neutral.name));
+  }
+}
+
+TEST_P(EnginesNeutral, TheEngineWithEveryEffectGivesTheBitsOfTheLeanOne) {
+  if (!scene.effects.neutral()) GTEST_SKIP() << "something acts";
+  expect_same(end_of(scene, "fast"), end_of(scene, "general"), "fast and general");
+}
+
+TEST_P(EnginesNeutral, TheChoiceOfTheEngineDoesNotDependOnNeutralEffects) {
+  if (!scene.effects.neutral()) GTEST_SKIP() << "something acts";
+  for (const Neutral& neutral : with_neutral_effects(scene))
+    EXPECT_EQ(make_simulation(neutral.scene).engine(), "fast") << neutral.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EnginesNeutral, testing::ValuesIn(example_scenes()), [](const auto& scene) { return scene.param; });
+
+}  // namespace
+}  // namespace carom::test

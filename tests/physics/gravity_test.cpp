@@ -1,0 +1,101 @@
+// Gases under gravity: energy, weight and the law of the barometer.
+
+#include "observe/energy.hpp"
+#include "observe/mechanics.hpp"
+#include "support/block_means.hpp"
+#include "support/effect_scenes.hpp"
+#include "theory/equation_of_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+TEST(PhysicsGravity, EnergyIsKeptTo1e10OverAMillionEvents) {
+  for (const char* engine : engines_with_effects) {
+    Scene scene = gas_scene(100, 0.3, Boundary::walls);
+    scene.effects.gravity = Gravity{{0.0, -0.2}, {}};
+    Simulation gas = make_simulation(scene, engine);
+    const double energy = total_energy(scene.box, scene.effects, gas.disks(), gas.state());
+    gas.run_until(1e9, 900'000);
+    EXPECT_GT(gas.totals().pair + gas.totals().wall, 1'000'000U);
+    const double drift = total_energy(scene.box, scene.effects, gas.disks(), gas.state()) / energy - 1.0;
+    RecordProperty(engine, testing::PrintToString(drift));
+    EXPECT_NEAR(drift, 0.0, 1e-10) << engine;
+  }
+}
+
+/// The density of the gas at heights y_k = (k + 1/2) dy, from hydrostatics: d ln n / dy = -(m g / kT) / (Z + eta Z'), with as
+/// many disks over each unit of floor as asked for.
+std::vector<double> hydrostatic(double g, double per_floor, double radius, double height, std::size_t steps) {
+  const double dy = height / static_cast<double>(steps), area = std::numbers::pi * radius * radius;
+  const auto profile = [&](double floor_density) {
+    std::vector<double> n;
+    double at = floor_density;
+    for (std::size_t k = 0; k < steps; ++k) {
+      for (const bool half : {true, false}) {
+        const double eta = at * area, d = 1e-4 * eta;
+        const double slope =
+            ((eta + d) * theory::kolafa_rottner(eta + d) - (eta - d) * theory::kolafa_rottner(eta - d)) / (2 * d);
+        at *= std::exp(-g / slope * dy / 2);
+        if (half) n.push_back(at);
+      }
+    }
+    return n;
+  };
+  double low = 0.0, high = 10 * per_floor * g;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = (low + high) / 2;
+    double sum = 0.0;
+    for (const double n : profile(middle)) sum += n * dy;
+    (sum < per_floor ? low : high) = middle;
+  }
+  return profile(low);
+}
+
+TEST(PhysicsGravity, ADiluteGasFollowsTheLawOfTheBarometer) {
+  // kT = 1 from a thermal floor, m g = 0.1, so the density falls by e every 10; 0.016 of the plane is covered at the floor, which
+  // makes the gas 3 % less dense there than an ideal one. Mean numbers in layers of height 5 against hydrostatics, within 5
+  // standard errors over 40 blocks of 250; relaxation takes some 30.
+  constexpr double g = 0.1, radius = 0.1, width = 40.0, height = 60.0;
+  Scene scene = scene_of(box_of(width, height, Boundary::periodic, Boundary::walls),
+                         {species_of(200, radius, 1.0, RandomPositions{}, MaxwellVelocities{1.0})});
+  scene.effects.gravity = Gravity{{0.0, -g}, {}};
+  scene.effects.walls[2].temperature = 1.0;
+  Simulation gas = make_simulation(scene);
+  gas.run_until(500.0);
+  gas.reset_clock();
+  constexpr std::size_t layers = 8;
+  std::vector<BlockMeans> count(layers, BlockMeans(50));
+  BlockMeans temperature(50);
+  for (int k = 1; k <= 2000; ++k) {
+    gas.run_until(k * 5.0);
+    const State state = gas.state();
+    std::vector<int> now(layers);
+    for (Eigen::Index i = 0; i < 200; ++i) {
+      const auto layer = static_cast<std::size_t>((state.positions(1, i) - radius) / 5.0);
+      if (layer < layers) ++now[layer];
+    }
+    for (std::size_t l = 0; l < layers; ++l) count[l].add(now[l]);
+    temperature.add(kinetic_temperature(scene.box, scene.effects, gas.disks(), state));
+  }
+  EXPECT_NEAR(temperature.mean(), 1.0, 5 * temperature.error());
+  EXPECT_LT(temperature.error(), 0.01);
+
+  constexpr std::size_t steps = 2 * 299;  // of height 0.1 where disks can be, from 0.1 to 59.9
+  const std::vector<double> expected = hydrostatic(g, 200.0 / width, radius, height - 2 * radius, steps);
+  for (std::size_t l = 0; l < layers; ++l) {
+    double disks = 0.0;
+    for (std::size_t k = 50 * l; k < 50 * (l + 1); ++k) disks += expected[k] * width * (height - 2 * radius) / steps;
+    RecordProperty((testing::Message() << "layer_" << l).GetString(), testing::PrintToString(count[l].mean() / disks));
+    EXPECT_NEAR(count[l].mean(), disks, 5 * count[l].error()) << "layer " << l;
+    EXPECT_LT(count[l].error(), 0.1 * disks);
+  }
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,79 @@
+// A gas of square wells: its energy, and how wells show in g(r).
+
+#include "observe/energy.hpp"
+#include "observe/mechanics.hpp"
+#include "support/block_means.hpp"
+#include "support/effect_scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace carom::test {
+namespace {
+
+Scene wells(double depth) {
+  Scene scene = gas_scene(256, 0.2, Boundary::periodic);
+  scene.effects.square_well = SquareWell{1.5, depth, {}};
+  return scene;
+}
+
+TEST(PhysicsSquareWell, EnergyIsKeptOverAMillionEvents) {
+  for (const char* engine : engines_with_effects) {
+    const Scene scene = wells(1.0);
+    Simulation gas = make_simulation(scene, engine);
+    const double energy = total_energy(scene.box, scene.effects, gas.disks(), gas.state());
+    const double scale = energies_of(scene.box, scene.effects, gas.disks(), gas.state()).scale();
+    while (gas.totals().pair + gas.totals().well < 1'000'000) gas.run_until(1e9, gas.totals().pair + 10'000);
+    const double drift = (total_energy(scene.box, scene.effects, gas.disks(), gas.state()) - energy) / scale;
+    RecordProperty(engine, testing::PrintToString(drift));
+    // Every event rounds a pair's energy by some u: a random walk of 1e6 steps of 4 u / 256, with 5 deviations, and the sum that
+    // measures it: 1e-14.
+    EXPECT_NEAR(drift, 0.0, 1e-13) << engine;
+    EXPECT_LE(total_momentum(gas.disks(), gas.state()).norm(), 1e-10);
+  }
+}
+
+/// g(lambda sigma -) / g(lambda sigma +), from pairs in narrow shells on either side, drawn out to the edge by a straight line.
+void expect_jump(double depth) {
+  const Scene scene = wells(depth);
+  Simulation gas = make_simulation(scene);
+  gas.run_until(1e9, 256 * 50);
+  gas.reset_clock();
+  // Four shells of width 0.02 on each side.
+  constexpr double width = 0.02;
+  BlockMeans temperature(50), inner(50), outer(50);
+  for (int k = 1; k <= 2000; ++k) {
+    gas.run_until(k * 2.0);
+    const State state = gas.state();
+    temperature.add(kinetic_temperature(scene.box, scene.effects, gas.disks(), state));
+    std::array<double, 8> count{};
+    for (Eigen::Index i = 0; i < 256; ++i)
+      for (Eigen::Index j = 0; j < i; ++j) {
+        Eigen::Vector2d r = state.positions.col(i) - state.positions.col(j);
+        for (int a = 0; a < 2; ++a) r[a] -= scene.box.lengths()[a] * std::round(r[a] / scene.box.lengths()[a]);
+        const double shell = (r.norm() - 1.5) / width + 4.0;
+        if (shell >= 0.0 && shell < 8.0) count[static_cast<std::size_t>(shell)] += 1.0 / r.norm();
+      }
+    // The value at the edge of the least-squares line through four shells at distances 1/2, 3/2, 5/2, 7/2.
+    const auto at_edge = [](double a, double b, double c, double d) { return 0.85 * a + 0.45 * b + 0.05 * c - 0.35 * d; };
+    inner.add(at_edge(count[3], count[2], count[1], count[0]));
+    outer.add(at_edge(count[4], count[5], count[6], count[7]));
+  }
+  const double jump = inner.mean() / outer.mean();
+  const double error = jump * std::hypot(inner.error() / inner.mean(), outer.error() / outer.mean());
+  const double expected = std::exp(depth / temperature.mean());
+  EXPECT_NEAR(jump, expected, 5 * error) << "5 standard errors over 40 blocks";
+  EXPECT_LT(error, 0.05 * expected) << "an error so large that it would hide everything";
+  testing::Test::RecordProperty((testing::Message() << "depth_" << depth).GetString(),
+                                (testing::Message() << jump / expected << " +- " << error / expected).GetString());
+}
+
+TEST(PhysicsSquareWell, TheJumpOfGAtTheEdgeIsTheBoltzmannFactor) {
+  expect_jump(1.0);
+  expect_jump(-0.5);
+}
+
+}  // namespace
+}  // namespace carom::test

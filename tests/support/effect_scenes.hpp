@@ -1,0 +1,48 @@
+#pragma once
+// Scenes with effects, disk by disk, and the engines that run them.
+
+#include "support/scenes.hpp"
+#include "support/systems.hpp"
+
+#include <carom/simulation.hpp>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+
+/// The two that compute in double precision and have every effect.
+inline constexpr std::array<const char*, 2> engines_with_effects = {"general", "textbook"};
+
+/// Disks placed one by one.
+inline Scene scene_of(const Box& box, const std::vector<Placed>& disks) {
+  ListedPositions positions;
+  ListedVelocities velocities;
+  Species species = species_of(static_cast<std::int64_t>(disks.size()), disks.front().radius, disks.front().mass, {}, {});
+  for (const Placed& disk : disks) {
+    positions.values.push_back(disk.r);
+    velocities.values.push_back(disk.v);
+    species.radii.push_back(disk.radius);
+    species.masses.push_back(disk.mass);
+  }
+  species.positions = positions;
+  species.velocities = velocities;
+  return scene_of(box, {species});
+}
+
+/// Runs `scene` to `time` and hands over the collisions.
+struct Ran {
+  Simulation simulation;
+  std::vector<Event> events;
+  StopReason stopped;
+};
+inline Ran run(const Scene& scene, const std::string& engine, double time, std::uint64_t collisions = no_limit) {
+  Simulation simulation = make_simulation(scene, engine);
+  simulation.record_events(true);
+  const StopReason stopped = simulation.run_until(time, collisions);
+  std::vector<Event> events = simulation.take_events();
+  return {std::move(simulation), std::move(events), stopped};
+}
+
+}  // namespace carom::test
