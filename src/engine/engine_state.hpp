@@ -212,7 +212,11 @@ void Engine<Impact, Layout, World>::begin_epoch_between(std::int32_t i, const Ve
   const Vec2<double> fallen = world_.g() * now_;
   rebase(now_);
   for (int k = 0; k < 2; ++k) line(i).v[k] = va[k] + fallen[k], line(j).v[k] = vb[k] + fallen[k];
-  go_on();
+  if (world_.growth() > 0.0 || falls()) return go_on();
+  if constexpr (!World::plain) widen();
+  choose_epoch_length();
+  for (const std::int32_t k : {i, j}) plan_ahead(k, predicted(k, surroundings(k)));
+  start_queue();
 }
 
 template <class Impact, class Layout, class World>
