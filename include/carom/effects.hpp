@@ -112,4 +112,7 @@ struct Effects {
 /// Whatever the scene names acts, at its neutral value too.
 [[nodiscard]] std::vector<std::string> names_of(const Effects& effects, bool walled);
 
+/// The same without the rule and hard walls, joined by commas: what is there beyond them. Empty where nothing is named.
+[[nodiscard]] std::string words_beyond_the_rule(const Effects& effects);
+
 }  // namespace carom

@@ -97,6 +97,7 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
   const CompareOptions study = checked(options);
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const Scene scene = load(options.scene);
+  require_no_effects(scene, "carom compare");
   (void)make_simulation(scene, study.engine);  // whatever is wrong with the scene is said before anything is written
   check_steps(scene, study.dts);
   const std::string key = study_key(scene, study);

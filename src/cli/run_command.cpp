@@ -108,6 +108,8 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   const ProgressMode progress = progress_mode(options.progress, options.quiet);
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
+  if (options.verify_horizon) require_no_effects(scene, "--verify-horizon");
+  if (options.method != "exact") require_no_effects(scene, "--method");
   Simulation simulation = simulation_for(options, scene, engine);
   const Provenance provenance{.resolved_scene = resolved_toml(scene),
                               .command_line = invocation.command_line,

@@ -41,6 +41,13 @@ Scene load(const SceneOptions& options) {
   return load_scene(options.path, overrides);
 }
 
+void require_no_effects(const Scene& scene, const std::string& what) {
+  if (scene.effects.neutral()) return;
+  throw UsageError(
+      fmt::format("{}: {} knows nothing but the collision rule and hard walls, and this scene asks for {}; leave that out",
+                  scene.source, what, words_beyond_the_rule(scene.effects)));
+}
+
 const std::string& checked_engine(const SceneOptions& options) {
   const std::vector<std::string> names = engine_names();
   if (options.engine != "auto" && std::find(names.begin(), names.end(), options.engine) == names.end()) {

@@ -164,11 +164,8 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   frame_.scale = world_.scale(0.0);
   frame_.growth = world_.growth();
   make_lists();
-  if (World::plain) radius_ = {};                          // nothing will ask for them again
-  widest_ = std::max(box.lengths()[0], box.lengths()[1]);  // that cage holds the box
-  for (const FixedAxis& axis : axes_)
-    if (axis.periodic) widest_ = std::min(widest_, ((axis.upper - axis.lower) / 2.0 - reach_) / 6.0);
-  start = State{};  // makes room for what follows
+  if (World::plain) radius_ = {};  // nothing will ask for them again
+  start = State{};                 // makes room for what follows
   double half_width = std::min(CageTuner::first_half_width(sigma * world_.scale(0.0), order.area), widest_);
   for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sigma; rebuild(half_width)) half_width *= 0.7;
   find_wells();
@@ -268,12 +265,18 @@ void Engine<Impact, Layout, World>::make_lists() {
   std::vector<double> radius = radius_;
   for (double& one : radius) one *= factor;
   lists_ = NeighbourLists(axes_[0], axes_[1], radius);
+  widest_ = std::max(axes_[0].upper - axes_[0].lower, axes_[1].upper - axes_[1].lower);  // that cage holds the box
+  for (const FixedAxis& axis : axes_)
+    if (axis.periodic) widest_ = std::min(widest_, ((axis.upper - axis.lower) / 2.0 - reach_) / 6.0);
 }
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::list_larger() {
   make_lists();
-  rebuild(frame_.half_width);
+  const double diameter = largest_contact_ * world_.scale(0.0);
+  const double half_width =
+      world_.growth() > 0.0 ? CageTuner::first_half_width(diameter, spacing_ * spacing_) : frame_.half_width;
+  rebuild(std::min(half_width, widest_));
   predict_all();
 }
 

@@ -54,4 +54,11 @@ std::vector<std::string> names_of(const Effects& effects, bool walled) {
   return names;
 }
 
+std::string words_beyond_the_rule(const Effects& effects) {
+  const std::vector<std::string> names = names_of(effects, false);
+  std::string words;
+  for (std::size_t k = 1; k < names.size(); ++k) words += (k > 1 ? ", " : "") + names[k];
+  return words;
+}
+
 }  // namespace carom

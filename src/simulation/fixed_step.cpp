@@ -74,6 +74,10 @@ Simulation Simulation::begin(const Scene& scene, Start start, const FixedStep& s
     throw std::invalid_argument(
         fmt::format("there is no fixed-step method \"{}\"; choose one of {}", step.method, fmt::join(fixed_step_names(), ", ")));
   require_sound_step(step, start);
+  if (!scene.effects.neutral())
+    throw std::invalid_argument(
+        fmt::format("fixed-step methods know the collision rule and hard walls only; this scene asks for {} besides",
+                    words_beyond_the_rule(scene.effects)));
   auto running = entry->make(scene, start, step.dt);
   return Simulation(std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry->name, std::move(running), step.dt}));
 }

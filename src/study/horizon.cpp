@@ -303,6 +303,10 @@ class Measurement {
 }  // namespace
 
 Horizon measure_horizon(const Scene& scene, const State& start, const HorizonOptions& options) {
+  if (!scene.effects.neutral())
+    throw std::invalid_argument(fmt::format(
+        "a horizon is measured where nothing but the collision rule and hard walls acts; this scene asks for {} besides",
+        words_beyond_the_rule(scene.effects)));
   return Measurement(scene, start, options)();
 }
 

@@ -1,0 +1,52 @@
+// Commands that know the collision rule and hard walls only say so of scenes with effects, and write nothing.
+
+#include "support/program_test.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class EffectsRefused : public ProgramTest {
+ protected:
+  EffectsRefused() : ProgramTest(fifty_disks) {}
+};
+
+TEST_F(EffectsRefused, ByEveryCommandThatWouldIgnoreThem) {
+  const std::vector<std::vector<std::string>> commands = {{"compare", "gas.toml", "--out", "out"},
+                                                          {"horizon", "gas.toml"},
+                                                          {"run", "gas.toml", "--method", "grid", "--dt", "0.01", "--out", "out"},
+                                                          {"run", "gas.toml", "--verify-horizon", "--out", "out"}};
+  for (std::vector<std::string> command : commands) {
+    for (const char* change : {"collision.restitution=0.9", "shear={rate=0.1}"}) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), {"--set", change});
+      const Outcome outcome = carom(words);
+      EXPECT_EQ(outcome.exit_code, 2) << command[0] << " with " << change << outcome.err;
+      EXPECT_THAT(outcome.err, HasSubstr("knows nothing but the collision rule and hard walls"));
+      EXPECT_FALSE(std::filesystem::exists(file("out")));
+    }
+  }
+}
+
+TEST_F(EffectsRefused, ButNotAtTheirNeutralValue) {
+  const Outcome outcome =
+      carom({"run", "gas.toml", "--method", "grid", "--dt", "0.01", "--set", "collision.restitution=1.0", "--out", "out"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
+TEST_F(EffectsRefused, ByAnEngineThatDoesNotCoverThem) {
+  const Outcome outcome = carom({"run", "gas.toml", "--engine", "fast", "--set", "collision.restitution=0.9", "--out", "out"});
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(file("out")));
+}
+
+}  // namespace
+}  // namespace carom::test
