@@ -103,7 +103,9 @@ struct Effects {
 
   /// Whether nothing is there but the collision rule and hard walls at rest: every other effect is absent or at its neutral
   /// value.
-  [[nodiscard]] bool neutral() const;
+  [[nodiscard]] bool neutral() const { return acting().empty(); }
+  /// The others: what is there at another value than its neutral one, in the words of names_of().
+  [[nodiscard]] std::vector<std::string> acting() const;
   /// Whether any contact takes energy away, so that time may come to a stand (inelastic collapse).
   [[nodiscard]] bool dissipate() const;
 };

@@ -8,6 +8,7 @@
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -54,6 +55,10 @@ class Simulation {
   [[nodiscard]] const std::string& engine()
       const;  ///< the name of the engine that the catalogue chose, or of a fixed-step method
   [[nodiscard]] std::optional<double> time_step() const;  ///< dt of a fixed-step method; nothing where events are exact
+  /// Why that engine, in half a sentence: "the scene asks for gravity, obstacles"; empty for a fixed-step method.
+  [[nodiscard]] const std::string& engine_reason() const;
+  /// Memory that the engine or method holds, without disks().
+  [[nodiscard]] std::size_t bytes() const;
 
   [[nodiscard]] double time() const;
   [[nodiscard]] const Totals& totals() const;

@@ -162,6 +162,7 @@ void add_bench(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("bench", "Measure how fast this machine is, with both engines side by side");
   const auto options = std::make_shared<BenchOptions>();
   command->add_flag("--json", options->json, "Print JSON in place of the table");
+  command->add_flag("--effects", options->effects, "Measure what each effect costs, at its neutral value and where it acts");
   command->add_flag("--large", options->large, "Measure a million disks too, which takes some minutes");
   command->add_option("--disks", options->disks, "How many disks, in place of 1000, 10000 and 100000; may be repeated")
       ->type_name("N")

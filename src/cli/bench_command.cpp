@@ -1,19 +1,19 @@
 // carom bench: how fast this machine is, in the rows of the table in docs/performance.md. Both engines run the same scenes
 // in turns, so that what disturbs the machine disturbs both, and no speed is shown whose answer is wrong.
 
+#include "cli/bench_effects.hpp"
 #include "cli/commands.hpp"
 #include "cli/contender.hpp"
 #include "cli/format.hpp"
-#include "cli/machine.hpp"
-#include "core/instructions.hpp"
+#include "cli/measured_on.hpp"
+#include "cli/status_line.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-#include <carom/version.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,23 +34,6 @@ struct Runner {
   std::uint64_t share;  ///< so many times the collisions: turns of about one length
 };
 constexpr Runner runners[] = {{"fast", 4}, {"textbook", 1}};
-
-/// A line on stderr that is rewritten in place, where that is a terminal.
-class StatusLine {
- public:
-  StatusLine() = default;
-  StatusLine(const StatusLine&) = delete;
-  StatusLine& operator=(const StatusLine&) = delete;
-  ~StatusLine() { show(""); }
-  void show(const std::string& text) const {
-    if (!terminal_) return;
-    std::fprintf(stderr, "\r\x1b[K%s", text.c_str());
-    std::fflush(stderr);
-  }
-
- private:
-  bool terminal_ = isatty(STDERR_FILENO) == 1;
-};
 
 /// Both engines on one scene, in turns.
 std::vector<Contender> race(std::int64_t disks, double packing_fraction, std::uint64_t turn, const StatusLine& status) {
@@ -88,23 +71,8 @@ Json json_of(const Contender& contender) {
           {"relative_energy_drift", contender.energy_drift()}};
 }
 
-Json json_of_machine() {
-  const BuildInfo& build = build_info();
-  const std::optional<std::size_t> cache = second_level_cache();
-  return {{"carom", {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler}, {"flags", build.flags}}},
-          {"machine", {{"processor", processor()}, {"second_level_cache", cache ? Json(*cache) : Json(nullptr)}}},
-          {"instructions", name_of(chosen_instructions())},
-          {"turns", turns},
-          {"rows", Json::array()},
-          {"failed", Json::array()}};
-}
-
 void print_heading() {
-  const BuildInfo& build = build_info();
-  const std::optional<std::size_t> cache = second_level_cache();
-  fmt::print("{}{}; carom {} (commit {}; {}; {}), {} instructions.\n\n", processor(),
-             cache ? fmt::format(", {} KiB of second-level cache", *cache / 1024) : "", build.version, build.commit,
-             build.compiler, build.flags, name_of(chosen_instructions()));
+  fmt::print("{}\n\n", measured_on());
   fmt::print(
       "Pair collisions per second on one core, smooth equal disks in a periodic box; memory per disk, fast and textbook:\n\n"
       "| packing fraction |         N |     fast | textbook | ratio | bytes per disk |\n"
@@ -137,9 +105,13 @@ std::vector<std::int64_t> sizes(const BenchOptions& options) {
 }  // namespace
 
 ExitCode bench(const BenchOptions& options) {
+  if (options.effects) return bench_effects(options);
   const std::vector<std::int64_t> all_disks = sizes(options);
   const StatusLine status;
-  Json json = json_of_machine();
+  Json json = measured_on_json();
+  json["turns"] = turns;
+  json["rows"] = Json::array();
+  json["failed"] = Json::array();
   if (!options.json) print_heading();
   for (const double packing_fraction : packing_fractions) {
     for (const std::int64_t disks : all_disks) {

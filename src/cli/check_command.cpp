@@ -1,7 +1,8 @@
-// carom check SCENE: reads a scene, draws its initial state, and says what would be simulated, without simulating.
+// carom check SCENE: reads a scene, draws its initial state, and says what would be simulated, by which engine, and at what cost.
 
 #include "cli/commands.hpp"
 #include "cli/effects_description.hpp"
+#include "cli/expected_cost.hpp"
 #include "cli/format.hpp"
 #include "cli/scene_description.hpp"
 #include "observe/mechanics.hpp"
@@ -9,7 +10,9 @@
 #include <fmt/format.h>
 #include <carom/simulation.hpp>
 
+#include <algorithm>
 #include <cstdio>
+#include <optional>
 
 namespace carom::cli {
 
@@ -21,13 +24,14 @@ constexpr std::int64_t most_disks_drawn = 1'000'000;
 // Three coordinates of position and of velocity, and three image flags, for one disk in one frame.
 constexpr double bytes_per_disk_and_frame = 6 * sizeof(double) + 3 * sizeof(std::int32_t);
 
-std::string start_and_engine(const Scene& scene, const std::string& engine) {
-  if (scene.disk_count() > most_disks_drawn) {
-    return fmt::format("  start       not drawn: more than {} disks; `carom run` draws them\n", grouped(most_disks_drawn));
-  }
-  const Simulation simulation = make_simulation(scene, engine);
-  return fmt::format("  start       drawn: every disk has its place, none overlap; kT = {:.4g}\n  engine      {}\n",
-                     kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state()), simulation.engine());
+std::string start_and_engine(const Scene& scene, const Simulation& simulation) {
+  const double kT = kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state());
+  const auto bytes = static_cast<double>(simulation.bytes());
+  const double disks = std::max(1.0, static_cast<double>(scene.disk_count()));
+  return fmt::format(
+      "  start       drawn: every disk has its place, none overlap; kT = {:.4g}\n"
+      "  engine      {}: {}; {}, {:.0f} bytes per disk\n",
+      kT, simulation.engine(), simulation.engine_reason(), size(bytes), bytes / disks);
 }
 
 std::string files(const Scene& scene) {
@@ -53,13 +57,19 @@ std::string files(const Scene& scene) {
 ExitCode check(const CheckOptions& options) {
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
-  const std::string start = start_and_engine(scene, engine);
+  std::optional<Trial> trial;
+  if (scene.disk_count() <= most_disks_drawn) trial.emplace(scene, engine);
   if (options.resolved) {
     fmt::print("{}", resolved_toml(scene));
     return exit_done;
   }
+  const std::string start =
+      trial ? start_and_engine(scene, trial->simulation())
+            : fmt::format("  start       not drawn: more than {} disks; `carom run` draws them\n", grouped(most_disks_drawn));
   fmt::print("{}: this scene is right{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
-  fmt::print("{}{}{}", describe(scene), start, files(scene));
+  fmt::print("{}{}", describe(scene), start);
+  if (trial) fmt::print("  cost        {}\n", words(trial->run()));
+  fmt::print("{}", files(scene));
   if (const std::string missing = absent(scene.effects); !missing.empty()) fmt::print("  not here    {}\n", missing);
   return exit_done;
 }

@@ -76,6 +76,7 @@ ExitCode info(const InfoOptions& options);
 
 struct BenchOptions {
   bool json = false;
+  bool effects = false;                     ///< the price of each effect, in place of how fast the engines are
   bool large = false;                       ///< a million disks too
   std::vector<std::int64_t> disks;          ///< empty: 1000, 10000, 100000
   std::optional<std::uint64_t> collisions;  ///< in a turn of the textbook engine; absent: 200000, or one per disk

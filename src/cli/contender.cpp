@@ -1,6 +1,8 @@
 #include "cli/contender.hpp"
 
 #include "cli/machine.hpp"
+#include "observe/effects_report.hpp"
+#include "observe/energy.hpp"
 #include "observe/mechanics.hpp"
 #include "observe/pressure.hpp"
 #include "theory/equation_of_state.hpp"
@@ -49,11 +51,11 @@ Scene bench_scene(std::int64_t disks, double packing_fraction) {
 }
 
 Contender::Contender(const Scene& scene, const std::string& engine, std::uint64_t run_up)
-    : memory_before_(memory_held()),
-      simulation_(make_simulation(scene, engine)),
-      energy_(kinetic_energy(simulation_.disks(), simulation_.state())) {
+    : memory_before_(memory_held()), simulation_(make_simulation(scene, engine)), energy_(energy_balance()) {
   stopped_ = simulation_.run_until(end_of_time, run_up) != StopReason::collisions;
+  run_up_drift_ = energy_drift();
   simulation_.reset_clock();
+  energy_ = energy_balance();
   memory_ = memory_held();
 }
 
@@ -75,9 +77,10 @@ std::string Contender::fault() const {
   if (!(energy_drift() <= allowed_drift)) return of(fmt::format("the energy has changed by {:.1e} of itself", energy_drift()));
   const std::vector<std::string> broken = simulation_.check_invariants();
   if (!broken.empty()) return of(broken.front());
-  const double packing_fraction = simulation_.scene().packing_fraction();
-  if (packing_fraction > densest_fluid) return "";
-  const double expected = theory::kolafa_rottner_finite(packing_fraction, simulation_.scene().disk_count());
+  const Scene& scene = simulation_.scene();
+  const double packing_fraction = scene.packing_fraction();
+  if (packing_fraction > densest_fluid || !scene.box.periodic(0) || !scene.effects.neutral()) return "";
+  const double expected = theory::kolafa_rottner_finite(packing_fraction, scene.disk_count());
   // Ten standard errors: collisions at random times would leave one of (Z - 1) / sqrt(collisions), and at these densities
   // blocks of a run show up to 1.3 times as much (docs/validation.md).
   const double allowed = 10.0 * (expected - 1.0) / std::sqrt(static_cast<double>(totals().pair));
@@ -92,8 +95,13 @@ double Contender::median_rate() const {
   return sorted.empty() ? 0.0 : sorted[sorted.size() / 2];
 }
 
-double Contender::energy_drift() const {
-  return std::abs(kinetic_energy(simulation_.disks(), simulation_.state()) / energy_ - 1.0);
+double Contender::energy_drift() const { return run_up_drift_ + std::abs(energy_balance() / energy_ - 1.0); }
+
+double Contender::energy_balance() const {
+  const Scene& scene = simulation_.scene();
+  const State state = simulation_.state();
+  const double given = effects_report(scene, simulation_.disks(), totals(), state).energy_given.value_or(0.0);
+  return total_energy(scene.box, scene.effects, simulation_.disks(), state) - given;
 }
 
 double Contender::compressibility() const {

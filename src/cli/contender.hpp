@@ -23,24 +23,28 @@ class Contender {
   /// Times so many pair collisions more, in seconds of this program's processor time: what other programs take does not count.
   void take_turn(std::uint64_t collisions);
 
-  /// What is wrong with where it has got to, in one sentence; empty where energy, plan and (in the fluid) pressure are
+  /// What is wrong with where it has got to, in one sentence; empty where energy, plan and (where it is known) pressure are
   /// right. All collisions since the run-up count.
   [[nodiscard]] std::string fault() const;
 
   [[nodiscard]] const std::string& engine() const { return simulation_.engine(); }
   [[nodiscard]] const Totals& totals() const { return simulation_.totals(); }
+  [[nodiscard]] State state() const { return simulation_.state(); }
   [[nodiscard]] const std::vector<double>& rates() const { return rates_; }  ///< collisions per second, turn by turn
   [[nodiscard]] double median_rate() const;
-  [[nodiscard]] double energy_drift() const;  ///< relative
+  [[nodiscard]] double energy_drift() const;  ///< relative; beyond what effects have given and taken
   [[nodiscard]] double compressibility() const;
   [[nodiscard]] std::optional<double> bytes_per_disk() const;
 
  private:
+  /// Of disks and pistons, without what has come in and with what has gone out since the clock stood at 0.
+  [[nodiscard]] double energy_balance() const;
   [[nodiscard]] double disks() const { return static_cast<double>(simulation_.disks().count()); }
 
   std::optional<std::size_t> memory_before_;
   Simulation simulation_;
-  double energy_;
+  double energy_;  ///< when the clock stood at 0
+  double run_up_drift_ = 0.0;
   std::optional<std::size_t> memory_;
   bool stopped_ = false;  ///< there were no more collisions to be had
   std::vector<double> rates_;

@@ -47,6 +47,7 @@ template <class Real>
 template <class Real>
 [[nodiscard]] Real contact_time(const Vec2<Real>& r, const Vec2<Real>& v, Real sigma, Real growth) {
   using std::sqrt;
+  if (growth == 0) return contact_time<Real>(r, v, sigma);
   const Real b = r.dot(v) - sigma * growth;  // half the rate at which |.|^2 - (.)^2 changes
   const Real a = v.squaredNorm() - growth * growth;
   if (!(b < 0) && !(a < 0)) return infinity<Real>;  // the gap never shrinks

@@ -23,15 +23,15 @@ class AnyImpact {
  public:
   static constexpr bool plain = false;
 
-  AnyImpact(const Effects& effects, std::size_t disks) : AnyImpact(effects.collision, effects.square_well, disks) {}
-  AnyImpact(const Collision& law, const std::optional<SquareWell>& well, std::size_t disks)
-      : rule_(law.rule),
-        restitution_(Real(law.restitution.value_or(1.0))),
-        roughness_(Real(law.roughness.value_or(-1.0))),
-        elastic_below_(Real(law.elastic_below.value_or(0.0))),
-        spins_(law.roughness ? disks : 0, Real(0)),
-        last_(elastic_below_ > 0 ? disks : 0, -infinity<Real>),
-        wells_(well, disks) {}
+  AnyImpact(const Effects& effects, std::size_t disks)
+      : rule_(effects.collision.rule),
+        turn_((1 + Real(effects.collision.restitution.value_or(1.0))) / 2),
+        roughness_(Real(effects.collision.roughness.value_or(-1.0))),
+        elastic_below_(Real(effects.collision.elastic_below.value_or(0.0))),
+        spins_(effects.collision.roughness ? disks : 0, Real(0)),
+        last_(elastic_below_ > 0 && effects.dissipate() ? disks : 0, -infinity<Real>),
+        wells_(effects.square_well, disks),
+        by_rule_alone_(turn_ == 1 && roughness_ == -1 && last_.empty()) {}
 
   /// A disk as it takes part in a collision.
   struct Body {
@@ -51,7 +51,7 @@ class AnyImpact {
       impact = wells_.cross_edge(i.disk, j.disk, r, i.mass, i.v, j.mass, j.v);
     } else {
       ++totals.pair;
-      impact = collide(r, growth, i, j, now);
+      impact = by_rule_alone_ && growth == 0 ? collide(r, i, j) : collide(r, growth, i, j, now);
       (growth > 0 ? totals.growth_energy : totals.dissipated) += (growth > 0 ? 1 : -1) * static_cast<double>(impact.energy);
     }
     totals.virial += static_cast<double>(impact.virial);
@@ -78,17 +78,20 @@ class AnyImpact {
   [[nodiscard]] SquareWells<Real>& wells() { return wells_; }
   [[nodiscard]] const SquareWells<Real>& wells() const { return wells_; }
 
-  [[nodiscard]] std::size_t bytes() const { return (spins_.capacity() + last_.capacity()) * sizeof(Real); }
+  [[nodiscard]] std::size_t bytes() const { return (spins_.capacity() + last_.capacity()) * sizeof(Real) + wells_.bytes(); }
 
  private:
+  ImpactResult<Real> collide(const Vec2<Real>& r, const Body& i, const Body& j) const {
+    return rule_ == CollisionRule::reversal ? carom::collide<Reversal, Real>(r, i.mass, i.v, j.mass, j.v)
+                                            : carom::collide<Specular, Real>(r, i.mass, i.v, j.mass, j.v);
+  }
   ImpactResult<Real> collide(const Vec2<Real>& r, Real growth, const Body& i, const Body& j, Real now) {
     const bool elastic = rests(i.disk, now) || rests(j.disk, now);
-    const Inelasticity<Real> how{elastic ? Real(1) : (1 + restitution_) / 2, growth};
+    const Inelasticity<Real> how{elastic ? Real(1) : turn_, growth};
     ImpactResult<Real> result = rule_ == CollisionRule::reversal
                                     ? carom::collide<Reversal, Real>(r, i.mass, i.v, j.mass, j.v, how)
                                     : carom::collide<Specular, Real>(r, i.mass, i.v, j.mass, j.v, how);
-    const bool lossless = roughness_ == 1 || roughness_ == -1;
-    if (!spins_.empty() && (lossless || !elastic))
+    if (!spins_.empty() && roughness_ != -1 && (roughness_ == 1 || !elastic))
       result.energy += roughen(r, roughness_, i.mass, i.radius, i.v, spin(i.disk), j.mass, j.radius, j.v, spin(j.disk));
     touched(i.disk, now);
     touched(j.disk, now);
@@ -96,12 +99,13 @@ class AnyImpact {
   }
 
   CollisionRule rule_;
-  Real restitution_;
+  Real turn_;  ///< (1 + e) / 2
   Real roughness_;
   Real elastic_below_;
   std::vector<Real> spins_;
   std::vector<Real> last_;  ///< collision of each disk, since the clock's zero
   SquareWells<Real> wells_;
+  bool by_rule_alone_;  ///< at a hard core
 };
 
 }  // namespace carom

@@ -23,9 +23,13 @@ struct Falling {
 
   /// From r and v, after a time t.
   [[nodiscard]] Vec2<Real> position(const Vec2<Real>& r, const Vec2<Real>& v, Real t) const {
-    return (r + v * t) + (g * t) * (t / 2);  // t * t may overflow where g is zero
+    if (!present()) return r + v * t;
+    return (r + v * t) + (g * t) * (t / 2);
   }
-  [[nodiscard]] Vec2<Real> velocity(const Vec2<Real>& v, Real t) const { return v + g * t; }
+  [[nodiscard]] Vec2<Real> velocity(const Vec2<Real>& v, Real t) const {
+    if (!present()) return v;
+    return v + g * t;
+  }
 };
 
 }  // namespace carom

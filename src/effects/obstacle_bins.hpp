@@ -57,6 +57,8 @@ class ObstacleBins {
   /// that.
   static constexpr double far = 1e4;
 
+  [[nodiscard]] std::size_t bytes() const { return begin_.capacity() * sizeof(std::size_t) + items_.capacity() * sizeof(Item); }
+
  private:
   struct Item {
     std::int32_t obstacle;

@@ -77,6 +77,11 @@ class ObstacleShapes {
   }
 
   [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(shapes_.size()); }
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = shapes_.capacity() * sizeof(Shape) + joints_.capacity() * sizeof(joints_[0]);
+    for (const auto& joints : joints_) sum += joints.capacity() * sizeof(Joint);
+    return sum;
+  }
   [[nodiscard]] const Shape& shape(std::int32_t o) const { return shapes_[static_cast<std::size_t>(o)]; }
 
   /// Keeps the meeting with an image of obstacle o, by `until`, if it comes before the first one so far.

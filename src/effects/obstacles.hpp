@@ -9,6 +9,7 @@
 #include <carom/effects.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <variant>
 #include <vector>
@@ -24,6 +25,7 @@ class Obstacles {
       : domain_(box), bins_(box, bounds_of(obstacles)), shapes_(domain_, bins_, obstacles) {}
 
   [[nodiscard]] bool empty() const { return shapes_.count() == 0; }
+  [[nodiscard]] std::size_t bytes() const { return shapes_.bytes() + bins_.bytes(); }
 
   /// First meeting of a disk on the path r + v s + g s^2/2, 0 <= s <= until, its radius being radius + growth s, with any
   /// obstacle; of meetings at the same time, with the obstacle of the lowest index. Disks that touch or overlap an obstacle and

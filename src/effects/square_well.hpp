@@ -54,6 +54,11 @@ class SquareWells {
     --pairs_;
   }
   [[nodiscard]] std::uint64_t pairs() const { return pairs_; }
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = partners_.capacity() * sizeof(partners_[0]);
+    for (const auto& one : partners_) sum += one.capacity() * sizeof(std::int32_t);
+    return sum;
+  }
   /// For each disk, those inside its well.
   [[nodiscard]] const std::vector<std::int32_t>* table() const { return partners_.data(); }
   /// Those inside the well of disk i.

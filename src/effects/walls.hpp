@@ -51,6 +51,12 @@ class Walls {
     return fall_time<Real>(room + s.displacement_at(t), (s.velocity_at(t) - outward) - growth, s.acceleration - acceleration);
   }
 
+  /// Whether a disk that moves like that at time t >= since(wall) never comes nearer to the side: contact() is infinite then.
+  [[nodiscard]] bool recedes(Wall wall, Real outward, Real acceleration, Real growth, Real t) const {
+    const Side& s = side(wall);
+    return (s.velocity_at(t) - outward) - growth >= 0 && s.acceleration >= acceleration;
+  }
+
   /// What a contact did.
   struct Hit {
     Real impulse = 0;  ///< that the side took, outward
@@ -94,6 +100,10 @@ class Walls {
   [[nodiscard]] bool is_piston(Wall wall) const { return side(wall).mass > 0; }
   [[nodiscard]] bool any_moves() const {
     return std::any_of(sides_.begin(), sides_.end(), [](const Side& s) { return s.velocity != 0 || s.mass > 0; });
+  }
+  /// Whether any side is not where the box has it.
+  [[nodiscard]] bool any_moved() const {
+    return std::any_of(sides_.begin(), sides_.end(), [](const Side& s) { return s.displacement != 0; });
   }
   /// The fastest that any of the sides moves at time t.
   [[nodiscard]] Real fastest(Real t) const {

@@ -12,6 +12,7 @@
 #include <carom/state.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace carom {
@@ -33,6 +34,7 @@ struct PlainWorld {
   [[nodiscard]] static double fallen(int /*axis*/, double /*t*/) { return 0.0; }
   [[nodiscard]] static double scale(double /*t*/) { return 1.0; }
   [[nodiscard]] static double growth() { return 0.0; }
+  [[nodiscard]] static bool still() { return true; }
 
   /// The component of the velocity across the wall is reversed.
   static void meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double /*now*/, Totals& totals) {
@@ -44,6 +46,7 @@ struct PlainWorld {
   }
   [[nodiscard]] static bool gives_way(std::int32_t /*what*/) { return false; }
   static void rebase(double /*now*/) {}
+  [[nodiscard]] static std::size_t bytes() { return 0; }
 };
 
 struct AnyWorld {
@@ -67,6 +70,8 @@ struct AnyWorld {
   /// Of all radii, at time t.
   [[nodiscard]] double scale(double t) const { return scale_ + growth_ * t; }
   [[nodiscard]] double growth() const { return growth_; }
+  /// Whether disks fly straight and keep their size, between walls that stay where the box has them.
+  [[nodiscard]] bool still() const { return !falling.present() && growth_ == 0.0 && !walls.any_moves() && !walls.any_moved(); }
 
   void meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double now, Totals& totals) {
     const double growth = growth_ * disk.radius / scale(now);
@@ -91,6 +96,7 @@ struct AnyWorld {
     walls.rebase(now);
     scale_ += growth_ * now;
   }
+  [[nodiscard]] std::size_t bytes() const { return obstacles.bytes(); }
 
   Falling<double> falling;
   Walls<double> walls;

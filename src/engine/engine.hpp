@@ -61,7 +61,11 @@ class Engine {
  public:
   /// Whether this engine can run these disks: periodic boxes must be wide enough for the nearest image to be the only one that a
   /// disk can meet, disks not so small that the resolution of cages would show, and slots the right ones.
-  [[nodiscard]] static bool covers(const Box& box, const Disks& disks, const Effects& effects = {});
+  [[nodiscard]] static bool covers(const Box& box, const Disks& disks, const Effects& effects = {}) {
+    return why_not(box, disks, effects).empty();
+  }
+  /// Why it cannot, in half a sentence; empty where it can.
+  [[nodiscard]] static std::string why_not(const Box& box, const Disks& disks, const Effects& effects = {});
 
   /// Requires covers(box, disks, effects), disks inside the box, radii and masses > 0, everything finite. `seed`: of the random
   /// numbers that effects draw.
@@ -210,10 +214,16 @@ class Engine {
     plan(i).edge_time = leaving_time;
     plan(i).edge = cage;
     if constexpr (World::plain) {
-      if (walled_) plan_hard_wall(i);
-    } else {
+      if (walled_ && !far_from_walls(i)) plan_hard_wall(i);
+    } else if (!bare_ && !(world_.obstacles.empty() && far_from_walls(i))) {
       plan_world(i);
     }
+  }
+
+  /// Whether a disk leaves its cage before it can meet a wall.
+  [[nodiscard]] bool far_from_walls(std::int32_t i) const {
+    const CageCentre centre = lists_.centre(i);
+    return std::abs(std::int64_t{centre.x}) < clear_[0] && std::abs(std::int64_t{centre.y}) < clear_[1];
   }
 
   /// Puts the next contact with a wall in the place of the edge of the cage where it comes first.
@@ -243,11 +253,12 @@ class Engine {
     const auto consider = [&](double time, std::int32_t what) {
       if (time < mine.edge_time || (time == mine.edge_time && mine.edge == cage)) mine.edge_time = time, mine.edge = what;
     };
-    for (int axis = 0; axis < 2 && walled_; ++axis) {
+    for (int axis = 0; axis < 2; ++axis) {
       if (axes_[axis].periodic) continue;
       const double v = a.v[axis] + world_.g()[axis] * now_, g = world_.g()[axis];
       for (const int sign : {-1, 1}) {
         const Wall wall = wall_of(axis, sign > 0);
+        if (world_.walls.recedes(wall, sign * v, sign * g, growth, now_)) continue;
         consider(now_ + world_.walls.contact(wall, room(a, axis, sign, radius), sign * v, sign * g, growth, now_), wall);
       }
     }
@@ -316,8 +327,14 @@ class Engine {
   void widen();
   /// Empty lists, for disks as large as they will be at the end of the epoch.
   void make_lists();
-  /// Disks have grown: new lists, and new plans with them.
+  /// Whether disks will be larger at the end of the epoch than those that lists are for.
+  [[nodiscard]] bool outgrow_lists() const {
+    return world_.growth() > 0.0 && !(epoch_length_ < never && world_.scale(epoch_length_) <= listed_scale_);
+  }
+  /// New lists for disks that have grown, and new plans with them.
   void list_larger();
+  /// Of cages, for disks of the size that lists are for.
+  [[nodiscard]] double suitable_half_width() const { return CageTuner::first_half_width(sigma_ * listed_scale_, area_); }
   /// Who begins inside whose well.
   void find_wells();
   /// As long as the lines may become as the disks move now, rounded down to a power of two.
@@ -342,6 +359,8 @@ class Engine {
 
   /// Between two and eight there is no difference in speed; fewer take more memory.
   static constexpr double pushed_per_span = 6.0;
+  /// By how much of their size disks may grow until they need new lists. More makes lists longer, less has them made more often.
+  static constexpr double list_margin = 1.0 / 64.0;
   /// At which an epoch ends, if it has not before.
   static constexpr std::uint32_t last_stamp = 0xFFFFFFFF;
   static constexpr std::int32_t cage = -100;
@@ -463,11 +482,16 @@ class Engine {
   double mean_speed_ = 0.0;           ///< mean of |v_x| + |v_y| when the epoch began
   double reach_ = 0.0;                ///< the largest distance at which two disks notice each other
   double largest_contact_ = 0.0;      ///< the largest contact distance, at scale 1
+  double sigma_ = 0.0;                ///< mean diameter, at scale 1
+  double area_ = 0.0;                 ///< per disk, where most of them were at the start
+  double listed_scale_ = 1.0;         ///< of the radii for which lists are made
   double travel_[2] = {};             ///< the longest that a line may be along each axis
+  std::int64_t clear_[2] = {};        ///< centres of cages nearer than this to the middle are too far from any wall to matter
   double speed_limit_[2] = {};        ///< with which a line stays shorter than that until the epoch ends
   double span_ = 0.0;                 ///< of the queue
   std::uint64_t begun_with_ = 0;      ///< events that the queue got at the beginning of the epoch
   bool walled_;
+  bool bare_;              ///< no walls, no obstacles
   bool fetching_ = false;  ///< the data do not fit the cache
 
   CageTuner tuner_;

@@ -3,6 +3,9 @@
 
 #include "engine/engine.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -133,6 +136,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       lists_(axes_[0], axes_[1], {}),
       spacing_(detail::mean_spacing(box, disks.count())),
       walled_(!box.periodic(0) || !box.periodic(1)),
+      bare_(!walled_ && effects.obstacles.empty()),
       patience_(effects.dissipate() ? 100'000 : 10'000'000) {
   detail::OrderInSpace order = detail::order_in_space(axes_[0], axes_[1], start);
   ids_ = std::move(order.ids);
@@ -150,8 +154,9 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
     layout_.furnish(a, disks, static_cast<std::size_t>(column));
   }
 
-  const double sigma = 2.0 * std::accumulate(disks.radius.begin(), disks.radius.end(), 0.0) /
-                       static_cast<double>(std::max<std::size_t>(disks.count(), 1));
+  sigma_ = 2.0 * std::accumulate(disks.radius.begin(), disks.radius.end(), 0.0) /
+           static_cast<double>(std::max<std::size_t>(disks.count(), 1));
+  area_ = order.area;
   largest_contact_ = detail::largest_contact_distance(disks);
   if constexpr (!Impact::plain) {
     if (impact_.wells().present()) {
@@ -166,8 +171,8 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   make_lists();
   if (World::plain) radius_ = {};  // nothing will ask for them again
   start = State{};                 // makes room for what follows
-  double half_width = std::min(CageTuner::first_half_width(sigma * world_.scale(0.0), order.area), widest_);
-  for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sigma; rebuild(half_width)) half_width *= 0.7;
+  double half_width = std::min(suitable_half_width(), widest_);
+  for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sigma_; rebuild(half_width)) half_width *= 0.7;
   find_wells();
   choose_epoch_length();
   predict_all();
@@ -176,27 +181,34 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
 }
 
 template <class Impact, class Layout, class World>
-bool Engine<Impact, Layout, World>::covers(const Box& box, const Disks& disks, const Effects& effects) {
-  if ((Impact::plain || World::plain) && !effects.neutral()) return false;
-  if (effects.shear && effects.shear->rate != 0.0) return false;
-  if (disks.count() == 0) return true;
+std::string Engine<Impact, Layout, World>::why_not(const Box& box, const Disks& disks, const Effects& effects) {
+  const std::vector<std::string> acting = effects.acting();
+  if ((Impact::plain || World::plain) && !acting.empty()) return fmt::format("the scene asks for {}", fmt::join(acting, ", "));
+  if (effects.shear && effects.shear->rate != 0.0) return "the scene asks for shear";
+  if (disks.count() == 0) return "";
   const double smallest = *std::min_element(disks.radius.begin(), disks.radius.end());
   const double reach = detail::largest_contact_distance(disks) * detail::largest_scale(box, disks, effects);
   for (int k = 0; k < 2; ++k) {
     const FixedAxis axis = detail::fixed_axis(box, k, disks.count());
-    if (axis.periodic && axis.upper - axis.lower < 2.5 * reach) return false;
-    if (axis.unit * 0x1p32 > 1e-3 * smallest) return false;
+    if (axis.periodic && axis.upper - axis.lower < 2.5 * reach)
+      return fmt::format(
+          "the periodic box is too small: {:.4g} in {}, less than 2.5 times {:.4g}, the farthest that disks notice "
+          "each other",
+          axis.upper - axis.lower, k == 0 ? "x" : "y", reach);
+    if (axis.unit * 0x1p32 > 1e-3 * smallest)
+      return fmt::format("the box is too large for a disk of radius {:.4g}: {:.4g} in {}", smallest, axis.upper - axis.lower,
+                         k == 0 ? "x" : "y");
   }
-  return Layout::covers(disks);
+  return Layout::covers(disks) ? "" : "disks differ in radius or mass";
 }
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::begin_epoch(double now) {
   rebase(now);
   if constexpr (!World::plain) draw_up_frame(), widen();
-  if (now > 0.0 && world_.growth() == 0.0) tune_cages(now);
+  if (now > 0.0) tune_cages(now);
   choose_epoch_length();
-  if (world_.growth() > 0.0)
+  if (outgrow_lists())
     list_larger();
   else if (falls())
     predict_all();  // the frame starts from rest again, and disks leave their cages at other times
@@ -223,7 +235,7 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::go_on() {
   if constexpr (!World::plain) draw_up_frame(), widen();
   choose_epoch_length();
-  if (world_.growth() > 0.0) list_larger();
+  if (outgrow_lists()) list_larger();
   predict_all();
   start_queue();
 }
@@ -259,8 +271,9 @@ void Engine<Impact, Layout, World>::scale_velocities(double factor) {
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::make_lists() {
-  const double end = epoch_length_ < never ? world_.scale(epoch_length_) : world_.scale(0.0);
-  const double factor = end * frame_.well;
+  listed_scale_ = world_.scale(epoch_length_ < never ? epoch_length_ : 0.0);
+  if (world_.growth() > 0.0) listed_scale_ *= 1.0 + list_margin;
+  const double factor = listed_scale_ * frame_.well;
   reach_ = largest_contact_ * factor;
   std::vector<double> radius = radius_;
   for (double& one : radius) one *= factor;
@@ -272,12 +285,13 @@ void Engine<Impact, Layout, World>::make_lists() {
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::list_larger() {
+  const double before = suitable_half_width();
   make_lists();
-  const double diameter = largest_contact_ * world_.scale(0.0);
-  const double half_width =
-      world_.growth() > 0.0 ? CageTuner::first_half_width(diameter, spacing_ * spacing_) : frame_.half_width;
-  rebuild(std::min(half_width, widest_));
+  // Disks that have grown have less room, and want narrower cages.
+  rebuild(std::min(frame_.half_width * (suitable_half_width() / before), widest_));
   predict_all();
+  settling_ = true;
+  travelled_ = 0.0;
 }
 
 template <class Impact, class Layout, class World>
@@ -423,6 +437,9 @@ void Engine<Impact, Layout, World>::rebuild(double half_width) {
   // to the epoch. What the cages leave of that belongs to the two lines.
   for (int k = 0; k < 2; ++k) {
     const double length = axes_[k].upper - axes_[k].lower;
+    // A sixteenth of the cage is far more than any rounding of the time at which it is left.
+    const double clear = world_.still() ? length / 2.0 - largest_contact_ - half_width * (1.0 + 1.0 / 16.0) : 0.0;
+    clear_[k] = axes_[k].periodic ? INT64_MAX : static_cast<std::int64_t>(std::max(clear, 0.0) / (axes_[k].unit * 0x1p32));
     travel_[k] =
         axes_[k].periodic ? (length / 2.0 - reach_ - 4.0 * half_width) / 2.0 : length / 2.0 + detail::free_path * spacing_;
   }
@@ -544,8 +561,8 @@ void Engine<Impact, Layout, World>::look_ahead(std::int64_t span) const {
 template <class Impact, class Layout, class World>
 std::size_t Engine<Impact, Layout, World>::bytes() const {
   return lines_.capacity() * sizeof(Line) + plans_.capacity() * sizeof(Plan) + ids_.capacity() * sizeof(std::int32_t) +
-         images_.capacity() * sizeof(images_[0]) + lists_.bytes() + queue_.bytes() + impact_.bytes() +
-         (radius_.capacity() * sizeof(double)) + places_.capacity() * sizeof(std::int32_t);
+         images_.capacity() * sizeof(images_[0]) + lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() +
+         radius_.capacity() * sizeof(double) + places_.capacity() * sizeof(std::int32_t);
 }
 
 }  // namespace carom

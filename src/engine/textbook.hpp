@@ -182,7 +182,7 @@ class TextbookEngine {
   }
 
   /// Disk i against every neighbour, the edges of its cell, walls and obstacles.
-  void make_plan(std::int32_t i) {
+  [[gnu::flatten]] void make_plan(std::int32_t i) {
     Plan& mine = plan(i);
     mine.pair_time = infinity<Real>;
     mine.partner = nobody;
@@ -191,7 +191,7 @@ class TextbookEngine {
   }
 
   /// When disk i leaves its cell, and what it hits before that.
-  void plan_surroundings(std::int32_t i) {
+  [[gnu::noinline]] void plan_surroundings(std::int32_t i) {
     const Record& a = record(i);
     Plan& mine = plan(i);
     mine.crossing = falling_.present() ? grid_.next_crossing(i, position(a, now_), velocity(a, now_), falling_.g, now_)
@@ -212,16 +212,18 @@ class TextbookEngine {
     BoundaryContact& first = plan(i).boundary;
     const Real t = std::max(a.t, walls_.since(wall));
     const int axis = axis_of(wall);
-    const Real r = position(a, t)[axis], v = velocity(a, t)[axis], g = falling_.g[axis];
-    const Real radius = radius_at(a, t), growth = a.radius * growth_;
+    const Real sign = is_upper(wall) ? 1 : -1;
+    const Real outward = sign * velocity(a, t)[axis], g = sign * falling_.g[axis], growth = a.radius * growth_;
     if (sliding_.present()) {  // no wall: the disk's centre leaves the box
-      const Real leaves =
-          t + fall_time<Real>(is_upper(wall) ? domain_.upper[axis] - r : r - domain_.lower[axis], is_upper(wall) ? -v : v, 0);
+      const Real r = position(a, t)[axis];
+      const Real leaves = t + fall_time<Real>(is_upper(wall) ? domain_.upper[axis] - r : r - domain_.lower[axis], -outward, 0);
       if (leaves < first.time) first = {leaves, wall};
       return;
     }
-    const Real time = t + (is_upper(wall) ? walls_.contact(wall, (domain_.upper[axis] - radius) - r, v, g, growth, t)
-                                          : walls_.contact(wall, r - (domain_.lower[axis] + radius), -v, -g, growth, t));
+    if (walls_.recedes(wall, outward, g, growth, t)) return;
+    const Real r = position(a, t)[axis], radius = radius_at(a, t);
+    const Real room = is_upper(wall) ? (domain_.upper[axis] - radius) - r : r - (domain_.lower[axis] + radius);
+    const Real time = t + walls_.contact(wall, room, outward, g, growth, t);
     if (time < first.time) first = {time, wall};
   }
 
@@ -351,7 +353,7 @@ class TextbookEngine {
     const Real t = std::max(a.t, b.t);
     const Vec2<Real> r = separation(a, b, t, shift);
     Vec2<Real> v = velocity(a, t) - velocity(b, t);
-    v[0] -= Real(shift[1]) * sliding_.speed();
+    if (shift[1] != 0) v[0] -= Real(shift[1]) * sliding_.speed();
     const Real sigma = a.radius + b.radius;
     if (impact_.wells().present()) {
       const SquareWells<Real>& wells = impact_.wells();
@@ -423,6 +425,12 @@ class TextbookEngine {
   [[nodiscard]] Instant now() const { return instant(now_); }
   [[nodiscard]] const Totals& totals() const { return totals_; }
   [[nodiscard]] std::size_t disk_count() const { return records_.size(); }
+  /// Memory held, without the log.
+  [[nodiscard]] std::size_t bytes() const {
+    return records_.capacity() * sizeof(Record) + plans_.capacity() * sizeof(Plan) +
+           static_cast<std::size_t>(images_.size()) * sizeof(std::int64_t) + grid_.bytes() + queue_.bytes() + impact_.bytes() +
+           obstacles_.bytes();
+  }
 
   /// The state at now(), computed on the side: nothing in the engine changes.
   [[nodiscard]] State state() const;

@@ -81,13 +81,14 @@ class CellGrid {
 
   /// When disk i, at position r with velocity v at time t and acceleration g, leaves its cell. Never before t. Where there is an
   /// acceleration, t must be the present: a path that comes back might else be found to have left long ago.
-  [[nodiscard]] CellCrossing<Real> next_crossing(std::int32_t i, const Vec2<Real>& r, const Vec2<Real>& v, const Vec2<Real>& g,
-                                                 Real t) const {
+  [[nodiscard, gnu::flatten]] CellCrossing<Real> next_crossing(std::int32_t i, const Vec2<Real>& r, const Vec2<Real>& v,
+                                                               const Vec2<Real>& g, Real t) const {
     const Place& place = at(i);
     CellCrossing<Real> next;
     for (int a = 0; a < 2; ++a) {
       for (const bool up : {false, true}) {
         if (!domain_.periodic[a] && place.cell[a] == (up ? count_[a] - 1 : 0)) continue;  // a wall is there
+        if (g[a] == 0 && !(up ? v[a] > 0 : v[a] < 0)) continue;                           // never, and no time to find it out
         const Real edge =
             domain_.lower[a] + Real(place.cell[a] + (up ? 1 : 0)) * width_[a] + Real(place.winding[a]) * domain_.length[a];
         const Real time = t + (up ? fall_time<Real>(edge - r[a], -v[a], -g[a]) : fall_time<Real>(r[a] - edge, v[a], g[a]));
@@ -136,6 +137,9 @@ class CellGrid {
     return corner;
   }
   [[nodiscard]] std::size_t disks() const { return places_.size(); }
+  [[nodiscard]] std::size_t bytes() const {
+    return first_.capacity() * sizeof(std::int32_t) + places_.capacity() * sizeof(Place);
+  }
   [[nodiscard]] Vec2<Real> width() const { return {width_[0], width_[1]}; }
 
  private:

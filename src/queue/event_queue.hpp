@@ -44,6 +44,15 @@ class EventQueue {
 
   [[nodiscard]] bool empty() const { return heap_.empty(); }
   [[nodiscard]] const QueuedEvent<Real>& next() const { return heap_.top(); }
+  /// Boost keeps each event, with its place in the heap, in the node of a list, and the heap is of pointers to nodes.
+  [[nodiscard]] std::size_t bytes() const {
+    struct Node {
+      void* neighbours[2];
+      QueuedEvent<Real> event;
+      std::size_t place;
+    };
+    return heap_.size() * (sizeof(Node) + sizeof(void*)) + handles_.capacity() * sizeof(handles_[0]);
+  }
 
  private:
   struct Later {

@@ -8,10 +8,6 @@ namespace carom {
 
 namespace {
 
-bool is_hard(const WallProperties& wall) {
-  return wall.restitution.value_or(1.0) == 1.0 && !wall.temperature && wall.velocity.value_or(0.0) == 0.0 && !wall.mass;
-}
-
 template <class Property>
 bool any(const std::array<WallProperties, 4>& walls, Property&& property) {
   return std::any_of(walls.begin(), walls.end(), property);
@@ -19,11 +15,25 @@ bool any(const std::array<WallProperties, 4>& walls, Property&& property) {
 
 }  // namespace
 
-bool Effects::neutral() const {
-  return collision.restitution.value_or(1.0) == 1.0 && collision.roughness.value_or(-1.0) == -1.0 &&
-         (!gravity || gravity->acceleration.isZero(0.0)) && std::all_of(walls.begin(), walls.end(), is_hard) &&
-         obstacles.empty() && (!growth || growth->rate == 0.0) && (!thermostat || thermostat->rate == 0.0) &&
-         (!shear || shear->rate == 0.0) && (!square_well || square_well->depth == 0.0);
+std::vector<std::string> Effects::acting() const {
+  std::vector<std::string> names;
+  const auto put = [&](bool acts, const char* name) {
+    if (acts) names.emplace_back(name);
+  };
+  put(collision.restitution.value_or(1.0) != 1.0, "restitution");
+  put(collision.roughness.value_or(-1.0) != -1.0, "roughness");
+  put(dissipate() && collision.elastic_below.value_or(0.0) > 0.0, "elastic_below");
+  put(gravity && !gravity->acceleration.isZero(0.0), "gravity");
+  put(any(walls, [](const WallProperties& wall) { return wall.restitution.value_or(1.0) != 1.0; }), "inelastic_walls");
+  put(any(walls, [](const WallProperties& wall) { return wall.temperature.has_value(); }), "thermal_walls");
+  put(any(walls, [](const WallProperties& wall) { return wall.velocity.value_or(0.0) != 0.0; }), "moving_walls");
+  put(any(walls, [](const WallProperties& wall) { return wall.mass.has_value(); }), "pistons");
+  put(!obstacles.empty(), "obstacles");
+  put(growth && growth->rate != 0.0, "growth");
+  put(thermostat && thermostat->rate != 0.0, "thermostat");
+  put(shear && shear->rate != 0.0, "shear");
+  put(square_well && square_well->depth != 0.0, "square_well");
+  return names;
 }
 
 bool Effects::dissipate() const {

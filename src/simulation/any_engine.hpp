@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
 #if CAROM_CHECK_INVARIANTS
 #include <cstdio>
@@ -46,6 +47,7 @@ class AnyEngine {
   virtual void record_events(bool on) = 0;
   [[nodiscard]] virtual std::vector<Event> take_events() = 0;
   [[nodiscard]] virtual std::vector<std::string> check_invariants() const = 0;
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
 template <class Engine>
@@ -83,6 +85,7 @@ class EngineAdapter final : public AnyEngine {
   void record_events(bool on) override { engine_.record_events(on); }
   [[nodiscard]] std::vector<Event> take_events() override { return engine_.take_events(); }
   [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_.check_invariants(); }
+  [[nodiscard]] std::size_t bytes() const override { return sizeof(*this) + engine_.bytes(); }
 
  private:
   /// Which engine runs a scene is decided before: no scene gets here.

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -21,35 +22,47 @@ extern template std::unique_ptr<AnyEngine> make_textbook<Quad>(const Scene&, con
 
 namespace {
 
-bool always(const Scene& /*scene*/, const Disks& /*disks*/) { return true; }
+std::string never(const Scene& /*scene*/, const Disks& /*disks*/) { return ""; }
 
 }  // namespace
 
 const std::vector<EngineEntry>& catalogue() {
   static const std::vector<EngineEntry> entries = {
-      {"fast", &fast_covers, &make_fast},
-      {"general", &general_covers, &make_general},
-      {"textbook", &always, &make_textbook<double>},
-      {"textbook-float", &always, &make_textbook<float>},
-      {"textbook-long-double", &always, &make_textbook<long double>},
-      {"textbook-quad", &always, &make_textbook<Quad>},
+      {"fast", &why_not_fast, &make_fast},
+      {"general", &why_not_general, &make_general},
+      {"textbook", &never, &make_textbook<double>},
+      {"textbook-float", &never, &make_textbook<float>},
+      {"textbook-long-double", &never, &make_textbook<long double>},
+      {"textbook-quad", &never, &make_textbook<Quad>},
   };
   return entries;
 }
 
 const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine) {
   const auto& entries = catalogue();
+  if (engine == "auto") {
+    const auto covering = [&](const auto& entry) { return entry.covers(scene, disks); };
+    return *std::find_if(entries.begin(), entries.end(), covering);  // there is one: the textbook engine covers everything
+  }
   const auto named = [&](const auto& entry) { return entry.name == engine; };
-  if (engine != "auto" && std::none_of(entries.begin(), entries.end(), named))
-    throw std::invalid_argument(
-        fmt::format("there is no engine \"{}\"; choose one of auto, {}", engine, fmt::join(engine_names(), ", ")));
-  const auto covering = [&](const auto& entry) { return (engine == "auto" || named(entry)) && entry.covers(scene, disks); };
-  const auto entry = std::find_if(entries.begin(), entries.end(), covering);
+  const auto entry = std::find_if(entries.begin(), entries.end(), named);
   if (entry == entries.end())
     throw std::invalid_argument(
-        fmt::format("the engine \"{}\" does not cover this scene: {}; leave the choice to carom, or take \"textbook\"", engine,
-                    "its periodic box is too small, or its disks are, compared with the box"));
+        fmt::format("there is no engine \"{}\"; choose one of auto, {}", engine, fmt::join(engine_names(), ", ")));
+  if (const std::string reason = entry->why_not(scene, disks); !reason.empty())
+    throw std::invalid_argument(fmt::format(
+        "the engine \"{}\" does not cover this scene: {}; leave the choice to carom, or take \"textbook\"", engine, reason));
   return *entry;
+}
+
+std::string why_chosen(const EngineEntry& entry, const Scene& scene, const Disks& disks, const std::string& engine) {
+  if (engine != "auto") return "it was asked for";
+  const auto& entries = catalogue();
+  const auto same = [&](const auto& other) { return other.name == entry.name; };
+  const auto position = std::find_if(entries.begin(), entries.end(), same);
+  if (position != entries.begin()) return std::prev(position)->why_not(scene, disks);
+  return scene.box.periodic(0) && scene.box.periodic(1) ? "nothing but the collision rule acts"
+                                                        : "nothing but the collision rule and hard walls acts";
 }
 
 std::unique_ptr<AnyEngine> make_engine(const EngineEntry& entry, const Scene& scene, const Disks& disks, State start) {

@@ -14,8 +14,11 @@ namespace carom::detail {
 
 struct EngineEntry {
   std::string name;
-  bool (*covers)(const Scene& scene, const Disks& disks);
+  /// Why it cannot run the scene, in half a sentence; empty where it can.
+  std::string (*why_not)(const Scene& scene, const Disks& disks);
   std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Disks& disks, State start);
+
+  [[nodiscard]] bool covers(const Scene& scene, const Disks& disks) const { return why_not(scene, disks).empty(); }
 };
 
 /// In the order in which they are considered: the first that covers a scene runs it.
@@ -25,15 +28,18 @@ const std::vector<EngineEntry>& catalogue();
 /// no such engine, or it does not cover the scene.
 const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine);
 
+/// Why choose_engine() chose that entry, in half a sentence: for "auto", why the one before it could not run the scene.
+std::string why_chosen(const EngineEntry& entry, const Scene& scene, const Disks& disks, const std::string& engine);
+
 /// An engine of that entry, driven from outside where the scene asks for it.
 std::unique_ptr<AnyEngine> make_engine(const EngineEntry& entry, const Scene& scene, const Disks& disks, State start);
 
 /// The fast engine, for equal disks or for any.
-bool fast_covers(const Scene& scene, const Disks& disks);
+std::string why_not_fast(const Scene& scene, const Disks& disks);
 std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Disks& disks, State start);
 
 /// The fast engine with every effect.
-bool general_covers(const Scene& scene, const Disks& disks);
+std::string why_not_general(const Scene& scene, const Disks& disks);
 std::unique_ptr<AnyEngine> make_general(const Scene& scene, const Disks& disks, State start);
 
 /// The textbook engine in one number type; instantiated in textbook_<type>.cpp, one file each because they are slow to

@@ -93,6 +93,10 @@ bool DrivenEngine::idle() const {
   return engine_->idle() && !(andersen_.acts() || grows);
 }
 
+std::size_t DrivenEngine::bytes() const {
+  return engine_->bytes() + sizeof(*this) + disks_.count() * (2 * sizeof(double) + sizeof(std::int32_t));
+}
+
 State DrivenEngine::state() const {
   State state = engine_->state();
   if (at_end_scale_) state.scale = end_scale_;  // what was asked for, not its sum over epochs

@@ -10,6 +10,7 @@
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -41,6 +42,7 @@ class DrivenEngine final : public AnyEngine {
   void record_events(bool on) override { engine_->record_events(on); }
   [[nodiscard]] std::vector<Event> take_events() override { return engine_->take_events(); }
   [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_->check_invariants(); }
+  [[nodiscard]] std::size_t bytes() const override;
 
  private:
   static constexpr auto never = std::numeric_limits<std::uint64_t>::max();

@@ -79,7 +79,8 @@ Simulation Simulation::begin(const Scene& scene, Start start, const FixedStep& s
         fmt::format("fixed-step methods know the collision rule and hard walls only; this scene asks for {} besides",
                     words_beyond_the_rule(scene.effects)));
   auto running = entry->make(scene, start, step.dt);
-  return Simulation(std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry->name, std::move(running), step.dt}));
+  return Simulation(
+      std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry->name, std::move(running), "", step.dt}));
 }
 
 Simulation make_simulation(const Scene& scene, const FixedStep& step) {

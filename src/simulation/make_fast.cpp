@@ -30,8 +30,8 @@ std::unique_ptr<AnyEngine> make_lean(const Scene& scene, const Disks& disks, Sta
 
 }  // namespace
 
-bool fast_covers(const Scene& scene, const Disks& disks) {
-  return Lean<Specular, AnyDisks>::covers(scene.box, disks, scene.effects);
+std::string why_not_fast(const Scene& scene, const Disks& disks) {
+  return Lean<Specular, AnyDisks>::why_not(scene.box, disks, scene.effects);
 }
 
 std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Disks& disks, State start) {
@@ -39,7 +39,9 @@ std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Disks& disks, Sta
                                                                  : make_lean<Specular>(scene, disks, std::move(start));
 }
 
-bool general_covers(const Scene& scene, const Disks& disks) { return General<AnyDisks>::covers(scene.box, disks, scene.effects); }
+std::string why_not_general(const Scene& scene, const Disks& disks) {
+  return General<AnyDisks>::why_not(scene.box, disks, scene.effects);
+}
 
 std::unique_ptr<AnyEngine> make_general(const Scene& scene, const Disks& disks, State start) {
   return EqualDisks::covers(disks) ? make<General<EqualDisks>>(scene, disks, std::move(start))

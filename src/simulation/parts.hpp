@@ -27,6 +27,7 @@ struct Simulation::Parts {
   Disks disks;
   std::string engine_name;
   std::unique_ptr<detail::AnyEngine> engine;
+  std::string engine_reason = {};
   std::optional<double> time_step = {};  ///< of a fixed-step method
 };
 

@@ -31,6 +31,8 @@ const Scene& Simulation::scene() const { return parts_->scene; }
 const Disks& Simulation::disks() const { return parts_->disks; }
 const std::string& Simulation::engine() const { return parts_->engine_name; }
 std::optional<double> Simulation::time_step() const { return parts_->time_step; }
+const std::string& Simulation::engine_reason() const { return parts_->engine_reason; }
+std::size_t Simulation::bytes() const { return parts_->engine->bytes(); }
 double Simulation::time() const { return parts_->engine->now().high; }
 const Totals& Simulation::totals() const { return parts_->engine->totals(); }
 State Simulation::state() const { return parts_->engine->state(); }
@@ -56,8 +58,10 @@ std::vector<std::string> engine_names() {
 
 Simulation Simulation::begin(const Scene& scene, Start start, const std::string& engine) {
   const detail::EngineEntry& entry = detail::choose_engine(scene, start.disks, engine);
+  std::string reason = detail::why_chosen(entry, scene, start.disks, engine);
   auto running = detail::make_engine(entry, scene, start.disks, std::move(start.state));
-  return Simulation(std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry.name, std::move(running)}));
+  return Simulation(
+      std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry.name, std::move(running), std::move(reason)}));
 }
 
 Simulation make_simulation(const Scene& scene, const std::string& engine) {

@@ -32,6 +32,10 @@ struct Bodies {
   }
 
   [[nodiscard]] std::size_t count() const { return r.size(); }
+  [[nodiscard]] std::size_t bytes() const {
+    return (r.capacity() + v.capacity()) * sizeof(Vec2<double>) + (radius.capacity() + mass.capacity()) * sizeof(double) +
+           static_cast<std::size_t>(images.size()) * sizeof(std::int64_t);
+  }
 
   /// a - b between the nearest images. Requires both inside the box along periodic axes.
   [[nodiscard]] Vec2<double> separation(const Vec2<double>& a, const Vec2<double>& b) const {

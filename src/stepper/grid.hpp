@@ -27,6 +27,10 @@ class ClosePairs {
     find_contacts(bodies);
     for (const Touching& pair : touching_) contact(pair.i, pair.j, pair.r);
   }
+  [[nodiscard]] std::size_t bytes() const {
+    return (first_.capacity() + cell_.capacity()) * sizeof(std::uint32_t) + sorted_.capacity() * sizeof(Sorted) +
+           close_.capacity() * sizeof(Close) + touching_.capacity() * sizeof(Touching);
+  }
 
  private:
   struct Close {

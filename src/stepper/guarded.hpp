@@ -29,6 +29,7 @@ class AllPairs {
   [[nodiscard]] static double work(double disks) { return disks * disks / 2; }
 
   void moved(const Bodies& /*bodies*/, double /*farthest*/) {}
+  [[nodiscard]] static std::size_t bytes() { return 0; }
 
   /// Calls contact(i, j, r_i - r_j) for i < j closer than the sum of their radii, in the order of i, then of j. Requires that
   /// no call moves a disk.
@@ -73,6 +74,7 @@ class GuardedStep {
 
   /// With which disk i leaves the last step.
   [[nodiscard]] static const Vec2<double>& flight(const Bodies& bodies, std::size_t i) { return bodies.v[i]; }
+  [[nodiscard]] std::size_t bytes() const { return pairs_.bytes(); }
 
  private:
   static void reflect(Bodies& bodies, std::size_t i, Tally& tally) {

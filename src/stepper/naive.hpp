@@ -53,6 +53,7 @@ class NaiveStep {
 
   /// With which disk i leaves the last step; a disk later in the order may since have given it another velocity.
   [[nodiscard]] const Vec2<double>& flight(const Bodies& /*bodies*/, std::size_t i) const { return flight_[i]; }
+  [[nodiscard]] std::size_t bytes() const { return (flight_.capacity() + place_.capacity()) * sizeof(Vec2<double>); }
 
  private:
   static void reflect(Bodies& bodies, std::size_t i, Tally& tally) {

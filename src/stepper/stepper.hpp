@@ -51,6 +51,8 @@ class Stepper {
   [[nodiscard]] Instant now() const { return now_; }
   [[nodiscard]] const Totals& totals() const { return tally_.totals; }
   [[nodiscard]] std::size_t disk_count() const { return bodies_.count(); }
+  /// Memory held, without the log.
+  [[nodiscard]] std::size_t bytes() const { return bodies_.bytes() + step_.bytes(); }
 
   [[nodiscard]] State state() const {
     Bodies seen = bodies_;

@@ -85,6 +85,49 @@ TEST(BenchCommand, ShowsNoSpeedOfAnAnswerThatItDoesNotBelieve) {
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("| 0.3 "), Not(HasSubstr("| 0.6 ")), HasSubstr("| 0.7 ")));
 }
 
+TEST(BenchCommand, ShowsWhatEveryEffectCosts) {
+  const Outcome outcome = bench({"--effects", "--disks", "256", "--collisions", "500"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, IsEmpty());
+  for (const char* box : {"periodic", "walls   "}) {
+    for (const char* fraction : {"0.3", "0.6"}) {
+      EXPECT_THAT(outcome.out, ContainsRegex(std::string("\\| ") + box + " \\| " + fraction + " +\\| all neutral together +\\|"));
+    }
+  }
+  for (const char* effect : {"restitution", "roughness", "gravity", "thermal wall", "obstacles", "growth", "square_well"})
+    EXPECT_THAT(outcome.out, HasSubstr(std::string("| ") + effect + " "));
+}
+
+TEST(BenchCommand, JsonHoldsThePriceOfEveryEffect) {
+  const Outcome outcome = bench({"--effects", "--json", "--disks", "256", "--collisions", "500"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result["carom"]["version"], build_info().version);
+  EXPECT_EQ(result["disks"], 256);
+  EXPECT_TRUE(result["failed"].empty());
+  EXPECT_GT(result["rows"].size(), 20U);
+  for (const json& row : result["rows"]) {
+    EXPECT_TRUE(row["effect"].is_string());
+    EXPECT_TRUE(row["neutral"].is_object() || row["acting"].is_object()) << row;
+    EXPECT_GT(row["lean_seconds_per_collision"], 0.0);
+    for (const char* state : {"neutral", "acting"}) {
+      if (row[state].is_null()) continue;
+      EXPECT_LE(row[state]["least"], row[state]["ratio"]);
+      EXPECT_LE(row[state]["ratio"], row[state]["most"]);
+    }
+  }
+}
+
+TEST(BenchCommand, MeasuresEffectsAtOneSize) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--disks", "64", "--disks", "100"}, {"--large"}}) {
+    std::vector<std::string> all = {"--effects"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = bench(all);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, StartsWith("carom: --effects: "));
+  }
+}
+
 TEST(BenchCommand, RefusesSizesThatAreNone) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"--disks", "15"}, {"--disks", "100000001"}, {"--disks", "many"}, {"--collisions", "0"}}) {

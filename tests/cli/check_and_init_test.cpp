@@ -11,6 +11,7 @@ namespace carom::test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
@@ -41,6 +42,40 @@ TEST(CheckCommand, DescribesEachEffectAndNamesTheAbsent) {
                                  HasSubstr("  wall        left: velocities drawn anew at kT = 2\n"),
                                  HasSubstr("  wall        top: restitution 0.8\n"), HasSubstr("  obstacles   1 fixed disk\n"),
                                  HasSubstr("  not here    friction and spin, growing disks, a thermostat, shear, attraction\n")));
+}
+
+TEST(CheckCommand, SaysWhichEngineRunsTheSceneAndWhyAndHowMuchMemoryItTakes) {
+  const TemporaryDirectory directory;
+  const std::string box = CAROM_SOURCE_DIR "/docs/scenes/box.toml";
+  EXPECT_THAT(
+      run_carom(directory.path(), {"check", box}).out,
+      ContainsRegex("\n  engine      fast: nothing but the collision rule and hard walls acts; [0-9.]+ kB, [0-9]+ bytes per "
+                    "disk\n"));
+  EXPECT_THAT(run_carom(directory.path(), {"check", box, "--set", "gravity.acceleration=[0.0, -1.0]"}).out,
+              HasSubstr("\n  engine      general: the scene asks for gravity; "));
+  EXPECT_THAT(run_carom(directory.path(), {"check", box, "--engine", "textbook"}).out,
+              HasSubstr("\n  engine      textbook: it was asked for; "));
+}
+
+TEST(CheckCommand, SaysWhatTheRunWillCost) {
+  const TemporaryDirectory directory;
+  const std::string gas = CAROM_SOURCE_DIR "/docs/scenes/gas.toml";
+  const auto cost = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"check", gas});
+    const Outcome outcome = run_carom(directory.path(), more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.out;
+  };
+  // Nothing is so fast that it would come to the end of these in a fifth of a second, nor so slow that it would in none.
+  EXPECT_THAT(
+      cost({"--set", "run.time=1e6"}),
+      ContainsRegex("\n  cost        about .* and [0-9.e+]+ million collisions, as kinetic theory has it, on this machine \\(a "
+                    "trial of [0-9.]+ m?s: .* collisions per second\\)\n"));
+  EXPECT_THAT(cost({"--set", "run.time=1e6", "--set", "collision.restitution=0.9999"}),
+              ContainsRegex("\n  cost        about .* million collisions on this machine"));
+  EXPECT_THAT(cost({"--set", "run.time=1e-9", "--set", "run.sample_every=1e-9", "--set", "run.equilibrate={ time = 0.0 }"}),
+              HasSubstr("0 collisions on this machine (a trial ran to the end)\n"));
+  EXPECT_TRUE(fs::is_empty(directory.path()));
 }
 
 TEST(CheckCommand, ResolvedSceneResolvesToItself) {
