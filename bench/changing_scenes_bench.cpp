@@ -36,8 +36,8 @@ struct Change {
   std::uint64_t collisions = test::no_limit;
 };
 
-/// Packing fraction 0.3, e = 0.8, 200 collisions of every disk: the gas has lost nearly all of its energy, and most disks are in
-/// clusters. Collisions closer in time than any in the gas are elastic, or a cluster would come to a stand.
+/// Packing fraction 0.3, e = 0.8, 200 collisions of every disk: the gas has lost nearly all of its energy, and dense clusters
+/// have formed. Collisions closer in time than any in the gas are elastic, or a cluster would come to a stand.
 Change cooling(std::int64_t disks) {
   Change change{
       test::system_of(test::gas_scene(disks, 0.3, Boundary::periodic)), {}, forever, 100 * static_cast<std::uint64_t>(disks)};

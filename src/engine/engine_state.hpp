@@ -169,8 +169,8 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   frame_.scale = world_.scale(0.0);
   frame_.growth = world_.growth();
   make_lists();
-  if (World::plain) radius_ = {};  // nothing will ask for them again
-  start = State{};                 // makes room for what follows
+  if (World::plain) radius_ = std::vector<double>();  // nothing will ask for them again; {} alone would keep the memory
+  start = State{};                                    // makes room for what follows
   double half_width = std::min(suitable_half_width(), widest_);
   for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sigma_; rebuild(half_width)) half_width *= 0.7;
   find_wells();
