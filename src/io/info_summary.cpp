@@ -57,6 +57,7 @@ std::string lines_of_effects(const Json& json) {
 std::string events_line(const Json& events) {
   std::string text = fmt::format("{} pair, {} wall", text_of(events.at("pair")), text_of(events.at("wall")));
   if (events.contains("obstacle")) text += fmt::format(", {} obstacle", text_of(events.at("obstacle")));
+  if (events.contains("well")) text += fmt::format(", {} at the edge of wells", text_of(events.at("well")));
   if (events.contains("kicks")) text += fmt::format(", {} kicks", text_of(events.at("kicks")));
   return text;
 }

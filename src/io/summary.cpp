@@ -20,8 +20,9 @@ Json events_json(const RunReport& report) {
   const Totals& totals = report.totals;
   Json json = {{"pair", totals.pair}, {"wall", totals.wall}, {"other", totals.other}, {"stale", totals.stale}};
   if (report.of_effects.obstacles) json["obstacle"] = totals.obstacle;
+  if (report.of_effects.bonds) json["well"] = totals.well;
   if (report.of_effects.thermostat) json["kicks"] = totals.kicks;
-  json["total"] = totals.pair + totals.wall + totals.other + totals.stale + totals.obstacle + totals.kicks;
+  json["total"] = totals.pair + totals.wall + totals.other + totals.stale + totals.obstacle + totals.well + totals.kicks;
   return json;
 }
 

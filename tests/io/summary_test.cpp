@@ -88,6 +88,7 @@ TEST(Summary, EveryDoubleReadsBackExactly) {
 RunReport report_with_effects() {
   RunReport report = report_of(scene_of(2, 2));
   report.totals.obstacle = 30;
+  report.totals.well = 5;
   report.totals.kicks = 7;
   EffectsReport& effects = report.of_effects;
   effects.walls.push_back({.name = "bottom", .momentum = 40.0, .energy = 3.0, .force = 8.0, .pressure = 2.0, .end = {}});
@@ -114,14 +115,14 @@ TEST(Summary, EveryEffectHasItsKeyAfterThoseOfEveryRun) {
                           "wall_seconds", "collisions_per_second", "energy", "momentum", "temperature", "pressure", "overlap",
                           "stopped", "title", "loop_seconds", "virial", "wall_impulse", "walls", "packing_fraction_end",
                           "dissipated", "obstacles", "thermostat", "growth", "shear", "square_well", "command_line"));
-  EXPECT_THAT(keys_of(json["events"]), ElementsAre("pair", "wall", "other", "stale", "obstacle", "kicks", "total"));
+  EXPECT_THAT(keys_of(json["events"]), ElementsAre("pair", "wall", "other", "stale", "obstacle", "well", "kicks", "total"));
   EXPECT_THAT(keys_of(json["energy"]), ElementsAre("initial", "final", "relative_drift", "given", "unexplained", "parts"));
   EXPECT_THAT(keys_of(json["temperature"]), ElementsAre("mean", "spin_mean"));
 }
 
 TEST(Summary, EffectsTellWhatTheyGaveAndTook) {
   const Json json = summary_of(report_with_effects());
-  EXPECT_EQ(json["events"]["total"], 1000 + 20 + 300 + 4 + 30 + 7);
+  EXPECT_EQ(json["events"]["total"], 1000 + 20 + 300 + 4 + 30 + 5 + 7);
   EXPECT_EQ(json["energy"]["unexplained"], (32.5 - 32.0 - 0.25) / 32.5);
   EXPECT_EQ(json["energy"]["parts"], (Json{{"kinetic", 20.0}, {"spin", 2.5}, {"potential", 7.0}, {"pistons", 3.0}}));
   EXPECT_EQ(json["walls"]["bottom"], (Json{{"momentum", 40.0}, {"energy", 3.0}, {"force", 8.0}, {"pressure", 2.0}}));
