@@ -3,6 +3,7 @@
 
 #include "scene/number_text.hpp"
 
+#include <fmt/format.h>
 #include <rapidcheck.h>
 
 #include <cmath>
@@ -25,6 +26,8 @@ inline double unit_interval() {
   return std::ldexp(static_cast<double>(*rc::gen::inRange<std::int64_t>(0, std::int64_t{1} << 53)), -53);
 }
 
-inline std::string pair_text(double a, double b) { return "[" + detail::number_text(a) + ", " + detail::number_text(b) + "]"; }
+inline std::string pair_text(double a, double b) {
+  return fmt::format("[{}, {}]", detail::number_text(a), detail::number_text(b));
+}
 
 }  // namespace carom::testing_support
