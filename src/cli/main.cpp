@@ -15,6 +15,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <stdexcept>
 
 namespace {
 
@@ -31,6 +32,8 @@ ExitCode run_program(int argc, char** argv) {
   } catch (const carom::SceneError& error) {
     return complain(exit_usage, error.what());
   } catch (const UsageError& error) {
+    return complain(exit_usage, error.what());
+  } catch (const std::invalid_argument& error) {  // what the library refuses, such as an engine that does not cover the scene
     return complain(exit_usage, error.what());
   } catch (const std::bad_alloc&) {
     return complain(exit_failed, "there is not enough memory");
