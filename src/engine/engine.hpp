@@ -322,6 +322,7 @@ class Engine {
   void start_queue();
   /// What an epoch begins with once everything counts from it.
   void go_on();
+  /// The frame of the lines has fallen far: it goes back to the box, with new lists.
   void draw_up_frame();
   /// The sides of the box have moved out so far that coordinates get short of room.
   void widen();

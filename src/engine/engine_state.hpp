@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <numeric>
 #if defined(__unix__)
 #include <unistd.h>
@@ -96,7 +97,7 @@ inline double largest_scale(const Box& box, const Disks& disks, const Effects& e
   if (!effects.growth || effects.growth->rate == 0.0) return scale;
   double squares = 0.0;
   for (const double radius : disks.radius) squares += radius * radius;
-  const double fraction = 3.141592653589793 * squares / box.area();
+  const double fraction = std::numbers::pi * squares / box.area();
   return scale * std::sqrt(effects.growth->packing_fraction.value_or(1.0) / fraction);  // no disks fill more than the box
 }
 
