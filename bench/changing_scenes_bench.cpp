@@ -5,11 +5,8 @@
 // No time is reported of a run in which energy is not what went in and came out, or whose plan at the end is not what an
 // independent search finds.
 
-#include "effects/any_impact.hpp"
-#include "effects/world.hpp"
-#include "engine/engine.hpp"
-#include "engine/textbook.hpp"
 #include "observe/mechanics.hpp"
+#include "support/engines.hpp"
 #include "support/systems.hpp"
 
 #include <benchmark/benchmark.h>
@@ -24,9 +21,6 @@
 namespace {
 
 using namespace carom;
-
-using Fast = Engine<AnyImpact<double>, EqualDisks, AnyWorld>;
-using Textbook = TextbookEngine<double>;
 
 /// A start, what acts, and the time or number of collisions at which all is over.
 struct Change {
@@ -69,8 +63,7 @@ double crowding(const Box& box, const State& state) {
   return count.maxCoeff() / count.mean();
 }
 
-template <class Engine>
-std::string fault_of(const Change& change, const Engine& engine) {
+std::string fault_of(const Change& change, const test::AnyEngine& engine) {
   const Totals& totals = engine.totals();
   const double before = kinetic_energy(change.start.disks, change.start.state);
   const double after = kinetic_energy(change.start.disks, engine.state());
@@ -82,11 +75,11 @@ std::string fault_of(const Change& change, const Engine& engine) {
   return broken.empty() ? "" : broken.front();
 }
 
-template <class Engine>
-void run(benchmark::State& state, const Change& change) {
+void run(benchmark::State& state, const std::string& name, const Change& change) {
   double seconds = 0.0, pairs = 0.0;
   for (auto _ : state) {
-    Engine engine(change.start.box, change.start.disks, change.start.state, change.effects);
+    const auto made = test::make_engine(name, change.start, change.effects);
+    test::AnyEngine& engine = *made;
     const std::clock_t begin = std::clock();
     engine.run_until(change.end, change.collisions, test::no_limit);
     const double took = static_cast<double>(std::clock() - begin) / static_cast<double>(CLOCKS_PER_SEC);
@@ -105,18 +98,16 @@ void run(benchmark::State& state, const Change& change) {
   state.counters["collisions/s"] = pairs / seconds;
 }
 
-template <class Engine>
-void cooling_gas(benchmark::State& state) {
-  run<Engine>(state, cooling(state.range(0)));
-}
-template <class Engine>
-void growing_disks(benchmark::State& state) {
-  run<Engine>(state, growing(state.range(0)));
-}
+void cooling_gas(benchmark::State& state, const std::string& engine) { run(state, engine, cooling(state.range(0))); }
+void growing_disks(benchmark::State& state, const std::string& engine) { run(state, engine, growing(state.range(0))); }
 
-BENCHMARK(cooling_gas<Fast>)->Arg(10'000)->Iterations(3)->UseManualTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(cooling_gas<Textbook>)->Arg(10'000)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(growing_disks<Fast>)->Arg(10'000)->Iterations(3)->UseManualTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(growing_disks<Textbook>)->Arg(10'000)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(cooling_gas, general, "general")->Arg(10'000)->Iterations(3)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(cooling_gas, textbook, "textbook")->Arg(10'000)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(growing_disks, general, "general")->Arg(10'000)->Iterations(3)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(growing_disks, textbook, "textbook")
+    ->Arg(10'000)
+    ->Iterations(1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

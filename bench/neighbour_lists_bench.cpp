@@ -1,10 +1,9 @@
 // Neighbour lists alone, in a gas at equilibrium: one disk gets a new cage, and all lists are made anew. Before any time is
 // taken the lists are held against a search through all disks.
 
-#include "effects/specular.hpp"
-#include "engine/engine.hpp"
 #include "neighbours/cage_tuner.hpp"
 #include "neighbours/neighbour_lists.hpp"
+#include "support/engines.hpp"
 #include "support/systems.hpp"
 
 #include <benchmark/benchmark.h>
@@ -29,9 +28,9 @@ class Gas {
       : system_(test::system_of(test::gas_scene(disks, packing_fraction, Boundary::periodic))),
         axes_{{system_.box, 0, 0.0}, {system_.box, 1, 0.0}},
         lists(axes_[0], axes_[1], system_.disks.radius) {
-    Engine<Elastic<Specular>, EqualDisks, PlainWorld> engine(system_.box, system_.disks, system_.state);
-    engine.run_until(forever, 10 * disks, test::no_limit);
-    const State state = engine.state();
+    const auto engine = test::make_engine("fast", system_);
+    engine->run_until(forever, 10 * disks, test::no_limit);
+    const State state = engine->state();
     std::uniform_real_distribution<double> angle(0.0, 2.0 * std::numbers::pi);
     half_width = CageTuner::first_half_width(1.0, system_.box.area() / disks);
     for (Eigen::Index i = 0; i < disks; ++i) {

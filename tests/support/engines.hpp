@@ -15,11 +15,10 @@ namespace carom::test {
 
 using AnyEngine = detail::AnyEngine;
 
-inline std::unique_ptr<AnyEngine> make_engine(const std::string& name, const System& system,
-                                              CollisionRule rule = CollisionRule::specular) {
+inline std::unique_ptr<AnyEngine> make_engine(const std::string& name, const System& system, const Effects& effects) {
   Scene scene;
   scene.box = system.box;
-  scene.effects.collision.rule = rule;
+  scene.effects = effects;
   const Start start{system.disks, system.state};
   for (const auto& entry : detail::catalogue()) {
     if (entry.name != name) continue;
@@ -27,6 +26,13 @@ inline std::unique_ptr<AnyEngine> make_engine(const std::string& name, const Sys
     return entry.make(scene, start.disks, start.state);
   }
   throw std::invalid_argument("there is no engine " + name);
+}
+
+inline std::unique_ptr<AnyEngine> make_engine(const std::string& name, const System& system,
+                                              CollisionRule rule = CollisionRule::specular) {
+  Effects effects;
+  effects.collision.rule = rule;
+  return make_engine(name, system, effects);
 }
 
 /// The same for a scene with all that acts in it.

@@ -1,0 +1,31 @@
+// From a scene to the fast engine with every effect, with the leanest layout that its disks allow.
+
+#include "engine/engine.hpp"
+#include "simulation/catalogue.hpp"
+
+#include <utility>
+
+namespace carom::detail {
+
+namespace {
+
+template <class Layout>
+using General = Engine<AnyImpact<double>, Layout, AnyWorld>;
+
+template <class Layout>
+std::unique_ptr<AnyEngine> make(const Scene& scene, const Disks& disks, State start) {
+  return std::make_unique<EngineAdapter<General<Layout>>>(scene.box, disks, std::move(start), scene.effects, scene.run.seed);
+}
+
+}  // namespace
+
+std::string why_not_general(const Scene& scene, const Disks& disks) {
+  return General<AnyDisks>::why_not(scene.box, disks, scene.effects);
+}
+
+std::unique_ptr<AnyEngine> make_general(const Scene& scene, const Disks& disks, State start) {
+  return EqualDisks::covers(disks) ? make<EqualDisks>(scene, disks, std::move(start))
+                                   : make<AnyDisks>(scene, disks, std::move(start));
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,24 @@
+#pragma once
+// From a scene to the fast engine where nothing but a collision rule and hard walls act, with the leanest layout that its disks
+// allow. One rule is compiled in one file.
+
+#include "effects/elastic.hpp"
+#include "engine/engine.hpp"
+#include "simulation/catalogue.hpp"
+
+#include <memory>
+#include <utility>
+
+namespace carom::detail {
+
+template <class Rule, class Layout>
+using LeanAdapter = EngineAdapter<Engine<Elastic<Rule>, Layout, PlainWorld>>;
+
+template <class Rule>
+std::unique_ptr<AnyEngine> make_lean(const Scene& scene, const Disks& disks, State start) {
+  if (EqualDisks::covers(disks))
+    return std::make_unique<LeanAdapter<Rule, EqualDisks>>(scene.box, disks, std::move(start), scene.effects, scene.run.seed);
+  return std::make_unique<LeanAdapter<Rule, AnyDisks>>(scene.box, disks, std::move(start), scene.effects, scene.run.seed);
+}
+
+}  // namespace carom::detail
