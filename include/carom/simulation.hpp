@@ -33,9 +33,10 @@ enum class StopReason {
   collapsed,      ///< time has stopped: inelastic disks collide at ever shorter intervals (see elastic_below)
   grown,          ///< the packing fraction or pressure at which growth is to end was reached
   no_collisions,  ///< only a number of collisions was asked for, and no pair will ever (or seems ever to) collide
+  invalid_state,  ///< check_invariants() found a fault: RunResult::faults says which
 };
 
-/// "time", "collisions", "interrupted", "jammed", "collapsed", "grown", "no_collisions"
+/// "time", "collisions", "interrupted", "jammed", "collapsed", "grown", "no_collisions", "invalid_state"
 std::string to_string(StopReason reason);
 
 /// The method that exact events replace: move by v dt, look for contacts, move on.
@@ -142,13 +143,16 @@ struct RunHooks {
   std::function<void(std::span<const Event> events)> events;        ///< batches of collisions, in order
   std::function<void(const Progress& progress)> block;              ///< after about every collision per disk, at collisions
   std::function<bool(const Progress& progress)> proceed;            ///< several times a second; false stops the run
+  std::uint64_t verify_every = 0;  ///< events from one check_invariants() to the next; 0 for no checks
 };
 
 struct RunResult {
   StopReason stopped = StopReason::time;
   std::uint64_t samples = 0;
-  double loop_seconds = 0.0;  ///< in the event loop of the measured run
-  bool measured = true;       ///< false where the run ended while it was still equilibrating
+  double loop_seconds = 0.0;        ///< in the event loop of the measured run
+  bool measured = true;             ///< false where the run ended while it was still equilibrating
+  std::uint64_t verified = 0;       ///< checks of the invariants, the last of them at the end
+  std::vector<std::string> faults;  ///< of the last of them; the run has ended there
 };
 
 /// Runs the scene's whole schedule: equilibrate, reset the clock, then sample until time or collisions are reached.

@@ -62,6 +62,20 @@ struct Event {
   Eigen::Vector2d partner_velocity = Eigen::Vector2d::Zero();  ///< of `partner`, just after; zero for a wall
 };
 
+/// How hard a run was on the arithmetic: near misses since the start of the measured run. None of them is an error; u is the unit
+/// of rounding of the engine's numbers.
+struct Numerics {
+  std::uint64_t at_once = 0;       ///< collisions at the very instant of the one before
+  std::uint64_t overlapping = 0;   ///< pairs that overlapped by more than 32 u sigma when they met: late, or so from the start
+  double deepest_overlap = 0.0;    ///< of pairs that met, over their contact distance
+  std::uint64_t grazing = 0;       ///< pairs that met with a discriminant within rounding of 0: they might as well have missed
+  std::uint64_t receding = 0;      ///< pairs that met, and receded already by rounding: nothing was exchanged
+  std::uint64_t epochs = 0;        ///< new zeros of the engine's clock
+  std::uint64_t outrun = 0;        ///< those begun early, for a disk suddenly too fast for the epoch
+  std::uint64_t lists_made = 0;    ///< times that all lists of neighbours, or all cells, were made anew
+  std::uint64_t longest_list = 0;  ///< of neighbours, of any disk at the last time that lists were made; 0 where there are none
+};
+
 /// Counts and sums over all events since the start of the measured run. Always kept, at no cost that can be measured.
 struct Totals {
   std::uint64_t pair = 0;   ///< collisions of two disks
@@ -83,6 +97,7 @@ struct Totals {
   double shear_energy = 0.0;   ///< energy that disks gained across the edges of a sheared box
   double virial_xy = 0.0;      ///< sum over pair collisions of r_x times the impulse along y; kept where there is shear
   Eigen::Vector2d obstacle_impulse = Eigen::Vector2d::Zero();  ///< that the obstacles took
+  Numerics numerics;
 };
 
 }  // namespace carom

@@ -83,6 +83,10 @@ void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
       ->type_name("NAME");
   command->add_option("--dt", options->dt, "Time step of a fixed-step method (default: the scene's run.sample_every)")
       ->type_name("DT");
+  command
+      ->add_option("--verify", options->verify,
+                   "Check the engine's invariants every K events, and end the run where one is broken")
+      ->type_name("K");
   command->add_flag("--verify-horizon", options->verify_horizon,
                     "Say too how far the trajectory can be trusted, by repeating its beginning in 24 to 113 bits");
   add_progress(*command, options->progress);

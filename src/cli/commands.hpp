@@ -40,6 +40,7 @@ struct RunOptions {
   bool quiet = false;
   bool verbose = false;
   bool verify_horizon = false;
+  std::optional<std::uint64_t> verify;  ///< events from one check of the invariants to the next; absent: no checks
   std::string progress = "auto";
   std::string method = "exact";  ///< or a fixed-step method
   std::optional<double> dt;      ///< of a fixed-step method; absent: the sampling grid's

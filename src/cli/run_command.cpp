@@ -50,6 +50,9 @@ Simulation simulation_for(const RunOptions& options, const Scene& scene, const s
   if (options.verify_horizon)
     throw UsageError(fmt::format("--verify-horizon holds exact trajectories against each other; leave it out, or --method {}",
                                  options.method));
+  if (options.verify)
+    throw UsageError(
+        fmt::format("--verify checks the plans of an event-driven engine; leave it out, or --method {}", options.method));
   if (engine != "auto")
     throw UsageError(fmt::format("--engine {}: a fixed-step method has no engine; leave out one of the two", engine));
   if (!options.dt && !scene.run.sample_every)
@@ -72,6 +75,12 @@ double tolerated_overlap(const std::string& engine) { return engine.find("float"
 
 /// Overlap is what fixed steps are known for; it is reported, and no failure.
 ExitCode exit_code_of(const RunReport& report) {
+  if (report.stopped == StopReason::invalid_state) {
+    const std::vector<std::string>& faults = report.verification->faults;
+    fmt::print(stderr, "carom: {}: check {} found {} at time {}: {}\n", report.scene, grouped(report.verification->checks),
+               counted(faults.size(), "fault"), report.time, faults.front());
+    return exit_invalid_state;
+  }
   if (!report.time_step && report.max_relative_overlap > tolerated_overlap(report.engine)) {
     fmt::print(stderr, "carom: {}: disks overlap by {:.1e} of their contact distance, far more than rounding explains\n",
                report.scene, report.max_relative_overlap);
@@ -83,9 +92,10 @@ ExitCode exit_code_of(const RunReport& report) {
 
 /// `measured_start`, where it is not null, receives the state in which the measured run begins.
 RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurements& measurements, ProgressMode mode,
-                          const StopRequest& stop, std::optional<State>* measured_start) {
+                          const StopRequest& stop, std::uint64_t verify_every, std::optional<State>* measured_start) {
   ProgressLine line(mode, simulation.scene());
   RunHooks hooks;
+  hooks.verify_every = verify_every;
   hooks.start = [&](const State& start) {
     measurements.start(start);
     if (measured_start != nullptr) *measured_start = start;
@@ -108,6 +118,7 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   const ProgressMode progress = progress_mode(options.progress, options.quiet);
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
+  if (options.verify == std::uint64_t{0}) throw UsageError("--verify 0: give the number of events between two checks, 1 or more");
   if (options.verify_horizon) require_no_effects(scene, "--verify-horizon");
   if (options.method != "exact") require_no_effects(scene, "--method");
   Simulation simulation = simulation_for(options, scene, engine);
@@ -131,10 +142,11 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
     RunWriter writer(directory, scene, simulation.disks(), provenance);
     RunMeasurements measurements(simulation);
     std::optional<State> start;
-    const RunResult result =
-        run_with_output(simulation, writer, measurements, progress, stop, options.verify_horizon ? &start : nullptr);
+    const RunResult result = run_with_output(simulation, writer, measurements, progress, stop, options.verify.value_or(0),
+                                             options.verify_horizon ? &start : nullptr);
     const double wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
     RunReport report = measurements.report(result, wall_seconds);
+    if (options.verify) report.verification = {*options.verify, result.verified, result.faults};
     if (start && result.stopped != StopReason::interrupted)
       report.horizon = horizon_with_progress(scene, *start, {.engine = simulation.engine()}, progress, stop);
     const std::vector<std::string> files = writer.finish(report);

@@ -43,6 +43,8 @@ std::string why_stopped(const RunReport& report, const Scene& scene) {
       return report.of_effects.growth
                  ? fmt::format("grown as far as asked, to packing fraction {:.5g}", report.of_effects.growth->packing_fraction)
                  : "grown as far as asked";
+    case StopReason::invalid_state:
+      return "stopped: an invariant of the engine is broken";
     case StopReason::no_collisions:
       return report.measured ? "stopped: no pair of disks collides any more"
                              : "stopped while equilibrating: no pair of disks collides";
@@ -74,6 +76,13 @@ std::string how_exact(const RunReport& report) {
   if (report.overlap_checked == 0) return text + row("worst overlap", "not checked");
   if (report.max_relative_overlap == 0.0) return text + row("worst overlap", "none", checked);
   return text + row("worst overlap", fmt::format("{:.1e} diameters", report.max_relative_overlap), checked);
+}
+
+std::string what_was_verified(const RunReport& report) {
+  if (!report.verification) return "";
+  const auto& [every, checks, faults] = *report.verification;
+  return row("invariants", faults.empty() ? "hold" : counted(faults.size(), "fault"),
+             fmt::format("checked {}, every {} events", checks == 1 ? "once" : grouped(checks) + " times", grouped(every)));
 }
 
 std::string why_there_is_no_Z(const RunReport& report, const Scene& scene) {
@@ -128,7 +137,7 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
 }  // namespace
 
 std::string terminal_summary(const RunReport& report, const Scene& scene, const Results& results) {
-  return heading(report, scene) + what_happened(report, scene) + "\n" + how_exact(report) + "\n" +
+  return heading(report, scene) + what_happened(report, scene) + "\n" + how_exact(report) + what_was_verified(report) + "\n" +
          what_it_measured(report, scene) + "\n" + how_far_to_trust(report) + where_the_files_are(results) +
          what_to_try_next(report, scene, results);
 }

@@ -26,6 +26,7 @@
 #include "effects/any_impact.hpp"
 #include "effects/elastic.hpp"
 #include "effects/world.hpp"
+#include "engine/contact_count.hpp"
 #include "engine/layout.hpp"
 #include "neighbours/cage_tuner.hpp"
 #include "neighbours/neighbour_lists.hpp"
@@ -128,8 +129,12 @@ class Engine {
     Vec2<double> va(a.v[0], a.v[1]), vb(b.v[0], b.v[1]);
     const Vec2<double> before_a = va, before_b = vb;
     const double scale = world_.scale(now_), radius_a = layout_.radius(a), radius_b = layout_.radius(b);
-    impact_.meet(separation(a, b), (radius_a + radius_b) * world_.growth(), {i, layout_.mass(a), radius_a * scale, va},
-                 {j, layout_.mass(b), radius_b * scale, vb}, now_, totals_);
+    const Vec2<double> r = separation(a, b);
+    const double growth = (radius_a + radius_b) * world_.growth();
+    count_contact<double>(r, va - vb, (radius_a + radius_b) * scale, growth, totals_.numerics);
+    last_collision_.count(now_, totals_.numerics);
+    impact_.meet(r, growth, {i, layout_.mass(a), radius_a * scale, va}, {j, layout_.mass(b), radius_b * scale, vb}, now_,
+                 totals_);
     plan(i).last_collided = plan(j).last_collided = ++stamp_;
     if (recording_) log_collision(i, j, va, vb);
     if (outruns_epoch(va) || outruns_epoch(vb)) [[unlikely]]
@@ -507,6 +512,7 @@ class Engine {
   std::uint64_t patience_;  ///< events at one instant after which time is taken to stand still
   std::uint64_t at_one_instant_ = 0;
   Totals totals_;
+  LastInstant last_collision_;
   bool recording_ = false;
   std::vector<carom::Event> log_;
 
@@ -537,8 +543,10 @@ class Engine {
   void reset_clock() {
     begin_epoch(now_);
     epoch_ = Instant{};
-    left_ -= totals_.other;  // wraps, as the difference to it will
+    left_ -= totals_.other;                                            // wraps, as the difference to it will
+    const std::uint64_t longest_list = totals_.numerics.longest_list;  // of now, not of the time before
     totals_ = Totals{};
+    totals_.numerics.longest_list = longest_list;
   }
 
   /// Something from outside gives disk i a new velocity and, where disks spin, a new spin. Returns the energy that it gained.

@@ -18,9 +18,10 @@ namespace carom {
 
 namespace detail {
 
-/// Root of the area per disk.
+/// Root of the area per disk. The area itself might overflow, and roots of lengths would round lengths in other units otherwise.
 inline double mean_spacing(const Box& box, std::size_t disks) {
-  return std::sqrt(box.lengths()[0]) * std::sqrt(box.lengths()[1] / static_cast<double>(std::max<std::size_t>(disks, 1)));
+  const Eigen::Vector2d lengths = box.lengths();
+  return lengths[0] * std::sqrt(lengths[1] / lengths[0] / static_cast<double>(std::max<std::size_t>(disks, 1)));
 }
 
 /// In spacings: how far beyond a wall a line may start at the epoch.
@@ -224,6 +225,7 @@ void Engine<Impact, Layout, World>::begin_epoch_between(std::int32_t i, const Ve
                                                         const Vec2<double>& vb) {
   const Vec2<double> fallen = world_.g() * now_;
   rebase(now_);
+  ++totals_.numerics.outrun;
   for (int k = 0; k < 2; ++k) line(i).v[k] = va[k] + fallen[k], line(j).v[k] = vb[k] + fallen[k];
   if (world_.growth() > 0.0 || falls()) return go_on();
   if constexpr (!World::plain) widen();
@@ -360,6 +362,8 @@ void Engine<Impact, Layout, World>::rebase(double now) {
   for (Plan& any : plans_) any.last_collided = 1;
   stamp_ = 1;
   impact_.rebase(now);
+  last_collision_.rebase();
+  ++totals_.numerics.epochs;
   world_.rebase(now);
   frame_.scale = world_.scale(0.0);
   epoch_ = instant(now);
@@ -430,9 +434,13 @@ void Engine<Impact, Layout, World>::tune_cages(double elapsed) {
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::rebuild(double half_width) {
   frame_.half_width = half_width;
+  ++totals_.numerics.lists_made;
   std::vector<CageCentre> centres(lines_.size());
   for (std::int32_t i = 0; i < count(); ++i) centres[static_cast<std::size_t>(i)] = cage_around(i, now_);
   lists_.rebuild(half_width, centres);
+  totals_.numerics.longest_list = 0;
+  for (std::int32_t i = 0; i < count(); ++i)
+    totals_.numerics.longest_list = std::max<std::uint64_t>(totals_.numerics.longest_list, lists_.count(i));
 
   // Nearest images are right as long as a pair that may meet is less than half a box apart, now and along its lines back
   // to the epoch. What the cages leave of that belongs to the two lines.

@@ -19,6 +19,7 @@
 #include "effects/obstacles.hpp"
 #include "effects/shear.hpp"
 #include "effects/walls.hpp"
+#include "engine/contact_count.hpp"
 #include "engine/epoch.hpp"
 #include "neighbours/cell_grid.hpp"
 #include "queue/event_queue.hpp"
@@ -106,12 +107,15 @@ class TextbookEngine {
     const Real image_speed = Real(shift[1]) * sliding_.speed();
     b.v[0] += image_speed;  // as the image that i meets
     const Real image_before = b.v[0];
+    count_contact<Real>(r, a.v - b.v, radius_at(a, now_) + radius_at(b, now_), (a.radius + b.radius) * growth_, totals_.numerics);
+    last_collision_.count(now_, totals_.numerics);
     impact_.meet(r, (a.radius + b.radius) * growth_, {i, a.mass, radius_at(a, now_), a.v}, {j, b.mass, radius_at(b, now_), b.v},
                  now_, totals_);
     if (image_speed != 0) totals_.shear_energy += static_cast<double>(b.mass * (image_before - b.v[0]) * image_speed);
     b.v[0] -= image_speed;
     if (recording_) log_event(i, j, a.v, b.v);
     if (outruns_epoch(a.v, now_, box_size_) || outruns_epoch(b.v, now_, box_size_)) {
+      ++totals_.numerics.outrun;
       begin_epoch(now_);
       return;
     }
@@ -288,6 +292,9 @@ class TextbookEngine {
     now_ = 0;
     epoch_length_ = suitable_epoch_length();
     suit_grid();
+    last_collision_.rebase();
+    ++totals_.numerics.epochs;
+    ++totals_.numerics.lists_made;
     grid_.clear();
     for (std::int32_t i = 0; i < count(); ++i) grid_.insert(i, record(i).r);
     std::vector<QueuedEvent<Real>> events;
@@ -416,6 +423,7 @@ class TextbookEngine {
   std::uint64_t patience_;            ///< events at one instant after which time is taken to stand still
   std::uint64_t at_one_instant_ = 0;  ///< events since time last advanced
   Totals totals_;
+  LastInstant last_collision_;
   bool recording_ = false;
   std::vector<Event> log_;
 

@@ -62,7 +62,15 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
                           {"right", number(totals.wall_impulse[1])},
                           {"bottom", number(totals.wall_impulse[2])},
                           {"top", number(totals.wall_impulse[3])}};
+  const Numerics& numerics = totals.numerics;
+  json["numerics"] = {
+      {"at_once", numerics.at_once}, {"overlapping", numerics.overlapping}, {"deepest_overlap", number(numerics.deepest_overlap)},
+      {"grazing", numerics.grazing}, {"receding", numerics.receding},       {"epochs", numerics.epochs},
+      {"outrun", numerics.outrun},   {"lists_made", numerics.lists_made},   {"longest_list", numerics.longest_list}};
   detail::add_effects(json, report);
+  if (report.verification)
+    json["verified"] = {
+        {"every", report.verification->every}, {"checks", report.verification->checks}, {"faults", report.verification->faults}};
   if (report.horizon) json["horizon"] = horizon_json(*report.horizon);
   json["command_line"] = provenance.command_line;
   // A path or a command line need not be UTF-8, and JSON must be.

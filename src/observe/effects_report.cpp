@@ -38,9 +38,7 @@ std::optional<double> energy_given(const Effects& effects, const Totals& totals)
   const auto gives = [](const WallProperties& wall) { return wall.restitution || wall.temperature || wall.velocity; };
   const bool something = effects.collision.restitution || effects.collision.roughness || effects.growth || effects.thermostat ||
                          effects.shear || any_wall(effects, gives);
-  const bool untold =
-      any_wall(effects, [](const WallProperties& wall) { return wall.mass && (wall.restitution || wall.temperature); });
-  if (!something || untold) return std::nullopt;
+  if (!something || gives_untold(effects)) return std::nullopt;
   double given = totals.kick_energy + totals.growth_energy + totals.shear_energy - totals.dissipated;
   for (std::size_t side = 0; side < 4; ++side)
     if (!effects.walls[side].mass) given -= totals.wall_energy[side];
@@ -56,6 +54,12 @@ ShearReport shear_report(const Scene& scene, const Totals& totals, const State& 
 }
 
 }  // namespace
+
+bool gives_untold(const Effects& effects) {
+  const bool growing = effects.growth && effects.growth->rate > 0.0;
+  return (growing && effects.collision.roughness) ||
+         any_wall(effects, [](const WallProperties& wall) { return wall.mass && (wall.restitution || wall.temperature); });
+}
 
 EffectsReport effects_report(const Scene& scene, const Disks& disks, const Totals& totals, const State& end) {
   const Effects& effects = scene.effects;

@@ -57,10 +57,14 @@ struct EffectsReport {
   std::optional<ShearReport> shear;
   std::optional<std::uint64_t> bonds;  ///< at the end
 
-  /// Energy that disks and pistons got from outside, less what they lost; where anything gives or takes any. Empty too where a
-  /// piston is inelastic or warm: what it took and what it lost are then not told apart.
+  /// Energy that disks and pistons got from outside, less what they lost; where anything gives or takes any. Empty too where
+  /// gives_untold().
   std::optional<double> energy_given;
 };
+
+/// Whether energy comes or goes that nobody counts: a piston that is inelastic or warm does not tell what it took from what it
+/// lost, and disks that spin and grow gain moment of inertia in flight.
+[[nodiscard]] bool gives_untold(const Effects& effects);
 
 /// From the totals of a run and its last state. What only samples tell (spin_temperature, pressure_xy_of_flight, viscosity) is
 /// left empty.

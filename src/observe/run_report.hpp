@@ -17,6 +17,13 @@
 
 namespace carom {
 
+/// What check_invariants() found in a run that was to be verified.
+struct Verification {
+  std::uint64_t every = 0;  ///< events from one check to the next
+  std::uint64_t checks = 0;
+  std::vector<std::string> faults;  ///< of the last check, which ended the run; empty where all is well
+};
+
 struct RunReport {
   std::string scene;  ///< the scene's source
   std::string title;
@@ -48,7 +55,8 @@ struct RunReport {
   std::uint64_t overlap_checked = 0;  ///< number of states checked
   StopReason stopped = StopReason::time;
   EffectsReport of_effects;
-  std::optional<Horizon> horizon;  ///< of the start of the measured run, where it was asked for
+  std::optional<Verification> verification;  ///< where it was asked for
+  std::optional<Horizon> horizon;            ///< of the start of the measured run, where it was asked for
   bool measured = true;  ///< false where the run ended while it was still equilibrating: clock and totals are of that part
 
   /// (final - initial) / initial, 0 where the initial energy is 0. Where potential energy may cancel kinetic energy it is

@@ -49,6 +49,7 @@ class Schedule {
     engine_.record_events(static_cast<bool>(hooks_.events));
     measure();
     engine_.record_events(false);
+    if (hooks_.verify_every > 0 && (since_verified_ > 0 || result_.verified == 0)) verify();
     return result_;
   }
 
@@ -72,7 +73,9 @@ class Schedule {
     if (!advance(until, collisions) && result_.stopped != StopReason::collisions) return false;
     engine_.reset_clock();
     equilibrating_ = false;
+    const std::uint64_t verified = result_.verified;
     result_ = {};
+    result_.verified = verified;
     return true;
   }
 
@@ -113,6 +116,7 @@ class Schedule {
       }
       const bool arrived = run_stretch(target, std::min(collisions, next_block_));
       if (hooks_.events) hand_on_events();
+      if (hooks_.verify_every > 0 && since_verified_ >= hooks_.verify_every && !verify()) return false;
       if (engine_.totals().pair >= next_block_) {
         if (hooks_.block) hooks_.block(progress());
         next_block_ += block_collisions_;
@@ -129,11 +133,25 @@ class Schedule {
     const std::uint64_t pairs = engine_.totals().pair;
     const std::uint64_t before = all_events(engine_.totals());
     const auto started = Clock::now();
-    const bool arrived = engine_.run_until(target, pair_limit, stretch_events);
+    const bool arrived = engine_.run_until(target, pair_limit, std::min(stretch_events, until_verified()));
     result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
     const std::uint64_t events = all_events(engine_.totals()) - before;
+    since_verified_ += events;
     without_collision_ = engine_.totals().pair > pairs ? 0 : without_collision_ + events;
     return arrived;
+  }
+
+  /// Events until the invariants are due to be checked.
+  [[nodiscard]] std::uint64_t until_verified() const {
+    return hooks_.verify_every > since_verified_ ? hooks_.verify_every - since_verified_ : no_limit;
+  }
+
+  /// Checks the invariants; false where one of them is broken.
+  bool verify() {
+    since_verified_ = 0;
+    ++result_.verified;
+    result_.faults = engine_.check_invariants();
+    return result_.faults.empty() || stop(StopReason::invalid_state);
   }
 
   /// Only collisions can end this, and none will come.
@@ -161,6 +179,7 @@ class Schedule {
   const std::uint64_t disks_;
   std::uint64_t next_block_ = no_limit;
   std::uint64_t without_collision_ = 0;
+  std::uint64_t since_verified_ = 0;  ///< events
   bool equilibrating_ = false;
   bool ends_by_time_ = false;
   Clock::time_point last_look_ = Clock::now();

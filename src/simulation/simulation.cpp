@@ -88,6 +88,8 @@ std::string to_string(StopReason reason) {
       return "grown";
     case StopReason::no_collisions:
       return "no_collisions";
+    case StopReason::invalid_state:
+      return "invalid_state";
   }
   return "unknown";
 }

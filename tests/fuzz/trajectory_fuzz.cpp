@@ -1,0 +1,29 @@
+// Bytes as a file that a run may have left behind, whole, cut short or damaged: it is described or refused in a sentence.
+
+#include "io/info.hpp"
+
+#include <carom/scene.hpp>
+
+#include <unistd.h>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  // The first byte says what the file is called.
+  constexpr const char* names[] = {"trajectory.h5md", "summary.json", "trajectory.xyz", "samples.csv"};
+  static const std::filesystem::path directory =
+      std::filesystem::temp_directory_path() / ("carom_fuzz_" + std::to_string(getpid()));
+  std::filesystem::create_directories(directory);
+  const std::filesystem::path file = directory / names[data[0] % 4];
+  std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(data + 1), static_cast<std::streamsize>(size - 1));
+  try {
+    (void)carom::describe_file(file);
+  } catch (const carom::OutputError&) {
+  } catch (const carom::SceneError&) {
+  }
+  std::filesystem::remove(file);
+  return 0;
+}

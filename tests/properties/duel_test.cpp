@@ -1,0 +1,35 @@
+// Random scenes with any effects: every engine that covers one stays sound and accounts for its energy, and all see the same
+// events.
+
+#include "support/duel.hpp"
+#include "support/decoded_scene.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+/// Enough bytes for any scene that they may stand for.
+rc::Gen<std::vector<std::uint8_t>> any_bytes() {
+  return rc::gen::container<std::vector<std::uint8_t>>(160, rc::gen::arbitrary<std::uint8_t>());
+}
+
+RC_GTEST_PROP(PropertyDuel, EnginesStaySoundAndAgreeOnScenesWithAnyEffects, ()) {
+  const std::string text = decoded_scene(*any_bytes());
+  Scene scene;
+  try {
+    scene = parse_scene(text);
+    RC_LOG() << text;
+    RC_ASSERT(duel(scene, 400) == "");
+  } catch (const SceneError&) {
+    RC_DISCARD("the scene check refuses it");
+  }
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,125 @@
+// Runs whose invariants are checked on the way, and what a run says of its near misses.
+
+#include "support/effect_scenes.hpp"
+#include "support/engines.hpp"
+#include "support/scenes.hpp"
+#include "support/systems.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+
+namespace carom::test {
+namespace {
+
+Scene gas() {
+  Scene scene = gas_scene(36, 0.5, Boundary::periodic);
+  scene.run.collisions = 1000;
+  return scene;
+}
+
+TEST(Verify, ChecksEverySoManyEventsAndAtTheEnd) {
+  Simulation simulation = make_simulation(gas());
+  RunHooks hooks;
+  hooks.verify_every = 500;
+  const RunResult result = run_schedule(simulation, hooks);
+  const Totals& totals = simulation.totals();
+  const std::uint64_t events = totals.pair + totals.other + totals.stale;
+  EXPECT_EQ(result.stopped, StopReason::collisions);
+  EXPECT_TRUE(result.faults.empty());
+  // An epoch that begins is a step of the loop too, which may put a check off by one event.
+  EXPECT_NEAR(static_cast<double>(result.verified), static_cast<double>(events / 500 + 1), 1.0);
+}
+
+TEST(Verify, ChecksLeaveNoTraceInTheBits) {
+  Simulation plain = make_simulation(gas()), verified = make_simulation(gas());
+  RunHooks hooks;
+  hooks.verify_every = 7;
+  run_schedule(plain);
+  run_schedule(verified, hooks);
+  EXPECT_TRUE(same_bits(plain.state(), verified.state()));
+}
+
+TEST(Verify, ARunWithoutEventsIsCheckedOnce) {
+  Scene scene = gas();
+  scene.species.front().velocities = AtRest{};
+  scene.run.collisions.reset();
+  scene.run.time = 1.0;
+  Simulation simulation = make_simulation(scene);
+  RunHooks hooks;
+  hooks.verify_every = 100;
+  EXPECT_EQ(run_schedule(simulation, hooks).verified, 1U);
+}
+
+TEST(Verify, ABrokenInvariantEndsTheRunWithItsSentence) {
+  // Two disks one inside the other: no engine gets there, but a state given by a program may.
+  Scene scene = scene_of(box_of(4.0, 4.0, Boundary::periodic), {{{1.0, 1.0}, {1.0, 0.0}}, {{3.0, 1.0}, {-1.0, 0.0}}});
+  scene.run.time = 10.0;
+  State start = draw_start(scene).state;
+  start.positions.col(1) = Eigen::Vector2d(1.5, 1.0);
+  for (const char* engine : {"fast", "textbook"}) {
+    Simulation simulation = make_simulation(scene, start, engine);
+    RunHooks hooks;
+    hooks.verify_every = 1;
+    const RunResult result = run_schedule(simulation, hooks);
+    EXPECT_EQ(result.stopped, StopReason::invalid_state) << engine;
+    ASSERT_FALSE(result.faults.empty()) << engine;
+    EXPECT_NE(result.faults.front().find("disks 0 and 1 overlap by 0.5"), std::string::npos) << result.faults.front();
+    EXPECT_EQ(simulation.totals().pair, 1U) << "the first check comes after the first event";
+  }
+}
+
+// ------------------------------------------------------------------------------------------------------- near misses
+
+Numerics numerics_of(const Scene& scene, const std::string& engine, double time) {
+  return run(scene, engine, time).simulation.totals().numerics;
+}
+
+TEST(Numerics, ThreeRowsThatCollideAtOneInstantAreTies) {
+  std::vector<Placed> disks;
+  for (const double y : {2.0, 4.0, 6.0}) {
+    disks.push_back({{2.0, y}, {1.0, 0.0}});
+    disks.push_back({{6.0, y}, {-1.0, 0.0}});
+  }
+  const Scene scene = scene_of(box_of(8.0, 8.0, Boundary::walls), disks);
+  for (const char* engine : {"fast", "general", "textbook"}) EXPECT_EQ(numerics_of(scene, engine, 2.0).at_once, 2U) << engine;
+}
+
+TEST(Numerics, APassAtExactlyOneDiameterGrazes) {
+  const Scene scene = scene_of(box_of(8.0, 8.0, Boundary::walls), {{{2.0, 2.0}, {1.0, 0.0}}, {{5.0, 3.0}, {-1.0, 0.0}}});
+  const Scene closer = scene_of(box_of(8.0, 8.0, Boundary::walls), {{{2.0, 2.0}, {1.0, 0.0}}, {{5.0, 2.875}, {-1.0, 0.0}}});
+  for (const char* engine : {"fast", "general", "textbook"}) {
+    EXPECT_EQ(numerics_of(scene, engine, 2.0).grazing, 1U) << engine;
+    EXPECT_EQ(numerics_of(closer, engine, 2.0).grazing, 0U) << engine;
+  }
+}
+
+TEST(Numerics, AStartThatOverlapsIsSeenAtItsFirstContact) {
+  Scene scene = scene_of(box_of(8.0, 8.0, Boundary::walls), {{{2.0, 2.0}, {1.0, 0.0}}, {{5.0, 2.0}, {-1.0, 0.0}}});
+  State start = draw_start(scene).state;
+  start.positions(0, 1) = 3.0 - 0x1p-30;
+  for (const char* engine : {"fast", "general", "textbook"}) {
+    Simulation simulation = make_simulation(scene, start, engine);
+    simulation.run_until(1.0);
+    EXPECT_EQ(simulation.totals().numerics.overlapping, 1U) << engine;
+    // Squares of lengths near 1, each rounded by 2^-53 or less.
+    EXPECT_NEAR(simulation.totals().numerics.deepest_overlap, 0x1p-30, 0x1p-52) << engine;
+  }
+}
+
+TEST(Numerics, ADiskSuddenlyMuchFasterOutrunsItsEpoch) {
+  // A light disk between two heavy ones that close in on it.
+  const Scene scene =
+      scene_of(box_of(64.0, 4.0, Boundary::walls),
+               {{{20.0, 2.0}, {1.0, 0.0}, 0.5, 1e8}, {{32.0, 2.0}, {0.0, 0.0}, 0.5, 1e-4}, {{44.0, 2.0}, {-1.0, 0.0}, 0.5, 1e8}});
+  for (const char* engine : {"fast", "general", "textbook"}) EXPECT_GT(numerics_of(scene, engine, 10.99).outrun, 0U) << engine;
+}
+
+TEST(Numerics, LongestListIsKnownFromTheStart) {
+  EXPECT_GE(make_simulation(gas(), "fast").totals().numerics.longest_list, 6U);
+  EXPECT_EQ(make_simulation(gas(), "textbook").totals().numerics.longest_list, 0U);
+}
+
+}  // namespace
+}  // namespace carom::test

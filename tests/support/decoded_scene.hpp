@@ -1,0 +1,145 @@
+#pragma once
+// From bytes to a small scene, for property tests and fuzzing: any effects, hostile numbers. Every string of bytes is a scene,
+// though the scene check may refuse it; what is refused is as much a part of the game as what runs.
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace carom::test {
+
+/// Reads bytes one by one; after the last one there are zeros.
+class Bytes {
+ public:
+  explicit Bytes(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  std::uint8_t next() { return at_ < bytes_.size() ? bytes_[at_++] : std::uint8_t{0}; }
+  /// In [0, n).
+  int below(int n) { return next() % n; }
+  bool flag() { return (next() & 1) != 0; }
+  /// In [0, 1], both ends included.
+  double unit() { return static_cast<double>(next()) / 255.0; }
+  /// Positive: most are ordinary, some far from it.
+  double positive() {
+    constexpr std::array<double, 16> values = {1.0,  1.0,  1.0,   2.0,   0.5, 0.1, 3.0,  0.75,
+                                               1e-3, 1e-6, 1e-12, 1e-30, 1e3, 1e6, 1e12, 0x1.fffffffffffffp0};
+    return values[next() % values.size()];
+  }
+  /// A component of a velocity.
+  double component() {
+    constexpr std::array<double, 8> odd = {0.0, -0.0, 1.0, -1.0, 1e-9, -1e-30, 1e4, -1e7};
+    const std::uint8_t byte = next();
+    return byte < 32 ? odd[byte % odd.size()] : (static_cast<double>(byte) - 143.5) / 64.0;
+  }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+  std::size_t at_ = 0;
+};
+
+namespace decoding {
+
+/// Disks on the places of a lattice, each somewhere in its own square: as large as it fits, touching its neighbours at most.
+inline std::string decoded_disks(Bytes& bytes, const std::array<double, 4>& box) {
+  const int columns = 1 + bytes.below(4), rows = 1 + bytes.below(3);
+  const double a = (box[1] - box[0]) / columns, b = (box[3] - box[2]) / rows;
+  const double largest = 0.5 * std::fmin(a, b), speed = bytes.flag() ? 1.0 : bytes.positive();
+  const bool alike = bytes.flag();
+  double radius = 0.0, mass = 1.0;
+  std::string text;
+  for (int i = 0; i < columns * rows; ++i) {
+    if (i == 0 || !alike) {
+      constexpr std::array<double, 8> share = {0.999999, 1.0, 0.9, 0.7, 0.5, 0.3, 0.1, 1e-3};
+      radius = largest * share[static_cast<std::size_t>(bytes.below(8))];
+      mass = bytes.positive();
+    }
+    if (!alike && bytes.below(8) == 7) continue;  // a hole
+    const auto somewhere = [&](double lower, double width, int place) {
+      const double room = 0.5 * width - radius, centre = lower + width * (place + 0.5);
+      const std::uint8_t byte = bytes.next();
+      return byte == 255 ? centre : centre + 0.998 * room * (static_cast<double>(byte) / 127.0 - 1.0);
+    };
+    const double x = somewhere(box[0], a, i % columns), y = somewhere(box[2], b, i / columns);
+    const double vx = speed * bytes.component(), vy = speed * bytes.component();
+    text += fmt::format("[[disks]]\nradius = {}\nmass = {}\npositions = [[{}, {}]]\nvelocities = [[{}, {}]]\n", radius, mass, x,
+                        y, vx, vy);
+  }
+  return text;
+}
+
+inline std::string decoded_wall(Bytes& bytes) {
+  switch (bytes.below(6)) {
+    case 0:
+      return fmt::format("{{ temperature = {} }}", bytes.positive());
+    case 1:
+      return fmt::format("{{ velocity = {} }}", 0.1 * bytes.component());
+    case 2:
+      return fmt::format("{{ mass = {}, load = {} }}", bytes.positive(), bytes.positive());
+    case 3:
+      return fmt::format("{{ restitution = {} }}", bytes.unit());
+    case 4:
+      return fmt::format("{{ velocity = {}, restitution = {} }}", 0.1 * bytes.component(), bytes.unit());
+    default:
+      return "{ restitution = 1.0 }";
+  }
+}
+
+inline std::string decoded_effects(Bytes& bytes, const std::array<double, 4>& box, bool walls_x, bool walls_y) {
+  const double side = std::fmin(box[1] - box[0], box[3] - box[2]);
+  const int which = bytes.next();
+  std::string text;
+  if ((which & 1) != 0)
+    text +=
+        fmt::format("[gravity]\nacceleration = [{}, {}]\n", walls_x ? bytes.component() : 0.0, walls_y ? bytes.component() : 0.0);
+  if ((which & 2) != 0 && (walls_x || walls_y)) {
+    text += "[walls]\n";
+    for (const char* wall : {"left", "right", "bottom", "top"}) {
+      const bool along_x = wall[0] == 'l' || wall[0] == 'r';
+      if ((along_x ? walls_x : walls_y) && bytes.flag()) text += fmt::format("{} = {}\n", wall, decoded_wall(bytes));
+    }
+  }
+  if ((which & 4) != 0) text += fmt::format("[growth]\nrate = {}\n", 0.01 * bytes.positive());
+  if ((which & 8) != 0) text += fmt::format("[thermostat]\ntemperature = {}\nrate = {}\n", bytes.positive(), bytes.positive());
+  if ((which & 16) != 0) text += fmt::format("[shear]\nrate = {}\n", bytes.component());
+  if ((which & 32) != 0)
+    text += fmt::format("[square_well]\nwidth = {}\ndepth = {}\n", 1.0 + 0.5 * bytes.unit(), bytes.component());
+  if ((which & 64) != 0)
+    text += fmt::format("[[obstacles]]\ndisk = {{ centre = [{}, {}], radius = {} }}\n", box[0] + bytes.unit() * (box[1] - box[0]),
+                        box[2] + bytes.unit() * (box[3] - box[2]), 0.2 * side * bytes.positive());
+  if ((which & 128) != 0)
+    text += fmt::format("[[obstacles]]\nsegment = {{ from = [{}, {}], to = [{}, {}] }}\n",
+                        box[0] + bytes.unit() * (box[1] - box[0]), box[2] + bytes.unit() * (box[3] - box[2]),
+                        box[0] + bytes.unit() * (box[1] - box[0]), box[2] + bytes.unit() * (box[3] - box[2]));
+  return text;
+}
+
+}  // namespace decoding
+
+/// The scene in the words of the scene format.
+inline std::string decoded_scene(std::span<const std::uint8_t> data) {
+  Bytes bytes(data);
+  const double side = bytes.positive(), aspect = bytes.flag() ? 1.0 : 1.0 + 2.0 * bytes.unit();
+  constexpr std::array<double, 4> origins = {0.0, 0.0, -1.0, 1000.0};
+  const double x = side * origins[static_cast<std::size_t>(bytes.below(4))], y = bytes.flag() ? -0.5 * side : 0.0;
+  const std::array<double, 4> box = {x, x + side * aspect, y, y + side};
+  const int boundary = bytes.below(4);
+  const bool walls_x = (boundary & 1) != 0, walls_y = (boundary & 2) != 0;
+  std::string text = fmt::format("[box]\nx = [{}, {}]\ny = [{}, {}]\nboundary = {{ x = \"{}\", y = \"{}\" }}\n", box[0], box[1],
+                                 box[2], box[3], walls_x ? "walls" : "periodic", walls_y ? "walls" : "periodic");
+  text += decoding::decoded_disks(bytes, box);
+  const bool specular = bytes.flag();
+  text += fmt::format("[collision]\nrule = \"{}\"\n", specular ? "specular" : "reversal");
+  const int contact = bytes.next();
+  if ((contact & 1) != 0) text += fmt::format("restitution = {}\n", bytes.unit());
+  if ((contact & 2) != 0 && specular) text += fmt::format("roughness = {}\n", 2.0 * bytes.unit() - 1.0);
+  if ((contact & 4) != 0) text += fmt::format("elastic_below = {{ time = {} }}\n", 1e-3 * bytes.positive());
+  if (bytes.flag()) text += decoding::decoded_effects(bytes, box, walls_x, walls_y);
+  return text + fmt::format("[run]\ntime = 1.0\nkeep_momentum = true\nseed = {}\n", 1 + bytes.below(4));
+}
+
+}  // namespace carom::test
