@@ -67,7 +67,7 @@ struct Event {
 struct Numerics {
   std::uint64_t at_once = 0;       ///< collisions at the very instant of the one before
   std::uint64_t overlapping = 0;   ///< pairs that overlapped by more than 32 u sigma when they met: late, or so from the start
-  double deepest_overlap = 0.0;    ///< of pairs that met, over their contact distance
+  double deepest_overlap = 0.0;    ///< of these, over their contact distance
   std::uint64_t grazing = 0;       ///< pairs that met with a discriminant within rounding of 0: they might as well have missed
   std::uint64_t receding = 0;      ///< pairs that met, and receded already by rounding: nothing was exchanged
   std::uint64_t epochs = 0;        ///< new zeros of the engine's clock

@@ -112,7 +112,7 @@ TEST(Numerics, ADiskSuddenlyMuchFasterOutrunsItsEpoch) {
   // A light disk between two heavy ones that close in on it.
   const Scene scene =
       scene_of(box_of(64.0, 4.0, Boundary::walls),
-               {{{20.0, 2.0}, {1.0, 0.0}, 0.5, 1e8}, {{32.0, 2.0}, {0.0, 0.0}, 0.5, 1e-4}, {{44.0, 2.0}, {-1.0, 0.0}, 0.5, 1e8}});
+               {{{20.0, 2.0}, {1.0, 0.0}, 0.5, 1e8}, {{32.0, 2.0}, {5.0, 0.0}, 0.5, 1e-4}, {{44.0, 2.0}, {-1.0, 0.0}, 0.5, 1e8}});
   for (const char* engine : {"fast", "general", "textbook"}) EXPECT_GT(numerics_of(scene, engine, 10.99).outrun, 0U) << engine;
 }
 
