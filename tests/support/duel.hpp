@@ -22,6 +22,7 @@ struct Fighter {
   std::vector<Event> events;
   Numerics numerics;
   std::string complaint;  ///< empty where the engine stayed sound
+  double length = 0.0;    ///< of the box
 };
 
 /// Whether the disks have nobody to give momentum along an axis to but each other.
@@ -52,7 +53,7 @@ inline double pumped(const Scene& scene, const Disks& disks, const Totals& total
 
 /// Runs about `count` events of any kind and looks at the engine now and then.
 inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_t count) {
-  Fighter fighter{engine, {}, {}, {}};
+  Fighter fighter{engine, {}, {}, {}, scene.box.lengths().maxCoeff()};
   Start start = draw_start(scene);
   const Disks disks = start.disks;
   const auto running = detail::make_engine(detail::choose_engine(scene, disks, engine), scene, disks, std::move(start.state));
@@ -104,11 +105,12 @@ inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_
   return fighter;
 }
 
-/// Of two events, to a billionth.
-inline bool agree(const Event& a, const Event& b, double tolerance = 1e-9) {
+/// Of two events, to a billionth, in a box of that length: places are known to a part in 1e13 of it.
+inline bool agree(const Event& a, const Event& b, double length, double tolerance = 1e-9) {
   const double time = std::max(std::abs(a.time), std::abs(b.time));
   const double speed = std::max({a.velocity.norm(), b.velocity.norm(), a.partner_velocity.norm(), b.partner_velocity.norm()});
-  return a.disk == b.disk && a.partner == b.partner && std::abs(a.time - b.time) <= tolerance * time &&
+  return a.disk == b.disk && a.partner == b.partner &&
+         std::abs(a.time - b.time) * speed <= tolerance * time * speed + 1e-13 * length &&
          (a.velocity - b.velocity).norm() <= tolerance * speed &&
          (a.partner_velocity - b.partner_velocity).norm() <= tolerance * speed;
 }
@@ -126,7 +128,7 @@ inline std::size_t determined(const Fighter& one, const Fighter& finer, std::siz
   for (; count < most; ++count) {
     const Event& event = one.events[count];
     const bool tied = count > 0 && event.time - one.events[count - 1].time <= 1e-9 * event.time;
-    if (!agree(event, finer.events[count]) || leaves_together(event) || tied) break;
+    if (!agree(event, finer.events[count], one.length) || leaves_together(event) || tied) break;
   }
   return count - std::min(count, disks + 2);
 }
@@ -135,7 +137,7 @@ inline std::size_t determined(const Fighter& one, const Fighter& finer, std::siz
 inline std::string parting(const Fighter& one, const Fighter& other, std::size_t count) {
   for (std::size_t k = 0; k < std::min({one.events.size(), other.events.size(), count}); ++k) {
     const Event &a = one.events[k], &b = other.events[k];
-    if (!agree(a, b, 1e-6))
+    if (!agree(a, b, one.length, 1e-6))
       return fmt::format("event {}: {} has {} and {} at {}, {} has {} and {} at {}", k, one.engine, a.disk, a.partner, a.time,
                          other.engine, b.disk, b.partner, b.time);
   }
