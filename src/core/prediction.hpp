@@ -10,6 +10,16 @@
 
 namespace carom {
 
+/// Of a box whose images above slide past those below (effects/shear.hpp), for the kernel that knows about it.
+struct SlidingFrame {
+  /// Of the centre of each disk's cage, in steps of 2^32. It tells in which box a disk is whose coordinate has wrapped;
+  /// velocities are those of the disk in that box, and those of its images above and below are other ones.
+  const std::int32_t* heights = nullptr;
+  std::int64_t displacement = 0;  ///< of the images above at the epoch, in steps of a coordinate
+  double speed = 0.0;             ///< of the images above
+  std::int64_t inner = 0;         ///< disks with cages nearer to the middle than this meet nobody through an edge
+};
+
 /// What all predictions of a run have in common.
 struct PredictionFrame {
   double unit[2];     ///< length of a step of a coordinate, per axis
@@ -22,10 +32,12 @@ struct PredictionFrame {
   double growth = 0.0;  ///< of the scale, per time
   double well = 1.0;    ///< outer over hard diameter; beyond 1 only for the kernel of wells
   const std::vector<std::int32_t>* inside = nullptr;  ///< for that kernel: of each disk, those inside its well
+  SlidingFrame sliding = {};
 };
 
-/// What a pair of disks comes to: hard cores, hard cores that grow, or wells with hard cores.
-enum class Contact { hard, growing, wells };
+/// What a pair of disks comes to: hard cores, hard cores that grow, wells with hard cores, or hard cores in a box whose images
+/// slide.
+enum class Contact { hard, growing, wells, sheared };
 
 /// Where a disk is to be looked for: a square round `centre` (in steps of 2^32 of a coordinate), and the ids of the disks that it
 /// may meet there, padded with its own id, with which it never collides, to eight at least and to a multiple

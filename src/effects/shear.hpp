@@ -9,6 +9,7 @@
 #include <carom/effects.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 namespace carom {
@@ -30,16 +31,23 @@ class SlidingImages {
   /// Of the images one box height above.
   [[nodiscard]] Real speed() const { return speed_; }
   [[nodiscard]] Real displacement(Real t) const { return displacement_ + speed_ * t; }
+  /// In the displacement. They are none: a disk that leaves upwards comes back farther left by what is left without them.
+  [[nodiscard]] std::int64_t whole_lengths(Real t) const {
+    using std::floor;
+    return static_cast<std::int64_t>(floor(displacement(t) / length_));
+  }
   /// Of the flow where a disk is, along x.
   [[nodiscard]] Real flow(Real y) const { return rate_ * (y - middle_); }
 
-  /// The clock's zero moves to `now`. Whole box lengths of displacement are none.
-  void rebase(Real now) {
+  /// The same in [0, length): whole box lengths of displacement are none.
+  [[nodiscard]] Real reduced(Real t) const {
     using std::floor;
-    displacement_ = displacement(now);
-    displacement_ -= length_ * floor(displacement_ / length_);
-    if (displacement_ >= length_) displacement_ = 0;
+    const Real all = displacement(t), rest = all - length_ * floor(all / length_);
+    return rest < length_ ? rest : Real(0);
   }
+
+  /// The clock's zero moves to `now`.
+  void rebase(Real now) { displacement_ = reduced(now); }
 
  private:
   bool present_;

@@ -1,11 +1,12 @@
 #pragma once
-// What is round the disks besides other disks: how they fall, the sides of the box, obstacles; and how they grow. Two answers:
-// PlainWorld, where there are hard walls at rest or none, and AnyWorld.
+// What is round the disks besides other disks: how they fall, the sides of the box, obstacles, images that slide; and how they
+// grow. Two answers: PlainWorld, where there are hard walls at rest or none, and AnyWorld.
 
 #include "core/sides.hpp"
 #include "effects/gravity.hpp"
 #include "effects/obstacles.hpp"
 #include "effects/rebound.hpp"
+#include "effects/shear.hpp"
 #include "effects/walls.hpp"
 
 #include <carom/effects.hpp>
@@ -56,6 +57,7 @@ struct AnyWorld {
       : falling(effects.gravity),
         walls(box, effects.walls, seed),
         obstacles(box, effects.obstacles),
+        sliding(box, effects.shear, start.shear_displacement),
         scale_(start.scale),
         growth_(effects.growth ? effects.growth->rate : 0.0) {
     walls.start_from(start.walls);
@@ -94,6 +96,7 @@ struct AnyWorld {
   void rebase(double now) {
     for (int axis = 0; axis < 2; ++axis) depth_[axis] = fallen(axis, now);
     walls.rebase(now);
+    sliding.rebase(now);
     scale_ += growth_ * now;
   }
   [[nodiscard]] std::size_t bytes() const { return obstacles.bytes(); }
@@ -101,6 +104,7 @@ struct AnyWorld {
   Falling<double> falling;
   Walls<double> walls;
   Obstacles<double> obstacles;
+  SlidingImages<double> sliding;
 
  private:
   Vec2<double> depth_ = Vec2<double>::Zero();

@@ -14,7 +14,8 @@
 // disk carries). Uniform gravity costs nothing where disks meet: lines are drawn in a frame that falls with the disks from the
 // epoch on, in which they are straight, and only walls and obstacles are looked for along the parabola.
 //
-// The files engine_state.hpp (beginning, epochs, what is seen from outside) and engine_check.hpp (invariants) hold the rest.
+// The files engine_state.hpp (beginning, epochs, what is seen from outside), engine_shear.hpp (boxes whose images slide) and
+// engine_check.hpp (invariants) hold the rest.
 
 #include "core/fetch.hpp"
 #include "core/fixed_axis.hpp"
@@ -22,6 +23,7 @@
 #include "core/large_memory.hpp"
 #include "core/prediction.hpp"
 #include "core/sides.hpp"
+#include "core/sliding_separation.hpp"
 #include "core/vec2.hpp"
 #include "effects/any_impact.hpp"
 #include "effects/elastic.hpp"
@@ -128,13 +130,10 @@ class Engine {
     const Line &a = line(i), &b = line(j);
     Vec2<double> va(a.v[0], a.v[1]), vb(b.v[0], b.v[1]);
     const Vec2<double> before_a = va, before_b = vb;
-    const double scale = world_.scale(now_), radius_a = layout_.radius(a), radius_b = layout_.radius(b);
-    const Vec2<double> r = separation(a, b);
-    const double growth = (radius_a + radius_b) * world_.growth();
-    count_contact<double>(r, va - vb, (radius_a + radius_b) * scale, growth, totals_.numerics);
-    last_collision_.count(now_, totals_.numerics);
-    impact_.meet(r, growth, {i, layout_.mass(a), radius_a * scale, va}, {j, layout_.mass(b), radius_b * scale, vb}, now_,
-                 totals_);
+    if (const std::int32_t above = boxes_above(i, j); above == 0) [[likely]]
+      exchange(separation(a, b), i, va, j, vb);
+    else
+      meet_across_edge(i, va, j, vb, above);
     plan(i).last_collided = plan(j).last_collided = ++stamp_;
     if (recording_) log_collision(i, j, va, vb);
     if (outruns_epoch(va) || outruns_epoch(vb)) [[unlikely]]
@@ -153,8 +152,21 @@ class Engine {
       begin_epoch(now_);
   }
 
+  /// What contact at separation r = r_i - r_j does to their velocities.
+  void exchange(const Vec2<double>& r, std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb) {
+    const Line &a = line(i), &b = line(j);
+    const double scale = world_.scale(now_), radius_a = layout_.radius(a), radius_b = layout_.radius(b);
+    const double growth = (radius_a + radius_b) * world_.growth();
+    count_contact<double>(r, va - vb, (radius_a + radius_b) * scale, growth, totals_.numerics);
+    last_collision_.count(now_, totals_.numerics);
+    impact_.meet(r, growth, {i, layout_.mass(a), radius_a * scale, va}, {j, layout_.mass(b), radius_b * scale, vb}, now_,
+                 totals_);
+  }
+
   /// A disk meets a wall or an obstacle.
   void hit(std::int32_t i, std::int32_t what) {
+    if constexpr (!World::plain)
+      if (world_.sliding.present()) return cross_sliding_edge(i, is_upper(static_cast<Wall>(what)) ? 1 : -1);
     const Line& a = line(i);
     Vec2<double> v = velocity(a);
     world_.meet(what, {place(a), layout_.mass(a), layout_.radius(a) * world_.scale(now_), impact_.rests(i, now_)}, v, now_,
@@ -185,7 +197,10 @@ class Engine {
   /// with others stays as it is.
   void leave_cage(std::int32_t i) {
     ++totals_.other;
-    const auto fresh = lists_.move_cage(i, cage_around(i, now_));
+    const CageCentre centre = cage_around(i, now_);
+    const auto fresh = lists_.move_cage(i, centre);
+    if constexpr (!World::plain)
+      if (world_.sliding.present()) height(i) = centre.y;
     Prediction ahead =
         predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, fresh.data(), static_cast<std::uint32_t>(fresh.size())});
     Plan& mine = plan(i);
@@ -196,6 +211,11 @@ class Engine {
     }
     schedule(i);
   }
+
+  /// Disk i meets the image of disk j that lies `above` boxes above it, past an edge where images slide.
+  [[gnu::noinline]] void meet_across_edge(std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb, std::int32_t above);
+  /// A disk leaves the box upwards (1) or downwards (-1) past images that slide, and comes back as its own image.
+  [[gnu::noinline]] void cross_sliding_edge(std::int32_t i, std::int32_t up);
 
   // -------------------------------------------------------------------------------------------------- prediction
 
@@ -253,6 +273,7 @@ class Engine {
   /// The same where walls may move, disks fall and grow, and obstacles stand. One copy of it: inlined, it would be one in every
   /// event.
   [[gnu::noinline]] void plan_world(std::int32_t i) {
+    if (world_.sliding.present()) return plan_sliding_edge(i);
     const Line& a = line(i);
     Plan& mine = plan(i);
     const double radius = layout_.radius(a) * world_.scale(now_), growth = layout_.radius(a) * world_.growth();
@@ -274,6 +295,9 @@ class Engine {
     }
     yield_to_lower_partner(i);
   }
+
+  /// Puts the edge past which images slide in the place of the edge of the cage where it comes first.
+  [[gnu::noinline]] void plan_sliding_edge(std::int32_t i);
 
   /// A wall or obstacle at one time with a lower partner comes second: it will be found again after the collision.
   void yield_to_lower_partner(std::int32_t i) {
@@ -340,6 +364,12 @@ class Engine {
   }
   /// New lists for disks that have grown, and new plans with them.
   void list_larger();
+  /// Images are where they are now, and will slide until the end of the epoch: disks near them have other neighbours.
+  void slide_images();
+  /// Lists and predictions know how images slide.
+  void note_slide();
+  void note_heights(const State& start);
+  void leave_room_to_slide(const std::vector<CageCentre>& centres);
   /// Of cages, for disks of the size that lists are for.
   [[nodiscard]] double suitable_half_width() const { return CageTuner::first_half_width(sigma_ * listed_scale_, area_); }
   /// Who begins inside whose well.
@@ -403,6 +433,19 @@ class Engine {
     const auto wide = static_cast<std::int64_t>(static_cast<std::uint64_t>(centre) << 32);
     return frame_.unit[axis] * static_cast<double>(wrapped_difference(a.x[axis], wide)) + a.v[axis] * now_;
   }
+  /// How many boxes above j that image of it lies which is nearest to i. Asked only where images slide: elsewhere 0 will do.
+  [[nodiscard]] std::int32_t boxes_above(std::int32_t i, std::int32_t j) const {
+    if constexpr (!World::plain)
+      if (world_.sliding.present()) return boxes_between(height(i), height(j));
+    return 0;
+  }
+  [[nodiscard]] std::int32_t& height(std::int32_t i) { return heights_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] std::int32_t height(std::int32_t i) const { return heights_[static_cast<std::size_t>(i)]; }
+  /// Where disk i is in its box at a time, in steps of a coordinate from the middle.
+  [[nodiscard]] double steps_up(std::int32_t i, double when) const;
+  /// Of a disk that rounding has carried over an edge which it has not crossed.
+  void keep_in_box(std::int32_t i, std::int64_t& y, std::int64_t& image) const;
+
   void check_pair(std::int32_t i, std::int32_t j, std::vector<std::string>& faults) const;
 
   /// The coordinate of disk i moved by a length, with its image count where it wraps.
@@ -419,6 +462,8 @@ class Engine {
     const Line& a = line(i);
     const double fastest = std::max(std::abs(a.v[0]), std::abs(a.v[1]));
     const double ahead = fastest > 0.0 ? cage_lead * lists_.half_width() / fastest : 0.0;
+    if constexpr (!World::plain)
+      if (world_.sliding.present()) return {cage_centre(0, a, when, ahead), cage_height(i, when, ahead)};
     return {cage_centre(0, a, when, ahead), cage_centre(1, a, when, ahead)};
   }
   [[nodiscard]] std::int32_t cage_centre(int axis, const Line& a, double when, double ahead) const {
@@ -426,6 +471,9 @@ class Engine {
                    static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * ahead));
     return static_cast<std::int32_t>((x + 0x80000000U) >> 32);
   }
+
+  /// In the box of the disk.
+  [[nodiscard]] std::int32_t cage_height(std::int32_t i, double when, double ahead) const;
 
   [[nodiscard]] std::int64_t& image(std::int32_t i, int axis) {
     return images_[static_cast<std::size_t>(i)][static_cast<std::size_t>(axis)];
@@ -442,6 +490,11 @@ class Engine {
     Prediction ahead;
     kernel_.predict(lines_.data(), frame_, i, around, now_, ahead);
     return ahead;
+  }
+  /// Disk i against disk j alone.
+  [[nodiscard]] Prediction predicted_against(std::int32_t i, std::int32_t j) const {
+    const std::int32_t alone[8] = {j, i, i, i, i, i, i, i};
+    return predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, alone, 1});
   }
   [[nodiscard, gnu::noinline, gnu::cold]] std::int32_t lowest_of_tied(std::int32_t i, const Prediction& ahead) const;
 
@@ -476,6 +529,7 @@ class Engine {
   LargeVector<Plan> plans_;
   LargeVector<std::int32_t> ids_;  ///< what the world calls them: the engine keeps neighbours near each other in memory
   LargeVector<std::array<std::int64_t, 2>> images_;
+  std::vector<std::int32_t> heights_;  ///< where images slide: of the cages' centres, which are in the boxes of their disks
   NeighbourLists lists_;
   Queue queue_;
 
@@ -492,13 +546,14 @@ class Engine {
   double sigma_ = 0.0;                ///< mean diameter, at scale 1
   double area_ = 0.0;                 ///< per disk, where most of them were at the start
   double listed_scale_ = 1.0;         ///< of the radii for which lists are made
+  double way_ = 0.0;                  ///< that images may slide in an epoch
   double travel_[2] = {};             ///< the longest that a line may be along each axis
   std::int64_t clear_[2] = {};        ///< centres of cages nearer than this to the middle are too far from any wall to matter
   double speed_limit_[2] = {};        ///< with which a line stays shorter than that until the epoch ends
   double span_ = 0.0;                 ///< of the queue
   std::uint64_t begun_with_ = 0;      ///< events that the queue got at the beginning of the epoch
   bool walled_;
-  bool bare_;              ///< no walls, no obstacles
+  bool bare_;              ///< no walls, no obstacles, no images that slide
   bool fetching_ = false;  ///< the data do not fit the cache
 
   CageTuner tuner_;
@@ -567,4 +622,5 @@ class Engine {
 }  // namespace carom
 
 #include "engine/engine_check.hpp"
+#include "engine/engine_shear.hpp"
 #include "engine/engine_state.hpp"

@@ -23,6 +23,9 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants() const
     if (time(i) < epoch_length_ && !queue_.holds(*this, i))
       faults.push_back(fmt::format("disk {}: the queue does not know its event", id(i)));
     const CageCentre centre = lists_.centre(i);
+    if constexpr (!World::plain)
+      if (world_.sliding.present() && (height(i) != centre.y || std::abs(steps_up(i, now_)) > 0x1p63 * (1.0 + 1e-12)))
+        faults.push_back(fmt::format("disk {}: outside the box of its cage", id(i)));
     for (int k = 0; k < 2; ++k) {
       const double off = offset(k, a, k == 0 ? centre.x : centre.y);
       if (!(std::abs(off) <= lists_.half_width() + slack))
@@ -58,17 +61,16 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants() const
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::check_pair(std::int32_t i, std::int32_t j, std::vector<std::string>& faults) const {
   const double sigma = (layout_.radius(line(i)) + layout_.radius(line(j))) * world_.scale(now_);
-  const double overlap = sigma - separation(line(i), line(j)).norm();
+  const auto [r, v] = approach(frame_, line(i), line(j), boxes_above(i, j), now_);
+  const double overlap = sigma - r.norm();
   // Separations are known to 4 u times the way since the epoch: docs/numerics.md.
   const double rounding = 4.0 * epsilon<double> * (travel_[0] + travel_[1]);
   if (overlap > 1e-12 * sigma + rounding) faults.push_back(fmt::format("disks {} and {} overlap by {}", id(i), id(j), overlap));
-  const std::int32_t one[8] = {j, i, i, i, i, i, i, i};
-  const double meeting = predicted(i, {{0, 0}, one, 1}).pair_time;
+  const double meeting = predicted_against(i, j).pair_time;
   const double planned = std::min({time(i), time(j), epoch_length_});
   if (!(meeting < planned)) return;
   if (world_.growth() > 0.0 || frame_.inside != nullptr) return;  // how deep they would be is another question there
   // Times of close pairs are uncertain; how deep they would be in each other by then is not.
-  const Vec2<double> r = separation(line(i), line(j)), v(line(i).v[0] - line(j).v[0], line(i).v[1] - line(j).v[1]);
   const double nearest = std::clamp(-r.dot(v) / v.squaredNorm(), 0.0, planned - now_);
   const double depth = sigma - (r + nearest * v).norm();
   if (depth > 1e-12 * (sigma + travel_[0] + travel_[1]))

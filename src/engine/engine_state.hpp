@@ -106,6 +106,7 @@ template <class Line>
 const PredictionKernel<Line>& kernel_for(const Effects& effects) {
   if (effects.growth && effects.growth->rate > 0.0) return prediction_kernel<Line>(Contact::growing);
   if (effects.square_well && effects.square_well->depth != 0.0) return prediction_kernel<Line>(Contact::wells);
+  if (SlidingImages<double>::acts(effects.shear)) return prediction_kernel<Line>(Contact::sheared);
   return prediction_kernel<Line>(Contact::hard);
 }
 
@@ -138,7 +139,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       lists_(axes_[0], axes_[1], {}),
       spacing_(detail::mean_spacing(box, disks.count())),
       walled_(!box.periodic(0) || !box.periodic(1)),
-      bare_(!walled_ && effects.obstacles.empty()),
+      bare_(!walled_ && effects.obstacles.empty() && !SlidingImages<double>::acts(effects.shear)),
       patience_(effects.dissipate() ? 100'000 : 10'000'000) {
   detail::OrderInSpace order = detail::order_in_space(axes_[0], axes_[1], start);
   ids_ = std::move(order.ids);
@@ -171,6 +172,8 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   frame_.scale = world_.scale(0.0);
   frame_.growth = world_.growth();
   make_lists();
+  if constexpr (!World::plain)
+    if (world_.sliding.present()) note_heights(start), note_slide();
   if (World::plain) radius_ = std::vector<double>();  // nothing will ask for them again; {} alone would keep the memory
   start = State{};                                    // makes room for what follows
   double half_width = std::min(suitable_half_width(), widest_);
@@ -186,7 +189,6 @@ template <class Impact, class Layout, class World>
 std::string Engine<Impact, Layout, World>::why_not(const Box& box, const Disks& disks, const Effects& effects) {
   const std::vector<std::string> acting = effects.acting();
   if ((Impact::plain || World::plain) && !acting.empty()) return fmt::format("the scene asks for {}", fmt::join(acting, ", "));
-  if (effects.shear && effects.shear->rate != 0.0) return "the scene asks for shear";
   if (disks.count() == 0) return "";
   const double smallest = *std::min_element(disks.radius.begin(), disks.radius.end());
   const double reach = detail::largest_contact_distance(disks) * detail::largest_scale(box, disks, effects);
@@ -210,6 +212,7 @@ void Engine<Impact, Layout, World>::begin_epoch(double now) {
   if constexpr (!World::plain) draw_up_frame(), widen();
   if (now > 0.0) tune_cages(now);
   choose_epoch_length();
+  if constexpr (!World::plain) slide_images();
   if (outgrow_lists())
     list_larger();
   else if (falls())
@@ -230,6 +233,7 @@ void Engine<Impact, Layout, World>::begin_epoch_between(std::int32_t i, const Ve
   if (world_.growth() > 0.0 || falls()) return go_on();
   if constexpr (!World::plain) widen();
   choose_epoch_length();
+  if constexpr (!World::plain) slide_images();
   for (const std::int32_t k : {i, j}) plan_ahead(k, predicted(k, surroundings(k)));
   start_queue();
 }
@@ -239,6 +243,7 @@ void Engine<Impact, Layout, World>::go_on() {
   if constexpr (!World::plain) draw_up_frame(), widen();
   choose_epoch_length();
   if (outgrow_lists()) list_larger();
+  if constexpr (!World::plain) slide_images();
   predict_all();
   start_queue();
 }
@@ -251,14 +256,17 @@ double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eige
   }
   const std::int32_t i = places_[static_cast<std::size_t>(disk)];
   const double mass = layout_.mass(line(i));
-  double gained = mass * (v.squaredNorm() - velocity(line(i)).squaredNorm()) / 2.0;
+  Vec2<double> to = v;
+  if constexpr (!World::plain)
+    if (world_.sliding.present()) to[0] += world_.sliding.flow(middle_[1] + axes_[1].unit * steps_up(i, now_));
+  double gained = mass * (to.squaredNorm() - velocity(line(i)).squaredNorm()) / 2.0;
   if constexpr (!Impact::plain)
     if (impact_.spinning()) {
       const double radius = layout_.radius(line(i)) * world_.scale(now_);
       gained += mass * radius * radius * (spin * spin - impact_.spin(i) * impact_.spin(i)) / 4.0;
       impact_.spin(i) = spin;
     }
-  turn(i, v);
+  turn(i, to);
   return gained;
 }
 
@@ -354,6 +362,8 @@ void Engine<Impact, Layout, World>::rebase(double now) {
       a.x[k] = moved(i, k, a.v[k] * now);
       if constexpr (!World::plain) a.v[k] += world_.g()[k] * now;
     }
+    if constexpr (!World::plain)
+      if (world_.sliding.present()) keep_in_box(i, a.x[1], image(i, 1));
     Plan& mine = plan(i);
     mine.pair_time = std::max(mine.pair_time - now, 0.0);
     mine.edge_time = std::max(mine.edge_time - now, 0.0);
@@ -405,6 +415,7 @@ double Engine<Impact, Layout, World>::longest_by_world() const {
   if (pull > 0.0) longest = std::sqrt(8.0 * spacing_ / pull);
   if (world_.walls.fastest(0.0) > 0.0) longest = std::min(longest, 4.0 * spacing_ / world_.walls.fastest(0.0));
   if (world_.growth() > 0.0) longest = std::min(longest, world_.scale(0.0) / (64.0 * world_.growth()));
+  if (world_.sliding.present()) longest = std::min(longest, way_ / std::abs(world_.sliding.speed()));
   return longest;
 }
 
@@ -452,6 +463,8 @@ void Engine<Impact, Layout, World>::rebuild(double half_width) {
     travel_[k] =
         axes_[k].periodic ? (length / 2.0 - reach_ - 4.0 * half_width) / 2.0 : length / 2.0 + detail::free_path * spacing_;
   }
+  if constexpr (!World::plain)
+    if (world_.sliding.present()) leave_room_to_slide(centres);
 }
 
 /// Everybody anew.
@@ -488,9 +501,13 @@ State Engine<Impact, Layout, World>::state() const {
       std::int64_t image = images_[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
       const std::int64_t way = axes_[k].steps_of(a.v[k] * now_ + world_.fallen(k, now_));
       if (__builtin_add_overflow(a.x[k], way, &x)) image += way < 0 ? -1 : 1;
+      bool inside = false;
+      if constexpr (!World::plain)
+        if (k == 1 && world_.sliding.present()) keep_in_box(i, x, image), inside = true;
       const long double exact = axes_[k].position(x);
       double position = static_cast<double>(exact);
       if (axes_[k].periodic && position < axes_[k].lower) position = axes_[k].lower;  // rounded an ulp below
+      if (inside && position >= axes_[k].upper) position = std::nextafter(axes_[k].upper, axes_[k].lower);
       state.remainders(k, column) = static_cast<double>(exact - static_cast<long double>(position));
       if (axes_[k].periodic && position >= axes_[k].upper) position = axes_[k].lower, ++image;
       state.positions(k, column) = position;
@@ -499,6 +516,8 @@ State Engine<Impact, Layout, World>::state() const {
     }
   }
   state.scale = world_.scale(now_);
+  if constexpr (!World::plain)
+    if (world_.sliding.present()) state.shear_displacement = world_.sliding.reduced(now_);
   if constexpr (!World::plain) state.walls = world_.walls.states(now_);
   if constexpr (!Impact::plain) {
     state.bonds = impact_.wells().pairs();
@@ -512,8 +531,7 @@ template <class Impact, class Layout, class World>
 std::int32_t Engine<Impact, Layout, World>::lowest_of_tied(std::int32_t i, const Prediction& ahead) const {
   std::int32_t lowest = ahead.partner;
   const auto consider = [&](std::int32_t j) {
-    const std::int32_t alone[8] = {j, i, i, i, i, i, i, i};
-    if (id(j) < id(lowest) && predicted(i, {{0, 0}, alone, 1}).pair_time == ahead.pair_time) lowest = j;
+    if (id(j) < id(lowest) && predicted_against(i, j).pair_time == ahead.pair_time) lowest = j;
   };
   for (std::uint32_t k = 0; k < lists_.count(i); ++k) consider(lists_.ids(i)[k]);
   return lowest;
@@ -571,7 +589,7 @@ template <class Impact, class Layout, class World>
 std::size_t Engine<Impact, Layout, World>::bytes() const {
   return lines_.capacity() * sizeof(Line) + plans_.capacity() * sizeof(Plan) + ids_.capacity() * sizeof(std::int32_t) +
          images_.capacity() * sizeof(images_[0]) + lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() +
-         radius_.capacity() * sizeof(double) + places_.capacity() * sizeof(std::int32_t);
+         radius_.capacity() * sizeof(double) + (places_.capacity() + heights_.capacity()) * sizeof(std::int32_t);
 }
 
 }  // namespace carom

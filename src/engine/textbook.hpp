@@ -64,8 +64,8 @@ class TextbookEngine {
     return false;
   }
 
-  /// Nothing will ever happen again.
-  [[nodiscard]] bool idle() const { return queue_.empty() || queue_.next().time == infinity<Real>; }
+  /// Nothing will ever happen again. (Images that slide may hit what is at rest, however late.)
+  [[nodiscard]] bool idle() const { return queue_.empty() || (queue_.next().time == infinity<Real> && !sliding_.present()); }
 
   /// Time has stopped: millions of events at one instant, as of disks that touch on all sides and still are to move.
   [[nodiscard]] bool jammed() const { return at_one_instant_ > patience_ + 100 * records_.size(); }
@@ -149,6 +149,7 @@ class TextbookEngine {
     a.v.x() -= up * sliding_.speed();
     totals_.shear_energy += static_cast<double>(a.mass * (a.v.squaredNorm() - before)) / 2;
     images_.col(i) += domain_.wrap(a.r);
+    images_(0, i) += (is_upper(edge) ? 1 : -1) * sliding_.whole_lengths(now_);
     images_(1, i) += is_upper(edge) ? 1 : -1;
     grid_.move(i, a.r);
     predict(i);

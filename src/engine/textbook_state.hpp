@@ -114,11 +114,7 @@ State TextbookEngine<Real>::state() const {
   state.scale = static_cast<double>(scale_ + growth_ * now_);
   state.walls = walls_.states(now_);
   state.bonds = impact_.wells().pairs();
-  if (sliding_.present()) {
-    SlidingImages<Real> now = sliding_;
-    now.rebase(now_);
-    state.shear_displacement = static_cast<double>(now.displacement(0));
-  }
+  if (sliding_.present()) state.shear_displacement = static_cast<double>(sliding_.reduced(now_));
   return state;
 }
 

@@ -107,6 +107,18 @@ class CageCells {
            static_cast<std::size_t>(range.last[1] - range.first[1] + 1);
   }
 
+  /// Calls visit(id, centre, radius) for every cage in a range of cells.
+  template <class Visit>
+  void for_each(const CageRange& range, Visit&& visit) const {
+    for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y)
+      for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x)
+        for (std::int32_t b = folded(y, range.cells[1]) * range.cells[0] + folded(x, range.cells[0]); b >= 0;
+             b = next_[static_cast<std::size_t>(b)]) {
+          const CageBlock& block = blocks_[static_cast<std::size_t>(b)];
+          for (int k = 0; k < 8 && block.id[k] >= 0; ++k) visit(block.id[k], CageCentre{block.x[k], block.y[k]}, block.radius[k]);
+        }
+  }
+
   void fetch_blocks(const CageRange& range) const {
     for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y)
       for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x) {

@@ -53,6 +53,8 @@ void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> cent
   const double h = half_width / largest_;
   nearness_.two_halves = static_cast<float>(2.0 * h * (1.0 + 1e-6) + 4.0 / std::min(steps_[0], steps_[1]));
 
+  if (sliding_) sliding_->set_cages(2.0 * h, 2.0 * (1.0 + h));
+
   layers_.clear();
   for (const auto& [disks, largest] : sizes_)
     layers_.emplace_back(axes_[0], axes_[1], largest, 2.0 * (static_cast<double>(largest) + h) * largest_, disks);
@@ -89,12 +91,16 @@ std::span<const std::int32_t> NeighbourLists::move_cage(std::int32_t i, CageCent
   return {fresh_.data(), fresh_count_};
 }
 
+/// How far apart, in largest radii, cages may be that are near, one of a disk of the given radius and one of a layer.
+double NeighbourLists::reach(float radius, const CageCells& layer) const {
+  return (static_cast<double>(radius) + static_cast<double>(layer.largest_radius()) + 2.0 * half_width_ / largest_) *
+         (1.0 + search_slack);
+}
+
 /// The cells of a layer in which there may be cages near one of a disk of the given radius.
 CageRange NeighbourLists::range_around(CageCentre centre, float radius, const CageCells& layer) const {
-  const double reach =
-      (static_cast<double>(radius) + static_cast<double>(layer.largest_radius()) + 2.0 * half_width_ / largest_) *
-      (1.0 + search_slack);
-  return layer.around(centre, {reach * steps_[0] + 8.0, reach * steps_[1] + 8.0});
+  const double to = reach(radius, layer);
+  return layer.around(centre, {to * steps_[0] + 8.0, to * steps_[1] + 8.0});
 }
 
 /// Fills found_ and fresh_ with those near the cage of disk i as it is now.
@@ -111,6 +117,44 @@ void NeighbourLists::search(std::int32_t i, CageCentre before, bool was_listed) 
     found_count_ = found.all_count;
     fresh_count_ = found.fresh_count;
   }
+  if (sliding_ && (sliding_->by_edge(query.centre) || sliding_->by_edge(before))) search_across(query);
+}
+
+/// Puts right what search() has found for a cage near an edge past which images slide.
+void NeighbourLists::search_across(const CageQuery& query) {
+  const std::int32_t upwards = query.centre.y > 0 ? 1 : -1;
+  const auto beyond = [&](std::int32_t j) { return boxes_between(query.centre.y, centre(j).y) != 0; };
+  const auto end = found_.begin() + static_cast<std::ptrdiff_t>(found_count_);
+  found_.resize(static_cast<std::size_t>(std::remove_if(found_.begin(), end, beyond) - found_.begin()));
+  for (const CageCells& layer : layers_) {
+    const CageCentre from = sliding_->as_seen_from_beyond(query.centre, upwards);
+    const double to = reach(query.radius, layer);
+    const CageRange range = layer.around(from, {(to + sliding_->way()) * steps_[0] + 8.0, to * steps_[1] + 8.0});
+    layer.for_each(range, [&](std::int32_t j, CageCentre at, float radius) {
+      if (j != query.id && boxes_between(query.centre.y, at.y) == upwards && near(query.centre, query.radius, at, radius))
+        found_.push_back(j);
+    });
+  }
+  found_count_ = found_.size();
+  found_.resize(found_count_ + 16);  // which may be read
+  fresh_.resize(std::max(fresh_.size(), found_count_ + 16));
+  fresh_count_ = 0;
+  for (std::size_t k = 0; k < found_count_; ++k)
+    if (!query.was_listed || !near(query.before, query.radius, centre(found_[k]), radius(found_[k])))
+      fresh_[fresh_count_++] = found_[k];
+}
+
+void NeighbourLists::slide(std::int64_t displacement, double way) {
+  if (!sliding_) sliding_.emplace(std::array{1.0 / steps_[0], 1.0 / steps_[1]});
+  sliding_->set_way(static_cast<std::int32_t>(displacement >> 32), way / largest_);
+  if (layers_.empty()) return;
+  const double h = half_width_ / largest_;
+  sliding_->set_cages(2.0 * h, 2.0 * (1.0 + h));
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(around_.disks()); ++i) {
+    if (!sliding_->by_edge(centre(i))) continue;
+    search(i, centre(i), false);
+    around_.assign(i, found());
+  }
 }
 
 void NeighbourLists::fetch_cells(std::int32_t i, CageCentre to) const {
@@ -119,8 +163,11 @@ void NeighbourLists::fetch_cells(std::int32_t i, CageCentre to) const {
   for (std::uint32_t k = 0; k < count(i); ++k) fetch_list(ids(i)[k]);
 }
 
-bool NeighbourLists::near(std::int32_t i, std::int32_t j) const {
-  return kernel_->near(centre(j), radius(j), centre(i), radius(i), nearness_);
+bool NeighbourLists::near(std::int32_t i, std::int32_t j) const { return near(centre(j), radius(j), centre(i), radius(i)); }
+
+bool NeighbourLists::near(CageCentre a, float radius_a, CageCentre b, float radius_b) const {
+  if (sliding_ && boxes_between(a.y, b.y) != 0) return sliding_->near(a, radius_a, b, radius_b);
+  return kernel_->near(a, radius_a, b, radius_b, nearness_);
 }
 
 std::uint32_t NeighbourLists::median_count() const {

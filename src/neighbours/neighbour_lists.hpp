@@ -6,13 +6,18 @@
 // Positions and velocities are not known here: cages are given and taken in steps of 2^32 of a coordinate (core/flight.hpp), so
 // that differences wrap to the nearest image. Disks of very different size are kept in layers, radii within a factor of two
 // in one layer, each with cells as wide as its own reach: one large disk among a million small ones costs nothing.
+//
+// Where the images above slide past those below (effects/shear.hpp), cages near those edges are compared with where the images of
+// the others beyond will be from the beginning of an epoch to its end.
 
 #include "core/fixed_axis.hpp"
 #include "neighbours/cage_cells.hpp"
 #include "neighbours/neighbourhoods.hpp"
+#include "neighbours/sliding_cages.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,6 +42,14 @@ class NeighbourLists {
   /// with i in the same way; valid until the next call.
   std::span<const std::int32_t> move_cage(std::int32_t i, CageCentre centre);
 
+  /// From now on, and until the next call, the images above are displaced along x by `displacement` (in steps of a coordinate),
+  /// and by anything up to `way` (length) more. A disk is in that one of the boxes, one above the other, in which the centre of
+  /// its cage is. Mends the lists of cages near the edges. Requires y to be periodic, and reach of cages and way to be less than
+  /// half of the box together.
+  void slide(std::int64_t displacement, double way);
+  /// Cages with centres nearer to the middle than this (in steps) concern nobody beyond the edges that slide.
+  [[nodiscard]] std::int64_t inner() const { return sliding_ ? sliding_->inner() : INT64_MAX; }
+
   /// Entries that move_cage() has put on lists of others, or taken from them, so far.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
 
@@ -60,7 +73,10 @@ class NeighbourLists {
   }
 
   [[nodiscard]] CageRange range_around(CageCentre centre, float radius, const CageCells& layer) const;
+  [[nodiscard]] double reach(float radius, const CageCells& layer) const;
   void search(std::int32_t i, CageCentre before, bool was_listed);
+  void search_across(const CageQuery& query);
+  [[nodiscard]] bool near(CageCentre a, float radius_a, CageCentre b, float radius_b) const;
   [[nodiscard]] std::span<const std::int32_t> found() const { return {found_.data(), found_count_}; }
 
   FixedAxis axes_[2];
@@ -69,6 +85,7 @@ class NeighbourLists {
   bool one_radius_ = true;
   double half_width_ = 0.0;
   CageNearness nearness_;
+  std::optional<SlidingCages> sliding_;
 
   Neighbourhoods around_;
   struct Size {

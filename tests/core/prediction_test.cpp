@@ -27,9 +27,9 @@ constexpr double u = 0x1p-53;
 
 /// The kernel of one instruction set, or the best where this machine lacks it.
 template <class Line>
-const PredictionKernel<Line>& kernel(std::string_view set) {
+const PredictionKernel<Line>& kernel(std::string_view set, Contact contact = Contact::hard) {
   const WithInstructions asked(set);
-  return prediction_kernel<Line>();
+  return prediction_kernel<Line>(contact);
 }
 
 double radius_of(const Flight& /*line*/) { return 0.0; }
@@ -173,8 +173,8 @@ Drawn draw(std::mt19937_64& random, std::size_t count) {
 }
 
 template <class Line>
-void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lines, std::mt19937_64& random,
-                                std::string_view set) {
+void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lines, std::mt19937_64& random, std::string_view set,
+                                Contact contact = Contact::hard) {
   const auto count = static_cast<std::int32_t>(lines.size());
   std::vector<std::int32_t> others;
   for (std::int32_t j = 1; j < count; ++j) others.push_back(j);
@@ -190,7 +190,7 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
     list.centre[a] = kind == 3.0 ? static_cast<std::int32_t>(random()) : static_cast<std::int32_t>(place >> 32);
   }
   Prediction found;
-  kernel<Line>(set).predict(lines.data(), drawn.frame, 0, list.around(), drawn.now, found);
+  kernel<Line>(set, contact).predict(lines.data(), drawn.frame, 0, list.around(), drawn.now, found);
   expect_as_twin(lines, drawn.frame, 0, list, drawn.now, found);
 
   if (count < 2) return;
@@ -213,8 +213,9 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
   std::vector<Line> stored = lines;
   CollidedPair pair{{0, 1}, {list.around(), second.around()}, {}};
   const Line &a = after[0], &b = after[1];
-  kernel<Line>(set).store_and_predict(stored.data(), drawn.frame, pair, drawn.now, a.x[0], a.x[1], b.x[0], b.x[1], a.v[0], a.v[1],
-                                      b.v[0], b.v[1]);
+  kernel<Line>(set, contact)
+      .store_and_predict(stored.data(), drawn.frame, pair, drawn.now, a.x[0], a.x[1], b.x[0], b.x[1], a.v[0], a.v[1], b.v[0],
+                         b.v[1]);
   for (std::size_t k = 0; k < 2; ++k)
     for (int axis = 0; axis < 2; ++axis) {
       ASSERT_EQ(stored[k].x[axis], after[k].x[axis]);
@@ -240,6 +241,54 @@ TEST_P(PredictionKernels, GiveTheBitsOfOneNeighbourAtATime) {
     ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.plain, random, GetParam())) << "equal disks, case " << k;
     ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.sized, random, GetParam())) << "sized disks, case " << k;
   }
+}
+
+TEST_P(PredictionKernels, GiveTheSameBitsByAnEdgeThatSlidesForThoseOnOneSideOfIt) {
+  std::mt19937_64 random(3);
+  for (int k = 0; k < 5'000; ++k) {
+    Drawn drawn = draw(random, 1 + random() % 20);
+    const std::vector<std::int32_t> heights(drawn.plain.size(), static_cast<std::int32_t>(random()));
+    // Either everybody is by an edge, or those whose cages are in the outer half.
+    const std::int64_t inner = k % 2 == 0 ? 0 : 1 << 30;
+    drawn.frame.sliding = {heights.data(), static_cast<std::int64_t>(random()), 3.0, inner};
+    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.plain, random, GetParam(), Contact::sheared)) << "case " << k;
+    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.sized, random, GetParam(), Contact::sheared)) << "case " << k;
+  }
+}
+
+TEST_P(PredictionKernels, MeetTheImagesBeyondAnEdgeThatSlides) {
+  // Disk 1 beyond the edge is met as if its image were a disk on this side: displaced, and by the speed of the images faster. All
+  // is dyadic, so nothing is rounded in writing it down.
+  constexpr std::int32_t top = INT32_MAX - 1000, bottom = INT32_MIN + 1000;
+  std::mt19937_64 random(4);
+  const auto dyadic = [&] { return static_cast<double>(static_cast<std::int64_t>(random() % 4096) - 2048) / 1024.0; };
+  int met = 0;
+  for (int k = 0; k < 20'000; ++k) {
+    PredictionFrame frame{{0x1p-60, 0x1p-60}, 1.0, 0.5};
+    const bool upwards = random() % 2 == 0;
+    const std::vector<std::int32_t> across = {upwards ? top : bottom, upwards ? bottom : top}, beside(2, across[0]);
+    const double speed = dyadic();
+    frame.sliding = {across.data(), static_cast<std::int64_t>(random()), speed, 0};
+    const auto displacement = static_cast<std::uint64_t>(frame.sliding.displacement);
+    const Flight mine{{static_cast<std::int64_t>(random()), static_cast<std::int64_t>(random())}, {dyadic(), dyadic()}};
+    Flight image{
+        {static_cast<std::int64_t>(static_cast<std::uint64_t>(mine.x[0]) + static_cast<std::uint64_t>(whole(dyadic() * 0x1p60))),
+         static_cast<std::int64_t>(static_cast<std::uint64_t>(mine.x[1]) + static_cast<std::uint64_t>(whole(dyadic() * 0x1p60)))},
+        {dyadic(), dyadic()}};
+    Flight other = image;
+    other.x[0] = static_cast<std::int64_t>(static_cast<std::uint64_t>(image.x[0]) - (upwards ? displacement : ~displacement + 1));
+    other.v[0] -= upwards ? speed : -speed;
+    List list(0, {1});
+    list.centre[1] = across[0];
+    const double now = static_cast<double>(random() % 8) / 8.0;
+    Prediction found, expected;
+    kernel<Flight>(GetParam(), Contact::sheared).predict(std::vector{mine, other}.data(), frame, 0, list.around(), now, found);
+    frame.sliding.heights = beside.data();
+    kernel<Flight>(GetParam(), Contact::sheared).predict(std::vector{mine, image}.data(), frame, 0, list.around(), now, expected);
+    ASSERT_EQ(found.pair_time, expected.pair_time);
+    met += expected.pair_time < never ? 1 : 0;
+  }
+  EXPECT_GT(met, 1000) << "else the test says nothing";
 }
 
 TEST_P(PredictionKernels, ConvertEveryCoordinateDifferenceAsTheHardwareDoes) {

@@ -2,19 +2,22 @@
 
 #include "core/contact_time.hpp"
 #include "engine/textbook.hpp"
-#include "support/systems.hpp"
+#include "support/effect_scenes.hpp"
+#include "support/engines.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <string>
 
 namespace carom::test {
 namespace {
 
 Effects sheared(double rate) {
   Effects effects;
-  effects.shear = Shear{rate, {}};
+  effects.shear = carom::Shear{rate, {}};
   return effects;
 }
 
@@ -25,38 +28,74 @@ System flowing(std::int64_t disks, double packing_fraction, double rate) {
   return system_of(scene);
 }
 
-TEST(Shear, CarriesOneDiskThroughTheSlidingEdgesAsTheClosedFormSays) {
-  // All numbers are dyadic, so nothing is rounded: box 4 x 4, images slide at 4 / 8.
+std::unique_ptr<AnyEngine> sheared_engine(const std::string& name, const System& system, double rate) {
+  Scene scene;
+  scene.box = system.box;
+  scene.effects = sheared(rate);
+  return detail::make_engine(detail::choose_engine(scene, system.disks, name), scene, system.disks, system.state);
+}
+
+class Shear : public testing::TestWithParam<const char*> {
+ protected:
+  [[nodiscard]] static std::unique_ptr<AnyEngine> engine_of(const System& system, double rate) {
+    return sheared_engine(GetParam(), system, rate);
+  }
+};
+
+TEST_P(Shear, CarriesOneDiskThroughTheSlidingEdgesAsTheClosedFormSays) {
+  // All numbers are dyadic, so nothing is rounded: box 4 x 4, images slide at 4 / 8, by a box length in a time of 8.
   constexpr double rate = 0.125, speed = 0.5;
   const System system = system_of(square_box(4.0, Boundary::periodic), {{{1.0, 3.0}, {0.25, 1.0}}});
-  TextbookEngine<double> engine(system.box, system.disks, system.state, sheared(rate));
-  for (int k = 1; k <= 100; ++k) {
+  const auto engine = engine_of(system, rate);
+  // It passes the upper edge at 1, 5, 9, ..., each time by a displacement speed * t, less whole lengths, and a speed farther
+  // back.
+  double x = 1.0, v = 0.25, last = 0.0, edge = 1.0;
+  for (int k = 1; k <= 300; ++k) {
     const double t = 0.75 * k;
-    engine.run_until({t, 0.0}, no_limit, no_limit);
-    const State state = engine.state();
-    // It passes the upper edge at 1, 5, 9, ..., each time by a displacement speed * t and a speed farther back.
-    double x = 1.0, v = 0.25, last = 0.0;
-    for (double edge = 1.0; edge < t; edge += 4.0) {
-      x += v * (edge - last) - speed * edge;
+    run_to(*engine, t);
+    const State state = engine->state();
+    for (; edge < t; edge += 4.0) {
+      x += v * (edge - last) - std::fmod(speed * edge, 4.0);
       v -= speed;
       last = edge;
     }
-    x += v * (t - last);
     if (std::fmod(t - 1.0, 4.0) == 0.0) continue;  // on the edge: above or below
-    EXPECT_EQ(state.velocities(0, 0), v) << t;
-    EXPECT_EQ(state.positions(0, 0), x - 4.0 * std::floor(x / 4.0)) << t;
-    EXPECT_EQ(state.positions(1, 0), std::fmod(3.0 + t, 4.0)) << t;
+    const double now = x + v * (t - last);
+    ASSERT_EQ(state.velocities(0, 0), v) << t;
+    ASSERT_EQ(state.positions(0, 0), now - 4.0 * std::floor(now / 4.0)) << t;
+    ASSERT_EQ(state.positions(1, 0), std::fmod(3.0 + t, 4.0)) << t;
+    ASSERT_EQ(state.images(0, 0), static_cast<std::int64_t>(std::floor(now / 4.0))) << t;
+    ASSERT_EQ(state.images(1, 0), static_cast<std::int64_t>(std::floor((3.0 + t) / 4.0))) << t;
+    ASSERT_EQ(state.shear_displacement, std::fmod(speed * t, 4.0)) << t;
+    ASSERT_EQ(engine->totals().shear_energy, (v * v - 0.25 * 0.25) / 2.0) << t;
   }
 }
 
-TEST(Shear, LetsTwoDisksCollideAcrossTheEdgeWhereTheImageIs) {
+TEST_P(Shear, CarriesADiskDownwardsAndWithImagesThatSlideToTheLeft) {
+  const System up = system_of(square_box(4.0, Boundary::periodic), {{{1.0, 3.0}, {0.25, 1.0}}});
+  const System down = system_of(square_box(4.0, Boundary::periodic), {{{1.0, 1.0}, {0.25, -1.0}}});  // its mirror image
+  for (int k = 1; k <= 40; ++k) {
+    const double t = 0.5 + 0.75 * k;
+    const auto one = engine_of(up, 0.125), other = engine_of(down, -0.125);
+    run_to(*one, t);
+    run_to(*other, t);
+    const State state = one->state(), mirrored = other->state();
+    if (std::fmod(t - 1.0, 4.0) == 0.0) continue;
+    EXPECT_EQ(mirrored.positions(0, 0), state.positions(0, 0)) << t;
+    EXPECT_EQ(mirrored.positions(1, 0), 4.0 - state.positions(1, 0)) << t;
+    EXPECT_EQ(mirrored.velocities(0, 0), state.velocities(0, 0)) << t;
+    EXPECT_EQ(mirrored.velocities(1, 0), -state.velocities(1, 0)) << t;
+  }
+}
+
+TEST_P(Shear, LetsTwoDisksCollideAcrossTheEdgeWhereTheImageIs) {
   constexpr double rate = 0.05, length = 10.0, speed = rate * length;
   const Eigen::Vector2d above(2.0, 9.25), below(8.5, 0.5), v_above(0.0, 0.0), v_below(0.0, -0.125);
   const System system = system_of(square_box(length, Boundary::periodic), {{above, v_above}, {below, v_below}});
-  TextbookEngine<double> engine(system.box, system.disks, system.state, sheared(rate));
-  engine.record_events(true);
-  engine.run_until({30.0, 0.0}, 1, no_limit);
-  const std::vector<Event> events = engine.take_events();
+  const auto engine = engine_of(system, rate);
+  engine->record_events(true);
+  engine->run_until({30.0, 0.0}, 1, no_limit);
+  const std::vector<Event> events = engine->take_events();
   ASSERT_EQ(events.size(), 1u);
   // The image of the lower disk one box higher, one box to the left.
   const Vec2<double> r = above - (below + Eigen::Vector2d(-length, length));
@@ -70,6 +109,31 @@ TEST(Shear, LetsTwoDisksCollideAcrossTheEdgeWhereTheImageIs) {
   // The partner has left below and come back from above since: as its own image.
   EXPECT_NEAR(std::remainder(events[0].partner_velocity.x() - (v_below + d).x(), speed), 0.0, 1e-13);
   EXPECT_NEAR(events[0].partner_velocity.y() - (v_below + d).y(), 0.0, 1e-13);
+}
+
+TEST_P(Shear, LetsDisksCollideThatStandOnTheEdge) {
+  // Two disks of mass 1 and 3 come together head-on, one above the other, and touch when one is exactly on the upper edge: at
+  // time 1, when images are displaced by speed * 1, and at rest relative to each other along x if the images' speed is counted.
+  constexpr double length = 8.0, rate = 0.125, speed = 1.0;
+  const Box box = square_box(length, Boundary::periodic);
+  // The lower disk goes down from 1.5 to 1, the upper one up from 7 to the edge, at x = 2: its image below is then at x = 1.
+  const System system = system_of(box, {{{1.0, 1.5}, {0.0, -0.5}, 0.5, 3.0}, {{1.0, 7.0}, {speed, 1.0}, 0.5, 1.0}});
+  const auto engine = engine_of(system, rate);
+  engine->record_events(true);
+  run_to(*engine, 1.0);
+  const std::vector<Event> events = engine->take_events();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].time, 1.0);
+  // Of masses 3 and 1 with velocities -1/2 and 1: the centre of mass has -1/8, and both turn round in its frame.
+  EXPECT_EQ(events[0].velocity, Eigen::Vector2d(0.0, 0.25));
+  // The upper one is on the edge and moves down: as itself, at its speed, or as its image below, which is by `speed` slower.
+  EXPECT_EQ(events[0].partner_velocity.y(), -1.25);
+  run_to(*engine, 2.0);
+  const State state = engine->state();
+  EXPECT_EQ(state.positions.col(0), Eigen::Vector2d(1.0, 1.25));
+  EXPECT_EQ(state.positions.col(1), Eigen::Vector2d(3.0, 6.75));
+  EXPECT_EQ(state.velocities.col(1), Eigen::Vector2d(speed, -1.25));
+  EXPECT_EQ(engine->totals().shear_energy, 0.0) << "it is back in its box";
 }
 
 /// The first contact of all pairs in all images that can matter.
@@ -89,34 +153,34 @@ double next_contact(const System& system, const State& state, double rate, doubl
   return std::min(first, until);
 }
 
-TEST(Shear, OverlooksNoCollisionOfAnyImage) {
+TEST_P(Shear, OverlooksNoCollisionOfAnyImage) {
   for (const double rate : {0.3, -0.3, 2.0})
     for (const double packing_fraction : {0.1, 0.6}) {
       const System system = flowing(16, packing_fraction, rate);
-      TextbookEngine<double> engine(system.box, system.disks, system.state, sheared(rate));
+      const auto engine = engine_of(system, rate);
       for (std::uint64_t k = 0; k < 300; ++k) {
-        const double before = engine.now().high;
-        const double expected = before + next_contact(system, engine.state(), rate, 1.0);
-        const std::uint64_t pairs = engine.totals().pair;
-        engine.run_until({before + 1.0, 0.0}, pairs + 1, no_limit);
+        const double before = engine->now().high;
+        const double expected = before + next_contact(system, engine->state(), rate, 1.0);
+        const std::uint64_t pairs = engine->totals().pair;
+        engine->run_until({before + 1.0, 0.0}, pairs + 1, no_limit);
         // States are rounded to 1e-15 of the box, and contact at grazing incidence magnifies that: 1e-8 is its square root.
-        ASSERT_NEAR(engine.now().high, expected, 1e-7) << "rate " << rate << ", at " << packing_fraction << ", collision " << k;
+        ASSERT_NEAR(engine->now().high, expected, 1e-7) << "rate " << rate << ", at " << packing_fraction << ", collision " << k;
       }
     }
 }
 
-TEST(Shear, GivesTheEnergyThatTheStressSays) {
+TEST_P(Shear, GivesTheEnergyThatTheStressSays) {
   // Of the energy K relative to the flow: dK/dt = -rate (sum m c_x c_y + collisions), exactly.
   constexpr double rate = 0.2, dt = 1.0 / 2048.0;
   constexpr int steps = 4096;
   const System system = flowing(36, 0.4, rate);
   const double middle = (system.box.lower.y() + system.box.upper.y()) / 2.0;
-  TextbookEngine<double> engine(system.box, system.disks, system.state, sheared(rate));
+  const auto engine = engine_of(system, rate);
   struct Moments {
     double energy = 0.0, stress = 0.0;
   };
   const auto moments = [&] {
-    const State state = engine.state();
+    const State state = engine->state();
     Moments sum;
     for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
       const double c_x = state.velocities(0, i) - rate * (state.positions(1, i) - middle), c_y = state.velocities(1, i);
@@ -129,40 +193,51 @@ TEST(Shear, GivesTheEnergyThatTheStressSays) {
   Moments last = start;
   double flight = 0.0, jumps = 0.0;
   for (int k = 1; k <= steps; ++k) {
-    engine.run_until({k * dt, 0.0}, no_limit, no_limit);
+    run_to(*engine, k * dt);
     const Moments now = moments();
     flight += dt * (last.stress + now.stress) / 2.0;
     jumps += std::abs(now.stress - last.stress);
     last = now;
   }
-  ASSERT_GT(engine.totals().pair, 100u);
-  const double expected = -rate * (flight + engine.totals().virial_xy);
+  ASSERT_GT(engine->totals().pair, 100u);
+  const double expected = -rate * (flight + engine->totals().virial_xy);
   // The trapezium rule is wrong by dt / 2 times each jump of the stress, at most.
   EXPECT_NEAR(last.energy - start.energy, expected, rate * dt / 2.0 * jumps + 1e-12);
   EXPECT_GT(std::abs(expected), 10.0 * rate * dt / 2.0 * jumps) << "else the test says nothing";
 }
 
-TEST(Shear, AtRateZeroLeavesTheBits) {
+TEST_P(Shear, AtRateZeroLeavesTheBits) {
   const System system = system_of(gas_scene(64, 0.5, Boundary::periodic));
-  TextbookEngine<double> sheared_engine(system.box, system.disks, system.state, sheared(0.0));
-  TextbookEngine<double> plain(system.box, system.disks, system.state);
-  sheared_engine.run_until({20.0, 0.0}, no_limit, no_limit);
-  plain.run_until({20.0, 0.0}, no_limit, no_limit);
-  EXPECT_EQ(sheared_engine.state().positions, plain.state().positions);
-  EXPECT_EQ(sheared_engine.state().velocities, plain.state().velocities);
+  const auto at_rate_zero = engine_of(system, 0.0), plain = make_engine(GetParam(), system);
+  run_to(*at_rate_zero, 20.0);
+  run_to(*plain, 20.0);
+  EXPECT_TRUE(same_bits(at_rate_zero->state(), plain->state()));
+  EXPECT_EQ(at_rate_zero->totals().other, plain->totals().other);
+  EXPECT_EQ(at_rate_zero->totals().stale, plain->totals().stale);
 }
 
-TEST(Shear, KeepsAPlanThatAnExhaustiveSearchConfirms) {
+TEST_P(Shear, KeepsAPlanThatAnExhaustiveSearchConfirms) {
   const System system = flowing(100, 0.55, 0.5);
-  TextbookEngine<double> engine(system.box, system.disks, system.state, sheared(0.5));
+  const auto engine = engine_of(system, 0.5);
   for (int k = 1; k <= 20; ++k) {
-    engine.run_until({0.37 * k, 0.0}, no_limit, no_limit);
-    const auto faults = engine.check_invariants();
+    run_to(*engine, 0.37 * k);
+    const auto faults = engine->check_invariants();
     ASSERT_TRUE(faults.empty()) << faults.front();
   }
 }
 
-TEST(Shear, RunBackwardsLeadsBackToTheStart) {
+TEST_P(Shear, LooksForDisksAtRestInImagesThatSlide) {
+  // Nothing moves but the images. The image of the lower disk above is 43 to the right of the upper disk's place, or 57 to the
+  // left, and comes at speed 1, 0.5 higher: they touch when it is sqrt(3) / 2 away.
+  const System system =
+      system_of(square_box(100.0, Boundary::periodic), {{{2.0, 99.75}, {0.0, 0.0}}, {{45.0, 0.25}, {0.0, 0.0}}});
+  const auto engine = engine_of(system, 0.01);
+  EXPECT_FALSE(engine->idle());
+  engine->run_until(forever, 1, no_limit);
+  EXPECT_NEAR(engine->now().high, 57.0 - std::sqrt(0.75), 1e-13);  // some roundings of a time of 56
+}
+
+TEST(ShearInQuad, RunBackwardsLeadsBackToTheStart) {
   const System system = flowing(16, 0.3, 0.25);
   TextbookEngine<Quad> there(system.box, system.disks, system.state, sheared(0.25));
   there.run_until({2.0, 0.0}, no_limit, no_limit);
@@ -175,6 +250,9 @@ TEST(Shear, RunBackwardsLeadsBackToTheStart) {
   const double per_disk = 2.0 * static_cast<double>(there.totals().pair) / 16.0;
   EXPECT_LT((back.state().velocities + system.state.velocities).cwiseAbs().maxCoeff(), 1e-14 * std::exp(3.2 * per_disk / 2.0));
 }
+
+INSTANTIATE_TEST_SUITE_P(All, Shear, testing::ValuesIn(engines_with_effects),
+                         [](const auto& engine) { return std::string(engine.param); });
 
 }  // namespace
 }  // namespace carom::test

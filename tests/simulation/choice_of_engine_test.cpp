@@ -44,6 +44,14 @@ TEST(ChoiceOfEngine, NamesTheEffectsThatCallForTheGeneralEngine) {
   EXPECT_EQ(simulation.engine_reason(), "the scene asks for restitution, gravity");
 }
 
+TEST(ChoiceOfEngine, TakesTheGeneralEngineForShear) {
+  Scene scene = gas_scene(100, 0.3, Boundary::periodic);
+  scene.effects.shear = Shear{0.1, {}};
+  const Simulation simulation = make_simulation(scene);
+  EXPECT_EQ(simulation.engine(), "general");
+  EXPECT_EQ(simulation.engine_reason(), "the scene asks for shear");
+}
+
 TEST(ChoiceOfEngine, SaysThatABoxIsTooSmall) {
   Scene scene = gas_scene(4, 0.6, Boundary::periodic);
   const Simulation simulation = make_simulation(scene);

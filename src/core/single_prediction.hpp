@@ -1,0 +1,63 @@
+#pragma once
+// The shape of a prediction that looks at one neighbour at a time, for pairs of which the vectors of prediction_kernel.hpp know
+// nothing: those in wells and those in a sheared box. The time at which a disk leaves its cage has the bits that it has there.
+
+#include "core/prediction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace carom {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+inline double contact_distance(const PredictionFrame& frame, const Flight& /*a*/, const Flight& /*b*/) { return frame.sigma; }
+inline double contact_distance(const PredictionFrame& /*frame*/, const SizedFlight& a, const SizedFlight& b) {
+  return a.radius + b.radius;
+}
+
+template <class Line>
+double leaving_time(const PredictionFrame& frame, const Line& line, const Surroundings& around, double now) {
+  double first = never;
+  for (int k = 0; k < 2; ++k) {
+    if (line.v[k] == 0.0) continue;
+    const auto centre = static_cast<std::int64_t>(static_cast<std::uint64_t>(around.centre[k]) << 32);
+    const double off = static_cast<double>(wrapped_difference(line.x[k], centre)) * frame.unit[k] + line.v[k] * now;
+    const double room = std::max(frame.half_width - (line.v[k] > 0.0 ? off : -off), 0.0);
+    const double exact = now + room / std::abs(line.v[k]);
+    const double shift = frame.edge_step * 0x1.8p52;
+    const double nearest = (exact + shift) - shift;
+    const double rounded = nearest > exact ? nearest - frame.edge_step : nearest;
+    first = std::min(first, rounded > now ? rounded : exact);
+  }
+  return first;
+}
+
+/// When disks i and j meet, from `now` on; infinity for never, and for a disk and itself.
+template <class Line>
+using MeetingTime = double (*)(const Line* lines, const PredictionFrame& frame, std::int32_t i, std::int32_t j, double now);
+
+template <class Line, MeetingTime<Line> meeting_time>
+void predict_singly(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around, double now,
+                    Prediction& ahead) {
+  ahead = {never, leaving_time(frame, lines[i], around, now), -1, 0};
+  for (std::uint32_t n = 0; n < around.count; ++n) {
+    const double time = meeting_time(lines, frame, i, around.ids[n], now);
+    if (time == never || time > ahead.pair_time) continue;
+    ahead.tied = time == ahead.pair_time ? 1 : 0;
+    ahead.pair_time = time;
+    ahead.partner = around.ids[n];
+  }
+}
+
+template <class Line>
+void store(Line* lines, const CollidedPair& pair, std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by, double avx,
+           double avy, double bvx, double bvy) {
+  Line &a = lines[pair.disk[0]], &b = lines[pair.disk[1]];
+  a.x[0] = ax, a.x[1] = ay, a.v[0] = avx, a.v[1] = avy;
+  b.x[0] = bx, b.x[1] = by, b.v[0] = bvx, b.v[1] = bvy;
+}
+
+}  // namespace carom

@@ -1,0 +1,66 @@
+#pragma once
+// When cages come within contact through an edge past which images slide. Lengths are in units of the largest radius; few cages
+// are concerned, so all is in double precision, one by one.
+
+#include "core/flight.hpp"
+#include "neighbours/cage_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+namespace carom {
+
+class SlidingCages {
+ public:
+  /// unit: length of a step of a centre, per axis.
+  explicit SlidingCages(const std::array<double, 2>& unit) : unit_(unit) {}
+
+  /// Images above are `displacement` steps to the right, and slide on by `way`, which may be negative.
+  void set_way(std::int32_t displacement, double way) {
+    displacement_ = displacement;
+    way_ = way;
+  }
+  /// Two cages have a width of `two_halves` together, and are at most `reach` apart along an axis where disks in them touch.
+  void set_cages(double two_halves, double reach) {
+    // Some steps, since centres and displacement are rounded, and some more than all rounding here, on the safe side.
+    two_halves_ = two_halves * (1.0 + 1e-6) + 4.0 * std::max(unit_[0], unit_[1]);
+    inner_ = (std::int64_t{1} << 31) - static_cast<std::int64_t>(std::ceil(reach * (1.0 + 1e-3) / unit_[1])) - 16;
+  }
+
+  [[nodiscard]] std::int64_t inner() const { return inner_; }
+  [[nodiscard]] bool by_edge(CageCentre centre) const { return std::abs(std::int64_t{centre.y}) >= inner_; }
+  [[nodiscard]] double way() const { return std::abs(way_); }
+
+  /// Where a cage at this place would be, were it one of the images that lie `above` boxes lower.
+  [[nodiscard]] CageCentre as_seen_from_beyond(CageCentre centre, std::int32_t above) const {
+    return {wrapped(std::int64_t{centre.x} - above * std::int64_t{displacement_}), centre.y};
+  }
+
+  /// Requires the cages to be nearest to each other through an edge.
+  [[nodiscard]] bool near(CageCentre a, float radius_a, CageCentre b, float radius_b) const {
+    const std::int32_t above = boxes_between(a.y, b.y);
+    const double start = unit_[0] * wrapped(std::int64_t{a.x} - std::int64_t{b.x} - above * std::int64_t{displacement_});
+    const double end = start - above * way_;
+    const double apart_y = unit_[1] * wrapped(std::int64_t{a.y} - std::int64_t{b.y});
+    const double gap_x = std::max({std::min(start, end) - two_halves_, -std::max(start, end) - two_halves_, 0.0});
+    const double gap_y = std::max(std::abs(apart_y) - two_halves_, 0.0);
+    const double sigma = (static_cast<double>(radius_a) + static_cast<double>(radius_b)) * (1.0 + 1e-6);
+    return gap_x * gap_x + gap_y * gap_y <= sigma * sigma;
+  }
+
+ private:
+  [[nodiscard]] static std::int32_t wrapped(std::int64_t steps) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(steps));
+  }
+
+  std::array<double, 2> unit_;
+  std::int32_t displacement_ = 0;
+  double way_ = 0.0;
+  double two_halves_ = 0.0;
+  std::int64_t inner_ = 0;
+};
+
+}  // namespace carom
