@@ -89,6 +89,7 @@ struct Run {
   std::optional<Equilibrate> equilibrate;
   std::uint64_t seed = 1;
   bool keep_momentum = false;
+  bool accept_overlap = false;  ///< disks given one by one may overlap each other, however deep
 };
 
 /// The [output] table.

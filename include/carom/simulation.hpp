@@ -26,12 +26,12 @@ class AnyEngine;
 
 /// Why a run returned.
 enum class StopReason {
-  time,           ///< the time asked for was reached
-  collisions,     ///< the number of pair collisions asked for was reached
-  interrupted,    ///< the caller's `proceed` said stop
-  jammed,         ///< time has stopped: ten million events at one instant, of disks that touch and have no room to move
-  collapsed,      ///< time has stopped: inelastic disks collide at ever shorter intervals (see elastic_below)
-  grown,          ///< the packing fraction or pressure at which growth is to end was reached
+  time,         ///< the time asked for was reached
+  collisions,   ///< the number of pair collisions asked for was reached
+  interrupted,  ///< the caller's `proceed` said stop
+  jammed,     ///< time has stopped: disks touch and have no room to move that numbers could tell; ten million events lead nowhere
+  collapsed,  ///< time has stopped: inelastic disks collide at ever shorter intervals (see elastic_below)
+  grown,      ///< the packing fraction or pressure at which growth is to end was reached
   no_collisions,  ///< only a number of collisions was asked for, and no pair will ever (or seems ever to) collide
   invalid_state,  ///< check_invariants() found a fault: RunResult::faults says which
 };
@@ -148,6 +148,7 @@ struct RunHooks {
 
 struct RunResult {
   StopReason stopped = StopReason::time;
+  std::vector<std::int32_t> stopped_disks;  ///< where jammed or collapsed: who collides without end, by rising id
   std::uint64_t samples = 0;
   double loop_seconds = 0.0;        ///< in the event loop of the measured run
   bool measured = true;             ///< false where the run ended while it was still equilibrating

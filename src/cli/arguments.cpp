@@ -4,6 +4,7 @@
 #include "cli/arguments.hpp"
 
 #include "cli/format.hpp"
+#include "study/hard_case.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -49,6 +50,7 @@ void add_scene_options(CLI::App& command, SceneOptions& scene) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command.add_option("--seed", scene.seed, "Seed of the random numbers; the same as --set run.seed=N")->type_name("N");
+  command.add_flag("--accept-overlap", scene.accept_overlap, "Run disks given one by one even where they overlap");
   command.add_option("--engine", scene.engine, fmt::format("Force an engine: {}", fmt::join(engine_names(), ", ")))
       ->type_name("NAME");
 }
@@ -180,6 +182,30 @@ void add_bench(CLI::App& program, Action& action) {
   command->callback([&action, options] { action = [options] { return bench(*options); }; });
 }
 
+void add_hardcases(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("hardcases", "Run the corpus of hard cases and say of each whether it holds");
+  const auto options = std::make_shared<HardCasesOptions>();
+  command->add_option("cases", options->cases, "Cases by name, or files of your own (default: all that do not take long)")
+      ->type_name("CASE|FILE.toml");
+  command->add_option("--family", options->family, fmt::format("One family: {}", fmt::join(hard_case_families(), ", ")))
+      ->type_name("FAMILY");
+  command->add_option("--engine", options->engine, "One engine alone, in place of all that cover a case")->type_name("NAME");
+  command->add_flag("--long", options->takes_long, "Run those that take minutes too");
+  command->add_flag("--list", options->list, "List the cases");
+  command->add_option("--show", options->show, "Print the text of a case")->type_name("CASE");
+  command->add_flag("--json", options->json, "Print JSON in place of the table");
+  command->add_flag("--markdown", options->markdown, "Print Markdown in place of the table");
+  command->add_option("--page", options->page, "Write the result as one HTML page too")->type_name("FILE.html");
+  command
+      ->add_option("--method", options->method,
+                   fmt::format("Say what a fixed-step method makes of the cases: {}", fmt::join(fixed_step_names(), ", ")))
+      ->type_name("NAME");
+  command->add_option("--dt", options->dt, "Its time step (default: the fastest disk goes a twentieth of the smallest diameter)")
+      ->type_name("DT");
+  command->callback(
+      [&action, options, invocation] { action = [options, invocation] { return hardcases(*options, invocation); }; });
+}
+
 /// The parser's own sentence for an unknown command says only that one is missing.
 void require_known_command(const CLI::App& program, const std::string& word) {
   if (word.starts_with('-')) return;
@@ -206,6 +232,7 @@ Action parse_arguments(int argc, char** argv) {
   add_init(program, action, invocation);
   add_info(program, action);
   add_bench(program, action);
+  add_hardcases(program, action, invocation);
   if (argc > 1) require_known_command(program, argv[1]);
   try {
     program.parse(argc, argv);

@@ -84,6 +84,21 @@ struct BenchOptions {
 };
 ExitCode bench(const BenchOptions& options);
 
+struct HardCasesOptions {
+  std::vector<std::string> cases;  ///< names of the corpus or files; empty: all that do not take long
+  std::string family;              ///< empty: all
+  std::string engine = "auto";     ///< one engine alone
+  bool takes_long = false;
+  bool list = false;
+  std::string show;  ///< the text of this case
+  bool json = false;
+  bool markdown = false;
+  std::string page;          ///< an HTML file to write besides; empty: none
+  std::string method;        ///< a fixed-step method in the place of the engines
+  std::optional<double> dt;  ///< of it; absent: from each case's speeds
+};
+ExitCode hardcases(const HardCasesOptions& options, const Invocation& invocation);
+
 struct CompareCommandOptions {
   SceneOptions scene;
   std::string out;          ///< empty: the scene's name without its ending, and "-compare"

@@ -81,7 +81,8 @@ ExitCode exit_code_of(const RunReport& report) {
                counted(faults.size(), "fault"), report.time, faults.front());
     return exit_invalid_state;
   }
-  if (!report.time_step && report.max_relative_overlap > tolerated_overlap(report.engine)) {
+  const double tolerated = std::max(tolerated_overlap(report.engine), report.overlap_at_start.value_or(0.0));
+  if (!report.time_step && report.max_relative_overlap > tolerated) {
     fmt::print(stderr, "carom: {}: disks overlap by {:.1e} of their contact distance, far more than rounding explains\n",
                report.scene, report.max_relative_overlap);
     return exit_invalid_state;

@@ -14,6 +14,7 @@ struct SceneOptions {
   std::vector<std::string> overrides;  ///< "run.time=2", in the order given
   std::optional<std::string> seed;     ///< as typed
   std::string engine = "auto";
+  bool accept_overlap = false;
   bool no_trajectory = false;
   bool xyz = false;
   bool csv = false;

@@ -26,6 +26,16 @@ std::string heading(const RunReport& report, const Scene& scene) {
                      (report.time_step ? "method " : "engine ") + method_words(report.engine, report.time_step));
 }
 
+/// "disk 3", "disks 0, 1 and 2", "disks 0, 1, 2, 3 and 12 more"
+std::string named(const std::vector<std::int32_t>& disks, const char* otherwise) {
+  constexpr std::size_t most = 5;
+  if (disks.empty()) return otherwise;
+  if (disks.size() == 1) return fmt::format("disk {}", disks.front());
+  const std::size_t shown = disks.size() > most ? most - 1 : disks.size() - 1;
+  const std::string last = disks.size() > most ? fmt::format("{} more", disks.size() - shown) : fmt::format("{}", disks.back());
+  return fmt::format("disks {} and {}", fmt::join(disks.begin(), disks.begin() + static_cast<std::ptrdiff_t>(shown), ", "), last);
+}
+
 std::string why_stopped(const RunReport& report, const Scene& scene) {
   switch (report.stopped) {
     case StopReason::time:
@@ -35,10 +45,14 @@ std::string why_stopped(const RunReport& report, const Scene& scene) {
     case StopReason::interrupted:
       return report.measured ? "interrupted here; everything up to here is saved" : "interrupted while still equilibrating";
     case StopReason::jammed:
-      return "jammed: disks that touch on all sides collide without end at this instant; give them more room";
+      return fmt::format("jammed: {} touch on all sides and collide without end at this instant; give them more room",
+                         named(report.stopped_disks, "disks that"));
     case StopReason::collapsed:
-      return "collapsed: inelastic disks collide at ever shorter intervals and time stands still; give collision.elastic_below, "
-             "such as { time = 1e-6 }, to go on";
+      return fmt::format(
+          "collapsed: {} collide{} at ever shorter intervals and time stands still; give collision.elastic_below, such as {{ "
+          "time = "
+          "1e-6 }}, to go on",
+          named(report.stopped_disks, "inelastic disks"), report.stopped_disks.size() == 1 ? "s" : "");
     case StopReason::grown:
       return report.of_effects.growth
                  ? fmt::format("grown as far as asked, to packing fraction {:.5g}", report.of_effects.growth->packing_fraction)
@@ -75,6 +89,9 @@ std::string how_exact(const RunReport& report) {
   const std::string checked = "in " + counted(report.overlap_checked, "state") + " checked";
   if (report.overlap_checked == 0) return text + row("worst overlap", "not checked");
   if (report.max_relative_overlap == 0.0) return text + row("worst overlap", "none", checked);
+  if (report.overlap_at_start)
+    return text + row("worst overlap", fmt::format("{:.1e} diameters", report.max_relative_overlap),
+                      fmt::format("{}; {:.1e} accepted at the start", checked, *report.overlap_at_start));
   return text + row("worst overlap", fmt::format("{:.1e} diameters", report.max_relative_overlap), checked);
 }
 

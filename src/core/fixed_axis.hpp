@@ -43,6 +43,13 @@ struct FixedAxis {
     return middle + static_cast<long double>(x) * static_cast<long double>(unit);
   }
 
+  /// What is missing of a position that was rounded. From the middle on: far from the origin a long double would not hold the
+  /// sum.
+  [[nodiscard]] double remainder(std::int64_t x, double position) const {
+    return static_cast<double>(static_cast<long double>(x) * static_cast<long double>(unit) -
+                               (static_cast<long double>(position) - middle));
+  }
+
   /// A length in steps, rounded towards zero. Requires |length| < half the range.
   [[nodiscard]] std::int64_t steps_of(double length) const { return static_cast<std::int64_t>(length * steps); }
 };

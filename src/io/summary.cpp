@@ -52,7 +52,9 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   json["temperature"] = {{"mean", number(report.temperature_mean)}};
   json["pressure"] = {{"Z", number(report.Z)}, {"Z_error", number(report.Z_error)}, {"reduced", number(report.reduced_pressure)}};
   json["overlap"] = {{"max_relative", number(report.max_relative_overlap)}, {"checked", report.overlap_checked}};
+  if (report.overlap_at_start) json["overlap"]["start"] = number(*report.overlap_at_start);
   json["stopped"] = to_string(report.stopped);
+  if (!report.stopped_disks.empty()) json["stopped_disks"] = report.stopped_disks;
   if (!report.measured) json["measured"] = false;
 
   json["title"] = report.title;

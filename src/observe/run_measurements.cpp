@@ -30,6 +30,7 @@ void RunMeasurements::start(const State& state) {
   if (has_potential(scene.effects)) report_.energy_scale = energies.scale();
   report_.momentum_initial = total_momentum(simulation_.disks(), state);
   look_for_overlap(state);
+  if (scene.run.accept_overlap) report_.overlap_at_start = report_.max_relative_overlap;
 }
 
 void RunMeasurements::sample(const State& state) {
@@ -96,6 +97,7 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   report_.momentum_final = total_momentum(disks, state);
   report_.temperature_mean = samples_ > 0 ? temperature_sum_ / static_cast<double>(samples_) : temperature;
   report_.stopped = result.stopped;
+  report_.stopped_disks = result.stopped_disks;
   report_.of_effects = effects_report(scene, disks, report_.totals, state);
   if (!result.measured) report_.of_effects.energy_given.reset();  // totals began before the initial energy did
   finish_samples(state);

@@ -51,9 +51,11 @@ struct RunReport {
   std::optional<double> Z_error;           ///< standard error over blocks; empty with fewer than 8 blocks
   std::optional<double> reduced_pressure;  ///< beta P <sigma^2> = (4 eta / pi) Z; empty where Z is
 
-  double max_relative_overlap = 0.0;  ///< largest (sigma_ij - |r_ij|) / sigma_ij over all checked states, >= 0
-  std::uint64_t overlap_checked = 0;  ///< number of states checked
+  double max_relative_overlap = 0.0;       ///< largest (sigma_ij - |r_ij|) / sigma_ij over all checked states, >= 0
+  std::uint64_t overlap_checked = 0;       ///< number of states checked
+  std::optional<double> overlap_at_start;  ///< the same of the start alone, where the scene accepts an overlap there
   StopReason stopped = StopReason::time;
+  std::vector<std::int32_t> stopped_disks;  ///< RunResult::stopped_disks
   EffectsReport of_effects;
   std::optional<Verification> verification;  ///< where it was asked for
   std::optional<Horizon> horizon;            ///< of the start of the measured run, where it was asked for

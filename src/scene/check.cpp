@@ -106,6 +106,7 @@ void check_density(const Scene& scene) {
 }
 
 void check_overlaps(const SceneDraft& draft) {
+  if (draft.scene.run.accept_overlap) return;
   std::vector<Eigen::Vector2d> centres;
   std::vector<double> radii;
   std::vector<std::int64_t> ids;

@@ -21,7 +21,7 @@ char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned 
 /// A key that is right in another table is a misplaced key, not a misspelt one.
 std::string_view home_of(std::string_view key) {
   using Home = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Home, 43> homes = {{{"x", "[box]"},
+  static constexpr std::array<Home, 44> homes = {{{"x", "[box]"},
                                                   {"y", "[box]"},
                                                   {"aspect", "[box]"},
                                                   {"boundary", "[box]"},
@@ -56,6 +56,7 @@ std::string_view home_of(std::string_view key) {
                                                   {"equilibrate", "[run]"},
                                                   {"seed", "[run]"},
                                                   {"keep_momentum", "[run]"},
+                                                  {"accept_overlap", "[run]"},
                                                   {"trajectory", "[output]"},
                                                   {"xyz", "[output]"},
                                                   {"csv", "[output]"},

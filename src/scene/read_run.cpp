@@ -37,7 +37,8 @@ void check_sample_count(const TableReader& table, const Run& run) {
 }  // namespace
 
 Run read_run(const toml::table& node) {
-  const TableReader table(node, "run", {"time", "collisions", "sample_every", "equilibrate", "seed", "keep_momentum"});
+  const TableReader table(node, "run",
+                          {"time", "collisions", "sample_every", "equilibrate", "seed", "keep_momentum", "accept_overlap"});
   Run run;
   run.time = table.number("time", Range::zero_or_more, "time = 5.0");
   if (const auto collisions = table.integer("collisions", "collisions = 1_000_000")) {
@@ -54,6 +55,7 @@ Run read_run(const toml::table& node) {
   }
   run.seed = static_cast<std::uint64_t>(table.integer("seed", "seed = 1").value_or(1));
   run.keep_momentum = table.on_or_off("keep_momentum").value_or(false);
+  run.accept_overlap = table.on_or_off("accept_overlap").value_or(false);
   return run;
 }
 

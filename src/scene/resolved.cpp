@@ -101,6 +101,7 @@ void put_run(Buffer& out, const Run& run) {
     put(out, "equilibrate = {{ collisions_per_disk = {} }}\n", number_text(*run.equilibrate->collisions_per_disk));
   }
   put(out, "seed = {}\nkeep_momentum = {}\n", run.seed, run.keep_momentum);
+  if (run.accept_overlap) put(out, "accept_overlap = true\n");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #if CAROM_CHECK_INVARIANTS
@@ -50,11 +51,22 @@ class AnyEngine {
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
+/// Of what check_invariants() found, the sentences about disks that overlap: where the start brought them along they are no
+/// faults.
+[[nodiscard]] inline bool is_overlap(const std::string& fault) { return fault.find(" overlap by ") != std::string::npos; }
+[[nodiscard]] inline bool any_overlap(const std::vector<std::string>& faults) {
+  return std::any_of(faults.begin(), faults.end(), is_overlap);
+}
+
 template <class Engine>
 class EngineAdapter final : public AnyEngine {
  public:
   template <class... Args>
-  explicit EngineAdapter(Args&&... args) : engine_(std::forward<Args>(args)...) {}
+  explicit EngineAdapter(Args&&... args) : engine_(std::forward<Args>(args)...) {
+#if CAROM_CHECK_INVARIANTS
+    may_overlap_ = any_overlap(engine_.check_invariants());
+#endif
+  }
 
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
     const bool arrived = engine_.run_until(target, pair_limit, event_limit);
@@ -97,13 +109,15 @@ class EngineAdapter final : public AnyEngine {
   void check_now_and_then() {
     if (engine_.totals().pair < next_check_) return;
     next_check_ = engine_.totals().pair + static_cast<std::uint64_t>(engine_.disk_count()) / 2 + 1;
-    const std::vector<std::string> faults = engine_.check_invariants();
+    std::vector<std::string> faults = engine_.check_invariants();
+    if (may_overlap_) std::erase_if(faults, is_overlap);
     if (!faults.empty()) {
       std::fprintf(stderr, "carom: broken invariant: %s\n", faults.front().c_str());
       std::abort();
     }
   }
   std::uint64_t next_check_ = 0;
+  bool may_overlap_ = false;  ///< the start did
 #endif
   Engine engine_;
 };

@@ -96,7 +96,7 @@ class Placement {
                         i, obstacle->obstacle, obstacle->depth / obstacle->contact, obstacle->contact));
       }
       const auto found = in_place_.deepest(position, disks_.radius[static_cast<std::size_t>(i)], static_cast<std::int32_t>(i));
-      if (found.relative_overlap > accepted_overlap) {
+      if (!scene_.run.accept_overlap && found.relative_overlap > accepted_overlap) {
         throw SceneError(
             scene_.species[s].positions_where,
             fmt::format("disks {} and {} overlap by {:.3g} of their contact distance {:g}; move them apart or make them smaller",

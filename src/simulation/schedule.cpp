@@ -5,6 +5,7 @@
 #include <carom/simulation.hpp>
 
 #include "simulation/parts.hpp"
+#include "simulation/standstill.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -25,8 +26,16 @@ constexpr std::uint64_t stretch_events = 20'000;
 /// each other for ever, as far as anyone can tell.
 constexpr std::uint64_t patience = 1'000'000'000;
 
-std::uint64_t all_events(const Totals& totals) {
-  return totals.pair + totals.wall + totals.other + totals.stale + totals.obstacle + totals.well + totals.kicks;
+/// Whom events concern, by rising id.
+std::vector<std::int32_t> disks_of(std::span<const Event> events) {
+  std::vector<std::int32_t> disks;
+  for (const Event& event : events) {
+    disks.push_back(event.disk);
+    if (event.partner >= 0) disks.push_back(event.partner);
+  }
+  std::sort(disks.begin(), disks.end());
+  disks.erase(std::unique(disks.begin(), disks.end()), disks.end());
+  return disks;
 }
 
 /// Growth to a packing fraction comes to its end whether disks collide or not.
@@ -34,19 +43,21 @@ bool ends_by_growth(const std::optional<Growth>& growth) { return growth && grow
 
 class Schedule {
  public:
-  Schedule(const Scene& scene, detail::AnyEngine& engine, std::uint64_t disks, const RunHooks& hooks)
+  Schedule(const Scene& scene, detail::AnyEngine& engine, const Disks& disks, const RunHooks& hooks)
       : run_(scene.run),
         effects_(scene.effects),
         engine_(engine),
         hooks_(hooks),
-        block_collisions_(std::max<std::uint64_t>(16, disks / 2)),
-        disks_(disks) {}
+        block_collisions_(std::max<std::uint64_t>(16, disks.count() / 2)),
+        disks_(disks.count()),
+        standstill_(disks) {}
 
   RunResult operator()() {
+    if (hooks_.verify_every > 0) may_overlap_ = detail::any_overlap(engine_.check_invariants());
     result_.measured = equilibrate();
     if (!result_.measured) return result_;
     if (hooks_.start) hooks_.start(engine_.state());
-    engine_.record_events(static_cast<bool>(hooks_.events));
+    record_events(static_cast<bool>(hooks_.events));
     measure();
     engine_.record_events(false);
     if (hooks_.verify_every > 0 && (since_verified_ > 0 || result_.verified == 0)) verify();
@@ -115,7 +126,8 @@ class Schedule {
         if (!hooks_.proceed(progress())) return stop(StopReason::interrupted);
       }
       const bool arrived = run_stretch(target, std::min(collisions, next_block_));
-      if (hooks_.events) hand_on_events();
+      if (stands_ && !recording_) record_events(true);  // to be able to say who collides without end
+      if (recording_) take_events();
       if (hooks_.verify_every > 0 && since_verified_ >= hooks_.verify_every && !verify()) return false;
       if (engine_.totals().pair >= next_block_) {
         if (hooks_.block) hooks_.block(progress());
@@ -124,6 +136,7 @@ class Schedule {
       if (engine_.totals().pair >= collisions) return stop(StopReason::collisions);
       if (arrived && target < forever) return true;
       if (const auto reason = detail::why_stopped(engine_, effects_)) return stop(*reason);
+      if (standstill_.reached(engine_)) return stop_at_standstill(target, collisions);
       if (is_hopeless()) return stop(StopReason::no_collisions);
     }
   }
@@ -131,11 +144,13 @@ class Schedule {
   /// True when the engine stands at the target.
   bool run_stretch(const Instant& target, std::uint64_t pair_limit) {
     const std::uint64_t pairs = engine_.totals().pair;
-    const std::uint64_t before = all_events(engine_.totals());
+    const std::uint64_t before = detail::all_events(engine_.totals());
+    const Instant began = engine_.now();
     const auto started = Clock::now();
     const bool arrived = engine_.run_until(target, pair_limit, std::min(stretch_events, until_verified()));
     result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
-    const std::uint64_t events = all_events(engine_.totals()) - before;
+    const std::uint64_t events = detail::all_events(engine_.totals()) - before;
+    stands_ = events > 0 && !(began < engine_.now());
     since_verified_ += events;
     without_collision_ = engine_.totals().pair > pairs ? 0 : without_collision_ + events;
     return arrived;
@@ -151,6 +166,7 @@ class Schedule {
     since_verified_ = 0;
     ++result_.verified;
     result_.faults = engine_.check_invariants();
+    if (may_overlap_) std::erase_if(result_.faults, detail::is_overlap);
     return result_.faults.empty() || stop(StopReason::invalid_state);
   }
 
@@ -159,14 +175,28 @@ class Schedule {
     return !ends_by_time_ && !ends_by_growth(effects_.growth) && (disks_ < 2 || engine_.idle() || without_collision_ > patience);
   }
 
-  void hand_on_events() {
+  void take_events() {
     const std::vector<Event> events = engine_.take_events();
-    if (!events.empty()) hooks_.events(events);
+    if (events.empty()) return;
+    if (stands_) result_.stopped_disks = disks_of(events);
+    if (hooks_.events && !equilibrating_) hooks_.events(events);
   }
+
+  void record_events(bool on) { engine_.record_events(recording_ = on); }
 
   bool stop(StopReason reason) {
     result_.stopped = reason;
+    if (reason != StopReason::jammed && reason != StopReason::collapsed) result_.stopped_disks.clear();
     return false;
+  }
+
+  /// The clock creeps: who is it that holds it up?
+  bool stop_at_standstill(const Instant& target, std::uint64_t collisions) {
+    record_events(true);
+    run_stretch(target, collisions);
+    stands_ = true;
+    take_events();
+    return stop(effects_.dissipate() ? StopReason::collapsed : StopReason::jammed);
   }
 
   [[nodiscard]] Progress progress() const { return {engine_.now().high, engine_.totals(), result_.loop_seconds, equilibrating_}; }
@@ -177,9 +207,13 @@ class Schedule {
   const RunHooks& hooks_;
   const std::uint64_t block_collisions_;
   const std::uint64_t disks_;
+  detail::Standstill standstill_;
+  bool stands_ = false;     ///< the clock, over a whole stretch
+  bool recording_ = false;  ///< events
   std::uint64_t next_block_ = no_limit;
   std::uint64_t without_collision_ = 0;
   std::uint64_t since_verified_ = 0;  ///< events
+  bool may_overlap_ = false;          ///< the start did
   bool equilibrating_ = false;
   bool ends_by_time_ = false;
   Clock::time_point last_look_ = Clock::now();
@@ -217,7 +251,7 @@ std::uint64_t last_sample(const Run& run) {
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   auto& parts = *simulation.parts_;
   require_sound_schedule(parts.scene.run, parts.scene.effects);
-  return Schedule(parts.scene, *parts.engine, parts.disks.count(), hooks)();
+  return Schedule(parts.scene, *parts.engine, parts.disks, hooks)();
 }
 
 }  // namespace carom

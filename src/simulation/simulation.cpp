@@ -4,6 +4,7 @@
 
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
+#include "simulation/standstill.hpp"
 #include "simulation/start.hpp"
 
 #include <cmath>
@@ -13,11 +14,19 @@ namespace carom {
 
 namespace {
 
-StopReason run_to(detail::AnyEngine& engine, const Effects& effects, const Instant& target, std::uint64_t collision_limit) {
+/// Events between two looks at the clock: some tenths of a second.
+constexpr std::uint64_t stretch_events = 1'000'000;
+
+StopReason run_to(detail::AnyEngine& engine, const Disks& disks, const Effects& effects, const Instant& target,
+                  std::uint64_t collision_limit) {
   if (!std::isfinite(target.high) || !std::isfinite(target.low))
     throw std::invalid_argument("a simulation runs to a finite time only");
-  if (engine.run_until(target, collision_limit, std::numeric_limits<std::uint64_t>::max())) return StopReason::time;
-  return detail::why_stopped(engine, effects).value_or(StopReason::collisions);
+  for (detail::Standstill standstill(disks); !engine.run_until(target, collision_limit, stretch_events);) {
+    if (const auto reason = detail::why_stopped(engine, effects)) return *reason;
+    if (engine.totals().pair >= collision_limit) return StopReason::collisions;
+    if (standstill.reached(engine)) return effects.dissipate() ? StopReason::collapsed : StopReason::jammed;
+  }
+  return StopReason::time;
 }
 
 }  // namespace
@@ -38,11 +47,11 @@ const Totals& Simulation::totals() const { return parts_->engine->totals(); }
 State Simulation::state() const { return parts_->engine->state(); }
 
 StopReason Simulation::run_until(double time, std::uint64_t collision_limit) {
-  return run_to(*parts_->engine, parts_->scene.effects, {time, 0.0}, collision_limit);
+  return run_to(*parts_->engine, parts_->disks, parts_->scene.effects, {time, 0.0}, collision_limit);
 }
 
 StopReason Simulation::run_until_sample(std::uint64_t k, double dt, std::uint64_t collision_limit) {
-  return run_to(*parts_->engine, parts_->scene.effects, Instant::product(k, dt), collision_limit);
+  return run_to(*parts_->engine, parts_->disks, parts_->scene.effects, Instant::product(k, dt), collision_limit);
 }
 
 void Simulation::reset_clock() { parts_->engine->reset_clock(); }

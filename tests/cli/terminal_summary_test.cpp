@@ -89,5 +89,23 @@ TEST_F(TerminalSummary, WithoutZItSaysWhy) {
   EXPECT_THAT(text(), HasSubstr("pressure and density change with height"));
 }
 
+TEST_F(TerminalSummary, ARunThatTimeStopsNamesTheDisks) {
+  report_.stopped = StopReason::jammed;
+  EXPECT_THAT(text(), HasSubstr("jammed: disks that touch on all sides"));
+  report_.stopped_disks = {3, 5};
+  EXPECT_THAT(text(), HasSubstr("jammed: disks 3 and 5 touch on all sides"));
+  report_.stopped_disks = {0, 1, 2, 3, 5, 8, 13};
+  EXPECT_THAT(text(), HasSubstr("jammed: disks 0, 1, 2, 3 and 3 more touch"));
+  report_.stopped = StopReason::collapsed;
+  report_.stopped_disks = {7};
+  EXPECT_THAT(text(), HasSubstr("collapsed: disk 7 collides at ever shorter intervals"));
+}
+
+TEST_F(TerminalSummary, AnOverlapThatWasAcceptedIsTold) {
+  report_.max_relative_overlap = 0.25;
+  report_.overlap_at_start = 0.125;
+  EXPECT_THAT(text(), ContainsRegex("worst overlap +2.5e-01 diameters .*; 1.2e-01 accepted at the start"));
+}
+
 }  // namespace
 }  // namespace carom::test

@@ -53,6 +53,18 @@ TEST(FixedAxis, LinesMayStartByTheReachBeyondWallsWithDifferencesInsideTheRange)
   }
 }
 
+TEST(FixedAxis, APositionAndItsRemainderHoldEveryStepFarFromTheOriginToo) {
+  for (const double lower : {0.0, 1e3, 1e9, -1e15}) {
+    const FixedAxis axis = axis_of(lower, lower + 1.0, true);
+    for (const std::int64_t x : {std::int64_t{0}, std::int64_t{1}, std::int64_t{0x123456789abcdef}, INT64_MAX, INT64_MIN}) {
+      const double position = static_cast<double>(axis.position(x));
+      const double exact = static_cast<double>(x) * 0x1p-64;  // from the middle; position and middle are less than 1 apart
+      const double found = (position - static_cast<double>(axis.middle)) + axis.remainder(x, position);
+      EXPECT_NEAR(found, exact, 0x1p-53) << lower << " " << x;
+    }
+  }
+}
+
 TEST(FixedAxis, DyadicPositionsAreExact) {
   for (const bool periodic : {true, false}) {
     const FixedAxis axis = axis_of(-2.0, 6.0, periodic, 5.0);

@@ -166,6 +166,7 @@ class SceneMaker {
       text += "collisions = " + std::to_string(*rc::gen::inRange<std::int64_t>(0, INT64_MAX)) + "\n";
     if (*rc::gen::arbitrary<bool>()) text += "seed = " + std::to_string(*rc::gen::inRange<std::int64_t>(0, INT64_MAX)) + "\n";
     if (*rc::gen::arbitrary<bool>()) text += "keep_momentum = true\n";
+    if (*rc::gen::arbitrary<bool>()) text += "accept_overlap = true\n";
     if (*rc::gen::arbitrary<bool>()) text += "equilibrate = { time = " + number_text(std::abs(any_double())) + " }\n";
     const bool sampled = *rc::gen::arbitrary<bool>();
     if (sampled) text += "sample_every = " + number_text(1e300 + unit_interval()) + "\n";

@@ -84,6 +84,7 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
     return "run.equilibrate's value";
   }
   if (a.run.seed != b.run.seed || a.run.keep_momentum != b.run.keep_momentum) return "run.seed or run.keep_momentum";
+  if (a.run.accept_overlap != b.run.accept_overlap) return "run.accept_overlap";
   const Output &p = a.output, &q = b.output;
   if (p.trajectory != q.trajectory || p.xyz != q.xyz || p.csv != q.csv || p.events != q.events || p.unwrapped != q.unwrapped) {
     return "output";
