@@ -1,6 +1,8 @@
 #pragma once
 // All of Carom's public interface.
 
+#include <carom/blocking.hpp>
+#include <carom/observe.hpp>
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
 #include <carom/state.hpp>

@@ -101,6 +101,19 @@ struct Output {
   bool unwrapped = false;
 };
 
+/// One key of the [observe] table: something to measure while the run goes on. Which settings an observable has is said in
+/// docs/scene-format.md; those that it has are present, but for `every`, which follows from the mean free time where it is
+/// absent.
+struct ObservableRequest {
+  std::string name;                  ///< "radial_distribution"
+  std::optional<double> every;       ///< time between samples, > 0
+  std::optional<std::int64_t> bins;  ///< of its histogram, >= 2
+  std::optional<double> range;       ///< how far the histogram reaches, > 0; in mean diameters for distances
+  std::optional<double> largest;     ///< wave number, > 0; in inverse mean diameters
+  std::optional<int> axis;           ///< 0 or 1
+  Location where;
+};
+
 struct Scene {
   std::string title;
   Box box;
@@ -108,6 +121,7 @@ struct Scene {
   Effects effects;
   Run run;
   Output output;
+  std::vector<ObservableRequest> observe;  ///< in the order of docs/scene-format.md
 
   std::string source;                  ///< the file's path, or the name given to parse_scene
   std::string text;                    ///< the TOML text as it was read, before overrides

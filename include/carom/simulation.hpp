@@ -83,6 +83,8 @@ class Simulation {
   void record_events(bool on);
   /// The collisions since the last call, in order of time; they are removed from the log.
   [[nodiscard]] std::vector<Event> take_events();
+  /// The same into a list whose memory is used again: what it held is gone.
+  void take_events(std::vector<Event>& events);
 
   /// Compares the engine's plan with what an exhaustive search finds. Empty when all is well; else one sentence per
   /// fault. O(N^2) for N <= 2000, O(N) beyond.
@@ -136,12 +138,20 @@ struct Progress {
 /// a time that is a multiple of sample_every to rounding counts as one. 0 where one of the two is absent.
 std::uint64_t last_sample(const Run& run);
 
+/// States on a grid of their own, beside those at run.sample_every.
+struct SamplingGrid {
+  double step = 0.0;  ///< time, > 0 and finite
+  /// At k * step, k = 0, 1, 2, ...; every collision up to then has been handed on.
+  std::function<void(std::uint64_t k, const State& state, const Totals& totals)> sample;
+};
+
 /// What a caller may look at while a scene's schedule runs. Any of them may be empty; none can change the run's bits.
 struct RunHooks {
   std::function<void(const State& start)> start;                    ///< once, when the measured run begins
   std::function<void(std::uint64_t k, const State& state)> sample;  ///< at k * sample_every, k = 0, 1, 2, ...
   std::function<void(std::span<const Event> events)> events;        ///< batches of collisions, in order
   std::function<void(const Progress& progress)> block;              ///< after about every collision per disk, at collisions
+  std::vector<SamplingGrid> grids;                                  ///< of equal steps the first comes first
   std::function<bool(const Progress& progress)> proceed;            ///< several times a second; false stops the run
   std::uint64_t verify_every = 0;  ///< events from one check_invariants() to the next; 0 for no checks
 };

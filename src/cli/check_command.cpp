@@ -29,18 +29,19 @@ std::string start_and_engine(const Scene& scene, const Simulation& simulation) {
   const auto bytes = static_cast<double>(simulation.bytes());
   const double disks = std::max(1.0, static_cast<double>(scene.disk_count()));
   return fmt::format(
-      "  start       drawn: every disk has its place, none overlap; kT = {:.4g}\n"
+      "  start       drawn: every disk has its place, {}; kT = {:.4g}\n"
       "  engine      {}: {}; {}, {:.0f} bytes per disk\n",
-      kT, simulation.engine(), simulation.engine_reason(), size(bytes), bytes / disks);
+      scene.run.accept_overlap ? "overlaps are accepted" : "none overlap", kT, simulation.engine(), simulation.engine_reason(),
+      size(bytes), bytes / disks);
 }
 
 std::string files(const Scene& scene) {
   const std::optional<std::uint64_t> samples = expected_samples(scene);
   std::string text = "  files       summary.json";
   const bool sampled = scene.run.sample_every.has_value();
-  if ((scene.output.trajectory && sampled) || scene.output.events) {
+  if ((scene.output.trajectory && sampled) || scene.output.events || !scene.observe.empty()) {
     text += ", trajectory.h5md";
-    if (sampled && samples) {
+    if (sampled && samples && scene.output.trajectory) {
       text +=
           fmt::format(" ({}, up to {})", counted(*samples, "frame"),
                       size(static_cast<double>(*samples) * static_cast<double>(scene.disk_count()) * bytes_per_disk_and_frame));
@@ -48,6 +49,7 @@ std::string files(const Scene& scene) {
   }
   if (scene.output.xyz && sampled) text += ", trajectory.xyz";
   if (scene.output.csv && sampled) text += ", samples.csv";
+  if (!scene.observe.empty()) text += ", tables of observables";
   if (scene.output.events) text += "; every collision is kept";
   return text + "\n";
 }

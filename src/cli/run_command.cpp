@@ -15,6 +15,7 @@
 #include "observe/run_measurements.hpp"
 
 #include <fmt/format.h>
+#include <carom/observe.hpp>
 #include <carom/simulation.hpp>
 
 #include <algorithm>
@@ -92,8 +93,9 @@ ExitCode exit_code_of(const RunReport& report) {
 }
 
 /// `measured_start`, where it is not null, receives the state in which the measured run begins.
-RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurements& measurements, ProgressMode mode,
-                          const StopRequest& stop, std::uint64_t verify_every, std::optional<State>* measured_start) {
+RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurements& measurements, Observation& observation,
+                          ProgressMode mode, const StopRequest& stop, std::uint64_t verify_every,
+                          std::optional<State>* measured_start) {
   ProgressLine line(mode, simulation.scene());
   RunHooks hooks;
   hooks.verify_every = verify_every;
@@ -111,6 +113,7 @@ RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurem
     line.update(progress);
     return !stop.made();
   };
+  observation.attach(hooks);
   return run_schedule(simulation, hooks);
 }
 
@@ -122,6 +125,8 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   if (options.verify == std::uint64_t{0}) throw UsageError("--verify 0: give the number of events between two checks, 1 or more");
   if (options.verify_horizon) require_no_effects(scene, "--verify-horizon");
   if (options.method != "exact") require_no_effects(scene, "--method");
+  if (options.method != "exact" && !scene.observe.empty())
+    throw UsageError(fmt::format("--method {}: [observe] measures exact trajectories; leave out one of the two", options.method));
   Simulation simulation = simulation_for(options, scene, engine);
   const Provenance provenance{.resolved_scene = resolved_toml(scene),
                               .command_line = invocation.command_line,
@@ -142,11 +147,13 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   try {
     RunWriter writer(directory, scene, simulation.disks(), provenance);
     RunMeasurements measurements(simulation);
+    Observation observation(simulation);
     std::optional<State> start;
-    const RunResult result = run_with_output(simulation, writer, measurements, progress, stop, options.verify.value_or(0),
-                                             options.verify_horizon ? &start : nullptr);
+    const RunResult result = run_with_output(simulation, writer, measurements, observation, progress, stop,
+                                             options.verify.value_or(0), options.verify_horizon ? &start : nullptr);
     const double wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
     RunReport report = measurements.report(result, wall_seconds);
+    report.observables = observation.results();
     if (options.verify) report.verification = {*options.verify, result.verified, result.faults};
     if (start && result.stopped != StopReason::interrupted)
       report.horizon = horizon_with_progress(scene, *start, {.engine = simulation.engine()}, progress, stop);

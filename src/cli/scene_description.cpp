@@ -74,6 +74,16 @@ std::string words(const Run& run) {
   return text + fmt::format("; seed {}", run.seed);
 }
 
+/// "temperature, radial_distribution every 0.5"
+std::string words(const std::vector<ObservableRequest>& requests) {
+  std::string text;
+  for (const ObservableRequest& request : requests) {
+    text += (text.empty() ? "" : ", ") + request.name;
+    if (request.every) text += fmt::format(" every {:.6g}", *request.every);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string describe(const Scene& scene) {
@@ -86,7 +96,9 @@ std::string describe(const Scene& scene) {
   text +=
       fmt::format("  box         {}; packing fraction {:.4g}\n", words(scene.box, scene.effects.walls), scene.packing_fraction());
   text += describe(scene.effects);
-  return text + fmt::format("  run         {}\n", words(scene.run));
+  text += fmt::format("  run         {}\n", words(scene.run));
+  if (!scene.observe.empty()) text += fmt::format("  measures    {}\n", words(scene.observe));
+  return text;
 }
 
 std::optional<std::uint64_t> expected_samples(const Scene& scene) {

@@ -119,6 +119,23 @@ std::string what_it_measured(const RunReport& report, const Scene& scene) {
   return text;
 }
 
+/// One line per observable: its first number.
+std::string what_was_observed(const RunReport& report) {
+  std::string text;
+  for (const Measurement& measured : report.observables) {
+    const auto known = std::find_if(measured.scalars.begin(), measured.scalars.end(),
+                                    [](const Scalar& scalar) { return scalar.value.has_value(); });
+    std::string words = measured.tables.empty() ? measured.note : "in a table of its own";
+    if (known != measured.scalars.end()) {
+      const double error = known->error.value_or(0.0);
+      const bool scatters = error > 1e-13 * std::abs(*known->value);
+      words = known->name + " " + (scatters ? with_error(*known->value, error) : fmt::format("{:.5g}", *known->value));
+    }
+    text += fmt::format("  {:<26}{}\n", measured.name, words);
+  }
+  return text.empty() ? text : "Observed, averages with their standard errors (all of them in summary.json)\n" + text + "\n";
+}
+
 std::string how_far_to_trust(const RunReport& report) { return report.horizon ? sentence_of(*report.horizon) + "\n\n" : ""; }
 
 std::string where_the_files_are(const Results& results) {
@@ -155,8 +172,8 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
 
 std::string terminal_summary(const RunReport& report, const Scene& scene, const Results& results) {
   return heading(report, scene) + what_happened(report, scene) + "\n" + how_exact(report) + what_was_verified(report) + "\n" +
-         what_it_measured(report, scene) + "\n" + how_far_to_trust(report) + where_the_files_are(results) +
-         what_to_try_next(report, scene, results);
+         what_it_measured(report, scene) + "\n" + what_was_observed(report) + how_far_to_trust(report) +
+         where_the_files_are(results) + what_to_try_next(report, scene, results);
 }
 
 }  // namespace carom::cli

@@ -611,6 +611,11 @@ class Engine {
 
   void record_events(bool on) { recording_ = on; }
   [[nodiscard]] std::vector<carom::Event> take_events() { return std::exchange(log_, {}); }
+  /// The same into a list whose memory is used again.
+  void take_events(std::vector<carom::Event>& events) {
+    events.clear();
+    std::swap(events, log_);
+  }
 
   /// Bytes of all that has an entry per disk.
   [[nodiscard]] std::size_t bytes() const;

@@ -487,6 +487,11 @@ class TextbookEngine {
 
   void record_events(bool on) { recording_ = on; }
   [[nodiscard]] std::vector<Event> take_events() { return std::exchange(log_, {}); }
+  /// The same into a list whose memory is used again.
+  void take_events(std::vector<Event>& events) {
+    events.clear();
+    std::swap(events, log_);
+  }
 
   /// One sentence for every way in which the plan differs from what an exhaustive search finds.
   [[nodiscard]] std::vector<std::string> check_invariants() const;

@@ -2,6 +2,7 @@
 
 #include "io/h5md_writer.hpp"
 
+#include "io/h5md_measurements.hpp"
 #include "io/h5md_parameters.hpp"
 
 #include <fmt/format.h>
@@ -75,6 +76,10 @@ void H5mdWriter::events(std::span<const Event> events) {
   if (!events_) return;
   guard([&] { events_->append(events); });
   if (file_.bytes_written() - bytes_at_flush_ > most_bytes_between_flushes) flush();
+}
+
+void H5mdWriter::measurements(const std::vector<Measurement>& observables) {
+  guard([&] { detail::write_measurements(h5_.get(), observables); });
 }
 
 void H5mdWriter::flush() {

@@ -8,6 +8,7 @@
 #include "io/output_error.hpp"
 #include "io/provenance.hpp"
 
+#include <carom/observe.hpp>
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
 
@@ -16,6 +17,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace carom {
 
@@ -32,7 +34,9 @@ class H5mdWriter {
   /// The same with other positions, unwrapped ones, in the file.
   void sample(std::uint64_t k, const State& state, const Eigen::Matrix2Xd& positions);
   void events(std::span<const Event> events);  ///< nothing where scene.output.events is not set
-  void flush();                                ///< from now on all samples so far survive whatever happens
+  /// What was measured, once, at the end.
+  void measurements(const std::vector<Measurement>& observables);
+  void flush();  ///< from now on all samples so far survive whatever happens
   void close();
 
   [[nodiscard]] std::uint64_t safe_samples() const { return safe_samples_; }  ///< up to the last flush

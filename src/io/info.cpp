@@ -70,6 +70,7 @@ std::string describe_scene(const fs::path& path) {
 std::string describe_directory(const fs::path& path) {
   std::string text;
   for (const std::string_view product : run_products) {
+    if (product.starts_with("observe_")) continue;  // the summary tells of them
     for (const fs::path& file : {path / product, path / fmt::format("{}{}", product, partial_ending)}) {
       std::error_code error;
       if (fs::exists(file, error)) text += describe_file(file);

@@ -68,6 +68,24 @@ std::string effects_line(const Json& effects) {
   return text;
 }
 
+/// One line per observable: its numbers with their errors, then its tables.
+std::string lines_of_observables(const Json& observables) {
+  std::string text;
+  for (const auto& [name, measured] : observables.items()) {
+    std::string line;
+    for (const auto& [key, entry] : measured.items()) {
+      if (!entry.is_object() || !entry.contains("value") || entry.at("value").is_null()) continue;
+      line += fmt::format("{}{} {}", line.empty() ? "" : ", ", key, text_of(entry.at("value")));
+      if (!entry.at("error").is_null()) line += fmt::format(" (error {})", text_of(entry.at("error")));
+    }
+    if (measured.contains("tables"))
+      for (const auto& [key, table] : measured.at("tables").items())
+        line += fmt::format("{}{}", line.empty() ? "" : ", ", text_of(table.at("file")));
+    text += info_line("observed", fmt::format("{}: {}", name, line));
+  }
+  return text;
+}
+
 std::string described(const Json& json) {
   std::string text = info_line("written by", fmt::format("carom {} ({})", text_of(json.at("carom").at("version")),
                                                          text_of(json.at("carom").at("commit"))));
@@ -83,6 +101,7 @@ std::string described(const Json& json) {
   text += info_line("energy", fmt::format("{}, relative drift {}", text_of(json.at("energy").at("final")),
                                           text_of(json.at("energy").at("relative_drift"))));
   text += lines_of_effects(json);
+  if (json.contains("observables")) text += lines_of_observables(json.at("observables"));
   const Json& pressure = json.at("pressure");
   text += info_line("Z", fmt::format("{}, standard error {}", text_of(pressure.at("Z")), text_of(pressure.at("Z_error"))));
   return text +

@@ -93,10 +93,27 @@ std::string describe_xyz(const std::filesystem::path& path) {
   return text + state_of(torn);
 }
 
+namespace {
+
+/// Of an observable: a comment about averages and units, a heading, rows.
+std::string describe_observable_table(const std::filesystem::path& path, const std::string& comment, std::ifstream& file) {
+  std::string heading, line;
+  std::getline(file, heading);
+  std::uint64_t rows = 0;
+  while (std::getline(file, line)) ++rows;
+  std::string text = fmt::format("{}: table of an observable\n", path.string());
+  text += info_line("columns", heading);
+  text += info_line("rows", fmt::format("{}", rows));
+  return text + info_line("about", comment.substr(2));
+}
+
+}  // namespace
+
 std::string describe_csv(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;
   std::getline(file, line);
+  if (line.starts_with("# averages over ")) return describe_observable_table(path, line, file);
   const std::string heading = line;
   const bool rough = heading == "time,id,x,y,vx,vy,spin";
   if (heading != "time,id,x,y,vx,vy" && !rough)

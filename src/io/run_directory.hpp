@@ -13,8 +13,23 @@
 namespace carom {
 
 /// The names of all files that a run may write. The summary comes last: where it is, the run is complete.
-inline constexpr std::array<std::string_view, 4> run_products = {"trajectory.h5md", "trajectory.xyz", "samples.csv",
-                                                                 "summary.json"};
+inline constexpr std::array<std::string_view, 17> run_products = {"trajectory.h5md",
+                                                                  "trajectory.xyz",
+                                                                  "samples.csv",
+                                                                  "observe_free_times.csv",
+                                                                  "observe_free_paths.csv",
+                                                                  "observe_speeds.csv",
+                                                                  "observe_energies.csv",
+                                                                  "observe_radial_distribution.csv",
+                                                                  "observe_structure_factor.csv",
+                                                                  "observe_hexatic_correlation.csv",
+                                                                  "observe_density_profile.csv",
+                                                                  "observe_mean_square_displacement.csv",
+                                                                  "observe_velocity_autocorrelation.csv",
+                                                                  "observe_viscosity.csv",
+                                                                  "observe_heat_conductivity.csv",
+                                                                  "observe_h_function.csv",
+                                                                  "summary.json"};
 
 class RunDirectory {
  public:

@@ -2,6 +2,7 @@
 
 #include "io/run_writer.hpp"
 
+#include "io/observable_tables.hpp"
 #include "io/summary.hpp"
 #include "io/text_file.hpp"
 
@@ -35,7 +36,8 @@ RunWriter::RunWriter(const RunDirectory& directory, const Scene& scene, const Di
     return directory_.partial_name(name);
   };
   try {
-    if ((scene.output.trajectory && samples) || scene.output.events) h5md_.emplace(open(h5md_name), scene, disks, provenance);
+    if ((scene.output.trajectory && samples) || scene.output.events || !scene.observe.empty())
+      h5md_.emplace(open(h5md_name), scene, disks, provenance);
     if (scene.output.xyz && samples) xyz_.emplace(open(xyz_name), scene, disks);
     if (scene.output.csv && samples) csv_.emplace(open(csv_name), scene.effects.collision.roughness.has_value());
   } catch (...) {
@@ -85,9 +87,16 @@ void RunWriter::flush_now_and_then() {
 
 std::vector<std::string> RunWriter::finish(const RunReport& report) {
   holds_data_ = true;
+  if (h5md_) h5md_->measurements(report.observables);
   if (h5md_) h5md_->close();
   if (xyz_) xyz_->close();
   if (csv_) csv_->close();
+  for (const Measurement& measured : report.observables) {
+    for (const Table& table : measured.tables) {
+      products_.push_back(table_file(table));
+      write_table(directory_.partial_name(products_.back()), table);
+    }
+  }
   products_.emplace_back(summary_name);
   detail::TextFile summary(directory_.partial_name(summary_name));
   summary.buffer() = summary_json(report, provenance_) + "\n";

@@ -26,7 +26,7 @@ namespace carom {
 class RunWriter {
  public:
   /// Opens all files, so that what cannot be written is known before the simulation starts. trajectory.h5md is written
-  /// where samples or events are asked for. Without run.sample_every there are no samples, and no file for them.
+  /// where samples, events or observables are asked for. Without run.sample_every there are no samples, and no file for them.
   RunWriter(const RunDirectory& directory, const Scene& scene, const Disks& disks, const Provenance& provenance);
   /// Without finish(): keeps what there is as .partial, or removes it where nothing has happened yet.
   ~RunWriter();

@@ -5,6 +5,7 @@
 #include "io/effects_json.hpp"
 #include "io/horizon_json.hpp"
 #include "io/json_number.hpp"
+#include "io/observables_json.hpp"
 
 #include <carom/version.hpp>
 
@@ -70,6 +71,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
       {"grazing", numerics.grazing}, {"receding", numerics.receding},       {"epochs", numerics.epochs},
       {"outrun", numerics.outrun},   {"lists_made", numerics.lists_made},   {"longest_list", numerics.longest_list}};
   detail::add_effects(json, report);
+  if (!report.observables.empty()) json["observables"] = detail::observables_json(report.observables);
   if (report.verification)
     json["verified"] = {
         {"every", report.verification->every}, {"checks", report.verification->checks}, {"faults", report.verification->faults}};

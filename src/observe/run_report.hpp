@@ -4,6 +4,7 @@
 #include "observe/effects_report.hpp"
 #include "observe/horizon_report.hpp"
 
+#include <carom/observe.hpp>
 #include <carom/simulation.hpp>
 
 #include <Eigen/Core>
@@ -57,6 +58,7 @@ struct RunReport {
   StopReason stopped = StopReason::time;
   std::vector<std::int32_t> stopped_disks;  ///< RunResult::stopped_disks
   EffectsReport of_effects;
+  std::vector<Measurement> observables;      ///< what the scene's [observe] table asked for
   std::optional<Verification> verification;  ///< where it was asked for
   std::optional<Horizon> horizon;            ///< of the start of the measured run, where it was asked for
   bool measured = true;  ///< false where the run ended while it was still equilibrating: clock and totals are of that part

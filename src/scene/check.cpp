@@ -173,6 +173,7 @@ void check_scene(const SceneDraft& draft) {
   check_overlaps(draft);
   check_obstacles(draft);
   check_effects(scene);
+  check_observe(scene);
   check_end(draft);
 }
 

@@ -28,4 +28,13 @@ Radii radii_of(const Scene& scene) {
   return radii;
 }
 
+double mean_diameter(const Scene& scene) {
+  double sum = 0.0;
+  for (const Species& species : scene.species) {
+    if (species.radii.empty()) sum += static_cast<double>(species.count) * species.radius;
+    for (const double radius : species.radii) sum += radius;
+  }
+  return 2.0 * sum / static_cast<double>(scene.disk_count());
+}
+
 }  // namespace carom::detail

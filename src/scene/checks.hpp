@@ -30,11 +30,14 @@ struct Radii {
   [[nodiscard]] double densest() const { return equal() ? closest_packing : 1.0; }
 };
 Radii radii_of(const Scene& scene);
+/// Over all disks. Requires one.
+double mean_diameter(const Scene& scene);
 
 /// Effects that cannot act together, or not in this box.
 void check_effects(const Scene& scene);
 void check_walls(const Scene& scene);
 void check_growth(const Scene& scene);
+void check_observe(const Scene& scene);
 /// Obstacles must lie in the box, and given disks clear of them.
 void check_obstacles(const SceneDraft& draft);
 

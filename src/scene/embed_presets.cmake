@@ -2,7 +2,7 @@
 # embedded again by the next build.
 # The classic scene first.
 set(carom_presets box barometer bouncing_ball channel compression dense dense_mixture galton gas granular_column granular_gas growth
-                  heated_walls lorentz maxwells_door mixture newtons_cradle piston rough shear sinai square_well thermostat two_disks)
+                  heated_walls lorentz maxwells_door mixture newtons_cradle observe piston rough shear sinai square_well thermostat two_disks)
 
 set(carom_preset_entries "")
 foreach(preset IN LISTS carom_presets)

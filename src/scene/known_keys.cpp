@@ -3,6 +3,7 @@
 #include "scene/known_keys.hpp"
 
 #include "scene/excerpt.hpp"
+#include "scene/observables_known.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -66,7 +67,8 @@ std::string_view home_of(std::string_view key) {
                                                   {"speed", "velocities = { ... }"},
                                                   {"temperature", "velocities = { ... }, a wall in [walls] or [thermostat]"}}};
   const auto home = std::find_if(homes.begin(), homes.end(), [&](const Home& entry) { return entry.first == key; });
-  return home == homes.end() ? std::string_view() : home->second;
+  if (home != homes.end()) return home->second;
+  return find_observable(key) != nullptr ? "[observe]" : std::string_view();
 }
 
 }  // namespace
@@ -122,12 +124,6 @@ std::string unknown_key_sentence(std::string_view key, std::string_view path, st
   if (key == "title") return problem + "; it belongs to the top of the file, before the first [table]";
   if (!near.empty()) return fmt::format("{}; did you mean \"{}\"?", problem, near);
   return fmt::format("{}; its keys are {}", problem, fmt::join(known, ", "));
-}
-
-std::string planned_sentence(std::string_view key, std::string_view path, bool is_table) {
-  const std::string subject = is_table ? fmt::format("[{}]", key) : fmt::format("{} in {}", key, table_title(path));
-  return fmt::format("{} is part of the scene format but this version of Carom does not simulate it yet; remove the {}", subject,
-                     is_table ? "table" : "key");
 }
 
 }  // namespace carom::detail

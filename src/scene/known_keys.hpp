@@ -20,7 +20,4 @@ std::string table_title(std::string_view path);
 /// table where a key of just this name belongs, or all keys of the table.
 std::string unknown_key_sentence(std::string_view key, std::string_view path, std::span<const std::string_view> known);
 
-/// The sentence for a key or table that the format knows but this version does not build.
-std::string planned_sentence(std::string_view key, std::string_view path, bool is_table);
-
 }  // namespace carom::detail

@@ -27,6 +27,11 @@ Run read_run(const toml::table& table);
 /// `sampled` is whether [run] has sample_every: files of samples need it.
 Output read_output(const toml::table* table, bool sampled);
 
+/// What is to be measured, in the order of the format.
+std::vector<ObservableRequest> read_observe(const toml::table& table);
+/// The range of histograms over distances, where the scene leaves it open: no more than half of the box.
+void complete_observe(Scene& scene);
+
 /// Makes numbers of the short forms: any three of count, radius, box and packing fraction give the fourth.
 /// Throws where they do not suffice or disagree.
 void complete_short_forms(SceneDraft& draft);

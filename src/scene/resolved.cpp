@@ -6,6 +6,7 @@
 #include "scene/resolved_effects.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iterator>
 #include <string_view>
@@ -104,6 +105,19 @@ void put_run(Buffer& out, const Run& run) {
   if (run.accept_overlap) put(out, "accept_overlap = true\n");
 }
 
+void put_observe(Buffer& out, const std::vector<ObservableRequest>& requests) {
+  if (!requests.empty()) put(out, "\n[observe]\n");
+  for (const ObservableRequest& request : requests) {
+    std::vector<std::string> settings;
+    if (request.every) settings.push_back(fmt::format("every = {}", number_text(*request.every)));
+    if (request.range) settings.push_back(fmt::format("range = {}", number_text(*request.range)));
+    if (request.largest) settings.push_back(fmt::format("largest = {}", number_text(*request.largest)));
+    if (request.axis) settings.push_back(fmt::format("axis = \"{}\"", *request.axis == 0 ? "x" : "y"));
+    if (request.bins) settings.push_back(fmt::format("bins = {}", *request.bins));
+    put(out, "{} = {}\n", request.name, settings.empty() ? "true" : fmt::format("{{ {} }}", fmt::join(settings, ", ")));
+  }
+}
+
 }  // namespace
 
 std::string resolved_toml(const Scene& scene) {
@@ -119,6 +133,7 @@ std::string resolved_toml(const Scene& scene) {
   put_run(out, scene.run);
   put(out, "\n[output]\ntrajectory = {}\nxyz = {}\ncsv = {}\nevents = {}\nunwrapped = {}\n", scene.output.trajectory,
       scene.output.xyz, scene.output.csv, scene.output.events, scene.output.unwrapped);
+  put_observe(out, scene.observe);
   return fmt::to_string(out);
 }
 

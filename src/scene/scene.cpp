@@ -46,14 +46,12 @@ std::vector<detail::DisksDraft> read_all_disks(const detail::TableReader& scene,
   return disks;
 }
 
-const std::vector<std::string_view> tables = {"title",     "box",   "disks",      "collision",   "gravity", "walls", "growth",
-                                              "obstacles", "shear", "thermostat", "square_well", "run",     "output"};
-/// Top-level words that the format has and this version does not build.
-const std::vector<std::string_view> planned_tables = {"observe"};
+const std::vector<std::string_view> tables = {"title",     "box",   "disks",      "collision",   "gravity", "walls",  "growth",
+                                              "obstacles", "shear", "thermostat", "square_well", "run",     "output", "observe"};
 
 detail::SceneDraft read_document(const toml::table& document, const std::string& source, const std::string& directory) {
   try {
-    const detail::TableReader reader(document, "", tables, planned_tables);
+    const detail::TableReader reader(document, "", tables);
     detail::SceneDraft draft;
     Scene& scene = draft.scene;
     scene.title = reader.string("title", "title = \"Disks in a box\"").value_or("");
@@ -66,6 +64,7 @@ detail::SceneDraft read_document(const toml::table& document, const std::string&
     draft.run_where = detail::location_of(run);
     scene.run = detail::read_run(run);
     scene.output = detail::read_output(reader.table("output", "[output]"), scene.run.sample_every.has_value());
+    if (const toml::table* observe = reader.table("observe", "[observe]")) scene.observe = detail::read_observe(*observe);
     return draft;
   } catch (const SceneError& error) {
     // Nodes of a document without any text carry no source name.
@@ -103,6 +102,7 @@ Scene parse_scene(const std::string& text, const std::string& source, const std:
   for (const std::string& change : overrides) detail::apply_override(document, change);
   detail::SceneDraft draft = read_document(document, source, directory);
   detail::complete_short_forms(draft);
+  detail::complete_observe(draft.scene);
   detail::check_scene(draft);
   Scene scene = std::move(draft.scene);
   scene.source = source;

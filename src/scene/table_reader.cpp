@@ -99,11 +99,8 @@ std::vector<Eigen::Vector2d> read_pairs(const toml::array& list, const std::stri
   return pairs;
 }
 
-TableReader::TableReader(const toml::table& table, std::string path, std::vector<std::string_view> known,
-                         std::vector<std::string_view> planned)
+TableReader::TableReader(const toml::table& table, std::string path, std::vector<std::string_view> known)
     : table_(table), path_(std::move(path)), known_(std::move(known)) {
-  std::vector<std::string_view> words = known_;
-  words.insert(words.end(), planned.begin(), planned.end());
   // toml++ keeps keys in alphabetical order; the user reads from the top, so the first fault in the text is named.
   const toml::key* first = nullptr;
   const auto place = [](const toml::key& key) { return std::pair(key.source().begin.line, key.source().begin.column); };
@@ -112,9 +109,7 @@ TableReader::TableReader(const toml::table& table, std::string path, std::vector
     if (!is_known && (first == nullptr || place(key) < place(*first))) first = &key;
   }
   if (first == nullptr) return;
-  const bool is_planned = std::find(planned.begin(), planned.end(), first->str()) != planned.end();
-  throw SceneError(location_of(first->source()), is_planned ? planned_sentence(first->str(), path_, path_.empty())
-                                                            : unknown_key_sentence(first->str(), path_, words));
+  throw SceneError(location_of(first->source()), unknown_key_sentence(first->str(), path_, known_));
 }
 
 std::string TableReader::path(std::string_view key) const {

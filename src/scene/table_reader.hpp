@@ -42,10 +42,8 @@ std::vector<Eigen::Vector2d> read_pairs(const toml::array& list, const std::stri
 
 class TableReader {
  public:
-  /// `known` and `planned` are the keys that the format has here; planned ones are refused as not built yet. Words that
-  /// stand in neither are refused with the nearest known key. The lists must outlive the reader.
-  TableReader(const toml::table& table, std::string path, std::vector<std::string_view> known,
-              std::vector<std::string_view> planned = {});
+  /// `known` are the keys that the format has here. Other words are refused with the nearest of them.
+  TableReader(const toml::table& table, std::string path, std::vector<std::string_view> known);
 
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] std::string path(std::string_view key) const;  ///< "run.time"

@@ -47,6 +47,8 @@ class AnyEngine {
   virtual void reset_clock() = 0;
   virtual void record_events(bool on) = 0;
   [[nodiscard]] virtual std::vector<Event> take_events() = 0;
+  /// The same into a list whose memory is used again: to get new memory for every batch takes as long as to fill it.
+  virtual void take_events(std::vector<Event>& events) = 0;
   [[nodiscard]] virtual std::vector<std::string> check_invariants() const = 0;
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
@@ -96,6 +98,7 @@ class EngineAdapter final : public AnyEngine {
   }
   void record_events(bool on) override { engine_.record_events(on); }
   [[nodiscard]] std::vector<Event> take_events() override { return engine_.take_events(); }
+  void take_events(std::vector<Event>& events) override { engine_.take_events(events); }
   [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_.check_invariants(); }
   [[nodiscard]] std::size_t bytes() const override { return sizeof(*this) + engine_.bytes(); }
 

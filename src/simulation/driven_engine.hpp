@@ -41,6 +41,7 @@ class DrivenEngine final : public AnyEngine {
   void reset_clock() override;
   void record_events(bool on) override { engine_->record_events(on); }
   [[nodiscard]] std::vector<Event> take_events() override { return engine_->take_events(); }
+  void take_events(std::vector<Event>& events) override { engine_->take_events(events); }
   [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_->check_invariants(); }
   [[nodiscard]] std::size_t bytes() const override;
 

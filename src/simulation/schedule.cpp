@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace carom {
@@ -40,6 +41,16 @@ std::vector<std::int32_t> disks_of(std::span<const Event> events) {
 
 /// Growth to a packing fraction comes to its end whether disks collide or not.
 bool ends_by_growth(const std::optional<Growth>& growth) { return growth && growth->rate > 0.0 && growth->packing_fraction; }
+
+/// The largest k with k * step <= time; a time that is a multiple to rounding counts as one.
+std::uint64_t last_multiple(double time, double step) {
+  const double ratio = time / step;
+  const double nearest = std::nearbyint(ratio);
+  // Both numbers were decimal fractions once: each is off by half an ulp at most, and so is the quotient.
+  const bool multiple = std::abs(ratio - nearest) <= 2.0 * std::numeric_limits<double>::epsilon() * ratio;
+  constexpr double most = 9007199254740992.0;  // 2^53, from where k is no longer exact; no run gets there
+  return static_cast<std::uint64_t>(std::min(multiple ? nearest : std::floor(ratio), most));
+}
 
 class Schedule {
  public:
@@ -90,32 +101,68 @@ class Schedule {
     return true;
   }
 
+  /// Samples that are to be taken: the scene's own, or those of a hook.
+  struct Grid {
+    double step;
+    std::uint64_t last;
+    const SamplingGrid* hook;  ///< null: the scene's own
+    std::uint64_t k = 0;
+  };
+
   void measure() {
     next_block_ = block_collisions_;
     ends_by_time_ = run_.time.has_value();
     const Instant end = ends_by_time_ ? Instant{*run_.time, 0.0} : forever;
     const std::uint64_t collisions = run_.collisions.value_or(no_limit);
-    if (run_.sample_every) {
-      const std::uint64_t last = ends_by_time_ ? last_sample(run_) : no_limit;
-      for (std::uint64_t k = 0; k <= last; ++k) {
-        // The last product may lie beyond the end by its rounding: 3 * 0.1 > 0.3. The run ends at its end.
-        const Instant when = std::min(Instant::product(k, *run_.sample_every), end);
-        const bool arrived = advance(when, collisions);
-        if (!arrived && !(k == 0 && collisions == 0)) return;  // the start is sampled even where nothing is to happen
-        if (hooks_.sample) {
-          State state = engine_.state();
-          state.time = when.high;  // the product itself, not what the engine's clock makes of it
-          hooks_.sample(k, state);
-        }
-        ++result_.samples;
-        if (!arrived) return;
-        if (is_hopeless()) {
-          stop(StopReason::no_collisions);
-          return;
-        }
+    list_grids();
+    for (Instant when = next_sample(end); when < forever; when = next_sample(end)) {
+      const bool arrived = advance(when, collisions);
+      const bool at_start = !(Instant{} < when);
+      if (!arrived && !(at_start && collisions == 0)) return;  // the start is sampled even where nothing is to happen
+      take_samples(when, end);
+      if (!arrived) return;
+      if (is_hopeless()) {
+        stop(StopReason::no_collisions);
+        return;
       }
     }
     advance(end, collisions);
+  }
+
+  void list_grids() {
+    const auto last = [&](double step) { return ends_by_time_ ? last_multiple(*run_.time, step) : no_limit; };
+    if (run_.sample_every) grids_.push_back({*run_.sample_every, last(*run_.sample_every), nullptr});
+    for (const SamplingGrid& grid : hooks_.grids) grids_.push_back({grid.step, last(grid.step), &grid});
+  }
+
+  /// The last product may lie beyond the end by its rounding: 3 * 0.1 > 0.3. The run ends at its end.
+  [[nodiscard]] static Instant time_of(const Grid& grid, const Instant& end) {
+    return grid.k > grid.last ? forever : std::min(Instant::product(grid.k, grid.step), end);
+  }
+
+  /// `forever` where no sample is left.
+  [[nodiscard]] Instant next_sample(const Instant& end) const {
+    Instant next = forever;
+    for (const Grid& grid : grids_) next = std::min(next, time_of(grid, end));
+    return next;
+  }
+
+  /// Of every grid that has one now; the state is that of all of them.
+  void take_samples(const Instant& when, const Instant& end) {
+    std::optional<State> state;
+    for (Grid& grid : grids_) {
+      if (when < time_of(grid, end)) continue;
+      const bool own = grid.hook == nullptr;
+      const bool wanted = own ? static_cast<bool>(hooks_.sample) : static_cast<bool>(grid.hook->sample);
+      if (wanted && !state) {
+        state = engine_.state();
+        state->time = when.high;  // the product itself, not what the engine's clock makes of it
+      }
+      if (wanted && own) hooks_.sample(grid.k, *state);
+      if (wanted && !own) grid.hook->sample(grid.k, *state, engine_.totals());
+      if (own) ++result_.samples;
+      ++grid.k;
+    }
   }
 
   /// Runs to `target`; false when something else ended the run first, as result_.stopped then says.
@@ -176,10 +223,10 @@ class Schedule {
   }
 
   void take_events() {
-    const std::vector<Event> events = engine_.take_events();
-    if (events.empty()) return;
-    if (stands_) result_.stopped_disks = disks_of(events);
-    if (hooks_.events && !equilibrating_) hooks_.events(events);
+    engine_.take_events(events_);
+    if (events_.empty()) return;
+    if (stands_) result_.stopped_disks = disks_of(events_);
+    if (hooks_.events && !equilibrating_) hooks_.events(events_);
   }
 
   void record_events(bool on) { engine_.record_events(recording_ = on); }
@@ -217,6 +264,8 @@ class Schedule {
   bool equilibrating_ = false;
   bool ends_by_time_ = false;
   Clock::time_point last_look_ = Clock::now();
+  std::vector<Grid> grids_;
+  std::vector<Event> events_;  ///< kept from batch to batch for its memory
   RunResult result_;
 };
 
@@ -240,17 +289,15 @@ void require_sound_schedule(const Run& run, const Effects& effects) {
 
 std::uint64_t last_sample(const Run& run) {
   if (!run.time || !run.sample_every) return 0;
-  const double ratio = *run.time / *run.sample_every;
-  const double nearest = std::nearbyint(ratio);
-  // Both numbers were decimal fractions once: each is off by half an ulp at most, and so is the quotient.
-  const bool multiple = std::abs(ratio - nearest) <= 2.0 * std::numeric_limits<double>::epsilon() * ratio;
-  constexpr double most = 9007199254740992.0;  // 2^53, from where k is no longer exact; no run gets there
-  return static_cast<std::uint64_t>(std::min(multiple ? nearest : std::floor(ratio), most));
+  return last_multiple(*run.time, *run.sample_every);
 }
 
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   auto& parts = *simulation.parts_;
   require_sound_schedule(parts.scene.run, parts.scene.effects);
+  for (const SamplingGrid& grid : hooks.grids)
+    if (!(grid.step > 0.0 && std::isfinite(grid.step)))
+      throw std::invalid_argument("the step of a sampling grid must be positive and finite");
   return Schedule(parts.scene, *parts.engine, parts.disks, hooks)();
 }
 

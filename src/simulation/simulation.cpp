@@ -57,6 +57,7 @@ StopReason Simulation::run_until_sample(std::uint64_t k, double dt, std::uint64_
 void Simulation::reset_clock() { parts_->engine->reset_clock(); }
 void Simulation::record_events(bool on) { parts_->engine->record_events(on); }
 std::vector<Event> Simulation::take_events() { return parts_->engine->take_events(); }
+void Simulation::take_events(std::vector<Event>& events) { parts_->engine->take_events(events); }
 std::vector<std::string> Simulation::check_invariants() const { return parts_->engine->check_invariants(); }
 
 std::vector<std::string> engine_names() {

@@ -28,6 +28,14 @@ TEST(CheckCommand, SaysWhatWillBeSimulatedAndWritesNothing) {
   EXPECT_TRUE(fs::is_empty(directory.path()));
 }
 
+TEST(CheckCommand, ListsWhatWillBeMeasured) {
+  const TemporaryDirectory directory;
+  const Outcome outcome = run_carom(directory.path(), {"check", CAROM_SOURCE_DIR "/docs/scenes/gas.toml", "--set",
+                                                       "observe.viscosity=true", "--set", "observe.pressure={ every = 0.5 }"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("measures    pressure every 0.5, viscosity\n"), HasSubstr("tables of observables")));
+}
+
 TEST(CheckCommand, DescribesEachEffectAndNamesTheAbsent) {
   const TemporaryDirectory directory;
   const Outcome plain = run_carom(directory.path(), {"check", CAROM_SOURCE_DIR "/docs/scenes/box.toml"});

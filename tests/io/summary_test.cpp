@@ -31,7 +31,7 @@ TEST(Summary, HasTheKeysOfTheSceneFormatInItsOrderAndThenItsOwn) {
   EXPECT_THAT(keys_of(json),
               ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time", "samples", "events",
                           "wall_seconds", "collisions_per_second", "energy", "momentum", "temperature", "pressure", "overlap",
-                          "stopped", "title", "loop_seconds", "virial", "wall_impulse", "command_line"));
+                          "stopped", "title", "loop_seconds", "virial", "wall_impulse", "numerics", "command_line"));
   EXPECT_THAT(keys_of(json["carom"]), ElementsAre("version", "commit", "compiler", "flags"));
   EXPECT_THAT(keys_of(json["events"]), ElementsAre("pair", "wall", "other", "stale", "total"));
   EXPECT_THAT(keys_of(json["energy"]), ElementsAre("initial", "final", "relative_drift"));
@@ -110,11 +110,11 @@ RunReport report_with_effects() {
 
 TEST(Summary, EveryEffectHasItsKeyAfterThoseOfEveryRun) {
   const Json json = summary_of(report_with_effects());
-  EXPECT_THAT(keys_of(json),
-              ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time", "samples", "events",
-                          "wall_seconds", "collisions_per_second", "energy", "momentum", "temperature", "pressure", "overlap",
-                          "stopped", "title", "loop_seconds", "virial", "wall_impulse", "walls", "packing_fraction_end",
-                          "dissipated", "obstacles", "thermostat", "growth", "shear", "square_well", "command_line"));
+  EXPECT_THAT(keys_of(json), ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time",
+                                         "samples", "events", "wall_seconds", "collisions_per_second", "energy", "momentum",
+                                         "temperature", "pressure", "overlap", "stopped", "title", "loop_seconds", "virial",
+                                         "wall_impulse", "numerics", "walls", "packing_fraction_end", "dissipated", "obstacles",
+                                         "thermostat", "growth", "shear", "square_well", "command_line"));
   EXPECT_THAT(keys_of(json["events"]), ElementsAre("pair", "wall", "other", "stale", "obstacle", "well", "kicks", "total"));
   EXPECT_THAT(keys_of(json["energy"]), ElementsAre("initial", "final", "relative_drift", "given", "unexplained", "parts"));
   EXPECT_THAT(keys_of(json["temperature"]), ElementsAre("mean", "spin_mean"));

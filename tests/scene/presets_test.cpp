@@ -1,9 +1,11 @@
 // Presets and example scenes: one text each, all of them valid.
 
 #include "scene/presets.hpp"
+#include "scene/observables_known.hpp"
 
 #include <carom/scene.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -90,7 +92,7 @@ std::vector<std::string> scenes_of_the_page() {
 
 TEST(FormatPage, ItsScenesAreValid) {
   const std::vector<std::string> blocks = scenes_of_the_page();
-  ASSERT_EQ(blocks.size(), 3U);
+  ASSERT_EQ(blocks.size(), 4U);
   EXPECT_EQ(parse_scene(blocks[0]).disk_count(), 64);
   // The second shows the short form of box and disks alone; its comment gives the length that follows.
   const Scene scene = parse_scene(blocks[1] + "[collision]\nrule = \"specular\"\n[run]\ntime = 1.0\n");
@@ -99,6 +101,17 @@ TEST(FormatPage, ItsScenesAreValid) {
   EXPECT_THAT(
       names_of(parse_scene(blocks[0] + blocks[2]).effects, true),
       testing::ElementsAre("reversal", "walls", "gravity", "inelastic_walls", "thermal_walls", "obstacles", "thermostat"));
+  // The fourth has the second measured.
+  EXPECT_EQ(parse_scene(blocks[1] + "[collision]\nrule = \"specular\"\n[run]\ntime = 1.0\n" + blocks[3]).observe.size(), 5U);
+}
+
+TEST(FormatPage, NamesEveryObservable) {
+  const std::string page = text_of(scenes.parent_path() / "scene-format.md");
+  const std::string of_observables = text_of(scenes.parent_path() / "observables.md");
+  for (const detail::KnownObservable& known : detail::known_observables) {
+    EXPECT_THAT(page, testing::HasSubstr(fmt::format("`{}`", known.name)));
+    EXPECT_THAT(of_observables, testing::HasSubstr(fmt::format("`{}`", known.name)));
+  }
 }
 
 TEST(FormatPage, NamesEveryKeyOfAResolvedScene) {

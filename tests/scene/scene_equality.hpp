@@ -89,6 +89,14 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
   if (p.trajectory != q.trajectory || p.xyz != q.xyz || p.csv != q.csv || p.events != q.events || p.unwrapped != q.unwrapped) {
     return "output";
   }
+  if (a.observe.size() != b.observe.size()) return "number of observables";
+  for (std::size_t k = 0; k < a.observe.size(); ++k) {
+    const ObservableRequest &x = a.observe[k], &y = b.observe[k];
+    if (x.name != y.name || !same_maybe(x.every, y.every) || x.bins != y.bins || !same_maybe(x.range, y.range) ||
+        !same_maybe(x.largest, y.largest) || x.axis != y.axis) {
+      return "observe." + x.name;
+    }
+  }
   if (a.species.size() != b.species.size()) return "number of species";
   for (std::size_t s = 0; s < a.species.size(); ++s) {
     const Species &x = a.species[s], &y = b.species[s];

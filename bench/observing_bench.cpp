@@ -1,0 +1,79 @@
+// What observing costs: nanoseconds per pair collision of a gas of 10,000 disks, with nothing observed, with each observable that
+// follows collisions, with all of them, and with those that look at states, each at its default step. Take turns, for machines
+// are uneven:
+// --benchmark_enable_random_interleaving=true --benchmark_repetitions=9. Before a time is taken one run is looked at: energy is
+// kept, and the rate that was observed is that of the totals.
+
+#include "observe/mechanics.hpp"
+#include "support/systems.hpp"
+
+#include <benchmark/benchmark.h>
+#include <carom/carom.hpp>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace carom;
+
+constexpr std::uint64_t collisions = 200'000;
+
+Scene scene_with(const std::vector<std::string>& observables, double packing_fraction) {
+  Scene scene = test::gas_scene(10'000, packing_fraction, Boundary::periodic);
+  scene.run.time.reset();
+  scene.run.collisions = collisions;
+  for (const std::string& name : observables) {
+    scene.observe.emplace_back().name = name;
+    if (name == "radial_distribution") scene.observe.back().range = 5.0;
+  }
+  return scene;
+}
+
+std::vector<Measurement> observe(Simulation& simulation) {
+  simulation.reset_clock();
+  Observation observation(simulation);
+  RunHooks hooks;
+  observation.attach(hooks);
+  run_schedule(simulation, hooks);
+  return observation.results();
+}
+
+std::string fault(Simulation& simulation) {
+  const double before = kinetic_energy(simulation.disks(), simulation.state());
+  for (const Measurement& measured : observe(simulation)) {
+    if (measured.name != "collision_rate") continue;
+    const double rate = 2.0 * static_cast<double>(collisions) / (1e4 * simulation.time());
+    if (!(std::abs(measured.scalars[0].value.value_or(0.0) / rate - 1.0) < 0.05)) return "the rate is not that of the totals";
+  }
+  // A rounding for each collision, were they all in one direction.
+  const double drift = kinetic_energy(simulation.disks(), simulation.state()) / before - 1.0;
+  return std::abs(drift) < 1e-16 * static_cast<double>(collisions) ? "" : "the energy has changed";
+}
+
+void observing(benchmark::State& state, const std::vector<std::string>& observables) {
+  Simulation simulation = make_simulation(scene_with(observables, 0.01 * static_cast<double>(state.range(0))));
+  if (const std::string what = fault(simulation); !what.empty()) {
+    state.SkipWithError(what.c_str());
+    return;
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(observe(simulation));
+  state.counters["s/collision"] = benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(collisions),
+                                                     benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+using Names = std::vector<std::string>;
+BENCHMARK_CAPTURE(observing, nothing, Names{})->Arg(60);
+BENCHMARK_CAPTURE(observing, collision_rate, Names{"collision_rate"})->Arg(60);
+BENCHMARK_CAPTURE(observing, free_flight, Names{"free_flight"})->Arg(60);
+BENCHMARK_CAPTURE(observing, pressure, Names{"pressure"})->Arg(60);
+BENCHMARK_CAPTURE(observing, viscosity, Names{"viscosity"})->Arg(60);
+BENCHMARK_CAPTURE(observing, heat_conductivity, Names{"heat_conductivity"})->Arg(60);
+BENCHMARK_CAPTURE(observing, all_of_these, Names{"pressure", "collision_rate", "free_flight", "viscosity", "heat_conductivity"})
+    ->Arg(60);
+BENCHMARK_CAPTURE(observing, velocities, Names{"temperature", "speeds", "velocity_moments"})->Arg(60);
+BENCHMARK_CAPTURE(observing, displacements, Names{"mean_square_displacement", "velocity_autocorrelation"})->Arg(60);
+BENCHMARK_CAPTURE(observing, radial_distribution, Names{"radial_distribution"})->Arg(60);
+
+}  // namespace

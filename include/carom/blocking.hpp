@@ -1,0 +1,54 @@
+#pragma once
+// Standard errors of means over correlated samples: blocking after Flyvbjerg & Petersen, J. Chem. Phys. 91, 461 (1989), done
+// while the samples come in, in memory that grows with the logarithm of their number.
+//
+// Neighbouring samples are joined again and again; the variance of the mean, as the blocks of each length tell it, grows with the
+// length until blocks are longer than correlations, and stays from there on. The length that is taken is the shortest B with
+// B^3 > 2 n s^2, n samples, s = (variance told by these blocks) / (variance told by single samples): there what is left of the
+// correlations and the noise of few blocks are about equal (Lee, Conduit, Nemec, Lopez Rios & Drummond, Phys. Rev. E 83, 066706
+// (2011)).
+//
+// A sample may carry a weight: the mean is then <x> / <w>, a ratio, and its error that of x - mean * w; or <x> / <w>^p likewise.
+
+#include <carom/observe.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace carom {
+
+class Blocking {
+ public:
+  void add(double x, double weight = 1.0);
+
+  struct Estimate {
+    double mean = 0.0;
+    std::optional<double> error;  ///< of the mean; absent with fewer than 16 samples
+    /// Samples that count as one independent one, at least 1; absent where blocks never became long enough. `error` is then a
+    /// lower bound.
+    std::optional<double> inefficiency;
+  };
+  /// <x> / <w>^power. Nothing without samples, or where all weights are zero.
+  [[nodiscard]] std::optional<Estimate> estimate(int power = 1) const;
+
+  [[nodiscard]] std::uint64_t samples() const { return levels_.empty() ? 0 : levels_.front().blocks; }
+
+  /// offset + factor <x> / <w>^power with its error and decorrelation time. `step`: time between samples.
+  void fill(Scalar& scalar, double step, double factor = 1.0, double offset = 0.0, int power = 1) const;
+
+ private:
+  /// Blocks of 2^level samples; sums of squares are about the mean of all blocks.
+  struct Level {
+    std::uint64_t blocks = 0;
+    double mean_x = 0.0, mean_w = 0.0;
+    double xx = 0.0, xw = 0.0, ww = 0.0;
+    double waiting_x = 0.0, waiting_w = 0.0;  ///< the block that has no partner yet
+    void add(double x, double w);
+    [[nodiscard]] double variance_of_mean(double ratio) const;
+  };
+  std::vector<Level> levels_;
+};
+
+}  // namespace carom

@@ -1,0 +1,121 @@
+#pragma once
+// Measurements while a scene runs: in bounded memory, in exact time, each with an error that takes correlations into account.
+//
+//   carom::Simulation simulation = carom::make_simulation(scene);
+//   carom::Observation observation(simulation);            // what the scene's [observe] table asks for
+//   observation.add(std::make_unique<MyObservable>());     // and what a program adds: docs/adding-an-observable.md
+//   carom::RunHooks hooks;
+//   observation.attach(hooks);
+//   carom::run_schedule(simulation, hooks);
+//   for (const carom::Measurement& measured : observation.results()) ...
+
+#include <carom/simulation.hpp>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// What an average is over: a mean over time counts long flights more often than a mean over collisions does.
+enum class Average { time, collisions };
+
+/// One number. Where `value` is absent it has no meaning here, and `note` says why.
+struct Scalar {
+  std::string name;
+  std::string unit = {};  ///< in the scene's units: "energy", "1 / time"; empty for a pure number
+  Average average = Average::time;
+  std::optional<double> value = {};
+  std::optional<double> error = {};               ///< standard error; absent where the run is too short to tell
+  std::optional<double> decorrelation_time = {};  ///< after which a sample tells something new
+  std::string note = {};
+};
+
+/// A list of numbers, one per row of a table; NaN stands for what is not known.
+struct Column {
+  std::string name;
+  std::string unit;
+  std::vector<double> values;
+};
+
+/// Columns of one length. Errors stand in columns of their own, called NAME_error.
+struct Table {
+  std::string name;
+  Average average = Average::time;
+  std::vector<Column> columns = {};
+};
+
+/// All that one observable has found.
+struct Measurement {
+  std::string name;
+  std::vector<Scalar> scalars = {};
+  std::vector<Table> tables = {};
+  std::string note = {};  ///< what holds of all of it
+};
+
+/// Two disks that met, with what came before.
+struct PairCollision {
+  double time = 0.0;  ///< since the start of the measured run
+  std::int32_t disk = 0;
+  std::int32_t partner = 0;
+  Eigen::Vector2d separation;                                 ///< from the partner to the disk
+  Eigen::Vector2d impulse;                                    ///< that the disk got; the partner got its opposite
+  Eigen::Vector2d velocity_before, velocity;                  ///< of the disk, just before and just after
+  Eigen::Vector2d partner_velocity_before, partner_velocity;  ///< of the partner
+  bool contact = true;                                        ///< false where they meet the edge of each other's square well
+};
+
+/// Something to measure. A program's own observable overrides what it needs of this.
+class Observable {
+ public:
+  virtual ~Observable() = default;
+
+  /// The key of its results; of letters, digits and underscores.
+  [[nodiscard]] virtual std::string name() const = 0;
+  /// Time between two calls of sample(); with 0 it is never called.
+  [[nodiscard]] virtual double step() const { return 0.0; }
+  /// Whether collisions() is to be called. Observables without it leave the event loop as fast as it is.
+  [[nodiscard]] virtual bool follows_collisions() const { return false; }
+
+  /// The measured run begins; totals are zero.
+  virtual void start(const State& /*state*/) {}
+  /// The state at k * step(), k = 0, 1, 2, ... and the totals up to then.
+  virtual void sample(const State& /*state*/, const Totals& /*totals*/) {}
+  /// Collisions of pairs since the last call, in order of time; all up to a sample come before it.
+  virtual void collisions(std::span<const PairCollision> /*collisions*/) {}
+  /// The run has ended at `time`. Called once.
+  [[nodiscard]] virtual Measurement finish(double time, const Totals& totals) = 0;
+};
+
+/// Drives observables through a run.
+class Observation {
+ public:
+  /// Makes the observables that simulation.scene().observe lists. Requires the simulation to live as long as this. Throws
+  /// SceneError for what has no meaning in the scene.
+  explicit Observation(const Simulation& simulation);
+  ~Observation();
+  Observation(const Observation&) = delete;
+  Observation& operator=(const Observation&) = delete;
+
+  /// One more, before the run. Throws SceneError where it follows collisions and something changes velocities between them: a
+  /// thermostat, growth, shear.
+  void add(std::unique_ptr<Observable> observable);
+  [[nodiscard]] bool empty() const;
+
+  /// Puts what observables need into `hooks`, before what is there already. Requires `hooks` to be used while this lives.
+  void attach(RunHooks& hooks);
+
+  /// When the run has ended: one entry per observable. Empty where the measured run never began.
+  [[nodiscard]] std::vector<Measurement> results();
+
+ private:
+  class Driver;
+  std::unique_ptr<Driver> driver_;
+};
+
+}  // namespace carom

@@ -1,0 +1,17 @@
+#pragma once
+// Tables of observables as files of comma-separated values, one per table: a comment with the units, a heading, rows.
+
+#include <carom/observe.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace carom {
+
+/// "observe_NAME.csv"
+[[nodiscard]] std::string table_file(const Table& table);
+
+/// Throws OutputError.
+void write_table(const std::filesystem::path& path, const Table& table);
+
+}  // namespace carom

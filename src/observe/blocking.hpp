@@ -1,0 +1,25 @@
+#pragma once
+// Errors for whole columns of a table.
+
+#include <carom/blocking.hpp>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// A Blocking for every row of a column.
+class BlockedColumn {
+ public:
+  explicit BlockedColumn(std::size_t rows) : rows_(rows) {}
+  void add(std::size_t row, double x, double weight = 1.0) { rows_[row].add(x, weight); }
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  /// The columns `name` and `name`_error; NaN where nothing is known.
+  void put(Table& table, const std::string& name, const std::string& unit, double factor = 1.0) const;
+
+ private:
+  std::vector<Blocking> rows_;
+};
+
+}  // namespace carom

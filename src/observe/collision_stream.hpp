@@ -1,0 +1,43 @@
+#pragma once
+// Collisions with what came before them: the event log says how disks fly on; how they came is known from a copy of every disk's
+// motion that is kept here, exact straight flight (or a parabola) from event to event.
+//
+// The impulse of smooth disks is along the line of centres, so velocities alone tell where they touched. Only where that does not
+// hold (reversal, rough disks, wells) are positions followed too.
+
+#include <carom/observe.hpp>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+class CollisionStream {
+ public:
+  /// Requires that nothing but logged events changes velocities: no thermostat, growth or shear.
+  CollisionStream(const Scene& scene, const Disks& disks);
+
+  void start(const State& state);
+  /// Replaces `collisions` by the collisions of pairs among `events`. Requires events in order, none left out.
+  void follow(std::span<const Event> events, std::vector<PairCollision>& collisions);
+
+ private:
+  void meet(const Event& event, PairCollision& met);
+  void meet_apart(const Event& event, PairCollision& met);
+  void move(std::size_t disk, double time);
+  [[nodiscard]] Eigen::Vector2d separation(std::size_t disk, std::size_t partner) const;
+
+  std::vector<double> radius_, mass_;
+  Box box_;
+  Eigen::Vector2d gravity_ = Eigen::Vector2d::Zero();
+  double edge_ = 0.0;   ///< distances above this many contact distances are edges of wells; 0 where there are none
+  bool smooth_;         ///< impulses are along the line of centres
+  bool equal_;          ///< all disks are
+  bool moves_between_;  ///< positions or times of the last event are needed
+  std::vector<Eigen::Vector2d> velocity_;
+  std::vector<Eigen::Vector2d> position_;  ///< at since_
+  std::vector<double> since_;              ///< the last event of each disk
+};
+
+}  // namespace carom

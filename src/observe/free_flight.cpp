@@ -1,0 +1,180 @@
+// Free flight between two collisions with other disks: mean time and path, and how they are distributed. Averages over
+// collisions; flights that began before the run, or end after it, are left out, which shortens the means by about one flight in
+// as many as a disk makes. Walls do not end a flight.
+// In large systems every second, fourth, ... disk is followed, at most two thousand.
+
+#include "observe/blocking.hpp"
+#include "observe/observables.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+/// A histogram from 0 to `range`, gathered over some thousand flights before it counts as one sample.
+class FlightHistogram {
+ public:
+  FlightHistogram(std::size_t bins, double range)
+      : width_(range / static_cast<double>(bins)),
+        per_width_(static_cast<double>(bins) / range),
+        end_(static_cast<double>(bins)),
+        counts_(bins),
+        shares_(bins) {}
+
+  void add(double x) {
+    const double bin = x * per_width_;
+    if (bin < end_) ++counts_[static_cast<std::size_t>(static_cast<std::int32_t>(bin))];  // signed numbers convert much faster
+  }
+  void flush(double flights) {
+    for (std::size_t b = 0; b < counts_.size(); ++b) {
+      shares_.add(b, static_cast<double>(counts_[b]), flights);
+      counts_[b] = 0;
+    }
+  }
+  [[nodiscard]] Table table(const std::string& name, const std::string& unit) const {
+    Table table{.name = name, .average = Average::collisions};
+    Column middles{"middle", unit, {}};
+    for (std::size_t b = 0; b < counts_.size(); ++b) middles.values.push_back((static_cast<double>(b) + 0.5) * width_);
+    table.columns.push_back(std::move(middles));
+    shares_.put(table, "density", "1 / " + unit, 1.0 / width_);
+    return table;
+  }
+
+ private:
+  double width_, per_width_, end_;
+  std::vector<std::uint32_t> counts_;
+  BlockedColumn shares_;
+};
+
+class FreeFlight final : public Observable {
+ public:
+  FreeFlight(const ObservableRequest& request, const ObservedRun& run)
+      : times_(static_cast<std::size_t>(request.bins.value_or(100)), longest * scale(run)),
+        paths_(static_cast<std::size_t>(request.bins.value_or(100)), longest * scale(run) * speed(run)),
+        skip_(static_cast<std::uint32_t>(std::bit_ceil((run.disks.count() + most_disks - 1) / most_disks)) - 1),
+        last_((run.disks.count() >> std::popcount(skip_)) + 1, never),
+        why_no_path_(why_no_path(run.scene.effects)) {}
+
+  [[nodiscard]] std::string name() const override { return "free_flight"; }
+  [[nodiscard]] bool follows_collisions() const override { return true; }
+
+  void collisions(std::span<const PairCollision> collisions) override {
+    Sums sums;
+    for (const PairCollision& met : collisions) {
+      if (!met.contact) continue;
+      if (follows(met.disk)) end(met.disk, met.time, met.velocity_before, sums);
+      if (follows(met.partner)) end(met.partner, met.time, met.partner_velocity_before, sums);
+    }
+    flights_ += sums.flights;
+    time_ += sums.time;
+    path_ += sums.path;
+    if (flights_ >= batch) end_sample();
+    if (counted_ >= 16 * batch) end_histograms();
+  }
+
+  [[nodiscard]] Measurement finish(double time, const Totals&) override {
+    const double flushes = static_cast<double>(mean_time_.samples());
+    const double step = flushes > 0.0 ? time / flushes : 0.0;
+    if (flights_ > 0) end_sample();
+    if (counted_ > 0) end_histograms();
+    Measurement found{.name = name()};
+    found.note = "over flights that began and ended within the run";
+    put(found, "mean_free_time", "time", mean_time_, step);
+    if (why_no_path_.empty()) {
+      put(found, "mean_free_path", "length", mean_path_, step);
+    } else {
+      found.scalars.push_back({.name = "mean_free_path", .unit = "length", .average = Average::collisions, .note = why_no_path_});
+    }
+    found.tables.push_back(times_.table("free_times", "time"));
+    if (why_no_path_.empty()) found.tables.push_back(paths_.table("free_paths", "length"));
+    return found;
+  }
+
+ private:
+  /// Of the histograms, in mean free times: one flight in e^10 is longer.
+  static constexpr double longest = 10.0;
+  /// No more disks are followed: what all of them tell in a run would slow a large one down.
+  static constexpr std::size_t most_disks = 2000;
+  /// Flights that count as one sample of the means; a sample of the histograms has 16 times as many.
+  static constexpr std::uint64_t batch = 256;
+  static constexpr double never = -std::numeric_limits<double>::infinity();
+
+  /// A path is speed times time where nothing but collisions changes the speed.
+  static std::string why_no_path(const Effects& effects) {
+    if (effects.gravity && !effects.gravity->acceleration.isZero(0.0)) return "paths are parabolas under gravity";
+    if (effects.square_well) return "speeds change at the edges of wells";
+    const bool still = std::all_of(effects.walls.begin(), effects.walls.end(), [](const WallProperties& wall) {
+      return !wall.temperature && !wall.mass && wall.velocity.value_or(0.0) == 0.0 && wall.restitution.value_or(1.0) == 1.0;
+    });
+    return still ? "" : "walls change speeds between two collisions";
+  }
+  static double scale(const ObservedRun& run) { return run.mean_free_time > 0.0 ? run.mean_free_time : run.step({}, 1.0); }
+  static double speed(const ObservedRun& run) {
+    double mass = 0.0;
+    for (const double m : run.disks.mass) mass += m / static_cast<double>(run.disks.count());
+    return run.temperature > 0.0 ? std::sqrt(run.temperature / mass) : 1.0;
+  }
+
+  [[nodiscard]] bool follows(std::int32_t disk) const { return (static_cast<std::uint32_t>(disk) & skip_) == 0; }
+
+  struct Sums {
+    std::uint64_t flights = 0;
+    double time = 0.0, path = 0.0;
+  };
+  /// A flight ends at a collision, to which the disk came with velocity v: it was as fast all the way.
+  void end(std::int32_t disk, double time, const Eigen::Vector2d& v, Sums& sums) {
+    double& last = last_[static_cast<std::uint32_t>(disk) >> std::popcount(skip_)];
+    const double flight = time - last;
+    last = time;
+    if (!(flight < std::numeric_limits<double>::infinity())) return;
+    const double path = v.norm() * flight;
+    ++sums.flights;
+    sums.time += flight;
+    sums.path += path;
+    times_.add(flight);
+    paths_.add(path);
+  }
+  void end_sample() {
+    const double flights = static_cast<double>(flights_);
+    mean_time_.add(time_, flights);
+    mean_path_.add(path_, flights);
+    time_ = path_ = 0.0;
+    counted_ += flights_;
+    flights_ = 0;
+  }
+  void end_histograms() {
+    const double flights = static_cast<double>(counted_);
+    times_.flush(flights);
+    paths_.flush(flights);
+    counted_ = 0;
+  }
+  static void put(Measurement& found, const char* name, const char* unit, const Blocking& series, double step) {
+    Scalar scalar{.name = name, .unit = unit, .average = Average::collisions};
+    series.fill(scalar, step);
+    if (!scalar.value) scalar.note = "no disk has collided twice";
+    found.scalars.push_back(std::move(scalar));
+  }
+
+  FlightHistogram times_, paths_;
+  std::uint32_t skip_;        ///< disks whose id has one of these bits are not followed
+  std::vector<double> last_;  ///< collision of each disk that is followed; `never` before the first
+  std::string why_no_path_;
+  std::uint64_t flights_ = 0;  ///< since the last sample of the means
+  std::uint64_t counted_ = 0;  ///< in samples since the last one of the histograms
+  double time_ = 0.0, path_ = 0.0;
+  Blocking mean_time_, mean_path_;
+};
+
+}  // namespace
+
+MadeObservable make_free_flight(const ObservableRequest& request, const ObservedRun& run) {
+  return std::make_unique<FreeFlight>(request, run);
+}
+
+}  // namespace carom

@@ -1,0 +1,117 @@
+// Boltzmann's H = integral of f ln f over velocities, f the distribution of all disks at one instant, against time. Each species
+// has its own f; H is their mean over disks.
+//
+// f is a histogram in v_x and v_y with bins half a thermal velocity wide. The plug-in estimate is too high by (occupied bins - 1)
+// / 2 N, which is taken away (Miller 1955); its standard error is that of a mean of ln f over N disks. At most 1024 instants are
+// kept: when they are full every other one goes and the steps are twice as long.
+
+#include "observe/observables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+class HFunction final : public Observable {
+ public:
+  HFunction(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 0.25)) {
+    for (std::size_t s = 0; s < run.species_count(); ++s) {
+      double mass = 0.0, count = 0.0;
+      for (std::size_t i = 0; i < run.disks.count(); ++i)
+        if (run.disks.species[i] == static_cast<std::int32_t>(s)) mass += run.disks.mass[i], count += 1.0;
+      const double kT = run.temperature > 0.0 ? run.temperature : 1.0;
+      thermal_.push_back(count > 0.0 ? std::sqrt(kT * count / mass) : 1.0);
+    }
+  }
+
+  [[nodiscard]] std::string name() const override { return "h_function"; }
+  [[nodiscard]] double step() const override { return step_; }
+
+  void sample(const State& state, const Totals&) override {
+    if (calls_++ % stride_ != 0) return;
+    if (times_.size() == most) halve();
+    if ((calls_ - 1) % stride_ != 0) return;
+    const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);
+    const std::size_t kinds = thermal_.size();
+    std::vector<std::vector<double>> counts(kinds, std::vector<double>(side * side));
+    std::vector<double> disks(kinds);
+    for (std::size_t i = 0; i < run_.disks.count(); ++i) {
+      const auto s = static_cast<std::size_t>(run_.disks.species[i]);
+      counts[s][bin(v(1, static_cast<Eigen::Index>(i)), s) * side + bin(v(0, static_cast<Eigen::Index>(i)), s)] += 1.0;
+      disks[s] += 1.0;
+    }
+    double h = 0.0, variance = 0.0;
+    const double all = static_cast<double>(run_.disks.count());
+    for (std::size_t s = 0; s < kinds; ++s) {
+      if (disks[s] == 0.0) continue;
+      const double cell = 0.25 * thermal_[s] * thermal_[s];
+      double mean = 0.0, square = 0.0, occupied = 0.0;
+      for (const double count : counts[s]) {
+        if (count == 0.0) continue;
+        const double share = count / disks[s], log = std::log(share / cell);
+        mean += share * log;
+        square += share * log * log;
+        occupied += 1.0;
+      }
+      const double weight = disks[s] / all;
+      h += weight * (mean - (occupied - 1.0) / (2.0 * disks[s]));
+      variance += weight * weight * std::max(0.0, square - mean * mean) / disks[s];
+    }
+    times_.push_back(state.time);
+    values_.push_back(h);
+    errors_.push_back(std::sqrt(variance));
+  }
+
+  [[nodiscard]] Measurement finish(double, const Totals&) override {
+    Measurement found{.name = name()};
+    found.tables.push_back({.name = name(), .columns = {{"time", "time", times_}, {"H", "", values_}, {"H_error", "", errors_}}});
+    Scalar maxwell{.name = "maxwell", .note = "of Maxwell's distribution at the temperature of the start"};
+    if (run_.temperature > 0.0) {
+      double h = 0.0;
+      for (std::size_t s = 0; s < thermal_.size(); ++s)
+        h -= static_cast<double>(run_.scene.species[s].count) / static_cast<double>(run_.disks.count()) *
+             (1.0 + std::log(2.0 * std::numbers::pi * thermal_[s] * thermal_[s]));
+      maxwell.value = h;
+    } else {
+      maxwell.note = "nothing moves at the start";
+    }
+    found.scalars.push_back(std::move(maxwell));
+    return found;
+  }
+
+ private:
+  static constexpr std::size_t most = 1024;
+  static constexpr std::size_t side =
+      64;  ///< bins per component, 16 thermal velocities to either side; what is beyond is in the last
+
+  [[nodiscard]] std::size_t bin(double v, std::size_t s) const {
+    const double at = std::floor(v / (0.5 * thermal_[s])) + 0.5 * static_cast<double>(side);
+    return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(side - 1)));
+  }
+  void halve() {
+    for (std::vector<double>* list : {&times_, &values_, &errors_}) {
+      for (std::size_t k = 0; 2 * k < list->size(); ++k) (*list)[k] = (*list)[2 * k];
+      list->resize(list->size() / 2);
+    }
+    stride_ *= 2;
+  }
+
+  ObservedRun run_;
+  double step_;
+  std::vector<double> thermal_;  ///< velocity, of each species
+  std::uint64_t calls_ = 0, stride_ = 1;
+  std::vector<double> times_, values_, errors_;
+};
+
+}  // namespace
+
+MadeObservable make_h_function(const ObservableRequest& request, const ObservedRun& run) {
+  return std::make_unique<HFunction>(request, run);
+}
+
+}  // namespace carom

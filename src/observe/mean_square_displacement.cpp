@@ -1,0 +1,78 @@
+// Mean square displacement and what diffusion coefficient it amounts to at each lag: D(t) = <|r(t) - r(0)|^2> / 4 t. In two
+// dimensions D grows with the logarithm of t, so there is no limit to report. Averages over time, of at most a thousand disks of
+// each species.
+
+#include "observe/multiple_tau.hpp"
+#include "observe/observables.hpp"
+#include "observe/tracked_disks.hpp"
+
+#include <limits>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+class MeanSquareDisplacement final : public Observable {
+ public:
+  MeanSquareDisplacement(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 0.25)) {
+    for (std::size_t s = 0; s < run.species_count(); ++s) {
+      tracked_.emplace_back(run, s);
+      ladders_.emplace_back(tracked_.back().channels(), MultipleTau::Pairs::squared_differences);
+    }
+  }
+
+  [[nodiscard]] std::string name() const override { return "mean_square_displacement"; }
+  [[nodiscard]] double step() const override { return step_; }
+
+  void sample(const State& state, const Totals&) override {
+    const Eigen::Vector2d drift = common_drift(run_, state);
+    for (std::size_t s = 0; s < tracked_.size(); ++s)
+      if (tracked_[s].channels() > 0) ladders_[s].add(tracked_[s].unwrapped(run_, state, drift));
+  }
+
+  [[nodiscard]] Measurement finish(double, const Totals&) override {
+    Measurement found{.name = name()};
+    Table table{.name = name()};
+    for (std::size_t s = 0; s < ladders_.size(); ++s) {
+      const std::vector<MultipleTau::Row> rows = ladders_[s].rows();
+      if (rows.empty()) continue;
+      const std::string suffix = run_.suffix(s);
+      Column lags{"lag", "time", {}}, square{"msd" + suffix, "length^2", {}}, error{"msd" + suffix + "_error", "length^2", {}};
+      Column diffusion{"diffusion" + suffix, "length^2 / time", {}},
+          its_error{"diffusion" + suffix + "_error", "length^2 / time", {}};
+      for (const MultipleTau::Row& row : rows) {
+        const double lag = step_ * row.lag, msd = 2.0 * row.pairs.mean;
+        const double err = row.pairs.error ? 2.0 * *row.pairs.error : unknown;
+        lags.values.push_back(lag);
+        square.values.push_back(msd);
+        error.values.push_back(err);
+        diffusion.values.push_back(msd / (4.0 * lag));
+        its_error.values.push_back(err / (4.0 * lag));
+      }
+      if (table.columns.empty()) table.columns.push_back(lags);
+      for (Column* column : {&square, &error, &diffusion, &its_error}) table.columns.push_back(std::move(*column));
+    }
+    if (table.columns.empty())
+      found.note = "the run is too short";
+    else
+      found.tables.push_back(std::move(table));
+    return found;
+  }
+
+ private:
+  ObservedRun run_;
+  double step_;
+  std::vector<TrackedDisks> tracked_;
+  std::vector<MultipleTau> ladders_;
+};
+
+}  // namespace
+
+MadeObservable make_mean_square_displacement(const ObservableRequest& request, const ObservedRun& run) {
+  return std::make_unique<MeanSquareDisplacement>(request, run);
+}
+
+}  // namespace carom

@@ -1,0 +1,62 @@
+#pragma once
+// Correlations over all lags of a run in memory that grows with the logarithm of its length: the multiple-tau correlator of
+// Ramirez, Sukumaran, Vorselaars & Likhtman, J. Chem. Phys. 133, 154103 (2010). Level l keeps the last few values on a grid 2^l
+// times as coarse.
+//
+// Two kinds of pairs:
+//   products: <x(0) x(t)> of values that are means over a step. Level l joins two values of the level below to their mean, so its
+//   values
+//     are the means over 2^l steps, and what it finds at a lag is the correlation averaged over a triangle of twice that width.
+//     Fed with exact means over time (a displacement over its time, the integral of a flux over its time), its running integral
+//     is exact: integral from 0 to (k + 1/2) w, w the width, = (<D^2((k + 1) w)> - <D^2(k w)>) / 2 w, D the integral of x.
+//   squared_differences: <(x(t) - x(0))^2> of values at instants. Level l takes every 2^l-th value.
+//
+// A value has any number of channels, over which pairs are averaged. Errors come from blocking over time.
+
+#include "observe/blocking.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+class MultipleTau {
+ public:
+  enum class Pairs { products, squared_differences };
+
+  /// `lags`: values kept per level, even. `levels`: at most that many.
+  MultipleTau(std::size_t channels, Pairs pairs, std::size_t lags = 16, std::size_t levels = 64);
+
+  /// The value of the next step. Requires as many numbers as channels.
+  void add(std::span<const double> value);
+
+  struct Row {
+    double lag = 0.0;    ///< in steps
+    double width = 1.0;  ///< of a value of this level, in steps
+    Blocking::Estimate pairs;
+    /// Products only: the integral from 0 to lag + width / 2, per step.
+    std::optional<Blocking::Estimate> integral;
+  };
+  /// In order of the lag, as far as there are pairs. Squared differences begin with lag 1.
+  [[nodiscard]] std::vector<Row> rows() const;
+
+ private:
+  struct Level {
+    std::vector<double> ring;  ///< lags x channels
+    std::vector<double> waiting;
+    bool has_waiting = false;
+    std::size_t count = 0;
+    std::vector<Blocking> pairs, integrals;
+  };
+  void add(std::size_t level, std::span<const double> value);
+  [[nodiscard]] double pair(std::span<const double> a, const double* b) const;
+
+  std::size_t channels_;
+  Pairs kind_;
+  std::size_t lags_;
+  std::size_t most_levels_;
+  std::vector<Level> levels_;
+};
+
+}  // namespace carom

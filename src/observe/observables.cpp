@@ -1,0 +1,38 @@
+#include "observe/observables.hpp"
+
+namespace carom {
+
+namespace {
+
+struct Entry {
+  const char* name;
+  MadeObservable (*make)(const ObservableRequest& request, const ObservedRun& run);
+};
+constexpr Entry catalogue[] = {
+    {"temperature", &make_temperature},
+    {"pressure", &make_pressure},
+    {"collision_rate", &make_collision_rate},
+    {"free_flight", &make_free_flight},
+    {"speeds", &make_speeds},
+    {"velocity_moments", &make_velocity_moments},
+    {"radial_distribution", &make_radial_distribution},
+    {"structure_factor", &make_structure_factor},
+    {"hexatic", &make_hexatic},
+    {"density_profile", &make_density_profile},
+    {"mean_square_displacement", &make_mean_square_displacement},
+    {"velocity_autocorrelation", &make_velocity_autocorrelation},
+    {"viscosity", &make_viscosity},
+    {"heat_conductivity", &make_heat_conductivity},
+    {"h_function", &make_h_function},
+    {"wall_fluxes", &make_wall_fluxes},
+};
+
+}  // namespace
+
+MadeObservable make_observable(const ObservableRequest& request, const ObservedRun& run) {
+  for (const Entry& entry : catalogue)
+    if (request.name == entry.name) return entry.make(request, run);
+  throw SceneError(request.where, "there is no observable \"" + request.name + "\"");
+}
+
+}  // namespace carom

@@ -1,0 +1,34 @@
+#pragma once
+// The catalogue of observables: one function, and one file, for each key of the [observe] table.
+
+#include "observe/observed_run.hpp"
+
+#include <carom/observe.hpp>
+
+#include <memory>
+
+namespace carom {
+
+using MadeObservable = std::unique_ptr<Observable>;
+
+MadeObservable make_temperature(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_pressure(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_collision_rate(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_free_flight(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_speeds(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_velocity_moments(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_radial_distribution(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_structure_factor(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_hexatic(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_density_profile(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_mean_square_displacement(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_velocity_autocorrelation(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_viscosity(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_heat_conductivity(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_h_function(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_wall_fluxes(const ObservableRequest& request, const ObservedRun& run);
+
+/// The observable that a scene asks for. Throws SceneError where there is none of that name.
+[[nodiscard]] MadeObservable make_observable(const ObservableRequest& request, const ObservedRun& run);
+
+}  // namespace carom

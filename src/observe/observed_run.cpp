@@ -1,0 +1,93 @@
+#include "observe/observed_run.hpp"
+
+#include "observe/mechanics.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+
+namespace carom {
+
+namespace {
+
+/// Disks of mean size and mass; the contact value is Henderson's (1975). A step need not be known better.
+double mean_free_time(const ObservedRun& run) {
+  const double count = static_cast<double>(run.disks.count());
+  if (run.disks.count() < 2 || !(run.temperature > 0.0)) return 0.0;
+  double mass = 0.0;
+  for (const double m : run.disks.mass) mass += m / count;
+  const double eta = std::min(run.scene.packing_fraction(), 0.85);
+  const double g = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
+  const double density = count / run.scene.box.area();
+  return 1.0 / (2.0 * std::sqrt(std::numbers::pi) * density * run.mean_diameter * g * std::sqrt(run.temperature / mass));
+}
+
+/// Names of results are names in files: letters, digits and what is not ASCII, others as underscores.
+std::string word_of(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c < 0x80 && std::isalnum(c) == 0 && c != '-'; }, '_');
+  return name;
+}
+
+}  // namespace
+
+ObservedRun observed_run(const Simulation& simulation) {
+  ObservedRun run{simulation.scene(), simulation.disks()};
+  const Effects& effects = run.scene.effects;
+  run.temperature = effects.thermostat && effects.thermostat->rate > 0.0
+                        ? effects.thermostat->temperature
+                        : kinetic_temperature(run.scene.box, effects, run.disks, simulation.state());
+  double radii = 0.0;
+  for (const double radius : run.disks.radius) radii += radius;
+  if (run.disks.count() > 0) run.mean_diameter = 2.0 * radii / static_cast<double>(run.disks.count());
+  run.mean_free_time = mean_free_time(run);
+  return run;
+}
+
+double ObservedRun::step(const ObservableRequest& request, double mean_free_times) const {
+  if (request.every) return *request.every;
+  double step = mean_free_times * mean_free_time;
+  if (scene.run.time && *scene.run.time > 0.0) {
+    const double most = *scene.run.time / 256.0;
+    step = step > 0.0 ? std::min(step, most) : most;
+  }
+  if (step > 0.0) return step;
+  return scene.run.sample_every.value_or(1.0);
+}
+
+std::string ObservedRun::suffix(std::size_t species) const {
+  if (scene.species.size() == 1) return {};
+  const std::string word = word_of(scene.species[species].name);
+  const auto same = [&](const Species& other) { return word_of(other.name) == word; };
+  const bool unique = std::count_if(scene.species.begin(), scene.species.end(), same) == 1;
+  return "_" + (unique ? word : std::to_string(species));
+}
+
+bool ObservedRun::keeps_momentum(int axis) const {
+  const Effects& effects = scene.effects;
+  const bool pushed = (effects.thermostat && effects.thermostat->rate > 0.0) || !effects.obstacles.empty() ||
+                      std::any_of(effects.walls.begin(), effects.walls.end(),
+                                  [](const WallProperties& wall) { return wall.temperature.has_value(); });
+  return scene.box.periodic(axis) && !pushed;
+}
+
+bool is_driven(const Effects& effects) {
+  return (effects.thermostat && effects.thermostat->rate > 0.0) || (effects.growth && effects.growth->rate > 0.0) ||
+         (effects.shear && effects.shear->rate != 0.0);
+}
+
+Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state) {
+  const std::optional<Shear>& shear = run.scene.effects.shear;
+  if (shear && shear->rate != 0.0) return velocities_in_flow(shear->rate, run.disks, state);
+  Eigen::Matrix2Xd velocities = state.velocities;
+  double mass = 0.0;
+  for (const double m : run.disks.mass) mass += m;
+  if (!(mass > 0.0)) return velocities;
+  const Eigen::Vector2d common = total_momentum(run.disks, state) / mass;
+  for (int axis = 0; axis < 2; ++axis)
+    if (run.keeps_momentum(axis)) velocities.row(axis).array() -= common[axis];
+  return velocities;
+}
+
+}  // namespace carom

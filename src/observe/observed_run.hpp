@@ -1,0 +1,36 @@
+#pragma once
+// What observables know of a run before it begins.
+
+#include <carom/observe.hpp>
+
+#include <vector>
+
+namespace carom {
+
+struct ObservedRun {
+  const Scene& scene;
+  const Disks& disks;
+  double temperature = 0.0;     ///< kT at the start, or that of the thermostat
+  double mean_diameter = 1.0;   ///< 1 without disks
+  double mean_free_time = 0.0;  ///< as Enskog's theory estimates it for disks of mean size and mass; 0 where nothing moves
+
+  /// A step of so many mean free times, or what the scene says; at most 1/256 of the run, so that errors can be told.
+  [[nodiscard]] double step(const ObservableRequest& request, double mean_free_times) const;
+
+  [[nodiscard]] std::size_t species_count() const { return scene.species.size(); }
+  /// "" with one species, else "_NAME", with nothing in it that a file could not have in a name; "_0", "_1" where that is
+  /// ambiguous
+  [[nodiscard]] std::string suffix(std::size_t species) const;
+  /// Whether the total momentum along an axis is kept, so that the common motion is no heat.
+  [[nodiscard]] bool keeps_momentum(int axis) const;
+};
+
+/// Whether a thermostat, growth or shear acts: velocities then change without a collision.
+[[nodiscard]] bool is_driven(const Effects& effects);
+
+/// Velocities as heat: without the flow of a sheared box, and without the common motion where momentum is kept.
+[[nodiscard]] Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state);
+
+[[nodiscard]] ObservedRun observed_run(const Simulation& simulation);
+
+}  // namespace carom

@@ -1,0 +1,199 @@
+// Pressure in four ways: Z from the momentum that collisions transfer, from how often disks collide, from the push on the walls;
+// and the whole tensor. All are averages over time.
+//
+//   Z         = 1 + W / (2 t N kT), W the sum over collisions of sigma times the normal impulse
+//   Z_rate    = 1 + pi (sum over collisions of sigma sqrt(mu)) / (N t sqrt(2 pi kT) c): disks of one kinetic energy meet as often
+//   as
+//               those of a Maxwell gas times c = sqrt(d / 2) Gamma(d / 2) / Gamma((d + 1) / 2), d the degrees of freedom
+//   Z_walls   : the virial theorem gives F (L - 2 r) = N kT Z for the mean force F on two opposite walls, when the run is long
+//   P_ab A    = <sum m v_a v_b> N / (N - 1) + (sum over collisions of r_a J_b) / t, without N / (N - 1) where momentum is not
+//   kept
+
+#include "observe/blocking.hpp"
+#include "observe/equilibrium.hpp"
+#include "observe/geometry.hpp"
+#include "observe/mechanics.hpp"
+#include "observe/observables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace carom {
+
+namespace {
+
+/// c above; 1 for many.
+double speed_factor(double d) {
+  return d > 0.0 ? std::sqrt(0.5 * d) * std::exp(std::lgamma(0.5 * d) - std::lgamma(0.5 * (d + 1.0))) : 1.0;
+}
+
+class Pressure final : public Observable {
+ public:
+  Pressure(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 16.0)) {
+    const Effects& effects = run.scene.effects;
+    follows_ = !is_driven(effects) && run.disks.count() > 0;
+    const auto all_equal = [](const std::vector<double>& values) {
+      return std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
+    };
+    equal_ = all_equal(run.disks.radius) && all_equal(run.disks.mass);
+    equal_radii_ = all_equal(run.disks.radius);
+    freedom_ =
+        2.0 * static_cast<double>(run.disks.count()) - (run.keeps_momentum(0) ? 1.0 : 0.0) - (run.keeps_momentum(1) ? 1.0 : 0.0);
+    why_no_Z_ = carom::why_no_Z(effects);
+  }
+
+  [[nodiscard]] std::string name() const override { return "pressure"; }
+  [[nodiscard]] double step() const override { return step_; }
+  [[nodiscard]] bool follows_collisions() const override { return follows_; }
+
+  void collisions(std::span<const PairCollision> collisions) override {
+    std::array<double, 4> sums{};
+    for (const PairCollision& met : collisions) {
+      sums[0] += met.separation.x() * met.impulse.x();
+      sums[1] += met.separation.x() * met.impulse.y();
+      sums[2] += met.separation.y() * met.impulse.x();
+      sums[3] += met.separation.y() * met.impulse.y();
+    }
+    for (std::size_t c = 0; c < 4; ++c) transfer_[c] += sums[c];
+    if (!equal_) count_meetings(collisions);
+  }
+
+  void sample(const State& state, const Totals& totals) override {
+    const Snapshot now = look(state, totals);
+    if (samples_++ > 0) add_step(now, totals);
+    before_ = now;
+  }
+
+  [[nodiscard]] Measurement finish(double, const Totals&) override {
+    Measurement found{.name = name()};
+    put_Z(found, "Z", virial_, 1.0, std::string(why_no_Z_));
+    Scalar reduced{.name = "reduced"};
+    if (const Scalar& Z = found.scalars.front(); Z.value) {
+      const double factor = 4.0 * run_.scene.packing_fraction() / std::numbers::pi;
+      reduced = {.name = "reduced",
+                 .value = factor * *Z.value,
+                 .error = Z.error ? std::optional(factor * *Z.error) : std::nullopt,
+                 .decorrelation_time = Z.decorrelation_time};
+    } else {
+      reduced.note = Z.note;
+    }
+    found.scalars.push_back(reduced);
+    put_Z(found, "Z_rate", rate_, 1.0, why_no_rate());
+    put_Z(found, "Z_walls", walls_, 0.0, why_no_walls());
+    static constexpr std::array<const char*, 4> names = {"P_xx", "P_xy", "P_yx", "P_yy"};
+    for (std::size_t c = 0; c < 4; ++c) {
+      Scalar scalar{.name = names[c], .unit = "energy / area"};
+      if (follows_) tensor_[c].fill(scalar, step_);
+      if (!follows_) scalar.note = "velocities change between collisions, so impulses are not known one by one";
+      found.scalars.push_back(std::move(scalar));
+    }
+    return found;
+  }
+
+ private:
+  void count_meetings(std::span<const PairCollision> collisions) {
+    const std::vector<double>&mass = run_.disks.mass, &radius = run_.disks.radius;
+    for (const PairCollision& met : collisions) {
+      const auto i = static_cast<std::size_t>(met.disk), j = static_cast<std::size_t>(met.partner);
+      if (met.contact) meetings_ += (radius[i] + radius[j]) * std::sqrt(mass[i] * mass[j] / (mass[i] + mass[j]));
+    }
+  }
+
+  struct Snapshot {
+    double time = 0.0, kT = 0.0, virial = 0.0, meetings = 0.0, area = 0.0;
+    std::uint64_t pairs = 0;
+    std::array<double, 4> flow{}, transfer{}, walls{};
+  };
+
+  [[nodiscard]] Snapshot look(const State& state, const Totals& totals) const {
+    Snapshot now{.time = state.time,
+                 .virial = totals.virial,
+                 .meetings = meetings_,
+                 .pairs = totals.pair,
+                 .transfer = transfer_,
+                 .walls = totals.wall_impulse};
+    now.kT = kinetic_temperature(run_.scene.box, run_.scene.effects, run_.disks, state);
+    now.area = box_of(run_.scene.box, state).area();
+    const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);
+    for (std::size_t i = 0; i < run_.disks.count(); ++i) {
+      const auto u = v.col(static_cast<Eigen::Index>(i));
+      now.flow[0] += run_.disks.mass[i] * u.x() * u.x();
+      now.flow[1] += run_.disks.mass[i] * u.x() * u.y();
+      now.flow[3] += run_.disks.mass[i] * u.y() * u.y();
+    }
+    now.flow[2] = now.flow[1];
+    // N disks of which N - 1 move freely carry the momentum of N kT all the same: the trace is that of Z.
+    const double count = static_cast<double>(run_.disks.count());
+    const auto share = [&](int axis) {
+      return run_.keeps_momentum(axis) && count > 1.0 ? std::sqrt(count / (count - 1.0)) : 1.0;
+    };
+    for (std::size_t c = 0; c < 4; ++c) now.flow[c] *= share(c < 2 ? 0 : 1) * share(c % 2 == 0 ? 0 : 1);
+    return now;
+  }
+
+  void add_step(const Snapshot& now, const Totals&) {
+    const double dt = now.time - before_.time, count = static_cast<double>(run_.disks.count());
+    const double kT = 0.5 * (now.kT + before_.kT);
+    virial_.add(now.virial - before_.virial, 2.0 * count * kT * dt);
+    const double met =
+        equal_ ? static_cast<double>(now.pairs - before_.pairs) * 2.0 * run_.disks.radius[0] * std::sqrt(0.5 * run_.disks.mass[0])
+               : now.meetings - before_.meetings;
+    rate_.add(std::numbers::pi * met, count * dt * std::sqrt(2.0 * std::numbers::pi * kT) * speed_factor(freedom_));
+    double push = 0.0, axes = 0.0;
+    for (int axis = 0; axis < 2; ++axis) {
+      if (run_.scene.box.periodic(axis)) continue;
+      const std::size_t low = 2 * static_cast<std::size_t>(axis);
+      push += 0.5 * (now.walls[low] - before_.walls[low] + now.walls[low + 1] - before_.walls[low + 1]) *
+              (run_.scene.box.lengths()[axis] - 2.0 * run_.disks.radius[0]);
+      axes += 1.0;
+    }
+    walls_.add(push, axes * count * kT * dt);
+    const double area = 0.5 * (now.area + before_.area);
+    for (std::size_t c = 0; c < 4; ++c)
+      tensor_[c].add((0.5 * (now.flow[c] + before_.flow[c]) + (now.transfer[c] - before_.transfer[c]) / dt) / area);
+  }
+
+  void put_Z(Measurement& found, const char* name, const Blocking& series, double offset, const std::string& why_not) const {
+    Scalar scalar{.name = name};
+    if (why_not.empty()) series.fill(scalar, step_, 1.0, offset);
+    if (!scalar.value) scalar.note = why_not.empty() ? "nothing was measured" : why_not;
+    found.scalars.push_back(std::move(scalar));
+  }
+
+  [[nodiscard]] std::string why_no_rate() const {
+    const Effects& effects = run_.scene.effects;
+    if (!why_no_Z_.empty()) return std::string(why_no_Z_);
+    if (effects.collision.rule == CollisionRule::reversal) return "under reversal velocities need not be Maxwell's";
+    if (effects.square_well) return "wells transfer momentum at their edges too";
+    if (!equal_ && !follows_) return "in a mixture collisions must be followed, and velocities change between them";
+    return {};
+  }
+  [[nodiscard]] std::string why_no_walls() const {
+    if (run_.scene.box.periodic(0) && run_.scene.box.periodic(1)) return "the box has no walls";
+    if (!why_no_Z_.empty()) return std::string(why_no_Z_);
+    if (!equal_radii_) return "disks of several sizes come to the walls at several distances";
+    return {};
+  }
+
+  ObservedRun run_;
+  double step_;
+  bool follows_, equal_, equal_radii_;
+  double freedom_;
+  std::string_view why_no_Z_;
+  std::array<double, 4> transfer_{};  ///< sum of r_a J_b: xx, xy, yx, yy
+  double meetings_ = 0.0;
+  std::uint64_t samples_ = 0;
+  Snapshot before_;
+  Blocking virial_, rate_, walls_;
+  std::array<Blocking, 4> tensor_;
+};
+
+}  // namespace
+
+MadeObservable make_pressure(const ObservableRequest& request, const ObservedRun& run) {
+  return std::make_unique<Pressure>(request, run);
+}
+
+}  // namespace carom

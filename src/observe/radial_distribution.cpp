@@ -1,0 +1,158 @@
+// Radial distribution g(r): pairs at distance r over those of an ideal gas, N (N - 1) / 2 pairs spread over the area. Averages
+// over time. With several species also for each pair of them.
+//
+// The contact value g(sigma+) of disks of one size comes from bins of their own next to contact: the cubic through them, taken at
+// contact. Each bin's count is compared with the cubic's integral over the bin, so the width of bins enters no further; the
+// cubic's own error is below 1e-3 where ln g bends over distances of sigma / 4, which it does up to freezing. It is a linear
+// function of the counts, so blocking tells its error.
+
+#include "observe/blocking.hpp"
+#include "observe/close_pairs.hpp"
+#include "observe/observables.hpp"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+/// Weights w such that sum w_b (count of pairs in bin b) / (pairs per area of an ideal gas) is a cubic's value at contact.
+class Contact {
+ public:
+  static constexpr int bins = 16;
+  static constexpr int degree = 3;
+
+  explicit Contact(double sigma, double reach)
+      : sigma_(sigma), width_((reach - sigma) / bins), weights_(Eigen::VectorXd::Zero(bins)) {
+    if (!(width_ > 0.0)) return;
+    // integral of 2 pi r (r - sigma)^k over a bin, in units of its ring: the weight of a bin is that of its expected count
+    Eigen::MatrixXd model(bins, degree + 1);
+    Eigen::VectorXd rings(bins);
+    for (int b = 0; b < bins; ++b) {
+      const double from = b * width_, to = from + width_;
+      for (int k = 0; k <= degree; ++k)
+        model(b, k) = 2.0 * std::numbers::pi *
+                      (sigma * (std::pow(to, k + 1) - std::pow(from, k + 1)) / (k + 1) +
+                       (std::pow(to, k + 2) - std::pow(from, k + 2)) / (k + 2));
+      rings[b] = model(b, 0);
+    }
+    // Counts of about equal rings scatter about equally, so least squares need no weights.
+    const Eigen::MatrixXd inverse = model.completeOrthogonalDecomposition().pseudoInverse();
+    weights_ = inverse.row(0).transpose();
+  }
+
+  [[nodiscard]] bool known() const { return width_ > 0.0; }
+  [[nodiscard]] double reach() const { return known() ? sigma_ + width_ * bins : 0.0; }
+  [[nodiscard]] double weight(double r) const {
+    const double bin = (r - sigma_) / width_;
+    if (!known() || bin >= bins) return 0.0;
+    return weights_[std::max(0, static_cast<int>(bin))];
+  }
+
+ private:
+  double sigma_, width_;
+  Eigen::VectorXd weights_;
+};
+
+class RadialDistribution final : public Observable {
+ public:
+  RadialDistribution(const ObservableRequest& request, const ObservedRun& run)
+      : run_(run),
+        step_(run.step(request, 16.0)),
+        range_(request.range.value_or(5.0) * run.mean_diameter),
+        width_(range_ / static_cast<double>(request.bins.value_or(250))),
+        kinds_(run.species_count()),
+        g_(static_cast<std::size_t>(request.bins.value_or(250))),
+        counts_(kinds_ > 1 ? 1 + kinds_ * kinds_ : 1, std::vector<double>(g_.size())),
+        contact_(run.mean_diameter, equal(run) ? std::min(range_, 1.25 * run.mean_diameter) : run.mean_diameter) {
+    if (kinds_ > 1) partial_.resize(kinds_ * kinds_, BlockedColumn(g_.size()));
+  }
+
+  [[nodiscard]] std::string name() const override { return "radial_distribution"; }
+  [[nodiscard]] double step() const override { return step_; }
+
+  void sample(const State& state, const Totals&) override {
+    for (std::vector<double>& column : counts_) std::fill(column.begin(), column.end(), 0.0);
+    double at_contact = 0.0;
+    for_each_close_pair(run_.scene.box, state.positions, range_, [&](Eigen::Index i, Eigen::Index j, const Eigen::Vector2d& r) {
+      const double distance = r.norm();
+      const std::size_t bin = std::min(static_cast<std::size_t>(distance / width_), g_.size() - 1);
+      counts_[0][bin] += 1.0;
+      at_contact += contact_.weight(distance);
+      if (kinds_ == 1) return;
+      const auto a = static_cast<std::size_t>(run_.disks.species[static_cast<std::size_t>(i)]);
+      const auto b = static_cast<std::size_t>(run_.disks.species[static_cast<std::size_t>(j)]);
+      counts_[1 + std::min(a, b) * kinds_ + std::max(a, b)][bin] += 1.0;
+    });
+    const double area = run_.scene.box.area(), count = static_cast<double>(run_.disks.count());
+    const double pairs = 0.5 * count * (count - 1.0) / area;
+    contact_value_.add(at_contact / pairs);
+    for (std::size_t b = 0; b < g_.size(); ++b) {
+      g_.add(b, counts_[0][b] / (pairs * ring(b)));
+      for (std::size_t k = 0; k < partial_.size(); ++k)
+        if (const double of_kinds = pairs_of(k) / area; of_kinds > 0.0)
+          partial_[k].add(b, counts_[1 + k][b] / (of_kinds * ring(b)));
+    }
+  }
+
+  [[nodiscard]] Measurement finish(double, const Totals&) override {
+    Measurement found{.name = name()};
+    Scalar contact{.name = "contact"};
+    if (contact_.known()) {
+      contact_value_.fill(contact, step_);
+      if (!contact.value) contact.note = "nothing was measured";
+    } else {
+      contact.note = "disks of several sizes touch at several distances";
+    }
+    found.scalars.push_back(std::move(contact));
+    Table table{.name = name()};
+    Column middles{"r", "length", {}};
+    for (std::size_t b = 0; b < g_.size(); ++b) middles.values.push_back((static_cast<double>(b) + 0.5) * width_);
+    table.columns.push_back(std::move(middles));
+    g_.put(table, "g", "");
+    for (std::size_t k = 0; k < partial_.size(); ++k) {
+      const std::size_t a = k / kinds_, b = k % kinds_;
+      if (a <= b && pairs_of(k) > 0.0) partial_[k].put(table, "g" + run_.suffix(a) + run_.suffix(b), "");
+    }
+    found.tables.push_back(std::move(table));
+    return found;
+  }
+
+ private:
+  static bool equal(const ObservedRun& run) {
+    const std::vector<double>& radius = run.disks.radius;
+    return std::adjacent_find(radius.begin(), radius.end(), std::not_equal_to<>()) == radius.end();
+  }
+  [[nodiscard]] double ring(std::size_t bin) const {
+    return std::numbers::pi * width_ * width_ * (2.0 * static_cast<double>(bin) + 1.0);
+  }
+  [[nodiscard]] double pairs_of(std::size_t k) const {
+    const std::size_t a = k / kinds_, b = k % kinds_;
+    const double first = static_cast<double>(run_.scene.species[a].count),
+                 second = static_cast<double>(run_.scene.species[b].count);
+    return a > b ? 0.0 : a == b ? 0.5 * first * (first - 1.0) : first * second;
+  }
+
+  ObservedRun run_;
+  double step_, range_, width_;
+  std::size_t kinds_;
+  BlockedColumn g_;
+  std::vector<BlockedColumn> partial_;
+  std::vector<std::vector<double>> counts_;  ///< of one state: all pairs, then pairs of species
+  Contact contact_;
+  Blocking contact_value_;
+};
+
+}  // namespace
+
+MadeObservable make_radial_distribution(const ObservableRequest& request, const ObservedRun& run) {
+  return std::make_unique<RadialDistribution>(request, run);
+}
+
+}  // namespace carom

@@ -1,0 +1,106 @@
+// How speeds and kinetic energies are distributed: densities over samples, per species too where there are several. Averages over
+// time.
+
+#include "observe/blocking.hpp"
+#include "observe/observables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+/// Histograms of one quantity from 0 to `range`, of all disks (first) and of each species.
+class Distribution {
+ public:
+  Distribution(std::size_t bins, double range, std::size_t kinds)
+      : width_(range / static_cast<double>(bins)), bins_(bins), shares_(kinds, BlockedColumn(bins)), counts_(kinds * bins) {}
+
+  void add(std::size_t kind, double x) {
+    const double bin = x / width_;
+    if (bin < static_cast<double>(bins_)) counts_[kind * bins_ + static_cast<std::size_t>(bin)] += 1.0;
+  }
+  void end_sample(const std::vector<double>& disks) {
+    for (std::size_t kind = 0; kind < shares_.size(); ++kind)
+      for (std::size_t b = 0; b < bins_; ++b) shares_[kind].add(b, counts_[kind * bins_ + b], disks[kind]);
+    std::fill(counts_.begin(), counts_.end(), 0.0);
+  }
+  [[nodiscard]] Table table(const std::string& name, const std::string& unit, const ObservedRun& run) const {
+    Table table{.name = name};
+    Column middles{"middle", unit, {}};
+    for (std::size_t b = 0; b < bins_; ++b) middles.values.push_back((static_cast<double>(b) + 0.5) * width_);
+    table.columns.push_back(std::move(middles));
+    for (std::size_t kind = 0; kind < shares_.size(); ++kind)
+      shares_[kind].put(table, kind == 0 ? "density" : "density" + run.suffix(kind - 1), "1 / (" + unit + ")", 1.0 / width_);
+    return table;
+  }
+
+ private:
+  double width_;
+  std::size_t bins_;
+  std::vector<BlockedColumn> shares_;
+  std::vector<double> counts_;
+};
+
+class Speeds final : public Observable {
+ public:
+  Speeds(const ObservableRequest& request, const ObservedRun& run)
+      : run_(run),
+        step_(run.step(request, 4.0)),
+        kinds_(run.species_count() > 1 ? 1 + run.species_count() : 1),
+        speeds_(static_cast<std::size_t>(request.bins.value_or(100)), 5.0 * std::sqrt(energy(run) / lightest(run)), kinds_),
+        energies_(static_cast<std::size_t>(request.bins.value_or(100)), 12.5 * energy(run), kinds_) {
+    disks_.push_back(static_cast<double>(run.disks.count()));
+    if (kinds_ > 1)
+      for (const Species& species : run.scene.species) disks_.push_back(static_cast<double>(species.count));
+  }
+
+  [[nodiscard]] std::string name() const override { return "speeds"; }
+  [[nodiscard]] double step() const override { return step_; }
+
+  void sample(const State& state, const Totals&) override {
+    const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);
+    for (std::size_t i = 0; i < run_.disks.count(); ++i) {
+      const double square = v.col(static_cast<Eigen::Index>(i)).squaredNorm();
+      const double speed = std::sqrt(square), energy = 0.5 * run_.disks.mass[i] * square;
+      put(0, speed, energy);
+      if (kinds_ > 1) put(1 + static_cast<std::size_t>(run_.disks.species[i]), speed, energy);
+    }
+    speeds_.end_sample(disks_);
+    energies_.end_sample(disks_);
+  }
+
+  [[nodiscard]] Measurement finish(double, const Totals&) override {
+    Measurement found{.name = name()};
+    found.tables.push_back(speeds_.table("speeds", "length / time", run_));
+    found.tables.push_back(energies_.table("energies", "energy", run_));
+    return found;
+  }
+
+ private:
+  /// What histograms are scaled with: one disk in e^12.5 has more than 12.5 kT.
+  static double energy(const ObservedRun& run) { return run.temperature > 0.0 ? run.temperature : 1.0; }
+  static double lightest(const ObservedRun& run) {
+    return run.disks.count() == 0 ? 1.0 : *std::min_element(run.disks.mass.begin(), run.disks.mass.end());
+  }
+  void put(std::size_t kind, double speed, double energy) {
+    speeds_.add(kind, speed);
+    energies_.add(kind, energy);
+  }
+
+  ObservedRun run_;
+  double step_;
+  std::size_t kinds_;
+  Distribution speeds_, energies_;
+  std::vector<double> disks_;
+};
+
+}  // namespace
+
+MadeObservable make_speeds(const ObservableRequest& request, const ObservedRun& run) {
+  return std::make_unique<Speeds>(request, run);
+}
+
+}  // namespace carom

@@ -1,0 +1,73 @@
+// kT of all disks, of each axis and of each species, over time.
+
+#include "observe/blocking.hpp"
+#include "observe/mechanics.hpp"
+#include "observe/observables.hpp"
+
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+class Temperature final : public Observable {
+ public:
+  Temperature(const ObservableRequest& request, const ObservedRun& run)
+      : run_(run), step_(run.step(request, 4.0)), species_(run.species_count() > 1 ? run.species_count() : 0) {}
+
+  [[nodiscard]] std::string name() const override { return "temperature"; }
+  [[nodiscard]] double step() const override { return step_; }
+
+  void sample(const State& state, const Totals&) override {
+    const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);
+    double mass = 0.0;
+    for (const double m : run_.disks.mass) mass += m;
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero(), freedom = Eigen::Vector2d::Zero();
+    std::vector<double> sums(species_.size()), freedoms(species_.size());
+    for (std::size_t i = 0; i < run_.disks.count(); ++i) {
+      const double m = run_.disks.mass[i];
+      const Eigen::Vector2d squares = m * v.col(static_cast<Eigen::Index>(i)).cwiseAbs2();
+      Eigen::Vector2d share;  // what the common motion leaves a disk of its degrees of freedom
+      for (int axis = 0; axis < 2; ++axis) share[axis] = run_.keeps_momentum(axis) ? 1.0 - m / mass : 1.0;
+      sum += squares;
+      freedom += share;
+      if (species_.empty()) continue;
+      sums[static_cast<std::size_t>(run_.disks.species[i])] += squares.sum();
+      freedoms[static_cast<std::size_t>(run_.disks.species[i])] += share.sum();
+    }
+    all_.add(sum.sum(), freedom.sum());
+    x_.add(sum.x(), freedom.x());
+    y_.add(sum.y(), freedom.y());
+    for (std::size_t s = 0; s < species_.size(); ++s) species_[s].add(sums[s], freedoms[s]);
+  }
+
+  [[nodiscard]] Measurement finish(double, const Totals&) override {
+    Measurement found{.name = name()};
+    put(found, "kT", all_);
+    put(found, "kT_x", x_);
+    put(found, "kT_y", y_);
+    for (std::size_t s = 0; s < species_.size(); ++s) put(found, "kT" + run_.suffix(s), species_[s]);
+    return found;
+  }
+
+ private:
+  void put(Measurement& found, const std::string& name, const Blocking& series) const {
+    Scalar scalar{.name = name, .unit = "energy"};
+    series.fill(scalar, step_);
+    if (!scalar.value) scalar.note = "there is no degree of freedom, or no sample";
+    found.scalars.push_back(std::move(scalar));
+  }
+
+  ObservedRun run_;
+  double step_;
+  Blocking all_, x_, y_;
+  std::vector<Blocking> species_;
+};
+
+}  // namespace
+
+MadeObservable make_temperature(const ObservableRequest& request, const ObservedRun& run) {
+  return std::make_unique<Temperature>(request, run);
+}
+
+}  // namespace carom

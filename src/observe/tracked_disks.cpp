@@ -1,0 +1,44 @@
+#include "observe/tracked_disks.hpp"
+
+#include "observe/mechanics.hpp"
+
+#include <algorithm>
+
+namespace carom {
+
+TrackedDisks::TrackedDisks(const ObservedRun& run, std::size_t species) {
+  std::vector<Eigen::Index> all;
+  for (std::size_t i = 0; i < run.disks.count(); ++i)
+    if (run.disks.species[i] == static_cast<std::int32_t>(species)) all.push_back(static_cast<Eigen::Index>(i));
+  const std::size_t count = std::min(most, all.size());
+  for (std::size_t k = 0; k < count; ++k) ids_.push_back(all[k * all.size() / count]);
+  values_.resize(channels());
+}
+
+std::span<const double> TrackedDisks::velocities(const Eigen::Matrix2Xd& peculiar) {
+  for (std::size_t k = 0; k < ids_.size(); ++k) {
+    values_[2 * k] = peculiar(0, ids_[k]);
+    values_[2 * k + 1] = peculiar(1, ids_[k]);
+  }
+  return values_;
+}
+
+std::span<const double> TrackedDisks::unwrapped(const ObservedRun& run, const State& state, const Eigen::Vector2d& drift) {
+  const Eigen::Vector2d lengths = run.scene.box.lengths();
+  for (std::size_t k = 0; k < ids_.size(); ++k)
+    for (int axis = 0; axis < 2; ++axis)
+      values_[2 * k + static_cast<std::size_t>(axis)] =
+          state.positions(axis, ids_[k]) + static_cast<double>(state.images(axis, ids_[k])) * lengths[axis] - drift[axis];
+  return values_;
+}
+
+Eigen::Vector2d common_drift(const ObservedRun& run, const State& state) {
+  double mass = 0.0;
+  for (const double m : run.disks.mass) mass += m;
+  Eigen::Vector2d drift = total_momentum(run.disks, state) * (state.time / mass);
+  for (int axis = 0; axis < 2; ++axis)
+    if (!run.keeps_momentum(axis)) drift[axis] = 0.0;
+  return drift;
+}
+
+}  // namespace carom

@@ -1,0 +1,33 @@
+#pragma once
+// The disks that are followed through time one by one: at most a thousand of each species, evenly chosen, so that memory stays
+// bounded.
+
+#include "observe/observed_run.hpp"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+class TrackedDisks {
+ public:
+  static constexpr std::size_t most = 1000;
+
+  /// Of one species.
+  TrackedDisks(const ObservedRun& run, std::size_t species);
+
+  [[nodiscard]] std::size_t channels() const { return 2 * ids_.size(); }
+  /// x and y of each disk, relative to the common motion of all along axes that keep momentum. Valid until the next call.
+  [[nodiscard]] std::span<const double> velocities(const Eigen::Matrix2Xd& peculiar);
+  [[nodiscard]] std::span<const double> unwrapped(const ObservedRun& run, const State& state, const Eigen::Vector2d& drift);
+
+ private:
+  std::vector<Eigen::Index> ids_;
+  std::vector<double> values_;
+};
+
+/// How far the common motion has carried everybody along axes that keep momentum.
+[[nodiscard]] Eigen::Vector2d common_drift(const ObservedRun& run, const State& state);
+
+}  // namespace carom

@@ -1,0 +1,90 @@
+#include "observe/transport.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace carom {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+std::string at_lag(double lag) {
+  char text[160];
+  std::snprintf(text, sizeof text, "at lag %.4g, the longest below half the time that sound takes through the box", lag);
+  return text;
+}
+
+/// The last row that `until` allows and whose error is known; null where there is none.
+const MultipleTau::Row* longest_row(const std::vector<MultipleTau::Row>& rows, double until) {
+  const MultipleTau::Row* best = nullptr;
+  for (const MultipleTau::Row& row : rows) {
+    const Blocking::Estimate& found = row.integral ? *row.integral : row.pairs;
+    if (row.lag > 0.0 && row.lag <= until && found.error) best = &row;
+  }
+  return best;
+}
+
+Scalar coefficient(std::string name, const std::string& unit, double step, double factor, const MultipleTau::Row* row) {
+  Scalar scalar{.name = std::move(name), .unit = unit};
+  if (row == nullptr) {
+    scalar.note = "the run is too short";
+    return scalar;
+  }
+  const Blocking::Estimate& found = row->integral ? *row->integral : row->pairs;
+  const double lag = row->integral ? row->lag + 0.5 * row->width : row->lag;
+  scalar.value = factor * found.mean;
+  scalar.error = factor * *found.error;
+  if (found.inefficiency) scalar.decorrelation_time = step * row->width * *found.inefficiency;
+  scalar.note = at_lag(step * lag);
+  if (!found.inefficiency) scalar.note += "; the run is too short for its correlations: the error is a lower bound";
+  return scalar;
+}
+
+}  // namespace
+
+double sound_time(const ObservedRun& run) {
+  double mass = 0.0;
+  for (const double m : run.disks.mass) mass += m / static_cast<double>(run.disks.count());
+  const double eta = std::min(run.scene.packing_fraction(), 0.85), free = 1.0 - eta;
+  const double z = (1.0 + eta * eta / 8.0) / (free * free);
+  const double slope = eta / 4.0 / (free * free) + 2.0 * z / free;
+  const double speed = std::sqrt(run.temperature / mass * (z + eta * slope + z * z));
+  return speed > 0.0 ? 0.5 * run.scene.box.lengths().minCoeff() / speed : std::numeric_limits<double>::infinity();
+}
+
+Measurement transport_measurement(const std::string& name, const std::string& unit, const std::string& unit_of_flux, double step,
+                                  double factor, double longest, const MultipleTau& products, const MultipleTau& moments) {
+  const std::vector<MultipleTau::Row> correlations = products.rows(), growth = moments.rows();
+  Measurement found{.name = name};
+  found.scalars.push_back(coefficient("green_kubo", unit, step, factor * step, longest_row(correlations, longest / step)));
+  const MultipleTau::Row* last = longest_row(growth, longest / step);
+  found.scalars.push_back(
+      coefficient("einstein_helfand", unit, step, last == nullptr ? 0.0 : factor / (2.0 * step * last->lag), last));
+
+  Table table{.name = name};
+  Column lags{"lag", "time", {}}, flux{"correlation", unit_of_flux, {}}, flux_error{"correlation_error", unit_of_flux, {}};
+  Column until{"integral_to", "time", {}}, integral{"green_kubo", unit, {}}, integral_error{"green_kubo_error", unit, {}};
+  Column helfand{"einstein_helfand", unit, {}}, helfand_error{"einstein_helfand_error", unit, {}};
+  for (const MultipleTau::Row& row : correlations) {
+    lags.values.push_back(step * row.lag);
+    flux.values.push_back(row.pairs.mean);
+    flux_error.values.push_back(row.pairs.error.value_or(unknown));
+    until.values.push_back(step * (row.lag + 0.5 * row.width));
+    integral.values.push_back(factor * step * row.integral->mean);
+    integral_error.values.push_back(row.integral->error ? factor * step * *row.integral->error : unknown);
+    const auto same =
+        std::find_if(growth.begin(), growth.end(), [&](const MultipleTau::Row& other) { return other.lag == row.lag; });
+    const bool there = same != growth.end();
+    const double scale = there ? factor / (2.0 * step * same->lag) : unknown;
+    helfand.values.push_back(there ? scale * same->pairs.mean : unknown);
+    helfand_error.values.push_back(there && same->pairs.error ? scale * *same->pairs.error : unknown);
+  }
+  table.columns = {lags, flux, flux_error, until, integral, integral_error, helfand, helfand_error};
+  found.tables.push_back(std::move(table));
+  return found;
+}
+
+}  // namespace carom

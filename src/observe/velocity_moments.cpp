@@ -1,0 +1,100 @@
+// Moments of the velocities, per species: <v^2>, <v^4> and the kurtosis <v^4> / <v^2>^2, which is 2 in a Maxwell gas and 2 (N -
+// 1) / N for N equal disks whose energy and momentum are kept. Averages over time.
+
+#include "observe/blocking.hpp"
+#include "observe/observables.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+class VelocityMoments final : public Observable {
+ public:
+  VelocityMoments(const ObservableRequest& request, const ObservedRun& run)
+      : run_(run), step_(run.step(request, 4.0)), species_(run.species_count()) {}
+
+  [[nodiscard]] std::string name() const override { return "velocity_moments"; }
+  [[nodiscard]] double step() const override { return step_; }
+
+  void sample(const State& state, const Totals&) override {
+    const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);
+    std::vector<Sums> sums(species_.size());
+    for (std::size_t i = 0; i < run_.disks.count(); ++i) {
+      Sums& sum = sums[static_cast<std::size_t>(run_.disks.species[i])];
+      const double x = v(0, static_cast<Eigen::Index>(i)), y = v(1, static_cast<Eigen::Index>(i));
+      const double square = x * x + y * y;
+      sum.speed += std::sqrt(square);
+      sum.second += square;
+      sum.fourth += square * square;
+      sum.x2 += x * x, sum.y2 += y * y, sum.x4 += x * x * x * x, sum.y4 += y * y * y * y;
+      sum.x3 += x * x * x, sum.y3 += y * y * y;
+    }
+    for (std::size_t s = 0; s < sums.size(); ++s) {
+      const Sums& sum = sums[s];
+      if (run_.scene.species[s].count == 0) continue;
+      const double share = 1.0 / static_cast<double>(run_.scene.species[s].count);
+      Series& series = species_[s];
+      series.speed.add(share * sum.speed);
+      series.second.add(share * sum.second);
+      series.fourth.add(share * sum.fourth);
+      series.x3.add(share * sum.x3), series.y3.add(share * sum.y3);
+      series.kurtosis.add(share * sum.fourth, share * sum.second);
+      series.kurtosis_x.add(share * sum.x4, share * sum.x2);
+      series.kurtosis_y.add(share * sum.y4, share * sum.y2);
+    }
+  }
+
+  [[nodiscard]] Measurement finish(double, const Totals&) override {
+    Measurement found{.name = name()};
+    for (std::size_t s = 0; s < species_.size(); ++s) {
+      const Series& series = species_[s];
+      put(found, "speed" + run_.suffix(s), "length / time", series.speed);
+      put(found, "v2" + run_.suffix(s), "(length / time)^2", series.second);
+      put(found, "v4" + run_.suffix(s), "(length / time)^4", series.fourth);
+      put(found, "vx3" + run_.suffix(s), "(length / time)^3", series.x3);
+      put(found, "vy3" + run_.suffix(s), "(length / time)^3", series.y3);
+      put_kurtosis(found, "kurtosis" + run_.suffix(s), series.kurtosis);
+      put_kurtosis(found, "kurtosis_x" + run_.suffix(s), series.kurtosis_x);
+      put_kurtosis(found, "kurtosis_y" + run_.suffix(s), series.kurtosis_y);
+    }
+    return found;
+  }
+
+ private:
+  struct Sums {
+    double speed = 0.0, second = 0.0, fourth = 0.0, x2 = 0.0, y2 = 0.0, x3 = 0.0, y3 = 0.0, x4 = 0.0, y4 = 0.0;
+  };
+  struct Series {
+    Blocking speed, second, fourth, x3, y3;
+    Blocking kurtosis, kurtosis_x, kurtosis_y;  ///< of <v^4> / <v^2>^2
+  };
+
+  void put(Measurement& found, std::string name, const char* unit, const Blocking& series) const {
+    Scalar scalar{.name = std::move(name), .unit = unit};
+    series.fill(scalar, step_);
+    if (!scalar.value) scalar.note = "nothing was measured";
+    found.scalars.push_back(std::move(scalar));
+  }
+
+  void put_kurtosis(Measurement& found, std::string name, const Blocking& series) const {
+    Scalar scalar{.name = std::move(name)};
+    series.fill(scalar, step_, 1.0, 0.0, 2);
+    if (!scalar.value) scalar.note = "nothing moves, or nothing was measured";
+    found.scalars.push_back(std::move(scalar));
+  }
+
+  ObservedRun run_;
+  double step_;
+  std::vector<Series> species_;
+};
+
+}  // namespace
+
+MadeObservable make_velocity_moments(const ObservableRequest& request, const ObservedRun& run) {
+  return std::make_unique<VelocityMoments>(request, run);
+}
+
+}  // namespace carom

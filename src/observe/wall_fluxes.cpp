@@ -1,0 +1,70 @@
+// Momentum and energy that go through each wall, per time and length of wall, outward positive: pressure, and heat and work.
+// Averages over time.
+
+#include "observe/blocking.hpp"
+#include "observe/geometry.hpp"
+#include "observe/observables.hpp"
+
+#include <array>
+
+namespace carom {
+
+namespace {
+
+constexpr std::array<const char*, 4> wall_names = {"left", "right", "bottom", "top"};
+
+class WallFluxes final : public Observable {
+ public:
+  WallFluxes(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 16.0)) {}
+
+  [[nodiscard]] std::string name() const override { return "wall_fluxes"; }
+  [[nodiscard]] double step() const override { return step_; }
+
+  void sample(const State& state, const Totals& totals) override {
+    const Eigen::Vector2d lengths = box_of(run_.scene.box, state).lengths();
+    const double dt = state.time - time_;
+    for (std::size_t side = 0; side < 4; ++side) {
+      const int along = side < 2 ? 1 : 0;
+      const double length = 0.5 * (lengths[along] + lengths_[along]);
+      if (dt > 0.0) momentum_[side].add(totals.wall_impulse[side] - impulse_[side], length * dt);
+      if (dt > 0.0) energy_[side].add(totals.wall_energy[side] - energies_[side], length * dt);
+    }
+    time_ = state.time;
+    lengths_ = lengths;
+    impulse_ = totals.wall_impulse;
+    energies_ = totals.wall_energy;
+  }
+
+  [[nodiscard]] Measurement finish(double, const Totals&) override {
+    Measurement found{.name = name()};
+    for (std::size_t side = 0; side < 4; ++side) {
+      if (run_.scene.box.periodic(side < 2 ? 0 : 1)) continue;
+      put(found, std::string("momentum_") + wall_names[side], "energy / area", momentum_[side]);
+      put(found, std::string("energy_") + wall_names[side], "energy / (length time)", energy_[side]);
+    }
+    return found;
+  }
+
+ private:
+  void put(Measurement& found, std::string name, const char* unit, const Blocking& series) const {
+    Scalar scalar{.name = std::move(name), .unit = unit};
+    series.fill(scalar, step_);
+    if (!scalar.value) scalar.note = "nothing was measured";
+    found.scalars.push_back(std::move(scalar));
+  }
+
+  ObservedRun run_;
+  double step_;
+  double time_ = 0.0;
+  Eigen::Vector2d lengths_ = Eigen::Vector2d::Zero();
+  std::array<double, 4> impulse_{}, energies_{};
+  std::array<Blocking, 4> momentum_, energy_;
+};
+
+}  // namespace
+
+MadeObservable make_wall_fluxes(const ObservableRequest& request, const ObservedRun& run) {
+  return std::make_unique<WallFluxes>(request, run);
+}
+
+}  // namespace carom

@@ -1,0 +1,122 @@
+// What cannot be measured in a scene, and why.
+
+#include "scene/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace carom::detail {
+namespace {
+
+[[noreturn]] void refuse_observable(const ObservableRequest& request, const std::string& why) {
+  throw SceneError(request.where, fmt::format("observe.{} {}", request.name, why));
+}
+
+bool one_of(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool acts(const std::optional<Thermostat>& effect) { return effect && effect->rate > 0.0; }
+bool acts(const std::optional<Growth>& effect) { return effect && effect->rate > 0.0; }
+bool acts(const std::optional<Shear>& effect) { return effect && effect->rate != 0.0; }
+
+/// What changes velocities without a collision, so that one does not know how disks came to the next; empty where nothing does.
+std::string_view between_collisions(const Effects& effects) {
+  if (acts(effects.thermostat)) return "[thermostat]";
+  if (acts(effects.growth)) return "[growth]";
+  if (acts(effects.shear)) return "[shear]";
+  return {};
+}
+
+/// Green and Kubo's formulas are about smooth disks that keep their energy and momentum.
+std::string_view what_spoils_transport(const Scene& scene) {
+  const Effects& effects = scene.effects;
+  if (!scene.box.periodic(0) || !scene.box.periodic(1)) return "walls take momentum; take boundary = \"periodic\"";
+  if (!effects.obstacles.empty()) return "obstacles take momentum; remove [[obstacles]]";
+  if (effects.collision.rule == CollisionRule::reversal)
+    return "the rule \"reversal\" does not keep angular momentum, and its gas has no viscosity in that sense; take rule = "
+           "\"specular\"";
+  if (effects.collision.restitution.value_or(1.0) != 1.0) return "restitution takes energy; remove it";
+  if (effects.collision.roughness.value_or(-1.0) != -1.0)
+    return "rough disks carry momentum and heat in their spin; remove roughness";
+  if (effects.square_well && effects.square_well->depth != 0.0) return "wells carry energy of their own; remove [square_well]";
+  return {};
+}
+
+bool equal_masses(const Scene& scene) {
+  double first = 0.0;
+  for (const Species& species : scene.species) {
+    for (std::int64_t i = 0; i < species.count; ++i) {
+      if (first == 0.0) first = species.mass_of(i);
+      if (species.mass_of(i) != first) return false;
+      if (species.masses.empty()) break;
+    }
+  }
+  return true;
+}
+
+void check_disks(const Scene& scene, const ObservableRequest& request) {
+  const std::int64_t least = request.name == "hexatic" ? 7
+                             : one_of(request.name, {"collision_rate", "free_flight", "radial_distribution", "structure_factor",
+                                                     "viscosity", "heat_conductivity"})
+                                 ? 2
+                                 : 1;
+  if (scene.disk_count() >= least) return;
+  refuse_observable(request, fmt::format("needs at least {} disk{}, and the scene has {}; remove it, or add disks", least,
+                                         least == 1 ? "" : "s", scene.disk_count()));
+}
+
+void check_collisions(const Scene& scene, const ObservableRequest& request) {
+  if (!one_of(request.name, {"free_flight", "viscosity", "heat_conductivity"})) return;
+  const std::string_view what = between_collisions(scene.effects);
+  if (what.empty()) return;
+  refuse_observable(request, fmt::format("follows disks from collision to collision, and {} changes their velocities in between; "
+                                         "remove one of the two",
+                                         what));
+}
+
+void check_structure(const Scene& scene, const ObservableRequest& request) {
+  if (!one_of(request.name, {"radial_distribution", "structure_factor", "hexatic"})) return;
+  if (!scene.box.periodic(0) || !scene.box.periodic(1))
+    refuse_observable(request,
+                      "is that of a uniform system, and walls disturb it; take boundary = \"periodic\", or observe "
+                      "density_profile");
+  if (acts(scene.effects.shear))
+    refuse_observable(request,
+                      "is that of a fluid at rest, and under [shear] images slide past each other; remove one of the two");
+  if (acts(scene.effects.growth))
+    refuse_observable(request, "is that of disks that keep their size, and [growth] changes it; remove one of the two");
+  if (!request.range) return;
+  const double diameter = mean_diameter(scene);
+  const double half = 0.5 * scene.box.lengths().minCoeff() / diameter;
+  if (*request.range > half * (1.0 + touching))
+    refuse_observable(request, fmt::format("reaches {:.6g} mean diameters, but half of the box is {:.6g}; make range smaller, or "
+                                           "the box larger",
+                                           *request.range, half));
+}
+
+}  // namespace
+
+void check_observe(const Scene& scene) {
+  for (const ObservableRequest& request : scene.observe) {
+    check_disks(scene, request);
+    check_collisions(scene, request);
+    check_structure(scene, request);
+    if (request.name == "wall_fluxes" && scene.box.periodic(0) && scene.box.periodic(1))
+      refuse_observable(request, "asks what goes through walls, and this box is periodic; remove it, or give an axis walls");
+    if (one_of(request.name, {"mean_square_displacement", "velocity_autocorrelation"}) && acts(scene.effects.shear))
+      refuse_observable(request, "follows disks through a fluid at rest, and [shear] carries them along; remove one of the two");
+    if (!one_of(request.name, {"viscosity", "heat_conductivity"})) continue;
+    if (const std::string_view why = what_spoils_transport(scene); !why.empty())
+      refuse_observable(request, fmt::format("has no meaning here: {}", why));
+    if (request.name == "heat_conductivity" && !equal_masses(scene))
+      refuse_observable(request,
+                        "is measured for disks of one mass only: in a mixture heat also goes with diffusion; remove it, or "
+                        "make all masses equal");
+  }
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,79 @@
+// The [observe] table: one key per observable, `true` or a table of its settings.
+
+#include "scene/checks.hpp"
+#include "scene/observables_known.hpp"
+#include "scene/read_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace carom::detail {
+namespace {
+
+constexpr std::int64_t most_bins = 100'000;
+
+std::int64_t read_bins(const TableReader& table, std::int64_t otherwise) {
+  const std::int64_t bins = table.integer("bins", fmt::format("bins = {}", otherwise)).value_or(otherwise);
+  if (bins >= 2 && bins <= most_bins) return bins;
+  throw SceneError(table.where("bins"), fmt::format("{} is {}; it must be a whole number from 2 to {}, such as bins = {}",
+                                                    table.path("bins"), bins, most_bins, otherwise));
+}
+
+int read_axis(const TableReader& table, int otherwise) {
+  const std::string axis = table.string("axis", "axis = \"y\"").value_or(otherwise == 0 ? "x" : "y");
+  if (axis == "x" || axis == "y") return axis == "x" ? 0 : 1;
+  throw SceneError(table.where("axis"), fmt::format("{} is \"{}\"; it must be \"x\" or \"y\"", table.path("axis"), axis));
+}
+
+void read_settings(const toml::table& node, const KnownObservable& known, ObservableRequest& request) {
+  std::vector<std::string_view> keys = {"every"};
+  if (known.bins) keys.emplace_back("bins");
+  if (known.range) keys.emplace_back("range");
+  if (known.largest) keys.emplace_back("largest");
+  if (known.axis) keys.emplace_back("axis");
+  const TableReader table(node, fmt::format("observe.{}", known.name), keys);
+  request.every = table.number("every", Range::above_zero, "every = 0.05");
+  if (known.bins) request.bins = read_bins(table, *known.bins);
+  if (known.range) request.range = table.number("range", Range::above_zero, fmt::format("range = {:.1f}", *known.range));
+  if (known.largest)
+    request.largest = table.number("largest", Range::above_zero, fmt::format("largest = {:.1f}", *known.largest));
+  if (known.axis) request.axis = read_axis(table, *known.axis);
+}
+
+}  // namespace
+
+std::vector<ObservableRequest> read_observe(const toml::table& node) {
+  std::vector<std::string_view> names;
+  for (const KnownObservable& known : known_observables) names.push_back(known.name);
+  const TableReader table(node, "observe", names);
+  std::vector<ObservableRequest> requests;
+  for (const KnownObservable& known : known_observables) {
+    const toml::node* value = table.find(known.name);
+    if (value == nullptr || (value->is_boolean() && !value->as_boolean()->get())) continue;
+    if (!value->is_boolean() && !value->is_table())
+      refuse(*value, table.path(known.name), fmt::format("true, false or a table of settings, such as {}", known.example));
+    ObservableRequest request;
+    request.name = known.name;
+    request.bins = known.bins;
+    request.largest = known.largest;
+    request.axis = known.axis;
+    request.where = table.where(known.name);
+    if (value->is_table()) read_settings(*value->as_table(), known, request);
+    if (known.largest && !request.largest) request.largest = known.largest;
+    requests.push_back(std::move(request));
+  }
+  return requests;
+}
+
+void complete_observe(Scene& scene) {
+  if (scene.observe.empty() || scene.disk_count() == 0) return;
+  const double half_box = 0.5 * scene.box.lengths().minCoeff() / mean_diameter(scene);
+  for (ObservableRequest& request : scene.observe) {
+    const KnownObservable* known = find_observable(request.name);
+    if (known != nullptr && known->range && !request.range) request.range = std::min(*known->range, half_box);
+  }
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,275 @@
+// Observables of collisions against the obvious computation on the event log.
+
+#include "observe/observed_system.hpp"
+
+#include "observe/mechanics.hpp"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace carom::test {
+namespace {
+
+constexpr double rounding = 1e-11;  // of sums over 1e3 terms of order one, relative
+
+/// Plays an event log through again: `visit(event, before, partner_before, r)` for collisions of pairs, r from partner to disk.
+template <class Visit>
+void replay(const Observed& o, Visit visit) {
+  struct Disk {
+    Eigen::Vector2d r, v;
+    double since = 0.0;
+  };
+  std::vector<Disk> disks(o.disks.count());
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    const auto c = static_cast<Eigen::Index>(i);
+    disks[i] = {o.record.states.front().positions.col(c), o.record.states.front().velocities.col(c)};
+  }
+  const auto move = [&](std::int32_t i, double time) -> Disk& {
+    Disk& disk = disks[static_cast<std::size_t>(i)];
+    disk.r += (time - disk.since) * disk.v;
+    disk.since = time;
+    return disk;
+  };
+  for (const Event& event : o.record.events) {
+    Disk& a = move(event.disk, event.time);
+    if (event.partner >= 0) {
+      Disk& b = move(event.partner, event.time);
+      Eigen::Vector2d r = a.r - b.r;
+      for (int axis = 0; axis < 2; ++axis)
+        if (o.scene.box.periodic(axis)) r[axis] = std::remainder(r[axis], o.scene.box.lengths()[axis]);
+      visit(event, a.v, b.v, r);
+      b.v = event.partner_velocity;
+    }
+    a.v = event.velocity;
+  }
+}
+
+double mean_flow(const Observed& o, int a, int b) {
+  double sum = 0.0;
+  const auto flow = [&](const State& state) {
+    double now = 0.0;
+    for (std::size_t i = 0; i < o.disks.count(); ++i)
+      now +=
+          o.disks.mass[i] * state.velocities(a, static_cast<Eigen::Index>(i)) * state.velocities(b, static_cast<Eigen::Index>(i));
+    return now;
+  };
+  for (std::size_t k = 0; k + 1 < o.record.states.size(); ++k)
+    sum += 0.5 * (flow(o.record.states[k]) + flow(o.record.states[k + 1]));
+  return sum / static_cast<double>(o.record.states.size() - 1);
+}
+
+class ObservedCollisions : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ObservedCollisions, PressureTensorIsTheFlowOfMomentumAndWhatCollisionsTransfer) {
+  const Observed o = observe(parse_scene(small_fluid("pressure = { every = 0.05 }", GetParam())), 0.05);
+  Eigen::Matrix2d transfer = Eigen::Matrix2d::Zero();
+  replay(o, [&](const Event& event, const Eigen::Vector2d& before, const Eigen::Vector2d&, const Eigen::Vector2d& r) {
+    transfer += r * (1.5 * (event.velocity - before)).transpose();
+  });
+  const double area = o.scene.box.area();
+  static constexpr std::array<std::array<const char*, 2>, 2> names = {{{"P_xx", "P_xy"}, {"P_yx", "P_yy"}}};
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b < 2; ++b)
+      EXPECT_NEAR(o.value("pressure", names[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)]),
+                  (mean_flow(o, a, b) * 40.0 / 39.0 + transfer(a, b) / 5.0) / area, 100.0 * rounding);
+  const double kT = kinetic_temperature(o.scene.box, o.disks, o.record.states.front());
+  const double Z = 1.0 + transfer.trace() / (2.0 * 5.0 * 40.0 * kT);
+  EXPECT_NEAR(o.value("pressure", "Z"), Z, 100.0 * rounding);
+  EXPECT_NEAR(0.5 * (o.value("pressure", "P_xx") + o.value("pressure", "P_yy")), 40.0 * kT * Z / area, 100.0 * rounding);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, ObservedCollisions, ::testing::Values("specular", "reversal"));
+
+TEST(ObservedPressure, FromTheRateIsTheRatesShareOfTheMaxwellRate) {
+  const Observed o = observe(parse_scene(small_fluid("pressure = { every = 0.05 }")), 0.05);
+  const double kT = kinetic_temperature(o.scene.box, o.disks, o.record.states.front());
+  const double rate = 2.0 * static_cast<double>(o.totals.pair) / (40.0 * 5.0);
+  const double d = 78.0;  // 2 N - 2 degrees of freedom
+  const double slower = std::sqrt(d / 2.0) * std::tgamma(d / 2.0) / std::tgamma((d + 1.0) / 2.0);
+  EXPECT_NEAR(o.value("pressure", "Z_rate"), 1.0 + std::sqrt(std::numbers::pi) / 4.0 * rate / std::sqrt(kT / 1.5) / slower,
+              100.0 * rounding);
+}
+
+TEST(ObservedPressure, FromWallsIsTheirPushOverTheRoomOfCentres) {
+  std::string scene = small_fluid("pressure = { every = 0.05 }\nwall_fluxes = { every = 0.05 }");
+  scene.replace(scene.find("periodic"), 8, "walls");
+  const Observed o = observe(parse_scene(scene), 0.05);
+  const double kT = kinetic_temperature(o.scene.box, o.disks, o.record.states.front());
+  const auto& push = o.totals.wall_impulse;
+  const double room = o.scene.box.lengths().x() - 1.0;
+  EXPECT_NEAR(o.value("pressure", "Z_walls"), 0.5 * (push[0] + push[1] + push[2] + push[3]) / 5.0 * room / (2.0 * 40.0 * kT),
+              100.0 * rounding);
+  EXPECT_NEAR(o.value("wall_fluxes", "momentum_top"), push[3] / (5.0 * o.scene.box.lengths().x()), 100.0 * rounding);
+  EXPECT_EQ(o.value("wall_fluxes", "energy_left"), 0.0);
+}
+
+TEST(ObservedPressure, TracesOfAMixtureBetweenWallsAgree) {
+  const Observed o = observe(parse_scene(small_mixture("pressure = { every = 0.1 }")), 0.1);
+  // Momentum flows both ways through walls, none through the box's edges: the trace is what the virial says, to rounding.
+  const double trace = (o.value("pressure", "P_xx") + o.value("pressure", "P_yy")) * o.scene.box.area() / 2.0;
+  const double kT = kinetic_temperature(o.scene.box, o.disks, o.record.states.front());
+  EXPECT_NEAR(trace, 32.0 * kT * o.value("pressure", "Z"), 1000.0 * rounding);
+  EXPECT_FALSE(o.scalar("pressure", "Z_walls").value);
+  EXPECT_FALSE(o.scalar("pressure", "Z_walls").note.empty());
+}
+
+TEST(ObservedRates, CountCollisionsByPairsOfSpecies) {
+  const Observed o = observe(parse_scene(small_mixture("collision_rate = { every = 0.1 }")), 0.1);
+  std::array<std::array<double, 2>, 2> counts{};
+  for (const Event& event : o.record.events) {
+    if (event.partner < 0) continue;
+    const auto a = static_cast<std::size_t>(o.disks.species[static_cast<std::size_t>(event.disk)]);
+    const auto b = static_cast<std::size_t>(o.disks.species[static_cast<std::size_t>(event.partner)]);
+    counts[a][b] += 1.0;
+    counts[b][a] += 1.0;
+  }
+  ASSERT_GT(counts[0][1], 0.0);
+  EXPECT_NEAR(o.value("collision_rate", "rate"), 2.0 * static_cast<double>(o.totals.pair) / (32.0 * 6.0), rounding);
+  EXPECT_NEAR(o.value("collision_rate", "rate_big_big"), counts[0][0] / (12.0 * 6.0), rounding);
+  EXPECT_NEAR(o.value("collision_rate", "rate_big_small"), counts[0][1] / (12.0 * 6.0), rounding);
+  EXPECT_NEAR(o.value("collision_rate", "rate_small_big"), counts[1][0] / (20.0 * 6.0), rounding);
+  EXPECT_NEAR(o.value("collision_rate", "rate_small_small"), counts[1][1] / (20.0 * 6.0), rounding);
+}
+
+TEST(ObservedFlights, AreThoseBetweenTwoCollisionsOfADisk) {
+  const Observed o = observe(parse_scene(small_mixture("free_flight = { bins = 20 }")), 0.1);
+  std::map<std::int32_t, std::pair<double, Eigen::Vector2d>> last;  // time and position, mirrored by walls: so the path is summed
+  std::map<std::int32_t, double> path, since;
+  double flights = 0.0, time = 0.0, length = 0.0;
+  std::map<std::int32_t, Eigen::Vector2d> velocity;
+  for (std::int32_t i = 0; i < 32; ++i) velocity[i] = o.record.states.front().velocities.col(i);
+  std::map<std::int32_t, double> collided;
+  std::vector<double> histogram(20);
+  const double width = 2.0 * o.column("free_flight", 0, "middle")[0];
+  for (const Event& event : o.record.events) {
+    const auto fly = [&](std::int32_t i, const Eigen::Vector2d& after) {
+      path[i] += velocity[i].norm() * (event.time - since[i]);
+      since[i] = event.time;
+      velocity[i] = after;
+    };
+    const auto end = [&](std::int32_t i) {
+      if (collided.contains(i)) {
+        flights += 1.0;
+        time += event.time - collided[i];
+        length += path[i];
+        const auto bin = static_cast<std::size_t>((event.time - collided[i]) / width);
+        if (bin < 20) histogram[bin] += 1.0;
+      }
+      collided[i] = event.time;
+      path[i] = 0.0;
+    };
+    fly(event.disk, event.velocity);
+    if (event.partner < 0) continue;
+    fly(event.partner, event.partner_velocity);
+    end(event.disk);
+    end(event.partner);
+  }
+  ASSERT_GT(flights, 50.0);
+  EXPECT_NEAR(o.value("free_flight", "mean_free_time"), time / flights, rounding);
+  EXPECT_NEAR(o.value("free_flight", "mean_free_path"), length / flights, rounding);
+  for (std::size_t b = 0; b < 20; ++b)
+    EXPECT_NEAR(o.column("free_flight", 0, "density")[b], histogram[b] / flights / width, rounding);
+}
+
+TEST(ObservedFlights, OfALargeSystemAreThoseOfEverySecondDisk) {
+  const Scene scene = parse_scene(
+      "[box]\naspect = 1.0\nboundary = \"periodic\"\n[[disks]]\ncount = 2500\nradius = 0.5\nmass = 1.0\npacking_fraction = "
+      "0.5\npositions = "
+      "\"hexagonal\"\nvelocities = { temperature = 1.0 }\n[collision]\nrule = \"specular\"\n[run]\ntime = "
+      "0.5\n[observe]\nfree_flight = true");
+  const Observed o = observe(scene, 0.5);
+  std::map<std::int32_t, double> last;
+  double flights = 0.0, time = 0.0;
+  for (const Event& event : o.record.events)
+    for (const std::int32_t disk : {event.disk, event.partner}) {
+      if (disk % 2 != 0) continue;
+      if (last.contains(disk)) {
+        flights += 1.0;
+        time += event.time - last[disk];
+      }
+      last[disk] = event.time;
+    }
+  ASSERT_GT(flights, 1000.0);
+  EXPECT_NEAR(o.value("free_flight", "mean_free_time"), time / flights, rounding);
+}
+
+/// Helfand's moments by their definition, from the replayed log.
+TEST(ObservedTransport, MomentsGrowWithTheFluxAndJumpAtCollisions) {
+  const double every = 0.25;
+  const Observed o =
+      observe(parse_scene(small_fluid("viscosity = { every = 0.25 }\nheat_conductivity = { every = 0.25 }")), every);
+  // The flux between two samples is constant but for collisions: its integral is a sum over the flights of all disks.
+  std::vector<std::array<double, 4>> growth(20);  // of G_xy, (G_xx - G_yy) / 2, G_x, G_y, in each step
+  const auto fly = [&](double from, double to, const Eigen::Vector2d& v) {
+    for (std::size_t k = 0; k < growth.size(); ++k) {
+      const double time = std::min(to, every * static_cast<double>(k + 1)) - std::max(from, every * static_cast<double>(k));
+      if (time <= 0.0) continue;
+      const double energy = 0.5 * 1.5 * v.squaredNorm();
+      growth[k][0] += time * 1.5 * v.x() * v.y();
+      growth[k][1] += time * 0.75 * (v.x() * v.x() - v.y() * v.y());
+      growth[k][2] += time * energy * v.x();
+      growth[k][3] += time * energy * v.y();
+    }
+  };
+  std::vector<double> since(40);
+  std::vector<Eigen::Vector2d> velocity;
+  for (Eigen::Index i = 0; i < 40; ++i) velocity.emplace_back(o.record.states.front().velocities.col(i));
+  replay(o,
+         [&](const Event& event, const Eigen::Vector2d& before, const Eigen::Vector2d& partner_before, const Eigen::Vector2d& r) {
+           const auto i = static_cast<std::size_t>(event.disk), j = static_cast<std::size_t>(event.partner);
+           fly(since[i], event.time, before);
+           fly(since[j], event.time, partner_before);
+           since[i] = since[j] = event.time;
+           velocity[i] = event.velocity;
+           velocity[j] = event.partner_velocity;
+           const Eigen::Vector2d impulse = 1.5 * (event.velocity - before);
+           const double gain = 0.75 * (event.velocity.squaredNorm() - before.squaredNorm());
+           auto& now = growth[std::min<std::size_t>(growth.size() - 1, static_cast<std::size_t>(event.time / every))];
+           now[0] += r.x() * impulse.y();
+           now[1] += 0.5 * (r.x() * impulse.x() - r.y() * impulse.y());
+           now[2] += r.x() * gain;
+           now[3] += r.y() * gain;
+         });
+  for (std::size_t i = 0; i < 40; ++i) fly(since[i], 5.0, velocity[i]);
+
+  const double kT = kinetic_temperature(o.scene.box, o.disks, o.record.states.front()), area = o.scene.box.area();
+  for (const auto& [name, first, scale] :
+       {std::tuple{"viscosity", 0U, area * kT}, std::tuple{"heat_conductivity", 2U, area * kT * kT}}) {
+    const auto& lags = o.column(name, 0, "lag");
+    for (std::size_t k = 0; k < 10; ++k) {
+      ASSERT_NEAR(lags[k], every * static_cast<double>(k), 1e-12);
+      double product = 0.0, square = 0.0;
+      for (std::size_t t = k; t < growth.size(); ++t)
+        for (const std::size_t c : {first, first + 1}) product += 0.5 * growth[t][c] * growth[t - k][c] / (every * every);
+      for (std::size_t t = k; k > 0 && t <= growth.size(); ++t)
+        for (const std::size_t c : {first, first + 1}) {
+          double sum = 0.0;
+          for (std::size_t s = t - k; s < t; ++s) sum += growth[s][c];
+          square += 0.5 * sum * sum;
+        }
+      const double pairs = static_cast<double>(growth.size() - k);
+      EXPECT_NEAR(o.column(name, 0, "correlation")[k] / (product / pairs), 1.0, 1e-9) << name << " " << k;
+      if (k > 0) {
+        EXPECT_NEAR(o.column(name, 0, "einstein_helfand")[k] / (square / (pairs + 1.0) / (2.0 * lags[k] * scale)), 1.0, 1e-9)
+            << name << " " << k;
+      }
+    }
+  }
+}
+
+TEST(ObservedTransport, GreenKuboIsTheSlopeOfEinsteinAndHelfand) {
+  const Observed o = observe(parse_scene(small_fluid("viscosity = { every = 0.05 }", "specular", "100.0")), 10.0);
+  const auto& lags = o.column("viscosity", 0, "lag");
+  const auto& helfand = o.column("viscosity", 0, "einstein_helfand");
+  const auto& integral = o.column("viscosity", 0, "green_kubo");
+  for (std::size_t k = 1; k < 10; ++k) {
+    const double slope = (lags[k + 1] * helfand[k + 1] - lags[k] * helfand[k]) / 0.05;
+    // Both are sums over the same 2000 steps, but for the k at either end.
+    EXPECT_NEAR(integral[k], slope, 0.1 * std::abs(slope)) << k;
+  }
+}
+
+}  // namespace
+}  // namespace carom::test

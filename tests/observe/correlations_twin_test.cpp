@@ -1,0 +1,137 @@
+// Observables that follow disks through time against sums over all pairs of the states that they saw.
+
+#include "observe/observed_system.hpp"
+
+#include <cmath>
+#include <map>
+
+namespace carom::test {
+namespace {
+
+constexpr double rounding = 1e-11;  // of sums over 1e4 terms of order one
+
+const Observed& fluid() {
+  static const Observed observed = observe(
+      parse_scene(small_fluid("mean_square_displacement = { every = 0.05 }\nvelocity_autocorrelation = { every = 0.05 }")), 0.05);
+  return observed;
+}
+
+Eigen::Matrix2Xd unwrapped(const Observed& o, const State& state) {
+  return state.positions + (state.images.cast<double>().array().colwise() * o.scene.box.lengths().array()).matrix();
+}
+
+/// Mean of f(earlier, later) over pairs of states k steps apart, the first at a multiple of `stride`.
+template <class F>
+double over_pairs(const Observed& o, std::size_t k, std::size_t stride, F f) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t t = 0; t + k < o.record.states.size(); t += stride) {
+    sum += f(o.record.states[t], o.record.states[t + k]);
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+TEST(ObservedCorrelations, MeanSquareDisplacementIsThatOfAllPairsOfStates) {
+  const Observed& o = fluid();
+  const auto& lags = o.column("mean_square_displacement", 0, "lag");
+  ASSERT_GT(lags.size(), 25U);
+  for (std::size_t r = 0; r < lags.size(); ++r) {
+    const auto k = static_cast<std::size_t>(std::lround(lags[r] / 0.05));
+    // Beyond 15 steps pairs are those on a grid of 2, 4, 8, ... steps: the smallest power that leaves fewer than 16 of them.
+    std::size_t stride = 1;
+    while (k / stride >= 16) stride *= 2;
+    const double msd = over_pairs(
+        o, k, stride, [&](const State& a, const State& b) { return (unwrapped(o, b) - unwrapped(o, a)).squaredNorm() / 40.0; });
+    EXPECT_NEAR(o.column("mean_square_displacement", 0, "msd")[r], msd, rounding) << "lag " << lags[r];
+    EXPECT_NEAR(o.column("mean_square_displacement", 0, "diffusion")[r], msd / (4.0 * lags[r]), rounding);
+  }
+}
+
+TEST(ObservedCorrelations, VelocityAutocorrelationAtShortLagsIsThatOfAllPairsOfStates) {
+  const Observed& o = fluid();
+  for (std::size_t k = 0; k < 16; ++k) {
+    ASSERT_EQ(o.column("velocity_autocorrelation", 0, "window")[k], 0.0);
+    const double found =
+        over_pairs(o, k, 1, [](const State& a, const State& b) { return a.velocities.cwiseProduct(b.velocities).sum() / 40.0; });
+    EXPECT_NEAR(o.column("velocity_autocorrelation", 0, "correlation")[k], found, rounding) << "lag " << k;
+  }
+}
+
+/// By way of displacements over windows of the second level, two steps each.
+TEST(ObservedCorrelations, LongerLagsCorrelateDisplacementsOverWindows) {
+  const Observed& o = fluid();
+  std::vector<Eigen::Matrix2Xd> means;
+  for (std::size_t t = 0; t + 2 < o.record.states.size(); t += 2)
+    means.push_back((unwrapped(o, o.record.states[t + 2]) - unwrapped(o, o.record.states[t])) / 0.1);
+  const auto& windows = o.column("velocity_autocorrelation", 0, "window");
+  int compared = 0;
+  for (std::size_t r = 0; r < windows.size(); ++r) {
+    if (std::abs(windows[r] - 0.1) > 1e-12) continue;
+    const auto k = static_cast<std::size_t>(std::lround(o.column("velocity_autocorrelation", 0, "lag")[r] / 0.1));
+    double sum = 0.0;
+    for (std::size_t t = k; t < means.size(); ++t) sum += means[t].cwiseProduct(means[t - k]).sum() / 40.0;
+    EXPECT_NEAR(o.column("velocity_autocorrelation", 0, "correlation")[r], sum / static_cast<double>(means.size() - k), rounding);
+    ++compared;
+  }
+  EXPECT_EQ(compared, 8);
+}
+
+/// The running integral of mean velocities telescopes into mean square displacements.
+TEST(ObservedCorrelations, DiffusionCoefficientIsTheSlopeOfTheDisplacement) {
+  const Observed o = observe(parse_scene(small_fluid("velocity_autocorrelation = { every = 0.05 }", "specular", "40.0")), 0.05);
+  const auto square = [&](std::size_t k) {
+    return over_pairs(o, k, 1,
+                      [&](const State& a, const State& b) { return (unwrapped(o, b) - unwrapped(o, a)).squaredNorm() / 40.0; });
+  };
+  for (const std::size_t k : {0U, 3U, 10U}) {
+    const double slope = (square(k + 1) - (k > 0 ? square(k) : 0.0)) / (4.0 * 0.05);
+    // Of 800 products the ones near both ends differ: (k + 1) / 800 of the sums, each of order <v^2> times the time, 0.5.
+    EXPECT_NEAR(o.column("velocity_autocorrelation", 0, "diffusion")[k], slope, 1.3 * 0.5 * static_cast<double>(k + 1) / 800.0);
+  }
+}
+
+TEST(ObservedCorrelations, FreeDisksGoAsTheSquareOfTime) {
+  // Four disks that pass each other for ever along rows: v^2 t^2, and a correlation that never falls.
+  const Scene scene = parse_scene(
+      "[box]\nx = [0.0, 8.0]\ny = [0.0, 8.0]\nboundary = \"periodic\"\n[[disks]]\nradius = 0.5\nmass = 1.0\n"
+      "positions = [[1.0, 1.0], [2.0, 3.0], [4.0, 5.0], [6.0, 7.0]]\nvelocities = [[1.0, 0.0], [-1.0, 0.0], [2.0, 0.0], [-2.0, "
+      "0.0]]\n"
+      "[collision]\nrule = \"specular\"\n[run]\ntime = 50.0\n[observe]\nmean_square_displacement = { every = 0.25 }\n"
+      "velocity_autocorrelation = { every = 0.25 }\n");
+  const Observed o = observe(scene, 0.25);
+  ASSERT_EQ(o.totals.pair, 0U);
+  const auto& lags = o.column("mean_square_displacement", 0, "lag");
+  // Positions are exact to 1e-15 of the box; displacements of up to 100 to 1e-14 of themselves.
+  for (std::size_t r = 0; r < lags.size(); ++r)
+    EXPECT_NEAR(o.column("mean_square_displacement", 0, "msd")[r] / (2.5 * lags[r] * lags[r]), 1.0, 1e-12);
+  for (const double correlation : o.column("velocity_autocorrelation", 0, "correlation")) EXPECT_NEAR(correlation, 2.5, 1e-12);
+  EXPECT_EQ(o.value("velocity_autocorrelation", "initial_slope"), 0.0);
+}
+
+TEST(ObservedCorrelations, CommonMotionDoesNotCount) {
+  // One velocity for all: nothing diffuses. Drifts of 1 over 50 leave rounding of 1e-14 of that.
+  const Scene scene = parse_scene(
+      "[box]\nx = [0.0, 8.0]\ny = [0.0, 8.0]\nboundary = \"periodic\"\n[[disks]]\nradius = 0.5\nmass = 1.0\n"
+      "positions = [[1.0, 1.0], [2.0, 3.0]]\nvelocities = [[1.0, 0.5], [1.0, 0.5]]\n"
+      "[collision]\nrule = \"specular\"\n[run]\ntime = 50.0\n[observe]\nmean_square_displacement = { every = 0.25 }\n");
+  const Observed o = observe(scene, 0.25);
+  for (const double msd : o.column("mean_square_displacement", 0, "msd")) EXPECT_LT(msd, 1e-24);
+}
+
+TEST(ObservedCorrelations, InitialSlopeCountsEveryChangeOfVelocity) {
+  const Observed& o = fluid();
+  std::map<std::int32_t, Eigen::Vector2d> velocity;
+  for (std::int32_t i = 0; i < 40; ++i) velocity[i] = o.record.states.front().velocities.col(i);
+  double changes = 0.0;
+  for (const Event& event : o.record.events) {
+    changes +=
+        (event.velocity - velocity[event.disk]).squaredNorm() + (event.partner_velocity - velocity[event.partner]).squaredNorm();
+    velocity[event.disk] = event.velocity;
+    velocity[event.partner] = event.partner_velocity;
+  }
+  const double square = o.record.states.front().velocities.squaredNorm();  // conserved
+  EXPECT_NEAR(o.value("velocity_autocorrelation", "initial_slope"), 0.5 * changes / (square * 5.0), rounding);
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,157 @@
+// Observables against what is known of hard disks, within their own errors. Also a test of these errors: a sum of squares of
+// deviations over errors is held against chi squared.
+
+#include "observe/observed_system.hpp"
+
+#include "theory/equation_of_state.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace carom::test {
+namespace {
+
+constexpr double sqrt_pi = 1.7724538509055160;
+constexpr double within = 4.0;  ///< standard errors: one test in 16 000 fails by chance
+
+struct Value {
+  double value, error;
+};
+Value of(const Observed& o, const char* observable, const char* name) {
+  const Scalar& scalar = o.scalar(observable, name);
+  return {scalar.value.value(), scalar.error.value()};
+}
+
+Scene gas(double packing_fraction, const char* rule, int disks, double time) {
+  return parse_scene(fmt::format(
+      "[box]\naspect = 1.0\nboundary = \"periodic\"\n[[disks]]\ncount = {}\nradius = 0.5\nmass = 1.0\npacking_fraction = "
+      "{}\npositions = "
+      "\"hexagonal\"\nvelocities = {{ temperature = 1.0 }}\n[collision]\nrule = \"{}\"\n[run]\ntime = {}\nequilibrate = {{ "
+      "collisions_per_disk = 100 }}\n[observe]\npressure = true\ncollision_rate = true\nfree_flight = true\nvelocity_moments = "
+      "true\n"
+      "radial_distribution = true\nstructure_factor = {{ largest = 20.0 }}\nvelocity_autocorrelation = true\n"
+      "mean_square_displacement = true\n{}",
+      disks, packing_fraction, rule, time,
+      rule == std::string("specular") ? "viscosity = true\nheat_conductivity = true\n" : ""));
+}
+
+class PhysicsObservables : public ::testing::TestWithParam<double> {};
+
+TEST_P(PhysicsObservables, OfAFluidAgreeWithEachOtherAndWithTheory) {
+  const double eta = GetParam();
+  const int disks = 256;
+  const double N = disks;
+  const Observed o = observe(gas(eta, "specular", disks, 1000.0), 1000.0);
+  const Value Z = of(o, "pressure", "Z"), rate = of(o, "collision_rate", "rate"),
+              contact = of(o, "radial_distribution", "contact");
+  EXPECT_NEAR(Z.value, theory::kolafa_rottner_finite(eta, disks), within * Z.error);
+  const Value from_rate = of(o, "pressure", "Z_rate");
+  EXPECT_NEAR(Z.value, from_rate.value, within * std::hypot(Z.error, from_rate.error));
+  // g(sigma+) of the finite system is (Z - 1) / 2 eta times N / (N - 1): g counts pairs against N (N - 1) / 2, and kT is K / (N -
+  // 1).
+  const double g = (Z.value - 1.0) / (2.0 * eta) * N / (N - 1.0);
+  EXPECT_NEAR(contact.value, g, within * std::hypot(contact.error, Z.error / (2.0 * eta)));
+  // Mean free path = <v> / omega; the large-N formula is 1 / (2 sqrt2 rho sigma g), with <v> less by 1 / 4 N and more at most 1 /
+  // N.
+  const Value path = of(o, "free_flight", "mean_free_path"), time = of(o, "free_flight", "mean_free_time");
+  const double rho = 4.0 * eta / std::numbers::pi;
+  EXPECT_NEAR(path.value * 2.0 * std::numbers::sqrt2 * rho * (Z.value - 1.0) / (2.0 * eta), 1.0,
+              1.0 / N + within * std::hypot(path.error / path.value, Z.error / (Z.value - 1.0)));
+  // Flights that do not end within the run make the mean shorter by one in as many as a disk has, some thousand.
+  EXPECT_NEAR(time.value * rate.value, 1.0,
+              1.0 / (rate.value * 1000.0) + within * std::hypot(time.error / time.value, rate.error / rate.value));
+  const Value kurtosis = of(o, "velocity_moments", "kurtosis");
+  EXPECT_NEAR(kurtosis.value, 2.0 * (N - 1.0) / N, within * kurtosis.error);
+  // omega N / (N - 1) d / (d + 1), d = 2 N - 2: mean square of the normal velocity at collisions, with energy and momentum kept.
+  const Value slope = of(o, "velocity_autocorrelation", "initial_slope");
+  const double d = 2.0 * N - 2.0;
+  EXPECT_NEAR(slope.value, rate.value * N / (N - 1.0) * d / (d + 1.0), within * std::hypot(slope.error, rate.error));
+}
+
+TEST_P(PhysicsObservables, OfTransportAreNearEnskog) {
+  const double eta = GetParam();
+  const Observed o = observe(gas(eta, "specular", 256, 1000.0), 1000.0);
+  const double g = (theory::kolafa_rottner(eta) - 1.0) / (2.0 * eta), b = 2.0 * eta;
+  // Enskog's theory of hard disks (Gass, J. Chem. Phys. 54, 1898 (1971)), which is good to about 10 % at these densities.
+  const double viscosity = 1.022 / (2.0 * sqrt_pi) * (1.0 / g + b + 0.8729 * b * b * g);
+  const double conductivity = 1.029 * 2.0 / sqrt_pi * (1.0 / g + 1.5 * b + 0.8718 * b * b * g);
+  const double diffusion = 1.027 / (2.0 * sqrt_pi * (4.0 * eta / std::numbers::pi) * g);
+  const Value eta_found = of(o, "viscosity", "green_kubo"), lambda = of(o, "heat_conductivity", "green_kubo");
+  EXPECT_NEAR(eta_found.value, viscosity, 0.1 * viscosity + within * eta_found.error);
+  EXPECT_NEAR(lambda.value, conductivity, 0.1 * conductivity + within * lambda.error);
+  // After its first collisions a disk is carried by the vortex that it has made: the correlation has a tail a / t with a = kT /
+  // (8 pi rho m (D + nu)) (Ernst, Hauge & van Leeuwen, Phys. Rev. Lett. 25, 1254 (1970)). So D lies above Enskog's by at most
+  // what the tail adds from the first collision on.
+  const double rate = o.value("collision_rate", "rate"), rho = 4.0 * eta / std::numbers::pi;
+  const double tail = 1.0 / (8.0 * std::numbers::pi * rho * (diffusion + viscosity / rho));
+  const auto& until = o.column("velocity_autocorrelation", 0, "integral_to");
+  const auto& D = o.column("velocity_autocorrelation", 0, "diffusion");
+  std::size_t row = 0;
+  while (until[row] < 20.0 / rate) ++row;
+  EXPECT_GT(D[row], 0.9 * diffusion);
+  EXPECT_LT(D[row], 1.1 * diffusion + tail * std::log(until[row] * rate));
+}
+
+INSTANTIATE_TEST_SUITE_P(Physics, PhysicsObservables, ::testing::Values(0.2, 0.4),
+                         [](const auto& eta) { return fmt::format("At{:.0f}Percent", 100.0 * eta.param); });
+
+TEST(PhysicsReversal, AutocorrelationFallsOneAndAHalfTimesAsFast) {
+  // Both disks change by all of their relative velocity g, so the slope is the rate times <g^2> / 2 <v^2>, pairs counted by how
+  // often they meet, in proportion to g: 3/2 in a Maxwell gas. The set of velocities never changes, so the draw tells what it is
+  // here.
+  const Observed o = observe(gas(0.3, "reversal", 256, 500.0), 500.0);
+  const Eigen::Matrix2Xd& v = o.record.states.front().velocities;
+  double first = 0.0, third = 0.0;
+  for (Eigen::Index i = 0; i < 256; ++i)
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const double g = (v.col(i) - v.col(j)).norm();
+      first += g;
+      third += g * g * g;
+    }
+  const double expected = third / first / (2.0 * v.squaredNorm() / 256.0);
+  EXPECT_NEAR(expected, 1.5, 4.0 / std::sqrt(256.0)) << "moments of 256 Maxwell velocities";
+  const Value slope = of(o, "velocity_autocorrelation", "initial_slope"), rate = of(o, "collision_rate", "rate");
+  EXPECT_NEAR(slope.value / rate.value, expected,
+              within * expected * std::hypot(slope.error / slope.value, rate.error / rate.value));
+  // Kurtosis is that of the draw at every instant.
+  EXPECT_LT(of(o, "velocity_moments", "kurtosis").error, 1e-12);
+}
+
+TEST(PhysicsStructure, SmallestWavesTellTheCompressibility) {
+  // S(0) = 1 / (Z + eta Z'): 0.4 of the ideal gas's at eta = 0.2, where S(k) is flat to 2 % up to the smallest k of this box.
+  const double eta = 0.2, h = 1e-4;
+  const Observed o = observe(gas(eta, "specular", 400, 1500.0), 1500.0);
+  const double slope = (theory::kolafa_rottner(eta + h) - theory::kolafa_rottner(eta - h)) / (2.0 * h);
+  const double expected = 1.0 / (theory::kolafa_rottner(eta) + eta * slope);
+  EXPECT_NEAR(o.column("structure_factor", 0, "S")[0], expected,
+              0.02 * expected + within * o.column("structure_factor", 0, "S_error")[0]);
+}
+
+/// Errors are neither too small nor too large: twenty runs, Z from each against the mean of all.
+TEST(PhysicsErrors, OfIndependentRunsScatterAsTheySay) {
+  constexpr int runs = 24;
+  std::vector<Value> Z, contact, kurtosis;
+  for (int r = 0; r < runs; ++r) {
+    Scene scene = parse_scene(
+        small_fluid("pressure = true\nvelocity_moments = true\nradial_distribution = { range = 3.0 }", "specular", "300.0"));
+    scene.run.seed = static_cast<std::uint64_t>(r + 1);
+    scene.run.equilibrate = Run::Equilibrate{.collisions_per_disk = 50.0, .time = std::nullopt};
+    const Observed o = observe(scene, 300.0);
+    Z.push_back(of(o, "pressure", "Z"));
+    contact.push_back(of(o, "radial_distribution", "contact"));
+    kurtosis.push_back(of(o, "velocity_moments", "kurtosis"));
+  }
+  for (const std::vector<Value>* values : {&Z, &contact, &kurtosis}) {
+    double mean = 0.0, chi = 0.0;
+    for (const Value& one : *values) mean += one.value / runs;
+    for (const Value& one : *values) chi += std::pow((one.value - mean) / one.error, 2) / (runs - 1);
+    // chi squared over 23: standard deviation sqrt(2 / 23) = 0.29; errors are themselves known to about a tenth.
+    EXPECT_GT(chi, 1.0 - 3.0 * 0.29);
+    EXPECT_LT(chi, 1.0 + 4.0 * 0.29);
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
