@@ -29,14 +29,15 @@ std::string percent_of(double fraction, std::uint64_t events) {
   return events < 20 ? "–" : fmt::format("{:.2f} %", 100.0 * fraction);
 }
 
-Table table_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
-  Table table{.title = "Every method and step",
-              .columns = {"method", "dt", "dt / mean free time", "error", "time", "Z", "missed", "repeated", "spurious",
-                          "deepest overlap"},
-              .caption =
-                  "Error in diameters and processor time at the early sample: medians over the seeds. Z with its standard error. "
-                  "A dash: not "
-                  "measured, because the run was cut short or the method is exact."};
+TextTable table_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
+  TextTable table{
+      .title = "Every method and step",
+      .columns = {"method", "dt", "dt / mean free time", "error", "time", "Z", "missed", "repeated", "spurious",
+                  "deepest overlap"},
+      .caption =
+          "Error in diameters and processor time at the early sample: medians over the seeds. Z with its standard error. "
+          "A dash: not "
+          "measured, because the run was cut short or the method is exact."};
   for (const MethodSummary& s : summaries) {
     const auto counted = [&](double (StepCounts::*fraction)() const, std::uint64_t (StepCounts::*of)() const) {
       return s.counts ? percent_of((*s.counts.*fraction)(), (*s.counts.*of)()) : "–";
@@ -53,8 +54,8 @@ Table table_of(const Comparison& comparison, const std::vector<MethodSummary>& s
   return table;
 }
 
-Table horizon_table(const Horizon& horizon) {
-  Table table{
+TextTable horizon_table(const Horizon& horizon) {
+  TextTable table{
       .title = "How far the exact trajectory can be trusted",
       .columns = {"engine", "bits", "right until t", "collisions per disk", "price"},
       .caption = fmt::format(
@@ -72,8 +73,8 @@ Table horizon_table(const Horizon& horizon) {
   return table;
 }
 
-Table time_to_Z_table(const Answers& answers) {
-  Table table{
+TextTable time_to_Z_table(const Answers& answers) {
+  TextTable table{
       .title = "Time to know Z",
       .columns = {"method", "to 1 %", "to 0.1 %"},
       .caption = "Processor time until bias and chance together are that small; fixed steps at the dt for which it is shortest."};
@@ -139,13 +140,13 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
   const ComparePlan& plan = comparison.plan;
   const Answers answers = answers_of(comparison);
   const std::vector<MethodSummary> summaries = summaries_of(comparison);
-  Page page{
-      .title = "What accuracy costs: " + (scene.title.empty() ? scene.source : scene.title),
-      .subtitle = fmt::format("{} disks, packing fraction {:.4g}, {} rule; {} starts; mean free time {:.4g}", scene.disk_count(),
-                              scene.packing_fraction(), scene.effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular",
-                              plan.seeds.size(), plan.mean_free_time),
-      .lead = fmt::format("{}", fmt::join(answers.sentences, " ")),
-      .key_numbers = key_numbers(comparison, answers)};
+  Page page{.title = "What accuracy costs: " + (scene.title.empty() ? scene.source : scene.title),
+            .subtitle = fmt::format("{} disks, packing fraction {:.4g}, {} rule; {} starts; mean free time {:.4g}",
+                                    scene.disk_count(), scene.packing_fraction(),
+                                    scene.effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular",
+                                    plan.seeds.size(), plan.mean_free_time),
+            .lead = fmt::format("{}", fmt::join(answers.sentences, " ")),
+            .key_numbers = key_numbers(comparison, answers)};
   page.sections = {
       {"Work and precision",
        {Paragraph{"The same start, advanced by exact events and by fixed steps. Until chaos has made any error large, an error "

@@ -12,8 +12,9 @@ namespace carom {
 
 namespace {
 
-Table table_of(std::span<const CaseVerdict> verdicts, const std::string& family) {
-  Table table{.title = family, .columns = {"case", "what it states", "engines", "checked", "nearest to its bound", "verdict"}};
+TextTable table_of(std::span<const CaseVerdict> verdicts, const std::string& family) {
+  TextTable table{.title = family,
+                  .columns = {"case", "what it states", "engines", "checked", "nearest to its bound", "verdict"}};
   for (const CaseVerdict& one : verdicts) {
     if (one.family != family) continue;
     const HardCaseRow row = row_of(one);
@@ -32,7 +33,7 @@ Page hard_case_page(std::span<const HardCase> cases, std::span<const CaseVerdict
             .key_numbers = {{fmt::format("{} of {}", held, verdicts.size()), "cases hold"}}};
   for (const std::string& family : hard_case_families()) {
     Section section{.heading = family, .blocks = {table_of(verdicts, family)}};
-    if (std::get<Table>(section.blocks.front()).rows.empty()) continue;
+    if (std::get<TextTable>(section.blocks.front()).rows.empty()) continue;
     for (const HardCase& one : cases)
       if (one.family == family) section.blocks.emplace_back(Listing{one.name, one.text});
     page.sections.push_back(std::move(section));

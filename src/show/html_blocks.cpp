@@ -17,7 +17,7 @@ std::string caption(const std::string& text) {
 }
 
 /// Every cell of the column begins like a number or is a dash or empty, and one begins like a number: it is set flush right.
-bool is_numeric(const Table& table, std::size_t column) {
+bool is_numeric(const TextTable& table, std::size_t column) {
   bool any = false;
   for (const auto& row : table.rows) {
     const std::string& cell = row[column];
@@ -37,7 +37,7 @@ std::string html(const Listing& listing) {
          "</pre></details>\n";
 }
 
-std::string html(const Table& table) {
+std::string html(const TextTable& table) {
   for (const auto& row : table.rows) {
     if (row.size() != table.columns.size())
       throw std::invalid_argument("table " + table.title + ": a row is not as long as the columns");

@@ -55,7 +55,7 @@ struct Plot {
   std::vector<Mark> marks = {};
 };
 
-struct Table {
+struct TextTable {
   std::string title = {};
   std::vector<std::string> columns = {};
   std::vector<std::vector<std::string>> rows = {};  ///< as many cells as columns; the first names the row
@@ -72,7 +72,7 @@ struct Listing {
   std::string text = {};
 };
 
-using Block = std::variant<Paragraph, Plot, Table, Listing>;
+using Block = std::variant<Paragraph, Plot, TextTable, Listing>;
 
 struct Section {
   std::string heading = {};

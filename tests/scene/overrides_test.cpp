@@ -72,10 +72,9 @@ TEST(Overrides, UnknownKeysNameTheNearest) {
   EXPECT_EQ(refusal("ouput.csv=true"), "--set ouput.csv=true: the scene has no key \"ouput\"; did you mean \"output\"?");
 }
 
-TEST(Overrides, PlannedTablesAreRefusedHereToo) {
-  EXPECT_EQ(refusal("observe.msd=true"),
-            "--set observe.msd=true: [observe] is part of the scene format but this version of Carom does not simulate it yet; "
-            "remove the table");
+TEST(Overrides, ObservablesThatDoNotExistNameTheNearest) {
+  EXPECT_EQ(refusal("observe.pressur=true"),
+            "--set observe.pressur=true: [observe] has no key \"pressur\"; did you mean \"pressure\"?");
 }
 
 TEST(Overrides, EffectsMayBeAddedAndAreCheckedHereToo) {

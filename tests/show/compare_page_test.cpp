@@ -45,10 +45,10 @@ const Series* series_of(const Plot& plot, const std::string& name) {
   return nullptr;
 }
 
-const Table& table_of(const Page& page, const std::string& title) {
+const TextTable& table_of(const Page& page, const std::string& title) {
   for (const Section& section : page.sections)
     for (const Block& block : section.blocks)
-      if (const Table* table = std::get_if<Table>(&block); table != nullptr && table->title == title) return *table;
+      if (const TextTable* table = std::get_if<TextTable>(&block); table != nullptr && table->title == title) return *table;
   throw std::runtime_error("there is no table " + title);
 }
 
@@ -133,10 +133,10 @@ TEST(ComparePage, TheTableHasARowForEveryMethodAndStepAndNamesWhatWasLeftOut) {
   Comparison comparison = laws.comparison({"grid", "naive"});
   comparison.left_out = {{{"guarded", 1e-9}, 600.0}};
   const Page page = compare_page(comparison, dozen_scene(), "carom compare dozen.toml");
-  const Table& table = table_of(page, "Every method and step");
+  const TextTable& table = table_of(page, "Every method and step");
   EXPECT_EQ(table.rows.size(), 1U + 2U * laws.dts.size());
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
-  const Table& to_Z = table_of(page, "Time to know Z");
+  const TextTable& to_Z = table_of(page, "Time to know Z");
   EXPECT_EQ(to_Z.rows.size(), 3U);
   for (const auto& row : to_Z.rows) EXPECT_EQ(row.size(), to_Z.columns.size());
   const std::string html = html_page(page);

@@ -71,7 +71,7 @@ TEST(HtmlPage, NoTextOfTheUserIsMarkup) {
                   .x = {.title = hostile},
                   .series = {{.name = hostile, .x = {1.0}, .y = {1.0}, .labels = {hostile}}},
                   .marks = {{.label = hostile}}};
-  const Table table{.title = hostile, .columns = {hostile}, .rows = {{hostile}}, .caption = hostile};
+  const TextTable table{.title = hostile, .columns = {hostile}, .rows = {{hostile}}, .caption = hostile};
   page.sections = {{hostile, {Paragraph{hostile}, plot, table, Listing{hostile, hostile}}}};
   const std::string html = own_text(page);
   EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
@@ -80,7 +80,7 @@ TEST(HtmlPage, NoTextOfTheUserIsMarkup) {
 
 TEST(HtmlPage, OnlyColumnsOfNumbersAreFlushRight) {
   const std::string html = own_text(page_with(
-      Table{.columns = {"name", "n", "mixed", "empty"}, .rows = {{"a", "1e-3", "1", ""}, {"b", "\u2013", "none", ""}}}));
+      TextTable{.columns = {"name", "n", "mixed", "empty"}, .rows = {{"a", "1e-3", "1", ""}, {"b", "\u2013", "none", ""}}}));
   EXPECT_THAT(html, HasSubstr("<td class=\"number\">1e-3</td><td>1</td><td></td>"));
   EXPECT_THAT(html, HasSubstr("<td class=\"number\">\u2013</td><td>none</td><td></td>"));
 }
@@ -94,7 +94,7 @@ TEST(HtmlPage, AnIdThatIsUnfitOrThereTwiceIsRefused) {
 }
 
 TEST(HtmlPage, ARowOfAnotherLengthIsRefused) {
-  EXPECT_THROW(html_page(page_with(Table{.columns = {"a", "b"}, .rows = {{"1"}}})), std::invalid_argument);
+  EXPECT_THROW(html_page(page_with(TextTable{.columns = {"a", "b"}, .rows = {{"1"}}})), std::invalid_argument);
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ inline Page sample_page() {
             .key_numbers = {{"400 \u00d7", "faster than the stepper at equal error"},
                             {"3.1", "time at which the best stepper has lost every disk"},
                             {"2.2\u00b710\u207b\u00b9\u2074", "energy drift of the event-driven run"}}};
-  Table table{.title = "Methods at their best", .columns = {"method", "order", "dt", "error", "time (s)"}};
+  TextTable table{.title = "Methods at their best", .columns = {"method", "order", "dt", "error", "time (s)"}};
   table.rows = {{"event-driven", "\u2013", "\u2013", "3.0e-14", "0.021"},
                 {"first order", "1", "1e-06", "2.1e-05", "8.14"},
                 {"second order", "2", "1e-06", "3.0e-13", "9.20"},

@@ -50,7 +50,7 @@ TEST_P(EnginesWrongCase, FailsWhereItIsWrongAndNowhereElse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EnginesWrongCase, testing::ValuesIn(names_of_wrong_cases()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& one) { return one.param; });
 
 const std::string right_case = R"(title = "A disk at rest"
 
