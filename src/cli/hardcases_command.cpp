@@ -102,7 +102,7 @@ ExitCode hardcases(const HardCasesOptions& options, const Invocation& invocation
   std::vector<CaseVerdict> verdicts;
   if (as_it_goes) fmt::print("{}", hardcases_header());
   for (const HardCase& one : cases) {
-    verdicts.push_back(run_hard_case(one, options.engine));
+    verdicts.push_back(run_hard_case(one, options.engine, [&stop] { return !stop.made(); }));
     if (as_it_goes) fmt::print("{}", hardcases_row(verdicts.back()));
     if (as_it_goes) std::fflush(stdout);
     if (stop.made()) return exit_interrupted;

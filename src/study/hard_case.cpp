@@ -55,7 +55,8 @@ void append(std::vector<CaseCheck>& all, std::vector<CaseCheck> more) {
 
 class Trial {
  public:
-  Trial(const HardCase& hard_case, CaseVerdict& verdict) : hard_case_(hard_case), verdict_(verdict) {}
+  Trial(const HardCase& hard_case, CaseVerdict& verdict, const std::function<bool()>& proceed)
+      : hard_case_(hard_case), verdict_(verdict), proceed_(proceed) {}
 
   void run(const std::string& only) {
     try {
@@ -73,7 +74,8 @@ class Trial {
     try {
       const std::uint64_t most = hard_case_.takes_long ? std::numeric_limits<std::uint64_t>::max() : most_events;
       const std::uint64_t kept = std::max<std::uint64_t>(hard_case_.expect.same_events, hard_case_.expect.events.size());
-      EngineRun run = run_in_engine(scene, engine, {.events = kept, .most_events = most, .look_for_faults = true});
+      EngineRun run =
+          run_in_engine(scene, engine, {.events = kept, .most_events = most, .look_for_faults = true, .proceed = proceed_});
       verdict_.engines.push_back(engine);
       if (hard_case_.expect.refused) return verdict_.checks.push_back(no_refusal(hard_case_, engine));
       append(verdict_.checks, checks_of_run(hard_case_, scene, run));
@@ -90,6 +92,7 @@ class Trial {
 
   const HardCase& hard_case_;
   CaseVerdict& verdict_;
+  const std::function<bool()>& proceed_;
   std::vector<EngineRun> runs_;
 };
 
@@ -113,10 +116,10 @@ const CaseCheck* CaseVerdict::worst() const {
   return worst == checks.end() ? nullptr : &*worst;
 }
 
-CaseVerdict run_hard_case(const HardCase& hard_case, const std::string& engine) {
+CaseVerdict run_hard_case(const HardCase& hard_case, const std::string& engine, const std::function<bool()>& proceed) {
   const auto began = std::chrono::steady_clock::now();
   CaseVerdict verdict{.name = hard_case.name, .family = hard_case.family, .title = hard_case.title, .engines = {}, .checks = {}};
-  Trial(hard_case, verdict).run(engine);
+  Trial(hard_case, verdict, proceed).run(engine);
   verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return verdict;
 }

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -110,6 +111,8 @@ struct CaseVerdict {
 };
 
 /// Runs a case in every engine that it asks for and that covers it, or in `engine` alone. Never throws for what the case does.
-CaseVerdict run_hard_case(const HardCase& hard_case, const std::string& engine = "auto");
+/// `proceed` is asked several times a second; false interrupts the runs, which then fail for having been.
+CaseVerdict run_hard_case(const HardCase& hard_case, const std::string& engine = "auto",
+                          const std::function<bool()>& proceed = {});
 
 }  // namespace carom

@@ -48,7 +48,9 @@ class Witness {
       now_and_then(blocks_);
       if (blocks_ <= most_contacts || std::has_single_bit(blocks_)) look_at_contact();
     };
-    hooks.proceed = [this](const Progress& progress) { return all_events(progress.totals) <= watch_.most_events; };
+    hooks.proceed = [this](const Progress& progress) {
+      return all_events(progress.totals) <= watch_.most_events && (!watch_.proceed || watch_.proceed());
+    };
     run_.result = run_schedule(simulation_, hooks);
     run_.end = simulation_.state();
     look_at(run_.end);

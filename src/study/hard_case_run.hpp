@@ -9,6 +9,7 @@
 #include <carom/state.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -38,6 +39,7 @@ struct Watch {
   std::uint64_t events = 0;                                               ///< the first so many are kept
   std::uint64_t most_events = std::numeric_limits<std::uint64_t>::max();  ///< of any kind; a run beyond is interrupted
   bool look_for_faults = false;
+  std::function<bool()> proceed = {};  ///< false interrupts it too
 };
 
 /// Throws what make_simulation and run_schedule throw.
