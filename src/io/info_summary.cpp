@@ -130,6 +130,8 @@ std::string describe_summary(const std::filesystem::path& path) {
   } catch (const Json::parse_error& error) {
     throw OutputError(
         fmt::format("{}: this is not whole JSON (it breaks at byte {}); it is damaged or cut short", path.string(), error.byte));
+  } catch (const Json::out_of_range&) {
+    throw OutputError(fmt::format("{}: this JSON holds a number beyond the range of doubles; it is damaged", path.string()));
   }
   try {
     if (json.contains("sentences"))

@@ -177,6 +177,8 @@ TEST_F(Info, ForeignFilesAreNamedAsSuch) {
   EXPECT_THAT(refusal(directory / "t.json"), HasSubstr("not the summary of a run"));
   write_file(directory / "t.json", "{\"carom\": ");
   EXPECT_THAT(refusal(directory / "t.json"), HasSubstr("not whole JSON"));
+  write_file(directory / "t.json", "{\"carom\": 1e999}");
+  EXPECT_THAT(refusal(directory / "t.json"), HasSubstr("beyond the range of doubles"));
   write_file(directory / "t.json", "{\"carom\": 3}");
   EXPECT_THAT(refusal(directory / "t.json"), HasSubstr("not the summary of a run"));
   write_file(directory / "t.png", "\x89PNG");
