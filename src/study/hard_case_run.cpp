@@ -3,6 +3,7 @@
 #include "core/nearest_image.hpp"
 #include "observe/overlap.hpp"
 #include "observe/run_measurements.hpp"
+#include "simulation/standstill.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -13,10 +14,6 @@
 namespace carom {
 
 namespace {
-
-std::uint64_t all_events(const Totals& totals) {
-  return totals.pair + totals.wall + totals.other + totals.stale + totals.obstacle + totals.well + totals.kicks;
-}
 
 /// Ends of blocks at which overlap is looked for, before it becomes rarer: states are copied for it.
 constexpr std::uint64_t most_contacts = 256;
@@ -49,7 +46,7 @@ class Witness {
       if (blocks_ <= most_contacts || std::has_single_bit(blocks_)) look_at_contact();
     };
     hooks.proceed = [this](const Progress& progress) {
-      return all_events(progress.totals) <= watch_.most_events && (!watch_.proceed || watch_.proceed());
+      return detail::all_events(progress.totals) <= watch_.most_events && (!watch_.proceed || watch_.proceed());
     };
     run_.result = run_schedule(simulation_, hooks);
     run_.end = simulation_.state();
