@@ -144,6 +144,28 @@ void add_compare(CLI::App& program, Action& action, const Invocation& invocation
   command->callback([&action, options, invocation] { action = [options, invocation] { return compare(*options, invocation); }; });
 }
 
+void add_validate(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("validate", "Hold the engine against kinetic theory and the literature");
+  const auto options = std::make_shared<ValidateCommandOptions>();
+  command->add_flag("--quick", options->quick, "Under three minutes on one core; the default");
+  command->add_flag("--full", options->full,
+                    "Twenty times the collisions, and the transition from liquid to hexatic: up to two hours");
+  command->add_option("--seed", options->seed, "Seed of everything random (default: 1)")->type_name("N");
+  command->add_option("--only", options->only, "Run this trial alone; may be repeated")
+      ->type_name("TRIAL")
+      ->allow_extra_args(false);
+  command->add_option("--out", options->out, "Directory for the results (default: validation)")->type_name("DIR");
+  command->add_flag("--list", options->list, "Name the trials, and run none");
+  command->add_flag("--force", options->force, "Replace the results that the directory holds");
+  command->add_flag("--resume", options->resume, "Go on with an interrupted validation, keeping its finished trials");
+  command->add_flag("--json", options->json, "Print validation.json in place of the text");
+  command->add_flag("--markdown", options->markdown, "Print the tables of docs/validation.md in place of the text");
+  command->add_flag("-q,--quiet", options->quiet, "Print the verdict alone, and no progress");
+  add_progress(*command, options->progress);
+  command->callback(
+      [&action, options, invocation] { action = [options, invocation] { return validate(*options, invocation); }; });
+}
+
 void add_init(CLI::App& program, Action& action, const Invocation& invocation) {
   CLI::App* command = program.add_subcommand("init", "Write a commented scene to start from");
   const auto options = std::make_shared<InitOptions>();
@@ -233,6 +255,7 @@ Action parse_arguments(int argc, char** argv) {
   add_info(program, action);
   add_bench(program, action);
   add_hardcases(program, action, invocation);
+  add_validate(program, action, invocation);
   if (argc > 1) require_known_command(program, argv[1]);
   try {
     program.parse(argc, argv);

@@ -99,6 +99,22 @@ struct HardCasesOptions {
 };
 ExitCode hardcases(const HardCasesOptions& options, const Invocation& invocation);
 
+struct ValidateCommandOptions {
+  bool quick = false;  ///< what it is without --full
+  bool full = false;
+  std::int64_t seed = 1;
+  std::vector<std::string> only;  ///< names of trials; empty: all
+  std::string out;                ///< empty: validation
+  bool list = false;
+  bool force = false;
+  bool resume = false;
+  bool json = false;
+  bool markdown = false;
+  bool quiet = false;
+  std::string progress = "auto";
+};
+ExitCode validate(const ValidateCommandOptions& options, const Invocation& invocation);
+
 struct CompareCommandOptions {
   SceneOptions scene;
   std::string out;          ///< empty: the scene's name without its ending, and "-compare"

@@ -1,5 +1,6 @@
-# Installs the built package below the build directory, and builds and runs the library example of docs/ with it; then
-# the same from Carom's sources. ctest --build-and-test configures, builds and runs a project as one test.
+# Installs the built package below the build directory, and builds and runs the library example of docs/ with it. Then the example
+# compiles against Carom's sources; and, with the label slow, is built with them and run. ctest --build-and-test configures, builds
+# and runs a project as one test.
 set(consumer_directory ${PROJECT_BINARY_DIR}/consumer)
 set(consumer_scene ${PROJECT_SOURCE_DIR}/docs/scenes/box.toml)
 set(consumer_options -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER})
@@ -20,5 +21,11 @@ endfunction()
 add_consumer_test(find_package -DCMAKE_PREFIX_PATH=${consumer_directory}/prefix -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}")
 set_tests_properties(package.find_package PROPERTIES FIXTURES_REQUIRED carom_installed)
 
-add_consumer_test(add_subdirectory -DCAROM_SOURCE_DIRECTORY=${PROJECT_SOURCE_DIR} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0)
-set_tests_properties(package.add_subdirectory PROPERTIES COST 1000 PROCESSORS 2)
+set(from_sources -DCAROM_SOURCE_DIRECTORY=${PROJECT_SOURCE_DIR} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0)
+add_consumer_test(add_subdirectory ${from_sources})
+set_tests_properties(package.add_subdirectory PROPERTIES LABELS slow PROCESSORS 2)
+
+add_test(NAME package.compiles_from_sources
+         COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${consumer_directory}/from_sources
+                 --build-generator ${CMAKE_GENERATOR} --build-target consumer_object --build-options ${consumer_options} ${from_sources})
+set_tests_properties(package.compiles_from_sources PROPERTIES LABELS package)

@@ -4,12 +4,10 @@
 #include "observe/mechanics.hpp"
 #include "support/block_means.hpp"
 #include "support/effect_scenes.hpp"
-#include "theory/equation_of_state.hpp"
+#include "theory/barometer.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace carom::test {
@@ -27,34 +25,6 @@ TEST(PhysicsGravity, EnergyIsKeptTo1e10OverAMillionEvents) {
     RecordProperty(engine, testing::PrintToString(drift));
     EXPECT_NEAR(drift, 0.0, 1e-10) << engine;
   }
-}
-
-/// The density of the gas at heights y_k = (k + 1/2) dy, from hydrostatics: d ln n / dy = -(m g / kT) / (Z + eta Z'), with as
-/// many disks over each unit of floor as asked for.
-std::vector<double> hydrostatic(double g, double per_floor, double radius, double height, std::size_t steps) {
-  const double dy = height / static_cast<double>(steps), area = std::numbers::pi * radius * radius;
-  const auto profile = [&](double floor_density) {
-    std::vector<double> n;
-    double at = floor_density;
-    for (std::size_t k = 0; k < steps; ++k) {
-      for (const bool half : {true, false}) {
-        const double eta = at * area, d = 1e-4 * eta;
-        const double slope =
-            ((eta + d) * theory::kolafa_rottner(eta + d) - (eta - d) * theory::kolafa_rottner(eta - d)) / (2 * d);
-        at *= std::exp(-g / slope * dy / 2);
-        if (half) n.push_back(at);
-      }
-    }
-    return n;
-  };
-  double low = 0.0, high = 10 * per_floor * g;
-  for (int k = 0; k < 60; ++k) {
-    const double middle = (low + high) / 2;
-    double sum = 0.0;
-    for (const double n : profile(middle)) sum += n * dy;
-    (sum < per_floor ? low : high) = middle;
-  }
-  return profile(low);
 }
 
 TEST(PhysicsGravity, ADiluteGasFollowsTheLawOfTheBarometer) {
@@ -87,7 +57,7 @@ TEST(PhysicsGravity, ADiluteGasFollowsTheLawOfTheBarometer) {
   EXPECT_LT(temperature.error(), 0.01);
 
   constexpr std::size_t steps = 2 * 299;  // of height 0.1 where disks can be, from 0.1 to 59.9
-  const std::vector<double> expected = hydrostatic(g, 200.0 / width, radius, height - 2 * radius, steps);
+  const std::vector<double> expected = theory::barometer(g, 200.0 / width, radius, height - 2 * radius, steps);
   for (std::size_t l = 0; l < layers; ++l) {
     double disks = 0.0;
     for (std::size_t k = 50 * l; k < 50 * (l + 1); ++k) disks += expected[k] * width * (height - 2 * radius) / steps;

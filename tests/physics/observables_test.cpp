@@ -4,6 +4,7 @@
 #include "observe/observed_system.hpp"
 
 #include "theory/equation_of_state.hpp"
+#include "theory/kinetic.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +14,6 @@
 namespace carom::test {
 namespace {
 
-constexpr double sqrt_pi = 1.7724538509055160;
 constexpr double within = 4.0;  ///< standard errors: one test in 16 000 fails by chance
 
 struct Value {
@@ -73,11 +73,9 @@ TEST_P(PhysicsObservables, OfAFluidAgreeWithEachOtherAndWithTheory) {
 TEST_P(PhysicsObservables, OfTransportAreNearEnskog) {
   const double eta = GetParam();
   const Observed o = observe(gas(eta, "specular", 256, 1000.0), 1000.0);
-  const double g = (theory::kolafa_rottner(eta) - 1.0) / (2.0 * eta), b = 2.0 * eta;
-  // Enskog's theory of hard disks (Gass, J. Chem. Phys. 54, 1898 (1971)), which is good to about 10 % at these densities.
-  const double viscosity = 1.022 / (2.0 * sqrt_pi) * (1.0 / g + b + 0.8729 * b * b * g);
-  const double conductivity = 1.029 * 2.0 / sqrt_pi * (1.0 / g + 1.5 * b + 0.8718 * b * b * g);
-  const double diffusion = 1.027 / (2.0 * sqrt_pi * (4.0 * eta / std::numbers::pi) * g);
+  // Enskog's theory, which is good to about 10 % at these densities.
+  const double viscosity = theory::enskog_viscosity(eta), conductivity = theory::enskog_conductivity(eta);
+  const double diffusion = theory::enskog_diffusion(eta);
   const Value eta_found = of(o, "viscosity", "green_kubo"), lambda = of(o, "heat_conductivity", "green_kubo");
   EXPECT_NEAR(eta_found.value, viscosity, 0.1 * viscosity + within * eta_found.error);
   EXPECT_NEAR(lambda.value, conductivity, 0.1 * conductivity + within * lambda.error);

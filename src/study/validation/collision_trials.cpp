@@ -1,0 +1,215 @@
+// How often disks collide, how far they fly between, and how they meet.
+
+#include "study/validation/encounters.hpp"
+#include "study/validation/gas.hpp"
+#include "theory/collision_rate.hpp"
+#include "theory/equation_of_state.hpp"
+#include "theory/goodness_of_fit.hpp"
+#include "theory/kinetic.hpp"
+#include "theory/microcanonical.hpp"
+
+#include <fmt/format.h>
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace carom::validation {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Collisions of a disk per time in a system of N: omega = (4 / sqrt pi) (Z - 1) times what a fixed energy makes of the mean
+/// relative speed, as it does of the mean speed.
+double rate_of(double eta, std::int64_t disks) {
+  const theory::Microcanonical law(disks, true);
+  return 4.0 / std::sqrt(pi) * (theory::kolafa_rottner_finite(eta, disks) - 1.0) * law.speed_factor();
+}
+
+TrialResult rates(const std::string& trial, double eta, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  constexpr std::int64_t disks = 1024;
+  const double rate = rate_of(eta, disks);
+  const Gas gas{.disks = disks,
+                .packing_fraction = eta,
+                .collisions = effort.collisions(2e6),
+                .observe = "collision_rate = true\nfree_flight = true\nvelocity_moments = true\n"};
+  Encounters::Seen seen;
+  std::vector<std::unique_ptr<Observable>> own;
+  own.push_back(std::make_unique<Encounters>(0.5 / rate, 1.0 / rate, seen));
+  const Found found = run(scene_text(gas, effort.seed_of(0)), effort, result, std::move(own));
+  const std::string what = fmt::format("packing fraction {:.1f}, {} disks", eta, disks);
+  const Measured measured = found.measured("collision_rate", "rate");
+  const std::string eos = "Kolafa & Rottner, Mol. Phys. 104, 3435 (2006), with the first term in 1/N";
+  result.checks.push_back({.name = "collisions of a disk per time, " + what,
+                           .theory = "(4 / sqrt pi) (Z - 1) v_T / sigma (1 + 1 / 8N), the latter at fixed energy",
+                           .source = eos,
+                           .expected = rate,
+                           .measured = measured,
+                           .allowance = 2e-5 * rate,
+                           .allowance_for = "the error of the equation of state"});
+  const Measured path = found.measured("free_flight", "mean_free_path"), speed = found.measured("velocity_moments", "speed");
+  // What few disks change: Z, and the ratio of mean speed to rate not at all.
+  const double expected_path = theory::mean_free_path(eta) * (theory::kolafa_rottner(eta) - 1.0) /
+                               (theory::kolafa_rottner_finite(eta, disks) - 1.0) * std::sqrt(1.0 - 1.0 / disks);
+  result.checks.push_back({.name = "mean free path, " + what,
+                           .theory = "1 / (2 sqrt2 rho sigma g)",
+                           .source = "kinetic theory; g from the equation of state",
+                           .expected = expected_path,
+                           .measured = path,
+                           .allowance = expected_path * (2e-5 + 256.0 / (2.0 * effort.collisions(2e6))),
+                           .allowance_for = "the error of the equation of state; long flights that do not end within the run"});
+  const double mean = speed.value / measured.value;
+  result.checks.push_back({.name = "mean free path times collisions per time, " + what,
+                           .theory = "the mean speed",
+                           .source = "a definition, measured in two ways",
+                           .expected = mean,
+                           .measured = {path.value, std::hypot(path.error, mean * measured.error / measured.value)},
+                           .allowance = expected_path * 1024.0 / effort.collisions(2e6),
+                           .allowance_for = "flights that do not end within the run"});
+  result.checks.push_back({.name = "mean square of the impact parameter over sigma, " + what,
+                           .theory = "1/3: b is as likely anywhere from 0 to sigma",
+                           .source = "molecular chaos, exact in equilibrium",
+                           .expected = 1.0 / 3.0,
+                           .measured = [&] {
+                             const auto found_b = seen.impact_square.estimate();
+                             return Measured{found_b->mean, found_b->error.value_or(NAN)};
+                           }()});
+  double chi = 0.0;
+  const double each = static_cast<double>(seen.collisions) / Encounters::parameters;
+  Curve impact{.plot = "impact-parameter", .name = what};
+  for (std::size_t k = 0; k < Encounters::parameters; ++k) {
+    const auto count = static_cast<double>(seen.impact[k]);
+    chi += (count - each) * (count - each) / each;
+    impact.x.push_back((static_cast<double>(k) + 0.5) / Encounters::parameters);
+    impact.y.push_back(count / each);
+    impact.error.push_back(std::sqrt(count) / each);
+  }
+  result.curves.push_back(std::move(impact));
+  result.checks.push_back({.name = "distribution of the impact parameter, chi squared of 20 bins, " + what,
+                           .theory = "uniform: 19 on average",
+                           .source = "molecular chaos, exact in equilibrium",
+                           .expected = 19.0,
+                           .measured = {chi, std::sqrt(38.0)},
+                           .equivalent = theory::standard_errors(boost::math::gamma_q(9.5, 0.5 * chi))});
+  Curve by_speed{.plot = "rate-by-speed", .name = what};
+  for (std::size_t k = 0; k < Encounters::speeds; ++k) {
+    const auto estimate = seen.rate[k].estimate();
+    if (!estimate || !estimate->error) continue;
+    const double from = static_cast<double>(k) * Encounters::speed_width, to = from + Encounters::speed_width;
+    using Rule = boost::math::quadrature::gauss<double, 15>;
+    const double rate_there =
+        rate * Rule::integrate([](double v) { return v * std::exp(-0.5 * v * v) * theory::relative_rate(v); }, from, to) /
+        Rule::integrate([](double v) { return v * std::exp(-0.5 * v * v); }, from, to);
+    by_speed.x.push_back(0.5 * (from + to));
+    by_speed.y.push_back(estimate->mean / rate);
+    by_speed.error.push_back(*estimate->error / rate);
+    if (k % 3 != 1) continue;
+    result.checks.push_back(
+        {.name = fmt::format("collisions per time of disks of speed {:.2f} to {:.2f} v_T, {}", from, to, what),
+         .theory = "proportional to the mean of |v - v'| over Maxwell's v'",
+         .source = "kinetic theory",
+         .expected = rate_there,
+         .measured = {estimate->mean, *estimate->error},
+         .allowance = 4.0 / disks * rate_there,
+         .allowance_for = "Maxwell's law holds up to terms of 1/N"});
+  }
+  result.curves.push_back(std::move(by_speed));
+  return result;
+}
+
+TrialResult free_times(const std::string& trial, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  constexpr std::int64_t disks = 1024;
+  constexpr double eta = 0.002;
+  const double rate = rate_of(eta, disks);
+  const Gas gas{.disks = disks, .packing_fraction = eta, .collisions = effort.collisions(1e6), .observe = ""};
+  Encounters::Seen seen;
+  std::vector<std::unique_ptr<Observable>> own;
+  own.push_back(std::make_unique<Encounters>(1.0 / rate, 1.0 / rate, seen));
+  (void)run(scene_text(gas, effort.seed_of(0)), effort, result, std::move(own));
+  const double flights_each = 2.0 * gas.collisions / disks;
+  Curve measured{.plot = "free-times", .name = fmt::format("packing fraction {}", eta)};
+  for (std::size_t k = 0; k < Encounters::flights.size(); ++k) {
+    const double longer = Encounters::flights[k], expected = theory::flights_longer_than(longer);
+    const auto estimate = seen.longer[k].estimate();
+    const Measured share{estimate->mean, estimate->error.value_or(NAN)};
+    result.checks.push_back(
+        {.name = fmt::format("share of the flights longer than {:g} mean free times, packing fraction {}", longer, eta),
+         .theory = "each speed's own exponential, over the speeds with which disks leave collisions",
+         .source = "Visco, van Wijland & Trizac, Phys. Rev. E 77, 041117 (2008)",
+         .expected = expected,
+         .measured = share,
+         .allowance = expected * (4.0 / disks + 2.0 * eta + longer / flights_each),
+         .allowance_for =
+             "terms of 1/N; disks that meet again soon, of the order of the density; flights that do not end within the run"});
+    measured.x.push_back(longer);
+    measured.y.push_back(share.value);
+    measured.error.push_back(share.error);
+    if (longer != 4.0) continue;
+    result.checks.push_back({.name = fmt::format("the same against exp(-{:g}), one rate for all speeds (must not fit)", longer),
+                             .theory = "exp(-t)",
+                             .source = "the simplest guess",
+                             .expected = std::exp(-longer),
+                             .measured = share,
+                             .judged = Judged::disagrees});
+  }
+  Curve theory_line{.plot = "free-times", .name = "Boltzmann", .theory = true};
+  for (int k = 0; k <= 50; ++k) {
+    theory_line.x.push_back(0.1 * k);
+    theory_line.y.push_back(theory::flights_longer_than(0.1 * k));
+  }
+  result.curves.push_back(std::move(measured));
+  result.curves.push_back(std::move(theory_line));
+  return result;
+}
+
+TrialResult mixture(const std::string& trial, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  constexpr double side = 24.0, big = 0.5, small = 0.3;
+  constexpr int bigs = 200, smalls = 200;
+  const std::string scene = fmt::format(
+      "[box]\nx = [0.0, {0}]\ny = [0.0, {0}]\nboundary = \"periodic\"\n\n[[disks]]\nname = \"big\"\ncount = {1}\nradius = {2}\n"
+      "mass = 1.0\npositions = \"random\"\nvelocities = {{ temperature = 1.0 }}\n\n[[disks]]\nname = \"small\"\ncount = {3}\n"
+      "radius = {4}\nmass = 0.2\npositions = \"random\"\nvelocities = {{ temperature = 1.0 }}\n\n[collision]\nrule = "
+      "\"specular\"\n\n"
+      "[run]\ncollisions = {5:.0f}\nequilibrate = {{ collisions_per_disk = 100 }}\nseed = {6}\n\n[observe]\npressure = true\n"
+      "collision_rate = true\n",
+      side, bigs, big, smalls, small, effort.collisions(3e6), effort.seed_of(0));
+  const Found found = run(scene, effort, result);
+  const std::string what = "200 disks of radius 0.5 and 200 of 0.3, masses 1 and 0.2";
+  const Measured Z = found.measured("pressure", "Z"), from_rate = found.measured("pressure", "Z_rate");
+  result.checks.push_back({.name = "Z from how often disks collide, " + what,
+                           .theory = "that from the momentum they transfer",
+                           .source = "omega_ij = n_j sigma_ij g_ij sqrt(2 pi kT / mu_ij), exact for each pair of species",
+                           .expected = Z.value,
+                           .measured = {from_rate.value, std::hypot(Z.error, from_rate.error)}});
+  constexpr double area = side * side;
+  const std::array<theory::Component, 2> gas = {{{bigs / area, big, 1.0}, {smalls / area, small, 0.2}}};
+  const double expected = 2.0 * theory::collision_rate(gas, 1.0) * area / (bigs + smalls);
+  result.checks.push_back({.name = "collisions of a disk per time, " + what,
+                           .theory = "the same with contact values after scaled particle theory",
+                           .source = "Lebowitz, Helfand & Praestgaard, J. Chem. Phys. 43, 774 (1965)",
+                           .expected = expected,
+                           .measured = found.measured("collision_rate", "rate"),
+                           .allowance = 0.02 * expected,
+                           .allowance_for = "contact values of mixtures are known to one or two per cent"});
+  return result;
+}
+
+}  // namespace
+
+void add_collisions(std::vector<Trial>& trials) {
+  const std::string group = "collisions";
+  for (const double eta : {0.1, 0.4, 0.6}) {
+    const std::string name = fmt::format("collisions-{:.1f}", eta);
+    trials.push_back({name, group, false, [=](const Effort& effort) { return rates(name, eta, effort); }});
+  }
+  trials.push_back({"free-times", group, false, [](const Effort& effort) { return free_times("free-times", effort); }});
+  trials.push_back(
+      {"collisions-mixture", group, false, [](const Effort& effort) { return mixture("collisions-mixture", effort); }});
+}
+
+}  // namespace carom::validation

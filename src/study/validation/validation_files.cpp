@@ -1,0 +1,181 @@
+#include "study/validation/validation_files.hpp"
+
+#include <carom/version.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What is not finite is null: a NaN, since only what was measured can be none.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+double number(const Json& json) { return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>(); }
+
+Json json_of(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(number(value));
+  return list;
+}
+
+std::vector<double> list_of(const Json& json) {
+  std::vector<double> values;
+  for (const Json& value : json) values.push_back(number(value));
+  return values;
+}
+
+constexpr std::array<std::pair<Judged, const char*>, 3> judgements = {
+    {{Judged::agrees, "agrees"}, {Judged::disagrees, "must not agree"}, {Judged::shown, "shown"}}};
+
+Json json_of(const Check& check) {
+  const auto judged =
+      std::find_if(judgements.begin(), judgements.end(), [&](const auto& one) { return one.first == check.judged; });
+  Json json = {{"name", check.name},
+               {"theory", check.theory},
+               {"source", check.source},
+               {"expected", number(check.expected)},
+               {"measured", number(check.measured.value)},
+               {"error", number(check.measured.error)},
+               {"allowance", check.allowance},
+               {"allowance_for", check.allowance_for},
+               {"deviation", number(check.deviation())},
+               {"judged", judged->second},
+               {"fits", check.fits()},
+               {"holds", check.holds()}};
+  if (check.equivalent) json["equivalent"] = number(*check.equivalent);
+  return json;
+}
+
+Check check_of(const Json& json) {
+  Check check{.name = json.at("name"),
+              .theory = json.at("theory"),
+              .source = json.at("source"),
+              .expected = number(json.at("expected")),
+              .measured = {number(json.at("measured")), number(json.at("error"))},
+              .allowance = json.at("allowance"),
+              .allowance_for = json.at("allowance_for")};
+  if (json.contains("equivalent"))
+    check.equivalent = json["equivalent"].is_null() ? std::numeric_limits<double>::infinity() : json["equivalent"].get<double>();
+  const std::string judged = json.at("judged");
+  for (const auto& [value, word] : judgements)
+    if (judged == word) check.judged = value;
+  return check;
+}
+
+Json json_of(const TrialResult& result) {
+  Json json = {{"trial", result.trial}, {"seconds", result.seconds}, {"scenes", result.scenes}};
+  json["checks"] = Json::array();
+  for (const Check& check : result.checks) json["checks"].push_back(json_of(check));
+  json["curves"] = Json::array();
+  for (const Curve& curve : result.curves)
+    json["curves"].push_back({{"plot", curve.plot},
+                              {"name", curve.name},
+                              {"theory", curve.theory},
+                              {"x", json_of(curve.x)},
+                              {"y", json_of(curve.y)},
+                              {"error", json_of(curve.error)}});
+  return json;
+}
+
+TrialResult result_of(const Json& json) {
+  TrialResult result{.trial = json.at("trial"), .scenes = json.at("scenes"), .seconds = json.at("seconds")};
+  for (const Json& check : json.at("checks")) result.checks.push_back(check_of(check));
+  for (const Json& curve : json.at("curves"))
+    result.curves.push_back({.plot = curve.at("plot"),
+                             .name = curve.at("name"),
+                             .theory = curve.at("theory"),
+                             .x = list_of(curve.at("x")),
+                             .y = list_of(curve.at("y")),
+                             .error = list_of(curve.at("error"))});
+  return result;
+}
+
+}  // namespace
+
+std::string validation_key(const ValidateOptions& options) {
+  const BuildInfo& build = build_info();
+  return fmt::format("{} {}, seed {}, {}", build.version, build.commit, options.seed, options.full ? "full" : "quick");
+}
+
+TrialsFile::TrialsFile(std::filesystem::path path, const std::string& key, const Validation& before) : path_(std::move(path)) {
+  // What is there already is written anew beside the old file, so that at no instant finished trials are lost.
+  const std::filesystem::path final_path = path_;
+  path_ += ".partial";
+  {
+    std::ofstream file(path_, std::ios::trunc);
+    if (!file) throw detail::system_error(path_, "write it", errno);
+  }
+  write(Json{{"validation", key}}.dump());
+  for (const TrialResult& result : before.results) add(result);
+  std::error_code error;
+  std::filesystem::rename(path_, final_path, error);
+  if (error) throw detail::system_error(final_path, "write it", error.value());
+  path_ = final_path;
+}
+
+void TrialsFile::add(const TrialResult& result) { write(json_of(result).dump()); }
+
+void TrialsFile::write(const std::string& line) {
+  std::ofstream file(path_, std::ios::app);
+  file << line << '\n' << std::flush;
+  if (!file)
+    throw detail::system_error(path_, "write it", errno, "finished trials are kept, and the same command with --resume goes on");
+}
+
+Validation load_trials(const std::filesystem::path& path, const std::string& key) {
+  std::ifstream file(path);
+  if (!file) throw detail::system_error(path, "read it", errno);
+  Validation validation;
+  bool ours = false;
+  std::size_t line_number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++line_number;
+    const Json json = Json::parse(line, nullptr, false);
+    if (json.is_discarded()) continue;  // the line that was being written when the validation was killed
+    try {
+      if (json.contains("validation")) {
+        ours = json["validation"] == key;
+      } else {
+        validation.results.push_back(result_of(json));
+      }
+    } catch (const Json::exception&) {
+      throw OutputError(
+          fmt::format("{}:{}: this is no trial that carom has written; take the line out, or begin anew with --force",
+                      path.string(), line_number));
+    }
+  }
+  if (!ours)
+    throw OutputError(
+        fmt::format("{}: these trials are of another seed, other options or another build of carom; give the same again, or "
+                    "begin anew with --force",
+                    path.string()));
+  return validation;
+}
+
+std::string validation_json(const Validation& validation, const std::string& command_line) {
+  const BuildInfo& build = build_info();
+  Json json;
+  json["carom"] = {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler}, {"flags", build.flags}};
+  json["command_line"] = command_line;
+  json["mode"] = validation.options.full ? "full" : "quick";
+  json["seed"] = validation.options.seed;
+  json["checks"] = validation.checks();
+  json["failed"] = validation.failed();
+  json["trials"] = Json::array();
+  for (const TrialResult& result : validation.results) json["trials"].push_back(json_of(result));
+  return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace carom

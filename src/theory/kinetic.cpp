@@ -1,0 +1,61 @@
+#include "theory/kinetic.hpp"
+
+#include "theory/equation_of_state.hpp"
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/special_functions/bessel.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace carom::theory {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const double sqrt_pi = std::sqrt(pi);
+
+double density(double eta) { return 4.0 * eta / pi; }
+
+}  // namespace
+
+double contact_value(double eta) { return (kolafa_rottner(eta) - 1.0) / (2.0 * eta); }
+
+double mean_free_path(double eta) { return 1.0 / (2.0 * std::numbers::sqrt2 * density(eta) * contact_value(eta)); }
+
+double enskog_diffusion(double eta) { return 1.02704 / (2.0 * sqrt_pi * density(eta) * contact_value(eta)); }
+
+double enskog_viscosity(double eta) {
+  const double g = contact_value(eta), b = 2.0 * eta;
+  return 1.02195 / (2.0 * sqrt_pi) * (1.0 / g + b + 0.8729 * b * b * g);
+}
+
+double enskog_conductivity(double eta) {
+  const double g = contact_value(eta), b = 2.0 * eta;
+  return 1.02968 * 2.0 / sqrt_pi * (1.0 / g + 1.5 * b + 0.8718 * b * b * g);
+}
+
+double relative_rate(double speed) {
+  // The mean of a Rice distribution: sqrt(pi / 2) e^-q ((1 + 2 q) I0(q) + 2 q I1(q)) with q = v^2 / 4.
+  const double q = 0.25 * speed * speed;
+  return std::exp(-q) * ((1.0 + 2.0 * q) * boost::math::cyl_bessel_i(0, q) + 2.0 * q * boost::math::cyl_bessel_i(1, q)) /
+         std::numbers::sqrt2;
+}
+
+double flights_longer_than(double time) {
+  const auto at_speed = [&](double v) {
+    const double rate = relative_rate(v);
+    return v * std::exp(-0.5 * v * v) * rate * std::exp(-rate * time);
+  };
+  double sum = 0.0;
+  for (int panel = 0; panel < 5; ++panel)  // up to ten thermal velocities
+    sum += boost::math::quadrature::gauss<double, 30>::integrate(at_speed, 2.0 * panel, 2.0 * (panel + 1));
+  return sum;
+}
+
+double cooling_kurtosis(double e) {
+  const double a2 = 16.0 * (1.0 - e) * (1.0 - 2.0 * e * e) / (57.0 - 25.0 * e + 30.0 * e * e * (1.0 - e));
+  return 2.0 * (1.0 + a2);
+}
+
+}  // namespace carom::theory

@@ -1,0 +1,31 @@
+#pragma once
+// Kinetic theory of one kind of smooth hard disks, as Boltzmann and Enskog have it. The units are the diameter, the mass and kT.
+
+namespace carom::theory {
+
+/// Contact value of g(r) from the equation of state: (Z - 1) / (2 eta), Z after Kolafa and Rottner. Requires 0 < eta <= 0.69.
+[[nodiscard]] double contact_value(double eta);
+
+/// Mean free path of an infinite system, 1 / (2 sqrt2 rho g).
+[[nodiscard]] double mean_free_path(double eta);
+
+/// Coefficients of self-diffusion, shear viscosity and heat conductivity after Enskog: Gass, J. Chem. Phys. 54, 1898 (1971). The
+/// theory leaves out that collisions are correlated: near 5 % up to eta = 0.3 and 10 % at 0.4, more beyond.
+[[nodiscard]] double enskog_diffusion(double eta);
+[[nodiscard]] double enskog_viscosity(double eta);
+[[nodiscard]] double enskog_conductivity(double eta);
+
+/// How often a disk of speed v (in units of sqrt(kT / m)) collides, over the mean of all disks: the mean of |v - v'| over
+/// Maxwell's v', over sqrt(pi). Boltzmann's theory, and Enskog's.
+[[nodiscard]] double relative_rate(double speed);
+
+/// Share of the flights between collisions that last longer than `time` mean free times. A disk leaves a collision with a speed
+/// that it is the likelier to have the more often disks of that speed collide, and flies on as long as its rate says: exact for a
+/// dilute gas (Visco, van Wijland & Trizac, Phys. Rev. E 77, 041117 (2008)).
+[[nodiscard]] double flights_longer_than(double time);
+
+/// Kurtosis <v^4> / <v^2>^2 of a gas of restitution e that cools evenly: 2 (1 + a2), with a2 from the second Sonine
+/// polynomial (van Noije & Ernst, Granular Matter 1, 57 (1998)), here for disks.
+[[nodiscard]] double cooling_kurtosis(double restitution);
+
+}  // namespace carom::theory

@@ -1,0 +1,27 @@
+#include "theory/microcanonical.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::theory {
+
+double Microcanonical::speeds_below(double share) const {
+  return -std::expm1((free_ - 1.0) * std::log1p(-std::min(share / free_, 1.0)));
+}
+
+double Microcanonical::square_below_which(double share_of_disks) const {
+  return -free_ * std::expm1(std::log1p(-share_of_disks) / (free_ - 1.0));
+}
+
+double Microcanonical::speed_density(double v, double mean_square) const {
+  const double left = 1.0 - v * v / (mean_square * free_);
+  return left > 0.0 ? 2.0 * v / mean_square * (free_ - 1.0) / free_ * std::pow(left, free_ - 2.0) : 0.0;
+}
+
+double Microcanonical::speed_factor() const {
+  return std::exp(0.5 * std::log(free_) + std::lgamma(free_) - std::lgamma(free_ + 0.5));
+}
+
+double maxwell_speeds_below(double share) { return -std::expm1(-share); }
+
+}  // namespace carom::theory
