@@ -5,8 +5,7 @@
 #include "cli/compare_text.hpp"
 #include "cli/progress.hpp"
 #include "cli/signals.hpp"
-#include "io/run_directory.hpp"
-#include "io/text_file.hpp"
+#include "cli/study_directory.hpp"
 #include "show/compare_page.hpp"
 #include "show/page.hpp"
 #include "study/compare.hpp"
@@ -35,8 +34,6 @@ namespace {
 constexpr std::array<std::string_view, 4> products = {"points.jsonl", "compare.csv", "report.html", "compare.json"};
 
 CompareOptions checked(const CompareCommandOptions& options) {
-  if (options.force && options.resume)
-    throw UsageError("--force begins anew and --resume goes on with what is there: give one of them");
   if (options.seeds < 1 || options.seeds > 10'000)
     throw UsageError(fmt::format("--seeds {}: it can be 1 to 10000", options.seeds));
   if (!(options.longest > 0.0))
@@ -66,24 +63,6 @@ std::filesystem::path directory_for(const CompareCommandOptions& options) {
   return std::filesystem::path(options.scene.path).stem().string() + "-compare";
 }
 
-void write_product(const RunDirectory& directory, std::string_view product, const std::string& text) {
-  detail::TextFile file(directory.partial_name(product));
-  file.buffer() += text;
-  file.end_record();
-  file.close();
-  directory.publish(product);
-}
-
-RunDirectory open_directory(const std::filesystem::path& path, const CompareCommandOptions& options) {
-  try {
-    // A study that is resumed finds its points in the way, and nothing else may be.
-    static constexpr std::array<std::string_view, 0> none = {};
-    return options.resume ? RunDirectory(path, false, none) : RunDirectory(path, options.force, products);
-  } catch (const OutputError& error) {
-    throw UsageError(error.what());
-  }
-}
-
 Comparison earlier_points(const RunDirectory& directory, const std::string& key, const CompareCommandOptions& options) {
   if (!options.resume) return {};
   try {
@@ -102,7 +81,7 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
   check_steps(scene, study.dts);
   const std::string key = study_key(scene, study);
   const StopRequest stop;
-  const RunDirectory directory = open_directory(directory_for(options), options);
+  const RunDirectory directory = open_study(directory_for(options), options.force, options.resume, products);
   try {
     Comparison before = earlier_points(directory, key, options);
     std::unique_ptr<PointsFile> points;

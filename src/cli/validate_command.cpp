@@ -5,8 +5,7 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/signals.hpp"
-#include "io/run_directory.hpp"
-#include "io/text_file.hpp"
+#include "cli/study_directory.hpp"
 #include "show/page.hpp"
 #include "show/validation_page.hpp"
 #include "study/validation/validation.hpp"
@@ -30,8 +29,6 @@ constexpr std::array<std::string_view, 3> products = {"trials.jsonl", "report.ht
 
 ValidateOptions checked(const ValidateCommandOptions& options) {
   if (options.quick && options.full) throw UsageError("--quick and --full: give one of them");
-  if (options.force && options.resume)
-    throw UsageError("--force begins anew and --resume goes on with what is there: give one of them");
   // Each run of a trial has a seed of its own, which a scene must be able to hold.
   constexpr std::int64_t most = 9'000'000'000'000;
   if (options.seed < 0 || options.seed > most) throw UsageError(fmt::format("--seed {}: it can be 0 to {}", options.seed, most));
@@ -44,17 +41,6 @@ ValidateOptions checked(const ValidateCommandOptions& options) {
   return chosen;
 }
 
-RunDirectory open_directory(const ValidateCommandOptions& options) {
-  const std::filesystem::path path = options.out.empty() ? "validation" : options.out;
-  try {
-    // What is resumed finds its trials in the way, and nothing else may be.
-    static constexpr std::array<std::string_view, 0> none = {};
-    return options.resume ? RunDirectory(path, false, none) : RunDirectory(path, options.force, products);
-  } catch (const OutputError& error) {
-    throw UsageError(error.what());
-  }
-}
-
 Validation earlier_trials(const RunDirectory& directory, const std::string& key, const ValidateCommandOptions& options) {
   if (!options.resume) return {};
   try {
@@ -62,14 +48,6 @@ Validation earlier_trials(const RunDirectory& directory, const std::string& key,
   } catch (const OutputError& error) {
     throw UsageError(error.what());
   }
-}
-
-void write_product(const RunDirectory& directory, std::string_view product, const std::string& text) {
-  detail::TextFile file(directory.partial_name(product));
-  file.buffer() += text;
-  file.end_record();
-  file.close();
-  directory.publish(product);
 }
 
 std::string list() {
@@ -105,7 +83,8 @@ ExitCode validate(const ValidateCommandOptions& options, const Invocation& invoc
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const std::string key = validation_key(chosen);
   const StopRequest stop;
-  const RunDirectory directory = open_directory(options);
+  const RunDirectory directory =
+      open_study(options.out.empty() ? "validation" : options.out, options.force, options.resume, products);
   try {
     const Validation before = earlier_trials(directory, key, options);
     TrialsFile trials(directory.final_name("trials.jsonl"), key, before);

@@ -8,12 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <system_error>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace carom {
 
@@ -144,61 +143,34 @@ std::string study_key(const Scene& scene, const CompareOptions& options) {
   return key.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-PointsFile::PointsFile(std::filesystem::path path, const std::string& key, const Comparison& before) : path_(std::move(path)) {
-  // `before` may have come from this very file: it is replaced only when all of it has been written again.
-  const std::filesystem::path final_path = std::exchange(path_, path_.string() + ".partial");
-  {
-    std::ofstream file(path_, std::ios::trunc);
-    if (!file) throw detail::system_error(path_, "write it", errno);
-  }
-  write(Json{{"study", key}}.dump());
-  for (const MethodRun& run : before.runs) add(run);
-  for (const CostPoint& point : before.costs) add(point);
-  std::error_code error;
-  std::filesystem::rename(path_, final_path, error);
-  if (error) throw detail::system_error(final_path, "write it", error.value());
-  path_ = final_path;
+namespace {
+
+const detail::PartWords words = {"point", "scene"};
+
+std::string line_of(const MethodRun& run) { return Json{{"run", json_of(run)}}.dump(); }
+std::string line_of(const CostPoint& point) { return Json{{"cost", json_of(point)}}.dump(); }
+
+std::vector<std::string> lines_of(const Comparison& comparison) {
+  std::vector<std::string> lines;
+  for (const MethodRun& run : comparison.runs) lines.push_back(line_of(run));
+  for (const CostPoint& point : comparison.costs) lines.push_back(line_of(point));
+  return lines;
 }
 
-void PointsFile::add(const MethodRun& run) { write(Json{{"run", json_of(run)}}.dump()); }
-void PointsFile::add(const CostPoint& point) { write(Json{{"cost", json_of(point)}}.dump()); }
+}  // namespace
 
-void PointsFile::write(const std::string& line) {
-  std::ofstream file(path_, std::ios::app);
-  file << line << '\n' << std::flush;
-  if (!file)
-    throw detail::system_error(path_, "write it", errno, "finished points are kept, and the same command with --resume goes on");
-}
+PointsFile::PointsFile(std::filesystem::path path, const std::string& key, const Comparison& before)
+    : parts_(std::move(path), words, key, lines_of(before)) {}
+
+void PointsFile::add(const MethodRun& run) { parts_.add(line_of(run)); }
+void PointsFile::add(const CostPoint& point) { parts_.add(line_of(point)); }
 
 Comparison load_points(const std::filesystem::path& path, const std::string& key) {
-  std::ifstream file(path);
-  if (!file) throw detail::system_error(path, "read it", errno);
   Comparison comparison;
-  bool ours = false;
-  std::size_t line_number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++line_number;
-    const Json json = Json::parse(line, nullptr, false);
-    if (json.is_discarded()) continue;  // the line that was being written when the study was killed
-    try {
-      if (json.contains("study")) {
-        ours = json["study"] == key;
-      } else if (json.contains("run")) {
-        comparison.runs.push_back(run_of(json["run"]));
-      } else if (json.contains("cost")) {
-        comparison.costs.push_back(cost_of(json["cost"]));
-      }
-    } catch (const Json::exception&) {
-      throw OutputError(
-          fmt::format("{}:{}: this is no point that carom has written; take the line out, or begin anew with --force",
-                      path.string(), line_number));
-    }
-  }
-  if (!ours)
-    throw OutputError(
-        fmt::format("{}: these points are of another scene, other options or another build of carom; give the same again, or "
-                    "begin anew with --force",
-                    path.string()));
+  detail::read_finished_parts(path, words, key, [&](const Json& point) {
+    if (point.contains("run")) comparison.runs.push_back(run_of(point["run"]));
+    if (point.contains("cost")) comparison.costs.push_back(cost_of(point["cost"]));
+  });
   return comparison;
 }
 

@@ -2,7 +2,7 @@
 // A comparison in files: points.jsonl, which grows by a line with every point that is finished and from which an interrupted
 // study goes on; compare.json with everything; compare.csv with a line per run.
 
-#include "io/output_error.hpp"
+#include "io/finished_parts.hpp"
 #include "study/compare.hpp"
 #include "study/comparison.hpp"
 
@@ -26,8 +26,7 @@ class PointsFile {
   void add(const CostPoint& point);
 
  private:
-  void write(const std::string& line);
-  std::filesystem::path path_;
+  detail::FinishedParts parts_;
 };
 
 /// The points that an earlier study has finished; its plan is made anew. A last line that was not finished is left out. Throws

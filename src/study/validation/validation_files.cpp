@@ -7,12 +7,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <system_error>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace carom {
 
@@ -109,58 +108,26 @@ std::string validation_key(const ValidateOptions& options) {
   return fmt::format("{} {}, seed {}, {}", build.version, build.commit, options.seed, options.full ? "full" : "quick");
 }
 
-TrialsFile::TrialsFile(std::filesystem::path path, const std::string& key, const Validation& before) : path_(std::move(path)) {
-  // What is there already is written anew beside the old file, so that at no instant finished trials are lost.
-  const std::filesystem::path final_path = path_;
-  path_ += ".partial";
-  {
-    std::ofstream file(path_, std::ios::trunc);
-    if (!file) throw detail::system_error(path_, "write it", errno);
-  }
-  write(Json{{"validation", key}}.dump());
-  for (const TrialResult& result : before.results) add(result);
-  std::error_code error;
-  std::filesystem::rename(path_, final_path, error);
-  if (error) throw detail::system_error(final_path, "write it", error.value());
-  path_ = final_path;
+namespace {
+
+const detail::PartWords words = {"trial", "seed"};
+
+std::vector<std::string> lines_of(const Validation& validation) {
+  std::vector<std::string> lines;
+  for (const TrialResult& result : validation.results) lines.push_back(json_of(result).dump());
+  return lines;
 }
 
-void TrialsFile::add(const TrialResult& result) { write(json_of(result).dump()); }
+}  // namespace
 
-void TrialsFile::write(const std::string& line) {
-  std::ofstream file(path_, std::ios::app);
-  file << line << '\n' << std::flush;
-  if (!file)
-    throw detail::system_error(path_, "write it", errno, "finished trials are kept, and the same command with --resume goes on");
-}
+TrialsFile::TrialsFile(std::filesystem::path path, const std::string& key, const Validation& before)
+    : parts_(std::move(path), words, key, lines_of(before)) {}
+
+void TrialsFile::add(const TrialResult& result) { parts_.add(json_of(result).dump()); }
 
 Validation load_trials(const std::filesystem::path& path, const std::string& key) {
-  std::ifstream file(path);
-  if (!file) throw detail::system_error(path, "read it", errno);
   Validation validation;
-  bool ours = false;
-  std::size_t line_number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++line_number;
-    const Json json = Json::parse(line, nullptr, false);
-    if (json.is_discarded()) continue;  // the line that was being written when the validation was killed
-    try {
-      if (json.contains("validation")) {
-        ours = json["validation"] == key;
-      } else {
-        validation.results.push_back(result_of(json));
-      }
-    } catch (const Json::exception&) {
-      throw OutputError(
-          fmt::format("{}:{}: this is no trial that carom has written; take the line out, or begin anew with --force",
-                      path.string(), line_number));
-    }
-  }
-  if (!ours)
-    throw OutputError(
-        fmt::format("{}: these trials are of another seed, other options or another build of carom; give the same again, or "
-                    "begin anew with --force",
-                    path.string()));
+  detail::read_finished_parts(path, words, key, [&](const Json& trial) { validation.results.push_back(result_of(trial)); });
   return validation;
 }
 

@@ -2,7 +2,7 @@
 // A validation in files: trials.jsonl, which grows by a line with every trial that is finished and from which an interrupted
 // validation goes on; validation.json with everything.
 
-#include "io/output_error.hpp"
+#include "io/finished_parts.hpp"
 #include "study/validation/validation.hpp"
 
 #include <filesystem>
@@ -21,8 +21,7 @@ class TrialsFile {
   void add(const TrialResult& result);
 
  private:
-  void write(const std::string& line);
-  std::filesystem::path path_;
+  detail::FinishedParts parts_;
 };
 
 /// The trials that an earlier validation has finished. A last line that was not finished is left out. Throws OutputError where
