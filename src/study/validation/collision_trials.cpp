@@ -117,6 +117,12 @@ TrialResult rates(const std::string& trial, double eta, const Effort& effort) {
          .allowance_for = "Maxwell's law holds up to terms of 1/N"});
   }
   result.curves.push_back(std::move(by_speed));
+  Curve line{.plot = "rate-by-speed", .name = "kinetic theory", .theory = true};
+  for (int k = 0; k <= 60; ++k) {
+    line.x.push_back(0.05 * k);
+    line.y.push_back(theory::relative_rate(0.05 * k));
+  }
+  result.curves.push_back(std::move(line));
   return result;
 }
 
