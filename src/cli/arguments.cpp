@@ -186,6 +186,17 @@ void add_info(CLI::App& program, Action& action) {
   command->callback([&action, options] { action = [options] { return info(*options); }; });
 }
 
+void add_play(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("play", "Write a page that replays a run, exactly where it kept its events");
+  const auto options = std::make_shared<PlayOptions>();
+  command->add_option("directory", options->directory, "The directory that carom run has written")
+      ->required()
+      ->type_name("RUN_DIR");
+  command->add_option("-o,--output", options->output, "The file to write (default: player.html in that directory)")
+      ->type_name("FILE.html");
+  command->callback([&action, options] { action = [options] { return play(*options); }; });
+}
+
 void add_bench(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("bench", "Measure how fast this machine is, with both engines side by side");
   const auto options = std::make_shared<BenchOptions>();
@@ -253,6 +264,7 @@ Action parse_arguments(int argc, char** argv) {
   add_compare(program, action, invocation);
   add_init(program, action, invocation);
   add_info(program, action);
+  add_play(program, action);
   add_bench(program, action);
   add_hardcases(program, action, invocation);
   add_validate(program, action, invocation);

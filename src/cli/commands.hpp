@@ -75,6 +75,12 @@ struct InfoOptions {
 };
 ExitCode info(const InfoOptions& options);
 
+struct PlayOptions {
+  std::string directory;  ///< of a finished run
+  std::string output;     ///< empty: player.html in it
+};
+ExitCode play(const PlayOptions& options);
+
 struct BenchOptions {
   bool json = false;
   bool effects = false;                     ///< the price of each effect, in place of how fast the engines are

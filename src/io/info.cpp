@@ -70,7 +70,8 @@ std::string describe_scene(const fs::path& path) {
 std::string describe_directory(const fs::path& path) {
   std::string text;
   for (const std::string_view product : run_products) {
-    if (product.starts_with("observe_")) continue;  // the summary tells of them
+    if (product.starts_with("observe_") || product == "player.html")
+      continue;  // the summary tells of them; a page is for looking at
     for (const fs::path& file : {path / product, path / fmt::format("{}{}", product, partial_ending)}) {
       std::error_code error;
       if (fs::exists(file, error)) text += describe_file(file);

@@ -1,0 +1,205 @@
+// A run directory from the reader's side.
+
+#include "io/run_reader.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <system_error>
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using detail::Hdf5Error;
+using detail::Hdf5Id;
+
+const std::string parameters = "/parameters";
+const std::string particles = "/particles/trajectory";
+
+/// Why there is nothing to read in `directory`, before anything is opened.
+void require_finished_run(const fs::path& directory) {
+  const std::string name = directory.string();
+  std::error_code error;
+  const fs::file_status status = fs::status(directory, error);
+  if (!fs::exists(status))
+    throw OutputError(fmt::format("{}: there is no such directory; name one that carom run has written", name));
+  if (!fs::is_directory(status))
+    throw OutputError(
+        fmt::format("{}: this is a file; name the run directory, the one that holds summary.json and trajectory.h5md", name));
+  const auto has = [&](const char* file) { return fs::exists(directory / file, error); };
+  if (has("trajectory.h5md.partial") || has("summary.json.partial"))
+    throw OutputError(fmt::format(
+        "{}: this run still goes on, or was ended from outside (there are .partial files); wait for its end, or run it again",
+        name));
+  if (!has("summary.json"))
+    throw OutputError(
+        fmt::format("{}: this directory holds no finished run (no summary.json); name one that carom run has written", name));
+  if (!has("trajectory.h5md"))
+    throw OutputError(fmt::format(
+        "{}: this run kept no trajectory.h5md; run the scene again with run.sample_every, and with --events for an exact replay",
+        name));
+}
+
+double folded(double x, double lower, double length) {
+  x -= std::floor((x - lower) / length) * length;
+  return x < lower + length ? x : lower;
+}
+
+}  // namespace
+
+template <class Action>
+auto RunReader::guarded(Action action) const -> decltype(action()) {
+  H5dont_atexit();  // as in info_h5md.cpp: HDF5 complains of damaged files when the process ends
+  const detail::SilentHdf5 silent;
+  try {
+    return action();
+  } catch (const Hdf5Error& error) {
+    throw OutputError(fmt::format("{}: HDF5 cannot read this file ({}); it is damaged or cut short, copy it anew or run again",
+                                  path_.string(), error.what()));
+  }
+}
+
+RunReader::RunReader(const fs::path& directory) : path_(directory / "trajectory.h5md") {
+  require_finished_run(directory);
+  read_summary(directory);
+  guarded([&] {
+    file_ = Hdf5Id(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    if (detail::read_string_attribute(file_.get(), "/h5md/creator", "name") != "carom")
+      throw OutputError(fmt::format("{}: an HDF5 file that Carom did not write", path_.string()));
+    read_trajectory();
+    read_scene();
+  });
+}
+
+void RunReader::read_summary(const fs::path& directory) {
+  const fs::path path = directory / "summary.json";
+  try {
+    const auto json = nlohmann::json::parse(std::ifstream(path));
+    end_ = json.at("time").get<double>();
+    if (json.at("pressure").at("Z").is_number()) Z_ = json.at("pressure").at("Z").get<double>();
+    facts_.emplace_back("Stopped by", json.at("stopped").get<std::string>());
+    facts_.emplace_back("Pair collisions", std::to_string(json.at("events").at("pair").get<std::uint64_t>()));
+  } catch (const nlohmann::json::exception&) {
+    throw OutputError(fmt::format("{}: this is not the summary of a run; it is damaged or cut short, copy it anew or run again",
+                                  path.string()));
+  }
+}
+
+std::vector<double> RunReader::rows(const std::string& dataset, std::uint64_t first, std::uint64_t count,
+                                    std::uint64_t row_size) const {
+  std::vector<double> values = detail::read_rows(file_.get(), dataset, first, count);
+  if (values.size() != count * row_size) throw Hdf5Error(dataset + " has another shape than it should");
+  return values;
+}
+
+void RunReader::read_trajectory() {
+  const std::vector<hsize_t> extents = detail::extents_of(file_.get(), particles + "/position/value");
+  if (extents.size() != 3 || extents[2] != 3) throw Hdf5Error("there is no position/value of three dimensions");
+  samples_ = std::min<std::uint64_t>(extents[0], detail::extents_of(file_.get(), particles + "/position/time").at(0));
+  const std::uint64_t count = extents[1];
+  if (samples_ == 0)
+    throw OutputError(fmt::format(
+        "{}: this run kept no samples, so it is not known where its disks began; run it with run.sample_every and its trajectory",
+        path_.string()));
+  disks_.radius = rows(particles + "/radius", 0, count, 1);
+  disks_.mass = rows(particles + "/mass", 0, count, 1);
+  for (const double species : rows(particles + "/species", 0, count, 1))
+    disks_.species.push_back(static_cast<std::int32_t>(species));
+  const std::vector<hsize_t> events = detail::extents_of(file_.get(), "/events/time");
+  has_event_log_ = !events.empty();
+  if (has_event_log_) events_ = events[0];
+}
+
+/// The box and what acts, from the text that the run was made from.
+void RunReader::read_scene() {
+  const auto text = [&](const char* name) { return detail::read_string_attribute(file_.get(), parameters, name); };
+  const std::string resolved = text("resolved_scene");
+  try {
+    scene_ = parse_scene(resolved, "resolved_scene");
+  } catch (const SceneError&) {
+    // The start file may be gone: the disks are in the trajectory, and two of any kind let the rest of the scene be read.
+    try {
+      scene_ = parse_scene(resolved, "resolved_scene",
+                           {"disks=[{count=2,radius=1e-12,mass=1.0,positions=\"random\",velocities=\"rest\"}]"});
+    } catch (const SceneError& error) {
+      throw OutputError(fmt::format("{}: the scene in this file cannot be read ({})", path_.string(), error.what()));
+    }
+  }
+  title_ = text("title");
+  species_names_ = detail::read_strings_attribute(file_.get(), parameters, "species_names");
+  for (const std::int32_t species : disks_.species)
+    if (species < 0 || static_cast<std::size_t>(species) >= species_names_.size())
+      throw Hdf5Error("a disk belongs to a species without a name");
+  facts_.insert(facts_.begin(), {{"Scene", text("scene_source")},
+                                 {"Seed", std::to_string(detail::read_unsigned_attribute(file_.get(), parameters, "seed"))},
+                                 {"Engine", text("engine")},
+                                 {"Command", text("command_line")},
+                                 {"Carom", fmt::format("{} (commit {})", text("version"), text("commit"))}});
+}
+
+State RunReader::sample(std::uint64_t k) const {
+  return guarded([&] {
+    const std::uint64_t count = disks_.count();
+    State state;
+    state.time = rows(particles + "/position/time", k, 1, 1)[0];
+    const std::vector<double> position = rows(particles + "/position/value", k, 1, 3 * count);
+    const std::vector<double> velocity = rows(particles + "/velocity/value", k, 1, 3 * count);
+    state.positions.resize(2, static_cast<Eigen::Index>(count));
+    state.velocities.resize(2, static_cast<Eigen::Index>(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      state.positions.col(column) << position[3 * i], position[3 * i + 1];
+      state.velocities.col(column) << velocity[3 * i], velocity[3 * i + 1];
+    }
+    if (!state.positions.allFinite() || !state.velocities.allFinite()) throw Hdf5Error("a sample holds what is no number");
+    for (int axis = 0; axis < 2; ++axis)
+      if (scene_.box.periodic(axis))
+        for (double& x : state.positions.row(axis)) x = folded(x, scene_.box.lower[axis], scene_.box.lengths()[axis]);
+    const auto present = [&](const std::string& name) { return !detail::extents_of(file_.get(), name).empty(); };
+    if (present("/observables/walls/value"))
+      for (const double wall : rows("/observables/walls/value", k, 1, 4)) state.walls.push_back({wall, 0.0});
+    if (present("/observables/scale/value")) state.scale = rows("/observables/scale/value", k, 1, 1)[0];
+    if (present("/observables/shear_displacement/value"))
+      state.shear_displacement = rows("/observables/shear_displacement/value", k, 1, 1)[0];
+    return state;
+  });
+}
+
+std::vector<Event> RunReader::event_log() const {
+  return guarded([&] {
+    const auto column = [&](const char* name, std::uint64_t row) {
+      return rows(std::string("/events/") + name, 0, events_, row);
+    };
+    std::vector<Event> events(events_);
+    if (events_ == 0) return events;
+    const std::vector<double> time = column("time", 1), disk = column("disk", 1), partner = column("partner", 1);
+    const std::vector<double> velocity = column("velocity", 2), partner_velocity = column("partner_velocity", 2);
+    const auto count = static_cast<double>(disks_.count());
+    const double last_obstacle = first_obstacle + 1.0 - static_cast<double>(scene_.effects.obstacles.size());
+    double before = 0.0;
+    for (std::size_t e = 0; e < events.size(); ++e) {
+      const double p = partner[e];
+      const bool known = p >= 0.0
+                             ? p < count && p != disk[e]
+                             : (p >= double{wall_top} && p <= double{wall_left}) || (p <= first_obstacle && p >= last_obstacle);
+      if (!known || !(disk[e] >= 0.0 && disk[e] < count)) throw Hdf5Error("an event names a disk or wall that is not there");
+      if (!(time[e] >= before)) throw Hdf5Error("the events are not in order of time");
+      before = time[e];
+      events[e] = {.time = time[e],
+                   .disk = static_cast<std::int32_t>(disk[e]),
+                   .partner = static_cast<std::int32_t>(p),
+                   .velocity = {velocity[2 * e], velocity[2 * e + 1]},
+                   .partner_velocity = {partner_velocity[2 * e], partner_velocity[2 * e + 1]}};
+      if (!events[e].velocity.allFinite() || !events[e].partner_velocity.allFinite() || !std::isfinite(before))
+        throw Hdf5Error("an event holds what is no number");
+    }
+    return events;
+  });
+}
+
+}  // namespace carom

@@ -1,0 +1,133 @@
+// The exact replay. Between two of its events a disk is in free flight, and every flight is stored with its beginning: time,
+// place, velocity. A moment is the flights that hold then, found in a few steps from those of the moment shown before, or by
+// halving. Time runs backwards as well as forwards.
+"use strict";
+
+/// The flights of all disks, those of disk i from first[i] to first[i + 1] - 1 in order of time.
+function buildFlights() {
+  const { start, time, disk, partner, velocity } = columns;
+  const rescale = disks + 4;  // the code of a multiplication of all velocities
+  const first = new Uint32Array(disks + 1);
+  const rescaled = new Uint32Array(time.length + 1);  // how often, by each event
+  let rescalings = 0;
+  for (let e = 0; e < time.length; ++e) {
+    rescaled[e + 1] = rescaled[e] + (partner[e] === rescale ? 1 : 0);
+    if (partner[e] === rescale) {
+      ++rescalings;
+    } else {
+      ++first[disk[e] + 1];
+      if (partner[e] < disks) ++first[partner[e] + 1];
+    }
+  }
+  for (let i = 0; i < disks; ++i) first[i + 1] += first[i] + 1 + rescalings;
+  const count = first[disks];
+  const numbers = () => new Float64Array(count);
+  const flights = { first, rescaled, event: new Int32Array(count), time: numbers(), x: numbers(), y: numbers(), vx: numbers(), vy: numbers() };
+  const last = new Uint32Array(disks);
+  const [gx, gy] = description.gravity;
+  const put = (slot, event, when, x, y, vx, vy) => {
+    flights.event[slot] = event;
+    flights.time[slot] = when;
+    flights.x[slot] = box.periodic[0] ? folded(x, 0) : x;
+    flights.y[slot] = box.periodic[1] ? folded(y, 1) : y;
+    flights.vx[slot] = vx;
+    flights.vy[slot] = vy;
+  };
+  /// A new flight of disk i; what its velocity becomes is said by `turned` from what it was.
+  const begin = (i, event, when, turned) => {
+    const old = last[i];
+    const dt = when - flights.time[old];
+    const x = flights.x[old] + (flights.vx[old] + 0.5 * gx * dt) * dt;
+    const y = flights.y[old] + (flights.vy[old] + 0.5 * gy * dt) * dt;
+    const [vx, vy] = turned(flights.vx[old] + gx * dt, flights.vy[old] + gy * dt);
+    put(++last[i], event, when, x, y, vx, vy);
+  };
+  for (let i = 0; i < disks; ++i) {
+    last[i] = first[i];
+    put(first[i], -1, 0, start[4 * i], start[4 * i + 1], start[4 * i + 2], start[4 * i + 3]);
+  }
+  for (let e = 0; e < time.length; ++e) {
+    const v = velocity.subarray(4 * e, 4 * e + 4);
+    if (partner[e] === rescale) {
+      for (let i = 0; i < disks; ++i) begin(i, e, time[e], (vx, vy) => [vx * v[0], vy * v[0]]);
+    } else {
+      begin(disk[e], e, time[e], () => [v[0], v[1]]);
+      if (partner[e] < disks) begin(partner[e], e, time[e], () => [v[2], v[3]]);
+    }
+  }
+  return flights;
+}
+
+/// Sides of the box that move: the last change of motion before `time` of each, and on from there.
+function wallsAt(time, walls) {
+  for (let side = 0; side < 4; ++side) {
+    const track = columns[`wall${side}`];
+    let low = 0;
+    let high = track.length / 3;
+    while (high - low > 1) {
+      const middle = (low + high) >>> 1;
+      if (track[3 * middle] <= time) low = middle;
+      else high = middle;
+    }
+    const dt = time - track[3 * low];
+    walls[side] = track[3 * low + 1] + (track[3 * low + 2] + 0.5 * description.accelerations[side] * dt) * dt;
+  }
+}
+
+function exactReplay() {
+  const flights = buildFlights();
+  const { first, event } = flights;
+  const cursor = first.slice(0, disks);  // of every disk, the flight that held at the moment read last
+  const [gx, gy] = description.gravity;
+  let readBefore = 0;
+
+  /// The flight of disk i after `done` events.
+  const flightOf = (i, done) => {
+    let low = first[i];
+    let high = first[i + 1];
+    while (high - low > 1) {
+      const middle = (low + high) >>> 1;
+      if (event[middle] < done) low = middle;
+      else high = middle;
+    }
+    return low;
+  };
+  const moveCursors = (done) => {
+    const far = Math.abs(done - readBefore) > 4 * disks;
+    for (let i = 0; i < disks; ++i) {
+      let slot = cursor[i];
+      if (far) slot = flightOf(i, done);
+      while (slot + 1 < first[i + 1] && event[slot + 1] < done) ++slot;
+      while (slot > first[i] && event[slot] >= done) --slot;
+      cursor[i] = slot;
+    }
+    readBefore = done;
+  };
+  return {
+    flights,
+    cursor,
+    stepTimes: columns.time,
+    duration: description.duration,
+    doneAt: (time) => countUpTo(columns.time, time),
+    /// Of disk i, up to the moment read last.
+    collisionsOf: (i) => cursor[i] - first[i] - flights.rescaled[readBefore],
+    /// Fills `moment` with the state at `time` after `done` events, all of which are at or before it.
+    read(time, done, moment) {
+      moveCursors(done);
+      moment.time = time;
+      moment.done = done;
+      for (let i = 0; i < disks; ++i) {
+        const slot = cursor[i];
+        const dt = time - flights.time[slot];
+        const x = flights.x[slot] + (flights.vx[slot] + 0.5 * gx * dt) * dt;
+        const y = flights.y[slot] + (flights.vy[slot] + 0.5 * gy * dt) * dt;
+        moment.x[i] = box.periodic[0] ? folded(x, 0) : x;
+        moment.y[i] = box.periodic[1] ? folded(y, 1) : y;
+        moment.vx[i] = flights.vx[slot] + gx * dt;
+        moment.vy[i] = flights.vy[slot] + gy * dt;
+      }
+      moment.scale = description.scale + description.growth * time;
+      wallsAt(time, moment.walls);
+    },
+  };
+}

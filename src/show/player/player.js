@@ -1,0 +1,94 @@
+// Puts the player to work, and keeps it going: one frame after the other for as long as something changes.
+//
+// For scripts: window.carom is the player; data-errors of the document says what went wrong.
+"use strict";
+
+/// Moves on by so many seconds, and draws where something has changed.
+function frame(seconds) {
+  advance(seconds);
+  if (!isStale) return;
+  isStale = false;
+  drawMoment(moment);
+  showReadings(moment);
+  const position = String(duration > 0 ? Math.round((scrubSteps * moment.time) / duration) : 0);
+  if (control("scrub").value !== position) control("scrub").value = position;
+  control("scrub").setAttribute("aria-valuetext", `time ${shortNumber(moment.time)}`);
+  ++window.carom.frames;
+}
+
+/// "1 sample", "2,000 samples"
+const counted = (count, thing) => `${count.toLocaleString("en")} ${thing}${count === 1 ? "" : "s"}`;
+
+function describeRun() {
+  control("title").textContent = description.title || "A run of Carom";
+  const badge = control("how");
+  badge.textContent = description.exact ? "exact" : "interpolated";
+  badge.classList.toggle("interpolated", !description.exact);
+  const nearest = description.exact ? description.distance + description.rounding : 0;
+  control("how-text").textContent = description.exact
+    ? `Every instant is computed from ${counted(columns.time.length, "recorded event")}: free flight between collisions, ` +
+      (nearest > 0 ? `within ${nearest.toExponential(0)} of where the run had the disks.` : "just where the run had the disks.")
+    : `Interpolated between ${counted(description.samples.count, "sample")}, because ${description.whyNot}: ` +
+      "disks move in straight lines from each sample to the next, and collisions in between are not shown." +
+      (description.samples.every > 1 ? ` One sample in ${description.samples.every} is kept.` : "");
+  const facts = control("facts");
+  for (const [name, value] of description.facts) {
+    const term = document.createElement("dt");
+    const text = document.createElement("dd");
+    term.textContent = name;
+    text.textContent = value;
+    facts.append(term, text);
+  }
+  for (const name of ["collisions", "walls"]) readings[name].closest("div").hidden = !totals;
+  if (description.whyNoZ) say("pressure-label", `no pressure Z: ${description.whyNoZ}`);
+  else if (!totals) say("pressure-label", "pressure Z of the run");
+}
+
+window.carom = {
+  description,
+  settings,
+  moment,
+  duration,
+  frames: 0,
+  seek: (time) => {
+    change({ isPlaying: false });
+    showTime(time);
+    frame(0);
+  },
+  frame,
+  change,
+  pixel: (x, y) => [pixelX(x), pixelY(y)],
+  view,
+  columns,
+};
+
+fillLists();
+connectControls();
+connectKeyboard();
+connectPointer();
+describeRun();
+listeners.push(showSettings);
+resizeView();
+resizePlot();
+showTime(0, description.exact ? 0 : 1);
+showSettings();
+const resized = new ResizeObserver(() => {
+  resizeView();
+  resizePlot();
+  isStale = true;
+  frame(0);  // at once: a canvas of another size is black
+});
+resized.observe(canvas);
+resized.observe(plot);
+
+let shownAt = 0;
+function animate(now) {
+  const longest = 0.1;  // seconds: after a pause of the browser the run goes on where it was
+  frame(Math.min((now - shownAt) / 1000, longest));
+  shownAt = now;
+  requestAnimationFrame(animate);
+}
+requestAnimationFrame((now) => {
+  shownAt = now;
+  animate(now);
+});

@@ -1,0 +1,97 @@
+// From the run's lengths to pixels and back: where the reader looks, how near, and whom the view follows.
+"use strict";
+
+const canvas = document.getElementById("stage");
+const view = { width: 1, height: 1, density: 1, scale: 1, x: 0, y: 0 };  // pixels per length; x, y: the place in the middle
+
+/// The box as large as it ever is.
+const extent = (() => {
+  const moment = emptyMoment();
+  const found = [Infinity, -Infinity, Infinity, -Infinity];
+  for (let k = 0; k <= 64; ++k) {
+    const time = (replay.duration * k) / 64;
+    replay.read(time, replay.doneAt(time), moment);
+    for (let side = 0; side < 4; ++side)
+      found[side] = side % 2 ? Math.max(found[side], moment.walls[side]) : Math.min(found[side], moment.walls[side]);
+  }
+  return found;
+})();
+
+let isFitted = true;  // until the reader zooms or moves it
+function fitView() {
+  isFitted = true;
+  const margin = 0.92;
+  view.scale = margin * Math.min(view.width / (extent[1] - extent[0]), view.height / (extent[3] - extent[2]));
+  view.x = (extent[0] + extent[1]) / 2;
+  view.y = (extent[2] + extent[3]) / 2;
+  change({ followed: -1 });
+}
+
+const pixelX = (x) => (x - view.x) * view.scale + view.width / 2;
+const pixelY = (y) => view.height / 2 - (y - view.y) * view.scale;
+const placeX = (px) => (px - view.width / 2) / view.scale + view.x;
+const placeY = (py) => (view.height / 2 - py) / view.scale + view.y;
+
+/// Nearer by a factor; the place under the pixel stays where it is.
+function zoom(factor, px = view.width / 2, py = view.height / 2) {
+  isFitted = false;
+  const x = placeX(px);
+  const y = placeY(py);
+  const whole = Math.min(view.width / (extent[1] - extent[0]), view.height / (extent[3] - extent[2]));
+  view.scale = Math.min(Math.max(view.scale * factor, 0.1 * whole), 1e5 * whole);
+  view.x += x - placeX(px);
+  view.y += y - placeY(py);
+}
+
+function pan(dx, dy) {
+  isFitted = false;
+  view.x -= dx / view.scale;
+  view.y += dy / view.scale;
+}
+
+/// Takes the canvas as large as the page has it.
+function resizeView() {
+  const { width, height } = canvas.getBoundingClientRect();
+  Object.assign(view, { width, height, density: window.devicePixelRatio || 1 });
+  canvas.width = Math.round(width * view.density);
+  canvas.height = Math.round(height * view.density);
+  if (isFitted && settings.followed < 0) fitView();
+}
+
+/// Whole box lengths by which images are seen besides the box itself: pairs of numbers. `round` says whether all that the view
+/// reaches are asked for, or only those that an edge of the box cuts off.
+function visibleShifts(all) {
+  const most = 4;
+  const range = (axis, low, high) => {
+    if (!box.periodic[axis]) return [0, 0];
+    if (!all) return [-1, 1];
+    const count = (value) => Math.min(Math.max(value, -most), most);
+    return [count(Math.floor((low - box.lower[axis]) / box.lengths[axis])), count(Math.floor((high - box.lower[axis]) / box.lengths[axis]))];
+  };
+  const [left, right] = range(0, placeX(0), placeX(view.width));
+  const [bottom, top] = range(1, placeY(view.height), placeY(0));
+  const shifts = [];
+  for (let b = bottom; b <= top; ++b) for (let a = left; a <= right; ++a) shifts.push([a, b]);
+  return shifts;
+}
+
+/// The disk at a pixel, or -1.
+function diskAt(px, py, moment) {
+  const x = placeX(px);
+  const y = placeY(py);
+  const reach = 4 / view.scale;  // a finger's breadth round a small one
+  let best = -1;
+  let nearest = Infinity;
+  for (let i = 0; i < disks; ++i) {
+    let dx = x - moment.x[i];
+    let dy = y - moment.y[i];
+    if (box.periodic[0]) dx -= Math.round(dx / box.lengths[0]) * box.lengths[0];
+    if (box.periodic[1]) dy -= Math.round(dy / box.lengths[1]) * box.lengths[1];
+    const distance = Math.hypot(dx, dy) - radius[i] * moment.scale;
+    if (distance < Math.min(reach, nearest)) {
+      nearest = distance;
+      best = i;
+    }
+  }
+  return best;
+}

@@ -1,0 +1,213 @@
+// Decides how a run can be shown, and packs it.
+
+#include "show/player_data.hpp"
+
+#include "observe/equilibrium.hpp"
+#include "show/number_columns.hpp"
+#include "show/player_samples.hpp"
+#include "show/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+namespace carom {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using detail::NumberColumns;
+
+Json pair(const Eigen::Vector2d& v) { return Json::array({v.x(), v.y()}); }
+
+Json obstacles_of(const Effects& effects) {
+  Json list = Json::array();
+  for (const Obstacle& obstacle : effects.obstacles) {
+    if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape))
+      list.push_back({{"centre", pair(disk->centre)}, {"radius", disk->radius}});
+    else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle.shape))
+      list.push_back({{"from", pair(segment->from)}, {"to", pair(segment->to)}});
+  }
+  return list;
+}
+
+/// Along which axes the common motion is no heat, as in observe/mechanics.cpp.
+Json keeps_momentum(const Scene& scene) {
+  const Effects& effects = scene.effects;
+  const bool pushed = (effects.thermostat && effects.thermostat->rate > 0.0) || !effects.obstacles.empty() ||
+                      std::any_of(effects.walls.begin(), effects.walls.end(),
+                                  [](const WallProperties& wall) { return wall.temperature.has_value(); });
+  return Json::array({!pushed && scene.box.periodic(0), !pushed && scene.box.periodic(1)});
+}
+
+Json description_of(const RunReader& run) {
+  const Scene& scene = run.scene();
+  const Effects& effects = scene.effects;
+  Json json{{"title", run.title()}, {"disks", run.disks().count()}};
+  json["box"] = {{"lower", pair(scene.box.lower)},
+                 {"upper", pair(scene.box.upper)},
+                 {"periodic", Json::array({scene.box.periodic(0), scene.box.periodic(1)})}};
+  json["species"] = run.species_names();
+  json["gravity"] = pair(effects.gravity ? effects.gravity->acceleration : Eigen::Vector2d::Zero());
+  json["growth"] = effects.growth ? effects.growth->rate : 0.0;
+  json["obstacles"] = obstacles_of(effects);
+  json["keepsMomentum"] = keeps_momentum(scene);
+  json["whyNoZ"] = why_no_Z(effects);
+  json["Z"] = run.Z() ? Json(*run.Z()) : Json(nullptr);
+  json["facts"] = Json::array();
+  for (const auto& [name, value] : run.facts()) json["facts"].push_back({name, value});
+  return json;
+}
+
+/// The motion of each side that moves: rows of time, position and velocity, from each on with the same acceleration.
+struct WallTracks {
+  std::array<std::vector<double>, 4> rows;
+
+  void note(const Replay& replay) {
+    for (std::size_t side = 0; side < 4; ++side) {
+      const Replay::Side& now = replay.sides()[side];
+      std::vector<double>& track = rows[side];
+      if (track.empty() || track[track.size() - 3] != now.time || track[track.size() - 1] != now.velocity)
+        track.insert(track.end(), {now.time, now.position, now.velocity});
+    }
+  }
+  void put(const Replay& replay, NumberColumns& columns, Json& json) const {
+    json["accelerations"] = Json::array();
+    for (std::size_t side = 0; side < 4; ++side) {
+      columns.add(fmt::format("wall{}", side), rows[side]);
+      json["accelerations"].push_back(replay.sides()[side].acceleration);
+    }
+  }
+};
+
+/// Events as columns. A partner that is no disk has a number after theirs: sides of the box, then `rescale`, then obstacles.
+template <class Id>
+struct EventColumns {
+  std::vector<double> time;
+  std::vector<Id> disk, partner;
+  std::vector<std::array<double, 4>> velocity;
+
+  void add(const Event& event, std::size_t disks) {
+    const auto code = event.partner >= 0               ? event.partner
+                      : event.partner > first_obstacle ? static_cast<std::int32_t>(disks) - 1 - event.partner
+                                                       : static_cast<std::int32_t>(disks) + 5 + first_obstacle - event.partner;
+    push(event.time, static_cast<Id>(event.disk), static_cast<Id>(code),
+         {event.velocity.x(), event.velocity.y(), event.partner_velocity.x(), event.partner_velocity.y()});
+  }
+  void add_rescaling(double when, double factor, std::size_t disks) {
+    push(when, Id{0}, static_cast<Id>(disks + 4), {factor, 0.0, 0.0, 0.0});
+  }
+  void push(double when, Id first, Id second, const std::array<double, 4>& velocities) {
+    time.push_back(when);
+    disk.push_back(first);
+    partner.push_back(second);
+    velocity.push_back(velocities);
+  }
+  template <class Real>
+  void put(NumberColumns& columns) const {
+    columns.add("time", time);
+    columns.add("disk", disk);
+    columns.add("partner", partner);
+    std::vector<Real> flat;
+    for (const auto& four : velocity)
+      for (const double v : four) flat.push_back(static_cast<Real>(v));
+    columns.add("velocity", flat);
+  }
+};
+
+/// How far rounding the velocities puts a disk from where it is, at most, at any time up to `end`.
+double rounding_error(const Scene& scene, const Disks& disks, const State& start, const std::vector<Event>& events, double end) {
+  Replay exact(scene, disks, start), rounded(scene, disks, start, VelocityDigits::single);
+  double largest = 0.0;
+  const auto compare = [&](std::size_t i, double time) {
+    largest = std::max(largest, (exact.position(i, time) - rounded.position(i, time)).norm());
+  };
+  for (const Event& event : events) {
+    compare(static_cast<std::size_t>(event.disk), event.time);
+    if (event.partner >= 0) compare(static_cast<std::size_t>(event.partner), event.time);
+    const bool rescaled = exact.apply(event).has_value();
+    rounded.apply(event);
+    if (rescaled)
+      for (std::size_t i = 0; i < disks.count(); ++i) compare(i, event.time);
+  }
+  for (std::size_t i = 0; i < disks.count(); ++i) compare(i, end);
+  return largest;
+}
+
+template <class Id>
+void put_events(const RunReader& run, const State& start, const std::vector<Event>& events, VelocityDigits digits,
+                NumberColumns& columns, Json& json) {
+  const std::size_t disks = run.disks().count();
+  EventColumns<Id> packed;
+  WallTracks tracks;
+  Replay replay(run.scene(), run.disks(), start, digits);
+  tracks.note(replay);
+  for (const Event& event : events) {
+    const auto factor = replay.apply(event);
+    packed.add(event, disks);
+    if (factor) packed.add_rescaling(event.time, *factor, disks);
+    tracks.note(replay);
+  }
+  digits == VelocityDigits::single ? packed.template put<float>(columns) : packed.template put<double>(columns);
+  tracks.put(replay, columns, json);
+}
+
+/// The start and every event; false where that does not tell how the disks moved.
+bool put_replay(const RunReader& run, NumberColumns& columns, Json& json, std::string& why_not) {
+  const Scene& scene = run.scene();
+  const std::vector<Event> events = run.event_log();
+  const State start = run.sample(0);
+  const double tolerance = player_tolerance * scene.box.lengths().maxCoeff();
+  const double distance = distance_from_samples(scene, Replay(scene, run.disks(), start), events, run.samples(),
+                                                [&](std::uint64_t k) { return run.sample(k); });
+  if (!(distance <= tolerance)) {
+    why_not = fmt::format("the collisions in its log do not lead to its samples (they are up to {:.2g} apart)", distance);
+    return false;
+  }
+  const double rounding = rounding_error(scene, run.disks(), start, events, run.end());
+  const VelocityDigits digits = rounding <= tolerance ? VelocityDigits::single : VelocityDigits::twice;
+  std::vector<double> state;
+  for (Eigen::Index i = 0; i < start.positions.cols(); ++i)
+    state.insert(state.end(), {start.positions(0, i), start.positions(1, i), start.velocities(0, i), start.velocities(1, i)});
+  columns.add("start", state);
+  const bool short_ids = run.disks().count() + 5 + scene.effects.obstacles.size() <= std::numeric_limits<std::uint16_t>::max();
+  short_ids ? put_events<std::uint16_t>(run, start, events, digits, columns, json)
+            : put_events<std::uint32_t>(run, start, events, digits, columns, json);
+  json["duration"] = std::max(run.end(), events.empty() ? 0.0 : events.back().time);
+  json["scale"] = start.scale;
+  json["distance"] = distance;
+  json["rounding"] = digits == VelocityDigits::single ? rounding : 0.0;
+  return true;
+}
+
+std::string why_not_exact(const RunReader& run, const PlayerLimits& limits) {
+  if (!run.has_event_log()) return "the run kept no event log (carom run --events)";
+  if (run.events() > limits.events)
+    return fmt::format("its {} events are more than the {} that a page can hold", run.events(), limits.events);
+  return why_no_replay(run.scene());
+}
+
+}  // namespace
+
+PlayerData player_data(const RunReader& run, const PlayerLimits& limits) {
+  NumberColumns columns;
+  Json json = description_of(run);
+  columns.add("radius", run.disks().radius);
+  columns.add("mass", run.disks().mass);
+  columns.add("species", std::vector<std::uint16_t>(run.disks().species.begin(), run.disks().species.end()));
+  PlayerData data;
+  data.why_not = why_not_exact(run, limits);
+  data.exact = data.why_not.empty() && put_replay(run, columns, json, data.why_not);
+  if (!data.exact) detail::put_samples(run, limits.sample_bytes, columns, json);
+  json["exact"] = data.exact;
+  json["whyNot"] = data.why_not;
+  json["columns"] = columns.list();
+  data.description = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  data.columns = columns.take_bytes();
+  return data;
+}
+
+}  // namespace carom

@@ -1,0 +1,183 @@
+// Runs read back: what the engine had is what the reader gives, and every kind of directory that is no finished run is refused in
+// one sentence.
+
+#include "io/run_reader.hpp"
+
+#include "support/child_process.hpp"
+#include "support/recorded_run.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace carom::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+const std::string mixture = R"(
+title = "Two kinds"
+[box]
+x = [-1.0, 4.0]
+y = [0.0, 4.0]
+boundary = { x = "periodic", y = "walls" }
+[[disks]]
+name = "large"
+count = 6
+radius = 0.3
+mass = 2.0
+positions = "random"
+velocities = { temperature = 1.0 }
+[[disks]]
+name = "small"
+count = 9
+radius = 0.1
+mass = 0.5
+positions = "random"
+velocities = { temperature = 1.0 }
+[collision]
+rule = "specular"
+[walls]
+top = { velocity = 0.25 }
+[run]
+time = 3.0
+sample_every = 0.25
+[output]
+events = true
+)";
+
+class RunReaderTest : public ::testing::Test {
+ protected:
+  [[nodiscard]] fs::path recorded(const std::vector<std::string>& overrides = {}) {
+    record(parse_scene(mixture, "mixture", overrides), run_);
+    return run_;
+  }
+  [[nodiscard]] std::string refusal(const fs::path& path) const {
+    try {
+      const RunReader reader(path);
+      return "no error";
+    } catch (const OutputError& error) {
+      return error.what();
+    }
+  }
+  void cut(const std::string& name, std::size_t bytes) const {
+    const std::string whole = text_of(run_ / name);
+    write_text(run_ / name, whole.substr(0, std::min(bytes, whole.size())));
+  }
+
+  TemporaryDirectory directory_;
+  fs::path run_ = directory_.path() / "run";
+};
+
+TEST_F(RunReaderTest, GivesStatesAndEventsOfTheEngineBitByBit) {
+  const RunReader reader(recorded());
+  Simulation simulation = make_simulation(parse_scene(mixture));
+  simulation.record_events(true);
+  ASSERT_EQ(reader.samples(), 13U);
+  std::vector<Event> events;
+  for (std::uint64_t k = 0; k < reader.samples(); ++k) {
+    simulation.run_until(0.25 * static_cast<double>(k));
+    const State expected = simulation.state();
+    const State state = reader.sample(k);
+    EXPECT_EQ(state.time, expected.time);
+    EXPECT_EQ(state.positions, expected.positions);
+    EXPECT_EQ(state.velocities, expected.velocities);
+    ASSERT_EQ(state.walls.size(), 4U);
+    EXPECT_EQ(state.walls[3].position, expected.walls[3].position);
+    for (const Event& event : simulation.take_events()) events.push_back(event);
+  }
+  const std::vector<Event> log = reader.event_log();
+  ASSERT_EQ(log.size(), events.size());
+  ASSERT_GT(log.size(), 20U);
+  for (std::size_t e = 0; e < log.size(); ++e) {
+    EXPECT_EQ(log[e].time, events[e].time);
+    EXPECT_EQ(log[e].disk, events[e].disk);
+    EXPECT_EQ(log[e].partner, events[e].partner);
+    EXPECT_EQ(log[e].velocity, events[e].velocity);
+    EXPECT_EQ(log[e].partner_velocity, events[e].partner_velocity);
+  }
+}
+
+TEST_F(RunReaderTest, KnowsTheSceneAndItsDisks) {
+  const RunReader reader(recorded());
+  EXPECT_EQ(reader.title(), "Two kinds");
+  EXPECT_THAT(reader.species_names(), ElementsAre("large", "small"));
+  EXPECT_EQ(reader.disks().radius[0], 0.3);
+  EXPECT_EQ(reader.disks().mass[14], 0.5);
+  EXPECT_EQ(reader.disks().species[6], 1);
+  EXPECT_EQ(reader.scene().box.upper, Eigen::Vector2d(4.0, 4.0));
+  EXPECT_EQ(reader.scene().effects.walls[3].velocity, 0.25);
+  EXPECT_EQ(reader.end(), 3.0);
+  EXPECT_FALSE(reader.Z());  // a wall moves
+}
+
+TEST_F(RunReaderTest, FoldsUnwrappedPositionsIntoTheBox) {
+  const RunReader reader(recorded({"output.unwrapped=true"}));
+  bool leaves = false;
+  Simulation simulation = make_simulation(parse_scene(mixture));
+  simulation.run_until(3.0);
+  const State expected = simulation.state();
+  const State state = reader.sample(12);
+  for (Eigen::Index i = 0; i < 15; ++i) {
+    leaves = leaves || expected.images(0, i) != 0;
+    // Adding some box lengths of 5 and taking them away again rounds twice, at numbers below 32.
+    EXPECT_NEAR(state.positions(0, i), expected.positions(0, i), 2 * 32 * 0x1p-53);
+  }
+  EXPECT_TRUE(leaves);
+}
+
+TEST_F(RunReaderTest, ReadsARunWhoseStartFileIsGone) {
+  const std::string start = directory_.file("start.csv");
+  write_text(start, "x,y,vx,vy\n1,1,0.5,0.25\n3,3,0,-1\n");
+  const std::string scene =
+      "[box]\nx = [0, 4]\ny = [0, 4]\nboundary = \"walls\"\n[[disks]]\nradius = 0.5\nmass = 1.0\npositions = { file = \"" +
+      start +
+      "\" }\n[collision]\nrule = \"specular\"\n[run]\ntime = 2.0\nsample_every = 1.0\n[gravity]\nacceleration = [0, -1]\n";
+  record(parse_scene(scene), run_);
+  fs::remove(start);
+  const RunReader reader(run_);
+  EXPECT_EQ(reader.sample(0).positions.col(1), Eigen::Vector2d(3.0, 3.0));
+  EXPECT_EQ(reader.scene().effects.gravity->acceleration.y(), -1.0);
+  EXPECT_FALSE(reader.has_event_log());
+}
+
+TEST_F(RunReaderTest, RefusesWhatIsNoRun) {
+  EXPECT_THAT(refusal(directory_.path() / "nowhere"), HasSubstr("there is no such directory"));
+  EXPECT_THAT(refusal(directory_.path()), AllOf(StartsWith(directory_.path().string() + ": "), HasSubstr("no finished run")));
+  write_text(directory_.path() / "file.xyz", "1\n");
+  EXPECT_THAT(refusal(directory_.path() / "file.xyz"), HasSubstr("this is a file; name the run directory"));
+}
+
+TEST_F(RunReaderTest, RefusesARunThatStillGoesOn) {
+  const fs::path run = recorded();
+  fs::remove(run / "summary.json");
+  fs::rename(run / "trajectory.h5md", run / "trajectory.h5md.partial");
+  EXPECT_THAT(refusal(run), HasSubstr("this run still goes on"));
+}
+
+TEST_F(RunReaderTest, RefusesARunWithoutATrajectoryOrSamples) {
+  EXPECT_THAT(refusal(recorded({"output.trajectory=false"})), HasSubstr("kept no samples"));  // events alone
+  fs::remove(run_ / "trajectory.h5md");
+  EXPECT_THAT(refusal(run_), HasSubstr("kept no trajectory.h5md"));
+}
+
+TEST_F(RunReaderTest, RefusesFilesThatAreCutShort) {
+  const fs::path run = recorded();
+  const std::string whole = text_of(run / "trajectory.h5md");
+  for (const std::size_t bytes : {std::size_t{0}, std::size_t{100}, whole.size() / 2, whole.size() - 1}) {
+    write_text(run / "trajectory.h5md", whole);
+    cut("trajectory.h5md", bytes);
+    EXPECT_THAT(refusal(run), AllOf(HasSubstr("trajectory.h5md: HDF5 cannot read this file"), HasSubstr("cut short")));
+  }
+  write_text(run / "trajectory.h5md", whole);
+  cut("summary.json", 200);
+  EXPECT_THAT(refusal(run), HasSubstr("summary.json: this is not the summary of a run"));
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,30 @@
+#pragma once
+// Runs a scene and keeps it in a directory, as `carom run` does, but within the test.
+
+#include "io/run_writer.hpp"
+#include "observe/run_measurements.hpp"
+
+#include <carom/simulation.hpp>
+
+#include <filesystem>
+
+namespace carom::test {
+
+inline void record(const Scene& scene, const std::filesystem::path& directory) {
+  Simulation simulation = make_simulation(scene);
+  RunWriter writer(RunDirectory(directory, false), scene, simulation.disks(),
+                   {.resolved_scene = resolved_toml(scene), .command_line = "in a test", .engine = simulation.engine()});
+  RunMeasurements measurements(simulation);
+  RunHooks hooks;
+  hooks.start = [&](const State& state) { measurements.start(state); };
+  hooks.sample = [&](std::uint64_t k, const State& state) {
+    measurements.sample(state);
+    writer.sample(k, state);
+  };
+  if (scene.output.events) hooks.events = [&](std::span<const Event> events) { writer.events(events); };
+  hooks.block = [&](const Progress& progress) { measurements.block(progress); };
+  const RunResult result = run_schedule(simulation, hooks);
+  writer.finish(measurements.report(result, 0.0));
+}
+
+}  // namespace carom::test
