@@ -24,11 +24,17 @@ template <class Real>
   return parting < hop ? hop : parting;
 }
 
-/// A disk meets a fixed, smooth, elastic surface; `normal` points from there to its centre. Returns the impulse that the surface
-/// took.
+/// What a fixed surface had of a disk that it threw back.
 template <class Real>
-[[nodiscard]] Vec2<Real> bounce_off(const Vec2<Real>& normal, Vec2<Real>& v, const Vec2<Real>& g, Real mass, Real radius,
-                                    Real growth) {
+struct Bounce {
+  Vec2<Real> impulse;  ///< that the surface took
+  Real energy = 0;     ///< that the disk gained because it grows
+};
+
+/// A disk meets a fixed, smooth, elastic surface; `normal` points from there to its centre.
+template <class Real>
+[[nodiscard]] Bounce<Real> bounce_off(const Vec2<Real>& normal, Vec2<Real>& v, const Vec2<Real>& g, Real mass, Real radius,
+                                      Real growth) {
   using std::sqrt;
   const Real distance = sqrt(normal.squaredNorm());
   const Vec2<Real> surface = v - (growth / distance) * normal;
@@ -38,7 +44,8 @@ template <class Real>
   const Real closing = b < 0 ? -b / distance : Real(0);
   const Real parting = rebound<Real>(closing, 1, -normal.dot(g) / distance, radius);
   if (parting > closing) v += ((parting - closing) / distance) * normal;
-  return mass * (before - v);
+  const Vec2<Real> impulse = mass * (before - v);
+  return {impulse, growth > 0 ? -impulse.dot(before + v) / 2 : Real(0)};
 }
 
 }  // namespace carom

@@ -79,8 +79,10 @@ struct AnyWorld {
     const double growth = growth_ * disk.radius / scale(now);
     if (what <= first_obstacle) {
       ++totals.obstacle;
-      totals.obstacle_impulse += bounce_off<double>(obstacles.from_nearest_point(first_obstacle - what, disk.r), v, falling.g,
-                                                    disk.mass, disk.radius, growth);
+      const Vec2<double> normal = obstacles.from_nearest_point(first_obstacle - what, disk.r);
+      const auto bounce = bounce_off<double>(normal, v, falling.g, disk.mass, disk.radius, growth);
+      totals.obstacle_impulse += bounce.impulse;
+      totals.growth_energy += bounce.energy;
       return;
     }
     const Wall wall = static_cast<Wall>(what);

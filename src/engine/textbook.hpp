@@ -114,11 +114,7 @@ class TextbookEngine {
     if (image_speed != 0) totals_.shear_energy += static_cast<double>(b.mass * (image_before - b.v[0]) * image_speed);
     b.v[0] -= image_speed;
     if (recording_) log_event(i, j, a.v, b.v);
-    if (outruns_epoch(a.v, now_, box_size_) || outruns_epoch(b.v, now_, box_size_)) {
-      ++totals_.numerics.outrun;
-      begin_epoch(now_);
-      return;
-    }
+    if (outruns_epoch(a.v, now_, box_size_) || outruns_epoch(b.v, now_, box_size_)) return begin_epoch_early();
     predict(i);
     predict(j);
   }
@@ -133,6 +129,7 @@ class TextbookEngine {
     totals_.wall_energy[index_of(wall)] += static_cast<double>(hit.energy);
     impact_.touched(i, now_);
     if (recording_) log_event(i, wall, a.v, Vec2<Real>(0, 0));
+    if (outruns_epoch(a.v, now_, box_size_)) return begin_epoch_early();
     if (walls_.is_piston(wall)) plan_boundaries_anew();
     predict(i);
   }
@@ -160,11 +157,13 @@ class TextbookEngine {
     bring_to_now(i);
     Record& a = record(i);
     ++totals_.obstacle;
-    totals_.obstacle_impulse +=
-        bounce_off<Real>(obstacles_.from_nearest_point(obstacle, a.r), a.v, falling_.g, a.mass, a.radius, a.radius * growth_)
-            .template cast<double>();
+    const Vec2<Real> normal = obstacles_.from_nearest_point(obstacle, a.r);
+    const auto bounce = bounce_off<Real>(normal, a.v, falling_.g, a.mass, a.radius, a.radius * growth_);
+    totals_.obstacle_impulse += bounce.impulse.template cast<double>();
+    totals_.growth_energy += static_cast<double>(bounce.energy);
     impact_.touched(i, now_);
     if (recording_) log_event(i, first_obstacle - obstacle, a.v, Vec2<Real>(0, 0));
+    if (outruns_epoch(a.v, now_, box_size_)) return begin_epoch_early();
     predict(i);
   }
 
@@ -206,8 +205,9 @@ class TextbookEngine {
       if (!domain_.periodic[axis])
         for (const bool upper : {false, true}) consider_wall(i, wall_of(axis, upper));
     if (obstacles_.empty()) return;
-    const Real until = std::min(mine.crossing.time, mine.boundary.time) - a.t;
-    const auto meeting = obstacles_.next(a.r, a.v, falling_.g, radius_at(a, a.t), a.radius * growth_, until);
+    Real until = std::min(mine.crossing.time, mine.boundary.time);
+    if (until < infinity<Real>) until = std::min(until, epoch_length_);  // a piston may be far away, and all is planned anew then
+    const auto meeting = obstacles_.next(a.r, a.v, falling_.g, radius_at(a, a.t), a.radius * growth_, until - a.t);
     if (a.t + meeting.time < mine.boundary.time) mine.boundary = {a.t + meeting.time, first_obstacle - meeting.obstacle};
   }
 
@@ -305,6 +305,12 @@ class TextbookEngine {
       events.push_back(next_of(i));
     }
     queue_.assign(events);
+  }
+
+  /// A disk has outrun the epoch.
+  void begin_epoch_early() {
+    ++totals_.numerics.outrun;
+    begin_epoch(now_);
   }
 
   /// epoch_length() for the disks as they move now.

@@ -117,7 +117,8 @@ class AllPairs {
     const Instant when = epoch_.plus(now);
     event.time = when.high;
     event.time_remainder = when.low;
-    if (b >= 0 && (outruns_epoch(v_[at(a)], now, box_size()) || outruns_epoch(v_[at(b)], now, box_size()))) begin_epoch(now);
+    const auto outruns = [&](int i) { return outruns_epoch(v_[at(i)], now, box_size()); };
+    if (outruns(a) || (b >= 0 && outruns(b))) begin_epoch(now);
     return event;
   }
 
