@@ -136,8 +136,10 @@ void check_overlaps(const SceneDraft& draft) {
     }
     row -= rows;
   }
-  throw SceneError(where, fmt::format("disks {} and {} overlap by {:.6g}; their centres must be at least {:.6g} apart",
-                                      ids[first], ids[second], overlap.relative * contact, contact));
+  throw SceneError(
+      where, fmt::format("disks {} and {} overlap by {:.6g}; their centres must be at least {:.6g} apart, or run them as they "
+                         "are with --accept-overlap (accept_overlap = true in [run])",
+                         ids[first], ids[second], overlap.relative * contact, contact));
 }
 
 /// A run that only counts collisions needs two disks to ever end.

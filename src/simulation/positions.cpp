@@ -99,9 +99,11 @@ class Placement {
       if (!scene_.run.accept_overlap && found.relative_overlap > accepted_overlap) {
         throw SceneError(
             scene_.species[s].positions_where,
-            fmt::format("disks {} and {} overlap by {:.3g} of their contact distance {:g}; move them apart or make them smaller",
-                        found.disk, i, found.relative_overlap,
-                        disks_.radius[static_cast<std::size_t>(i)] + disks_.radius[static_cast<std::size_t>(found.disk)]));
+            fmt::format(
+                "disks {} and {} overlap by {:.3g} of their contact distance {:g}; move them apart, make them smaller, or run "
+                "them as they are with accept_overlap = true in [run]",
+                found.disk, i, found.relative_overlap,
+                disks_.radius[static_cast<std::size_t>(i)] + disks_.radius[static_cast<std::size_t>(found.disk)]));
       }
       put(i, position);
     }
