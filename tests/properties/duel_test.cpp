@@ -8,6 +8,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -29,6 +32,17 @@ RC_GTEST_PROP(PropertyDuel, EnginesStaySoundAndAgreeOnScenesWithAnyEffects, ()) 
   } catch (const SceneError&) {
     RC_DISCARD("the scene check refuses it");
   }
+}
+
+TEST(PropertyDuel, EnginesStaySoundAndAgreeOnWhatFuzzingHasFound) {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(CAROM_SOURCE_DIR "/tests/fuzz/findings/physics")) {
+    std::ifstream file(entry.path(), std::ios::binary);
+    const std::vector<std::uint8_t> bytes(std::istreambuf_iterator<char>(file), {});
+    EXPECT_EQ(duel(parse_scene(decoded_scene(bytes))), "") << entry.path().filename();
+    ++scenes;
+  }
+  EXPECT_GT(scenes, 0);
 }
 
 }  // namespace

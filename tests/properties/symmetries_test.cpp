@@ -61,8 +61,8 @@ void for_all_points(std::vector<Obstacle>& obstacles, Change&& change) {
 /// The events of `scene` and of `changed`, translated back, must not part.
 template <class Back>
 void expect_same_events(const Scene& scene, const Scene& changed, Back&& back) {
-  const std::size_t count = determined(fight(scene, "textbook", events), fight(scene, "textbook-long-double", events),
-                                       static_cast<std::size_t>(scene.disk_count()));
+  const std::size_t count =
+      determined(scene, fight(scene, "textbook", events), fight(scene, "textbook-long-double", events), events);
   for (const std::string& engine : engines_covering(scene)) {
     if (engine != "fast" && engine != "general" && engine != "textbook") continue;
     const Fighter one = fight(scene, engine, events);
@@ -196,6 +196,7 @@ RC_GTEST_PROP(PropertySymmetries, OtherUnitsOfLengthAndTimeChangeNoBit, ()) {
   for (const std::string& engine : engines_covering(*scene)) {
     if (engine == "textbook-float") continue;  // its exponents end near
     const State one = after(*scene, engine), other = after(in_other_units(*scene, a, b), engine);
+    if (!in_range(one)) continue;
     State back = other;
     back.time = std::ldexp(other.time, -b);
     back.positions *= std::ldexp(1.0, -a);

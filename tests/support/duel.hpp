@@ -23,6 +23,7 @@ struct Fighter {
   Numerics numerics;
   std::string complaint;  ///< empty where the engine stayed sound
   double length = 0.0;    ///< of the box
+  double pull = 0.0;      ///< acceleration of what falls
 };
 
 /// Whether the disks have nobody to give momentum along an axis to but each other.
@@ -32,14 +33,24 @@ inline bool keeps_momentum(const Scene& scene, int axis) {
   return scene.box.periodic(axis) && effects.obstacles.empty() && !thermal && !effects.thermostat && !effects.shear;
 }
 
-/// Of the potential energy of all disks and pistons, for positions rounded at their size.
-inline double height_error(const Scene& scene, const Disks& disks) {
+/// How far the energy of weights may be off. Places are rounded, those of all at the start and the end and those of one or two
+/// disks at every event: r + v t + g t^2/2 by 8 roundings of the box's size. A disk that lands with next to no speed hops, by
+/// 2^-40 of its radius (effects/rebound.hpp).
+inline double height_error(const Scene& scene, const Disks& disks, const Totals& totals, double scale) {
+  const Effects& effects = scene.effects;
   const double place = std::max(scene.box.lower.cwiseAbs().maxCoeff(), scene.box.upper.cwiseAbs().maxCoeff());
-  double force = 0.0;
-  for (const double mass : disks.mass)
-    if (scene.effects.gravity) force += mass * scene.effects.gravity->acceleration.norm();
-  for (const WallProperties& wall : scene.effects.walls) force += wall.load.value_or(0.0) * scene.box.lengths().maxCoeff();
-  return 8.0 * epsilon<double> * place * force;
+  const double g = effects.gravity ? effects.gravity->acceleration.norm() : 0.0;
+  double loads = 0.0, heaviest = 0.0, largest = 0.0, weight = 0.0;
+  for (const WallProperties& wall : effects.walls) loads += wall.load.value_or(0.0) * scene.box.lengths().maxCoeff();
+  for (std::size_t i = 0; i < disks.count(); ++i) {
+    heaviest = std::max(heaviest, disks.mass[i] * g);
+    largest = std::max(largest, disks.radius[i] * scale);
+    weight += disks.mass[i] * g;
+  }
+  const auto bounces = static_cast<double>(totals.wall + totals.obstacle);
+  const double events = bounces + static_cast<double>(totals.pair + totals.well);
+  return 8.0 * epsilon<double> * place * (2.0 * (weight + loads) + 2.0 * events * (heaviest + loads)) +
+         bounces * 0x1p-40 * largest * (heaviest + loads);
 }
 
 /// Energy that growing disks gave each other, before velocities were rescaled.
@@ -48,13 +59,42 @@ inline double pumped(const Scene& scene, const Disks& disks, const Totals& total
   const double heaviest = *std::max_element(disks.mass.begin(), disks.mass.end());
   const double largest = *std::max_element(disks.radius.begin(), disks.radius.end());
   const double speed = 2.0 * largest * scene.effects.growth->rate;
-  return static_cast<double>(totals.pair + totals.wall) * 4.0 * heaviest * speed * speed;
+  return static_cast<double>(totals.pair + totals.wall + totals.obstacle) * 4.0 * heaviest * speed * speed;
 }
 
-/// Runs about `count` events of any kind and looks at the engine now and then.
-inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_t count) {
-  Fighter fighter{engine, {}, {}, {}, scene.box.lengths().maxCoeff()};
+/// The largest acceleration of a disk or piston.
+inline double pull(const Scene& scene) {
+  double most = scene.effects.gravity ? scene.effects.gravity->acceleration.norm() : 0.0;
+  for (const WallProperties& wall : scene.effects.walls)
+    if (wall.mass) most = std::max(most, wall.load.value_or(0.0) * scene.box.lengths().maxCoeff() / *wall.mass);
+  return most;
+}
+
+/// Moves every coordinate by the rounding of a few operations with it, this way and that.
+inline void nudge(const Box& box, double by, State& state) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const double step = by * epsilon<double> * std::max(std::abs(box.lower[axis]), std::abs(box.upper[axis]));
+    for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
+      double& x = state.positions(axis, i);
+      x += (i + axis) % 2 == 0 ? step : -step;
+      if (box.periodic(axis) && x < box.lower[axis]) x = box.lower[axis];
+      if (box.periodic(axis) && x >= box.upper[axis]) x = std::nextafter(box.upper[axis], box.lower[axis]);
+    }
+  }
+}
+
+/// Whether the squares of all speeds are numbers with all their digits. Collisions that dissipate take gases out of that range.
+inline bool in_range(const State& state) {
+  const auto fast_enough = [](const auto& v) { return v.isZero(0.0) || v.cwiseAbs().maxCoeff() > 1e-120; };
+  const auto columns = state.velocities.colwise();
+  return std::all_of(columns.begin(), columns.end(), fast_enough);
+}
+
+/// Runs about `count` events of any kind and looks at the engine now and then. `nudged`: the start, by so many roundings.
+inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_t count, double nudged = 0.0) {
+  Fighter fighter{engine, {}, {}, {}, scene.box.lengths().maxCoeff(), pull(scene)};
   Start start = draw_start(scene);
+  if (nudged != 0.0) nudge(scene.box, nudged, start.state);
   const Disks disks = start.disks;
   const auto running = detail::make_engine(detail::choose_engine(scene, disks, engine), scene, disks, std::move(start.state));
   const auto energies = [&](const State& state) { return energies_of(scene.box, scene.effects, disks, state); };
@@ -76,6 +116,7 @@ inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_
     }
     largest = std::max(largest, energies(state).scale());
     last_time = time;
+    if (!in_range(state)) break;
   }
   fighter.events = running->take_events();
   fighter.numerics = running->totals().numerics;
@@ -87,6 +128,7 @@ inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_
   double turnover = largest + std::abs(totals.dissipated) + std::abs(totals.kick_energy) + std::abs(totals.growth_energy) +
                     std::abs(totals.shear_energy) + pumped(scene, disks, totals);
   for (const double energy : totals.wall_energy) turnover += std::abs(energy);
+  if (totals.well > 0) turnover += std::abs(scene.effects.square_well->depth);  // in and out again between two looks
   const State end = running->state();
   for (int axis = 0; axis < 2 && !scene.effects.growth; ++axis) {
     double gained = 0.0, size = 0.0;
@@ -98,21 +140,24 @@ inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_
     if (keeps_momentum(scene, axis) && !(std::abs(gained) <= 1e-11 * size))
       fighter.complaint = fmt::format("{}: momentum along axis {} changed by {} of {}", engine, axis, gained, size);
   }
-  // Every event rounds what it moves a few times, by 1e-16 of it; there are some thousand of them. Heights are known to the
-  // rounding of positions.
-  if (!gives_untold(scene.effects) && !(std::abs(change) <= 1e-11 * turnover + height_error(scene, disks)))
+  // Every event rounds what it moves a few times, by 1e-16 of it; there are some thousand of them.
+  if (!gives_untold(scene.effects) && !(std::abs(change) <= 1e-11 * turnover + height_error(scene, disks, totals, end.scale)))
     fighter.complaint = fmt::format("{}: energy changed by {} of {} unexplained", engine, change, turnover);
   return fighter;
 }
 
-/// Of two events, to a billionth, in a box of that length: places are known to a part in 1e13 of it.
-inline bool agree(const Event& a, const Event& b, double length, double tolerance = 1e-9) {
+/// Of two events in a fighter's scene, to a billionth. Places are known to a part in 1e13 of the box, so squares of speeds to
+/// what a fall from there to here gives.
+inline bool agree(const Event& a, const Event& b, const Fighter& fighter, double tolerance = 1e-9) {
   const double time = std::max(std::abs(a.time), std::abs(b.time));
   const double speed = std::max({a.velocity.norm(), b.velocity.norm(), a.partner_velocity.norm(), b.partner_velocity.norm()});
-  return a.disk == b.disk && a.partner == b.partner &&
-         std::abs(a.time - b.time) * speed <= tolerance * time * speed + 1e-13 * length &&
-         (a.velocity - b.velocity).norm() <= tolerance * speed &&
-         (a.partner_velocity - b.partner_velocity).norm() <= tolerance * speed;
+  const double place = 1e-13 * fighter.length;
+  const auto alike = [&](const Eigen::Vector2d& v, const Eigen::Vector2d& w) {
+    return (v - w).norm() * speed <= tolerance * speed * speed + fighter.pull * place;
+  };
+  const bool same_partner = a.partner == b.partner || (a.partner < 0 && b.partner < 0);
+  return a.disk == b.disk && same_partner && std::abs(a.time - b.time) * speed <= tolerance * time * speed + place &&
+         alike(a.velocity, b.velocity) && alike(a.partner_velocity, b.partner_velocity);
 }
 
 /// Disks that part with next to no relative velocity meet again when rounding says so.
@@ -120,15 +165,44 @@ inline bool leaves_together(const Event& event) {
   return event.partner >= 0 && (event.velocity - event.partner_velocity).norm() <= 1e-5 * event.velocity.norm();
 }
 
-/// How many events are well determined: on so many two precisions agree to a billionth, no two come at one time, and nothing
-/// hangs on rounding. The last of them may be changing places with those that come next.
-inline std::size_t determined(const Fighter& one, const Fighter& finer, std::size_t disks) {
-  const std::size_t most = std::min(one.events.size(), finer.events.size());
+/// Whether a disk comes back to a wall or obstacle from a hop so low that rounding of places shows in it.
+class LowHops {
+ public:
+  explicit LowHops(std::size_t disks) : last_(disks) {}
+
+  bool seen(const Event& event, const Fighter& fighter) {
+    Event& last = last_[static_cast<std::size_t>(event.disk)];
+    const double flight = event.time - last.time;
+    const bool again = event.partner < 0 && last.partner == event.partner;
+    last = event;
+    if (event.partner >= 0) last_[static_cast<std::size_t>(event.partner)] = event;
+    return again && fighter.pull > 0.0 && fighter.pull * flight * flight / 8.0 <= 1e-10 * fighter.length;
+  }
+
+ private:
+  std::vector<Event> last_;  ///< of each disk
+};
+
+/// How many of a scene's events are well determined: two precisions agree on them to a billionth, and so do starts that differ by
+/// the rounding of coordinates, which is not the same in every engine and place; no two come at one time, and nothing hangs on
+/// rounding. The last of them may be changing places with those that come next.
+inline std::size_t determined(const Scene& scene, const Fighter& one, const Fighter& finer, std::uint64_t events) {
+  std::vector<Fighter> others = {finer};
+  for (const double nudged : {4.0, -4.0}) others.push_back(fight(scene, "textbook-long-double", events, nudged));
+  const auto disks = static_cast<std::size_t>(scene.disk_count());
+  // Whether a pair that contact has stopped meets again hangs on rounding.
+  const bool contact_stops = scene.effects.collision.restitution.value_or(1.0) <= 1e-5;
+  LowHops hops(disks);
   std::size_t count = 0;
-  for (; count < most; ++count) {
+  for (double last = 0.0; count < one.events.size(); ++count) {
     const Event& event = one.events[count];
-    const bool tied = count > 0 && event.time - one.events[count - 1].time <= 1e-9 * event.time;
-    if (!agree(event, finer.events[count], one.length) || leaves_together(event) || tied) break;
+    const bool tied = count > 0 && event.time - last <= 1e-9 * event.time;
+    const auto as_well = [&](const Fighter& other) {
+      return count < other.events.size() && agree(event, other.events[count], one);
+    };
+    if (!std::all_of(others.begin(), others.end(), as_well) || leaves_together(event) || tied) break;
+    if (hops.seen(event, one) || (contact_stops && event.partner >= 0)) break;
+    last = event.time;
   }
   return count - std::min(count, disks + 2);
 }
@@ -137,7 +211,7 @@ inline std::size_t determined(const Fighter& one, const Fighter& finer, std::siz
 inline std::string parting(const Fighter& one, const Fighter& other, std::size_t count) {
   for (std::size_t k = 0; k < std::min({one.events.size(), other.events.size(), count}); ++k) {
     const Event &a = one.events[k], &b = other.events[k];
-    if (!agree(a, b, one.length, 1e-6))
+    if (!agree(a, b, one, 1e-6))
       return fmt::format("event {}: {} has {} and {} at {}, {} has {} and {} at {}", k, one.engine, a.disk, a.partner, a.time,
                          other.engine, b.disk, b.partner, b.time);
   }
@@ -153,9 +227,7 @@ inline std::string duel(const Scene& scene, std::uint64_t events = 1000) {
       fighters.push_back(fight(scene, engine, events));
   for (const Fighter& fighter : fighters)
     if (!fighter.complaint.empty()) return fighter.complaint;
-  // Where contact stops the approach, whether a pair meets again hangs on rounding.
-  if (scene.effects.collision.restitution.value_or(1.0) < 0.2) return "";
-  const std::size_t compared = determined(*(fighters.end() - 2), fighters.back(), static_cast<std::size_t>(scene.disk_count()));
+  const std::size_t compared = determined(scene, *(fighters.end() - 2), fighters.back(), events);
   for (std::size_t k = 1; k < fighters.size(); ++k)
     if (const std::string difference = parting(fighters[k - 1], fighters[k], compared); !difference.empty()) return difference;
   return "";
