@@ -59,7 +59,7 @@ TrialResult rates(const std::string& trial, double eta, const Effort& effort) {
                            .source = "kinetic theory; g from the equation of state",
                            .expected = expected_path,
                            .measured = path,
-                           .allowance = expected_path * (2e-5 + 256.0 / (2.0 * effort.collisions(2e6))),
+                           .allowance = expected_path * (2e-5 + disks / (2.0 * gas.collisions)),
                            .allowance_for = "the error of the equation of state; long flights that do not end within the run"});
   const double mean = speed.value / measured.value;
   result.checks.push_back({.name = "mean free path times collisions per time, " + what,
@@ -67,7 +67,7 @@ TrialResult rates(const std::string& trial, double eta, const Effort& effort) {
                            .source = "a definition, measured in two ways",
                            .expected = mean,
                            .measured = {path.value, std::hypot(path.error, mean * measured.error / measured.value)},
-                           .allowance = expected_path * 1024.0 / effort.collisions(2e6),
+                           .allowance = expected_path * disks / (2.0 * gas.collisions),
                            .allowance_for = "flights that do not end within the run"});
   result.checks.push_back({.name = "mean square of the impact parameter over sigma, " + what,
                            .theory = "1/3: b is as likely anywhere from 0 to sigma",
