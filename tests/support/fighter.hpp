@@ -76,7 +76,7 @@ inline void nudge(const Box& box, double by, State& state) {
     const double step = by * epsilon<double> * std::max(std::abs(box.lower[axis]), std::abs(box.upper[axis]));
     for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
       double& x = state.positions(axis, i);
-      x += (i + axis) % 2 == 0 ? step : -step;
+      x += ((i + axis) % 2 == 0 ? step : -step) * static_cast<double>(i + 1);  // no two disks alike, or a tie stays one
       if (box.periodic(axis) && x < box.lower[axis]) x = box.lower[axis];
       if (box.periodic(axis) && x >= box.upper[axis]) x = std::nextafter(box.upper[axis], box.lower[axis]);
     }
