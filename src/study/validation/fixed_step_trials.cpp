@@ -87,10 +87,10 @@ TrialResult in_steps(const std::string& trial, const std::string& method, double
 void add_fixed_steps(std::vector<Trial>& trials) {
   const std::string group = "fixed steps";
   // In units of the mean free time, 0.417 here; where a step is short the methods differ from exact events by little.
-  for (const auto& [method, dt] :
-       std::vector<std::pair<std::string, double>>{{"naive", 0.02}, {"naive", 0.004}, {"grid", 0.02}, {"grid", 0.004}}) {
-    const std::string name = fmt::format("{}-{:g}", method, dt);
-    trials.push_back({name, group, false, [=](const Effort& effort) { return in_steps(name, method, dt, effort); }});
+  for (const FixedStep& step :
+       {FixedStep{"naive", 0.02}, FixedStep{"naive", 0.004}, FixedStep{"grid", 0.02}, FixedStep{"grid", 0.004}}) {
+    const std::string name = fmt::format("{}-{:g}", step.method, step.dt);
+    trials.push_back({name, group, false, [=](const Effort& effort) { return in_steps(name, step.method, step.dt, effort); }});
   }
 }
 
