@@ -107,9 +107,8 @@ ExitCode validate(const ValidateCommandOptions& options, const Invocation& invoc
       validation = validate(chosen, hooks, before);
     }
     if (!validation.complete) {
-      fmt::print(stderr,
-                 "carom: validate: interrupted; {} trials are kept in {}: the same command with --resume goes on from there\n",
-                 finished, directory.final_name("trials.jsonl").string());
+      fmt::print(stderr, "carom: validate: interrupted; {} in {}: the same command with --resume goes on from there\n",
+                 counted(finished, "finished trial"), directory.final_name("trials.jsonl").string());
       return exit_interrupted;
     }
     const std::string json = validation_json(validation, invocation.command_line);

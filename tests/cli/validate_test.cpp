@@ -61,7 +61,7 @@ TEST_F(PhysicsValidateCommand, WritesItsFilesGoesOnFromThemAndExitsFourWhereAChe
   const Outcome outcome = validate(one);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("equipartition-walls"), HasSubstr("agrees"),
-                                 HasSubstr("2 checks in 1 trials, seed 1: all hold"), HasSubstr("report.html")));
+                                 HasSubstr("2 checks in 1 trial, seed 1: all hold"), HasSubstr("report.html")));
   for (const char* product : {"found/trials.jsonl", "found/report.html", "found/validation.json"})
     EXPECT_TRUE(fs::exists(file(product))) << product;
   const auto json = nlohmann::json::parse(text_of(file("found/validation.json")));
@@ -94,7 +94,8 @@ TEST_F(PhysicsValidateCommand, InterruptedItKeepsWhatIsFinishedAndSaysHowToGoOn)
     kill(child, SIGINT);
   });
   EXPECT_EQ(stopped.exit_code, 130);
-  EXPECT_THAT(stopped.err, AllOf(HasSubstr("interrupted; 1 trials are kept"), HasSubstr("--resume goes on from there")));
+  EXPECT_THAT(stopped.err,
+              AllOf(HasSubstr("interrupted; 1 finished trial in found/trials.jsonl"), HasSubstr("--resume goes on from there")));
   EXPECT_FALSE(fs::exists(file("found/validation.json")));
 
   const Outcome refused = validate({"--seed", "2", "--out", "found", "--resume"});

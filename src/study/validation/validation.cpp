@@ -143,8 +143,12 @@ std::string summary_of(const Validation& validation) {
   const std::size_t failed = validation.failed();
   double seconds = 0.0;
   for (const TrialResult& result : validation.results) seconds += result.seconds;
-  return fmt::format("{} checks in {} trials, seed {}: {}; {:.0f} s", validation.checks(), validation.results.size(),
-                     validation.options.seed, failed == 0 ? "all hold" : fmt::format("{} FAIL", failed), seconds);
+  const auto counted = [](std::size_t number, const char* thing) {
+    return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
+  };
+  return fmt::format("{} in {}, seed {}: {}; {:.0f} s", counted(validation.checks(), "check"),
+                     counted(validation.results.size(), "trial"), validation.options.seed,
+                     failed == 0 ? "all hold" : fmt::format("{} FAIL", failed), seconds);
 }
 
 std::string validation_markdown(const Validation& validation) {
