@@ -21,6 +21,8 @@ double density(double eta) { return 4.0 * eta / pi; }
 
 double contact_value(double eta) { return (kolafa_rottner(eta) - 1.0) / (2.0 * eta); }
 
+double disk_collision_rate(double Z) { return 4.0 / sqrt_pi * (Z - 1.0); }
+
 double mean_free_path(double eta) { return 1.0 / (2.0 * std::numbers::sqrt2 * density(eta) * contact_value(eta)); }
 
 double enskog_diffusion(double eta) { return 1.02704 / (2.0 * sqrt_pi * density(eta) * contact_value(eta)); }

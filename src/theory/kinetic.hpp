@@ -6,6 +6,9 @@ namespace carom::theory {
 /// Contact value of g(r) from the equation of state: (Z - 1) / (2 eta), Z after Kolafa and Rottner. Requires 0 < eta <= 0.69.
 [[nodiscard]] double contact_value(double eta);
 
+/// Collisions of a disk per time in a gas of this compressibility factor: (4 / sqrt pi) (Z - 1).
+[[nodiscard]] double disk_collision_rate(double Z);
+
 /// Mean free path of an infinite system, 1 / (2 sqrt2 rho g).
 [[nodiscard]] double mean_free_path(double eta);
 

@@ -13,19 +13,16 @@
 #include <boost/math/special_functions/gamma.hpp>
 
 #include <cmath>
-#include <numbers>
 
 namespace carom::validation {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 /// Collisions of a disk per time in a system of N: omega = (4 / sqrt pi) (Z - 1) times what a fixed energy makes of the mean
 /// relative speed, as it does of the mean speed.
 double rate_of(double eta, std::int64_t disks) {
   const theory::Microcanonical law(disks, true);
-  return 4.0 / std::sqrt(pi) * (theory::kolafa_rottner_finite(eta, disks) - 1.0) * law.speed_factor();
+  return theory::disk_collision_rate(theory::kolafa_rottner_finite(eta, disks)) * law.speed_factor();
 }
 
 TrialResult rates(const std::string& trial, double eta, const Effort& effort) {

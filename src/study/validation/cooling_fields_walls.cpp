@@ -12,7 +12,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace carom::validation {
 
@@ -66,7 +65,7 @@ TrialResult haff(const std::string& trial, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr double e = 0.95, eta = 0.1;
   constexpr std::int64_t disks = 1024;
-  const double rate = (1.0 - e * e) / 4.0 * 4.0 / std::sqrt(std::numbers::pi) * (theory::kolafa_rottner(eta) - 1.0);
+  const double rate = (1.0 - e * e) / 4.0 * theory::disk_collision_rate(theory::kolafa_rottner(eta));
   const std::size_t replicas = effort.full ? 160 : 16;
   constexpr double step = 10.0, end = 100.0;
   std::vector<std::vector<double>> inverse(static_cast<std::size_t>(end / step) + 1);
@@ -108,7 +107,7 @@ TrialResult kurtosis(const std::string& trial, const Effort& effort) {
   // So few that the box has no room for streams: shear waves grow only above some length.
   constexpr std::int64_t disks = 100;
   const std::size_t replicas = effort.full ? 4000 : 400;
-  const double rate = 4.0 / std::sqrt(std::numbers::pi) * (theory::kolafa_rottner(eta) - 1.0);
+  const double rate = theory::disk_collision_rate(theory::kolafa_rottner(eta));
   std::vector<double> ratios;
   for (std::size_t r = 0; r < replicas; ++r) {
     const State start = equilibrium(disks, eta, effort, effort.seed_of(r));

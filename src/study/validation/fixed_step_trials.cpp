@@ -4,13 +4,13 @@
 #include "study/validation/gas.hpp"
 #include "study/validation/speed_law.hpp"
 #include "theory/equation_of_state.hpp"
+#include "theory/kinetic.hpp"
 
 #include <fmt/format.h>
 
 #include <carom/blocking.hpp>
 
 #include <cmath>
-#include <numbers>
 
 namespace carom::validation {
 
@@ -23,7 +23,7 @@ TrialResult in_steps(const std::string& trial, const std::string& method, double
   const double N = static_cast<double>(disks);
   const double Z = theory::kolafa_rottner_finite(eta, disks);
   const theory::Microcanonical law(disks, true);
-  const double rate = 4.0 / std::sqrt(std::numbers::pi) * (Z - 1.0) * law.speed_factor();
+  const double rate = theory::disk_collision_rate(Z) * law.speed_factor();
   const double time = (effort.full ? 4000.0 : 200.0) / rate;
   const std::string text = fmt::format(
       "[box]\naspect = 1.0\nboundary = \"periodic\"\n\n[[disks]]\ncount = {}\nradius = 0.5\npacking_fraction = {}\nmass = 1.0\n"

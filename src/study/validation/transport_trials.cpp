@@ -24,7 +24,7 @@ std::size_t row_at(const std::vector<double>& lags, double time) {
 TrialResult transport(const std::string& trial, double eta, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr std::int64_t disks = 256;
-  const double rate = 4.0 / std::sqrt(std::numbers::pi) * (theory::kolafa_rottner(eta) - 1.0);
+  const double rate = theory::disk_collision_rate(theory::kolafa_rottner(eta));
   const Gas gas{
       .disks = disks,
       .packing_fraction = eta,

@@ -1,5 +1,7 @@
 #include "study/validation/validation_files.hpp"
 
+#include "io/json_number.hpp"
+
 #include <carom/version.hpp>
 
 #include <fmt/format.h>
@@ -17,11 +19,11 @@ namespace carom {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using detail::Json;
+using detail::number;
 
-/// What is not finite is null: a NaN, since only what was measured can be none.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-double number(const Json& json) { return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>(); }
+/// What is null was not finite: a NaN, since only what was measured can be none.
+double number_in(const Json& json) { return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>(); }
 
 Json json_of(const std::vector<double>& values) {
   Json list = Json::array();
@@ -31,7 +33,7 @@ Json json_of(const std::vector<double>& values) {
 
 std::vector<double> list_of(const Json& json) {
   std::vector<double> values;
-  for (const Json& value : json) values.push_back(number(value));
+  for (const Json& value : json) values.push_back(number_in(value));
   return values;
 }
 
@@ -61,8 +63,8 @@ Check check_of(const Json& json) {
   Check check{.name = json.at("name"),
               .theory = json.at("theory"),
               .source = json.at("source"),
-              .expected = number(json.at("expected")),
-              .measured = {number(json.at("measured")), number(json.at("error"))},
+              .expected = number_in(json.at("expected")),
+              .measured = {number_in(json.at("measured")), number_in(json.at("error"))},
               .allowance = json.at("allowance"),
               .allowance_for = json.at("allowance_for")};
   if (json.contains("equivalent"))
