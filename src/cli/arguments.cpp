@@ -91,6 +91,9 @@ void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
       ->type_name("K");
   command->add_flag("--verify-horizon", options->verify_horizon,
                     "Say too how far the trajectory can be trusted, by repeating its beginning in 24 to 113 bits");
+  command->add_flag("--watch", options->watch, "Show the run live in the terminal; where stderr is none, the progress line");
+  command->add_option("--pace", options->pace, "With --watch: simulated time per second (default: as fast as the machine can)")
+      ->type_name("TIME");
   add_progress(*command, options->progress);
   command->callback([&action, options, invocation] { action = [options, invocation] { return run(*options, invocation); }; });
 }

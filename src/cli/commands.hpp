@@ -44,6 +44,8 @@ struct RunOptions {
   std::string progress = "auto";
   std::string method = "exact";  ///< or a fixed-step method
   std::optional<double> dt;      ///< of a fixed-step method; absent: the sampling grid's
+  bool watch = false;
+  std::optional<double> pace;  ///< simulated time per second to watch; absent: as fast as the machine
 };
 ExitCode run(const RunOptions& options, const Invocation& invocation);
 

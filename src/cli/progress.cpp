@@ -23,8 +23,6 @@ constexpr auto log_interval = 2s;
 
 constexpr auto clear_line = "\r\x1b[K";
 
-double seconds(std::chrono::steady_clock::duration span) { return std::chrono::duration<double>(span).count(); }
-
 }  // namespace
 
 ProgressMode progress_mode(const std::string& when, bool quiet) {
@@ -34,8 +32,7 @@ ProgressMode progress_mode(const std::string& when, bool quiet) {
   return quiet ? ProgressMode::never : ProgressMode::automatic;
 }
 
-ProgressLine::ProgressLine(ProgressMode mode, const Scene& scene)
-    : scene_(scene), terminal_(isatty(STDERR_FILENO) == 1), phase_start_(Clock::now()) {
+ProgressLine::ProgressLine(ProgressMode mode, const Scene& scene) : terminal_(isatty(STDERR_FILENO) == 1), estimate_(scene) {
   shown_ = mode == ProgressMode::always || (mode == ProgressMode::automatic && terminal_);
 }
 
@@ -46,10 +43,6 @@ ProgressLine::~ProgressLine() {
 void ProgressLine::update(const Progress& progress) {
   if (!shown_) return;
   const Clock::time_point now = Clock::now();
-  if (progress.equilibrating != equilibrating_) {
-    equilibrating_ = progress.equilibrating;
-    phase_start_ = now;
-  }
   if (is_due(now)) show(line(progress, now), now);
 }
 
@@ -72,35 +65,12 @@ void ProgressLine::show(const std::string& text, Clock::time_point now) {
   std::fflush(stderr);
 }
 
-double ProgressLine::fraction_done(const Progress& progress) const {
-  const auto pairs = static_cast<double>(progress.totals.pair);
-  double fraction = 0.0;
-  if (progress.equilibrating) {
-    if (!scene_.run.equilibrate) return 0.0;
-    const Run::Equilibrate& goal = *scene_.run.equilibrate;
-    if (goal.time && *goal.time > 0.0) fraction = progress.time / *goal.time;
-    // One collision is one for each of its two disks.
-    if (goal.collisions_per_disk && *goal.collisions_per_disk > 0.0) {
-      fraction = 2.0 * pairs / (*goal.collisions_per_disk * static_cast<double>(scene_.disk_count()));
-    }
-  } else {
-    if (scene_.run.time && *scene_.run.time > 0.0) fraction = progress.time / *scene_.run.time;
-    if (scene_.run.collisions && *scene_.run.collisions > 0) {
-      fraction = std::max(fraction, pairs / static_cast<double>(*scene_.run.collisions));
-    }
-  }
-  return std::clamp(fraction, 0.0, 1.0);
-}
-
-std::string ProgressLine::line(const Progress& progress, Clock::time_point now) const {
-  const double done = fraction_done(progress);
-  const double spent = seconds(now - phase_start_);
-  const double speed = progress.loop_seconds > 0.0 ? static_cast<double>(progress.totals.pair) / progress.loop_seconds : 0.0;
+std::string ProgressLine::line(const Progress& progress, Clock::time_point now) {
+  const RunEstimate::Estimate estimate = estimate_.at(progress, now);
   std::string text = fmt::format("{}time {:.6g}  {:.0f} %  {} collisions", progress.equilibrating ? "equilibrating: " : "",
-                                 progress.time, 100.0 * done, grouped(progress.totals.pair));
-  if (speed > 0.0) text += fmt::format("  {}/s", rate(speed));
-  // An estimate from the first instants would jump about.
-  if (done > 0.0 && spent > 0.5) text += fmt::format("  {} left", duration(spent * (1.0 - done) / done));
+                                 progress.time, 100.0 * estimate.done, grouped(progress.totals.pair));
+  if (estimate.per_second > 0.0) text += fmt::format("  {}/s", rate(estimate.per_second));
+  if (estimate.seconds_left) text += fmt::format("  {} left", duration(*estimate.seconds_left));
   return text;
 }
 

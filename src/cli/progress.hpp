@@ -1,6 +1,8 @@
 #pragma once
 // One line on stderr that says how far a run has come.
 
+#include "cli/run_estimate.hpp"
+
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
 
@@ -33,14 +35,11 @@ class ProgressLine {
 
   [[nodiscard]] bool is_due(Clock::time_point now) const;
   void show(const std::string& text, Clock::time_point now);
-  [[nodiscard]] double fraction_done(const Progress& progress) const;
-  [[nodiscard]] std::string line(const Progress& progress, Clock::time_point now) const;
+  [[nodiscard]] std::string line(const Progress& progress, Clock::time_point now);
 
-  const Scene& scene_;
   bool shown_;
   bool terminal_;
-  Clock::time_point phase_start_;  ///< of equilibration, then of the measured run
-  bool equilibrating_ = false;
+  RunEstimate estimate_;
   std::optional<Clock::time_point> last_;
 };
 

@@ -4,6 +4,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/horizon_text.hpp"
+#include "cli/live_view.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_description.hpp"
 #include "cli/signals.hpp"
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <new>
@@ -92,13 +94,30 @@ ExitCode exit_code_of(const RunReport& report) {
   return interrupted || report.stopped == StopReason::interrupted ? exit_interrupted : exit_done;
 }
 
+/// The live picture that --watch asks for, where the terminal can show it.
+std::optional<LiveView> live_view(const RunOptions& options, const Simulation& simulation) {
+  std::optional<LiveView> view;
+  if (!options.watch) return view;
+  if (const auto colours = terminal_for_pictures()) view.emplace(simulation, *colours);
+  return view;
+}
+
+/// Lets the view wait at instants so close that a person sees no steps.
+void keep_pace(LiveView& view, double pace, RunHooks& hooks) {
+  constexpr double steps_per_second = 20.0;
+  hooks.grids.push_back({pace / steps_per_second, [&view, pace](std::uint64_t, const State& state, const Totals& totals) {
+                           view.keep_pace(pace, state, totals);
+                         }});
+}
+
 /// `measured_start`, where it is not null, receives the state in which the measured run begins.
 RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurements& measurements, Observation& observation,
-                          ProgressMode mode, const StopRequest& stop, std::uint64_t verify_every,
+                          const RunOptions& options, ProgressMode mode, const StopRequest& stop,
                           std::optional<State>* measured_start) {
-  ProgressLine line(mode, simulation.scene());
+  std::optional<LiveView> view = live_view(options, simulation);
+  ProgressLine line(view ? ProgressMode::never : mode, simulation.scene());
   RunHooks hooks;
-  hooks.verify_every = verify_every;
+  hooks.verify_every = options.verify.value_or(0);
   hooks.start = [&](const State& start) {
     measurements.start(start);
     if (measured_start != nullptr) *measured_start = start;
@@ -111,10 +130,14 @@ RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurem
   hooks.block = [&](const Progress& progress) { measurements.block(progress); };
   hooks.proceed = [&](const Progress& progress) {
     line.update(progress);
+    if (view) view->update(progress);
     return !stop.made();
   };
   observation.attach(hooks);
-  return run_schedule(simulation, hooks);
+  if (view && options.pace) keep_pace(*view, *options.pace, hooks);
+  const RunResult result = run_schedule(simulation, hooks);
+  if (view) view->finish({simulation.time(), simulation.totals(), result.loop_seconds, !result.measured});
+  return result;
 }
 
 ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
@@ -123,6 +146,9 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
   if (options.verify == std::uint64_t{0}) throw UsageError("--verify 0: give the number of events between two checks, 1 or more");
+  if (options.pace && !options.watch) throw UsageError("--pace slows a run down for those who watch it: give --watch too");
+  if (options.pace && !(*options.pace > 0.0 && std::isfinite(*options.pace)))
+    throw UsageError(fmt::format("--pace {:g}: it is simulated time per second and must be positive", *options.pace));
   if (options.verify_horizon) require_no_effects(scene, "--verify-horizon");
   if (options.method != "exact") require_no_effects(scene, "--method");
   if (options.method != "exact" && !scene.observe.empty())
@@ -149,8 +175,8 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
     RunMeasurements measurements(simulation);
     Observation observation(simulation);
     std::optional<State> start;
-    const RunResult result = run_with_output(simulation, writer, measurements, observation, progress, stop,
-                                             options.verify.value_or(0), options.verify_horizon ? &start : nullptr);
+    const RunResult result = run_with_output(simulation, writer, measurements, observation, options, progress, stop,
+                                             options.verify_horizon ? &start : nullptr);
     const double wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
     RunReport report = measurements.report(result, wall_seconds);
     report.observables = observation.results();

@@ -1,0 +1,32 @@
+#pragma once
+// How much of a run is done, and when it will be.
+
+#include <carom/scene.hpp>
+#include <carom/simulation.hpp>
+
+#include <chrono>
+#include <optional>
+
+namespace carom::cli {
+
+class RunEstimate {
+ public:
+  using Clock = std::chrono::steady_clock;
+  struct Estimate {
+    double done = 0.0;                   ///< 0 to 1, of equilibration or of the measured run
+    std::optional<double> seconds_left = {};  ///< absent in the first instants
+    double per_second = 0.0;             ///< collisions; 0 where nothing is known
+  };
+
+  /// Requires the scene to live as long as this.
+  explicit RunEstimate(const Scene& scene) : scene_(scene), phase_start_(Clock::now()) {}
+
+  [[nodiscard]] Estimate at(const Progress& progress, Clock::time_point now);
+
+ private:
+  const Scene& scene_;
+  Clock::time_point phase_start_;  ///< of equilibration, then of the measured run
+  bool equilibrating_ = false;
+};
+
+}  // namespace carom::cli
