@@ -1,6 +1,7 @@
 // carom info FILE: what a file that Carom wrote holds.
 
 #include "cli/commands.hpp"
+#include "cli/reading_process.hpp"
 #include "io/info.hpp"
 
 #include <fmt/format.h>
@@ -10,12 +11,15 @@
 namespace carom::cli {
 
 ExitCode info(const InfoOptions& options) {
-  try {
-    fmt::print("{}", describe_file(options.file));
-  } catch (const OutputError& error) {
-    throw UsageError(error.what());
-  }
-  return exit_done;
+  return in_reading_process(options.file, [&] {
+    const ReadingLimit limit(options.file);
+    try {
+      fmt::print("{}", describe_file(options.file));
+    } catch (const OutputError& error) {
+      throw UsageError(error.what());
+    }
+    return exit_done;
+  });
 }
 
 }  // namespace carom::cli

@@ -1,0 +1,109 @@
+#include "cli/reading_process.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>  // sigaction and kill are POSIX, not C++
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <system_error>
+
+namespace carom::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+volatile sig_atomic_t reader = 0;  // the child's id
+
+extern "C" void hand_on(int number) {
+  if (reader > 0) kill(static_cast<pid_t>(reader), number);
+}
+
+/// Signals that ask the parent to end are for the child. A terminal sends its own to both.
+class HandOn {
+ public:
+  explicit HandOn(pid_t child) {
+    reader = child;
+    struct sigaction action = {};
+    action.sa_handler = hand_on;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGTERM, &action, &terminate_);
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGINT, &action, &interrupt_);
+  }
+  ~HandOn() {
+    sigaction(SIGTERM, &terminate_, nullptr);
+    sigaction(SIGINT, &interrupt_, nullptr);
+    reader = 0;
+  }
+  HandOn(const HandOn&) = delete;
+  HandOn& operator=(const HandOn&) = delete;
+
+ private:
+  struct sigaction terminate_ = {}, interrupt_ = {};
+};
+
+int status_of(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) throw std::runtime_error(fmt::format("cannot wait for the process that reads: {}", std::strerror(errno)));
+  return status;
+}
+
+std::uintmax_t bytes_of(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    const std::uintmax_t bytes = fs::file_size(path, error);
+    return error ? 0 : bytes;
+  }
+  std::uintmax_t bytes = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path, error))
+    if (const std::uintmax_t more = entry.is_regular_file(error) ? entry.file_size(error) : 0; !error) bytes += more;
+  return bytes;
+}
+
+}  // namespace
+
+ExitCode in_reading_process(const fs::path& file, const std::function<ExitCode()>& command) {
+  std::fflush(nullptr);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child < 0) return command();  // without the net
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) return exit_failed;
+    return command();
+  }
+  const HandOn hand_on_signals(child);
+  const int status = status_of(child);
+  if (WIFEXITED(status)) return static_cast<ExitCode>(WEXITSTATUS(status));
+  switch (const int number = WTERMSIG(status)) {
+    case SIGINT:
+    case SIGTERM:
+      return exit_interrupted;
+    case SIGKILL:
+      throw std::runtime_error(
+          fmt::format("{}: the process that read it was killed; perhaps there is not enough memory", file.string()));
+    case SIGALRM:
+      throw UsageError(fmt::format("{}: reading it comes to no end, so it is damaged; run the scene again", file.string()));
+    default:
+      throw UsageError(fmt::format("{}: reading it ends in a crash ({}), so it is damaged; run the scene again", file.string(),
+                                   strsignal(number)));
+  }
+}
+
+ReadingLimit::ReadingLimit(const fs::path& file) {
+  constexpr std::uintmax_t base = 60, bytes_per_second = 1'000'000, longest = 1'000'000'000;
+  alarm(static_cast<unsigned>(std::min(base + bytes_of(file) / bytes_per_second, longest)));
+}
+
+ReadingLimit::~ReadingLimit() { alarm(0); }
+
+}  // namespace carom::cli
