@@ -180,13 +180,24 @@ void add_init(CLI::App& program, Action& action, const Invocation& invocation) {
   command->callback([&action, options, invocation] { action = [options, invocation] { return init(*options, invocation); }; });
 }
 
-void add_info(CLI::App& program, Action& action) {
+void add_info(CLI::App& program, Action& action, const Invocation& invocation) {
   CLI::App* command = program.add_subcommand("info", "Say what a file or a run directory holds");
   const auto options = std::make_shared<InfoOptions>();
   command->add_option("file", options->file, "A trajectory, table, summary, scene or run directory")
       ->required()
       ->type_name("FILE");
-  command->callback([&action, options] { action = [options] { return info(*options); }; });
+  command->add_flag("--reproduce", options->reproduce, "Of a run directory: print the commands that make the run again");
+  command->callback([&action, options, invocation] { action = [options, invocation] { return info(*options, invocation); }; });
+}
+
+void add_verify(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("verify", "Run a finished run's scene again and compare the two to the last bit");
+  const auto options = std::make_shared<VerifyOptions>();
+  command->add_option("directory", options->directory, "The directory that carom run has written")
+      ->required()
+      ->type_name("RUN_DIR");
+  add_progress(*command, options->progress);
+  command->callback([&action, options, invocation] { action = [options, invocation] { return verify(*options, invocation); }; });
 }
 
 void add_play(CLI::App& program, Action& action) {
@@ -266,7 +277,8 @@ Action parse_arguments(int argc, char** argv) {
   add_horizon(program, action);
   add_compare(program, action, invocation);
   add_init(program, action, invocation);
-  add_info(program, action);
+  add_info(program, action, invocation);
+  add_verify(program, action, invocation);
   add_play(program, action);
   add_bench(program, action);
   add_hardcases(program, action, invocation);

@@ -74,8 +74,18 @@ ExitCode init(const InitOptions& options, const Invocation& invocation);
 
 struct InfoOptions {
   std::string file;
+  bool reproduce = false;  ///< print the commands that make the run again, in place of what it holds
 };
-ExitCode info(const InfoOptions& options);
+ExitCode info(const InfoOptions& options, const Invocation& invocation);
+
+struct VerifyOptions {
+  std::string directory;  ///< of a finished run
+  std::string progress = "auto";
+};
+ExitCode verify(const VerifyOptions& options, const Invocation& invocation);
+
+/// Shell commands that make the run in `directory` again, in a directory with "-again" behind its name. Throws UsageError.
+std::string reproduction(const std::string& directory, const Invocation& invocation);
 
 struct PlayOptions {
   std::string directory;  ///< of a finished run

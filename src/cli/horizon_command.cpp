@@ -2,13 +2,13 @@
 
 #include "cli/commands.hpp"
 #include "cli/horizon_text.hpp"
+#include "io/build_json.hpp"
 #include "io/horizon_json.hpp"
 #include "study/horizon_sentence.hpp"
 #include "study/method.hpp"
 
 #include <fmt/format.h>
 #include <carom/simulation.hpp>
-#include <carom/version.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -21,9 +21,8 @@ namespace carom::cli {
 namespace {
 
 std::string json_text(const Horizon& horizon, const Scene& scene) {
-  const BuildInfo& build = build_info();
   nlohmann::ordered_json json;
-  json["carom"] = {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler}, {"flags", build.flags}};
+  json["carom"] = detail::build_json();
   json["scene"] = scene.source;
   json["seed"] = scene.run.seed;
   json["disks"] = scene.disk_count();

@@ -1,4 +1,4 @@
-// carom info FILE: what a file that Carom wrote holds.
+// carom info FILE: what a file that Carom wrote holds, or how to make a run again.
 
 #include "cli/commands.hpp"
 #include "cli/reading_process.hpp"
@@ -10,7 +10,11 @@
 
 namespace carom::cli {
 
-ExitCode info(const InfoOptions& options) {
+ExitCode info(const InfoOptions& options, const Invocation& invocation) {
+  if (options.reproduce) {
+    fmt::print("{}", reproduction(options.file, invocation));
+    return exit_done;
+  }
   return in_reading_process(options.file, [&] {
     const ReadingLimit limit(options.file);
     try {

@@ -2,6 +2,7 @@
 
 #include "cli/machine.hpp"
 #include "core/instructions.hpp"
+#include "io/build_json.hpp"
 
 #include <fmt/format.h>
 #include <carom/version.hpp>
@@ -21,9 +22,8 @@ std::string measured_on() {
 
 nlohmann::ordered_json measured_on_json() {
   using Json = nlohmann::ordered_json;
-  const BuildInfo& build = build_info();
   const std::optional<std::size_t> cache = second_level_cache();
-  return {{"carom", {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler}, {"flags", build.flags}}},
+  return {{"carom", detail::build_json()},
           {"machine", {{"processor", processor()}, {"second_level_cache", cache ? Json(*cache) : Json(nullptr)}}},
           {"instructions", name_of(chosen_instructions())}};
 }

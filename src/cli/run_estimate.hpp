@@ -13,9 +13,9 @@ class RunEstimate {
  public:
   using Clock = std::chrono::steady_clock;
   struct Estimate {
-    double done = 0.0;                   ///< 0 to 1, of equilibration or of the measured run
+    double done = 0.0;                        ///< 0 to 1, of equilibration or of the measured run
     std::optional<double> seconds_left = {};  ///< absent in the first instants
-    double per_second = 0.0;             ///< collisions; 0 where nothing is known
+    double per_second = 0.0;                  ///< collisions; 0 where nothing is known
   };
 
   /// Requires the scene to live as long as this.

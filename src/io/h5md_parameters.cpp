@@ -2,6 +2,8 @@
 
 #include "io/h5md_parameters.hpp"
 
+#include "core/instructions.hpp"
+
 #include <carom/version.hpp>
 
 #include <array>
@@ -37,6 +39,7 @@ void write_parameters(hid_t file, const Scene& scene, const Provenance& provenan
   write_attribute(group, "commit", build_info().commit);
   write_attribute(group, "compiler", build_info().compiler);
   write_attribute(group, "flags", build_info().flags);
+  write_attribute(group, "instructions", std::string(name_of(chosen_instructions())));
 
   write_attribute(group, "effects", names_of(scene.effects, !scene.box.periodic(0) || !scene.box.periodic(1)));
 

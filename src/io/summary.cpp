@@ -2,12 +2,11 @@
 
 #include "io/summary.hpp"
 
+#include "io/build_json.hpp"
 #include "io/effects_json.hpp"
 #include "io/horizon_json.hpp"
 #include "io/json_number.hpp"
 #include "io/observables_json.hpp"
-
-#include <carom/version.hpp>
 
 namespace carom {
 
@@ -30,10 +29,9 @@ Json events_json(const RunReport& report) {
 }  // namespace
 
 std::string summary_json(const RunReport& report, const Provenance& provenance) {
-  const BuildInfo& build = build_info();
   const Totals& totals = report.totals;
   Json json;
-  json["carom"] = {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler}, {"flags", build.flags}};
+  json["carom"] = detail::build_json();
   json["scene"] = report.scene;
   json["seed"] = report.seed;
   json["engine"] = report.engine;
@@ -77,6 +75,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
         {"every", report.verification->every}, {"checks", report.verification->checks}, {"faults", report.verification->faults}};
   if (report.horizon) json["horizon"] = horizon_json(*report.horizon);
   json["command_line"] = provenance.command_line;
+  json["resolved_scene"] = provenance.resolved_scene;
   // A path or a command line need not be UTF-8, and JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

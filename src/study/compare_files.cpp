@@ -1,5 +1,6 @@
 #include "study/compare_files.hpp"
 
+#include "io/build_json.hpp"
 #include "io/horizon_json.hpp"
 #include "study/compare_answers.hpp"
 
@@ -175,10 +176,9 @@ Comparison load_points(const std::filesystem::path& path, const std::string& key
 }
 
 std::string compare_json(const Comparison& comparison, const Scene& scene, const std::string& command_line) {
-  const BuildInfo& build = build_info();
   const Answers answers = answers_of(comparison);
   Json json;
-  json["carom"] = {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler}, {"flags", build.flags}};
+  json["carom"] = detail::build_json();
   json["scene"] = scene.source;
   json["title"] = scene.title;
   json["disks"] = scene.disk_count();

@@ -1,8 +1,7 @@
 #include "study/hard_case_table.hpp"
 
+#include "io/build_json.hpp"
 #include "io/json_number.hpp"
-
-#include <carom/version.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -98,9 +97,8 @@ std::string hard_cases_markdown(std::span<const CaseVerdict> verdicts) {
 }
 
 std::string hard_cases_json(std::span<const CaseVerdict> verdicts) {
-  const BuildInfo& build = build_info();
   detail::Json json;
-  json["carom"] = {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler}, {"flags", build.flags}};
+  json["carom"] = detail::build_json();
   json["failed"] = failures(verdicts);
   json["cases"] = detail::Json::array();
   for (const CaseVerdict& one : verdicts) {

@@ -1,5 +1,6 @@
 #include "study/validation/validation_files.hpp"
 
+#include "io/build_json.hpp"
 #include "io/json_number.hpp"
 
 #include <carom/version.hpp>
@@ -134,9 +135,8 @@ Validation load_trials(const std::filesystem::path& path, const std::string& key
 }
 
 std::string validation_json(const Validation& validation, const std::string& command_line) {
-  const BuildInfo& build = build_info();
   Json json;
-  json["carom"] = {{"version", build.version}, {"commit", build.commit}, {"compiler", build.compiler}, {"flags", build.flags}};
+  json["carom"] = detail::build_json();
   json["command_line"] = command_line;
   json["mode"] = validation.options.full ? "full" : "quick";
   json["seed"] = validation.options.seed;

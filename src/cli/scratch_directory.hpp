@@ -1,0 +1,23 @@
+#pragma once
+// A directory for what nobody keeps.
+
+#include <filesystem>
+
+namespace carom::cli {
+
+/// Made below the system's directory for such things (TMPDIR says where), and removed with all that is in it.
+class ScratchDirectory {
+ public:
+  /// Throws std::runtime_error where it cannot be made.
+  ScratchDirectory();
+  ~ScratchDirectory();
+  ScratchDirectory(const ScratchDirectory&) = delete;
+  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace carom::cli
