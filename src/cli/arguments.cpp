@@ -1,9 +1,10 @@
-// The command line, read as a whole before anything is done. The only file that includes the parser, which takes longer to
-// compile than the rest of the program together.
+// The command line, read as a whole before anything is done. With manual.cpp the only file that includes the parser, which takes
+// longer to compile than the rest of the program together.
 
 #include "cli/arguments.hpp"
 
 #include "cli/format.hpp"
+#include "cli/manual.hpp"
 #include "study/hard_case.hpp"
 
 #include <fmt/format.h>
@@ -254,14 +255,29 @@ void add_hardcases(CLI::App& program, Action& action, const Invocation& invocati
 }
 
 /// The parser's own sentence for an unknown command says only that one is missing.
+/// Asked for when the program is installed, and not listed.
+void add_manual(CLI::App& program, Action& action) {
+  const auto print = [&](const std::string& name, const std::string& what, auto text) {
+    CLI::App* command = program.add_subcommand(name, what)->group("");
+    command->callback([&program, &action, text] {
+      action = [answer = text(program)] {
+        fmt::print("{}", answer);
+        return exit_done;
+      };
+    });
+  };
+  print("manual", "Print the manual page", [](const CLI::App& of) { return manual_page(of, build_info().version); });
+  print("completion", "Print what bash needs to complete words", [](const CLI::App& of) { return bash_completion(of); });
+}
+
 void require_known_command(const CLI::App& program, const std::string& word) {
   if (word.starts_with('-')) return;
-  std::vector<std::string> names;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), word) == names.end()) {
-    throw UsageError(fmt::format("{}: there is no such command; choose one of: {}", word, fmt::join(names, ", ")));
+  std::vector<std::string> listed;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == word) return;
+    if (!command->get_group().empty()) listed.push_back(command->get_name());
   }
+  throw UsageError(fmt::format("{}: there is no such command; choose one of: {}", word, fmt::join(listed, ", ")));
 }
 
 }  // namespace
@@ -283,6 +299,7 @@ Action parse_arguments(int argc, char** argv) {
   add_bench(program, action);
   add_hardcases(program, action, invocation);
   add_validate(program, action, invocation);
+  add_manual(program, action);
   if (argc > 1) require_known_command(program, argv[1]);
   try {
     program.parse(argc, argv);

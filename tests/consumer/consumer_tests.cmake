@@ -1,5 +1,5 @@
 # Installs the built package below the build directory, and builds and runs the library example of docs/ with it. Then the example
-# compiles against Carom's sources; and, with the label slow, is built with them and run. ctest --build-and-test configures, builds
+# compiles against Carom's sources; and, with the label slow, is built with them and run. The .deb is unpacked and used. ctest --build-and-test configures, builds
 # and runs a project as one test.
 set(consumer_directory ${PROJECT_BINARY_DIR}/consumer)
 set(consumer_scene ${PROJECT_SOURCE_DIR}/docs/scenes/box.toml)
@@ -29,3 +29,11 @@ add_test(NAME package.compiles_from_sources
          COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${consumer_directory}/from_sources
                  --build-generator ${CMAKE_GENERATOR} --build-target consumer_object --build-options ${consumer_options} ${from_sources})
 set_tests_properties(package.compiles_from_sources PROPERTIES LABELS package)
+
+find_program(DPKG_DEB dpkg-deb)
+get_target_property(carom_type carom TYPE)
+if(DPKG_DEB AND NOT CMAKE_CROSSCOMPILING AND carom_type STREQUAL "STATIC_LIBRARY")
+  add_test(NAME package.debian COMMAND ${CMAKE_COMMAND} -D BUILD=${PROJECT_BINARY_DIR} -D SCRATCH=${consumer_directory}/debian
+                                       -P ${CMAKE_CURRENT_SOURCE_DIR}/consumer/debian_package.cmake)
+  set_tests_properties(package.debian PROPERTIES LABELS package)
+endif()
