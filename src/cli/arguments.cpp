@@ -212,6 +212,42 @@ void add_play(CLI::App& program, Action& action) {
   command->callback([&action, options] { action = [options] { return play(*options); }; });
 }
 
+void add_movie(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("movie", "Draw a run as a film (mp4, webm, gif) or a picture (png, svg, pdf)");
+  const auto options = std::make_shared<MovieOptions>();
+  command->add_option("directory", options->directory, "The directory that carom run has written")
+      ->required()
+      ->type_name("RUN_DIR");
+  command
+      ->add_option("-o,--output", options->output,
+                   "The file to write; its ending says what it is: mp4, webm, gif, png, svg or pdf")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--force", options->force, "Replace the file if it exists");
+  command->add_option("--size", options->size, "Pixels: the longer side, or width x height (default: 1080, of a GIF 480)")
+      ->type_name("N|WxH");
+  command->add_option("--fps", options->fps, "Frames per second of the film (default: 30)")->type_name("N");
+  command->add_option("--speed", options->speed, "Simulated time per second of the film (default: such that it lasts 10 s)")
+      ->type_name("TIME");
+  command->add_option("--from", options->from, "Simulated time at which the film begins (default: that of the run)")
+      ->type_name("TIME");
+  command->add_option("--to", options->to, "Simulated time at which the film ends (default: that of the run)")->type_name("TIME");
+  command->add_option("--at", options->at, "Simulated time of a picture (default: the last sample)")->type_name("TIME");
+  command
+      ->add_option(
+          "--colour,--color", options->colour,
+          "Colour disks by speed, species, collisions or id, or plain (default: species where there are several, else speed)")
+      ->type_name("WHAT");
+  command->add_option("--trails", options->trails, "Draw the paths of the last TIME of simulated time")->type_name("TIME");
+  command->add_option("--trails-of", options->trails_of, "Draw those of this species alone")->type_name("SPECIES");
+  command->add_flag("--velocities", options->velocities, "Draw velocities as arrows");
+  command->add_flag("--dark", options->dark, "Dark paper");
+  command->add_flag("--bare", options->bare, "No clock, and no key to the colours");
+  command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
+  add_progress(*command, options->progress);
+  command->callback([&action, options] { action = [options] { return movie(*options); }; });
+}
+
 void add_bench(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("bench", "Measure how fast this machine is, with both engines side by side");
   const auto options = std::make_shared<BenchOptions>();
@@ -296,6 +332,7 @@ Action parse_arguments(int argc, char** argv) {
   add_info(program, action, invocation);
   add_verify(program, action, invocation);
   add_play(program, action);
+  add_movie(program, action);
   add_bench(program, action);
   add_hardcases(program, action, invocation);
   add_validate(program, action, invocation);

@@ -93,6 +93,27 @@ struct PlayOptions {
 };
 ExitCode play(const PlayOptions& options);
 
+struct MovieOptions {
+  std::string directory;  ///< of a finished run
+  std::string output;     ///< a film or a picture, which its ending says
+  bool force = false;
+  std::optional<double> fps;    ///< frames per second; absent: 30
+  std::optional<double> speed;  ///< simulated time per second; absent: the film lasts 10 s
+  std::optional<double> from;   ///< simulated times; absent: the whole run
+  std::optional<double> to;
+  std::optional<double> at;      ///< of a picture; absent: the last sample
+  std::optional<double> trails;  ///< time
+  std::string trails_of;         ///< a species; empty: of all
+  std::string size;              ///< WxH or the longer side; empty: 1080, of a GIF 480
+  std::string colour;            ///< empty: species where there are several, else speed
+  bool dark = false;
+  bool velocities = false;
+  bool bare = false;  ///< no caption
+  bool quiet = false;
+  std::string progress = "auto";
+};
+ExitCode movie(const MovieOptions& options);
+
 struct BenchOptions {
   bool json = false;
   bool effects = false;                     ///< the price of each effect, in place of how fast the engines are

@@ -2,12 +2,12 @@
 
 #include "cli/commands.hpp"
 #include "io/info_parts.hpp"
+#include "io/partial_file.hpp"
 #include "show/player_page.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -39,19 +39,12 @@ fs::path place_for(const PlayOptions& options) {
   return path;
 }
 
-/// Under its own name only when it is whole.
-void write(const fs::path& path, const std::string& text) {
-  const fs::path partial = path.string() + ".partial";
-  std::ofstream file(partial, std::ios::binary);
-  if (!file) throw UsageError(detail::system_error(path, "write", errno).what());
-  file << text;
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(partial, path, error);
-  if (file && !error) return;
-  const int reason = error ? error.value() : errno;
-  fs::remove(partial, error);
-  throw OutputError(detail::system_error(path, "write", reason));
+PartialFile begin(const fs::path& path) {
+  try {
+    return PartialFile(path);
+  } catch (const OutputError& error) {
+    throw UsageError(error.what());
+  }
 }
 
 PlayerData read(const std::string& directory) {
@@ -67,7 +60,9 @@ PlayerData read(const std::string& directory) {
 ExitCode play(const PlayOptions& options) {
   const PlayerData data = read(options.directory);
   const fs::path path = place_for(options);
-  write(path, player_page(data));
+  PartialFile file = begin(path);
+  file.write(player_page(data));
+  file.publish();
   fmt::print("{}  {}, {}\n", path.string(), detail::size_text(fs::file_size(path)),
              data.exact ? "an exact replay, from collision to collision"
                         : fmt::format("interpolated between samples: {}", data.why_not));

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <system_error>
@@ -140,6 +141,15 @@ void RunReader::read_scene() {
                                  {"Engine", text("engine")},
                                  {"Command", text("command_line")},
                                  {"Carom", fmt::format("{} (commit {})", text("version"), text("commit"))}});
+}
+
+std::vector<double> RunReader::sample_times() const {
+  return guarded([&] {
+    std::vector<double> times = rows(particles + "/position/time", 0, samples_, 1);
+    if (!std::is_sorted(times.begin(), times.end()) || !std::isfinite(times.front()) || !std::isfinite(times.back()))
+      throw Hdf5Error("the samples are not in order of time");
+    return times;
+  });
 }
 
 State RunReader::sample(std::uint64_t k) const {

@@ -36,6 +36,7 @@ class RunReader {
   [[nodiscard]] std::uint64_t events() const { return events_; }    ///< 0 without a log
   [[nodiscard]] bool has_event_log() const { return has_event_log_; }
 
+  [[nodiscard]] std::vector<double> sample_times() const;  ///< in order
   /// Sample k with its time; positions on periodic axes are inside the box, whatever the file holds. No images, no spins.
   [[nodiscard]] State sample(std::uint64_t k) const;
   /// The whole log, in order of time: ids are those of disks, walls and obstacles of this run, numbers are finite.

@@ -1,8 +1,10 @@
 # Compiles example scenes of docs/scenes into the library, so that each preset has one text. A changed scene is
 # embedded again by the next build.
 # The classic scene first.
-set(carom_presets box barometer bouncing_ball channel compression dense dense_mixture galton gas granular_column granular_gas growth
-                  heated_walls lorentz maxwells_door mixture newtons_cradle observe piston rough shear sinai square_well thermostat two_disks)
+set(carom_presets box barometer bouncing_ball brownian channel clusters compression dense dense_mixture diffusion dilute_gas
+                  free_expansion galperin galton gas granular_column granular_gas growth heated_walls hourglass lorentz
+                  lorentz_wide maxwells_door mixture newtons_cradle observe piston rough shear sinai square_well thermostat
+                  two_disks)
 
 set(carom_preset_entries "")
 foreach(preset IN LISTS carom_presets)

@@ -3,6 +3,7 @@
 #include "show/player_data.hpp"
 
 #include "observe/equilibrium.hpp"
+#include "show/exact_run.hpp"
 #include "show/number_columns.hpp"
 #include "show/player_samples.hpp"
 #include "show/replay.hpp"
@@ -155,18 +156,12 @@ void put_events(const RunReader& run, const State& start, const std::vector<Even
   tracks.put(replay, columns, json);
 }
 
-/// The start and every event; false where that does not tell how the disks moved.
-bool put_replay(const RunReader& run, NumberColumns& columns, Json& json, std::string& why_not) {
+/// The start and every event.
+void put_replay(const RunReader& run, const ExactRun& replayed, NumberColumns& columns, Json& json) {
   const Scene& scene = run.scene();
-  const std::vector<Event> events = run.event_log();
-  const State start = run.sample(0);
+  const State& start = replayed.start;
+  const std::vector<Event>& events = replayed.events;
   const double tolerance = player_tolerance * scene.box.lengths().maxCoeff();
-  const double distance = distance_from_samples(scene, Replay(scene, run.disks(), start), events, run.samples(),
-                                                [&](std::uint64_t k) { return run.sample(k); });
-  if (!(distance <= tolerance)) {
-    why_not = fmt::format("the collisions in its log do not lead to its samples (they are up to {:.2g} apart)", distance);
-    return false;
-  }
   const double rounding = rounding_error(scene, run.disks(), start, events, run.end());
   const VelocityDigits digits = rounding <= tolerance ? VelocityDigits::single : VelocityDigits::twice;
   std::vector<double> state;
@@ -178,16 +173,8 @@ bool put_replay(const RunReader& run, NumberColumns& columns, Json& json, std::s
             : put_events<std::uint32_t>(run, start, events, digits, columns, json);
   json["duration"] = std::max(run.end(), events.empty() ? 0.0 : events.back().time);
   json["scale"] = start.scale;
-  json["distance"] = distance;
+  json["distance"] = replayed.distance;
   json["rounding"] = digits == VelocityDigits::single ? rounding : 0.0;
-  return true;
-}
-
-std::string why_not_exact(const RunReader& run, const PlayerLimits& limits) {
-  if (!run.has_event_log()) return "the run kept no event log (carom run --events)";
-  if (run.events() > limits.events)
-    return fmt::format("its {} events are more than the {} that a page can hold", run.events(), limits.events);
-  return why_no_replay(run.scene());
 }
 
 }  // namespace
@@ -199,9 +186,10 @@ PlayerData player_data(const RunReader& run, const PlayerLimits& limits) {
   columns.add("mass", run.disks().mass);
   columns.add("species", std::vector<std::uint16_t>(run.disks().species.begin(), run.disks().species.end()));
   PlayerData data;
-  data.why_not = why_not_exact(run, limits);
-  data.exact = data.why_not.empty() && put_replay(run, columns, json, data.why_not);
-  if (!data.exact) detail::put_samples(run, limits.sample_bytes, columns, json);
+  const ExactRun replayed = read_exactly(run, limits.events, "a page can hold");
+  data.why_not = replayed.why_not;
+  data.exact = replayed.exact();
+  data.exact ? put_replay(run, replayed, columns, json) : detail::put_samples(run, limits.sample_bytes, columns, json);
   json["exact"] = data.exact;
   json["whyNot"] = data.why_not;
   json["columns"] = columns.list();

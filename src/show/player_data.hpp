@@ -7,7 +7,7 @@
 // Without it they are samples with positions in 16 bits, at most 2^-17 of the extent of the box away from the true ones: a
 // thousandth of a pixel and a hundredth of one, if the box is a thousand wide.
 
-#include "io/run_reader.hpp"
+#include "show/exact_run.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -16,7 +16,7 @@
 
 namespace carom {
 
-inline constexpr double player_tolerance = 1e-6;
+inline constexpr double player_tolerance = replay_tolerance;
 
 struct PlayerLimits {
   std::uint64_t events = 1'000'000;         ///< more are not replayed: 37 MB of page and 100 MB of browser

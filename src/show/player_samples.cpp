@@ -2,6 +2,8 @@
 
 #include "show/player_samples.hpp"
 
+#include "show/moment.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,11 +14,6 @@ namespace {
 constexpr double position_steps = 65535.0;
 constexpr double velocity_steps = 32767.0;
 constexpr std::uint64_t bytes_per_disk = 8;
-
-std::array<double, 4> edges_of(const Box& box, const State& state) {
-  if (state.walls.size() != 4) return {box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y()};
-  return {state.walls[0].position, state.walls[1].position, state.walls[2].position, state.walls[3].position};
-}
 
 }  // namespace
 
@@ -43,7 +40,7 @@ void put_samples(const RunReader& run, std::uint64_t most_bytes, NumberColumns& 
     times.push_back(state.time);
     scales.push_back(state.scale);
     displacements.push_back(state.shear_displacement);
-    for (const double edge : edges_of(run.scene().box, state)) walls.push_back(edge);
+    for (const double edge : sides_of(run.scene().box, state)) walls.push_back(edge);
     for (Eigen::Index i = 0; i < state.positions.cols(); ++i)
       for (int axis = 0; axis < 2; ++axis) {
         const double share = (state.positions(axis, i) - lower[axis]) / (upper[axis] - lower[axis]);

@@ -134,6 +134,26 @@ TEST(BrowserPlayer, DrawsGrowingDisksAsLargeAsTheEngineHasThem) {
   expect_positions_of_the_engine(parse_scene(gas, "gas", {"growth.rate=0.03"}), 12.0);
 }
 
+TEST(BrowserPlayer, ADiskCrossesTheEdgesOfAShearedBoxWhereItShould) {
+  if (!has_browser()) GTEST_SKIP() << no_browser;
+  const Scene scene = parse_scene(gas, "gas",
+                                  {"box.boundary=periodic", "disks.0.count=1", "disks.0.positions=[[5.0, 0.0]]",
+                                   "disks.0.velocities=[[3.0, 2.5]]", "shear.rate=0.3"});
+  // Its velocity changes at an edge by as much as the images beyond move, so that lines from sample to sample are its path.
+  // Places of samples are rounded by half of a 65535th of what the disk visits: at most the box.
+  const Visit visit = played(scene, states_at(scene, {0.7, 1.7, 4.9, 5.1, 8.3, 11.6}) + R"(
+    let apart = 0;
+    for (const { time, positions } of expected) {
+      carom.seek(time);
+      const dx = carom.moment.x[0] - positions[0][0];
+      const dy = carom.moment.y[0] - positions[0][1];
+      apart = Math.max(apart, Math.abs(dx - 10 * Math.round(dx / 10)), Math.abs(dy - 8 * Math.round(dy / 8)));
+    }
+    document.documentElement.dataset.apart = apart < 0.5 * 10 / 65535 + 1e-9 ? "rounding" : String(apart);
+)");
+  EXPECT_EQ(data(visit, "apart"), "rounding");
+}
+
 TEST(BrowserPlayer, DrawsDisksFromSamplesAtTheirInstantsAndSaysSo) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
   const Scene scene = parse_scene(gas, "gas", {"thermostat.temperature=1.0", "thermostat.rate=1.0"});

@@ -15,7 +15,7 @@ function sampleReplay() {
     if (box.periodic[1]) {
       const round = Math.round(dy / box.lengths[1]);
       dy -= round * box.lengths[1];
-      dx += round * displacementAt(k, k + 1, 0.5);  // under shear the images above are displaced
+      dx -= round * sampleDisplacement[k + 1];  // under shear the images above are displaced
     }
     if (box.periodic[0]) dx -= Math.round(dx / box.lengths[0]) * box.lengths[0];
     return [dx, dy];
@@ -38,6 +38,7 @@ function sampleReplay() {
       const between = (list, size, at) => list[size * k + at] + share * (list[size * next + at] - list[size * k + at]);
       moment.time = time;
       moment.done = done;
+      moment.displacement = displacementAt(k, next, share);
       for (let i = 0; i < disks; ++i) {
         let x = place(k, i, 0);
         let y = place(k, i, 1);
@@ -46,13 +47,13 @@ function sampleReplay() {
           x += share * dx;
           y += share * dy;
         }
+        if (box.periodic[1]) x -= Math.floor((y - box.lower[1]) / box.lengths[1]) * moment.displacement;
         moment.x[i] = box.periodic[0] ? folded(x, 0) : x;
         moment.y[i] = box.periodic[1] ? folded(y, 1) : y;
         moment.vx[i] = velocityStep * sampleVelocity[2 * (k * disks + i)];
         moment.vy[i] = velocityStep * sampleVelocity[2 * (k * disks + i) + 1];
       }
       moment.scale = between(sampleScale, 1, 0);
-      moment.displacement = displacementAt(k, next, share);
       for (let side = 0; side < 4; ++side) moment.walls[side] = between(sampleWalls, 4, side);
     },
   };

@@ -1,0 +1,28 @@
+#pragma once
+// What replays a recorded run exactly: its start and all of its events, where these tell how the disks moved.
+
+#include "io/run_reader.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace carom {
+
+/// How far a replay may be from the run's samples to count as exact, as a share of the longer side of the box.
+inline constexpr double replay_tolerance = 1e-6;
+
+struct ExactRun {
+  State start;  ///< the first sample
+  std::vector<Event> events;
+  double distance = 0.0;  ///< from the samples that it was held against, at most
+  std::string why_not;    ///< half a sentence where the run cannot be replayed; then there are no events
+  [[nodiscard]] bool exact() const { return why_not.empty(); }
+};
+
+/// `holder` ends the sentence about a log of more than `most_events`: "a page can hold". Throws OutputError where the run cannot
+/// be read.
+[[nodiscard]] ExactRun read_exactly(const RunReader& run, std::uint64_t most_events, std::string_view holder);
+
+}  // namespace carom
