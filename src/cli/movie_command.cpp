@@ -3,6 +3,7 @@
 #include "cli/format.hpp"
 #include "cli/movie_plan.hpp"
 #include "cli/progress.hpp"
+#include "cli/reading_process.hpp"
 #include "cli/signals.hpp"
 #include "io/info_parts.hpp"
 #include "io/partial_file.hpp"
@@ -84,14 +85,14 @@ std::string film_words(const MoviePlan& plan, const std::vector<double>& times) 
                      frames / plan.fps, times.front(), times.back());
 }
 
-}  // namespace
-
-ExitCode movie(const MovieOptions& options) {
+ExitCode draw(const MovieOptions& options) {
   const MoviePlan plan = movie_plan(options);
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
+  auto limit = std::make_optional<ReadingLimit>(options.directory);
   const auto run = before_anything([&] { return std::make_unique<RunReader>(options.directory); });
   const PlaybackOptions wanted{.trail = options.trails.value_or(0.0), .trails_of = species_of(options, *run)};
   const auto playback = before_anything([&] { return std::make_unique<Playback>(*run, wanted); });
+  limit.reset();
   const std::vector<double> times = picture_times(options, plan, playback->begin(), playback->end(), playback->last_sample());
   const Look look = look_of(options, plan, *run, playback->exact());
   const StopRequest stop;
@@ -119,6 +120,12 @@ ExitCode movie(const MovieOptions& options) {
              painter.size().height, plan.is_film() ? film_words(plan, times) : fmt::format("time {:g}", times.front()),
              playback->exact() ? ", exact" : ", interpolated between samples");
   return exit_done;
+}
+
+}  // namespace
+
+ExitCode movie(const MovieOptions& options) {
+  return in_reading_process(options.directory, [&] { return draw(options); });
 }
 
 }  // namespace carom::cli

@@ -1,6 +1,7 @@
 // carom play RUN_DIR: one HTML file that replays a run.
 
 #include "cli/commands.hpp"
+#include "cli/reading_process.hpp"
 #include "io/info_parts.hpp"
 #include "io/partial_file.hpp"
 #include "show/player_page.hpp"
@@ -48,6 +49,7 @@ PartialFile begin(const fs::path& path) {
 }
 
 PlayerData read(const std::string& directory) {
+  const ReadingLimit limit(directory);
   try {
     return player_data(RunReader(directory));
   } catch (const OutputError& error) {
@@ -55,9 +57,7 @@ PlayerData read(const std::string& directory) {
   }
 }
 
-}  // namespace
-
-ExitCode play(const PlayOptions& options) {
+ExitCode write_player(const PlayOptions& options) {
   const PlayerData data = read(options.directory);
   const fs::path path = place_for(options);
   PartialFile file = begin(path);
@@ -67,6 +67,12 @@ ExitCode play(const PlayOptions& options) {
              data.exact ? "an exact replay, from collision to collision"
                         : fmt::format("interpolated between samples: {}", data.why_not));
   return exit_done;
+}
+
+}  // namespace
+
+ExitCode play(const PlayOptions& options) {
+  return in_reading_process(options.directory, [&] { return write_player(options); });
 }
 
 }  // namespace carom::cli
