@@ -92,6 +92,7 @@ void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
       ->type_name("K");
   command->add_flag("--verify-horizon", options->verify_horizon,
                     "Say too how far the trajectory can be trusted, by repeating its beginning in 24 to 113 bits");
+  command->add_flag("--report", options->report, "Make the page of the run too: report.html, as carom report does");
   command->add_flag("--watch", options->watch, "Show the run live in the terminal; where stderr is none, the progress line");
   command->add_option("--pace", options->pace, "With --watch: simulated time per second (default: as fast as the machine can)")
       ->type_name("TIME");
@@ -210,6 +211,18 @@ void add_play(CLI::App& program, Action& action) {
   command->add_option("-o,--output", options->output, "The file to write (default: player.html in that directory)")
       ->type_name("FILE.html");
   command->callback([&action, options] { action = [options] { return play(*options); }; });
+}
+
+void add_report(CLI::App& program, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("report", "Write the page of a run: what happened, what it measured, and the run to watch");
+  const auto options = std::make_shared<ReportOptions>();
+  command->add_option("directory", options->directory, "The directory that carom run has written")
+      ->required()
+      ->type_name("RUN_DIR");
+  command->add_option("-o,--output", options->output, "The file to write (default: report.html in that directory)")
+      ->type_name("FILE.html");
+  command->callback([&action, options] { action = [options] { return report(*options); }; });
 }
 
 void add_movie(CLI::App& program, Action& action) {
@@ -332,6 +345,7 @@ Action parse_arguments(int argc, char** argv) {
   add_info(program, action, invocation);
   add_verify(program, action, invocation);
   add_play(program, action);
+  add_report(program, action);
   add_movie(program, action);
   add_bench(program, action);
   add_hardcases(program, action, invocation);

@@ -1,11 +1,11 @@
 // carom check SCENE: reads a scene, draws its initial state, and says what would be simulated, by which engine, and at what cost.
 
 #include "cli/commands.hpp"
-#include "cli/effects_description.hpp"
 #include "cli/expected_cost.hpp"
 #include "cli/format.hpp"
 #include "cli/scene_description.hpp"
 #include "observe/mechanics.hpp"
+#include "show/effects_words.hpp"
 
 #include <fmt/format.h>
 #include <carom/simulation.hpp>

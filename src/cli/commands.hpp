@@ -40,6 +40,7 @@ struct RunOptions {
   bool quiet = false;
   bool verbose = false;
   bool verify_horizon = false;
+  bool report = false;                  ///< make the page of the run too
   std::optional<std::uint64_t> verify;  ///< events from one check of the invariants to the next; absent: no checks
   std::string progress = "auto";
   std::string method = "exact";  ///< or a fixed-step method
@@ -92,6 +93,12 @@ struct PlayOptions {
   std::string output;     ///< empty: player.html in it
 };
 ExitCode play(const PlayOptions& options);
+
+struct ReportOptions {
+  std::string directory;  ///< of a finished run
+  std::string output;     ///< empty: report.html in it
+};
+ExitCode report(const ReportOptions& options);
 
 struct MovieOptions {
   std::string directory;  ///< of a finished run

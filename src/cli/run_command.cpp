@@ -5,6 +5,7 @@
 #include "cli/format.hpp"
 #include "cli/horizon_text.hpp"
 #include "cli/live_view.hpp"
+#include "cli/page_file.hpp"
 #include "cli/progress.hpp"
 #include "cli/scene_description.hpp"
 #include "cli/signals.hpp"
@@ -14,6 +15,7 @@
 #include "io/run_writer.hpp"
 #include "io/summary.hpp"
 #include "observe/run_measurements.hpp"
+#include "show/report_page.hpp"
 
 #include <fmt/format.h>
 #include <carom/observe.hpp>
@@ -140,6 +142,19 @@ RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurem
   return result;
 }
 
+/// The page of the run that has just been finished, made from its files. What goes wrong leaves them as they are, and is said.
+bool wrote_report(const RunDirectory& directory, std::vector<std::string>& files) {
+  constexpr const char* name = "report.html";
+  try {
+    write_page(directory.final_name(name), report_of(directory.path()).html);
+    files.emplace_back(name);
+    return true;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "carom: {}: the run is complete, and its report failed: {}\n", directory.path().string(), error.what());
+    return false;
+  }
+}
+
 ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   const Clock::time_point began = Clock::now();
   const ProgressMode progress = progress_mode(options.progress, options.quiet);
@@ -183,13 +198,15 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
     if (options.verify) report.verification = {*options.verify, result.verified, result.faults};
     if (start && result.stopped != StopReason::interrupted)
       report.horizon = horizon_with_progress(scene, *start, {.engine = simulation.engine()}, progress, stop);
-    const std::vector<std::string> files = writer.finish(report);
+    std::vector<std::string> files = writer.finish(report);
+    const bool report_failed = options.report && !wrote_report(directory, files);
     if (options.json) {
       fmt::print("{}\n", summary_json(report, provenance));
     } else if (!options.quiet) {
       fmt::print("{}", terminal_summary(report, scene, {directory.path(), files, invocation.program}));
     }
-    return exit_code_of(report);
+    const ExitCode code = exit_code_of(report);
+    return code == exit_done && report_failed ? exit_failed : code;
   } catch (...) {
     directory.discard_if_empty();
     throw;

@@ -134,6 +134,7 @@ H5FD_t* open_file(const char* name, unsigned /*flags*/, hid_t access, haddr_t /*
 }
 
 herr_t close_file(H5FD_t* file) {
+  driver_file(file)->file->commit_index();  // HDF5 may write its superblock once more after its last flush
   driver_file(file)->file->close();
   delete driver_file(file);
   return 0;

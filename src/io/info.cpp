@@ -70,7 +70,7 @@ std::string describe_scene(const fs::path& path) {
 std::string describe_directory(const fs::path& path) {
   std::string text;
   for (const std::string_view product : run_products) {
-    if (product.starts_with("observe_") || product == "player.html")
+    if (product.starts_with("observe_") || product.ends_with(".html"))
       continue;  // the summary tells of them; a page is for looking at
     for (const fs::path& file : {path / product, path / fmt::format("{}{}", product, partial_ending)}) {
       std::error_code error;

@@ -12,9 +12,9 @@
 
 namespace carom {
 
-/// The names of all files that a run may write, and of the page that `carom play` makes of one: another run's must not stay
-/// beside them. The summary comes last: where it is, the run is complete.
-inline constexpr std::array<std::string_view, 18> run_products = {"trajectory.h5md",
+/// The names of all files that a run may write, and of the pages that `carom play` and `carom report` make of one: another run's
+/// must not stay beside them. The summary comes last: where it is, the run is complete.
+inline constexpr std::array<std::string_view, 19> run_products = {"trajectory.h5md",
                                                                   "trajectory.xyz",
                                                                   "samples.csv",
                                                                   "observe_free_times.csv",
@@ -31,6 +31,7 @@ inline constexpr std::array<std::string_view, 18> run_products = {"trajectory.h5
                                                                   "observe_heat_conductivity.csv",
                                                                   "observe_h_function.csv",
                                                                   "player.html",
+                                                                  "report.html",
                                                                   "summary.json"};
 
 class RunDirectory {

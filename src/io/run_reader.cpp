@@ -2,13 +2,13 @@
 
 #include "io/run_reader.hpp"
 
+#include "io/finished_run.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <system_error>
 
 namespace carom {
 
@@ -17,34 +17,9 @@ namespace fs = std::filesystem;
 namespace {
 
 using detail::Hdf5Error;
-using detail::Hdf5Id;
 
 const std::string parameters = "/parameters";
 const std::string particles = "/particles/trajectory";
-
-/// Why there is nothing to read in `directory`, before anything is opened.
-void require_finished_run(const fs::path& directory) {
-  const std::string name = directory.string();
-  std::error_code error;
-  const fs::file_status status = fs::status(directory, error);
-  if (!fs::exists(status))
-    throw OutputError(fmt::format("{}: there is no such directory; name one that carom run has written", name));
-  if (!fs::is_directory(status))
-    throw OutputError(
-        fmt::format("{}: this is a file; name the run directory, the one that holds summary.json and trajectory.h5md", name));
-  const auto has = [&](const char* file) { return fs::exists(directory / file, error); };
-  if (has("trajectory.h5md.partial") || has("summary.json.partial"))
-    throw OutputError(fmt::format(
-        "{}: this run still goes on, or was ended from outside (there are .partial files); wait for its end, or run it again",
-        name));
-  if (!has("summary.json"))
-    throw OutputError(
-        fmt::format("{}: this directory holds no finished run (no summary.json); name one that carom run has written", name));
-  if (!has("trajectory.h5md"))
-    throw OutputError(fmt::format(
-        "{}: this run kept no trajectory.h5md; run the scene again with run.sample_every, and with --events for an exact replay",
-        name));
-}
 
 double folded(double x, double lower, double length) {
   x -= std::floor((x - lower) / length) * length;
@@ -55,39 +30,32 @@ double folded(double x, double lower, double length) {
 
 template <class Action>
 auto RunReader::guarded(Action action) const -> decltype(action()) {
-  H5dont_atexit();  // as in info_h5md.cpp: HDF5 complains of damaged files when the process ends
-  const detail::SilentHdf5 silent;
-  try {
-    return action();
-  } catch (const Hdf5Error& error) {
-    throw OutputError(fmt::format("{}: HDF5 cannot read this file ({}); it is damaged or cut short, copy it anew or run again",
-                                  path_.string(), error.what()));
-  }
+  return detail::reading_hdf5(path_, action);
 }
 
 RunReader::RunReader(const fs::path& directory) : path_(directory / "trajectory.h5md") {
-  require_finished_run(directory);
+  detail::require_finished_run(directory);
+  if (!detail::has_trajectory(directory))
+    throw OutputError(fmt::format(
+        "{}: this run kept no trajectory.h5md; run the scene again with run.sample_every, and with --events for an exact replay",
+        directory.string()));
   read_summary(directory);
   guarded([&] {
-    file_ = Hdf5Id(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-    if (detail::read_string_attribute(file_.get(), "/h5md/creator", "name") != "carom")
-      throw OutputError(fmt::format("{}: an HDF5 file that Carom did not write", path_.string()));
+    file_ = detail::open_trajectory(path_);
     read_trajectory();
     read_scene();
   });
 }
 
 void RunReader::read_summary(const fs::path& directory) {
-  const fs::path path = directory / "summary.json";
+  const nlohmann::ordered_json json = detail::summary_in(directory);
   try {
-    const auto json = nlohmann::json::parse(std::ifstream(path));
     end_ = json.at("time").get<double>();
     if (json.at("pressure").at("Z").is_number()) Z_ = json.at("pressure").at("Z").get<double>();
     facts_.emplace_back("Stopped by", json.at("stopped").get<std::string>());
     facts_.emplace_back("Pair collisions", std::to_string(json.at("events").at("pair").get<std::uint64_t>()));
   } catch (const nlohmann::json::exception&) {
-    throw OutputError(fmt::format("{}: this is not the summary of a run; it is damaged or cut short, copy it anew or run again",
-                                  path.string()));
+    throw detail::no_summary(directory);
   }
 }
 
@@ -119,18 +87,7 @@ void RunReader::read_trajectory() {
 /// The box and what acts, from the text that the run was made from.
 void RunReader::read_scene() {
   const auto text = [&](const char* name) { return detail::read_string_attribute(file_.get(), parameters, name); };
-  const std::string resolved = text("resolved_scene");
-  try {
-    scene_ = parse_scene(resolved, "resolved_scene");
-  } catch (const SceneError&) {
-    // The start file may be gone: the disks are in the trajectory, and two of any kind let the rest of the scene be read.
-    try {
-      scene_ = parse_scene(resolved, "resolved_scene",
-                           {"disks=[{count=2,radius=1e-12,mass=1.0,positions=\"random\",velocities=\"rest\"}]"});
-    } catch (const SceneError& error) {
-      throw OutputError(fmt::format("{}: the scene in this file cannot be read ({})", path_.string(), error.what()));
-    }
-  }
+  scene_ = detail::scene_in(file_.get(), path_);
   title_ = text("title");
   species_names_ = detail::read_strings_attribute(file_.get(), parameters, "species_names");
   for (const std::int32_t species : disks_.species)

@@ -48,11 +48,13 @@ std::string html(const TextTable& table) {
   std::string text = "<figure class=\"table\">\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"" +
                      html_text(table.title.empty() ? "Table" : table.title) + "\"><table>\n";
   if (!table.title.empty()) text += "<caption>" + html_text(table.title) + "</caption>\n";
-  text += "<thead><tr>";
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+  const bool has_heads = std::any_of(table.columns.begin(), table.columns.end(), [](const std::string& c) { return !c.empty(); });
+  if (has_heads) text += "<thead><tr>";
+  for (std::size_t i = 0; has_heads && i < table.columns.size(); ++i) {
     text += "<th scope=\"col\"" + std::string(attributes[i]) + ">" + html_text(table.columns[i]) + "</th>";
   }
-  text += "</tr></thead>\n<tbody>\n";
+  if (has_heads) text += "</tr></thead>\n";
+  text += "<tbody>\n";
   for (const auto& row : table.rows) {
     text += "<tr>";
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -75,6 +77,12 @@ std::string html(const Plot& plot) {
          "<details class=\"numbers\"><summary>Numbers</summary><div></div></details>\n"
          "<script type=\"application/json\" id=\"numbers-" +
          id + "\">" + plot_json(plot) + "</script>\n</figure>\n";
+}
+
+std::string html(const EmbeddedPage& page) {
+  return "<figure class=\"embedded\">\n<noscript><p class=\"note\">What stands here is made by a script, which is switched "
+         "off.</p></noscript>\n<iframe title=\"" +
+         html_text(page.title) + "\" srcdoc=\"" + html_document_text(page.html) + "\"></iframe>\n</figure>\n";
 }
 
 }  // namespace

@@ -43,7 +43,10 @@ std::string anchor(std::size_t section) { return "section-" + std::to_string(sec
 std::string script(const std::string& name) { return "<script>\n" + embedded_text(name) + "</script>\n"; }
 
 std::string head(const Page& page) {
-  return "<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+  const std::string generator =
+      page.generator.empty() ? "" : "<meta name=\"generator\" content=\"" + html_text(page.generator) + "\">\n";
+  return "<head>\n<meta charset=\"utf-8\">\n" + generator +
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "<meta name=\"color-scheme\" content=\"light dark\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"" +
          std::string(policy) + "\">\n<title>" + html_text(page.title) + "</title>\n<style>\n" + embedded_text("page/page.css") +
          "</style>\n" + script("page/errors.js") + "</head>\n";
@@ -102,7 +105,7 @@ std::string html_page(const Page& page) {
   std::string text = "<!doctype html>\n<html lang=\"en\">\n" + head(page) + "<body>\n" + header(page) + contents(page) +
                      sections(page) + footer(page);
   for (const char* const name : {"plotly/plotly-basic.min.js", "page/theme.js", "page/numbers.js", "page/traces.js",
-                                 "page/layout.js", "page/export.js", "page/page.js"}) {
+                                 "page/layout.js", "page/export.js", "page/embedded.js", "page/page.js"}) {
     text += script(name);
   }
   return text + "</body>\n</html>\n";

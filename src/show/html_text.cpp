@@ -61,4 +61,19 @@ std::string html_prose(std::string_view text) {
   }
 }
 
+std::string html_document_text(std::string_view document) {
+  std::string text;
+  text.reserve(document.size() + document.size() / 16);
+  for (const char c : document) {
+    if (c == '&') {
+      text += "&amp;";
+    } else if (c == '"') {
+      text += "&quot;";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
 }  // namespace carom::detail

@@ -12,4 +12,7 @@ std::string html_text(std::string_view text);
 /// The same, with what stands between two `backquotes` as code. An odd one stays as it is.
 std::string html_prose(std::string_view text);
 
+/// A whole document, which is HTML and UTF-8 already, as the value of a quoted attribute.
+std::string html_document_text(std::string_view document);
+
 }  // namespace carom::detail

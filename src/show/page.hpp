@@ -57,7 +57,7 @@ struct Plot {
 
 struct TextTable {
   std::string title = {};
-  std::vector<std::string> columns = {};
+  std::vector<std::string> columns = {};            ///< where all are empty, there is no row of them
   std::vector<std::vector<std::string>> rows = {};  ///< as many cells as columns; the first names the row
   std::string caption = {};
 };
@@ -72,7 +72,13 @@ struct Listing {
   std::string text = {};
 };
 
-using Block = std::variant<Paragraph, Plot, TextTable, Listing>;
+/// A whole page of another kind within this one, in a frame: its scripts and styles end at the frame.
+struct EmbeddedPage {
+  std::string title = {};
+  std::string html = {};  ///< UTF-8, with a content security policy no narrower than that of html_page()
+};
+
+using Block = std::variant<Paragraph, Plot, TextTable, Listing, EmbeddedPage>;
 
 struct Section {
   std::string heading = {};
@@ -86,6 +92,7 @@ struct KeyNumber {
 };
 
 struct Page {
+  std::string generator = {};  ///< the command that makes such pages, near the beginning of the file; empty: nothing is said
   std::string title = {};
   std::string subtitle = {};
   std::string lead = {};  ///< the answer in a few sentences

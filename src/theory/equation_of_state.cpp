@@ -58,4 +58,9 @@ double kolafa_rottner_finite(double eta, std::int64_t disks) {
   return z - eta / (2.0 * static_cast<double>(disks)) * (2.0 * z1 + eta * z2) / (z + eta * z1);
 }
 
+double structure_factor_at_zero(double eta) {
+  const auto [z, z1, z2] = evaluate(eta);
+  return 1.0 / (z + eta * z1);
+}
+
 }  // namespace carom::theory

@@ -13,4 +13,8 @@ namespace carom::theory {
 /// Z_N = Z - (eta / 2N) (2 Z' + eta Z'') / (Z + eta Z'), the first order in 1/N. Requires eta <= 0.63.
 [[nodiscard]] double kolafa_rottner_finite(double eta, std::int64_t disks);
 
+/// What the structure factor S(k) comes to at small k: kT times the isothermal compressibility times the density, 1 / (Z + eta
+/// Z'). Same range and source.
+[[nodiscard]] double structure_factor_at_zero(double eta);
+
 }  // namespace carom::theory

@@ -1,6 +1,7 @@
 #include "theory/kinetic.hpp"
 
 #include "theory/equation_of_state.hpp"
+#include "theory/microcanonical.hpp"
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/special_functions/bessel.hpp>
@@ -17,11 +18,28 @@ const double sqrt_pi = std::sqrt(pi);
 
 double density(double eta) { return 4.0 * eta / pi; }
 
+/// The mean of f(speed, rate) over flights: of a speed there are as many as disks of it collide.
+template <class Function>
+double over_flights(Function f) {
+  const auto at_speed = [&](double v) {
+    const double rate = relative_rate(v);
+    return v * std::exp(-0.5 * v * v) * rate * f(v, rate);
+  };
+  double sum = 0.0;
+  for (int panel = 0; panel < 5; ++panel)  // up to ten thermal velocities
+    sum += boost::math::quadrature::gauss<double, 30>::integrate(at_speed, 2.0 * panel, 2.0 * (panel + 1));
+  return sum;
+}
+
 }  // namespace
 
 double contact_value(double eta) { return (kolafa_rottner(eta) - 1.0) / (2.0 * eta); }
 
 double disk_collision_rate(double Z) { return 4.0 / sqrt_pi * (Z - 1.0); }
+
+double disk_collision_rate(double eta, std::int64_t disks) {
+  return disk_collision_rate(kolafa_rottner_finite(eta, disks)) * Microcanonical(disks, true).speed_factor();
+}
 
 double mean_free_path(double eta) { return 1.0 / (2.0 * std::numbers::sqrt2 * density(eta) * contact_value(eta)); }
 
@@ -45,14 +63,15 @@ double relative_rate(double speed) {
 }
 
 double flights_longer_than(double time) {
-  const auto at_speed = [&](double v) {
-    const double rate = relative_rate(v);
-    return v * std::exp(-0.5 * v * v) * rate * std::exp(-rate * time);
-  };
-  double sum = 0.0;
-  for (int panel = 0; panel < 5; ++panel)  // up to ten thermal velocities
-    sum += boost::math::quadrature::gauss<double, 30>::integrate(at_speed, 2.0 * panel, 2.0 * (panel + 1));
-  return sum;
+  return over_flights([&](double, double rate) { return std::exp(-rate * time); });
+}
+
+double flight_time_density(double time) {
+  return over_flights([&](double, double rate) { return rate * std::exp(-rate * time); });
+}
+
+double flight_length_density(double length) {
+  return over_flights([&](double v, double rate) { return rate / v * std::exp(-rate * length / v); });
 }
 
 double cooling_kurtosis(double e) {

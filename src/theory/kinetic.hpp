@@ -1,6 +1,8 @@
 #pragma once
 // Kinetic theory of one kind of smooth hard disks, as Boltzmann and Enskog have it. The units are the diameter, the mass and kT.
 
+#include <cstdint>
+
 namespace carom::theory {
 
 /// Contact value of g(r) from the equation of state: (Z - 1) / (2 eta), Z after Kolafa and Rottner. Requires 0 < eta <= 0.69.
@@ -8,6 +10,10 @@ namespace carom::theory {
 
 /// Collisions of a disk per time in a gas of this compressibility factor: (4 / sqrt pi) (Z - 1).
 [[nodiscard]] double disk_collision_rate(double Z);
+
+/// The same for N disks in a periodic box, of one energy and total momentum zero, with kT = K / (N - 1): Z of so many disks, and
+/// what a fixed energy makes of the mean relative speed, as it does of the mean speed. Requires eta <= 0.63 and N > 2.
+[[nodiscard]] double disk_collision_rate(double eta, std::int64_t disks);
 
 /// Mean free path of an infinite system, 1 / (2 sqrt2 rho g).
 [[nodiscard]] double mean_free_path(double eta);
@@ -26,6 +32,12 @@ namespace carom::theory {
 /// that it is the likelier to have the more often disks of that speed collide, and flies on as long as its rate says: exact for a
 /// dilute gas (Visco, van Wijland & Trizac, Phys. Rev. E 77, 041117 (2008)).
 [[nodiscard]] double flights_longer_than(double time);
+
+/// The density of these times, in mean free times: minus the derivative.
+[[nodiscard]] double flight_time_density(double time);
+/// The density of the lengths of these flights, in thermal velocities sqrt(kT / m) times mean free times; their mean is sqrt(pi /
+/// 2).
+[[nodiscard]] double flight_length_density(double length);
 
 /// Kurtosis <v^4> / <v^2>^2 of a gas of restitution e that cools evenly: 2 (1 + a2), with a2 from the second Sonine
 /// polynomial (van Noije & Ernst, Granular Matter 1, 57 (1998)), here for disks.

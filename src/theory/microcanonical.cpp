@@ -18,6 +18,11 @@ double Microcanonical::speed_density(double v, double mean_square) const {
   return left > 0.0 ? 2.0 * v / mean_square * (free_ - 1.0) / free_ * std::pow(left, free_ - 2.0) : 0.0;
 }
 
+double Microcanonical::energy_density(double energy, double mean) const {
+  const double left = 1.0 - energy / (mean * free_);
+  return left > 0.0 ? (free_ - 1.0) / (free_ * mean) * std::pow(left, free_ - 2.0) : 0.0;
+}
+
 double Microcanonical::speed_factor() const {
   return std::exp(0.5 * std::log(free_) + std::lgamma(free_) - std::lgamma(free_ + 0.5));
 }

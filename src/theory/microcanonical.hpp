@@ -18,6 +18,8 @@ class Microcanonical {
   [[nodiscard]] double square_below_which(double share_of_disks) const;
   /// Density of speeds v for which v^2 has this mean.
   [[nodiscard]] double speed_density(double v, double mean_square) const;
+  /// Density of kinetic energies that have this mean.
+  [[nodiscard]] double energy_density(double energy, double mean) const;
   /// <v^4> / <v^2>^2 = 2 n / (n + 1)
   [[nodiscard]] double kurtosis() const { return 2.0 * free_ / (free_ + 1.0); }
   /// <v_x^4> / <v_x^2>^2 = 3 n / (n + 1)

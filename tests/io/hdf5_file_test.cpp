@@ -51,6 +51,28 @@ TEST_F(Hdf5FileTest, TheIndexReachesTheDiskAtTheFlushAndDataAtOnce) {
   EXPECT_EQ(file_.held_bytes(), 0u);
 }
 
+TEST(Hdf5FileClosed, OpensHoweverManyGroupsAndColumnsItHolds) {
+  // As it closes a file, HDF5 gives back what is left of its last block of index, and then writes the superblock once more.
+  const detail::SilentHdf5 silent;
+  const TemporaryDirectory temporary;
+  const std::vector<double> column(100, 1.5);
+  for (std::size_t groups = 0; groups <= 40; ++groups) {
+    const std::filesystem::path path = temporary.path() / "file";
+    {
+      Hdf5File file;
+      detail::Hdf5Id opened = file.create(path);
+      detail::checked(H5Fflush(opened.get(), H5F_SCOPE_GLOBAL));
+      for (std::size_t k = 0; k < groups; ++k) {
+        const detail::Hdf5Id group = detail::create_group(opened.get(), "group" + std::to_string(k));
+        detail::write_fixed(group.get(), "column", std::span<const double>(column));
+      }
+      opened.close();
+      EXPECT_EQ(file.error(), 0);
+    }
+    EXPECT_NO_THROW(detail::Hdf5Id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose)) << groups << " groups";
+  }
+}
+
 TEST_F(Hdf5FileTest, WritesThatOverlapAcrossPagesAreReadInTheirOrder) {
   index(4000, 300, 'a');
   data(4090, 10, 'b');

@@ -4,6 +4,7 @@
 #include "io/run_writer.hpp"
 #include "observe/run_measurements.hpp"
 
+#include <carom/observe.hpp>
 #include <carom/simulation.hpp>
 
 #include <filesystem>
@@ -23,8 +24,12 @@ inline void record(const Scene& scene, const std::filesystem::path& directory) {
   };
   if (scene.output.events) hooks.events = [&](std::span<const Event> events) { writer.events(events); };
   hooks.block = [&](const Progress& progress) { measurements.block(progress); };
+  Observation observation(simulation);
+  observation.attach(hooks);
   const RunResult result = run_schedule(simulation, hooks);
-  writer.finish(measurements.report(result, 0.0));
+  RunReport report = measurements.report(result, 0.0);
+  report.observables = observation.results();
+  writer.finish(report);
 }
 
 }  // namespace carom::test

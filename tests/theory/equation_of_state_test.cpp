@@ -37,5 +37,14 @@ TEST(EquationOfState, DerivativesInTheFiniteSizeTermAgreeWithDifferences) {
   EXPECT_NEAR(theory::kolafa_rottner_finite(eta, 100) - z(eta), expected, 1e-6);
 }
 
+TEST(EquationOfState, StructureFactorAtZeroIsOneOverTheSlopeOfThePressure) {
+  EXPECT_NEAR(theory::structure_factor_at_zero(0.0), 1.0, 1e-15);
+  for (const double eta : {0.1, 0.4, 0.65}) {
+    const double h = 1e-5;  // central differences err by h^2 / 6 times a third derivative of below 1e5
+    const double slope = ((eta + h) * theory::kolafa_rottner(eta + h) - (eta - h) * theory::kolafa_rottner(eta - h)) / (2.0 * h);
+    EXPECT_NEAR(theory::structure_factor_at_zero(eta) * slope, 1.0, 1e-5) << eta;
+  }
+}
+
 }  // namespace
 }  // namespace carom::test

@@ -55,6 +55,36 @@ TEST(RelativeRate, IsTheMeanRelativeSpeedOfDraws) {
   }
 }
 
+/// From 0 to where next to nothing is left, in panels.
+double integral_to_the_end(auto f) {
+  double sum = 0.0;
+  for (int panel = 0; panel < 40; ++panel) sum += integral(f, 2.0 * panel, 2.0 * (panel + 1));
+  return sum;
+}
+
+TEST(FlightTimeDensity, IsWhatTheShareOfLongerFlightsLoses) {
+  for (const double time : {0.1, 1.0, 3.0}) {
+    const double h = 1e-4;  // a central difference is off by h^2 / 6 times a derivative of some 1
+    const double slope = (theory::flights_longer_than(time - h) - theory::flights_longer_than(time + h)) / (2.0 * h);
+    EXPECT_NEAR(theory::flight_time_density(time), slope, 1e-8) << time;
+  }
+}
+
+TEST(FlightLengthDensity, HasTheMeanSpeedTimesTheMeanFreeTimeAsItsMean) {
+  // The least rate is 1 / sqrt2: of a path of 80 thermal velocities times mean free times next to nothing is left. Near length 0
+  // the density rises as the slow disks' does, which panels resolve to 1e-6.
+  EXPECT_NEAR(integral_to_the_end([](double x) { return theory::flight_length_density(x); }), 1.0, 1e-6);
+  EXPECT_NEAR(integral_to_the_end([](double x) { return x * theory::flight_length_density(x); }),
+              std::sqrt(std::numbers::pi / 2.0), 1e-6);
+}
+
+TEST(DiskCollisionRate, OfManyDisksIsThatOfInfinitelyMany) {
+  const double infinite = theory::disk_collision_rate(theory::kolafa_rottner(0.3));
+  // Z loses less than 2 / N of itself, and the mean speed gains 1 / 8N.
+  EXPECT_NEAR(theory::disk_collision_rate(0.3, 10'000) / infinite, 1.0, 3e-4);
+  EXPECT_LT(theory::disk_collision_rate(0.3, 100), infinite);
+}
+
 TEST(FlightsLongerThan, BeginWithAllAndLastOneMeanFreeTimeOnAverage) {
   EXPECT_NEAR(theory::flights_longer_than(0.0), 1.0, 1e-10);
   double mean = 0.0;

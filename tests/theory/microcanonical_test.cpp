@@ -76,6 +76,17 @@ TEST_P(MicrocanonicalDraw, HasTheSameMomentsAndShares) {
   EXPECT_NEAR(speed, std::sqrt(std::numbers::pi / 4.0) * law.speed_factor(), within / 6.0) << n;
 }
 
+TEST(Microcanonical, EnergiesAreSpeedsInOtherUnits) {
+  const theory::Microcanonical law(7, true);
+  for (const double v : {0.1, 1.0, 2.5}) {
+    constexpr double mass = 3.0, mean_square = 2.0;
+    // f(E) dE = f(v) dv with dE = m v dv
+    EXPECT_NEAR(law.energy_density(0.5 * mass * v * v, 0.5 * mass * mean_square) * mass * v, law.speed_density(v, mean_square),
+                1e-14);
+  }
+  EXPECT_EQ(law.energy_density(6.1, 1.0), 0.0) << "one of six has no more than the energy of all";
+}
+
 INSTANTIATE_TEST_SUITE_P(Theory, MicrocanonicalDraw, ::testing::Bool(),
                          [](const auto& kept) { return kept.param ? "WithMomentum" : "Walls"; });
 

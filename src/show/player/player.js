@@ -62,6 +62,7 @@ window.carom = {
   columns,
 };
 
+if (window.parent !== window) document.documentElement.dataset.embedded = "";  // the page round it has title and facts
 fillLists();
 connectControls();
 connectKeyboard();

@@ -18,17 +18,10 @@ namespace carom::validation {
 
 namespace {
 
-/// Collisions of a disk per time in a system of N: omega = (4 / sqrt pi) (Z - 1) times what a fixed energy makes of the mean
-/// relative speed, as it does of the mean speed.
-double rate_of(double eta, std::int64_t disks) {
-  const theory::Microcanonical law(disks, true);
-  return theory::disk_collision_rate(theory::kolafa_rottner_finite(eta, disks)) * law.speed_factor();
-}
-
 TrialResult rates(const std::string& trial, double eta, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr std::int64_t disks = 1024;
-  const double rate = rate_of(eta, disks);
+  const double rate = theory::disk_collision_rate(eta, disks);
   const Gas gas{.disks = disks,
                 .packing_fraction = eta,
                 .collisions = effort.collisions(2e6),
@@ -127,7 +120,7 @@ TrialResult free_times(const std::string& trial, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr std::int64_t disks = 1024;
   constexpr double eta = 0.002;
-  const double rate = rate_of(eta, disks);
+  const double rate = theory::disk_collision_rate(eta, disks);
   const Gas gas{.disks = disks, .packing_fraction = eta, .collisions = effort.collisions(1e6), .observe = ""};
   Encounters::Seen seen;
   std::vector<std::unique_ptr<Observable>> own;

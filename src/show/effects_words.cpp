@@ -1,22 +1,21 @@
 // Says what each effect of a scene does, with its numbers.
 
-#include "cli/effects_description.hpp"
+#include "show/effects_words.hpp"
 
-#include "cli/format.hpp"
 #include "scene/wall_names.hpp"
+#include "show/number_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
-namespace carom::cli {
+namespace carom {
 
 namespace {
-
-std::string line(const char* subject, const std::string& words) { return fmt::format("  {:<11} {}\n", subject, words); }
 
 std::string words(const Collision& collision) {
   std::string text = collision.rule == CollisionRule::reversal
@@ -68,25 +67,27 @@ bool any_wall(const Effects& effects) {
 
 }  // namespace
 
-std::string describe(const Effects& effects) {
-  std::string text = line("collisions", words(effects.collision));
+SummaryRows words_of(const Effects& effects) {
+  SummaryRows rows;
+  const auto put = [&](const char* subject, std::string text) { rows.push_back({subject, std::move(text)}); };
+  put("collisions", words(effects.collision));
   if (effects.gravity) {
     const Eigen::Vector2d& g = effects.gravity->acceleration;
-    text += line("gravity", fmt::format("acceleration ({:.6g}, {:.6g})", g.x(), g.y()));
+    put("gravity", fmt::format("acceleration ({:.6g}, {:.6g})", g.x(), g.y()));
   }
   for (std::size_t w = 0; w < effects.walls.size(); ++w) {
     if (!effects.walls[w].present()) continue;
-    text += line("wall", fmt::format("{}: {}", wall_names[w], words(effects.walls[w], axis_of_wall(w))));
+    put("wall", fmt::format("{}: {}", wall_names[w], words(effects.walls[w], axis_of_wall(w))));
   }
-  if (!effects.obstacles.empty()) text += line("obstacles", words(effects.obstacles));
-  if (effects.growth) text += line("growth", words(*effects.growth));
+  if (!effects.obstacles.empty()) put("obstacles", words(effects.obstacles));
+  if (effects.growth) put("growth", words(*effects.growth));
   if (effects.thermostat) {
-    text += line("thermostat", fmt::format("each disk's velocity is drawn anew at kT = {:.6g}, at rate {:.6g}",
-                                           effects.thermostat->temperature, effects.thermostat->rate));
+    put("thermostat", fmt::format("each disk's velocity is drawn anew at kT = {:.6g}, at rate {:.6g}",
+                                  effects.thermostat->temperature, effects.thermostat->rate));
   }
-  if (effects.shear) text += line("shear", fmt::format("the flow is v_x = {:.6g} y (Lees-Edwards)", effects.shear->rate));
-  if (effects.square_well) text += line("square well", words(*effects.square_well));
-  return text;
+  if (effects.shear) put("shear", fmt::format("the flow is v_x = {:.6g} y (Lees-Edwards)", effects.shear->rate));
+  if (effects.square_well) put("square well", words(*effects.square_well));
+  return rows;
 }
 
 std::string absent(const Effects& effects) {
@@ -106,4 +107,4 @@ std::string absent(const Effects& effects) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-}  // namespace carom::cli
+}  // namespace carom

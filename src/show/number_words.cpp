@@ -1,13 +1,13 @@
 // Numbers and names as a person reads them.
 
-#include "cli/format.hpp"
+#include "show/number_words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace carom::cli {
+namespace carom {
 
 std::string grouped(std::uint64_t number) {
   std::string digits = std::to_string(number);
@@ -71,4 +71,4 @@ std::string shell_quoted(const std::string& text) {
   return quoted + "'";
 }
 
-}  // namespace carom::cli
+}  // namespace carom

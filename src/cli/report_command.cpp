@@ -1,0 +1,40 @@
+// carom report RUN_DIR: the page of one run.
+
+#include "cli/commands.hpp"
+#include "cli/page_file.hpp"
+#include "cli/reading_process.hpp"
+#include "io/info_parts.hpp"
+#include "show/report_page.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace carom::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+ReportFile read(const std::string& directory) {
+  const ReadingLimit limit(directory);
+  try {
+    return report_of(directory);
+  } catch (const OutputError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace
+
+ExitCode report(const ReportOptions& options) {
+  return in_reading_process(options.directory, [&] {
+    const ReportFile file = read(options.directory);
+    const fs::path path = place_for_page(options.output, fs::path(options.directory) / "report.html", {"report", report_mark});
+    write_page(path, file.html);
+    fmt::print("{}  {}, {}\n", path.string(), detail::size_text(fs::file_size(path)), file.player);
+    return exit_done;
+  });
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,49 @@
+#pragma once
+// What every reader of a run directory begins with: is it a finished run, its summary, its trajectory, the scene in it. Whatever
+// is wrong is an OutputError: one sentence that names the path.
+
+#include "io/hdf5_handle.hpp"
+#include "io/output_error.hpp"
+
+#include <carom/scene.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace carom::detail {
+
+/// Throws where `directory` is none that `carom run` has finished writing.
+void require_finished_run(const std::filesystem::path& directory);
+[[nodiscard]] bool has_trajectory(const std::filesystem::path& directory);
+
+/// summary.json. Its keys are not checked.
+[[nodiscard]] nlohmann::ordered_json summary_in(const std::filesystem::path& directory);
+/// What to throw where the keys are not those of a summary.
+[[nodiscard]] OutputError no_summary(const std::filesystem::path& directory);
+
+/// Does what may throw Hdf5Error, and says it of the file at `path`.
+template <class Action>
+auto reading_hdf5(const std::filesystem::path& path, Action action) {
+  H5dont_atexit();  // as in info_h5md.cpp: HDF5 complains of damaged files when the process ends
+  const SilentHdf5 silent;
+  try {
+    return action();
+  } catch (const Hdf5Error& error) {
+    throw OutputError(fmt::format("{}: HDF5 cannot read this file ({}); it is damaged or cut short, copy it anew or run again",
+                                  path.string(), error.what()));
+  }
+}
+
+/// Opens a file that Carom wrote. Throws Hdf5Error too.
+[[nodiscard]] Hdf5Id open_trajectory(const std::filesystem::path& path);
+
+/// The scene with every default that the file at `path` holds. Its species are not those of the run where a start file that it
+/// names is gone.
+[[nodiscard]] Scene scene_of(const std::string& resolved, const std::filesystem::path& path);
+/// That of a trajectory.
+[[nodiscard]] Scene scene_in(hid_t file, const std::filesystem::path& path);
+
+}  // namespace carom::detail

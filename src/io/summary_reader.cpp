@@ -1,0 +1,195 @@
+#include "io/summary_reader.hpp"
+
+#include "io/json_number.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <string>
+
+namespace carom {
+
+using detail::Json;
+
+namespace {
+
+/// `null` stands for what is not finite, or is not there.
+std::optional<double> number_in(const Json& json) { return json.is_null() ? std::nullopt : std::optional(json.get<double>()); }
+
+double finite_in(const Json& json) { return number_in(json).value_or(std::numeric_limits<double>::quiet_NaN()); }
+
+Eigen::Vector2d vector_in(const Json& json) { return {finite_in(json.at(0)), finite_in(json.at(1))}; }
+
+std::uint64_t count_in(const Json& json, const char* key) { return json.contains(key) ? json.at(key).get<std::uint64_t>() : 0; }
+
+std::optional<double> number_in(const Json& json, const char* key) {
+  return json.contains(key) ? number_in(json.at(key)) : std::nullopt;
+}
+
+StopReason stop_reason_in(const std::string& word) {
+  for (int k = 0; k <= static_cast<int>(StopReason::invalid_state); ++k)
+    if (to_string(static_cast<StopReason>(k)) == word) return static_cast<StopReason>(k);
+  throw Json::other_error::create(501, fmt::format("no run stops by \"{}\"", word), nullptr);
+}
+
+Totals totals_in(const Json& json) {
+  const Json& events = json.at("events");
+  Totals totals;
+  totals.pair = events.at("pair").get<std::uint64_t>();
+  totals.wall = events.at("wall").get<std::uint64_t>();
+  totals.other = events.at("other").get<std::uint64_t>();
+  totals.stale = events.at("stale").get<std::uint64_t>();
+  totals.obstacle = count_in(events, "obstacle");
+  totals.well = count_in(events, "well");
+  totals.kicks = count_in(events, "kicks");
+  totals.virial = finite_in(json.at("virial"));
+  const char* const sides[] = {"left", "right", "bottom", "top"};
+  for (std::size_t side = 0; side < 4; ++side) totals.wall_impulse[side] = finite_in(json.at("wall_impulse").at(sides[side]));
+  const Json& numerics = json.at("numerics");
+  totals.numerics = {.at_once = count_in(numerics, "at_once"),
+                     .overlapping = count_in(numerics, "overlapping"),
+                     .deepest_overlap = finite_in(numerics.at("deepest_overlap")),
+                     .grazing = count_in(numerics, "grazing"),
+                     .receding = count_in(numerics, "receding"),
+                     .epochs = count_in(numerics, "epochs"),
+                     .outrun = count_in(numerics, "outrun"),
+                     .lists_made = count_in(numerics, "lists_made"),
+                     .longest_list = count_in(numerics, "longest_list")};
+  return totals;
+}
+
+WallReport wall_in(const std::string& name, const Json& json) {
+  WallReport wall{.name = name,
+                  .momentum = finite_in(json.at("momentum")),
+                  .energy = finite_in(json.at("energy")),
+                  .force = number_in(json.at("force")),
+                  .pressure = number_in(json.at("pressure")),
+                  .end = {}};
+  if (json.contains("position")) wall.end = WallState{finite_in(json.at("position")), finite_in(json.at("velocity"))};
+  return wall;
+}
+
+ShearReport shear_in(const Json& json) {
+  return {.strain = finite_in(json.at("strain")),
+          .energy = finite_in(json.at("energy")),
+          .pressure_xy_of_collisions = number_in(json.at("pressure_xy").at("collisions")),
+          .pressure_xy_of_flight = number_in(json.at("pressure_xy").at("flight")),
+          .viscosity = number_in(json.at("viscosity"))};
+}
+
+EffectsReport effects_in(const Json& json) {
+  EffectsReport effects;
+  const Json& energy = json.at("energy");
+  effects.energy_given = number_in(energy, "given");
+  if (energy.contains("parts")) {
+    const Json& parts = energy.at("parts");
+    effects.energies_end = {.kinetic = finite_in(parts.at("kinetic")),
+                            .spin = finite_in(parts.at("spin")),
+                            .potential = finite_in(parts.at("potential")),
+                            .pistons = finite_in(parts.at("pistons"))};
+  }
+  effects.spin_temperature = number_in(json.at("temperature"), "spin_mean");
+  if (json.contains("walls"))
+    for (const auto& [name, wall] : json.at("walls").items()) effects.walls.push_back(wall_in(name, wall));
+  effects.packing_fraction_end = number_in(json, "packing_fraction_end");
+  effects.dissipated = number_in(json, "dissipated");
+  if (json.contains("obstacles")) effects.obstacles = vector_in(json.at("obstacles").at("momentum"));
+  if (json.contains("thermostat"))
+    effects.thermostat = {.kicks = count_in(json.at("thermostat"), "kicks"),
+                          .energy = finite_in(json.at("thermostat").at("energy"))};
+  if (json.contains("growth")) {
+    const Json& growth = json.at("growth");
+    effects.growth = {.scale = finite_in(growth.at("scale")),
+                      .packing_fraction = finite_in(growth.at("packing_fraction")),
+                      .energy = finite_in(growth.at("energy"))};
+  }
+  if (json.contains("shear")) effects.shear = shear_in(json.at("shear"));
+  if (json.contains("square_well")) effects.bonds = count_in(json.at("square_well"), "bonds");
+  return effects;
+}
+
+/// The summary has drifts and not what they are relative to: where that is more than the initial energy, it follows from them.
+std::optional<double> energy_scale_in(const RunReport& report, const Json& energy) {
+  if (!energy.contains("parts")) return {};
+  const double change = report.energy_final - report.energy_initial;
+  const double drift = finite_in(energy.at("relative_drift"));
+  if (change != 0.0 && drift != 0.0) return change / drift;
+  const double unexplained = number_in(energy, "unexplained").value_or(0.0);
+  if (unexplained != 0.0) return std::abs((change - report.of_effects.energy_given.value_or(0.0)) / unexplained);
+  return {};
+}
+
+Scalar scalar_in(const std::string& name, const Json& json) {
+  return {.name = name,
+          .unit = json.value("unit", ""),
+          .average = json.at("average").get<std::string>() == "time" ? Average::time : Average::collisions,
+          .value = number_in(json.at("value")),
+          .error = number_in(json.at("error")),
+          .decorrelation_time = number_in(json.at("decorrelation_time")),
+          .note = json.value("note", "")};
+}
+
+Measurement measurement_in(const std::string& name, const Json& json) {
+  Measurement found{.name = name};
+  for (const auto& [key, entry] : json.items()) {
+    if (key == "note") {
+      found.note = entry.get<std::string>();
+    } else if (key == "tables") {
+      for (const auto& [table, words] : entry.items())
+        found.tables.push_back(
+            {.name = table, .average = words.at("average").get<std::string>() == "time" ? Average::time : Average::collisions});
+    } else {
+      found.scalars.push_back(scalar_in(key, entry));
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+RunReport run_report_of(const Json& json) {
+  RunReport report;
+  report.scene = json.at("scene").get<std::string>();
+  report.title = json.at("title").get<std::string>();
+  report.seed = json.at("seed").get<std::uint64_t>();
+  report.engine = json.at("engine").get<std::string>();
+  report.time_step = number_in(json, "dt");
+  report.effects = json.at("effects").get<std::vector<std::string>>();
+  report.disks = json.at("disks").get<std::int64_t>();
+  report.packing_fraction = finite_in(json.at("packing_fraction"));
+  report.time = finite_in(json.at("time"));
+  report.samples = json.at("samples").get<std::uint64_t>();
+  report.totals = totals_in(json);
+  report.wall_seconds = finite_in(json.at("wall_seconds"));
+  report.loop_seconds = finite_in(json.at("loop_seconds"));
+  report.of_effects = effects_in(json);
+  report.energy_initial = finite_in(json.at("energy").at("initial"));
+  report.energy_final = finite_in(json.at("energy").at("final"));
+  report.energy_scale = energy_scale_in(report, json.at("energy"));
+  report.momentum_initial = vector_in(json.at("momentum").at("initial"));
+  report.momentum_final = vector_in(json.at("momentum").at("final"));
+  report.temperature_mean = finite_in(json.at("temperature").at("mean"));
+  const Json& pressure = json.at("pressure");
+  report.Z = number_in(pressure.at("Z"));
+  report.Z_error = number_in(pressure.at("Z_error"));
+  report.reduced_pressure = number_in(pressure.at("reduced"));
+  const Json& overlap = json.at("overlap");
+  report.max_relative_overlap = finite_in(overlap.at("max_relative"));
+  report.overlap_checked = overlap.at("checked").get<std::uint64_t>();
+  report.overlap_at_start = number_in(overlap, "start");
+  report.stopped = stop_reason_in(json.at("stopped").get<std::string>());
+  if (json.contains("stopped_disks")) report.stopped_disks = json.at("stopped_disks").get<std::vector<std::int32_t>>();
+  report.measured = json.value("measured", true);
+  if (json.contains("observables"))
+    for (const auto& [name, measured] : json.at("observables").items())
+      report.observables.push_back(measurement_in(name, measured));
+  if (json.contains("verified")) {
+    const Json& verified = json.at("verified");
+    report.verification = {.every = count_in(verified, "every"),
+                           .checks = count_in(verified, "checks"),
+                           .faults = verified.at("faults").get<std::vector<std::string>>()};
+  }
+  return report;
+}
+
+}  // namespace carom

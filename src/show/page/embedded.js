@@ -1,0 +1,25 @@
+// Pages within the page: where they are narrow and stack their parts they get the height that these need, and what goes wrong in
+// them is said on the page round them too.
+"use strict";
+
+function connectEmbedded(frame) {
+  const inside = frame.contentDocument;
+  const { errors } = inside.documentElement.dataset;
+  if (errors) pageError(`${frame.title}: ${errors}`);
+  frame.contentWindow.addEventListener("error", (event) => pageError(`${frame.title}: ${event.message}`));
+  const isStacked = () => frame.contentWindow.getComputedStyle(inside.body).overflowY !== "hidden";
+  const fit = () => {
+    const border = frame.offsetHeight - frame.clientHeight;
+    const height = isStacked() ? `${inside.body.offsetHeight + border}px` : "";
+    if (frame.style.height !== height) frame.style.height = height;
+  };
+  new frame.contentWindow.ResizeObserver(fit).observe(inside.body);
+  window.addEventListener("resize", fit);
+  fit();
+}
+
+for (const frame of document.querySelectorAll("figure.embedded iframe")) {
+  const isThere = frame.contentDocument?.URL === "about:srcdoc" && frame.contentDocument.readyState === "complete";
+  if (isThere) connectEmbedded(frame);
+  else frame.addEventListener("load", () => connectEmbedded(frame), { once: true });
+}
