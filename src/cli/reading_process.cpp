@@ -26,7 +26,15 @@ extern "C" void hand_on(int number) {
   if (reader > 0) kill(static_cast<pid_t>(reader), number);
 }
 
-/// Signals that ask the parent to end are for the child. A terminal sends its own to both.
+/// Ctrl-Z stops the child too, and it goes on with the parent.
+extern "C" void stop_both(int) {
+  hand_on(SIGSTOP);
+  raise(SIGSTOP);
+  hand_on(SIGCONT);
+}
+
+/// Signals that ask the parent to end are for the child. It has a group of its own: whether one comes from a terminal, from
+/// `timeout` or from `kill`, it then comes once, and the second is the user's, who wants no more of it.
 class HandOn {
  public:
   explicit HandOn(pid_t child) {
@@ -35,19 +43,21 @@ class HandOn {
     action.sa_handler = hand_on;
     sigemptyset(&action.sa_mask);
     sigaction(SIGTERM, &action, &terminate_);
-    action.sa_handler = SIG_IGN;
     sigaction(SIGINT, &action, &interrupt_);
+    action.sa_handler = stop_both;
+    sigaction(SIGTSTP, &action, &stop_);
   }
   ~HandOn() {
     sigaction(SIGTERM, &terminate_, nullptr);
     sigaction(SIGINT, &interrupt_, nullptr);
+    sigaction(SIGTSTP, &stop_, nullptr);
     reader = 0;
   }
   HandOn(const HandOn&) = delete;
   HandOn& operator=(const HandOn&) = delete;
 
  private:
-  struct sigaction terminate_ = {}, interrupt_ = {};
+  struct sigaction terminate_ = {}, interrupt_ = {}, stop_ = {};
 };
 
 int status_of(pid_t child) {
@@ -77,10 +87,13 @@ ExitCode in_reading_process(const fs::path& file, const std::function<ExitCode()
   const pid_t child = fork();
   if (child < 0) return command();  // without the net
   if (child == 0) {
+    setpgid(0, 0);
+    signal(SIGTTOU, SIG_IGN);  // it may write to the terminal of the parent
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) return exit_failed;
     return command();
   }
+  setpgid(child, child);  // before any signal, whoever of the two comes first
   const HandOn hand_on_signals(child);
   const int status = status_of(child);
   if (WIFEXITED(status)) return static_cast<ExitCode>(WEXITSTATUS(status));
