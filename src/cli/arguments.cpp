@@ -3,8 +3,8 @@
 
 #include "cli/arguments.hpp"
 
-#include "cli/format.hpp"
 #include "cli/manual.hpp"
+#include "show/number_words.hpp"
 #include "study/hard_case.hpp"
 
 #include <fmt/format.h>

@@ -6,10 +6,10 @@
 #include "cli/bench_effects.hpp"
 
 #include "cli/contender.hpp"
-#include "cli/format.hpp"
 #include "cli/measured_on.hpp"
 #include "cli/priced_effects.hpp"
 #include "cli/status_line.hpp"
+#include "show/number_words.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

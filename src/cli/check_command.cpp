@@ -2,10 +2,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/expected_cost.hpp"
-#include "cli/format.hpp"
 #include "cli/scene_description.hpp"
 #include "observe/mechanics.hpp"
 #include "show/effects_words.hpp"
+#include "show/number_words.hpp"
 
 #include <fmt/format.h>
 #include <carom/simulation.hpp>

@@ -1,6 +1,6 @@
 #include "cli/compare_text.hpp"
 
-#include "cli/format.hpp"
+#include "show/number_words.hpp"
 #include "study/compare_answers.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "cli/expected_cost.hpp"
 
-#include "cli/format.hpp"
 #include "observe/mechanics.hpp"
+#include "show/number_words.hpp"
 #include "theory/collision_rate.hpp"
 
 #include <fmt/format.h>

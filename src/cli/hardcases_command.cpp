@@ -1,10 +1,10 @@
 // carom hardcases: runs the corpus of hard cases, or those that are named, and says of each whether what must hold does.
 
 #include "cli/commands.hpp"
-#include "cli/format.hpp"
 #include "cli/hardcases_text.hpp"
 #include "cli/signals.hpp"
 #include "show/hard_case_page.hpp"
+#include "show/number_words.hpp"
 #include "study/hard_case.hpp"
 #include "study/hard_case_steps.hpp"
 #include "study/hard_case_table.hpp"

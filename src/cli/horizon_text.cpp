@@ -1,6 +1,6 @@
 #include "cli/horizon_text.hpp"
 
-#include "cli/format.hpp"
+#include "show/number_words.hpp"
 
 #include <fmt/format.h>
 

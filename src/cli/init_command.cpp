@@ -1,8 +1,8 @@
 // carom init [PRESET]: writes a commented scene to start from.
 
 #include "cli/commands.hpp"
-#include "cli/format.hpp"
 #include "scene/presets.hpp"
+#include "show/number_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,10 +1,10 @@
 #include "cli/live_view.hpp"
 
-#include "cli/format.hpp"
 #include "observe/energy.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/mechanics.hpp"
 #include "observe/pressure.hpp"
+#include "show/number_words.hpp"
 #include "theory/microcanonical.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 // carom movie RUN_DIR -o FILE: a run as a film, or one moment of it as a picture.
 
-#include "cli/format.hpp"
 #include "cli/movie_plan.hpp"
 #include "cli/progress.hpp"
 #include "cli/reading_process.hpp"
@@ -8,6 +7,7 @@
 #include "io/info_parts.hpp"
 #include "io/partial_file.hpp"
 #include "io/run_reader.hpp"
+#include "show/number_words.hpp"
 #include "show/playback.hpp"
 
 #include <fmt/format.h>

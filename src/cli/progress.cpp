@@ -3,7 +3,7 @@
 #include "cli/progress.hpp"
 
 #include "cli/commands.hpp"
-#include "cli/format.hpp"
+#include "show/number_words.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

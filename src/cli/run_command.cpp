@@ -2,7 +2,6 @@
 // scene or with the place for the results is found before the first event, and then nothing is left behind.
 
 #include "cli/commands.hpp"
-#include "cli/format.hpp"
 #include "cli/horizon_text.hpp"
 #include "cli/live_view.hpp"
 #include "cli/page_file.hpp"
@@ -15,6 +14,7 @@
 #include "io/run_writer.hpp"
 #include "io/summary.hpp"
 #include "observe/run_measurements.hpp"
+#include "show/number_words.hpp"
 #include "show/report_page.hpp"
 
 #include <fmt/format.h>

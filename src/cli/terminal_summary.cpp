@@ -3,7 +3,7 @@
 
 #include "cli/terminal_summary.hpp"
 
-#include "cli/format.hpp"
+#include "show/number_words.hpp"
 #include "show/summary_rows.hpp"
 #include "study/horizon_sentence.hpp"
 

@@ -2,10 +2,10 @@
 // is on the disk when it is finished, so that an interrupted validation goes on where it was.
 
 #include "cli/commands.hpp"
-#include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/signals.hpp"
 #include "cli/study_directory.hpp"
+#include "show/number_words.hpp"
 #include "show/page.hpp"
 #include "show/validation_page.hpp"
 #include "study/validation/validation.hpp"

@@ -2,10 +2,10 @@
 // such a run again, for carom info --reproduce.
 
 #include "cli/commands.hpp"
-#include "cli/format.hpp"
 #include "cli/reading_process.hpp"
 #include "cli/scratch_directory.hpp"
 #include "io/same_results.hpp"
+#include "show/number_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -46,6 +46,12 @@ file(READ ${SCRATCH}/tree/usr/share/man/man1/carom.1 installed)
 if(NOT manual STREQUAL installed)
   message(FATAL_ERROR "the manual page is not this program's")
 endif()
-run(completed bash -c "source tree/usr/share/bash-completion/completions/carom
-COMP_WORDS=(carom run --verify-h); COMP_CWORD=2; _carom; echo \"\${COMPREPLY[@]}\"")
+file(WRITE ${SCRATCH}/complete.bash [=[
+source tree/usr/share/bash-completion/completions/carom
+COMP_WORDS=(carom run --verify-h)
+COMP_CWORD=2
+_carom
+echo "${COMPREPLY[@]}"
+]=])
+run(completed bash complete.bash)
 require("${completed}" "^--verify-horizon\n$" "completion")
