@@ -27,12 +27,9 @@ class MovieCommand : public ProgramTest {
     words.insert(words.end(), more.begin(), more.end());
     ASSERT_EQ(carom(words).exit_code, 0);
   }
+  /// And nothing was written.
   void refused(const std::vector<std::string>& arguments, const std::string& sentence) {
-    const Outcome outcome = carom(arguments);
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.out, IsEmpty());
-    EXPECT_THAT(outcome.err, AllOf(StartsWith("carom: "), HasSubstr(sentence)));
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+    ProgramTest::refused(arguments, sentence);
     for (const auto& entry : fs::directory_iterator(directory_.path()))
       EXPECT_THAT(entry.path().filename(), ::testing::AnyOf("gas", "gas.toml", "bin", "mine.png")) << arguments.back();
   }

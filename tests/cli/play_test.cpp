@@ -17,13 +17,6 @@ using ::testing::StartsWith;
 class PlayCommand : public ProgramTest {
  protected:
   PlayCommand() : ProgramTest(fifty_disks) {}
-  void refused(const std::vector<std::string>& arguments, const std::string& sentence) {
-    const Outcome outcome = carom(arguments);
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.out, IsEmpty());
-    EXPECT_THAT(outcome.err, AllOf(StartsWith("carom: "), HasSubstr(sentence)));
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
-  }
 };
 
 TEST_F(PlayCommand, WritesThePlayerOfARunBesideItsFiles) {

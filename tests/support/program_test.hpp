@@ -3,10 +3,12 @@
 
 #include "support/child_process.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sys/types.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -20,6 +22,14 @@ class ProgramTest : public ::testing::Test {
 
   Outcome carom(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meanwhile = {}) {
     return run_carom(directory_.path(), arguments, meanwhile);
+  }
+  /// The arguments are wrong: exit code 2, nothing on stdout, and one sentence that has these words.
+  void refused(const std::vector<std::string>& arguments, const std::string& sentence) {
+    const Outcome outcome = carom(arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_THAT(outcome.err, ::testing::AllOf(::testing::StartsWith("carom: "), ::testing::HasSubstr(sentence)));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
   }
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return directory_.path() / name; }
 
