@@ -1,5 +1,6 @@
 // carom info FILE: what a file that Carom wrote holds, or how to make a run again.
 
+#include "cli/before_anything.hpp"
 #include "cli/commands.hpp"
 #include "cli/reading_process.hpp"
 #include "io/info.hpp"
@@ -17,11 +18,7 @@ ExitCode info(const InfoOptions& options, const Invocation& invocation) {
   }
   return in_reading_process(options.file, [&] {
     const ReadingLimit limit(options.file);
-    try {
-      fmt::print("{}", describe_file(options.file));
-    } catch (const OutputError& error) {
-      throw UsageError(error.what());
-    }
+    fmt::print("{}", before_anything([&] { return describe_file(options.file); }));
     return exit_done;
   });
 }

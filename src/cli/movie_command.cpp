@@ -1,5 +1,6 @@
 // carom movie RUN_DIR -o FILE: a run as a film, or one moment of it as a picture.
 
+#include "cli/before_anything.hpp"
 #include "cli/movie_plan.hpp"
 #include "cli/progress.hpp"
 #include "cli/reading_process.hpp"
@@ -24,16 +25,6 @@ namespace carom::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What cannot be read or written to begin with is the user's to mend.
-template <class Action>
-auto before_anything(Action action) -> decltype(action()) {
-  try {
-    return action();
-  } catch (const OutputError& error) {
-    throw UsageError(error.what());
-  }
-}
 
 /// Whose trails are drawn.
 std::optional<std::int32_t> species_of(const MovieOptions& options, const RunReader& run) {

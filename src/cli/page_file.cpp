@@ -1,5 +1,6 @@
 #include "cli/page_file.hpp"
 
+#include "cli/before_anything.hpp"
 #include "cli/commands.hpp"
 #include "io/partial_file.hpp"
 
@@ -22,14 +23,6 @@ bool is_page(const fs::path& path, std::string_view mark) {
   return std::string_view(begin.data(), static_cast<std::size_t>(file.gcount())).find(mark) != std::string_view::npos;
 }
 
-PartialFile begin(const fs::path& path) {
-  try {
-    return PartialFile(path);
-  } catch (const OutputError& error) {
-    throw UsageError(error.what());
-  }
-}
-
 }  // namespace
 
 fs::path place_for_page(const std::string& output, const fs::path& otherwise, const PageKind& kind) {
@@ -47,7 +40,7 @@ fs::path place_for_page(const std::string& output, const fs::path& otherwise, co
 }
 
 void write_page(const fs::path& path, const std::string& text) {
-  PartialFile file = begin(path);
+  PartialFile file = before_anything([&] { return PartialFile(path); });
   file.write(text);
   file.publish();
 }

@@ -1,5 +1,6 @@
 // carom play RUN_DIR: one HTML file that replays a run.
 
+#include "cli/before_anything.hpp"
 #include "cli/commands.hpp"
 #include "cli/page_file.hpp"
 #include "cli/reading_process.hpp"
@@ -18,11 +19,7 @@ namespace {
 
 PlayerData read(const std::string& directory) {
   const ReadingLimit limit(directory);
-  try {
-    return player_data(RunReader(directory));
-  } catch (const OutputError& error) {
-    throw UsageError(error.what());
-  }
+  return before_anything([&] { return player_data(RunReader(directory)); });
 }
 
 ExitCode write_player(const PlayOptions& options) {

@@ -1,5 +1,6 @@
 // carom report RUN_DIR: the page of one run.
 
+#include "cli/before_anything.hpp"
 #include "cli/commands.hpp"
 #include "cli/page_file.hpp"
 #include "cli/reading_process.hpp"
@@ -18,11 +19,7 @@ namespace {
 
 ReportFile read(const std::string& directory) {
   const ReadingLimit limit(directory);
-  try {
-    return report_of(directory);
-  } catch (const OutputError& error) {
-    throw UsageError(error.what());
-  }
+  return before_anything([&] { return report_of(directory); });
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // carom verify RUN_DIR: runs the scene of a finished run again and compares the two to the last bit. And the commands that make
 // such a run again, for carom info --reproduce.
 
+#include "cli/before_anything.hpp"
 #include "cli/commands.hpp"
 #include "cli/reading_process.hpp"
 #include "cli/scratch_directory.hpp"
+#include "io/finished_run.hpp"
 #include "io/same_results.hpp"
 #include "show/number_words.hpp"
 
@@ -36,7 +38,7 @@ Recorded recorded(const fs::path& directory) {
     throw UsageError(fmt::format(
         "{}: this is no directory of a finished run (no summary.json); name one that carom run has written", directory.string()));
   try {
-    const auto json = nlohmann::json::parse(std::ifstream(path));
+    const auto json = before_anything([&] { return detail::summary_in(directory); });
     if (!json.contains("resolved_scene"))
       throw UsageError(fmt::format(
           "{}: this run's scene is not in its summary: an earlier version wrote it, or it is no run's; run the scene again",
@@ -47,8 +49,7 @@ Recorded recorded(const fs::path& directory) {
     run.interrupted = json.at("stopped") == "interrupted";
     return run;
   } catch (const nlohmann::json::exception&) {
-    throw UsageError(fmt::format("{}: this is not the summary of a run; it is damaged or cut short, copy it anew or run again",
-                                 path.string()));
+    throw UsageError(detail::no_summary(directory).what());
   }
 }
 
@@ -93,13 +94,7 @@ ExitCode verify(const VerifyOptions& options, const Invocation& invocation) {
   if (const ExitCode code = run_again(run, scratch.path(), options, invocation); code != exit_done) return code;
   return in_reading_process(options.directory, [&] {
     const ReadingLimit limit(options.directory);
-    const SameResults found = [&] {
-      try {
-        return compare_results(options.directory, scratch.path() / "again");
-      } catch (const OutputError& error) {
-        throw UsageError(error.what());
-      }
-    }();
+    const SameResults found = before_anything([&] { return compare_results(options.directory, scratch.path() / "again"); });
     const std::string commits = run.commit == build_info().commit
                                     ? ""
                                     : fmt::format(" by another commit ({}; this is {})", run.commit, build_info().commit);

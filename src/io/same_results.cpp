@@ -1,5 +1,6 @@
 #include "io/same_results.hpp"
 
+#include "io/finished_run.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/run_directory.hpp"
 
@@ -124,17 +125,8 @@ std::string compare_texts(const fs::path& one, const fs::path& other, std::vecto
   return fmt::format("{} ({} lines)", one.filename().string(), line - 1);
 }
 
-nlohmann::json read_summary(const fs::path& path) {
-  try {
-    return nlohmann::json::parse(std::ifstream(path));
-  } catch (const nlohmann::json::exception&) {
-    throw OutputError(fmt::format("{}: this is not the summary of a run; it is damaged or cut short, copy it anew or run again",
-                                  path.string()));
-  }
-}
-
 std::string compare_summaries(const fs::path& one, const fs::path& other, std::vector<std::string>& differences) {
-  nlohmann::json a = read_summary(one), b = read_summary(other);
+  nlohmann::json a = detail::summary_in(one.parent_path()), b = detail::summary_in(other.parent_path());
   for (const std::string_view key : not_compared) {
     a.erase(std::string(key));
     b.erase(std::string(key));
