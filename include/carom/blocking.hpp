@@ -38,6 +38,12 @@ class Blocking {
   /// offset + factor <x> / <w>^power with its error and decorrelation time. `step`: time between samples.
   void fill(Scalar& scalar, double step, double factor = 1.0, double offset = 0.0, int power = 1) const;
 
+  /// For archives in cereal's manner.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(levels_);
+  }
+
  private:
   /// Blocks of 2^level samples; sums of squares are about the mean of all blocks.
   struct Level {

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <iosfwd>
 #include <memory>
 #include <optional>
 #include <span>
@@ -88,6 +89,10 @@ class Observable {
   virtual void sample(const State& /*state*/, const Totals& /*totals*/) {}
   /// Collisions of pairs since the last call, in order of time; all up to a sample come before it.
   virtual void collisions(std::span<const PairCollision> /*collisions*/) {}
+  /// Writes what was gathered so far, and reads it back into an observable that was made in the same way: for runs that are saved
+  /// and resumed. What these do by themselves is to throw std::logic_error.
+  virtual void save(std::ostream& out) const;
+  virtual void load(std::istream& in);
   /// The run has ended at `time`. Called once.
   [[nodiscard]] virtual Measurement finish(double time, const Totals& totals) = 0;
 };
@@ -98,6 +103,9 @@ class Observation {
   /// Makes the observables that simulation.scene().observe lists. Requires the simulation to live as long as this. Throws
   /// SceneError for what has no meaning in the scene.
   explicit Observation(const Simulation& simulation);
+  /// The same for a simulation that was restored to where save() was called: observables, those that add() brings among them, in
+  /// the same order, go on from there.
+  Observation(const Simulation& simulation, std::istream& saved);
   ~Observation();
   Observation(const Observation&) = delete;
   Observation& operator=(const Observation&) = delete;
@@ -109,6 +117,9 @@ class Observation {
 
   /// Puts what observables need into `hooks`, before what is there already. Requires `hooks` to be used while this lives.
   void attach(RunHooks& hooks);
+
+  /// Writes what all observables have gathered. Call it at a SavingMoment.
+  void save(std::ostream& out) const;
 
   /// When the run has ended: one entry per observable. Empty where the measured run never began.
   [[nodiscard]] std::vector<Measurement> results();

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -90,11 +91,16 @@ class Simulation {
   /// fault. O(N^2) for N <= 2000, O(N) beyond.
   [[nodiscard]] std::vector<std::string> check_invariants() const;
 
+  /// Writes all that decides how the simulation goes on, some 260 bytes per disk, for restore_simulation(). Requires all recorded
+  /// events to have been taken.
+  void save(std::ostream& out) const;
+
  private:
   friend Simulation make_simulation(const Scene& scene, const std::string& engine);
   friend Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine);
   friend Simulation make_simulation(const Scene& scene, const FixedStep& step);
   friend Simulation make_simulation(const Scene& scene, const State& start, const FixedStep& step);
+  friend Simulation restore_simulation(const Scene& scene, std::istream& in);
   friend struct RunResult run_schedule(Simulation& simulation, const struct RunHooks& hooks);
   struct Parts;
   explicit Simulation(std::unique_ptr<Parts> parts);
@@ -119,6 +125,11 @@ Simulation make_simulation(const Scene& scene, const State& start, const std::st
 /// or dt is not positive, finite and short enough for positions to stay finite.
 Simulation make_simulation(const Scene& scene, const FixedStep& step);
 Simulation make_simulation(const Scene& scene, const State& start, const FixedStep& step);
+
+/// A simulation as it was when Simulation::save() wrote it: whatever happens from there on happens to the last bit as it would
+/// have happened there. Requires the scene with which that one was made, and what the same version of the library has written:
+/// neither is checked.
+Simulation restore_simulation(const Scene& scene, std::istream& in);
 
 /// "naive", "naive-edge", "guarded", "grid"
 std::vector<std::string> fixed_step_names();
@@ -145,6 +156,13 @@ struct SamplingGrid {
   std::function<void(std::uint64_t k, const State& state, const Totals& totals)> sample;
 };
 
+/// A moment between two events at which a run can be saved.
+struct SavingMoment {
+  Progress progress;
+  bool ended = false;                           ///< the schedule has come to its end, or was stopped
+  std::function<void(std::ostream& out)> save;  ///< writes how far the schedule has come; Simulation::save() writes the rest
+};
+
 /// What a caller may look at while a scene's schedule runs. Any of them may be empty; none can change the run's bits.
 struct RunHooks {
   std::function<void(const State& start)> start;                    ///< once, when the measured run begins
@@ -154,6 +172,9 @@ struct RunHooks {
   std::vector<SamplingGrid> grids;                                  ///< of equal steps the first comes first
   std::function<bool(const Progress& progress)> proceed;            ///< several times a second; false stops the run
   std::uint64_t verify_every = 0;  ///< events from one check_invariants() to the next; 0 for no checks
+  /// Every few thousand events, after all that has happened so far was handed on; and when the run ends.
+  std::function<void(const SavingMoment& moment)> checkpoint;
+  std::istream* resume = nullptr;  ///< what SavingMoment::save() wrote: the schedule goes on from there, without `start`
 };
 
 struct RunResult {
@@ -167,7 +188,8 @@ struct RunResult {
 };
 
 /// Runs the scene's whole schedule: equilibrate, reset the clock, then sample until time or collisions are reached.
-/// Requires a simulation at time 0, as make_simulation returns it. Ends with event recording off.
+/// Requires a simulation at time 0, as make_simulation returns it, or with hooks.resume one that was restored to the moment at
+/// which the schedule was saved; its scene may have another end by then. Ends with event recording off.
 /// Throws SceneError where scene().run has no end, or a step that is not positive.
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks = {});
 

@@ -68,6 +68,15 @@ void add_progress(CLI::App& command, std::string& when) {
   command.add_option("--progress", when, "A progress line on stderr: auto (on a terminal), always or never")->type_name("WHEN");
 }
 
+void add_saving(CLI::App& command, RunOptions& options) {
+  command
+      .add_option("--checkpoint-every", options.checkpoint_every,
+                  "Save the run so often that carom resume can go on from there: 10min, or \"1e8 collisions\"; and at its end")
+      ->type_name("HOW_OFTEN");
+  command.add_option("--walltime", options.walltime, "Stop and save the run after so long: 90s, 10min, 1h30min or 01:30:00")
+      ->type_name("DURATION");
+}
+
 void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
   CLI::App* command = program.add_subcommand("run", "Run a scene and write its results");
   const auto options = std::make_shared<RunOptions>();
@@ -96,8 +105,33 @@ void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
   command->add_flag("--watch", options->watch, "Show the run live in the terminal; where stderr is none, the progress line");
   command->add_option("--pace", options->pace, "With --watch: simulated time per second (default: as fast as the machine can)")
       ->type_name("TIME");
+  add_saving(*command, *options);
   add_progress(*command, options->progress);
   command->callback([&action, options, invocation] { action = [options, invocation] { return run(*options, invocation); }; });
+}
+
+using Resumption = ExitCode (*)(const ResumeOptions&, const Invocation&);
+void add_resumption(CLI::App& program, Action& action, const Invocation& invocation, const char* name, const char* about,
+                    Resumption resumption) {
+  CLI::App* command = program.add_subcommand(name, about);
+  const auto options = std::make_shared<ResumeOptions>();
+  command->add_option("directory", options->directory, "The directory that carom run has written")
+      ->type_name("RUN_DIR")
+      ->required();
+  CLI::Option* time = command->add_option("--time", options->time, "Simulated time at which the run is to end")->type_name("T");
+  command->add_option("--collisions", options->collisions, "Collisions of pairs, since its beginning, with which it is to end")
+      ->type_name("N")
+      ->excludes(time);
+  RunOptions& how = options->run;
+  command->add_flag("--json", how.json, "Print summary.json in place of the summary for people");
+  command->add_flag("-q,--quiet", how.quiet, "Print no summary and no progress");
+  command->add_flag("--report", how.report, "Make the page of the run too: report.html, as carom report does");
+  command->add_flag("--watch", how.watch, "Show the run live in the terminal; where stderr is none, the progress line");
+  add_saving(*command, how);
+  add_progress(*command, how.progress);
+  command->callback([&action, options, invocation, resumption] {
+    action = [options, invocation, resumption] { return resumption(*options, invocation); };
+  });
 }
 
 void add_check(CLI::App& program, Action& action) {
@@ -338,6 +372,9 @@ Action parse_arguments(int argc, char** argv) {
   program.set_version_flag("--version", version());
   program.require_subcommand(1);
   add_run(program, action, invocation);
+  add_resumption(program, action, invocation, "resume", "Go on with a run that was interrupted or killed, to the same bits",
+                 &resume);
+  add_resumption(program, action, invocation, "extend", "Go on with a run that has come to its end, to a later one", &extend);
   add_check(program, action);
   add_horizon(program, action);
   add_compare(program, action, invocation);

@@ -46,9 +46,22 @@ struct RunOptions {
   std::string method = "exact";  ///< or a fixed-step method
   std::optional<double> dt;      ///< of a fixed-step method; absent: the sampling grid's
   bool watch = false;
-  std::optional<double> pace;  ///< simulated time per second to watch; absent: as fast as the machine
+  std::optional<double> pace;                   ///< simulated time per second to watch; absent: as fast as the machine
+  std::optional<std::string> checkpoint_every;  ///< "10min" or "1e8 collisions"; absent: only where the run is stopped
+  std::optional<std::string> walltime;          ///< after which the run is stopped and saved
 };
 ExitCode run(const RunOptions& options, const Invocation& invocation);
+
+struct ResumeOptions {
+  std::string directory;                    ///< of a run
+  std::optional<double> time;               ///< another end than the run's own
+  std::optional<std::uint64_t> collisions;  ///< the same
+  RunOptions run;                           ///< how to go on: what the checkpoint does not say
+};
+/// Goes on with a run that was interrupted or killed.
+ExitCode resume(const ResumeOptions& options, const Invocation& invocation);
+/// Goes on with a run that has come to its end, to a later one.
+ExitCode extend(const ResumeOptions& options, const Invocation& invocation);
 
 struct CheckOptions {
   SceneOptions scene;

@@ -2,23 +2,16 @@
 // scene or with the place for the results is found before the first event, and then nothing is left behind.
 
 #include "cli/commands.hpp"
-#include "cli/horizon_text.hpp"
-#include "cli/live_view.hpp"
-#include "cli/page_file.hpp"
+#include "cli/durations.hpp"
 #include "cli/progress.hpp"
+#include "cli/run_session.hpp"
 #include "cli/scene_description.hpp"
-#include "cli/signals.hpp"
-#include "cli/terminal_summary.hpp"
 #include "io/provenance.hpp"
 #include "io/run_directory.hpp"
-#include "io/run_writer.hpp"
-#include "io/summary.hpp"
-#include "observe/run_measurements.hpp"
 #include "show/number_words.hpp"
-#include "show/report_page.hpp"
 
 #include <fmt/format.h>
-#include <carom/observe.hpp>
+#include <fmt/ranges.h>
 #include <carom/simulation.hpp>
 
 #include <algorithm>
@@ -73,97 +66,17 @@ Simulation simulation_for(const RunOptions& options, const Scene& scene, const s
   }
 }
 
-/// The largest relative overlap that rounding explains. Double precision stays below 1e-12 in a box of ordinary size; the
-/// thousandfold leaves room for boxes of many thousand diameters, and a real fault is far above it. Single precision has
-/// half the digits.
-double tolerated_overlap(const std::string& engine) { return engine.find("float") != std::string::npos ? 1e-3 : 1e-9; }
-
-/// Overlap is what fixed steps are known for; it is reported, and no failure.
-ExitCode exit_code_of(const RunReport& report) {
-  if (report.stopped == StopReason::invalid_state) {
-    const std::vector<std::string>& faults = report.verification->faults;
-    fmt::print(stderr, "carom: {}: check {} found {} at time {}: {}\n", report.scene, grouped(report.verification->checks),
-               counted(faults.size(), "fault"), report.time, faults.front());
-    return exit_invalid_state;
-  }
-  const double tolerated = std::max(tolerated_overlap(report.engine), report.overlap_at_start.value_or(0.0));
-  if (!report.time_step && report.max_relative_overlap > tolerated) {
-    fmt::print(stderr, "carom: {}: disks overlap by {:.1e} of their contact distance, far more than rounding explains\n",
-               report.scene, report.max_relative_overlap);
-    return exit_invalid_state;
-  }
-  const bool interrupted = report.horizon && report.horizon->ended == HorizonEnd::interrupted;
-  return interrupted || report.stopped == StopReason::interrupted ? exit_interrupted : exit_done;
-}
-
-/// The live picture that --watch asks for, where the terminal can show it.
-std::optional<LiveView> live_view(const RunOptions& options, const Simulation& simulation) {
-  std::optional<LiveView> view;
-  if (!options.watch) return view;
-  if (const auto colours = terminal_for_pictures()) view.emplace(simulation, *colours);
-  return view;
-}
-
-/// Lets the view wait at instants so close that a person sees no steps.
-void keep_pace(LiveView& view, double pace, RunHooks& hooks) {
-  constexpr double steps_per_second = 20.0;
-  hooks.grids.push_back({pace / steps_per_second, [&view, pace](std::uint64_t, const State& state, const Totals& totals) {
-                           view.keep_pace(pace, state, totals);
-                         }});
-}
-
-/// `measured_start`, where it is not null, receives the state in which the measured run begins.
-RunResult run_with_output(Simulation& simulation, RunWriter& writer, RunMeasurements& measurements, Observation& observation,
-                          const RunOptions& options, ProgressMode mode, const StopRequest& stop,
-                          std::optional<State>* measured_start) {
-  std::optional<LiveView> view = live_view(options, simulation);
-  ProgressLine line(view ? ProgressMode::never : mode, simulation.scene());
-  RunHooks hooks;
-  hooks.verify_every = options.verify.value_or(0);
-  hooks.start = [&](const State& start) {
-    measurements.start(start);
-    if (measured_start != nullptr) *measured_start = start;
-  };
-  hooks.sample = [&](std::uint64_t k, const State& state) {
-    measurements.sample(state);
-    writer.sample(k, state);
-  };
-  if (simulation.scene().output.events) hooks.events = [&](std::span<const Event> events) { writer.events(events); };
-  hooks.block = [&](const Progress& progress) { measurements.block(progress); };
-  hooks.proceed = [&](const Progress& progress) {
-    line.update(progress);
-    if (view) view->update(progress);
-    return !stop.made();
-  };
-  observation.attach(hooks);
-  if (view && options.pace) keep_pace(*view, *options.pace, hooks);
-  const RunResult result = run_schedule(simulation, hooks);
-  if (view) view->finish({simulation.time(), simulation.totals(), result.loop_seconds, !result.measured});
-  return result;
-}
-
-/// The page of the run that has just been finished, made from its files. What goes wrong leaves them as they are, and is said.
-bool wrote_report(const RunDirectory& directory, std::vector<std::string>& files) {
-  constexpr const char* name = "report.html";
-  try {
-    write_page(directory.final_name(name), report_of(directory.path()).html);
-    files.emplace_back(name);
-    return true;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "carom: {}: the run is complete, and its report failed: {}\n", directory.path().string(), error.what());
-    return false;
-  }
-}
-
 ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   const Clock::time_point began = Clock::now();
-  const ProgressMode progress = progress_mode(options.progress, options.quiet);
+  (void)progress_mode(options.progress, options.quiet);  // what is wrong with it is said before anything is written
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
   if (options.verify == std::uint64_t{0}) throw UsageError("--verify 0: give the number of events between two checks, 1 or more");
   if (options.pace && !options.watch) throw UsageError("--pace slows a run down for those who watch it: give --watch too");
   if (options.pace && !(*options.pace > 0.0 && std::isfinite(*options.pace)))
     throw UsageError(fmt::format("--pace {:g}: it is simulated time per second and must be positive", *options.pace));
+  if (options.walltime) (void)seconds_of("--walltime", *options.walltime);
+  if (options.checkpoint_every) (void)saving_plan(*options.checkpoint_every);
   if (options.verify_horizon) require_no_effects(scene, "--verify-horizon");
   if (options.method != "exact") require_no_effects(scene, "--method");
   if (options.method != "exact" && !scene.observe.empty())
@@ -173,7 +86,6 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
                               .command_line = invocation.command_line,
                               .engine = simulation.engine(),
                               .time_step = simulation.time_step()};
-  const StopRequest stop;  // from here on there is something to save
   const RunDirectory directory = [&] {
     try {
       return RunDirectory(directory_for(options), options.force);
@@ -186,27 +98,7 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
                method_words(simulation.engine(), simulation.time_step()), directory.path().string());
 
   try {
-    RunWriter writer(directory, scene, simulation.disks(), provenance);
-    RunMeasurements measurements(simulation);
-    Observation observation(simulation);
-    std::optional<State> start;
-    const RunResult result = run_with_output(simulation, writer, measurements, observation, options, progress, stop,
-                                             options.verify_horizon ? &start : nullptr);
-    const double wall_seconds = std::chrono::duration<double>(Clock::now() - began).count();
-    RunReport report = measurements.report(result, wall_seconds);
-    report.observables = observation.results();
-    if (options.verify) report.verification = {*options.verify, result.verified, result.faults};
-    if (start && result.stopped != StopReason::interrupted)
-      report.horizon = horizon_with_progress(scene, *start, {.engine = simulation.engine()}, progress, stop);
-    std::vector<std::string> files = writer.finish(report);
-    const bool report_failed = options.report && !wrote_report(directory, files);
-    if (options.json) {
-      fmt::print("{}\n", summary_json(report, provenance));
-    } else if (!options.quiet) {
-      fmt::print("{}", terminal_summary(report, scene, {directory.path(), files, invocation.program}));
-    }
-    const ExitCode code = exit_code_of(report);
-    return code == exit_done && report_failed ? exit_failed : code;
+    return carry_out({options, invocation, simulation, provenance, directory, nullptr, began});
   } catch (...) {
     directory.discard_if_empty();
     throw;

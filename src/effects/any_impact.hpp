@@ -80,6 +80,11 @@ class AnyImpact {
 
   [[nodiscard]] std::size_t bytes() const { return (spins_.capacity() + last_.capacity()) * sizeof(Real) + wells_.bytes(); }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(spins_, last_, wells_);
+  }
+
  private:
   ImpactResult<Real> collide(const Vec2<Real>& r, const Body& i, const Body& j) const {
     return rule_ == CollisionRule::reversal ? carom::collide<Reversal, Real>(r, i.mass, i.v, j.mass, j.v)

@@ -102,6 +102,11 @@ class SquareWells {
     return {distance * reduced * change, square > 0 ? gained : Real(0)};
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(partners_, pairs_);
+  }
+
  private:
   [[nodiscard]] std::vector<std::int32_t>& partners(std::int32_t i) { return partners_[static_cast<std::size_t>(i)]; }
   void erase(std::int32_t i, std::int32_t j) {

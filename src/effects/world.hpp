@@ -103,6 +103,11 @@ struct AnyWorld {
   }
   [[nodiscard]] std::size_t bytes() const { return obstacles.bytes(); }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(walls, sliding, depth_, scale_, growth_);
+  }
+
   Falling<double> falling;
   Walls<double> walls;
   Obstacles<double> obstacles;

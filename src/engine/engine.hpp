@@ -14,8 +14,8 @@
 // disk carries). Uniform gravity costs nothing where disks meet: lines are drawn in a frame that falls with the disks from the
 // epoch on, in which they are straight, and only walls and obstacles are looked for along the parabola.
 //
-// The files engine_state.hpp (beginning, epochs, what is seen from outside), engine_shear.hpp (boxes whose images slide) and
-// engine_check.hpp (invariants) hold the rest.
+// The files engine_state.hpp (beginning, epochs, what is seen from outside), engine_shear.hpp (boxes whose images slide),
+// engine_check.hpp (invariants) and engine_archive.hpp (checkpoints) hold the rest.
 
 #include "core/fetch.hpp"
 #include "core/fixed_axis.hpp"
@@ -622,12 +622,17 @@ class Engine {
   /// Bytes of all that has an entry per disk.
   [[nodiscard]] std::size_t bytes() const;
 
+  /// All that decides how the run goes on, for core/archive.hpp. Requires all events to have been taken.
+  template <class Archive>
+  void serialize(Archive& archive);
+
   /// One sentence for every way in which the plan differs from what an exhaustive search finds.
   [[nodiscard]] std::vector<std::string> check_invariants() const;
 };
 
 }  // namespace carom
 
+#include "engine/engine_archive.hpp"
 #include "engine/engine_check.hpp"
 #include "engine/engine_shear.hpp"
 #include "engine/engine_state.hpp"

@@ -298,12 +298,15 @@ class TextbookEngine {
     ++totals_.numerics.lists_made;
     grid_.clear();
     for (std::int32_t i = 0; i < count(); ++i) grid_.insert(i, record(i).r);
+    for (std::int32_t i = 0; i < count(); ++i) make_plan(i);
+    fill_queue();
+  }
+
+  /// With the next event of every disk, as planned.
+  void fill_queue() {
     std::vector<QueuedEvent<Real>> events;
     events.reserve(records_.size());
-    for (std::int32_t i = 0; i < count(); ++i) {
-      make_plan(i);
-      events.push_back(next_of(i));
-    }
+    for (std::int32_t i = 0; i < count(); ++i) events.push_back(next_of(i));
     queue_.assign(events);
   }
 
@@ -501,6 +504,10 @@ class TextbookEngine {
 
   /// One sentence for every way in which the plan differs from what an exhaustive search finds.
   [[nodiscard]] std::vector<std::string> check_invariants() const;
+
+  /// All that decides how the run goes on, for core/archive.hpp. Requires all events to have been taken.
+  template <class Archive>
+  void serialize(Archive& archive);
 };
 
 }  // namespace carom

@@ -133,6 +133,14 @@ Real TextbookEngine<Real>::suitable_epoch_length() const {
 }
 
 template <class Real>
+template <class Archive>
+void TextbookEngine<Real>::serialize(Archive& archive) {
+  archive(walls_, sliding_, impact_, scale_, growth_, grid_, records_, plans_, images_, epoch_, now_, epoch_length_,
+          at_one_instant_, totals_, last_collision_);
+  if constexpr (Archive::is_loading::value) fill_queue();
+}
+
+template <class Real>
 std::vector<std::string> TextbookEngine<Real>::check_invariants() const {
   std::vector<std::string> faults;
   const Real tolerance = Real(1e-12) + 1000 * epsilon<Real>;

@@ -6,7 +6,10 @@
 #include <carom/state.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 namespace carom {
 
@@ -14,11 +17,14 @@ namespace carom {
 class CsvWriter {
  public:
   explicit CsvWriter(std::filesystem::path path, bool rough = false);
+  /// Goes on after the first `kept` bytes of a file that is there.
+  CsvWriter(std::filesystem::path path, bool rough, std::uint64_t kept) : file_(std::move(path), kept), rough_(rough) {}
 
   void sample(const State& state);  ///< positions are written as they are
   void flush() { file_.flush(); }
   void close() { file_.close(); }
 
+  [[nodiscard]] std::uint64_t written() const { return file_.written(); }
   [[nodiscard]] std::size_t buffered_bytes() const { return file_.buffered_bytes(); }
 
  private:

@@ -20,6 +20,12 @@ class EventLog {
   void write();  ///< hands complete chunks to HDF5
   void close();  ///< hands everything to HDF5
 
+  /// How far all columns have come, for core/archive.hpp.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(time_, time_remainder_, disk_, partner_, velocity_, partner_velocity_);
+  }
+
   [[nodiscard]] std::uint64_t written() const { return time_.written_rows(); }
   [[nodiscard]] std::size_t buffered_bytes() const;
 

@@ -2,6 +2,9 @@
 
 #include "io/growing_dataset.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <utility>
 
 namespace carom::detail {
@@ -19,6 +22,7 @@ hsize_t rows_per_chunk(std::size_t row_bytes, std::uint64_t expected_rows) {
 }
 
 Hdf5Id create_growing(hid_t parent, const std::string& name, hid_t file_type, const DatasetLayout& layout) {
+  if (checked(H5Lexists(parent, name.c_str(), H5P_DEFAULT)) > 0) return {H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose};
   std::vector<hsize_t> extents = {0};
   std::vector<hsize_t> limits = {H5S_UNLIMITED};
   std::vector<hsize_t> chunk = {layout.rows_per_chunk};
@@ -58,6 +62,23 @@ void append_rows(hid_t dataset, hid_t memory_type, std::span<const hsize_t> row,
   checked(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extents.data(), nullptr));
   const Hdf5Id memory(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose);
   checked(H5Dwrite(dataset, memory_type, memory.get(), space.get(), H5P_DEFAULT, values));
+}
+
+hsize_t rows_per_chunk_of(hid_t dataset) {
+  const Hdf5Id properties(H5Dget_create_plist(dataset), H5Pclose);
+  std::array<hsize_t, H5S_MAX_RANK> chunk{};
+  checked(H5Pget_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()));
+  return chunk[0];
+}
+
+void cut_back(hid_t dataset, std::span<const hsize_t> row, hsize_t rows) {
+  const Hdf5Id space(H5Dget_space(dataset), H5Sclose);
+  std::array<hsize_t, H5S_MAX_RANK> present{};
+  checked(H5Sget_simple_extent_dims(space.get(), present.data(), nullptr));
+  if (present[0] < rows) throw Hdf5Error(fmt::format("{} rows are left of {}", present[0], rows));
+  std::vector<hsize_t> extents = {rows};
+  extents.insert(extents.end(), row.begin(), row.end());
+  checked(H5Dset_extent(dataset, extents.data()));
 }
 
 }  // namespace carom::detail

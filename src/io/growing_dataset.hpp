@@ -22,8 +22,12 @@ struct DatasetLayout {
 /// How many rows of `row_bytes` make a chunk: about 256 KiB, but at most 1024 rows and at most `expected_rows`.
 [[nodiscard]] hsize_t rows_per_chunk(std::size_t row_bytes, std::uint64_t expected_rows);
 
-/// Creates the empty dataset `name`, [0][row...], without a limit on its rows. A chunk takes at most 1 MiB.
+/// Creates the empty dataset `name`, [0][row...], without a limit on its rows, or opens the one that is there. A chunk takes at
+/// most 1 MiB.
 [[nodiscard]] Hdf5Id create_growing(hid_t parent, const std::string& name, hid_t file_type, const DatasetLayout& layout);
+[[nodiscard]] hsize_t rows_per_chunk_of(hid_t dataset);
+/// Leaves the first `rows` rows. Throws Hdf5Error where there are not so many.
+void cut_back(hid_t dataset, std::span<const hsize_t> row, hsize_t rows);
 /// Writes `count` rows after the first `present`.
 void append_rows(hid_t dataset, hid_t memory_type, std::span<const hsize_t> row, hsize_t present, hsize_t count,
                  const void* values);
@@ -52,6 +56,16 @@ class GrowingDataset {
   GrowingDataset(hid_t parent, const std::string& name, DatasetLayout layout)
       : layout_(std::move(layout)), dataset_(create_growing(parent, name, Hdf5Type<Number>::file(), layout_)) {
     for (const hsize_t extent : layout_.row) row_size_ *= extent;
+    layout_.rows_per_chunk =
+        rows_per_chunk_of(dataset_.get());  // of a file that is resumed, it may have been chosen for another end
+  }
+
+  /// How many rows there are, and those that HDF5 has not got yet, for core/archive.hpp. Read back, the dataset keeps those rows
+  /// and no others.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(written_rows_, buffered_rows_, buffer_);
+    if constexpr (Archive::is_loading::value) cut_back(dataset_.get(), layout_.row, written_rows_);
   }
 
   /// A new row of zeros at the end, for the caller to fill. It is valid until the next call of any function.

@@ -23,6 +23,12 @@ class H5mdFrames {
   void write();  ///< hands everything to HDF5
   void close();
 
+  /// How far all columns have come, for core/archive.hpp.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(step_, time_, position_, velocity_, image_, edges_, observables_);
+  }
+
   [[nodiscard]] std::uint64_t written() const { return step_.written_rows(); }
   [[nodiscard]] std::size_t buffered_bytes() const;
 

@@ -23,6 +23,12 @@ class H5mdObservables {
   void write();                                         ///< hands everything to HDF5
   void close();
 
+  /// How far all columns have come, for core/archive.hpp.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    for (Column& column : columns_) archive(column.values);
+  }
+
   [[nodiscard]] std::size_t buffered_bytes() const;
 
  private:

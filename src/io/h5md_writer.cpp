@@ -2,6 +2,7 @@
 
 #include "io/h5md_writer.hpp"
 
+#include "core/archive.hpp"
 #include "io/h5md_measurements.hpp"
 #include "io/h5md_parameters.hpp"
 
@@ -44,15 +45,35 @@ void H5mdWriter::guard(Action action) {
 }
 
 H5mdWriter::H5mdWriter(std::filesystem::path path, const Scene& scene, const Disks& disks, const Provenance& provenance)
+    : H5mdWriter(std::move(path), scene, disks, provenance, nullptr) {}
+
+H5mdWriter::H5mdWriter(std::filesystem::path path, const Scene& scene, const Disks& disks, const Provenance& provenance,
+                       std::istream& saved)
+    : H5mdWriter(std::move(path), scene, disks, provenance, &saved) {}
+
+H5mdWriter::H5mdWriter(std::filesystem::path path, const Scene& scene, const Disks& disks, const Provenance& provenance,
+                       std::istream* saved)
     : path_(std::move(path)), disks_(disks) {
   guard([&] {
-    h5_ = file_.create(path_);
+    h5_ = saved != nullptr ? file_.reopen(path_) : file_.create(path_);
     detail::write_h5md_header(h5_.get());
     detail::write_parameters(h5_.get(), scene, provenance);
     frames_.emplace(h5_.get(), scene, disks_);
     if (scene.output.events) events_.emplace(h5_.get());
+    if (saved == nullptr) return;
+    detail::remove_link(h5_.get(), "measurements");  // of an end that is none any more
+    LoadingArchive archive(*saved);
+    archive(*frames_);
+    if (events_) archive(*events_);
   });
   flush();
+}
+
+void H5mdWriter::save(std::ostream& out) {
+  flush();
+  SavingArchive archive(out);
+  archive(*frames_);
+  if (events_) archive(*events_);
 }
 
 H5mdWriter::~H5mdWriter() {

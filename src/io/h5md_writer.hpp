@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,6 +27,9 @@ class H5mdWriter {
  public:
   /// Creates the file. It always has the groups of the samples, and /events where scene.output.events asks for it.
   H5mdWriter(std::filesystem::path path, const Scene& scene, const Disks& disks, const Provenance& provenance);
+  /// Goes on with a file that is there, from where save() was called: what was written after that is cut off.
+  H5mdWriter(std::filesystem::path path, const Scene& scene, const Disks& disks, const Provenance& provenance,
+             std::istream& saved);
   ~H5mdWriter();  ///< writes what is left as far as that goes; only close() says whether it went well
   H5mdWriter(const H5mdWriter&) = delete;
   H5mdWriter& operator=(const H5mdWriter&) = delete;
@@ -38,12 +42,16 @@ class H5mdWriter {
   void measurements(const std::vector<Measurement>& observables);
   void flush();  ///< from now on all samples so far survive whatever happens
   void close();
+  /// Flushes, and writes how far the file has come.
+  void save(std::ostream& out);
 
   [[nodiscard]] std::uint64_t safe_samples() const { return safe_samples_; }  ///< up to the last flush
   [[nodiscard]] std::uint64_t safe_events() const { return safe_events_; }
   [[nodiscard]] std::size_t buffered_bytes() const;  ///< all memory that holds data, without HDF5's own caches
 
  private:
+  H5mdWriter(std::filesystem::path path, const Scene& scene, const Disks& disks, const Provenance& provenance,
+             std::istream* saved);
   template <class Action>
   void guard(Action action);
 

@@ -23,9 +23,11 @@ namespace carom::detail {
 
 std::size_t Hdf5File::held_bytes() const { return held_.size() * page_size; }
 
-void Hdf5File::open(const char* path) noexcept {
-  descriptor_ = ::open(path, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) error_ = errno;
+void Hdf5File::open(const char* path, bool fresh) noexcept {
+  descriptor_ = ::open(path, O_RDWR | O_CLOEXEC | (fresh ? O_CREAT | O_TRUNC : 0), 0666);
+  const off_t size = descriptor_ < 0 ? -1 : ::lseek(descriptor_, 0, SEEK_END);
+  if (size < 0) error_ = errno;
+  size_ = size < 0 ? 0 : static_cast<std::uint64_t>(size);
 }
 
 void Hdf5File::close() noexcept {
@@ -121,13 +123,13 @@ struct DriverFile {
 DriverFile* driver_file(H5FD_t* file) { return reinterpret_cast<DriverFile*>(file); }
 const DriverFile* driver_file(const H5FD_t* file) { return reinterpret_cast<const DriverFile*>(file); }
 
-H5FD_t* open_file(const char* name, unsigned /*flags*/, hid_t access, haddr_t /*maximum*/) {
+H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t /*maximum*/) {
   const auto* info = static_cast<Hdf5File* const*>(H5Pget_driver_info(access));
   if (info == nullptr) return nullptr;
   auto* opened = new (std::nothrow) DriverFile{};
   if (opened == nullptr) return nullptr;
   opened->file = *info;
-  opened->file->open(name);
+  opened->file->open(name, (flags & H5F_ACC_TRUNC) != 0);
   if (opened->file->error() == 0) return &opened->header;
   delete opened;
   return nullptr;
@@ -207,7 +209,7 @@ H5FD_class_t driver_class() {
 
 }  // namespace
 
-Hdf5Id Hdf5File::create(const std::filesystem::path& path) {
+Hdf5Id Hdf5File::access(const std::filesystem::path& path, bool fresh, std::uint64_t user_bytes) {
   static const H5FD_class_t driver = driver_class();
   const Hdf5Id driver_id(H5FDregister(&driver), H5FDunregister);
   const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -216,10 +218,13 @@ Hdf5Id Hdf5File::create(const std::filesystem::path& path) {
   // The format of HDF5 1.8: compact, read by every library since 2008, and without the "open for writing" mark of later
   // formats, which would lock readers out of what a killed run leaves.
   checked(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18));
-  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get());
+  const Hdf5Id creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  checked(H5Pset_userblock(creation.get(), user_bytes));
+  const hid_t file = fresh ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get())
+                           : H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get());
   if (error_ != 0) {
     if (file >= 0) H5Fclose(file);
-    throw system_error(path, "create it", error_);
+    throw system_error(path, fresh ? "create it" : "open it", error_);
   }
   return {file, H5Fclose};
 }

@@ -24,14 +24,18 @@ class Hdf5File {
 
   /// Creates (or empties) the file and opens it in HDF5. This object must outlive the returned identifier and every
   /// identifier in it. Throws OutputError or Hdf5Error.
-  [[nodiscard]] Hdf5Id create(const std::filesystem::path& path);
+  [[nodiscard]] Hdf5Id create(const std::filesystem::path& path) { return access(path, true, 0); }
+  /// The same behind `bytes` (a power of two, 512 at least) that HDF5 leaves to others.
+  [[nodiscard]] Hdf5Id create_behind(std::uint64_t bytes, const std::filesystem::path& path) { return access(path, true, bytes); }
+  /// Opens a file that is there, to be written on.
+  [[nodiscard]] Hdf5Id reopen(const std::filesystem::path& path) { return access(path, false, 0); }
 
   [[nodiscard]] int error() const { return error_; }  ///< errno of the first failure, else 0
   [[nodiscard]] std::size_t held_bytes() const;       ///< of the index, waiting for the next flush
   [[nodiscard]] std::uint64_t bytes_written() const { return bytes_written_; }
 
   // What HDF5 calls. Nothing here throws or fails.
-  void open(const char* path) noexcept;
+  void open(const char* path, bool fresh) noexcept;
   void close() noexcept;
   void read(std::uint64_t address, std::size_t size, std::byte* out) noexcept;
   void write_data(std::uint64_t address, std::size_t size, const std::byte* data) noexcept;
@@ -44,6 +48,7 @@ class Hdf5File {
   static constexpr std::size_t page_size = 4096;
   using Page = std::array<std::byte, page_size>;
 
+  [[nodiscard]] Hdf5Id access(const std::filesystem::path& path, bool fresh, std::uint64_t user_bytes);
   void write_through(std::uint64_t address, std::size_t size, const std::byte* data) noexcept;
   void read_through(std::uint64_t address, std::size_t size, std::byte* out) noexcept;
 

@@ -27,15 +27,9 @@ Hdf5Id scalar_space() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
 
 void write_attribute(hid_t object, const std::string& name, hid_t file_type, hid_t memory_type, const Hdf5Id& space,
                      const void* values) {
+  if (checked(H5Aexists(object, name.c_str())) > 0) checked(H5Adelete(object, name.c_str()));
   const Hdf5Id attribute(H5Acreate2(object, name.c_str(), file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   checked(H5Awrite(attribute.get(), memory_type, values));
-}
-
-void write_fixed(hid_t parent, const std::string& name, hid_t file_type, hid_t memory_type, std::size_t count,
-                 const void* values) {
-  const Hdf5Id space = list_space(count);
-  const Hdf5Id dataset(H5Dcreate2(parent, name.c_str(), file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
-  checked(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
 }
 
 /// Every group on the way must be asked for by itself.
@@ -44,6 +38,14 @@ bool exists(hid_t file, const std::string& path) {
     if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
   }
   return path == "/" || H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0;
+}
+
+void write_fixed(hid_t parent, const std::string& name, hid_t file_type, hid_t memory_type, std::size_t count,
+                 const void* values) {
+  if (exists(parent, name)) return;
+  const Hdf5Id space = list_space(count);
+  const Hdf5Id dataset(H5Dcreate2(parent, name.c_str(), file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  checked(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
 }
 
 Hdf5Id open_attribute(hid_t file, const std::string& object, const std::string& name) {
@@ -77,10 +79,16 @@ SilentHdf5::SilentHdf5() {
 SilentHdf5::~SilentHdf5() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
 
 Hdf5Id create_group(hid_t parent, const std::string& path) {
+  if (exists(parent, path)) return {H5Gopen2(parent, path.c_str(), H5P_DEFAULT), H5Gclose};
   return {H5Gcreate2(parent, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose};
 }
 
+void remove_link(hid_t parent, const std::string& name) {
+  if (exists(parent, name)) checked(H5Ldelete(parent, name.c_str(), H5P_DEFAULT));
+}
+
 void link_hard(hid_t parent, const std::string& existing, const std::string& name) {
+  if (exists(parent, name)) return;
   checked(H5Lcreate_hard(parent, existing.c_str(), parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT));
 }
 

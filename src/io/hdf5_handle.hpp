@@ -74,7 +74,12 @@ Result checked(Result result) {
   return result;
 }
 
+// Files of runs that are resumed are opened by the functions that create them: what is there already is taken as it is, but for
+// attributes, which are written anew.
+
 [[nodiscard]] Hdf5Id create_group(hid_t parent, const std::string& path);
+/// Takes a group or dataset out of the file, where it is there.
+void remove_link(hid_t parent, const std::string& name);
 void link_hard(hid_t parent, const std::string& existing, const std::string& name);
 
 /// Strings are stored with variable length and as UTF-8: h5py gives them back as str, which MDAnalysis needs.
@@ -86,7 +91,7 @@ void write_attribute(hid_t object, const std::string& name, std::int64_t value);
 void write_attribute(hid_t object, const std::string& name, std::uint64_t value);
 void write_attribute(hid_t object, const std::string& name, double value);
 
-/// A dataset of one value per disk, which never changes.
+/// A dataset of one value per disk, which never changes; one that is there already is left as it is.
 void write_fixed(hid_t parent, const std::string& name, std::span<const double> values);
 void write_fixed(hid_t parent, const std::string& name, std::span<const std::int32_t> values);
 

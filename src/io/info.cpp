@@ -2,6 +2,7 @@
 
 #include "io/info.hpp"
 
+#include "io/checkpoint.hpp"
 #include "io/info_parts.hpp"
 #include "io/run_directory.hpp"
 
@@ -67,6 +68,25 @@ std::string describe_scene(const fs::path& path) {
   return text + detail::info_line("seed", fmt::format("{}", scene.run.seed));
 }
 
+bool begins_like_checkpoint(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  return std::getline(file, line) && line == "carom checkpoint";
+}
+
+std::string describe_checkpoint(const fs::path& path) {
+  if (const std::string damage = checkpoint_damage(path); !damage.empty())
+    throw OutputError(fmt::format("{}: this checkpoint is damaged: {}", path.string(), damage));
+  const CheckpointFacts facts = checkpoint_facts(path);
+  std::string text = fmt::format("{}: a checkpoint of a run{}\n", path.string(),
+                                 facts.finished ? " that has come to its end" : ", from which carom resume goes on");
+  text += detail::info_line("time", fmt::format("{}", facts.time));
+  text += detail::info_line("collisions", fmt::format("{}", facts.collisions));
+  text += detail::info_line("engine", facts.provenance.engine);
+  text += detail::info_line("scene", facts.scene_source);
+  return text + detail::info_line("command", facts.provenance.command_line);
+}
+
 std::string describe_directory(const fs::path& path) {
   std::string text;
   for (const std::string_view product : run_products) {
@@ -95,6 +115,7 @@ std::string describe_content(const fs::path& path) {
   if (ending == ".csv") return detail::describe_csv(path);
   if (ending == ".json") return detail::describe_summary(path);
   if (ending == ".toml") return describe_scene(path);
+  if (begins_like_checkpoint(path)) return describe_checkpoint(path);
   if (ending == ".h5md" || ending == ".h5")
     throw OutputError(
         fmt::format("{}: this is no HDF5 file, whatever its name says: it does not begin like one; it may be cut "

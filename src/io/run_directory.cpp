@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace carom {
@@ -27,6 +28,13 @@ void synchronise(const fs::path& path, int flags) {
   if (error != 0) throw detail::system_error(path, "bring it to the disk", error);
 }
 
+bool is_checkpoint(std::string_view product) { return product == checkpoint_name || product == previous_checkpoint_name; }
+
+/// Written row by row while a run lasts.
+bool grows(std::string_view product) {
+  return product == "trajectory.h5md" || product == "trajectory.xyz" || product == "samples.csv";
+}
+
 }  // namespace
 
 RunDirectory::RunDirectory(fs::path path, bool force, std::span<const std::string_view> products)
@@ -34,6 +42,7 @@ RunDirectory::RunDirectory(fs::path path, bool force, std::span<const std::strin
   if (path_.empty()) throw OutputError("the output directory has an empty name; name one with --out");
   try {
     create();
+    lock();
     check_for_results(force);
     check_writable();
     if (force) {
@@ -49,6 +58,30 @@ RunDirectory::RunDirectory(fs::path path, bool force, std::span<const std::strin
     discard_if_empty();
     throw;
   }
+}
+
+RunDirectory RunDirectory::reopen(fs::path path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error))
+    throw OutputError(fmt::format("{}: there is no such directory; name one that carom run has written", path.string()));
+  RunDirectory directory(std::move(path));
+  directory.lock();
+  directory.check_writable();
+  return directory;
+}
+
+/// Of the directory itself, so that no file is left behind; the system gives it up when the process ends, however it does. Where
+/// a file system knows no locks, there are none.
+void RunDirectory::lock() {
+  const int descriptor = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;  // what is wrong will be said by whoever writes
+  const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (taken) {
+    ::close(descriptor);
+    throw OutputError(fmt::format(
+        "{}: another run is writing in this directory; wait for its end, or name another one with --out", path_.string()));
+  }
+  lock_ = {nullptr, [descriptor](const void*) { ::close(descriptor); }};
 }
 
 fs::path RunDirectory::final_name(std::string_view product) const { return path_ / product; }
@@ -88,6 +121,11 @@ void RunDirectory::check_for_results(bool force) const {
             fmt::format("{}: a directory is where a result belongs; name another output directory with --out", old.string()));
       if (force) continue;
       const bool whole = old == final_name(product);
+      if (fs::exists(final_name(checkpoint_name), error) && !fs::exists(final_name(run_products.back()), error))
+        throw OutputError(
+            fmt::format("{}: the directory holds a run that can go on: carom resume {} does; or replace it with --force, or name "
+                        "another directory with --out",
+                        path_.string(), path_.string()));
       throw OutputError(fmt::format(
           "{}: the directory already holds {} ({}); replace it with --force, or name another directory with --out",
           path_.string(), whole ? "results" : "what is left of a run that did not end, or still runs", old.filename().string()));
@@ -103,9 +141,25 @@ void RunDirectory::check_writable() const {
   ::unlink(probe.c_str());
 }
 
+void RunDirectory::take_back() const {
+  // The summary first: a run that has one is complete.
+  for (auto product = products_.rbegin(); product != products_.rend(); ++product) {
+    const fs::path finished = final_name(*product);
+    std::error_code error;
+    if (!fs::exists(finished, error) || is_checkpoint(*product)) continue;
+    if (grows(*product))
+      fs::rename(finished, partial_name(*product), error);
+    else
+      fs::remove(finished, error);
+    if (error) throw detail::system_error(finished, "make room for the run to go on", error.value());
+  }
+}
+
+void RunDirectory::synchronise_partial(std::string_view product) const { synchronise(partial_name(product), O_RDONLY); }
+
 void RunDirectory::publish(std::string_view product) const {
   const fs::path partial = partial_name(product);
-  synchronise(partial, O_RDONLY);
+  synchronise_partial(product);
   std::error_code error;
   fs::rename(partial, final_name(product), error);
   if (error) throw detail::system_error(partial, fmt::format("rename it to {}", product), error.value());

@@ -6,15 +6,19 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace carom {
 
 /// The names of all files that a run may write, and of the pages that `carom play` and `carom report` make of one: another run's
 /// must not stay beside them. The summary comes last: where it is, the run is complete.
-inline constexpr std::array<std::string_view, 19> run_products = {"trajectory.h5md",
+inline constexpr std::array<std::string_view, 21> run_products = {"checkpoint.h5",
+                                                                  "checkpoint-previous.h5",
+                                                                  "trajectory.h5md",
                                                                   "trajectory.xyz",
                                                                   "samples.csv",
                                                                   "observe_free_times.csv",
@@ -34,14 +38,20 @@ inline constexpr std::array<std::string_view, 19> run_products = {"trajectory.h5
                                                                   "report.html",
                                                                   "summary.json"};
 
+/// From which a run can go on: io/checkpoint.hpp.
+inline constexpr std::string_view checkpoint_name = run_products[0], previous_checkpoint_name = run_products[1];
+
 class RunDirectory {
  public:
   /// Creates the directory, parents included, or takes one that holds no results; other files in it are left alone. What an
   /// earlier run left there (a product, or the .partial of a run that did not end) is removed where `force` is set.
-  /// Throws OutputError where results are in the way without `force`, where `path` is not a directory, and where nothing can
-  /// be written there; then nothing was changed.
+  /// Throws OutputError where results are in the way without `force`, where `path` is not a directory, where nothing can be
+  /// written there, and where somebody else has it, until that one ends; then nothing was changed.
   /// `products` are the names that count as results; they must live as long as this.
   RunDirectory(std::filesystem::path path, bool force, std::span<const std::string_view> products = run_products);
+
+  /// The directory of a run that is to go on. Throws OutputError where there is none, or nothing can be written there.
+  [[nodiscard]] static RunDirectory reopen(std::filesystem::path path);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::filesystem::path final_name(std::string_view product) const;    ///< DIR/trajectory.h5md
@@ -50,20 +60,28 @@ class RunDirectory {
   /// Was the directory made by this object?
   [[nodiscard]] bool created() const { return !created_.empty(); }
 
-  /// Brings DIR/product.partial safely to the disk, then renames it to DIR/product. Throws OutputError.
+  /// Gives the files that grow with a run, where they have their own names, those of files that are being written again, and
+  /// removes what tells of the run's end. Throws OutputError.
+  void take_back() const;
+  /// Brings DIR/product.partial safely to the disk. Throws OutputError.
+  void synchronise_partial(std::string_view product) const;
+  /// The same, then renames it to DIR/product. Throws OutputError.
   void publish(std::string_view product) const;
 
   /// Removes the directory, and the parents that were made for it, where this object made them and they are empty.
   void discard_if_empty() const noexcept;
 
  private:
+  explicit RunDirectory(std::filesystem::path path) : path_(std::move(path)), products_(run_products) {}
   void create();
+  void lock();
   void check_for_results(bool force) const;
   void check_writable() const;
 
   std::filesystem::path path_;
   std::span<const std::string_view> products_;
   std::vector<std::filesystem::path> created_;  ///< the deepest last
+  std::shared_ptr<const void> lock_;            ///< while it lives, nobody else can have this directory
 };
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 
 #include "io/run_writer.hpp"
 
+#include "core/archive.hpp"
 #include "io/observable_tables.hpp"
 #include "io/summary.hpp"
 #include "io/text_file.hpp"
@@ -24,6 +25,14 @@ constexpr auto time_between_flushes = std::chrono::seconds(1);
 }  // namespace
 
 RunWriter::RunWriter(const RunDirectory& directory, const Scene& scene, const Disks& disks, const Provenance& provenance)
+    : RunWriter(directory, scene, disks, provenance, nullptr) {}
+
+RunWriter::RunWriter(const RunDirectory& directory, const Scene& scene, const Disks& disks, const Provenance& provenance,
+                     std::istream& saved)
+    : RunWriter(directory, scene, disks, provenance, &saved) {}
+
+RunWriter::RunWriter(const RunDirectory& directory, const Scene& scene, const Disks& disks, const Provenance& provenance,
+                     std::istream* saved)
     : directory_(directory),
       box_(scene.box),
       trajectory_(scene.output.trajectory),
@@ -31,19 +40,44 @@ RunWriter::RunWriter(const RunDirectory& directory, const Scene& scene, const Di
       provenance_(provenance),
       last_flush_(std::chrono::steady_clock::now()) {
   const bool samples = scene.run.sample_every.has_value();
+  const bool h5md = (scene.output.trajectory && samples) || scene.output.events || !scene.observe.empty();
+  const bool xyz = scene.output.xyz && samples, csv = scene.output.csv && samples;
+  const bool rough = scene.effects.collision.roughness.has_value();
   const auto open = [&](const char* name) {
     products_.emplace_back(name);
     return directory_.partial_name(name);
   };
+  holds_data_ = saved != nullptr;
   try {
-    if ((scene.output.trajectory && samples) || scene.output.events || !scene.observe.empty())
-      h5md_.emplace(open(h5md_name), scene, disks, provenance);
-    if (scene.output.xyz && samples) xyz_.emplace(open(xyz_name), scene, disks);
-    if (scene.output.csv && samples) csv_.emplace(open(csv_name), scene.effects.collision.roughness.has_value());
+    if (saved == nullptr) {
+      if (h5md) h5md_.emplace(open(h5md_name), scene, disks, provenance);
+      if (xyz) xyz_.emplace(open(xyz_name), scene, disks);
+      if (csv) csv_.emplace(open(csv_name), rough);
+    } else {
+      directory_.take_back();
+      LoadingArchive archive(*saved);
+      std::uint64_t xyz_bytes = 0, csv_bytes = 0;
+      archive(xyz_bytes, csv_bytes);
+      if (h5md) h5md_.emplace(open(h5md_name), scene, disks, provenance, *saved);
+      if (xyz) xyz_.emplace(open(xyz_name), scene, disks, xyz_bytes);
+      if (csv) csv_.emplace(open(csv_name), rough, csv_bytes);
+    }
   } catch (...) {
-    discard_partials();
+    if (!holds_data_) discard_partials();
     throw;
   }
+}
+
+void RunWriter::save(std::ostream& out) {
+  if (xyz_) xyz_->flush();
+  if (csv_) csv_->flush();
+  {
+    SavingArchive archive(out);
+    archive(xyz_ ? xyz_->written() : 0, csv_ ? csv_->written() : 0);
+  }
+  if (h5md_) h5md_->save(out);
+  for (const std::string& product : products_) directory_.synchronise_partial(product);
+  last_flush_ = std::chrono::steady_clock::now();
 }
 
 RunWriter::~RunWriter() {

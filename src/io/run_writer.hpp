@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,6 +29,10 @@ class RunWriter {
   /// Opens all files, so that what cannot be written is known before the simulation starts. trajectory.h5md is written
   /// where samples, events or observables are asked for. Without run.sample_every there are no samples, and no file for them.
   RunWriter(const RunDirectory& directory, const Scene& scene, const Disks& disks, const Provenance& provenance);
+  /// Goes on with the files of a run from where save() was called, whether they have their own names or are .partial still. What
+  /// was written after that is cut off, and what tells of an end is removed: summary, tables, pages.
+  RunWriter(const RunDirectory& directory, const Scene& scene, const Disks& disks, const Provenance& provenance,
+            std::istream& saved);
   /// Without finish(): keeps what there is as .partial, or removes it where nothing has happened yet.
   ~RunWriter();
   RunWriter(const RunWriter&) = delete;
@@ -40,9 +45,14 @@ class RunWriter {
   /// was interrupted, whose files then hold all that happened.
   std::vector<std::string> finish(const RunReport& report);
 
+  /// Brings all files to the disk and writes how far each has come.
+  void save(std::ostream& out);
+
   [[nodiscard]] std::size_t buffered_bytes() const;  ///< all memory that holds data, without HDF5's own caches
 
  private:
+  RunWriter(const RunDirectory& directory, const Scene& scene, const Disks& disks, const Provenance& provenance,
+            std::istream* saved);
   void flush_now_and_then();
   void discard_partials() const noexcept;
 

@@ -151,7 +151,7 @@ SameResults compare_results(const fs::path& one, const fs::path& other) {
   SameResults found;
   for (const std::string_view product : run_products) {
     const fs::path a = one / product, b = other / product;
-    if (a.extension() == ".html") continue;
+    if (a.extension() == ".html" || a.extension() == ".h5") continue;  // pages and checkpoints are no results
     std::error_code error;
     const bool there_a = fs::exists(a, error), there_b = fs::exists(b, error);
     if (!there_a && !there_b) continue;

@@ -2,6 +2,8 @@
 
 #include "io/text_file.hpp"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <utility>
 
@@ -19,6 +21,21 @@ TextFile::TextFile(std::filesystem::path path) : path_(std::move(path)) {
   buffer_.reserve(full_buffer + full_buffer / 4);
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0) throw system_error(path_, "create it", errno);
+}
+
+TextFile::TextFile(std::filesystem::path path, std::uint64_t kept)
+    : path_(std::move(path)), written_(kept), record_end_(kept), written_record_end_(kept) {
+  buffer_.reserve(full_buffer + full_buffer / 4);
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) throw system_error(path_, "open it", errno);
+  const off_t size = ::lseek(descriptor_, 0, SEEK_END), end = static_cast<off_t>(kept);
+  const int error =
+      size < 0 || (size >= end && (::ftruncate(descriptor_, end) != 0 || ::lseek(descriptor_, end, SEEK_SET) < 0)) ? errno : 0;
+  if (error == 0 && size >= end) return;
+  ::close(std::exchange(descriptor_, -1));
+  if (error != 0) throw system_error(path_, "cut it back to where the run is to go on", error);
+  throw OutputError(fmt::format("{}: the file has {} bytes and must have {} for the run to go on; it was changed or cut",
+                                path_.string(), size, kept));
 }
 
 TextFile::~TextFile() {

@@ -14,6 +14,9 @@ class TextFile {
  public:
   /// Creates the file, or empties it. Throws OutputError.
   explicit TextFile(std::filesystem::path path);
+  /// Opens a file that is there and goes on after its first `kept` bytes: what comes after them is cut off. Throws OutputError,
+  /// also where it has fewer.
+  TextFile(std::filesystem::path path, std::uint64_t kept);
   TextFile(const TextFile&) = delete;
   TextFile& operator=(const TextFile&) = delete;
   ~TextFile();  ///< writes what is buffered as far as that goes; only close() says whether it went well
@@ -26,6 +29,7 @@ class TextFile {
   void flush();  ///< hands everything to the operating system
   void close();  ///< flush, and the end
 
+  [[nodiscard]] std::uint64_t written() const { return written_; }  ///< bytes handed to the operating system
   [[nodiscard]] std::size_t buffered_bytes() const { return buffer_.capacity(); }
 
  private:

@@ -27,8 +27,11 @@ constexpr std::array<std::string_view, 118> symbols = {
 
 std::string_view chemical_symbol(std::int32_t species) { return symbols[static_cast<std::size_t>(species) % symbols.size()]; }
 
-XyzWriter::XyzWriter(std::filesystem::path path, const Scene& scene, const Disks& disks)
-    : file_(std::move(path)), box_(scene.box), diameter_(largest_diameter(disks, State{})), species_(disks.species) {
+XyzWriter::XyzWriter(std::filesystem::path path, const Scene& scene, const Disks& disks, std::optional<std::uint64_t> kept)
+    : file_(kept ? detail::TextFile(std::move(path), *kept) : detail::TextFile(std::move(path))),
+      box_(scene.box),
+      diameter_(largest_diameter(disks, State{})),
+      species_(disks.species) {
   std::map<std::pair<double, double>, std::size_t> known;
   tail_.reserve(disks.count());
   for (std::size_t i = 0; i < disks.count(); ++i) {

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,12 +23,14 @@ std::string_view chemical_symbol(std::int32_t species);
 /// Every number is written with the fewest digits that read back as the same double.
 class XyzWriter {
  public:
-  XyzWriter(std::filesystem::path path, const Scene& scene, const Disks& disks);
+  /// `kept`: goes on after so many bytes of a file that is there.
+  XyzWriter(std::filesystem::path path, const Scene& scene, const Disks& disks, std::optional<std::uint64_t> kept = {});
 
   void sample(const State& state);  ///< positions are written as they are, radii as they have grown
   void flush() { file_.flush(); }
   void close() { file_.close(); }
 
+  [[nodiscard]] std::uint64_t written() const { return file_.written(); }
   [[nodiscard]] std::size_t buffered_bytes() const { return file_.buffered_bytes(); }
 
  private:

@@ -17,6 +17,9 @@ namespace carom {
 
 class CageCells {
  public:
+  /// Without any cells: to be read into.
+  CageCells() = default;
+
   /// For `disks` disks of at most `largest_radius` (any unit: it is only kept) whose cages come within contact at most `reach`
   /// (length) apart. Cells somewhat wider than that hold four or five disks: few cells to look through, few that overflow.
   CageCells(const FixedAxis& x, const FixedAxis& y, float largest_radius, double reach, std::size_t disks)
@@ -140,6 +143,11 @@ class CageCells {
     return blocks_.capacity() * sizeof(CageBlock) + next_.capacity() * sizeof(std::int32_t);
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(lines_[0], lines_[1], largest_radius_, blocks_, next_, free_);
+  }
+
  private:
   struct Line {
     std::int64_t columns = 1;  ///< cells side by side along the box
@@ -218,7 +226,7 @@ class CageCells {
   }
 
   Line lines_[2];
-  float largest_radius_;
+  float largest_radius_ = 0.0F;
   LargeVector<CageBlock> blocks_;  ///< one per cell, row by row, then those that follow full ones
   std::vector<std::int32_t> next_;
   std::int32_t free_ = -1;

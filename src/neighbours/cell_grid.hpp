@@ -142,6 +142,11 @@ class CellGrid {
   }
   [[nodiscard]] Vec2<Real> width() const { return {width_[0], width_[1]}; }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(domain_, count_[0], count_[1], width_[0], width_[1], sliding_, slid_least_, slid_most_, first_, places_);
+  }
+
  private:
   static constexpr std::int32_t none = -1;
 

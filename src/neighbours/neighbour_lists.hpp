@@ -66,6 +66,12 @@ class NeighbourLists {
   /// Whether two cages come within contact: by definition, whether the disks must be on each other's lists.
   [[nodiscard]] bool near(std::int32_t i, std::int32_t j) const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(axes_[0], axes_[1], largest_, radius_, one_radius_, half_width_, nearness_, sliding_, around_, sizes_, layers_,
+            layer_of_, steps_[0], steps_[1], changes_, gone_, found_, fresh_, found_count_, fresh_count_);
+  }
+
  private:
   [[nodiscard]] float radius(std::int32_t i) const { return one_radius_ ? radius_[0] : radius_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] std::size_t layer_of(std::int32_t i) const {

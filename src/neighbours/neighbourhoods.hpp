@@ -76,6 +76,11 @@ class Neighbourhoods {
 
   [[nodiscard]] std::size_t bytes() const { return lines_.capacity() * sizeof(Line) + pool_.capacity() * sizeof(std::int32_t); }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(lines_, pool_, free_);
+  }
+
  private:
   static constexpr std::uint32_t room = 12;
   static constexpr std::uint32_t none = 0xFFFFFFFF;

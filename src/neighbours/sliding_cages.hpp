@@ -15,6 +15,8 @@ namespace carom {
 
 class SlidingCages {
  public:
+  /// To be read into.
+  SlidingCages() = default;
   /// unit: length of a step of a centre, per axis.
   explicit SlidingCages(const std::array<double, 2>& unit) : unit_(unit) {}
 
@@ -56,7 +58,7 @@ class SlidingCages {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(steps));
   }
 
-  std::array<double, 2> unit_;
+  std::array<double, 2> unit_{};
   std::int32_t displacement_ = 0;
   double way_ = 0.0;
   double two_halves_ = 0.0;

@@ -2,6 +2,7 @@
 
 #include "observe/blocking.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <vector>
 
@@ -9,7 +10,7 @@ namespace carom {
 
 namespace {
 
-class CollisionRate final : public Observable {
+class CollisionRate final : public SavedObservable<CollisionRate> {
  public:
   CollisionRate(const ObservableRequest& request, const ObservedRun& run)
       : run_(run), step_(run.step(request, 16.0)), kinds_(run.species_count()) {
@@ -52,6 +53,11 @@ class CollisionRate final : public Observable {
       put(found, "rate" + run_.suffix(k / kinds_) + run_.suffix(k % kinds_), rates_[k], run_.scene.species[k / kinds_].count);
     }
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(counts_, before_, pairs_, time_, all_, rates_);
   }
 
  private:

@@ -22,6 +22,11 @@ class CollisionStream {
   /// Replaces `collisions` by the collisions of pairs among `events`. Requires events in order, none left out.
   void follow(std::span<const Event> events, std::vector<PairCollision>& collisions);
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(velocity_, position_, since_);
+  }
+
  private:
   void meet(const Event& event, PairCollision& met);
   void meet_apart(const Event& event, PairCollision& met);

@@ -3,6 +3,7 @@
 
 #include "observe/blocking.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -11,7 +12,7 @@ namespace carom {
 
 namespace {
 
-class DensityProfile final : public Observable {
+class DensityProfile final : public SavedObservable<DensityProfile> {
  public:
   DensityProfile(const ObservableRequest& request, const ObservedRun& run)
       : run_(run),
@@ -50,6 +51,11 @@ class DensityProfile final : public Observable {
     Measurement found{.name = name()};
     found.tables.push_back(std::move(table));
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(densities_);
   }
 
  private:

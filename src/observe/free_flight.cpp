@@ -5,6 +5,7 @@
 
 #include "observe/blocking.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -46,13 +47,18 @@ class FlightHistogram {
     return table;
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(counts_, shares_);
+  }
+
  private:
   double width_, per_width_, end_;
   std::vector<std::uint32_t> counts_;
   BlockedColumn shares_;
 };
 
-class FreeFlight final : public Observable {
+class FreeFlight final : public SavedObservable<FreeFlight> {
  public:
   FreeFlight(const ObservableRequest& request, const ObservedRun& run)
       : times_(static_cast<std::size_t>(request.bins.value_or(100)), longest * scale(run)),
@@ -94,6 +100,11 @@ class FreeFlight final : public Observable {
     found.tables.push_back(times_.table("free_times", "time"));
     if (why_no_path_.empty()) found.tables.push_back(paths_.table("free_paths", "length"));
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(times_, paths_, last_, flights_, counted_, time_, path_, mean_time_, mean_path_);
   }
 
  private:

@@ -6,6 +6,7 @@
 // kept: when they are full every other one goes and the steps are twice as long.
 
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,7 @@ namespace carom {
 
 namespace {
 
-class HFunction final : public Observable {
+class HFunction final : public SavedObservable<HFunction> {
  public:
   HFunction(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 0.25)) {
     for (std::size_t s = 0; s < run.species_count(); ++s) {
@@ -82,6 +83,11 @@ class HFunction final : public Observable {
     }
     found.scalars.push_back(std::move(maxwell));
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(calls_, stride_, times_, values_, errors_);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include "observe/blocking.hpp"
 #include "observe/close_pairs.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <algorithm>
 #include <array>
@@ -63,7 +64,7 @@ std::vector<std::complex<double>> local_order(const Box& box, const Eigen::Matri
   return psi;
 }
 
-class Hexatic final : public Observable {
+class Hexatic final : public SavedObservable<Hexatic> {
  public:
   Hexatic(const ObservableRequest& request, const ObservedRun& run)
       : run_(run),
@@ -111,6 +112,11 @@ class Hexatic final : public Observable {
     correlation_.put(table, "g6", "");
     found.tables.push_back(std::move(table));
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(correlation_, local_, local_square_, global_, global_square_);
   }
 
  private:

@@ -4,6 +4,7 @@
 
 #include "observe/multiple_tau.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 #include "observe/tracked_disks.hpp"
 
 #include <limits>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-class MeanSquareDisplacement final : public Observable {
+class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplacement> {
  public:
   MeanSquareDisplacement(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 0.25)) {
     for (std::size_t s = 0; s < run.species_count(); ++s) {
@@ -60,6 +61,11 @@ class MeanSquareDisplacement final : public Observable {
     else
       found.tables.push_back(std::move(table));
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(ladders_);
   }
 
  private:

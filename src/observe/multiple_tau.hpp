@@ -25,6 +25,8 @@ class MultipleTau {
  public:
   enum class Pairs { products, squared_differences };
 
+  /// To be read into.
+  MultipleTau() = default;
   /// `lags`: values kept per level, even. `levels`: at most that many.
   MultipleTau(std::size_t channels, Pairs pairs, std::size_t lags = 16, std::size_t levels = 64);
 
@@ -41,6 +43,11 @@ class MultipleTau {
   /// In order of the lag, as far as there are pairs. Squared differences begin with lag 1.
   [[nodiscard]] std::vector<Row> rows() const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(channels_, kind_, lags_, most_levels_, levels_);
+  }
+
  private:
   struct Level {
     std::vector<double> ring;  ///< lags x channels
@@ -48,14 +55,19 @@ class MultipleTau {
     bool has_waiting = false;
     std::size_t count = 0;
     std::vector<Blocking> pairs, integrals;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(ring, waiting, has_waiting, count, pairs, integrals);
+    }
   };
   void add(std::size_t level, std::span<const double> value);
   [[nodiscard]] double pair(std::span<const double> a, const double* b) const;
 
-  std::size_t channels_;
-  Pairs kind_;
-  std::size_t lags_;
-  std::size_t most_levels_;
+  std::size_t channels_ = 0;
+  Pairs kind_ = Pairs::products;
+  std::size_t lags_ = 0;
+  std::size_t most_levels_ = 0;
   std::vector<Level> levels_;
 };
 

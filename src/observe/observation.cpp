@@ -1,5 +1,6 @@
 // Hands states and collisions of a run to its observables.
 
+#include "core/archive.hpp"
 #include "observe/collision_stream.hpp"
 #include "observe/observables.hpp"
 #include "observe/observed_run.hpp"
@@ -9,16 +10,32 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace carom {
 
 class Observation::Driver {
  public:
-  explicit Driver(const Simulation& simulation) : simulation_(simulation) {
-    if (simulation.scene().observe.empty()) return;
-    const ObservedRun run = observed_run(simulation);
-    for (const ObservableRequest& request : simulation.scene().observe) add(make_observable(request, run));
+  /// `saved` may be null.
+  Driver(const Simulation& simulation, std::istream* saved) : simulation_(simulation), run_(observed_run(simulation)) {
+    if (saved != nullptr) load(*saved);
+    for (const ObservableRequest& request : simulation.scene().observe) add(make_observable(request, run_));
+  }
+
+  void save(std::ostream& out) const {
+    SavingArchive archive(out);
+    archive(run_.time, run_.temperature, run_.mean_free_time, started_);
+    std::ostringstream stream;
+    if (stream_) write(stream, *stream_);
+    archive(stream.str(), static_cast<std::uint64_t>(observables_.size()));
+    for (const auto& observable : observables_) {
+      std::ostringstream gathered;
+      observable->save(gathered);
+      archive(gathered.str());
+    }
   }
 
   void add(std::unique_ptr<Observable> observable) {
@@ -27,6 +44,10 @@ class Observation::Driver {
                        observable->name() +
                            " follows disks from collision to collision, and a thermostat, growth or shear changes "
                            "their velocities in between; remove one of the two");
+    if (const std::size_t index = observables_.size(); index < saved_.size()) {
+      std::istringstream gathered(std::move(saved_[index]));
+      observable->load(gathered);
+    }
     observables_.push_back(std::move(observable));
   }
 
@@ -45,6 +66,11 @@ class Observation::Driver {
     }
     if (!followers_.empty()) {
       stream_.emplace(simulation_.scene(), simulation_.disks());
+      if (!saved_stream_.empty()) {
+        std::istringstream saved(saved_stream_);
+        LoadingArchive archive(saved);
+        archive(*stream_);
+      }
       hooks.events = [this, next = std::move(hooks.events)](std::span<const Event> events) {
         follow(events);
         if (next) next(events);
@@ -64,6 +90,19 @@ class Observation::Driver {
   }
 
  private:
+  static void write(std::ostream& out, const CollisionStream& stream) {
+    SavingArchive archive(out);
+    archive(stream);
+  }
+
+  void load(std::istream& saved) {
+    LoadingArchive archive(saved);
+    std::uint64_t observables = 0;
+    archive(run_.time, run_.temperature, run_.mean_free_time, started_, saved_stream_, observables);
+    saved_.resize(observables);
+    for (std::string& gathered : saved_) archive(gathered);
+  }
+
   void start(const State& state) {
     started_ = true;
     if (stream_) stream_->start(state);
@@ -83,6 +122,9 @@ class Observation::Driver {
   }
 
   const Simulation& simulation_;
+  ObservedRun run_;
+  std::string saved_stream_;        ///< what a run that is resumed had gathered
+  std::vector<std::string> saved_;  ///< the same of each observable
   std::vector<std::unique_ptr<Observable>> observables_;
   std::vector<Observable*> followers_;
   std::optional<CollisionStream> stream_;
@@ -90,11 +132,17 @@ class Observation::Driver {
   bool started_ = false;
 };
 
-Observation::Observation(const Simulation& simulation) : driver_(std::make_unique<Driver>(simulation)) {}
+void Observable::save(std::ostream& /*out*/) const { throw std::logic_error("the observable " + name() + " cannot be saved"); }
+void Observable::load(std::istream& /*in*/) { throw std::logic_error("the observable " + name() + " cannot be resumed"); }
+
+Observation::Observation(const Simulation& simulation) : driver_(std::make_unique<Driver>(simulation, nullptr)) {}
+Observation::Observation(const Simulation& simulation, std::istream& saved)
+    : driver_(std::make_unique<Driver>(simulation, &saved)) {}
 Observation::~Observation() = default;
 
 void Observation::add(std::unique_ptr<Observable> observable) { driver_->add(std::move(observable)); }
 bool Observation::empty() const { return driver_->empty(); }
+void Observation::save(std::ostream& out) const { driver_->save(out); }
 void Observation::attach(RunHooks& hooks) { driver_->attach(hooks); }
 std::vector<Measurement> Observation::results() { return driver_->results(); }
 

@@ -33,7 +33,7 @@ std::string word_of(std::string name) {
 }  // namespace
 
 ObservedRun observed_run(const Simulation& simulation) {
-  ObservedRun run{simulation.scene(), simulation.disks()};
+  ObservedRun run{simulation.scene(), simulation.disks(), simulation.scene().run.time};
   const Effects& effects = run.scene.effects;
   run.temperature = effects.thermostat && effects.thermostat->rate > 0.0
                         ? effects.thermostat->temperature
@@ -48,8 +48,8 @@ ObservedRun observed_run(const Simulation& simulation) {
 double ObservedRun::step(const ObservableRequest& request, double mean_free_times) const {
   if (request.every) return *request.every;
   double step = mean_free_times * mean_free_time;
-  if (scene.run.time && *scene.run.time > 0.0) {
-    const double most = *scene.run.time / 256.0;
+  if (time && *time > 0.0) {
+    const double most = *time / 256.0;
     step = step > 0.0 ? std::min(step, most) : most;
   }
   if (step > 0.0) return step;

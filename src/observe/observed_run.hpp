@@ -3,6 +3,7 @@
 
 #include <carom/observe.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace carom {
@@ -10,9 +11,10 @@ namespace carom {
 struct ObservedRun {
   const Scene& scene;
   const Disks& disks;
-  double temperature = 0.0;     ///< kT at the start, or that of the thermostat
-  double mean_diameter = 1.0;   ///< 1 without disks
-  double mean_free_time = 0.0;  ///< as Enskog's theory estimates it for disks of mean size and mass; 0 where nothing moves
+  std::optional<double> time = {};  ///< that the run was to last when it began
+  double temperature = 0.0;         ///< kT at the start, or that of the thermostat
+  double mean_diameter = 1.0;       ///< 1 without disks
+  double mean_free_time = 0.0;      ///< as Enskog's theory estimates it for disks of mean size and mass; 0 where nothing moves
 
   /// A step of so many mean free times, or what the scene says; at most 1/256 of the run, so that errors can be told.
   [[nodiscard]] double step(const ObservableRequest& request, double mean_free_times) const;

@@ -20,6 +20,11 @@ class BlockedRate {
   /// Standard error of rate(); empty with fewer than 8 blocks, where it would be a guess.
   [[nodiscard]] std::optional<double> standard_error() const;
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(blocks_, joined_, pending_, time_, total_);
+  }
+
  private:
   struct Block {
     double duration;

@@ -14,6 +14,7 @@
 #include "observe/geometry.hpp"
 #include "observe/mechanics.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,12 +25,14 @@ namespace carom {
 
 namespace {
 
+using carom::serialize;
+
 /// c above; 1 for many.
 double speed_factor(double d) {
   return d > 0.0 ? std::sqrt(0.5 * d) * std::exp(std::lgamma(0.5 * d) - std::lgamma(0.5 * (d + 1.0))) : 1.0;
 }
 
-class Pressure final : public Observable {
+class Pressure final : public SavedObservable<Pressure> {
  public:
   Pressure(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 16.0)) {
     const Effects& effects = run.scene.effects;
@@ -90,6 +93,11 @@ class Pressure final : public Observable {
       found.scalars.push_back(std::move(scalar));
     }
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(transfer_, meetings_, samples_, before_, virial_, rate_, walls_, tensor_);
   }
 
  private:

@@ -9,6 +9,7 @@
 #include "observe/blocking.hpp"
 #include "observe/close_pairs.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <Eigen/QR>
 
@@ -60,7 +61,7 @@ class Contact {
   Eigen::VectorXd weights_;
 };
 
-class RadialDistribution final : public Observable {
+class RadialDistribution final : public SavedObservable<RadialDistribution> {
  public:
   RadialDistribution(const ObservableRequest& request, const ObservedRun& run)
       : run_(run),
@@ -122,6 +123,11 @@ class RadialDistribution final : public Observable {
     }
     found.tables.push_back(std::move(table));
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(g_, partial_, contact_value_);
   }
 
  private:

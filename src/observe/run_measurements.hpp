@@ -20,6 +20,14 @@ class RunMeasurements {
   /// All results, when the run has ended. `wall_seconds`: of the whole run, as the caller took it.
   [[nodiscard]] RunReport report(const RunResult& result, double wall_seconds);
 
+  /// What was measured so far, for core/archive.hpp.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(report_.energy_initial, report_.energy_scale, report_.momentum_initial, report_.max_relative_overlap,
+            report_.overlap_checked, report_.overlap_at_start, virial_, temperature_sum_, spin_temperature_sum_,
+            momentum_flow_sum_, samples_);
+  }
+
  private:
   void look_for_overlap(const State& state);
   void measure_Z(const RunResult& result, double temperature);

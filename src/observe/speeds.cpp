@@ -3,6 +3,7 @@
 
 #include "observe/blocking.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,11 @@ class Distribution {
     return table;
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(shares_, counts_);
+  }
+
  private:
   double width_;
   std::size_t bins_;
@@ -44,7 +50,7 @@ class Distribution {
   std::vector<double> counts_;
 };
 
-class Speeds final : public Observable {
+class Speeds final : public SavedObservable<Speeds> {
  public:
   Speeds(const ObservableRequest& request, const ObservedRun& run)
       : run_(run),
@@ -77,6 +83,11 @@ class Speeds final : public Observable {
     found.tables.push_back(speeds_.table("speeds", "length / time", run_));
     found.tables.push_back(energies_.table("energies", "energy", run_));
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(speeds_, energies_);
   }
 
  private:

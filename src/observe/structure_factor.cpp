@@ -6,6 +6,7 @@
 
 #include "observe/blocking.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +55,7 @@ std::vector<Shell> shells_up_to(double largest, const Eigen::Vector2d& lengths) 
   return found;
 }
 
-class StructureFactor final : public Observable {
+class StructureFactor final : public SavedObservable<StructureFactor> {
  public:
   StructureFactor(const ObservableRequest& request, const ObservedRun& run)
       : run_(run),
@@ -98,6 +99,11 @@ class StructureFactor final : public Observable {
     values_.put(table, "S", "");
     found.tables.push_back(std::move(table));
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(values_);
   }
 
  private:

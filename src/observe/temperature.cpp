@@ -3,6 +3,7 @@
 #include "observe/blocking.hpp"
 #include "observe/mechanics.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <vector>
 
@@ -10,7 +11,7 @@ namespace carom {
 
 namespace {
 
-class Temperature final : public Observable {
+class Temperature final : public SavedObservable<Temperature> {
  public:
   Temperature(const ObservableRequest& request, const ObservedRun& run)
       : run_(run), step_(run.step(request, 4.0)), species_(run.species_count() > 1 ? run.species_count() : 0) {}
@@ -48,6 +49,11 @@ class Temperature final : public Observable {
     put(found, "kT_y", y_);
     for (std::size_t s = 0; s < species_.size(); ++s) put(found, "kT" + run_.suffix(s), species_[s]);
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(all_, x_, y_, species_);
   }
 
  private:

@@ -15,6 +15,7 @@
 #include "observe/mechanics.hpp"
 #include "observe/multiple_tau.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <array>
 #include <cmath>
@@ -33,7 +34,7 @@ namespace carom {
                                                 const MultipleTau& moments);
 
 template <class Flux>
-class Transport final : public Observable {
+class Transport final : public SavedObservable<Transport<Flux>> {
  public:
   struct Words {
     std::string name, unit, unit_of_flux;
@@ -71,6 +72,11 @@ class Transport final : public Observable {
     if (time >= next_) tick(time);
     return transport_measurement(words_.name, words_.unit, words_.unit_of_flux, step_, factor_(kT_, run_.scene.box.area()),
                                  sound_time(run_), products_, moments_);
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(mass_, kT_, time_, next_, ticks_, common_, flow_, moment_, noted_, products_, moments_);
   }
 
  private:

@@ -8,6 +8,7 @@
 #include "observe/blocking.hpp"
 #include "observe/multiple_tau.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 #include "observe/tracked_disks.hpp"
 
 #include <limits>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-class VelocityAutocorrelation final : public Observable {
+class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrelation> {
  public:
   VelocityAutocorrelation(const ObservableRequest& request, const ObservedRun& run)
       : run_(run),
@@ -88,6 +89,11 @@ class VelocityAutocorrelation final : public Observable {
     else
       found.tables.push_back(std::move(table));
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(instants_, means_, before_, slopes_, changes_, noted_);
   }
 
  private:

@@ -3,6 +3,7 @@
 
 #include "observe/blocking.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <cmath>
 #include <vector>
@@ -11,7 +12,7 @@ namespace carom {
 
 namespace {
 
-class VelocityMoments final : public Observable {
+class VelocityMoments final : public SavedObservable<VelocityMoments> {
  public:
   VelocityMoments(const ObservableRequest& request, const ObservedRun& run)
       : run_(run), step_(run.step(request, 4.0)), species_(run.species_count()) {}
@@ -63,6 +64,11 @@ class VelocityMoments final : public Observable {
     return found;
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(species_);
+  }
+
  private:
   struct Sums {
     double speed = 0.0, second = 0.0, fourth = 0.0, x2 = 0.0, y2 = 0.0, x3 = 0.0, y3 = 0.0, x4 = 0.0, y4 = 0.0;
@@ -70,6 +76,11 @@ class VelocityMoments final : public Observable {
   struct Series {
     Blocking speed, second, fourth, x3, y3;
     Blocking kurtosis, kurtosis_x, kurtosis_y;  ///< of <v^4> / <v^2>^2
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(speed, second, fourth, x3, y3, kurtosis, kurtosis_x, kurtosis_y);
+    }
   };
 
   void put(Measurement& found, std::string name, const char* unit, const Blocking& series) const {

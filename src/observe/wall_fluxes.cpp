@@ -4,6 +4,7 @@
 #include "observe/blocking.hpp"
 #include "observe/geometry.hpp"
 #include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <array>
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::array<const char*, 4> wall_names = {"left", "right", "bottom", "top"};
 
-class WallFluxes final : public Observable {
+class WallFluxes final : public SavedObservable<WallFluxes> {
  public:
   WallFluxes(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 16.0)) {}
 
@@ -43,6 +44,11 @@ class WallFluxes final : public Observable {
       put(found, std::string("energy_") + wall_names[side], "energy / (length time)", energy_[side]);
     }
     return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(time_, lengths_, impulse_, energies_, momentum_, energy_);
   }
 
  private:

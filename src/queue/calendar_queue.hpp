@@ -129,6 +129,13 @@ class CalendarQueue {
     return std::any_of(later_.begin(), later_.end(), same);
   }
 
+  /// Its whole state, for core/archive.hpp.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(spans_, counts_, more_, mask_, per_time_, current_, sort_out_at_, in_ring_, pushed_, free_, at_hand_, heaped_,
+            later_);
+  }
+
  private:
   static constexpr std::int32_t none = -1;
   static constexpr int room = 16;

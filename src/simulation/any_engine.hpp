@@ -2,6 +2,7 @@
 // One face for every engine, so that the rest of the program need not know their types. Called per sample or per some
 // thousand events, never inside the loop.
 
+#include "core/archive.hpp"
 #include "core/instant.hpp"
 
 #include <carom/state.hpp>
@@ -51,6 +52,10 @@ class AnyEngine {
   virtual void take_events(std::vector<Event>& events) = 0;
   [[nodiscard]] virtual std::vector<std::string> check_invariants() const = 0;
   [[nodiscard]] virtual std::size_t bytes() const = 0;
+  /// All that decides how the run goes on. Requires all events to have been taken.
+  virtual void save(SavingArchive& archive) const = 0;
+  /// Requires an engine made for the same scene, by the same program.
+  virtual void load(LoadingArchive& archive) = 0;
 };
 
 /// Of what check_invariants() found, the sentences about disks that overlap: where the start brought them along they are no
@@ -101,6 +106,8 @@ class EngineAdapter final : public AnyEngine {
   void take_events(std::vector<Event>& events) override { engine_.take_events(events); }
   [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_.check_invariants(); }
   [[nodiscard]] std::size_t bytes() const override { return sizeof(*this) + engine_.bytes(); }
+  void save(SavingArchive& archive) const override { archive(engine_); }
+  void load(LoadingArchive& archive) override { archive(engine_); }
 
  private:
   /// Which engine runs a scene is decided before: no scene gets here.

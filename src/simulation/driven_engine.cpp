@@ -103,6 +103,25 @@ State DrivenEngine::state() const {
   return state;
 }
 
+template <class Self, class Archive>
+void DrivenEngine::archive_all(Self& self, Archive& archive) {
+  archive(self.kicks_, self.next_, self.kick_time_, self.start_scale_, self.end_scale_, self.end_, self.grown_,
+          self.at_end_scale_);
+  archive(self.stock_at_, self.window_, self.energy_at_start_, self.stretch_start_, self.stretch_pairs_, self.stretch_virial_,
+          self.stretch_energy_);
+  archive(self.totals_, self.counted_kicks_, self.kick_energy_, self.rescaling_energy_);
+}
+
+void DrivenEngine::save(SavingArchive& archive) const {
+  engine_->save(archive);
+  archive_all(*this, archive);
+}
+
+void DrivenEngine::load(LoadingArchive& archive) {
+  engine_->load(archive);
+  archive_all(*this, archive);
+}
+
 void DrivenEngine::reset_clock() {
   const Instant zero = engine_->now();
   engine_->reset_clock();

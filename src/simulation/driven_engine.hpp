@@ -44,8 +44,13 @@ class DrivenEngine final : public AnyEngine {
   void take_events(std::vector<Event>& events) override { engine_->take_events(events); }
   [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_->check_invariants(); }
   [[nodiscard]] std::size_t bytes() const override;
+  void save(SavingArchive& archive) const override;
+  void load(LoadingArchive& archive) override;
 
  private:
+  template <class Self, class Archive>
+  static void archive_all(Self& self, Archive& archive);
+
   static constexpr auto never = std::numeric_limits<std::uint64_t>::max();
 
   /// Sums over all disks, in the order of their ids.

@@ -4,6 +4,7 @@
 
 #include <carom/simulation.hpp>
 
+#include "core/archive.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/standstill.hpp"
 
@@ -64,15 +65,35 @@ class Schedule {
         standstill_(disks) {}
 
   RunResult operator()() {
-    if (hooks_.verify_every > 0) may_overlap_ = detail::any_overlap(engine_.check_invariants());
-    result_.measured = equilibrate();
-    if (!result_.measured) return result_;
-    if (hooks_.start) hooks_.start(engine_.state());
-    record_events(static_cast<bool>(hooks_.events));
-    measure();
+    list_grids();
+    if (hooks_.resume != nullptr) {
+      restore();
+    } else if (hooks_.verify_every > 0) {
+      may_overlap_ = detail::any_overlap(engine_.check_invariants());
+    }
+    if (!measuring_) {
+      result_.measured = equilibrate();
+      if (result_.measured) begin_to_measure();
+    }
+    if (measuring_) measure();
     engine_.record_events(false);
-    if (hooks_.verify_every > 0 && (since_verified_ > 0 || result_.verified == 0)) verify();
+    if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(true));
+    if (measuring_ && hooks_.verify_every > 0 && (since_verified_ > 0 || result_.verified == 0)) verify();
     return result_;
+  }
+
+  /// How far it has come, for core/archive.hpp.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(measuring_, equilibrating_, next_block_, without_collision_, since_verified_, may_overlap_, standstill_, stands_,
+            recording_);
+    archive(result_.samples, result_.loop_seconds, result_.verified);
+    auto grids = static_cast<std::uint64_t>(grids_.size());
+    archive(grids);
+    for (std::size_t i = 0; i < grids; ++i) {
+      if (i == grids_.size()) throw std::invalid_argument("the run was saved with more sampling grids than it has now");
+      archive(grids_[i].k);
+    }
   }
 
  private:
@@ -109,12 +130,17 @@ class Schedule {
     std::uint64_t k = 0;
   };
 
-  void measure() {
+  void begin_to_measure() {
+    measuring_ = true;
     next_block_ = block_collisions_;
+    if (hooks_.start) hooks_.start(engine_.state());
+    record_events(static_cast<bool>(hooks_.events));
+  }
+
+  void measure() {
     ends_by_time_ = run_.time.has_value();
     const Instant end = ends_by_time_ ? Instant{*run_.time, 0.0} : forever;
     const std::uint64_t collisions = run_.collisions.value_or(no_limit);
-    list_grids();
     for (Instant when = next_sample(end); when < forever; when = next_sample(end)) {
       const bool arrived = advance(when, collisions);
       const bool at_start = !(Instant{} < when);
@@ -129,8 +155,21 @@ class Schedule {
     advance(end, collisions);
   }
 
+  void restore() {
+    LoadingArchive archive(*hooks_.resume);
+    archive(*this);
+    engine_.record_events(recording_);
+  }
+
+  [[nodiscard]] SavingMoment saving_moment(bool ended) {
+    return {progress(), ended, [this](std::ostream& out) {
+              SavingArchive archive(out);
+              archive(*this);
+            }};
+  }
+
   void list_grids() {
-    const auto last = [&](double step) { return ends_by_time_ ? last_multiple(*run_.time, step) : no_limit; };
+    const auto last = [&](double step) { return run_.time ? last_multiple(*run_.time, step) : no_limit; };
     if (run_.sample_every) grids_.push_back({*run_.sample_every, last(*run_.sample_every), nullptr});
     for (const SamplingGrid& grid : hooks_.grids) grids_.push_back({grid.step, last(grid.step), &grid});
   }
@@ -172,6 +211,7 @@ class Schedule {
         last_look_ = Clock::now();
         if (!hooks_.proceed(progress())) return stop(StopReason::interrupted);
       }
+      if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(false));
       const bool arrived = run_stretch(target, std::min(collisions, next_block_));
       if (stands_ && !recording_) record_events(true);  // to be able to say who collides without end
       if (recording_) take_events();
@@ -262,6 +302,7 @@ class Schedule {
   std::uint64_t since_verified_ = 0;  ///< events
   bool may_overlap_ = false;          ///< the start did
   bool equilibrating_ = false;
+  bool measuring_ = false;  ///< the measured run has begun
   bool ends_by_time_ = false;
   Clock::time_point last_look_ = Clock::now();
   std::vector<Grid> grids_;

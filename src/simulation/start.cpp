@@ -94,7 +94,21 @@ void require_sound_box(const Box& box) {
                                box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y()));
 }
 
-Disks disks_of(const Scene& scene) {
+/// In a sheared box velocities are drawn relative to the flow; those given one by one are what they are.
+void add_flow(const Scene& scene, Start& start) {
+  if (!scene.effects.shear) return;
+  const double middle = (scene.box.lower.y() + scene.box.upper.y()) / 2.0;
+  for (std::size_t i = 0; i < start.disks.count(); ++i) {
+    const Velocities& law = scene.species[static_cast<std::size_t>(start.disks.species[i])].velocities;
+    if (std::holds_alternative<ListedVelocities>(law) || std::holds_alternative<FileVelocities>(law)) continue;
+    const auto column = static_cast<Eigen::Index>(i);
+    start.state.velocities(0, column) += scene.effects.shear->rate * (start.state.positions(1, column) - middle);
+  }
+}
+
+}  // namespace
+
+Disks all_disks(const Scene& scene) {
   require_sound_box(scene.box);
   Disks disks;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
@@ -111,23 +125,9 @@ Disks disks_of(const Scene& scene) {
   return disks;
 }
 
-/// In a sheared box velocities are drawn relative to the flow; those given one by one are what they are.
-void add_flow(const Scene& scene, Start& start) {
-  if (!scene.effects.shear) return;
-  const double middle = (scene.box.lower.y() + scene.box.upper.y()) / 2.0;
-  for (std::size_t i = 0; i < start.disks.count(); ++i) {
-    const Velocities& law = scene.species[static_cast<std::size_t>(start.disks.species[i])].velocities;
-    if (std::holds_alternative<ListedVelocities>(law) || std::holds_alternative<FileVelocities>(law)) continue;
-    const auto column = static_cast<Eigen::Index>(i);
-    start.state.velocities(0, column) += scene.effects.shear->rate * (start.state.positions(1, column) - middle);
-  }
-}
-
-}  // namespace
-
 Start draw_start(const Scene& scene) {
   Start start;
-  start.disks = disks_of(scene);
+  start.disks = all_disks(scene);
   start.state.positions = draw_positions(scene, start.disks);
   start.state.velocities = draw_velocities(scene, start.disks);
   add_flow(scene, start);
@@ -138,7 +138,7 @@ Start draw_start(const Scene& scene) {
 }
 
 Start start_from(const Scene& scene, const State& state) {
-  Start start{disks_of(scene), state};
+  Start start{all_disks(scene), state};
   const auto disks = static_cast<Eigen::Index>(start.disks.count());
   if (state.positions.cols() != disks || state.velocities.cols() != disks)
     throw std::invalid_argument(fmt::format("a state of {} positions and {} velocities is given for {} disks; give one per disk",

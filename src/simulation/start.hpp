@@ -21,6 +21,9 @@ Start draw_start(const Scene& scene);
 /// itself lacks. Disks may overlap; remainders are dropped, so that every engine starts from the same numbers.
 Start start_from(const Scene& scene, const State& state);
 
+/// All disks of a scene, in the order of its species. Throws SceneError where a species that a program made is incomplete.
+Disks all_disks(const Scene& scene);
+
 /// Column i of `positions` for every disk of every species, in the order of ids. Throws as draw_start.
 Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks);
 

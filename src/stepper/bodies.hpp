@@ -59,6 +59,11 @@ struct Bodies {
     images.col(static_cast<Eigen::Index>(i)) += domain.wrap(r[i]);
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(r, v, images);
+  }
+
   Domain<double> domain;
   Vec2<double> around;          ///< how far it is round the box; infinite between walls
   std::vector<Vec2<double>> r;  ///< at the last step

@@ -32,6 +32,11 @@ class ClosePairs {
            close_.capacity() * sizeof(Close) + touching_.capacity() * sizeof(Touching);
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(margin_, approached_, cells_[0], cells_[1], per_length_, first_, sorted_, cell_, close_, pairs_);
+  }
+
  private:
   struct Close {
     std::uint32_t i, j;  ///< i < j

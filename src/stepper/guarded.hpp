@@ -76,6 +76,11 @@ class GuardedStep {
   [[nodiscard]] static const Vec2<double>& flight(const Bodies& bodies, std::size_t i) { return bodies.v[i]; }
   [[nodiscard]] std::size_t bytes() const { return pairs_.bytes(); }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(pairs_);
+  }
+
  private:
   static void reflect(Bodies& bodies, std::size_t i, Tally& tally) {
     for (int axis = 0; axis < 2; ++axis) {

@@ -55,6 +55,11 @@ class NaiveStep {
   [[nodiscard]] const Vec2<double>& flight(const Bodies& /*bodies*/, std::size_t i) const { return flight_[i]; }
   [[nodiscard]] std::size_t bytes() const { return (flight_.capacity() + place_.capacity()) * sizeof(Vec2<double>); }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(flight_, place_);
+  }
+
  private:
   static void reflect(Bodies& bodies, std::size_t i, Tally& tally) {
     const double room = meets == WallMeets::edge ? bodies.radius[i] : 0.0;

@@ -97,6 +97,12 @@ class Stepper {
   /// A fixed-step method plans nothing that could be wrong.
   [[nodiscard]] static std::vector<std::string> check_invariants() { return {}; }
 
+  /// All that decides how the run goes on, for core/archive.hpp. Requires all events to have been taken.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(bodies_, step_, steps_, now_, tally_.totals, tally_.time);
+  }
+
  private:
   /// dt and the target were decimal fractions once: 200 * 0.01 is later than 2 by its rounding, and yet meant to be 2.
   [[nodiscard]] static bool equal_to_rounding(const Instant& a, const Instant& b) {

@@ -1,0 +1,22 @@
+#pragma once
+// Lengths of time and numbers of collisions as people type them.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace carom::cli {
+
+/// "90", "90s", "10min", "1h30min", "2d", or "HH:MM:SS" as batch systems have it. Throws UsageError that begins with `option`.
+[[nodiscard]] double seconds_of(const std::string& option, const std::string& text);
+
+/// When a run is saved while it goes on: after so much real time, or after so many collisions of pairs; one of the two.
+struct SavingPlan {
+  std::optional<double> seconds;
+  std::optional<std::uint64_t> collisions;
+};
+
+/// "10min" or "1e8 collisions". Throws UsageError.
+[[nodiscard]] SavingPlan saving_plan(const std::string& text);
+
+}  // namespace carom::cli

@@ -1,0 +1,27 @@
+#pragma once
+// What decides how the engine goes on, written down for checkpoints (core/archive.hpp). What the scene says by itself is not
+// among it: an engine is made for the scene first, with any start, and then read into.
+
+#include "engine/engine.hpp"
+
+namespace carom {
+
+template <class Impact, class Layout, class World>
+template <class Archive>
+void Engine<Impact, Layout, World>::serialize(Archive& archive) {
+  archive(axes_[0], axes_[1], half_[0], half_[1], frame_, impact_, world_);
+  archive(lines_, plans_, ids_, images_, heights_, radius_, lists_, queue_);
+  archive(epoch_, now_, epoch_length_, stamp_, at_one_instant_, last_collision_, totals_);
+  archive(mean_speed_, reach_, area_, listed_scale_, way_, span_, begun_with_);
+  for (int k = 0; k < 2; ++k) archive(travel_[k], clear_[k], speed_limit_[k]);
+  archive(tuner_, widest_, settling_, travelled_, left_, changed_, looks_);
+  if constexpr (Archive::is_loading::value) {
+    frame_.inside = nullptr;
+    if constexpr (!Impact::plain)
+      if (impact_.wells().present()) frame_.inside = impact_.wells().table();
+    frame_.sliding.heights = heights_.data();
+    places_.clear();
+  }
+}
+
+}  // namespace carom

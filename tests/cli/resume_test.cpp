@@ -1,0 +1,149 @@
+// carom resume and carom extend as a user meets them: killed at any moment and resumed, a run ends with the files of one that
+// nothing happened to.
+
+#include "support/program_test.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+const std::string observed =
+    "collisions = 30000\n[output]\nxyz = true\ncsv = true\nevents = true\n[observe]\npressure = true\nviscosity = true\n";
+
+/// Without an end of its own.
+std::string without_time(std::string scene) { return scene.erase(scene.find("time = 2.0"), 11); }
+
+class Resume : public ProgramTest {
+ protected:
+  Resume() : ProgramTest(without_time(fifty_disks) + observed) {}
+
+  /// Kills the program as soon as `ready`.
+  Outcome kill_when(const std::vector<std::string>& arguments, int signal, const std::function<bool()>& ready) {
+    return carom(arguments, [&](pid_t child) {
+      (void)wait_until(ready);
+      ::kill(child, signal);
+    });
+  }
+  [[nodiscard]] bool is_there(const std::string& name) const { return fs::exists(file(name)); }
+
+  /// The summary, without what tells of the clock on the wall.
+  [[nodiscard]] json summary(const std::string& directory) const {
+    json found = json::parse(text_of(file(directory) / "summary.json"));
+    for (const char* key : {"wall_seconds", "loop_seconds", "collisions_per_second", "command_line"}) found.erase(key);
+    return found;
+  }
+  void expect_same_files(const std::string& a, const std::string& b) {
+    for (const char* name : {"trajectory.xyz", "samples.csv"})
+      EXPECT_TRUE(text_of(file(a) / name) == text_of(file(b) / name)) << name;
+    EXPECT_EQ(summary(a), summary(b));
+    EXPECT_TRUE(is_there(b + "/trajectory.h5md"));
+    EXPECT_FALSE(is_there(b + "/trajectory.h5md.partial"));
+  }
+};
+
+TEST_F(Resume, AfterSigkillEndsWithTheSameFiles) {
+  ASSERT_EQ(carom({"run", "gas.toml", "--out", "whole", "-q"}).exit_code, 0);
+  const std::vector<std::string> run = {"run", "gas.toml", "--out", "killed", "-q", "--checkpoint-every", "5000 collisions"};
+  const Outcome killed = kill_when(run, SIGKILL, [&] { return is_there("killed/checkpoint-previous.h5"); });
+  if (killed.exit_code == 0) GTEST_SKIP() << "the run was over before it could be killed";
+  EXPECT_EQ(killed.exit_code, 128 + SIGKILL);
+  EXPECT_FALSE(is_there("killed/summary.json"));
+  const Outcome resumed = carom({"resume", "killed"});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("going on from time"));
+  expect_same_files("whole", "killed");
+  const Outcome verified = carom({"verify", "killed"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.out;
+}
+
+TEST_F(Resume, AfterASignalItSaysHow) {
+  ASSERT_EQ(carom({"run", "gas.toml", "--out", "whole", "-q", "--set", "run.collisions=120000"}).exit_code, 0);
+  const Outcome stopped = kill_when({"run", "gas.toml", "--out", "stopped", "--set", "run.collisions=120000"}, SIGTERM,
+                                    [&] { return is_there("stopped/trajectory.h5md.partial"); });
+  if (stopped.exit_code == 0) GTEST_SKIP() << "the run was over before it could be stopped";
+  EXPECT_EQ(stopped.exit_code, 130);
+  EXPECT_THAT(stopped.err, HasSubstr(" resume stopped goes on from there"));
+  EXPECT_EQ(json::parse(text_of(file("stopped/summary.json")))["stopped"], "interrupted");
+  EXPECT_EQ(carom({"resume", "stopped", "-q"}).exit_code, 0);
+  expect_same_files("whole", "stopped");
+}
+
+TEST_F(Resume, AfterItsWalltimeAgainAndAgain) {
+  ASSERT_EQ(carom({"run", "gas.toml", "--out", "whole", "-q", "--set", "run.collisions=60000"}).exit_code, 0);
+  int parts = 1,
+      code = carom({"run", "gas.toml", "--out", "parts", "-q", "--walltime", "0.1s", "--set", "run.collisions=60000"}).exit_code;
+  for (; code == 130 && parts < 100; ++parts) code = carom({"resume", "parts", "-q", "--walltime", "0.1s"}).exit_code;
+  EXPECT_EQ(code, 0);
+  expect_same_files("whole", "parts");
+}
+
+TEST_F(Resume, AFinishedRunIsExtended) {
+  ASSERT_EQ(carom({"run", "gas.toml", "--out", "whole", "-q", "--set", "run.collisions=40000"}).exit_code, 0);
+  ASSERT_EQ(carom({"run", "gas.toml", "--out", "longer", "-q", "--checkpoint-every", "1h"}).exit_code, 0);
+  refused({"resume", "longer"}, "this run has come to its end; carom extend takes it to a later one");
+  refused({"extend", "longer"}, "say how far, with --time or with --collisions");
+  refused({"extend", "longer", "--collisions", "30000"}, "the run has had 30000 already; give more");
+  refused({"extend", "longer", "--time", "0.5"}, "already; give a later one");
+  EXPECT_EQ(carom({"extend", "longer", "-q", "--collisions", "40000"}).exit_code, 0);
+  for (const char* name : {"trajectory.xyz", "samples.csv"})
+    EXPECT_TRUE(text_of(file("whole") / name) == text_of(file("longer") / name)) << name;
+  EXPECT_EQ(summary("whole")["energy"], summary("longer")["energy"]);
+}
+
+TEST_F(Resume, WithADamagedCheckpointThePreviousOneIsUsedAndSaid) {
+  ASSERT_EQ(carom({"run", "gas.toml", "--out", "whole", "-q"}).exit_code, 0);
+  ASSERT_EQ(carom({"run", "gas.toml", "--out", "hurt", "-q", "--checkpoint-every", "5000 collisions"}).exit_code, 0);
+  fs::remove(file("hurt/summary.json"));  // as if the end had never been written
+  std::string damaged = text_of(file("hurt/checkpoint.h5"));
+  damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 1);
+  write_text(file("hurt/checkpoint.h5"), damaged);
+  const Outcome resumed = carom({"resume", "hurt"});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("checkpoint.h5: its checksum is wrong; going on from hurt/checkpoint-previous.h5 instead"));
+  expect_same_files("whole", "hurt");
+}
+
+TEST_F(Resume, WhatCannotBeResumedIsRefusedAndLeftAsItIs) {
+  refused({"resume", "nowhere"}, "there is no such directory");
+  fs::create_directory(file("empty"));
+  refused({"resume", "empty"}, "there is no checkpoint from which a run could go on");
+  ASSERT_EQ(carom({"run", "gas.toml", "--out", "cut", "-q", "--checkpoint-every", "5000 collisions"}).exit_code, 0);
+  fs::remove(file("cut/summary.json"));
+  fs::resize_file(file("cut/samples.csv"), 100);
+  const Outcome cut = carom({"resume", "cut"});
+  EXPECT_NE(cut.exit_code, 0);
+  EXPECT_THAT(cut.err, HasSubstr("the file has 100 bytes and must have "));
+  EXPECT_TRUE(is_there("cut/checkpoint.h5"));
+}
+
+TEST_F(Resume, ADirectoryBelongsToOneRunAtATime) {
+  const Outcome first = carom({"run", "gas.toml", "--out", "busy", "-q", "--set", "run.collisions=600000"}, [&](pid_t child) {
+    (void)wait_until([&] { return is_there("busy/trajectory.h5md.partial"); });
+    refused({"run", "gas.toml", "--out", "busy", "--force"}, "another run is writing in this directory");
+    refused({"resume", "busy"}, "another run is writing in this directory");
+    ::kill(child, SIGKILL);
+  });
+  EXPECT_EQ(first.exit_code, 128 + SIGKILL);
+}
+
+TEST_F(Resume, DurationsAreReadAsPeopleTypeThem) {
+  for (const char* wrong : {"soon", "10 parsecs", "-1s", "0", "1:2:3:4", "1h30", "collisions", "1.5 collisions"})
+    refused({"run", "gas.toml", "--out", "never", "--checkpoint-every", wrong}, "--checkpoint-every ");
+  refused({"run", "gas.toml", "--out", "never", "--walltime", "later"}, "--walltime later: give a length of time such as 90s");
+  EXPECT_FALSE(is_there("never"));
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,106 @@
+// A simulation that was written down and brought back goes on to the same bits, on every example scene and every engine: the same
+// events, states and totals, down to the counts of what is bookkeeping.
+
+#include "support/engines.hpp"
+#include "support/scene_files.hpp"
+#include "support/scenes.hpp"
+
+#include <carom/simulation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+void go_on(Simulation& simulation, double until, std::uint64_t pairs) {
+  simulation.record_events(true);
+  (void)simulation.run_until(until, simulation.totals().pair + pairs);
+}
+
+void expect_same_totals(const Totals& a, const Totals& b) {
+  EXPECT_EQ(a.pair, b.pair);
+  EXPECT_EQ(a.wall, b.wall);
+  EXPECT_EQ(a.other, b.other) << "bookkeeping";
+  EXPECT_EQ(a.stale, b.stale) << "bookkeeping";
+  EXPECT_EQ(a.obstacle, b.obstacle);
+  EXPECT_EQ(a.well, b.well);
+  EXPECT_EQ(a.kicks, b.kicks);
+  EXPECT_EQ(a.virial, b.virial);
+  EXPECT_EQ(a.wall_impulse, b.wall_impulse);
+  EXPECT_EQ(a.wall_energy, b.wall_energy);
+  EXPECT_EQ(a.dissipated, b.dissipated);
+  EXPECT_EQ(a.kick_energy, b.kick_energy);
+  EXPECT_EQ(a.growth_energy, b.growth_energy);
+  EXPECT_EQ(a.shear_energy, b.shear_energy);
+  EXPECT_EQ(a.virial_xy, b.virial_xy);
+  EXPECT_EQ(a.obstacle_impulse, b.obstacle_impulse);
+  EXPECT_EQ(a.numerics.epochs, b.numerics.epochs);
+  EXPECT_EQ(a.numerics.lists_made, b.numerics.lists_made);
+}
+
+void expect_same_events(const std::vector<Event>& a, const std::vector<Event>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  const auto differ = [](const Event& x, const Event& y) {
+    return x.time != y.time || x.time_remainder != y.time_remainder || x.disk != y.disk || x.partner != y.partner ||
+           x.velocity != y.velocity || x.partner_velocity != y.partner_velocity;
+  };
+  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_FALSE(differ(a[i], b[i])) << "event " << i << " at time " << a[i].time;
+}
+
+/// Runs on for `before`, is saved, and then both go on for `after`.
+void expect_the_same_after(Simulation simulation, double before, double after, std::uint64_t pairs) {
+  go_on(simulation, before, pairs);
+  (void)simulation.take_events();
+  std::stringstream kept;
+  simulation.save(kept);
+  Simulation restored = restore_simulation(simulation.scene(), kept);
+  EXPECT_EQ(restored.engine(), simulation.engine());
+  EXPECT_EQ(restored.engine_reason(), simulation.engine_reason());
+  EXPECT_EQ(restored.time(), simulation.time());
+  for (Simulation* one : {&simulation, &restored}) go_on(*one, after, pairs);
+  EXPECT_TRUE(same_bits(simulation.state(), restored.state()));
+  EXPECT_EQ(simulation.state().spins, restored.state().spins);
+  EXPECT_EQ(simulation.state().scale, restored.state().scale);
+  expect_same_totals(simulation.totals(), restored.totals());
+  expect_same_events(simulation.take_events(), restored.take_events());
+  EXPECT_EQ(simulation.check_invariants(), restored.check_invariants());
+}
+
+class EnginesSaved : public testing::TestWithParam<std::string> {};
+
+TEST_P(EnginesSaved, GoesOnToTheSameBits) {
+  Scene scene = load_scene(example_path(GetParam()));
+  const double end = scene.run.time.value_or(1e3);
+  const auto pairs = std::max<std::uint64_t>(20, 5 * static_cast<std::uint64_t>(scene.disk_count()));
+  for (const std::string& engine : engines_covering(scene)) {
+    if (engine != "fast" && engine != "general" && engine != "textbook") continue;
+    SCOPED_TRACE(engine);
+    expect_the_same_after(make_simulation(scene, engine), 0.3 * end, end, pairs);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EnginesSaved, testing::ValuesIn(example_scenes()), [](const auto& scene) { return scene.param; });
+
+TEST(EnginesSaved, InEveryPrecision) {
+  const Scene scene = load_scene(example_path("box"));
+  for (const std::string& engine : engine_names()) {
+    SCOPED_TRACE(engine);
+    expect_the_same_after(make_simulation(scene, engine), 1.0, 4.0, 50);
+  }
+}
+
+TEST(EnginesSaved, WithEveryFixedStepMethodBetweenTwoStepsToo) {
+  const Scene scene = load_scene(example_path("box"));
+  for (const std::string& method : fixed_step_names()) {
+    SCOPED_TRACE(method);
+    expect_the_same_after(make_simulation(scene, FixedStep{method, 0.01}), 1.005, 4.0, 1'000'000);
+  }
+}
+
+}  // namespace
+}  // namespace carom::test

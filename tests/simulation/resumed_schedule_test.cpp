@@ -1,0 +1,207 @@
+// A schedule that is saved at any of its moments and resumed hands on the same samples, events and blocks, and observables find
+// the same to the last bit, as if nothing had happened.
+
+#include "support/scenes.hpp"
+
+#include <carom/observe.hpp>
+#include <carom/simulation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+const std::string fluid = R"(
+[box]
+x = [0.0, 10.0]
+y = [0.0, 10.0]
+boundary = "periodic"
+[[disks]]
+count = 60
+radius = 0.4
+mass = 1.0
+positions = "random"
+velocities = { temperature = 1.0 }
+[collision]
+rule = "specular"
+[run]
+time = 40.0
+sample_every = 0.7
+equilibrate = { collisions_per_disk = 300 }
+[observe]
+temperature = true
+pressure = true
+collision_rate = true
+free_flight = true
+speeds = true
+velocity_moments = true
+radial_distribution = true
+structure_factor = true
+hexatic = true
+density_profile = true
+mean_square_displacement = true
+velocity_autocorrelation = true
+viscosity = true
+heat_conductivity = true
+h_function = true
+)";
+
+/// What a caller of run_schedule is told, as text.
+struct Told {
+  std::string log;
+  std::vector<Measurement> measured;
+  RunResult result;
+};
+
+struct Saved {
+  std::string simulation, schedule, observables;
+};
+
+void append(std::string& log, const char* what, double number) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%s %a\n", what, number);
+  log += text;
+}
+
+/// Runs to the end, or is saved at moment `stop_at` and stops there.
+Told run(Simulation& simulation, Observation& observation, std::optional<int> stop_at, Saved* saved, std::istream* from) {
+  Told told;
+  RunHooks hooks;
+  hooks.start = [&](const State& state) { append(told.log, "start", state.positions.sum()); };
+  hooks.sample = [&](std::uint64_t k, const State& state) {
+    append(told.log, "sample", static_cast<double>(k));
+    append(told.log, "at", state.positions.sum());
+  };
+  hooks.events = [&](std::span<const Event> events) {
+    for (const Event& event : events) append(told.log, "event", event.time);
+  };
+  hooks.block = [&](const Progress& progress) { append(told.log, "block", progress.totals.virial); };
+  int moments = 0;
+  hooks.checkpoint = [&](const SavingMoment& moment) {
+    if (!stop_at || ++moments < *stop_at) return;
+    std::ostringstream simulation_out, schedule_out, observables_out;
+    simulation.save(simulation_out);
+    moment.save(schedule_out);
+    observation.save(observables_out);
+    *saved = {simulation_out.str(), schedule_out.str(), observables_out.str()};
+    throw 0;  // as sudden as being killed
+  };
+  hooks.resume = from;
+  observation.attach(hooks);
+  try {
+    told.result = run_schedule(simulation, hooks);
+    told.measured = observation.results();
+  } catch (int) {
+  }
+  return told;
+}
+
+void expect_same(const std::vector<Measurement>& a, const std::vector<Measurement>& b) {
+  const auto same = [](double x, double y) { return x == y || (x != x && y != y); };
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t m = 0; m < a.size(); ++m) {
+    ASSERT_EQ(a[m].scalars.size(), b[m].scalars.size());
+    for (std::size_t s = 0; s < a[m].scalars.size(); ++s) {
+      EXPECT_EQ(a[m].scalars[s].value, b[m].scalars[s].value) << a[m].name << "." << a[m].scalars[s].name;
+      EXPECT_EQ(a[m].scalars[s].error, b[m].scalars[s].error) << a[m].name << "." << a[m].scalars[s].name;
+    }
+    ASSERT_EQ(a[m].tables.size(), b[m].tables.size());
+    for (std::size_t t = 0; t < a[m].tables.size(); ++t)
+      for (std::size_t c = 0; c < a[m].tables[t].columns.size(); ++c)
+        EXPECT_TRUE(std::ranges::equal(a[m].tables[t].columns[c].values, b[m].tables[t].columns[c].values, same))
+            << a[m].name << "." << a[m].tables[t].columns[c].name;
+  }
+}
+
+class ResumedSchedule : public testing::TestWithParam<int> {};
+
+void expect_the_same_resumed_at(int moment, const Scene& scene) {
+  Simulation whole = make_simulation(scene);
+  Observation of_whole(whole);
+  const Told expected = run(whole, of_whole, {}, nullptr, nullptr);
+
+  Saved saved;
+  Simulation killed = make_simulation(scene);
+  Observation of_killed(killed);
+  const Told before = run(killed, of_killed, moment, &saved, nullptr);
+  ASSERT_FALSE(saved.simulation.empty()) << "there are fewer moments than that";
+
+  std::istringstream simulation(saved.simulation), schedule(saved.schedule), observables(saved.observables);
+  Simulation restored = restore_simulation(scene, simulation);
+  Observation of_restored(restored, observables);
+  const Told after = run(restored, of_restored, {}, nullptr, &schedule);
+
+  EXPECT_EQ(before.log + after.log, expected.log);
+  EXPECT_EQ(after.result.stopped, expected.result.stopped);
+  EXPECT_EQ(after.result.samples, expected.result.samples);
+  expect_same(after.measured, expected.measured);
+}
+
+TEST_P(ResumedSchedule, TellsTheSameAsOneThatWasNeverStopped) { expect_the_same_resumed_at(GetParam(), parse_scene(fluid)); }
+
+TEST_P(ResumedSchedule, TheSameBetweenWallsUnderGravity) {
+  const Scene scene = parse_scene(R"(
+[box]
+x = [0.0, 10.0]
+y = [0.0, 20.0]
+boundary = "walls"
+[[disks]]
+count = 60
+radius = 0.4
+mass = 1.0
+positions = "random"
+velocities = { temperature = 1.0 }
+[collision]
+rule = "specular"
+[gravity]
+acceleration = [0.0, -0.1]
+[run]
+collisions = 9000
+sample_every = 1.3
+[observe]
+pressure = true
+wall_fluxes = true
+density_profile = true
+free_flight = true
+)");
+  expect_the_same_resumed_at(GetParam(), scene);
+}
+
+// The equilibration has about 9,000 collisions and as many other events; then there is a moment every few dozen of either.
+INSTANTIATE_TEST_SUITE_P(At, ResumedSchedule, testing::Values(1, 2, 3, 10, 40, 100));
+
+TEST(ResumedSchedule, EndsAtANewEnd) {
+  Scene scene = parse_scene(fluid);
+  scene.observe.clear();
+  const auto state_at_end = [](const Scene& of, Saved* saved, const Saved* from) {
+    std::istringstream simulation_in(from != nullptr ? from->simulation : ""), schedule_in(from != nullptr ? from->schedule : "");
+    Simulation simulation = from != nullptr ? restore_simulation(of, simulation_in) : make_simulation(of);
+    RunHooks hooks;
+    if (from != nullptr) hooks.resume = &schedule_in;
+    hooks.checkpoint = [&](const SavingMoment& moment) {
+      if (saved == nullptr || !moment.ended) return;
+      std::ostringstream simulation_out, schedule_out;
+      simulation.save(simulation_out);
+      moment.save(schedule_out);
+      *saved = {simulation_out.str(), schedule_out.str(), ""};
+    };
+    const RunResult result = run_schedule(simulation, hooks);
+    EXPECT_EQ(result.stopped, StopReason::time);
+    EXPECT_EQ(result.samples, last_sample(of.run) + 1);
+    return simulation.state();
+  };
+  Saved end;
+  (void)state_at_end(scene, &end, nullptr);
+  scene.run.time = 100.0;
+  EXPECT_TRUE(same_bits(state_at_end(scene, nullptr, &end), state_at_end(scene, nullptr, nullptr)));
+}
+
+}  // namespace
+}  // namespace carom::test
