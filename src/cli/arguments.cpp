@@ -174,6 +174,13 @@ void add_compare(CLI::App& program, Action& action, const Invocation& invocation
           "--longest", options->longest,
           "Seconds that one run of a fixed-step method may take (default: 0.5); a longer one is cut short, or left out and named")
       ->type_name("SECONDS");
+  command
+      ->add_option("--play", options->play,
+                   fmt::format("Make side_by_side.html too, first of all: a fixed-step method ({}; default guarded) beside exact "
+                               "events, to watch; given after SCENE. DT is one of the study's where it is left out",
+                               fmt::join(fixed_step_names(), ", ")))
+      ->type_name("[METHOD[:DT]]")
+      ->expected(0, 1);
   command->add_flag("--no-costs", options->no_costs, "Leave out cost against size and against packing fraction");
   command->add_flag("--force", options->force, "Replace the results that the directory holds");
   command->add_flag("--resume", options->resume, "Go on with an interrupted comparison, keeping its finished points");

@@ -179,7 +179,8 @@ struct CompareCommandOptions {
   std::string out;          ///< empty: the scene's name without its ending, and "-compare"
   std::vector<double> dts;  ///< empty: the usual ladder
   std::int64_t seeds = 8;
-  double longest = 0.5;  ///< seconds
+  double longest = 0.5;             ///< seconds
+  std::optional<std::string> play;  ///< METHOD[:DT], or empty: make the page on which that flies beside exact events
   bool no_costs = false;
   bool force = false;
   bool resume = false;

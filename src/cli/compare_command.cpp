@@ -4,6 +4,7 @@
 #include "cli/commands.hpp"
 #include "cli/compare_text.hpp"
 #include "cli/progress.hpp"
+#include "cli/side_by_side_option.hpp"
 #include "cli/signals.hpp"
 #include "cli/study_directory.hpp"
 #include "show/compare_page.hpp"
@@ -22,6 +23,7 @@
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -31,7 +33,8 @@ namespace carom::cli {
 namespace {
 
 /// compare.json comes last: where it is, the comparison is complete.
-constexpr std::array<std::string_view, 4> products = {"points.jsonl", "compare.csv", "report.html", "compare.json"};
+constexpr std::array<std::string_view, 5> products = {"points.jsonl", side_by_side_file, "compare.csv", "report.html",
+                                                      "compare.json"};
 
 CompareOptions checked(const CompareCommandOptions& options) {
   if (options.seeds < 1 || options.seeds > 10'000)
@@ -79,20 +82,32 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
   require_no_effects(scene, "carom compare");
   (void)make_simulation(scene, study.engine);  // whatever is wrong with the scene is said before anything is written
   check_steps(scene, study.dts);
+  std::optional<PlayChoice> play;
+  if (options.play) play = checked_play(*options.play, scene);
   const std::string key = study_key(scene, study);
   const StopRequest stop;
   const RunDirectory directory = open_study(directory_for(options), options.force, options.resume, products);
   try {
     Comparison before = earlier_points(directory, key, options);
     std::unique_ptr<PointsFile> points;
-    ProgressLine line(mode, scene);
+    auto line = std::make_unique<ProgressLine>(mode, scene);
     CompareHooks hooks;
     hooks.proceed = [&](const std::string& doing, double fraction) {
-      line.update(doing, fraction);
+      line->update(doing, fraction);
       return !stop.made();
     };
-    hooks.planned = [&](const ComparePlan&) {
+    hooks.planned = [&](const ComparePlan& plan, const State& start) {
       points = std::make_unique<PointsFile>(directory.final_name("points.jsonl"), key, before);
+      if (!play) return;
+      const auto page = make_side_by_side(*play, scene, study.engine, plan, start, invocation.command_line,
+                                          [&](double) { return hooks.proceed("flying side by side", 0.05); });
+      if (!page) return;  // the study is about to stop too
+      write_product(directory, side_by_side_file, page->html);
+      if (options.quiet) return;
+      line.reset();  // where it stood, the sentence stands
+      fmt::print(stderr, "carom: {}: can be watched while the study goes on{}{}\n",
+                 directory.final_name(side_by_side_file).string(), page->shorter.empty() ? "" : "; ", page->shorter);
+      line = std::make_unique<ProgressLine>(mode, scene);
     };
     hooks.run_done = [&](const MethodRun& run) { points->add(run); };
     hooks.cost_done = [&](const CostPoint& point) { points->add(point); };
@@ -108,6 +123,7 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
       }
       return exit_interrupted;
     }
+    line.reset();
     const std::string json = compare_json(comparison, scene, invocation.command_line);
     write_product(directory, "compare.csv", compare_csv(comparison));
     write_product(directory, "report.html", html_page(compare_page(comparison, scene, invocation.command_line)));
@@ -117,7 +133,8 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
     } else {
       fmt::print("{}", compare_text(comparison, scene, options.quiet));
       if (!options.quiet)
-        fmt::print("\nFiles in {}: report.html, compare.json, compare.csv, points.jsonl\n", directory.path().string());
+        fmt::print("\nFiles in {}: {}report.html, compare.json, compare.csv, points.jsonl\n", directory.path().string(),
+                   play ? fmt::format("{}, ", side_by_side_file) : "");
     }
     return exit_done;
   } catch (const std::invalid_argument& error) {

@@ -40,6 +40,47 @@ Json json_of(const HorizonRow& row) {
           {"price", timed && row.price > 0.0 ? number(row.price) : Json(nullptr)}};
 }
 
+std::optional<double> number_in(const Json& json) { return json.is_null() ? std::nullopt : std::optional(json.get<double>()); }
+
+std::optional<FirstDifference> difference_in(const Json& json) {
+  if (json.is_null()) return {};
+  return FirstDifference{.index = json.at("index").get<std::uint64_t>(),
+                         .time = number_in(json.at("time")).value_or(0.0),
+                         .disk = json.at("disk").get<std::int32_t>(),
+                         .partner = json.at("partner").get<std::int32_t>(),
+                         .other_disk = json.at("other_disk").get<std::int32_t>(),
+                         .other_partner = json.at("other_partner").get<std::int32_t>()};
+}
+
+std::optional<Lyapunov> lyapunov_in(const Json& json) {
+  if (json.is_null()) return {};
+  return Lyapunov{.per_time = number_in(json.at("per_time")).value_or(0.0),
+                  .per_time_error = number_in(json.at("per_time_error")),
+                  .per_collision = number_in(json.at("per_collision")).value_or(0.0),
+                  .per_collision_error = number_in(json.at("per_collision_error")),
+                  .collision_rate = number_in(json.at("collision_rate")).value_or(0.0),
+                  .collisions = json.at("collisions").get<std::uint64_t>()};
+}
+
+HorizonRow row_in(const Json& json) {
+  return {.engine = json.at("engine").get<std::string>(),
+          .bits = json.at("bits").get<int>(),
+          .against = json.at("against").is_null() ? "" : json.at("against").get<std::string>(),
+          .time = number_in(json.at("time")),
+          .collisions_per_disk = number_in(json.at("collisions_per_disk")),
+          .estimated = json.at("estimated").get<bool>(),
+          .first_difference = difference_in(json.at("first_difference")),
+          .seconds = number_in(json.at("seconds")).value_or(0.0),
+          .price = number_in(json.at("price")).value_or(0.0)};
+}
+
+HorizonEnd end_in(const std::string& word) {
+  for (const HorizonEnd end :
+       {HorizonEnd::parted, HorizonEnd::run, HorizonEnd::limit, HorizonEnd::interrupted, HorizonEnd::stuck})
+    if (to_string(end) == word) return end;
+  throw Json::other_error::create(501, "no comparison of precisions ends by \"" + word + "\"", nullptr);
+}
+
 }  // namespace
 
 Json horizon_json(const Horizon& horizon) {
@@ -56,6 +97,22 @@ Json horizon_json(const Horizon& horizon) {
                {"ended", to_string(horizon.ended)}};
   for (const HorizonRow& row : horizon.rows) json["rows"].push_back(json_of(row));
   return json;
+}
+
+Horizon horizon_of(const Json& json) {
+  Horizon horizon;
+  horizon.tolerance = number_in(json.at("tolerance")).value_or(0.0);
+  horizon.sigma = number_in(json.at("sigma")).value_or(0.0);
+  horizon.resolution = number_in(json.at("resolution")).value_or(0.0);
+  horizon.engine = json.at("engine").get<std::string>();
+  for (const Json& row : json.at("rows")) horizon.rows.push_back(row_in(row));
+  horizon.lyapunov = lyapunov_in(json.at("lyapunov"));
+  horizon.time = number_in(json.at("time")).value_or(0.0);
+  horizon.collisions_per_disk = number_in(json.at("collisions_per_disk")).value_or(0.0);
+  horizon.collisions = json.at("collisions").get<std::uint64_t>();
+  horizon.timed_until = number_in(json.at("timed_until")).value_or(0.0);
+  horizon.ended = end_in(json.at("ended").get<std::string>());
+  return horizon;
 }
 
 }  // namespace carom

@@ -1,5 +1,6 @@
 #include "io/summary_reader.hpp"
 
+#include "io/horizon_json.hpp"
 #include "io/json_number.hpp"
 
 #include <fmt/format.h>
@@ -189,6 +190,7 @@ RunReport run_report_of(const Json& json) {
                            .checks = count_in(verified, "checks"),
                            .faults = verified.at("faults").get<std::vector<std::string>>()};
   }
+  if (json.contains("horizon")) report.horizon = horizon_of(json.at("horizon"));
   return report;
 }
 

@@ -1,6 +1,7 @@
 #include "show/compare_page.hpp"
 
 #include "show/compare_plots.hpp"
+#include "show/horizon_table.hpp"
 #include "study/compare_answers.hpp"
 #include "study/compare_sentences.hpp"
 #include "study/horizon_sentence.hpp"
@@ -50,25 +51,6 @@ TextTable table_of(const Comparison& comparison, const std::vector<MethodSummary
                           counted(&StepCounts::repeated_fraction, &StepCounts::reversals),
                           counted(&StepCounts::spurious_fraction, &StepCounts::reversals),
                           s.counts ? fmt::format("{:.2g}", s.counts->deepest) : "–"});
-  }
-  return table;
-}
-
-TextTable horizon_table(const Horizon& horizon) {
-  TextTable table{
-      .title = "How far the exact trajectory can be trusted",
-      .columns = {"engine", "bits", "right until t", "collisions per disk", "price"},
-      .caption = fmt::format(
-          "Until the largest distance of a disk from where the next better precision has it reaches {:g} diameters, for the "
-          "first seed. ~: extrapolated with the Lyapunov exponent. Price: processor time over that of double precision "
-          "in the same engine.",
-          horizon.tolerance)};
-  for (const HorizonRow& row : horizon.rows) {
-    const std::string about = row.estimated ? "~" : "";
-    table.rows.push_back({name_of(row.engine), fmt::format("{}", row.bits),
-                          row.time ? about + fmt::format("{:.4g}", *row.time) : "to the end",
-                          row.collisions_per_disk ? about + fmt::format("{:.3g}", *row.collisions_per_disk) : "–",
-                          row.price > 0.0 ? fmt::format("{:.2g}", row.price) : "–"});
   }
   return table;
 }
@@ -153,7 +135,8 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
                   "tells the method; "
                   "that is where methods are compared."},
         work_precision(comparison, summaries), Paragraph{answers.sentences.empty() ? "" : answers.sentences.front()}}},
-      {"How errors grow", {error_in_time(comparison), horizon_table(plan.horizon), Paragraph{sentence_of(plan.horizon)}}},
+      {"How errors grow",
+       {error_in_time(comparison), horizon_table(plan.horizon, "for the first seed"), Paragraph{sentence_of(plan.horizon)}}},
       {"What fixed steps do to collisions", {faults_of_steps(comparison, summaries), overlap_of_steps(comparison, summaries)}},
       {"What they do to averages",
        {bias_of(comparison, summaries, "bias-z", "Z", &MethodSummary::Z_bias),

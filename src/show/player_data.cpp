@@ -3,6 +3,7 @@
 #include "show/player_data.hpp"
 
 #include "observe/equilibrium.hpp"
+#include "show/event_columns.hpp"
 #include "show/exact_run.hpp"
 #include "show/number_columns.hpp"
 #include "show/player_samples.hpp"
@@ -84,41 +85,6 @@ struct WallTracks {
   }
 };
 
-/// Events as columns. A partner that is no disk has a number after theirs: sides of the box, then `rescale`, then obstacles.
-template <class Id>
-struct EventColumns {
-  std::vector<double> time;
-  std::vector<Id> disk, partner;
-  std::vector<std::array<double, 4>> velocity;
-
-  void add(const Event& event, std::size_t disks) {
-    const auto code = event.partner >= 0               ? event.partner
-                      : event.partner > first_obstacle ? static_cast<std::int32_t>(disks) - 1 - event.partner
-                                                       : static_cast<std::int32_t>(disks) + 5 + first_obstacle - event.partner;
-    push(event.time, static_cast<Id>(event.disk), static_cast<Id>(code),
-         {event.velocity.x(), event.velocity.y(), event.partner_velocity.x(), event.partner_velocity.y()});
-  }
-  void add_rescaling(double when, double factor, std::size_t disks) {
-    push(when, Id{0}, static_cast<Id>(disks + 4), {factor, 0.0, 0.0, 0.0});
-  }
-  void push(double when, Id first, Id second, const std::array<double, 4>& velocities) {
-    time.push_back(when);
-    disk.push_back(first);
-    partner.push_back(second);
-    velocity.push_back(velocities);
-  }
-  template <class Real>
-  void put(NumberColumns& columns) const {
-    columns.add("time", time);
-    columns.add("disk", disk);
-    columns.add("partner", partner);
-    std::vector<Real> flat;
-    for (const auto& four : velocity)
-      for (const double v : four) flat.push_back(static_cast<Real>(v));
-    columns.add("velocity", flat);
-  }
-};
-
 /// How far rounding the velocities puts a disk from where it is, at most, at any time up to `end`.
 double rounding_error(const Scene& scene, const Disks& disks, const State& start, const std::vector<Event>& events, double end) {
   Replay exact(scene, disks, start), rounded(scene, disks, start, VelocityDigits::single);
@@ -142,7 +108,7 @@ template <class Id>
 void put_events(const RunReader& run, const State& start, const std::vector<Event>& events, VelocityDigits digits,
                 NumberColumns& columns, Json& json) {
   const std::size_t disks = run.disks().count();
-  EventColumns<Id> packed;
+  detail::EventColumns<Id> packed;
   WallTracks tracks;
   Replay replay(run.scene(), run.disks(), start, digits);
   tracks.note(replay);
@@ -164,10 +130,7 @@ void put_replay(const RunReader& run, const ExactRun& replayed, NumberColumns& c
   const double tolerance = player_tolerance * scene.box.lengths().maxCoeff();
   const double rounding = rounding_error(scene, run.disks(), start, events, run.end());
   const VelocityDigits digits = rounding <= tolerance ? VelocityDigits::single : VelocityDigits::twice;
-  std::vector<double> state;
-  for (Eigen::Index i = 0; i < start.positions.cols(); ++i)
-    state.insert(state.end(), {start.positions(0, i), start.positions(1, i), start.velocities(0, i), start.velocities(1, i)});
-  columns.add("start", state);
+  columns.add("start", detail::start_column(start));
   const bool short_ids = run.disks().count() + 5 + scene.effects.obstacles.size() <= std::numeric_limits<std::uint16_t>::max();
   short_ids ? put_events<std::uint16_t>(run, start, events, digits, columns, json)
             : put_events<std::uint32_t>(run, start, events, digits, columns, json);

@@ -1,9 +1,11 @@
 #include "show/report_accuracy.hpp"
 
 #include "observe/observed_run.hpp"
+#include "show/horizon_table.hpp"
 #include "show/number_words.hpp"
 #include "show/report_parts.hpp"
 #include "show/summary_rows.hpp"
+#include "study/horizon_sentence.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -105,6 +107,10 @@ Section accuracy_section(const RunRecord& record) {
   Section section{.heading = "How exact it is", .blocks = {table_of_rows(rows, {}), Paragraph{what_rounding_allows(report)}}};
   if (report.verification)
     for (const std::string& fault : report.verification->faults) section.blocks.emplace_back(Paragraph{fault});
+  if (report.horizon) {
+    section.blocks.emplace_back(Paragraph{sentence_of(*report.horizon)});
+    section.blocks.emplace_back(horizon_table(*report.horizon));
+  }
   if (!report.of_effects.energy_given && record.source) {
     Plot plot = energy_plot(*record.source);
     if (!plot.series.empty()) section.blocks.emplace_back(std::move(plot));

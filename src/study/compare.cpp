@@ -87,7 +87,7 @@ class Study {
     std::sort(plan.dts.rbegin(), plan.dts.rend());
     for (std::uint64_t k = 0; k < options_.seeds; ++k) plan.seeds.push_back(scene_.run.seed + k);
     plan.longest = options_.longest;
-    if (hooks_.planned) hooks_.planned(plan);
+    if (hooks_.planned) hooks_.planned(plan, *start);
     return true;
   }
 

@@ -5,6 +5,7 @@
 #include "study/comparison.hpp"
 
 #include <carom/scene.hpp>
+#include <carom/state.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -25,8 +26,9 @@ struct CompareOptions {
 struct CompareHooks {
   /// Several times a second: what is being done, and the fraction of all. False ends the study.
   std::function<bool(const std::string& doing, double fraction)> proceed = {};
-  std::function<void(const ComparePlan&)> planned = {};  ///< once, where the plan was made here
-  std::function<void(const MethodRun&)> run_done = {};   ///< after each
+  /// Once, where the plan was made here, with the start of the first seed.
+  std::function<void(const ComparePlan&, const State& start)> planned = {};
+  std::function<void(const MethodRun&)> run_done = {};  ///< after each
   std::function<void(const CostPoint&)> cost_done = {};
 };
 

@@ -26,6 +26,13 @@ double largest_distance(const Box& box, const State& a, const State& b) {
   return largest;
 }
 
+double rms_distance(const Box& box, const State& a, const State& b) {
+  Eigen::Matrix2Xd apart(2, a.positions.cols());
+  for (Eigen::Index i = 0; i < apart.cols(); ++i) apart.col(i) = displacement(box, a, b, i);
+  if (!apart.allFinite()) return std::numeric_limits<double>::infinity();
+  return apart.cols() == 0 ? 0.0 : std::sqrt(apart.squaredNorm() / static_cast<double>(apart.cols()));
+}
+
 void LogComparison::add(std::span<const Event> log, std::span<const Event> better_log) {
   if (found_) return;
   waiting_.insert(waiting_.end(), log.begin(), log.end());

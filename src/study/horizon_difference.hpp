@@ -20,6 +20,9 @@ namespace carom {
 /// what the states know beyond doubles (State::remainders). Infinite where a position is not finite. Both states of one time.
 [[nodiscard]] double largest_distance(const Box& box, const State& a, const State& b);
 
+/// Root of the mean square distance of the disks in one state from themselves in the other, likewise; 0 without disks.
+[[nodiscard]] double rms_distance(const Box& box, const State& a, const State& b);
+
 /// Two logs of events that arrive in parts, compared as they come. Nothing is kept that has found its counterpart.
 ///
 /// Events of the better log at exactly one instant may come in any order in the other: which of them is first is a rule

@@ -4,8 +4,6 @@
 
 #include <carom/simulation.hpp>
 
-#include <cmath>
-#include <limits>
 #include <utility>
 
 namespace carom {
@@ -26,11 +24,7 @@ Reference::Reference(const Scene& scene, const State& start, double step, std::u
 }
 
 double Reference::rms_distance(std::uint64_t k, const State& state) const {
-  const State& exact = samples_[k - 1];
-  Eigen::Matrix2Xd apart(2, state.positions.cols());
-  for (Eigen::Index i = 0; i < apart.cols(); ++i) apart.col(i) = displacement(box_, state, exact, i);
-  if (!apart.allFinite()) return std::numeric_limits<double>::infinity();
-  return apart.cols() == 0 ? 0.0 : std::sqrt(apart.squaredNorm() / static_cast<double>(apart.cols()));
+  return carom::rms_distance(box_, state, samples_[k - 1]);
 }
 
 }  // namespace carom

@@ -131,6 +131,55 @@ TEST_F(CompareCommand, JsonPrintsTheFileOfThatName) {
   EXPECT_EQ(all["runs"][0]["seed"], 7);
 }
 
+TEST_F(CompareCommand, PlayMakesThePageOfTwoFlightsFirstAndSaysSo) {
+  const Outcome outcome = compare({"--play", "naive:0.05", "--dt", "0.02"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, StartsWith("carom: gas-compare/side_by_side.html: can be watched while the study goes on"));
+  EXPECT_EQ(files_in("gas-compare"),
+            (std::set<std::string>{"side_by_side.html", "report.html", "compare.json", "compare.csv", "points.jsonl"}));
+  EXPECT_THAT(outcome.out, HasSubstr("Files in gas-compare: side_by_side.html, report.html"));
+  EXPECT_THAT(text_of(file("gas-compare/side_by_side.html")),
+              AllOf(StartsWith("<!doctype html>"), HasSubstr("\"method\":\"naive\",\"dt\":0.05")));
+  // Without it the page of another study does not stay.
+  EXPECT_EQ(compare({"--force", "-q", "--dt", "0.02"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(file("gas-compare/side_by_side.html")));
+}
+
+TEST_F(CompareCommand, PlayChoosesAMethodAndAStepOfTheStudyItself) {
+  const Outcome outcome = compare({"--play", "--set", "run.time=0.1"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "carom: gas-compare/side_by_side.html: can be watched while the study goes on\n")
+      << "all of it is shown";
+  EXPECT_THAT(text_of(file("gas-compare/side_by_side.html")), HasSubstr("\"method\":\"guarded\",\"dt\":0.02"));
+}
+
+TEST_F(CompareCommand, PlayGoesWithAStudyThatGoesOn) {
+  const fs::path points = file("gas-compare/points.jsonl");
+  const Outcome stopped = compare({"--seeds", "3", "-q"}, [&](pid_t child) {
+    EXPECT_TRUE(wait_until([&] { return lines_of(text_of(points)).size() > 4; }));
+    kill(child, SIGINT);
+  });
+  EXPECT_EQ(stopped.exit_code, 130);
+  const Outcome resumed = compare({"--seeds", "3", "--resume", "-q", "--play"});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, IsEmpty());
+  EXPECT_TRUE(fs::exists(file("gas-compare/side_by_side.html")));
+}
+
+TEST_F(CompareCommand, WhatCannotBePlayedIsRefusedBeforeAnythingIsWritten) {
+  expect_refused({"--play", "warp"}, "--play warp: there is no fixed-step method \"warp\"; choose one of naive,");
+  expect_refused({"--play", "warp:0.1"}, "--play warp:0.1: there is no");
+  expect_refused({"--play", ":0.1"}, "--play :0.1: there is no fixed-step method \"\"");
+  for (const char* const dt : {"", "0", "-1", "nan", "inf", "0.1x", "0.1:0.2"})
+    expect_refused({"--play", std::string("guarded:") + dt},
+                   std::string("--play guarded:") + dt + ": after the colon stands a time step, positive and finite");
+  expect_refused({"--play", "grid:6"}, "--play grid:6: the scene's run ends at time 5, within the first step");
+  expect_refused({"--play", "grid:1e200", "--set", "run.time=1e300"}, "--play grid:1e200: in a time step of 1e+200");
+  expect_refused({"--play", "--set", "disks.0.count=2001", "--set", "box.x=[0.0,100.0]", "--set", "box.y=[0.0,100.0]"},
+                 "--play: 2001 disks are too many");
+  expect_refused({"--play", "--set", "gravity.acceleration=[0.0,-1.0]"}, "");
+}
+
 TEST_F(CompareCommand, InterruptedItKeepsItsPointsAndGoesOnFromThere) {
   const std::vector<std::string> options = {"--seeds", "3"};
   const fs::path points = file("gas-compare/points.jsonl");

@@ -70,6 +70,16 @@ TEST_F(ReportCommand, AlsoOfARunThatKeptNothingButItsSummary) {
   EXPECT_THAT(outcome.out, EndsWith(", nothing to watch: the run kept no samples\n"));
 }
 
+TEST_F(ReportCommand, TellsTheHorizonThatTheRunWasAskedFor) {
+  const Outcome outcome = carom({"run", "gas.toml", "--verify-horizon", "--report", "--set", "observe={}"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::size_t from = outcome.out.find("In double precision this trajectory");
+  ASSERT_NE(from, std::string::npos);
+  const std::string sentence = outcome.out.substr(from, outcome.out.find('\n', from) - from);
+  EXPECT_THAT(text_of(file("gas/report.html")),
+              AllOf(HasSubstr(sentence), HasSubstr("How far the exact trajectory can be trusted")));
+}
+
 TEST_F(ReportCommand, AlsoOfFixedSteps) {
   write_text(file("gas.toml"), fifty_disks);
   ASSERT_EQ(carom({"run", "gas.toml", "--method", "naive", "--dt", "0.01", "-q", "--report"}).exit_code, 0);

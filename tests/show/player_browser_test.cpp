@@ -105,7 +105,7 @@ void expect_positions_of_the_engine(const Scene& scene, double until) {
 
 TEST(BrowserPlayer, EveryControlDoesWhatItSays) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  const Visit visit = played(parse_scene(gas), script("player_controls.js"));
+  const Visit visit = played(parse_scene(gas), script("page_checks.js") + script("player_controls.js"));
   expect_clean(visit);
   EXPECT_EQ(data(visit, "failures"), "");
   EXPECT_GT(std::stoi(data(visit, "checks")), 100);

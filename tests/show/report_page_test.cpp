@@ -246,6 +246,23 @@ TEST_F(ReportPage, HoldsThePlayerAndItsOwnMarkFirst) {
   EXPECT_EQ(report_of(run_).html, file.html) << "made from the files alone";
 }
 
+TEST_F(ReportPage, SaysHowFarTheTrajectoryCanBeTrustedWhereTheRunAsked) {
+  RunRecord read = recorded(fluid);
+  EXPECT_THAT(words_of(report_page(read, std::nullopt), "How exact it is"), Not(HasSubstr("this trajectory is right")));
+  Horizon horizon;
+  horizon.tolerance = 1e-3;
+  horizon.sigma = 1.0;
+  horizon.engine = "fast";
+  horizon.rows = {{"textbook-float", 24, "textbook", 3.5, 7.0, false, std::nullopt, 0.0, 0.0},
+                  {"fast", 53, "textbook-quad", 12.25, 40.0, false, std::nullopt, 0.0, 0.0}};
+  horizon.ended = HorizonEnd::parted;
+  read.report.horizon = horizon;
+  EXPECT_THAT(
+      words_of(report_page(read, std::nullopt), "How exact it is"),
+      AllOf(HasSubstr("In double precision this trajectory is right to 0.001 sigma until t = 12.25, 40 collisions per disk"),
+            HasSubstr("24 | 3.5 | 7 | – |"), HasSubstr("53 | 12.25 | 40 | – |")));
+}
+
 TEST_F(ReportPage, SaysHowToMakeTheRunAgain) {
   const Page page = report_page(recorded(fluid, {"run.seed=7"}), std::nullopt);
   const auto again = std::find_if(page.facts.begin(), page.facts.end(), [](const auto& fact) { return fact.first == "Again"; });

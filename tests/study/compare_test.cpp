@@ -34,7 +34,7 @@ const MethodRun& run_of(const Comparison& comparison, const std::string& name, d
 ComparePlan plan_of(const Scene& scene, const CompareOptions& options = dozen_options()) {
   bool planned = false;
   CompareHooks hooks;
-  hooks.planned = [&](const ComparePlan&) { planned = true; };
+  hooks.planned = [&](const ComparePlan&, const State&) { planned = true; };
   hooks.proceed = [&](const std::string&, double) { return !planned; };
   const Comparison comparison = compare(scene, options, hooks);
   EXPECT_TRUE(planned);

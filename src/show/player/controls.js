@@ -51,6 +51,13 @@ function showSettings() {
   isStale = true;
 }
 
+/// Takes the moment over into the slider.
+function showScrub() {
+  const position = String(duration > 0 ? Math.round((scrubSteps * moment.time) / duration) : 0);
+  if (control("scrub").value !== position) control("scrub").value = position;
+  control("scrub").setAttribute("aria-valuetext", `time ${shortNumber(moment.time)}`);
+}
+
 function showHelp(isOpen) {
   const help = control("help");
   if (isOpen && !help.open) help.showModal();
@@ -79,9 +86,9 @@ function connectControls() {
   control("follow").max = Math.max(disks - 1, 0);
   control("follow").addEventListener("change", (event) => follow(event.target.value === "" ? -1 : Number(event.target.value)));
   if (!box.periodic[0] && !box.periodic[1]) control("ghosts").hidden = true;
-  const what = description.exact ? "collision" : "sample";
-  control("next").title = `To the next ${what} (.)`;
-  control("previous").title = `To the ${what} before (,)`;
+  control("next").title = `To the next ${replay.stepName} (.)`;
+  control("previous").title = `To the ${replay.stepName} before (,)`;
+  document.querySelector("[data-step]").textContent = replay.stepName;
 }
 
 /// As near again, and drawn.

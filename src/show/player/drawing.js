@@ -1,7 +1,8 @@
 // Draws one moment: box, obstacles, disks with their true radii, and what the reader wants besides.
 "use strict";
 
-const context = canvas.getContext("2d", { alpha: false });
+let context = canvas.getContext("2d", { alpha: false });  // of the canvas that is drawn on
+const stageContext = context;
 const bucket = new Uint8Array(disks);        // of every disk, the number of its colour
 const ordered = new Uint32Array(disks);      // disks by colour, so that each colour is set once
 const bucketEnd = new Uint32Array(colourSteps + 1);
@@ -188,11 +189,9 @@ function drawCollision(moment) {
   if (columns.partner[e] < disks) drawRing(moment, columns.partner[e], theme.ink, 2);
 }
 
-function drawMoment(moment) {
-  if (settings.followed >= 0) {
-    view.x = moment.x[settings.followed];
-    view.y = moment.y[settings.followed];
-  }
+/// On a canvas as large as the stage.
+function drawMoment(moment, target = stageContext) {
+  context = target;
   context.setTransform(1, 0, 0, 1, 0, 0);
   context.fillStyle = theme.paper;
   context.fillRect(0, 0, canvas.width, canvas.height);  // to the last pixel, which the page may have only a part of
@@ -218,6 +217,5 @@ function drawMoment(moment) {
   context.restore();
   if (settings.arrows) drawArrows(moment);
   drawEdges(moment);
-  drawCollision(moment);
   if (settings.followed >= 0) drawRing(moment, settings.followed, theme.accent, 3);
 }

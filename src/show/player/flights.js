@@ -4,8 +4,7 @@
 "use strict";
 
 /// The flights of all disks, those of disk i from first[i] to first[i + 1] - 1 in order of time.
-function buildFlights() {
-  const { start, time, disk, partner, velocity } = columns;
+function buildFlights({ start, time, disk, partner, velocity }) {
   const rescale = disks + 4;  // the code of a multiplication of all velocities
   const first = new Uint32Array(disks + 1);
   const rescaled = new Uint32Array(time.length + 1);  // how often, by each event
@@ -74,8 +73,9 @@ function wallsAt(time, walls) {
   }
 }
 
-function exactReplay() {
-  const flights = buildFlights();
+/// Of the events of a log: {start, time, disk, partner, velocity}.
+function exactReplay(log = columns) {
+  const flights = buildFlights(log);
   const { first, event } = flights;
   const cursor = first.slice(0, disks);  // of every disk, the flight that held at the moment read last
   const [gx, gy] = description.gravity;
@@ -106,9 +106,10 @@ function exactReplay() {
   return {
     flights,
     cursor,
-    stepTimes: columns.time,
+    stepName: "collision",
+    stepTimes: log.time,
     duration: description.duration,
-    doneAt: (time) => countUpTo(columns.time, time),
+    doneAt: (time) => countUpTo(log.time, time),
     /// Of disk i, up to the moment read last.
     collisionsOf: (i) => cursor[i] - first[i] - flights.rescaled[readBefore],
     /// Fills `moment` with the state at `time` after `done` events, all of which are at or before it.
@@ -116,6 +117,8 @@ function exactReplay() {
       moveCursors(done);
       moment.time = time;
       moment.done = done;
+      moment.flights = flights;
+      moment.cursor = cursor;
       for (let i = 0; i < disks; ++i) {
         const slot = cursor[i];
         const dt = time - flights.time[slot];

@@ -4,12 +4,6 @@
 const plot = document.getElementById("speeds");
 const plotContext = plot.getContext("2d");
 const speedCounts = new Uint32Array(speedBins);
-const readings = {};
-for (const element of document.querySelectorAll("[data-reading]")) readings[element.dataset.reading] = element;
-
-function say(name, text) {
-  if (readings[name].textContent !== text) readings[name].textContent = text;  // what stays is not laid out again
-}
 
 /// Takes the plot as large as the page has it: asked for in every frame, its size would have the page laid out in every frame.
 const plotSize = { width: 1, height: 1, density: 1 };
@@ -78,37 +72,4 @@ function showReadings(moment) {
   }
   showLegendEnds();
   drawSpeeds(moment, temperature);
-}
-
-/// What the colours of the disks mean.
-function showLegend() {
-  const colouring = colourings[settings.colourBy];
-  const legend = document.getElementById("legend");
-  legend.replaceChildren();
-  const add = (tag, text, style = "") => {
-    const element = document.createElement(tag);
-    element.textContent = text;
-    element.style.cssText = style;
-    legend.append(element);
-  };
-  if (colouring.isKind) {
-    const most = 12;
-    description.species.slice(0, most).forEach((name, k) => add("span", name, `--swatch: ${kinds[k % kinds.length]}`));
-    if (description.species.length > most) add("em", `and ${description.species.length - most} more`);
-  } else {
-    add("b", "");
-    add("i", "", `background: linear-gradient(to right, ${scaleColours(settings.palette, theme.isDark).join(",")})`);
-    add("b", "");
-    showLegendEnds();
-  }
-}
-
-/// They may change from moment to moment.
-function showLegendEnds() {
-  const colouring = colourings[settings.colourBy];
-  if (colouring.isKind) return;
-  document.querySelectorAll("#legend b").forEach((element, end) => {
-    const text = colouring.ends()[end];
-    if (element.textContent !== text) element.textContent = text;
-  });
 }

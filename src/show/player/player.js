@@ -8,16 +8,13 @@ function frame(seconds) {
   advance(seconds);
   if (!isStale) return;
   isStale = false;
+  followView(moment);
   drawMoment(moment);
+  drawCollision(moment);
   showReadings(moment);
-  const position = String(duration > 0 ? Math.round((scrubSteps * moment.time) / duration) : 0);
-  if (control("scrub").value !== position) control("scrub").value = position;
-  control("scrub").setAttribute("aria-valuetext", `time ${shortNumber(moment.time)}`);
+  showScrub();
   ++window.carom.frames;
 }
-
-/// "1 sample", "2,000 samples"
-const counted = (count, thing) => `${count.toLocaleString("en")} ${thing}${count === 1 ? "" : "s"}`;
 
 function describeRun() {
   control("title").textContent = description.title || "A run of Carom";
@@ -31,14 +28,7 @@ function describeRun() {
     : `Interpolated between ${counted(description.samples.count, "sample")}, because ${description.whyNot}: ` +
       "disks move in straight lines from each sample to the next, and collisions in between are not shown." +
       (description.samples.every > 1 ? ` One sample in ${description.samples.every} is kept.` : "");
-  const facts = control("facts");
-  for (const [name, value] of description.facts) {
-    const term = document.createElement("dt");
-    const text = document.createElement("dd");
-    term.textContent = name;
-    text.textContent = value;
-    facts.append(term, text);
-  }
+  listFacts();
   for (const name of ["collisions", "walls"]) readings[name].closest("div").hidden = !totals;
   if (description.whyNoZ) say("pressure-label", `no pressure Z: ${description.whyNoZ}`);
   else if (!totals) say("pressure-label", "pressure Z of the run");
@@ -66,30 +56,12 @@ if (window.parent !== window) document.documentElement.dataset.embedded = "";  /
 fillLists();
 connectControls();
 connectKeyboard();
-connectPointer();
+connectPointer(canvas, moment);
 describeRun();
 listeners.push(showSettings);
-resizeView();
-resizePlot();
 showTime(0, description.exact ? 0 : 1);
 showSettings();
-const resized = new ResizeObserver(() => {
+keepShowing(frame, [canvas, plot], () => {
   resizeView();
   resizePlot();
-  isStale = true;
-  frame(0);  // at once: a canvas of another size is black
-});
-resized.observe(canvas);
-resized.observe(plot);
-
-let shownAt = 0;
-function animate(now) {
-  const longest = 0.1;  // seconds: after a pause of the browser the run goes on where it was
-  frame(Math.min((now - shownAt) / 1000, longest));
-  shownAt = now;
-  requestAnimationFrame(animate);
-}
-requestAnimationFrame((now) => {
-  shownAt = now;
-  animate(now);
 });

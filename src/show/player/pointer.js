@@ -1,7 +1,8 @@
 // Mouse and fingers on the box: drag to move it, wheel or two fingers to zoom, a click to follow a disk.
 "use strict";
 
-function connectPointer() {
+/// Of a canvas that shows `moment`.
+function connectPointer(canvas, moment) {
   const held = new Map();  // pointers that are down, by number
   let travelled = 0;       // since they went down: a click does not travel
   const click = 4;         // pixels

@@ -35,11 +35,12 @@ const box = {
   lengths: [0, 1].map((axis) => description.box.upper[axis] - description.box.lower[axis]),
 };
 
-/// A moment of the run: what every part of the page draws and measures. `done` is the number of events that have happened.
+/// A moment of the run: what every part of the page draws and measures. `done` is the number of events that have happened; where
+/// events are replayed, `flights` and `cursor` tell how each disk has come here.
 function emptyMoment() {
   const numbers = () => new Float64Array(disks);
   const walls = new Float64Array([box.lower[0], box.upper[0], box.lower[1], box.upper[1]]);
-  return { time: 0, done: 0, x: numbers(), y: numbers(), vx: numbers(), vy: numbers(), scale: 1, displacement: 0, walls };
+  return { time: 0, done: 0, x: numbers(), y: numbers(), vx: numbers(), vy: numbers(), scale: 1, displacement: 0, walls, flights: null, cursor: null };
 }
 
 /// Where a coordinate is inside the box, on a periodic axis.

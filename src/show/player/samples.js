@@ -28,6 +28,7 @@ function sampleReplay() {
   };
   return {
     way,
+    stepName: "sample",
     stepTimes: sampleTime,
     duration: description.duration,
     doneAt: (time) => countUpTo(sampleTime, time),
@@ -58,5 +59,3 @@ function sampleReplay() {
     },
   };
 }
-
-const replay = description.exact ? exactReplay() : sampleReplay();

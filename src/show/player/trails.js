@@ -7,7 +7,7 @@ const trailTime = (0.16 * Math.min(extent[1] - extent[0], extent[3] - extent[2])
 
 /// Adds the path of disk i to `context`, from where it is in pixels.
 function traceFlights(context, i, moment, px, py) {
-  const { flights, cursor } = replay;
+  const { flights, cursor } = moment;
   const [gx, gy] = description.gravity;
   let left = Math.min(trailTime, moment.time);
   let until = moment.time;
@@ -28,7 +28,7 @@ function traceFlights(context, i, moment, px, py) {
     else context.lineTo(x, y);
     left -= dt;
     until = flights.time[slot];
-    if (slot === replay.flights.first[i]) break;
+    if (slot === flights.first[i]) break;
   }
 }
 

@@ -49,6 +49,13 @@ function pan(dx, dy) {
   view.y += dy / view.scale;
 }
 
+/// Brings the disk that is followed into the middle.
+function followView(moment) {
+  if (settings.followed < 0) return;
+  view.x = moment.x[settings.followed];
+  view.y = moment.y[settings.followed];
+}
+
 /// Takes the canvas as large as the page has it.
 function resizeView() {
   const { width, height } = canvas.getBoundingClientRect();

@@ -1,0 +1,35 @@
+// What the colours of the disks mean, below them.
+"use strict";
+
+/// What the colours of the disks mean.
+function showLegend() {
+  const colouring = colourings[settings.colourBy];
+  const legend = document.getElementById("legend");
+  legend.replaceChildren();
+  const add = (tag, text, style = "") => {
+    const element = document.createElement(tag);
+    element.textContent = text;
+    element.style.cssText = style;
+    legend.append(element);
+  };
+  if (colouring.isKind) {
+    const most = 12;
+    description.species.slice(0, most).forEach((name, k) => add("span", name, `--swatch: ${kinds[k % kinds.length]}`));
+    if (description.species.length > most) add("em", `and ${description.species.length - most} more`);
+  } else {
+    add("b", "");
+    add("i", "", `background: linear-gradient(to right, ${scaleColours(settings.palette, theme.isDark).join(",")})`);
+    add("b", "");
+    showLegendEnds();
+  }
+}
+
+/// They may change from moment to moment.
+function showLegendEnds() {
+  const colouring = colourings[settings.colourBy];
+  if (colouring.isKind) return;
+  document.querySelectorAll("#legend b").forEach((element, end) => {
+    const text = colouring.ends()[end];
+    if (element.textContent !== text) element.textContent = text;
+  });
+}

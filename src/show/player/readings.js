@@ -1,0 +1,24 @@
+// The places of the page where numbers and facts stand.
+"use strict";
+
+const readings = {};
+for (const element of document.querySelectorAll("[data-reading]")) readings[element.dataset.reading] = element;
+
+function say(name, text) {
+  if (readings[name].textContent !== text) readings[name].textContent = text;  // what stays is not laid out again
+}
+
+/// "1 sample", "2,000 samples"
+const counted = (count, thing) => `${count.toLocaleString("en")} ${thing}${count === 1 ? "" : "s"}`;
+
+/// Who ran what, at the foot.
+function listFacts() {
+  const facts = document.getElementById("facts");
+  for (const [name, value] of description.facts) {
+    const term = document.createElement("dt");
+    const text = document.createElement("dd");
+    term.textContent = name;
+    text.textContent = value;
+    facts.append(term, text);
+  }
+}

@@ -1,0 +1,35 @@
+// The two sides as replays: the collisions of the exact run, and the turns of the fixed steps, between which disks fly straight as
+// well. The clock of the page goes from step to step.
+"use strict";
+
+const { dt, count: stepCount } = description.steps;
+
+/// A turn is an event of one disk alone, as those at a wall are.
+function turnsAsEvents() {
+  const { start, turnStep, turnDisk, turnVelocity } = columns;
+  const velocity = new Float64Array(2 * turnVelocity.length);
+  for (let e = 0; e < turnStep.length; ++e) velocity.set(turnVelocity.subarray(2 * e, 2 * e + 2), 4 * e);
+  const time = Float64Array.from(turnStep, (step) => step * dt);
+  return { start, time, disk: turnDisk, partner: new Uint32Array(turnStep.length).fill(disks), velocity };
+}
+
+const exact = exactReplay();
+const stepped = exactReplay(turnsAsEvents());
+const stepsMoment = emptyMoment();  // of the fixed steps, at the time of the moment shown
+const stepTimes = Float64Array.from({ length: stepCount + 1 }, (_, step) => step * dt);
+
+/// `done` counts steps.
+const replay = {
+  ...exact,
+  stepName: "step",
+  stepTimes,
+  doneAt: (time) => countUpTo(stepTimes, time),
+  read(time, done, moment) {
+    exact.read(time, exact.doneAt(time), moment);
+    moment.done = done;
+  },
+};
+
+function readSteps(time) {
+  stepped.read(time, stepped.doneAt(time), stepsMoment);
+}
