@@ -128,6 +128,13 @@ class Session {
     return code == exit_done && report_failed ? exit_failed : code;
   }
 
+  /// What to do after an error, as the end of its sentence; empty where nothing was saved.
+  [[nodiscard]] std::string way_on() const {
+    if (!saved_ && given_.from == nullptr) return {};
+    return fmt::format("; then {} resume {} goes on from where the run was saved", given_.invocation.program,
+                       shell_quoted(given_.directory.path().string()));
+  }
+
  private:
   RunResult run() {
     std::optional<LiveView> view = live_view(options_, simulation_);
@@ -203,10 +210,14 @@ class Session {
                          SavingArchive archive(out);
                          archive(*start_);
                        }});
-    write_checkpoint(given_.directory, facts, simulation_.state(), parts);
     last_saved_ = Clock::now();
     saved_collisions_ = moment.progress.totals.pair;
-    saved_ = true;
+    try {
+      write_checkpoint(given_.directory, facts, simulation_.state(), parts);
+      saved_ = true;
+    } catch (const OutputError& error) {  // the run may still come to its end
+      fmt::print(stderr, "carom: {}; the run goes on unsaved\n", error.what());
+    }
   }
 
   /// The files come last: what is wrong with anything else is found before they are cut back.
@@ -227,7 +238,7 @@ class Session {
   }
 
   void say_how_to_go_on() const {
-    if (options_.json || options_.quiet) return;
+    if (options_.json || options_.quiet || !saved_) return;
     fmt::print(stderr, "carom: {}: {} at time {:.6g}, and saved: {} resume {} goes on from there\n", scene_.source,
                stop_.made() ? "interrupted" : "out of its walltime", simulation_.time(), given_.invocation.program,
                shell_quoted(given_.directory.path().string()));
@@ -255,6 +266,13 @@ class Session {
 
 }  // namespace
 
-ExitCode carry_out(const RunSession& session) { return Session(session)(); }
+ExitCode carry_out(const RunSession& session) {
+  Session running(session);
+  try {
+    return running();
+  } catch (const OutputError& error) {
+    throw OutputError(error.what() + running.way_on());
+  }
+}
 
 }  // namespace carom::cli

@@ -71,14 +71,11 @@ hsize_t rows_per_chunk_of(hid_t dataset) {
   return chunk[0];
 }
 
-void cut_back(hid_t dataset, std::span<const hsize_t> row, hsize_t rows) {
+void require_rows(hid_t dataset, hsize_t rows) {
   const Hdf5Id space(H5Dget_space(dataset), H5Sclose);
   std::array<hsize_t, H5S_MAX_RANK> present{};
   checked(H5Sget_simple_extent_dims(space.get(), present.data(), nullptr));
-  if (present[0] < rows) throw Hdf5Error(fmt::format("{} rows are left of {}", present[0], rows));
-  std::vector<hsize_t> extents = {rows};
-  extents.insert(extents.end(), row.begin(), row.end());
-  checked(H5Dset_extent(dataset, extents.data()));
+  if (present[0] != rows) throw Hdf5Error(fmt::format("a dataset has {} rows in place of {}", present[0], rows));
 }
 
 }  // namespace carom::detail

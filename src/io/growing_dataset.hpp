@@ -26,8 +26,8 @@ struct DatasetLayout {
 /// most 1 MiB.
 [[nodiscard]] Hdf5Id create_growing(hid_t parent, const std::string& name, hid_t file_type, const DatasetLayout& layout);
 [[nodiscard]] hsize_t rows_per_chunk_of(hid_t dataset);
-/// Leaves the first `rows` rows. Throws Hdf5Error where there are not so many.
-void cut_back(hid_t dataset, std::span<const hsize_t> row, hsize_t rows);
+/// Throws Hdf5Error where the dataset has not that many rows.
+void require_rows(hid_t dataset, hsize_t rows);
 /// Writes `count` rows after the first `present`.
 void append_rows(hid_t dataset, hid_t memory_type, std::span<const hsize_t> row, hsize_t present, hsize_t count,
                  const void* values);
@@ -60,12 +60,12 @@ class GrowingDataset {
         rows_per_chunk_of(dataset_.get());  // of a file that is resumed, it may have been chosen for another end
   }
 
-  /// How many rows there are, and those that HDF5 has not got yet, for core/archive.hpp. Read back, the dataset keeps those rows
-  /// and no others.
+  /// How many rows there are, and those that HDF5 has not got yet, for core/archive.hpp. Read back, the dataset must have
+  /// those rows.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(written_rows_, buffered_rows_, buffer_);
-    if constexpr (Archive::is_loading::value) cut_back(dataset_.get(), layout_.row, written_rows_);
+    if constexpr (Archive::is_loading::value) require_rows(dataset_.get(), written_rows_);
   }
 
   /// A new row of zeros at the end, for the caller to fill. It is valid until the next call of any function.

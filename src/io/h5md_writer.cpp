@@ -55,13 +55,12 @@ H5mdWriter::H5mdWriter(std::filesystem::path path, const Scene& scene, const Dis
                        std::istream* saved)
     : path_(std::move(path)), disks_(disks) {
   guard([&] {
-    h5_ = saved != nullptr ? file_.reopen(path_) : file_.create(path_);
+    h5_ = saved != nullptr ? file_.reopen(path_, *saved) : file_.create(path_);
     detail::write_h5md_header(h5_.get());
     detail::write_parameters(h5_.get(), scene, provenance);
     frames_.emplace(h5_.get(), scene, disks_);
     if (scene.output.events) events_.emplace(h5_.get());
     if (saved == nullptr) return;
-    detail::remove_link(h5_.get(), "measurements");  // of an end that is none any more
     LoadingArchive archive(*saved);
     archive(*frames_);
     if (events_) archive(*events_);
@@ -71,6 +70,7 @@ H5mdWriter::H5mdWriter(std::filesystem::path path, const Scene& scene, const Dis
 
 void H5mdWriter::save(std::ostream& out) {
   flush();
+  file_.save_index(out);
   SavingArchive archive(out);
   archive(*frames_);
   if (events_) archive(*events_);

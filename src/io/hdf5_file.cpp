@@ -3,7 +3,10 @@
 
 #include "io/hdf5_file.hpp"
 
+#include "core/archive.hpp"
 #include "io/output_error.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -87,6 +90,7 @@ void Hdf5File::hold_index(std::uint64_t address, std::size_t size, const std::by
     if (page == held_.end()) {
       try {
         page = held_.try_emplace(number).first;
+        index_.insert(number);
       } catch (const std::bad_alloc&) {
         if (error_ == 0) error_ = ENOMEM;
         return;
@@ -105,6 +109,38 @@ void Hdf5File::commit_index() noexcept {
     if (begin < size_) write_through(begin, std::min<std::uint64_t>(page_size, size_ - begin), page->second.data());
   }
   if (error_ == 0) held_.clear();  // after a failure HDF5 must still read back what it believes to have written
+}
+
+void Hdf5File::save_index(std::ostream& out) {
+  SavingArchive archive(out);
+  archive(size_, static_cast<std::uint64_t>(index_.size()));
+  for (const std::uint64_t number : index_) {
+    Page page;
+    read_through(number * page_size, page_size, page.data());
+    archive(number, cereal::binary_data(page.data(), page_size));
+  }
+}
+
+Hdf5Id Hdf5File::reopen(const std::filesystem::path& path, std::istream& saved) {
+  LoadingArchive archive(saved);
+  std::uint64_t size = 0, pages = 0;
+  archive(size, pages);
+  open(path.c_str(), false);
+  if (error_ != 0) throw system_error(path, "open it", error_);
+  if (size_ < size)
+    throw OutputError(fmt::format("{}: the file has {} bytes and must have {} for the run to go on; it was changed or cut",
+                                  path.string(), size_, size));
+  resize(size);
+  for (; pages > 0; --pages) {
+    std::uint64_t number = 0;
+    Page page;
+    archive(number, cereal::binary_data(page.data(), page_size));
+    index_.insert(number);
+    write_through(number * page_size, std::min<std::uint64_t>(page_size, size - number * page_size), page.data());
+  }
+  close();
+  if (error_ != 0) throw system_error(path, "bring it back to where the run is to go on", error_);
+  return access(path, false, 0);
 }
 
 void Hdf5File::resize(std::uint64_t size) noexcept {

@@ -12,7 +12,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <map>
+#include <set>
 
 namespace carom::detail {
 
@@ -27,8 +29,12 @@ class Hdf5File {
   [[nodiscard]] Hdf5Id create(const std::filesystem::path& path) { return access(path, true, 0); }
   /// The same behind `bytes` (a power of two, 512 at least) that HDF5 leaves to others.
   [[nodiscard]] Hdf5Id create_behind(std::uint64_t bytes, const std::filesystem::path& path) { return access(path, true, bytes); }
-  /// Opens a file that is there, to be written on.
-  [[nodiscard]] Hdf5Id reopen(const std::filesystem::path& path) { return access(path, false, 0); }
+  /// Writes where all parts of the index are and what they hold, as of the last flush. Requires nothing to have happened since.
+  void save_index(std::ostream& out);
+  /// Makes a file what it was when save_index() was called, whatever was written there since, and opens it to be written on. Data
+  /// that the index named then are as they were, since new data never take their place. Throws OutputError, also where
+  /// the file is shorter than it was, or Hdf5Error.
+  [[nodiscard]] Hdf5Id reopen(const std::filesystem::path& path, std::istream& saved);
 
   [[nodiscard]] int error() const { return error_; }  ///< errno of the first failure, else 0
   [[nodiscard]] std::size_t held_bytes() const;       ///< of the index, waiting for the next flush
@@ -57,6 +63,7 @@ class Hdf5File {
   std::uint64_t size_ = 0;  ///< as HDF5 believes it to be
   std::uint64_t bytes_written_ = 0;
   std::map<std::uint64_t, Page> held_;  ///< by page number
+  std::set<std::uint64_t> index_;       ///< numbers of all pages that have anything of the index
 };
 
 }  // namespace carom::detail

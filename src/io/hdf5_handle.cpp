@@ -83,10 +83,6 @@ Hdf5Id create_group(hid_t parent, const std::string& path) {
   return {H5Gcreate2(parent, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose};
 }
 
-void remove_link(hid_t parent, const std::string& name) {
-  if (exists(parent, name)) checked(H5Ldelete(parent, name.c_str(), H5P_DEFAULT));
-}
-
 void link_hard(hid_t parent, const std::string& existing, const std::string& name) {
   if (exists(parent, name)) return;
   checked(H5Lcreate_hard(parent, existing.c_str(), parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT));

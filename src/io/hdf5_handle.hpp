@@ -78,8 +78,6 @@ Result checked(Result result) {
 // attributes, which are written anew.
 
 [[nodiscard]] Hdf5Id create_group(hid_t parent, const std::string& path);
-/// Takes a group or dataset out of the file, where it is there.
-void remove_link(hid_t parent, const std::string& name);
 void link_hard(hid_t parent, const std::string& existing, const std::string& name);
 
 /// Strings are stored with variable length and as UTF-8: h5py gives them back as str, which MDAnalysis needs.

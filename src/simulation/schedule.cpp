@@ -87,7 +87,7 @@ class Schedule {
   void serialize(Archive& archive) {
     archive(measuring_, equilibrating_, next_block_, without_collision_, since_verified_, may_overlap_, standstill_, stands_,
             recording_);
-    archive(result_.samples, result_.loop_seconds, result_.verified);
+    archive(standing_, result_.samples, result_.loop_seconds, result_.verified);
     auto grids = static_cast<std::uint64_t>(grids_.size());
     archive(grids);
     for (std::size_t i = 0; i < grids; ++i) {
@@ -265,7 +265,7 @@ class Schedule {
   void take_events() {
     engine_.take_events(events_);
     if (events_.empty()) return;
-    if (stands_) result_.stopped_disks = disks_of(events_);
+    if (stands_) standing_ = disks_of(events_);
     if (hooks_.events && !equilibrating_) hooks_.events(events_);
   }
 
@@ -273,7 +273,7 @@ class Schedule {
 
   bool stop(StopReason reason) {
     result_.stopped = reason;
-    if (reason != StopReason::jammed && reason != StopReason::collapsed) result_.stopped_disks.clear();
+    if (reason == StopReason::jammed || reason == StopReason::collapsed) result_.stopped_disks = standing_;
     return false;
   }
 
@@ -295,8 +295,9 @@ class Schedule {
   const std::uint64_t block_collisions_;
   const std::uint64_t disks_;
   detail::Standstill standstill_;
-  bool stands_ = false;     ///< the clock, over a whole stretch
-  bool recording_ = false;  ///< events
+  bool stands_ = false;                 ///< the clock, over a whole stretch
+  std::vector<std::int32_t> standing_;  ///< who collided when it last did
+  bool recording_ = false;              ///< events
   std::uint64_t next_block_ = no_limit;
   std::uint64_t without_collision_ = 0;
   std::uint64_t since_verified_ = 0;  ///< events
