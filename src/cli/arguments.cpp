@@ -190,6 +190,28 @@ void add_compare(CLI::App& program, Action& action, const Invocation& invocation
   command->callback([&action, options, invocation] { action = [options, invocation] { return compare(*options, invocation); }; });
 }
 
+void add_sweep(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("sweep", "Run a scene over a grid or list of changes and seeds, into one table");
+  const auto options = std::make_shared<SweepCommandOptions>();
+  command->add_option("sweep", options->path, "The sweep file (TOML)")->required()->type_name("SWEEP");
+  command->add_option("--out", options->out, "Directory for the results (default: the sweep file's name without its ending)")
+      ->type_name("DIR");
+  command
+      ->add_option("--threads", options->threads,
+                   "Runs at a time (default: one per processor; under mpirun one per process, of which each has so many)")
+      ->type_name("N");
+  command
+      ->add_option(
+          "--checkpoint-every", options->checkpoint_every,
+          "Save runs every so often, such as 10min or \"1e8 collisions\"; they are saved on Ctrl-C and SIGTERM in any case")
+      ->type_name("WHEN");
+  command->add_flag("--force", options->force, "Replace runs that were made with another scene");
+  command->add_flag("--list", options->list, "Print the commands of the runs that are still to do, and run nothing");
+  command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
+  add_progress(*command, options->progress);
+  command->callback([&action, options, invocation] { action = [options, invocation] { return sweep(*options, invocation); }; });
+}
+
 void add_validate(CLI::App& program, Action& action, const Invocation& invocation) {
   CLI::App* command = program.add_subcommand("validate", "Hold the engine against kinetic theory and the literature");
   const auto options = std::make_shared<ValidateCommandOptions>();
@@ -385,6 +407,7 @@ Action parse_arguments(int argc, char** argv) {
   add_check(program, action);
   add_horizon(program, action);
   add_compare(program, action, invocation);
+  add_sweep(program, action, invocation);
   add_init(program, action, invocation);
   add_info(program, action, invocation);
   add_verify(program, action, invocation);

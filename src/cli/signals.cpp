@@ -15,7 +15,7 @@ constexpr std::array stopping = {SIGINT, SIGTERM};
 volatile sig_atomic_t requested = 0;
 std::array<struct sigaction, stopping.size()> before;
 
-extern "C" void request_stop(int) { requested = 1; }
+extern "C" void request_stop(int number) { requested = number; }
 
 }  // namespace
 
@@ -37,5 +37,10 @@ StopRequest::~StopRequest() {
 }
 
 bool StopRequest::made() const { return requested != 0; }
+
+int StopRequest::for_children() const {
+  const bool interrupt_ignored = before.front().sa_handler == SIG_IGN;
+  return requested == SIGTERM && !interrupt_ignored ? SIGINT : SIGTERM;
+}
 
 }  // namespace carom::cli

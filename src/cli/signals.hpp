@@ -13,6 +13,9 @@ class StopRequest {
   StopRequest& operator=(const StopRequest&) = delete;
 
   [[nodiscard]] bool made() const;
+  /// The signal to send to child processes that are to stop too. Where SIGTERM came, to them as well perhaps, it is SIGINT: the
+  /// second of one kind would end them at once. But where SIGINT is ignored here, it is ignored there.
+  [[nodiscard]] int for_children() const;
 };
 
 }  // namespace carom::cli

@@ -40,12 +40,19 @@ bool exists(hid_t file, const std::string& path) {
   return path == "/" || H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0;
 }
 
-void write_fixed(hid_t parent, const std::string& name, hid_t file_type, hid_t memory_type, std::size_t count,
-                 const void* values) {
+void write_fixed(hid_t parent, const std::string& name, hid_t file_type, hid_t memory_type, std::size_t count, const void* values,
+                 hid_t properties = H5P_DEFAULT) {
   if (exists(parent, name)) return;
   const Hdf5Id space = list_space(count);
-  const Hdf5Id dataset(H5Dcreate2(parent, name.c_str(), file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  const Hdf5Id dataset(H5Dcreate2(parent, name.c_str(), file_type, space.get(), H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose);
   checked(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
+}
+
+void write_column(hid_t parent, const std::string& name, hid_t file_type, hid_t memory_type, std::size_t count,
+                  const void* values) {
+  const Hdf5Id properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  checked(H5Pset_obj_track_times(properties.get(), false));
+  write_fixed(parent, name, file_type, memory_type, count, values, properties.get());
 }
 
 Hdf5Id open_attribute(hid_t file, const std::string& object, const std::string& name) {
@@ -127,6 +134,21 @@ void write_fixed(hid_t parent, const std::string& name, std::span<const double> 
 
 void write_fixed(hid_t parent, const std::string& name, std::span<const std::int32_t> values) {
   write_fixed(parent, name, H5T_STD_I32LE, H5T_NATIVE_INT32, values.size(), values.data());
+}
+
+void write_column(hid_t parent, const std::string& name, std::span<const double> values) {
+  write_column(parent, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.size(), values.data());
+}
+
+void write_column(hid_t parent, const std::string& name, std::span<const std::int64_t> values) {
+  write_column(parent, name, H5T_STD_I64LE, H5T_NATIVE_INT64, values.size(), values.data());
+}
+
+void write_column(hid_t parent, const std::string& name, const std::vector<std::string>& values) {
+  const Hdf5Id type = string_type();
+  std::vector<const char*> texts;
+  for (const std::string& value : values) texts.push_back(value.c_str());
+  write_column(parent, name, type.get(), type.get(), texts.size(), static_cast<const void*>(texts.data()));
 }
 
 std::vector<std::string> read_strings_attribute(hid_t file, const std::string& object, const std::string& name) {

@@ -93,6 +93,11 @@ void write_attribute(hid_t object, const std::string& name, double value);
 void write_fixed(hid_t parent, const std::string& name, std::span<const double> values);
 void write_fixed(hid_t parent, const std::string& name, std::span<const std::int32_t> values);
 
+/// A column of a table. Unlike other datasets it does not hold the time of day: the same values are the same bytes.
+void write_column(hid_t parent, const std::string& name, std::span<const double> values);
+void write_column(hid_t parent, const std::string& name, std::span<const std::int64_t> values);
+void write_column(hid_t parent, const std::string& name, const std::vector<std::string>& values);
+
 /// Empty where there is no such attribute, or it is no single string.
 [[nodiscard]] std::string read_string_attribute(hid_t file, const std::string& object, const std::string& name);
 /// Every element of a list of strings; empty where there is no such attribute, or it holds something else.

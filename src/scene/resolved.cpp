@@ -4,37 +4,23 @@
 
 #include "scene/number_text.hpp"
 #include "scene/resolved_effects.hpp"
+#include "scene/value_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <iterator>
-#include <string_view>
 
 namespace carom {
 namespace {
 
 using detail::number_text;
+using detail::quoted_text;
 using Buffer = fmt::memory_buffer;
 
 template <class... Args>
 void put(Buffer& out, fmt::format_string<Args...> format, Args&&... args) {
   fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
-}
-
-std::string quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += fmt::format("\\{}", c);
-    } else if (code < 0x20 || code == 0x7f) {
-      out += fmt::format("\\u{:04X}", code);
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
 }
 
 void put_pairs(Buffer& out, const std::vector<Eigen::Vector2d>& pairs) {
@@ -50,7 +36,7 @@ struct PutPositions {
   void operator()(const RandomPositions&) const { put(out, "positions = \"random\"\n"); }
   void operator()(const SquareLattice&) const { put(out, "positions = \"square\"\n"); }
   void operator()(const HexagonalLattice&) const { put(out, "positions = \"hexagonal\"\n"); }
-  void operator()(const FilePositions& file) const { put(out, "positions = {{ file = {} }}\n", quoted(file.path)); }
+  void operator()(const FilePositions& file) const { put(out, "positions = {{ file = {} }}\n", quoted_text(file.path)); }
   void operator()(const GrownPositions& grown) const {
     put(out, "positions = {{ packing_fraction = {} }}\n", number_text(grown.packing_fraction));
   }
@@ -76,7 +62,7 @@ struct PutVelocities {
 };
 
 void put_species(Buffer& out, const Species& species) {
-  put(out, "\n[[disks]]\nname = {}\ncount = {}\n", quoted(species.name), species.count);
+  put(out, "\n[[disks]]\nname = {}\ncount = {}\n", quoted_text(species.name), species.count);
   // A value of zero stands for none: it is a column of the start file.
   if (species.radius > 0.0) {
     put(out, "radius = {}\n", number_text(species.radius));
@@ -123,7 +109,7 @@ void put_observe(Buffer& out, const std::vector<ObservableRequest>& requests) {
 std::string resolved_toml(const Scene& scene) {
   const auto boundary = [&](int axis) { return scene.box.periodic(axis) ? "periodic" : "walls"; };
   Buffer out;
-  put(out, "title = {}\n", quoted(scene.title));
+  put(out, "title = {}\n", quoted_text(scene.title));
   if (scene.species.empty()) put(out, "disks = []\n");
   put(out, "\n[box]\nx = [{}, {}]\ny = [{}, {}]\n", number_text(scene.box.lower[0]), number_text(scene.box.upper[0]),
       number_text(scene.box.lower[1]), number_text(scene.box.upper[1]));

@@ -1,0 +1,23 @@
+#pragma once
+// Two programs that would write into one directory at the same time.
+
+#include <filesystem>
+
+namespace carom::cli {
+
+/// Held from construction to destruction, by this process and by the children that it starts meanwhile: after a kill it is free
+/// when the last of them is gone. File systems without locks lock nothing.
+class DirectoryLock {
+ public:
+  /// The directory must be there. Waits for two seconds, in which a process that was killed is gone; then throws UsageError where
+  /// somebody else has it.
+  explicit DirectoryLock(const std::filesystem::path& directory);
+  ~DirectoryLock();
+  DirectoryLock(const DirectoryLock&) = delete;
+  DirectoryLock& operator=(const DirectoryLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+}  // namespace carom::cli

@@ -1,0 +1,55 @@
+#pragma once
+// Many runs of one scene: a grid or a list of changes to it, and for each of them several seeds. Plain data, as read from a sweep
+// file (docs/sweeps.md).
+
+#include <carom/scene.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace carom {
+
+/// One set of changes to the scene.
+struct SweepPoint {
+  std::string name;                 ///< "radius=0.1_count=200"; that of its directory, too
+  std::vector<std::string> values;  ///< one per key of the sweep, in TOML; empty where the scene's own stays
+  std::vector<Location> places;     ///< where each was written
+  Location where;                   ///< of the point as a whole
+};
+
+struct Sweep {
+  std::string source;      ///< the sweep file's path
+  std::string text;        ///< what it holds
+  std::string scene_path;  ///< as `carom run` would be given it
+  std::string scene_text;
+  Location scene_where;
+  std::vector<std::string> shared;      ///< changes at every point, as overrides: "run.time=2"
+  std::vector<Location> shared_places;  ///< where each was written
+  std::vector<std::string> keys;        ///< what is changed, "disks.0.radius", in the order of the file
+  std::vector<SweepPoint> points;
+  std::vector<std::uint64_t> seeds;
+  std::vector<std::string> table;  ///< numbers of summary.json that the results are to hold; empty: the usual ones
+
+  /// Runs are numbered point by point, the seeds of one after each other.
+  [[nodiscard]] std::size_t run_count() const { return points.size() * seeds.size(); }
+  [[nodiscard]] const SweepPoint& point_of(std::size_t run) const { return points[run / seeds.size()]; }
+  [[nodiscard]] std::uint64_t seed_of(std::size_t run) const { return seeds[run % seeds.size()]; }
+  /// Below the directory of the sweep: "radius=0.1_count=200/seed=3"
+  [[nodiscard]] std::filesystem::path directory_of(std::size_t run) const;
+  /// The overrides that make the scene of this run: "disks.0.radius=0.1", "run.seed=3"
+  [[nodiscard]] std::vector<std::string> overrides_of(std::size_t run) const;
+  /// The same of a point, without a seed.
+  [[nodiscard]] std::vector<std::string> changes_of(const SweepPoint& point) const;
+  /// That scene. Throws SceneError, which load_sweep() has ruled out.
+  [[nodiscard]] Scene scene_of(std::size_t run) const;
+};
+
+/// What stands in a sweep's directory beside its points; no point may be called like one of these.
+inline constexpr std::array<std::string_view, 4> sweep_products = {"runs.csv", "sweep.csv", "sweep.h5", "report.html"};
+
+}  // namespace carom

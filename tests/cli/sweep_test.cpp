@@ -1,0 +1,325 @@
+// carom sweep: the same bytes however its runs are spread and however often it is killed; what fails, what is refused.
+
+#include "support/program_test.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+namespace fs = std::filesystem;
+
+const std::string sweep_text = "scene = \"gas.toml\"\nseeds = 2\n[grid]\ndisks.0.radius = [0.1, 0.2, 0.3]\n";
+
+using Bytes = std::map<std::string, std::string>;
+
+class SweepCommand : public ProgramTest {
+ protected:
+  SweepCommand() : ProgramTest(fifty_disks) { write_text(file("gas-sweep.toml"), sweep_text); }
+
+  Outcome sweep(const std::vector<std::string>& options = {}, const std::function<void(pid_t)>& meanwhile = {}) {
+    std::vector<std::string> arguments = {"sweep", "gas-sweep.toml"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return carom(arguments, meanwhile);
+  }
+  /// What the sweep makes of its runs.
+  [[nodiscard]] Bytes results() const {
+    Bytes bytes;
+    for (const char* name : {"runs.csv", "sweep.csv", "sweep.h5", "report.html"})
+      bytes[name] = text_of(file(std::string("gas-sweep/") + name));
+    return bytes;
+  }
+  [[nodiscard]] std::ptrdiff_t finished_runs() const {
+    std::error_code none;
+    std::ptrdiff_t count = 0;
+    for (auto entry = fs::recursive_directory_iterator(file("gas-sweep"), none); entry != fs::recursive_directory_iterator();
+         entry.increment(none))
+      count += entry->path().filename() == "summary.json" ? 1 : 0;
+    return count;
+  }
+  [[nodiscard]] std::vector<fs::path> checkpoints() const {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::recursive_directory_iterator(file("gas-sweep")))
+      if (entry.path().filename() == "checkpoint.h5") found.push_back(entry.path());
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+  void clear() const { fs::remove_all(file("gas-sweep")); }
+};
+
+/// Those that run many processes carry the label of their name's beginning.
+class ScenesSweep : public SweepCommand {};
+
+/// Runs that take some tenths of a second each, so that they can be met at work.
+class ScenesLongSweep : public SweepCommand {
+ protected:
+  ScenesLongSweep() { write_text(file("gas-sweep.toml"), sweep_text + "[set]\nrun.time = 600.0\noutput.trajectory = false\n"); }
+};
+
+TEST_F(ScenesSweep, WritesTablesAndPageAndGivesTheSameBytesForAnyNumberOfThreads) {
+  const Outcome outcome = sweep({"--threads", "1"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_THAT(outcome.out, AllOf(StartsWith("gas.toml: 3 points with 2 seeds each"), HasSubstr("\n  radius=0.1 "),
+                                 HasSubstr("pressure.Z"), HasSubstr("Files in gas-sweep: ")));
+  const Bytes one = results();
+  for (const auto& [name, bytes] : one) EXPECT_THAT(bytes, Not(IsEmpty())) << name;
+  EXPECT_EQ(std::count(one.at("sweep.csv").begin(), one.at("sweep.csv").end(), '\n'), 1 + 3);
+  EXPECT_EQ(std::count(one.at("runs.csv").begin(), one.at("runs.csv").end(), '\n'), 1 + 6);
+  for (const char* threads : {"2", "3"}) {
+    clear();
+    ASSERT_EQ(sweep({"--threads", threads, "-q"}).exit_code, 0);
+    EXPECT_EQ(results(), one) << threads;
+  }
+}
+
+TEST_F(ScenesSweep, FinishedRunsNeverRunAgain) {
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  const Bytes before = results();
+  const fs::path summary = file("gas-sweep/radius=0.1/seed=1/summary.json"),
+                 other = file("gas-sweep/radius=0.2/seed=2/summary.json");
+  const auto written = fs::last_write_time(summary);
+  fs::remove(other);
+  EXPECT_EQ(sweep({"-q"}).exit_code, 0);
+  EXPECT_TRUE(fs::exists(other));
+  EXPECT_EQ(fs::last_write_time(summary), written);
+  EXPECT_EQ(results(), before);
+}
+
+TEST_F(ScenesSweep, ARunIsThatOfItsSceneAndSeedByItself) {
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  ASSERT_EQ(carom({"run", "gas.toml", "--set", "disks.0.radius=0.2", "--seed", "2", "-q", "--no-trajectory"}).exit_code, 0);
+  const auto virial = [&](const std::string& summary) {
+    const std::string text = text_of(file(summary));
+    return text.substr(text.find("\"virial\""), 40);
+  };
+  EXPECT_EQ(virial("gas-sweep/radius=0.2/seed=2/summary.json"), virial("gas/summary.json"));
+}
+
+TEST_F(ScenesSweep, ARunThatFailsIsListedAndStopsNoOther) {
+  const fs::path obstacle = file("gas-sweep/radius=0.2/seed=1/trajectory.h5md");
+  fs::create_directories(obstacle);
+  const Outcome outcome = sweep();
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("1 run failed:\n  radius=0.2/seed=1: gas-sweep/radius=0.2/seed=1/trajectory.h5md: a "
+                                           "directory is where a result belongs"),
+                                 HasSubstr("Files in")));
+  EXPECT_EQ(outcome.err, "carom: gas-sweep.toml: 1 of 6 runs failed, as runs.csv says; the same command tries them again\n");
+  EXPECT_EQ(finished_runs(), 5);
+  EXPECT_THAT(results()["runs.csv"], HasSubstr("radius=0.2/seed=1,failed,,"));
+  EXPECT_THAT(results()["report.html"], HasSubstr("What failed"));
+  fs::remove(obstacle);
+  EXPECT_EQ(sweep({"-q"}).exit_code, 0);
+  const Bytes mended = results();
+  clear();
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  EXPECT_EQ(results(), mended);
+}
+
+TEST_F(SweepCommand, WhatIsWrongIsSaidBeforeAnythingRuns) {
+  const auto refused_sweep = [&](const std::string& text, const std::string& sentence) {
+    write_text(file("wrong.toml"), text);
+    refused({"sweep", "wrong.toml"}, sentence);
+    EXPECT_FALSE(fs::exists(file("wrong")));
+  };
+  refused_sweep("scene = \"gas.toml\"\n[grid]\ndisks.0.radius = [0.1, 9.0]\n",
+                "wrong.toml:3:24: the scene of the point radius=9.0");
+  refused_sweep("scene = \"gas.toml\"\n[gird]\n", "wrong.toml:2:2: a sweep has no key \"gird\"; did you mean \"grid\"?");
+  refused({"sweep", "nowhere.toml"}, "nowhere.toml: there is no such file");
+  refused({"sweep", "gas-sweep.toml", "--threads", "0"}, "--threads 0: it can be 1 to 4096");
+  refused({"sweep", "gas-sweep.toml", "--progress", "often"}, "--progress often: ");
+  refused({"sweep", "gas-sweep.toml", "--out", "gas.toml"}, "gas.toml: this is a file");
+  ASSERT_EQ(carom({"run", "gas.toml", "-q"}).exit_code, 0);
+  refused({"sweep", "gas-sweep.toml", "--out", "gas"}, "gas: this directory holds the results of a run, not of a sweep");
+}
+
+TEST_F(ScenesSweep, RunsOfAnotherSceneAreReplacedOnlyByForce) {
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  const Bytes before = results();
+  write_text(file("gas-sweep.toml"), sweep_text + "[set]\nrun.time = 3.0\n");
+  refused({"sweep", "gas-sweep.toml"}, "gas-sweep/radius=0.1/seed=1: this directory holds a run of another scene");
+  EXPECT_EQ(results(), before);
+  EXPECT_EQ(sweep({"-q", "--force"}).exit_code, 0);
+  EXPECT_THAT(results()["runs.csv"], HasSubstr("radius=0.1/seed=1,finished,time,"));
+  EXPECT_NE(results(), before);
+}
+
+TEST_F(ScenesSweep, ListsTheCommandsOfWhatIsToDoWhichMakeTheSameRuns) {
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  const Bytes before = results();
+  EXPECT_EQ(sweep({"--list"}).out, "");
+  clear();
+  const Outcome listed = sweep({"--list"});
+  EXPECT_EQ(listed.exit_code, 0);
+  EXPECT_FALSE(fs::exists(file("gas-sweep")));
+  EXPECT_EQ(std::count(listed.out.begin(), listed.out.end(), '\n'), 6);
+  ASSERT_EQ(run_program(directory_.path(), {"sh", "-ec", listed.out}).exit_code, 0);
+  EXPECT_EQ(sweep({"--list"}).out, "");
+  EXPECT_EQ(sweep({"-q"}).exit_code, 0);
+  EXPECT_EQ(results(), before);
+}
+
+TEST_F(SweepCommand, ANumberOfTheTableThatNoRunHasIsNamed) {
+  write_text(file("gas-sweep.toml"), "scene = \"gas.toml\"\ntable = [\"pressure.Z\", \"walls.left.force\"]\n");
+  const Outcome outcome = sweep();
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "carom: gas-sweep.toml: no run has the number \"walls.left.force\" of the table\n");
+}
+
+TEST_F(ScenesLongSweep, InterruptedItSaysHowToGoOnAndThenGivesTheSameBytes) {
+  write_text(file("gas-sweep.toml"), "scene = \"gas.toml\"\n[grid]\nrun.time = [1.0, 5000.0, 2.0]\n");
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  const Bytes whole = results();
+  for (const int number : {SIGINT, SIGTERM}) {
+    clear();
+    const Outcome stopped = sweep({"--threads", "1"}, [&](pid_t child) {
+      EXPECT_TRUE(wait_until([&] { return fs::exists(file("gas-sweep/time=5000.0/seed=1/trajectory.h5md.partial")); }));
+      kill(child, number);
+    });
+    EXPECT_EQ(stopped.exit_code, 130);
+    EXPECT_THAT(stopped.err,
+                AllOf(HasSubstr("gas-sweep.toml: interrupted; "), HasSubstr(" 1 of 3 runs are finished, and the same command")));
+    EXPECT_THAT(results()["runs.csv"], HasSubstr(",missing,"));
+    const std::vector<fs::path> saved = checkpoints();
+    EXPECT_THAT(saved, Not(IsEmpty()));
+    EXPECT_EQ(sweep({"-q"}).exit_code, 0);
+    EXPECT_EQ(results(), whole);
+    EXPECT_EQ(checkpoints(), saved);  // a run that begins anew would have removed its own
+  }
+}
+
+TEST_F(ScenesLongSweep, KilledAgainAndAgainItEndsWithTheSameBytes) {
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  const Bytes whole = results();
+  clear();
+  for (const std::ptrdiff_t enough : {0, 1, 3, 4}) {
+    const Outcome killed = sweep({"--threads", "2"}, [&](pid_t child) {
+      EXPECT_TRUE(wait_until([&] { return fs::exists(file("gas-sweep/.lock")) && finished_runs() >= enough; }));
+      kill(child, SIGKILL);
+    });
+    EXPECT_EQ(killed.exit_code, 128 + SIGKILL);
+  }
+  EXPECT_EQ(sweep({"-q"}).exit_code, 0);
+  EXPECT_EQ(results(), whole);
+}
+
+TEST_F(ScenesSweep, ACheckpointThatIsNoneOrOfAnotherSceneIsNotGoneOnFrom) {
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  const Bytes whole = results();
+  const fs::path damaged = file("gas-sweep/radius=0.1/seed=1"), foreign = file("gas-sweep/radius=0.2/seed=1");
+  for (const fs::path& run : {damaged, foreign}) {
+    fs::remove(run / "summary.json");
+    write_text(run / "checkpoint.h5", "not a checkpoint");
+  }
+  ASSERT_EQ(carom({"run", "gas.toml", "-q", "--checkpoint-every", "1h"}).exit_code, 0);
+  fs::copy_file(file("gas/checkpoint.h5"), foreign / "checkpoint.h5", fs::copy_options::overwrite_existing);
+  write_text(foreign / "scene.toml", text_of(file("gas.toml")));
+  EXPECT_EQ(sweep({"-q"}).exit_code, 0);
+  EXPECT_EQ(results(), whole);
+  EXPECT_THAT(checkpoints(), IsEmpty());
+}
+
+TEST_F(ScenesSweep, RunsSaveThemselvesWhereAskedTo) {
+  refused({"sweep", "gas-sweep.toml", "--checkpoint-every", "often"}, "--checkpoint-every");
+  ASSERT_EQ(sweep({"-q", "--checkpoint-every", "1h"}).exit_code, 0);
+  EXPECT_EQ(checkpoints().size(), 6U);
+}
+
+TEST_F(ScenesLongSweep, TwoAtATimeAreRefusedAndAKillLeavesNoRunAtWork) {
+  write_text(file("gas-sweep.toml"), sweep_text + "[set]\nrun.time = 1e6\noutput.trajectory = false\n");
+  const Outcome killed = sweep({"--threads", "2"}, [&](pid_t child) {
+    EXPECT_TRUE(wait_until([&] { return fs::exists(file("gas-sweep/radius=0.1/seed=2/scene.toml")); }));
+    refused({"sweep", "gas-sweep.toml"}, "gas-sweep: another sweep is writing into this directory");
+    kill(child, SIGKILL);
+  });
+  EXPECT_EQ(killed.exit_code, 128 + SIGKILL);
+  // Runs hold the lock as long as they live: who gets it is alone.
+  write_text(file("gas-sweep.toml"), sweep_text);
+  const Outcome next = sweep({"-q"});
+  EXPECT_EQ(next.exit_code, 0) << next.err;
+}
+
+/// Under mpirun.
+class ScenesSweepUnderMpi : public ScenesLongSweep {
+ protected:
+  void SetUp() override {
+    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+    setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+    if (started_alone_of_two("0").err.find("built without MPI") != std::string::npos)
+      GTEST_SKIP() << "carom is built without MPI";
+    if (run_program(directory_.path(), {"mpirun", "--version"}).exit_code == 127) GTEST_SKIP() << "there is no mpirun";
+  }
+  Outcome started_alone_of_two(const std::string& rank) {
+    return run_program(directory_.path(), {"env", "OMPI_COMM_WORLD_SIZE=2", "OMPI_COMM_WORLD_RANK=" + rank, CAROM_PROGRAM,
+                                           "sweep", "gas-sweep.toml"});
+  }
+  Outcome sweep_of(const std::string& processes, const std::vector<std::string>& options = {},
+                   const std::function<void(pid_t)>& meanwhile = {}) {
+    std::vector<std::string> words = {"mpirun", "-n", processes, CAROM_PROGRAM, "sweep", "gas-sweep.toml"};
+    words.insert(words.end(), options.begin(), options.end());
+    return run_program(directory_.path(), words, meanwhile);
+  }
+};
+
+TEST_F(ScenesSweepUnderMpi, AnyNumberOfProcessesGivesTheSameBytes) {
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  const Bytes alone = results();
+  for (const char* processes : {"2", "3"}) {
+    clear();
+    const Outcome outcome = sweep_of(processes, {"-q", "--threads", "2"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(results(), alone) << processes;
+  }
+}
+
+TEST_F(ScenesSweepUnderMpi, FailuresAndMistakesEndAllProcesses) {
+  fs::create_directories(file("gas-sweep/radius=0.2/seed=1/summary.json"));
+  EXPECT_EQ(sweep_of("3").exit_code, 1);
+  EXPECT_EQ(finished_runs(), 6);  // with the directory of that name
+  EXPECT_THAT(results()["runs.csv"], HasSubstr("radius=0.2/seed=1,failed,,"));
+  write_text(file("gas-sweep.toml"), "scene = \"gone.toml\"\n");
+  const Outcome mistaken = sweep_of("3");
+  EXPECT_EQ(mistaken.exit_code, 2);
+  EXPECT_THAT(mistaken.err, HasSubstr("gone.toml: there is no such file"));
+}
+
+TEST_F(ScenesSweepUnderMpi, KilledItGoesOnAlone) {
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  const Bytes whole = results();
+  clear();
+  const Outcome killed = sweep_of("2", {"-q"}, [&](pid_t child) {
+    EXPECT_TRUE(wait_until([&] { return finished_runs() > 1; }));
+    kill(child, SIGTERM);
+  });
+  EXPECT_NE(killed.exit_code, 0);
+  EXPECT_EQ(sweep({"-q"}).exit_code, 0);
+  EXPECT_EQ(results(), whole);
+}
+
+TEST_F(ScenesSweepUnderMpi, ProcessesThatMpiDoesNotConnectDoNotDoEverythingTwice) {
+  const Outcome first = started_alone_of_two("0"), second = started_alone_of_two("1");
+  EXPECT_EQ(first.exit_code, 2);
+  EXPECT_THAT(first.err, StartsWith("carom: this is one of 2 processes, and "));
+  EXPECT_EQ(second.exit_code, 0);
+  EXPECT_THAT(second.err, IsEmpty());
+  EXPECT_FALSE(fs::exists(file("gas-sweep")));
+}
+
+}  // namespace
+}  // namespace carom::test
