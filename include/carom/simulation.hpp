@@ -32,12 +32,13 @@ enum class StopReason {
   interrupted,  ///< the caller's `proceed` said stop
   jammed,     ///< time has stopped: disks touch and have no room to move that numbers could tell; ten million events lead nowhere
   collapsed,  ///< time has stopped: inelastic disks collide at ever shorter intervals (see elastic_below)
+  cooled,     ///< inelastic disks have become too slow to compute with: products of speed and diameter are below 1e-150
   grown,      ///< the packing fraction or pressure at which growth is to end was reached
   no_collisions,  ///< only a number of collisions was asked for, and no pair will ever (or seems ever to) collide
   invalid_state,  ///< check_invariants() found a fault: RunResult::faults says which
 };
 
-/// "time", "collisions", "interrupted", "jammed", "collapsed", "grown", "no_collisions", "invalid_state"
+/// "time", "collisions", "interrupted", "jammed", "collapsed", "cooled", "grown", "no_collisions", "invalid_state"
 std::string to_string(StopReason reason);
 
 /// The method that exact events replace: move by v dt, look for contacts, move on.

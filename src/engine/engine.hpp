@@ -29,6 +29,7 @@
 #include "effects/elastic.hpp"
 #include "effects/world.hpp"
 #include "engine/contact_count.hpp"
+#include "engine/epoch.hpp"
 #include "engine/layout.hpp"
 #include "neighbours/cage_tuner.hpp"
 #include "neighbours/neighbour_lists.hpp"
@@ -104,7 +105,9 @@ class Engine {
   [[nodiscard]] bool idle() const { return epoch_length_ == never; }
 
   /// Time has stopped: millions of events at one instant, as of disks that touch on all sides and still are to move.
-  [[nodiscard]] bool jammed() const { return at_one_instant_ > patience_ + 100 * lines_.size(); }
+  [[nodiscard]] bool jammed() const { return at_one_instant_ > patience_ + 100 * lines_.size() || cooled_; }
+  /// It is not time that has stopped but speeds that have become too small to compute with (engine/epoch.hpp).
+  [[nodiscard]] bool cooled() const { return cooled_; }
 
  private:
   /// The next event of all.
@@ -568,6 +571,7 @@ class Engine {
 
   std::uint64_t patience_;  ///< events at one instant after which time is taken to stand still
   std::uint64_t at_one_instant_ = 0;
+  bool cooled_ = false;
   Totals totals_;
   LastInstant last_collision_;
   bool recording_ = false;

@@ -11,7 +11,7 @@ template <class Archive>
 void Engine<Impact, Layout, World>::serialize(Archive& archive) {
   archive(axes_[0], axes_[1], half_[0], half_[1], frame_, impact_, world_);
   archive(lines_, plans_, ids_, images_, heights_, radius_, lists_, queue_);
-  archive(epoch_, now_, epoch_length_, stamp_, at_one_instant_, last_collision_, totals_);
+  archive(epoch_, now_, epoch_length_, stamp_, at_one_instant_, cooled_, last_collision_, totals_);
   archive(mean_speed_, reach_, area_, listed_scale_, way_, span_, begun_with_);
   for (int k = 0; k < 2; ++k) archive(travel_[k], clear_[k], speed_limit_[k]);
   archive(tuner_, widest_, settling_, travelled_, left_, changed_, looks_);

@@ -396,6 +396,7 @@ void Engine<Impact, Layout, World>::choose_epoch_length() {
       fastest[k] = std::max(fastest[k], std::abs(a.v[k]));
       sum += std::abs(a.v[k]);
     }
+  cooled_ = is_too_slow(std::max(fastest[0], fastest[1]), sigma_);
   mean_speed_ = sum / static_cast<double>(std::max(count(), 1));
   // Rounding x + v t moves a disk by 2^-53 of the way since the epoch: some spacings for most, never more than the room
   // that coordinates have, were the fastest to become somewhat faster.

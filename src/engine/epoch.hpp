@@ -21,6 +21,10 @@ template <class Disks, class VelocityOf>
   return fastest * std::sqrt(squares / static_cast<double>(disks.size()));
 }
 
+/// Predictions square products of speed and length, which must neither vanish nor lose digits: scenes must begin above this
+/// bound, and a gas that dissipates comes below it in the end. 0 is slow enough to be exact.
+[[nodiscard]] inline bool is_too_slow(double speed, double diameter) { return speed > 0.0 && speed * diameter < 1e-150; }
+
 /// Time in which a disk of the root mean square speed passes 16 to 32 neighbours at the mean spacing, as a power of two.
 /// Long enough that a new epoch (all disks predicted anew) costs a few per cent; short enough that rounding a time moves
 /// such a disk by less than 32 * 2^-53 = 4e-15 of a spacing. A mean would let one fast disk among N at rest travel N

@@ -68,7 +68,9 @@ class TextbookEngine {
   [[nodiscard]] bool idle() const { return queue_.empty() || (queue_.next().time == infinity<Real> && !sliding_.present()); }
 
   /// Time has stopped: millions of events at one instant, as of disks that touch on all sides and still are to move.
-  [[nodiscard]] bool jammed() const { return at_one_instant_ > patience_ + 100 * records_.size(); }
+  [[nodiscard]] bool jammed() const { return at_one_instant_ > patience_ + 100 * records_.size() || cooled_; }
+  /// It is not time that has stopped but speeds that have become too small to compute with (engine/epoch.hpp).
+  [[nodiscard]] bool cooled() const { return cooled_; }
 
  private:
   /// The next event of all.
@@ -291,6 +293,7 @@ class TextbookEngine {
     sliding_.rebase(now_);
     scale_ += growth_ * now_;
     now_ = 0;
+    cooled_ = is_too_slow(rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; }), 2.0 * largest_radius_);
     epoch_length_ = suitable_epoch_length();
     suit_grid();
     last_collision_.rebase();
@@ -432,6 +435,7 @@ class TextbookEngine {
   double largest_radius_;
   std::uint64_t patience_;            ///< events at one instant after which time is taken to stand still
   std::uint64_t at_one_instant_ = 0;  ///< events since time last advanced
+  bool cooled_ = false;
   Totals totals_;
   LastInstant last_collision_;
   bool recording_ = false;

@@ -136,7 +136,7 @@ template <class Real>
 template <class Archive>
 void TextbookEngine<Real>::serialize(Archive& archive) {
   archive(walls_, sliding_, impact_, scale_, growth_, grid_, records_, plans_, images_, epoch_, now_, epoch_length_,
-          at_one_instant_, totals_, last_collision_);
+          at_one_instant_, cooled_, totals_, last_collision_);
   if constexpr (Archive::is_loading::value) fill_queue();
 }
 

@@ -71,6 +71,8 @@ std::string why_stopped(const RunReport& report, const Scene* scene) {
           "time = "
           "1e-6 }}, to go on",
           named(report.stopped_disks, "inelastic disks"), report.stopped_disks.size() == 1 ? "s" : "");
+    case StopReason::cooled:
+      return "cooled: inelastic disks have become too slow for numbers to tell; what they lose from here on cannot be computed";
     case StopReason::grown:
       return report.of_effects.growth
                  ? fmt::format("grown as far as asked, to packing fraction {:.5g}", report.of_effects.growth->packing_fraction)

@@ -34,6 +34,8 @@ class AnyEngine {
   virtual bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) = 0;
   [[nodiscard]] virtual bool idle() const = 0;
   [[nodiscard]] virtual bool jammed() const = 0;
+  /// jammed() because speeds have become too small to compute with.
+  [[nodiscard]] virtual bool cooled() const { return false; }
   /// Disks that grew have reached the packing fraction or pressure at which they were to end: run_until returns false from then
   /// on.
   [[nodiscard]] virtual bool grown() const { return false; }
@@ -84,6 +86,10 @@ class EngineAdapter final : public AnyEngine {
   }
   [[nodiscard]] bool idle() const override { return engine_.idle(); }
   [[nodiscard]] bool jammed() const override { return engine_.jammed(); }
+  [[nodiscard]] bool cooled() const override {
+    if constexpr (requires { engine_.cooled(); }) return engine_.cooled();
+    return false;
+  }
   [[nodiscard]] Instant now() const override { return engine_.now(); }
   [[nodiscard]] const Totals& totals() const override { return engine_.totals(); }
   [[nodiscard]] State state() const override { return engine_.state(); }

@@ -30,6 +30,7 @@ class DrivenEngine final : public AnyEngine {
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override;
   [[nodiscard]] bool idle() const override;
   [[nodiscard]] bool jammed() const override { return engine_->jammed(); }
+  [[nodiscard]] bool cooled() const override { return engine_->cooled(); }
   [[nodiscard]] bool grown() const override { return grown_; }
   [[nodiscard]] Instant now() const override { return engine_->now(); }
   [[nodiscard]] const Totals& totals() const override { return totals_; }

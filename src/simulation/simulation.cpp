@@ -94,6 +94,8 @@ std::string to_string(StopReason reason) {
       return "jammed";
     case StopReason::collapsed:
       return "collapsed";
+    case StopReason::cooled:
+      return "cooled";
     case StopReason::grown:
       return "grown";
     case StopReason::no_collisions:

@@ -188,6 +188,29 @@ TEST(Restitution, ThreeDisksOnALineCollideAsOftenAsTheMapSays) {
   }
 }
 
+/// Head on, and again through the periodic edges: the relative velocity is multiplied by -e each time.
+TEST(Restitution, TwoDisksCoolAwayToTheLastBitUntilNumbersCannotTell) {
+  for (const char* engine : engines_with_effects) {
+    SCOPED_TRACE(engine);
+    Scene scene = inelastic(scene_of({{0.0, 0.0}, {8.0, 8.0}, {Boundary::periodic, Boundary::periodic}},
+                                     {{{2.0, 4.0}, {0.5, 0.0}, 0.5, 1.0}, {{6.0, 4.0}, {-0.5, 0.0}, 0.5, 1.0}}),
+                            0.5);
+    scene.run.time.reset();
+    scene.run.collisions = 1'000'000;
+    Simulation simulation = make_simulation(scene, engine);
+    const RunResult result = run_schedule(simulation);
+    EXPECT_EQ(result.stopped, StopReason::cooled);
+    const auto collisions = static_cast<int>(simulation.totals().pair);
+    const State state = simulation.state();
+    EXPECT_EQ(std::abs(state.velocities(0, 0) - state.velocities(0, 1)), std::ldexp(1.0, -collisions));
+    // The bound is crossed between two epochs, and one has some tens of collisions at most.
+    EXPECT_LT(std::abs(state.velocities(0, 0)), 1e-150);
+    EXPECT_GT(std::abs(state.velocities(0, 0)), 1e-170);
+    EXPECT_TRUE(state.positions.allFinite());
+    EXPECT_TRUE(std::isfinite(simulation.time()));
+  }
+}
+
 TEST(Restitution, ADenseColumnCollapsesAndSaysSo) {
   for (const char* engine : engines_with_effects) {
     std::vector<Placed> column;

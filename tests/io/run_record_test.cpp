@@ -78,7 +78,7 @@ TEST(RunReportOf, EveryReasonToStopIsKnown) {
   RunReport report = report_of(scene_of(2, 2));
   for (const StopReason reason :
        {StopReason::time, StopReason::collisions, StopReason::interrupted, StopReason::jammed, StopReason::collapsed,
-        StopReason::grown, StopReason::no_collisions, StopReason::invalid_state}) {
+        StopReason::cooled, StopReason::grown, StopReason::no_collisions, StopReason::invalid_state}) {
     report.stopped = reason;
     EXPECT_EQ(run_report_of(json_of(report)).stopped, reason);
   }
