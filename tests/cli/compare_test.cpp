@@ -27,7 +27,7 @@ using ::testing::StartsWith;
 
 namespace fs = std::filesystem;
 
-const std::string gas = R"(title = "A dozen disks"
+const std::string a_dozen_disks = R"(title = "A dozen disks"
 
 [box]
 x = [0.0, 5.0]
@@ -57,7 +57,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 class CompareCommand : public ProgramTest {
  protected:
-  CompareCommand() : ProgramTest(gas) {}
+  CompareCommand() : ProgramTest(a_dozen_disks) {}
 
   /// A comparison of two fixed steps from one start, where nothing else is said.
   Outcome compare(const std::vector<std::string>& options, const std::function<void(pid_t)>& meanwhile = {}) {

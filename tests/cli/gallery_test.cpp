@@ -1,6 +1,7 @@
 // docs/gallery.md: every command that stands there draws a picture, and every picture that is shown there is kept.
 
 #include "support/child_process.hpp"
+#include "support/scene_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path docs = fs::path(CAROM_SOURCE_DIR) / "docs";
-
 /// By the name of the picture.
-std::map<std::string, std::string> commands() {
+std::map<std::string, std::string> commands_by_picture() {
   std::map<std::string, std::string> found;
   std::istringstream page(text_of(docs / "gallery.md"));
   const std::regex command("carom run docs/scenes/.* && carom movie .* -o (\\w+)\\.png .*");
@@ -29,7 +28,7 @@ std::map<std::string, std::string> commands() {
 
 std::vector<std::string> names() {
   std::vector<std::string> all;
-  for (const auto& [name, command] : commands()) all.push_back(name);
+  for (const auto& [name, command] : commands_by_picture()) all.push_back(name);
   return all;
 }
 
@@ -42,7 +41,7 @@ TEST_P(Gallery, CommandDrawsThePictureThatIsShown) {
   const TemporaryDirectory directory;
   fs::create_symlink(CAROM_PROGRAM, directory.path() / "carom");
   fs::create_directory_symlink(docs, directory.path() / "docs");
-  const Outcome outcome = run_program(directory.path(), {"sh", "-c", "PATH=.:$PATH; " + commands().at(GetParam())});
+  const Outcome outcome = run_program(directory.path(), {"sh", "-c", "PATH=.:$PATH; " + commands_by_picture().at(GetParam())});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(pixels_of(directory.file(GetParam() + ".png")), pixels_of(docs / "images/gallery" / (GetParam() + ".png")));
 }

@@ -47,8 +47,8 @@ TEST_F(HardCases, AnExpectationThatFailsExitsFourAndABrokenInvariantThree) {
 TEST_F(HardCases, ListShowAndJsonNameTheCases) {
   EXPECT_THAT(hardcases({"--list"}).out, AllOf(HasSubstr("galperin_314159"), HasSubstr("(--long)")));
   EXPECT_THAT(hardcases({"--show", "corner_hit"}).out, StartsWith("title = "));
-  const auto json = nlohmann::json::parse(hardcases({"corner_hit", "--engine", "fast", "--json"}).out);
-  EXPECT_EQ(json.at("cases").at(0).at("engines"), nlohmann::json({"fast"}));
+  const auto found = nlohmann::json::parse(hardcases({"corner_hit", "--engine", "fast", "--json"}).out);
+  EXPECT_EQ(found.at("cases").at(0).at("engines"), nlohmann::json({"fast"}));
 }
 
 TEST_F(HardCases, APageIsWrittenWhereItIsAskedFor) {

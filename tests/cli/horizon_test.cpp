@@ -23,11 +23,11 @@ using ::testing::StartsWith;
 
 namespace fs = std::filesystem;
 
-const std::string gas = fifty_disks + "equilibrate = { collisions_per_disk = 5 }\n";
+const std::string equilibrated_disks = fifty_disks + "equilibrate = { collisions_per_disk = 5 }\n";
 
 class HorizonCommand : public ProgramTest {
  protected:
-  HorizonCommand() : ProgramTest(gas) {}
+  HorizonCommand() : ProgramTest(equilibrated_disks) {}
 };
 
 TEST_F(HorizonCommand, PrintsARowForEveryPrecisionAndOneSentenceAndWritesNothing) {
@@ -85,7 +85,7 @@ TEST_F(HorizonCommand, SaysWhenThereIsNothingToPart) {
 }
 
 TEST_F(HorizonCommand, BrokenSceneExitsTwoWithOneSentence) {
-  write_text(file("gas.toml"), gas + "tiem = 3.0\n");
+  write_text(file("gas.toml"), equilibrated_disks + "tiem = 3.0\n");
   const Outcome outcome = carom({"horizon", "gas.toml", "--collisions", "20000"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.out, IsEmpty());

@@ -16,7 +16,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::string scene = R"([box]
+const std::string channel = R"([box]
 x = [0.0, 8.0]
 y = [0.0, 8.0]
 boundary = { x = "periodic", y = "walls" }
@@ -43,7 +43,7 @@ events = true
 
 class MethodOption : public ProgramTest {
  protected:
-  MethodOption() : ProgramTest(scene) {}
+  MethodOption() : ProgramTest(channel) {}
   [[nodiscard]] std::string text(const std::string& name) const { return text_of(file(name)); }
 };
 

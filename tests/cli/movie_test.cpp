@@ -63,13 +63,13 @@ TEST_P(MovieFilm, HasTheFramesSizeAndLengthThatWereAskedFor) {
       run_program(directory_.path(), {"ffprobe", "-v", "error", "-count_frames", "-show_entries",
                                       "stream=width,height,nb_read_frames:format=duration", "-of", "json", name});
   ASSERT_EQ(probe.exit_code, 0) << probe.err;
-  const auto json = nlohmann::json::parse(probe.out);
-  const auto& stream = json.at("streams").at(0);
+  const auto probed = nlohmann::json::parse(probe.out);
+  const auto& stream = probed.at("streams").at(0);
   EXPECT_EQ(stream.at("nb_read_frames"), "7");  // 1.5 of time at 5 / 20 a frame, both ends included
   EXPECT_EQ(stream.at("width"), 64);
   EXPECT_EQ(stream.at("height"), is_gif ? 51 : 52);
   // GIF counts hundredths of a second, WebM thousandths.
-  EXPECT_NEAR(std::atof(json.at("format").at("duration").get<std::string>().c_str()), 7.0 / 20.0, is_gif ? 0.011 : 0.0011);
+  EXPECT_NEAR(std::atof(probed.at("format").at("duration").get<std::string>().c_str()), 7.0 / 20.0, is_gif ? 0.011 : 0.0011);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, MovieFilm, ::testing::Values("mp4", "webm", "gif"),

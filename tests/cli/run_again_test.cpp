@@ -20,9 +20,9 @@ class RunAgain : public ProgramTest {
   RunAgain() : ProgramTest(fifty_disks) {}
 
   void change_summary(const std::function<void(nlohmann::ordered_json&)>& change) {
-    auto json = nlohmann::ordered_json::parse(text_of(file("gas/summary.json")));
-    change(json);
-    write_text(file("gas/summary.json"), json.dump(2));
+    auto summary = nlohmann::ordered_json::parse(text_of(file("gas/summary.json")));
+    change(summary);
+    write_text(file("gas/summary.json"), summary.dump(2));
   }
 };
 
@@ -48,15 +48,15 @@ TEST_F(RunAgain, WhatIsNotTheSameIsNamed) {
   std::string table = text_of(file("gas/samples.csv"));
   table[table.rfind('5')] = '6';
   write_text(file("gas/samples.csv"), table);
-  change_summary([](auto& json) { json["events"]["pair"] = 1; });
+  change_summary([](auto& summary) { summary["events"]["pair"] = 1; });
   const Outcome outcome = carom({"verify", "gas"});
   EXPECT_EQ(outcome.exit_code, 4);
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("not the same"), HasSubstr("samples.csv: line "),
                                  HasSubstr("summary.json: /events/pair is 1 against ")));
 
-  change_summary([](auto& json) {
-    std::string scene = json["resolved_scene"];
-    json["resolved_scene"] = scene.replace(scene.find("seed = 1"), 8, "seed = 2");
+  change_summary([](auto& summary) {
+    std::string scene = summary["resolved_scene"];
+    summary["resolved_scene"] = scene.replace(scene.find("seed = 1"), 8, "seed = 2");
   });
   const Outcome other = carom({"verify", "gas"});
   EXPECT_EQ(other.exit_code, 4);
@@ -67,9 +67,9 @@ TEST_F(RunAgain, WhatIsNotTheSameIsNamed) {
 TEST_F(RunAgain, WhatCannotBeRunAgainIsRefused) {
   EXPECT_THAT(carom({"verify", "nowhere"}).err, HasSubstr("no directory of a finished run"));
   ASSERT_EQ(carom({"run", "gas.toml", "-q"}).exit_code, 0);
-  change_summary([](auto& json) { json["stopped"] = "interrupted"; });
+  change_summary([](auto& summary) { summary["stopped"] = "interrupted"; });
   EXPECT_THAT(carom({"verify", "gas"}).err, HasSubstr("was interrupted"));
-  change_summary([](auto& json) { json.erase("resolved_scene"); });
+  change_summary([](auto& summary) { summary.erase("resolved_scene"); });
   EXPECT_THAT(carom({"verify", "gas"}).err, HasSubstr("run the scene again"));
   write_text(file("gas/summary.json"), "{");
   const Outcome outcome = carom({"info", "gas", "--reproduce"});

@@ -1,6 +1,7 @@
 // docs/sweeps.md: its example is the one that is kept, and the numbers that it prints are those of the commands.
 
 #include "support/child_process.hpp"
+#include "support/scene_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,13 +14,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string docs = CAROM_SOURCE_DIR "/docs/";
-
 TEST(ScenesSweepGuide, ShowsTheExampleAndWhatItPrints) {
-  const std::string page = text_of(docs + "sweeps.md"), example = text_of(docs + "scenes/sweeps/equation_of_state.toml");
+  const std::filesystem::path sweep = docs / "scenes/sweeps/equation_of_state.toml";
+  const std::string page = text_of(docs / "sweeps.md"), example = text_of(sweep);
   EXPECT_THAT(page, HasSubstr(example.substr(example.find("scene = "))));
   const TemporaryDirectory directory;
-  const Outcome outcome = run_carom(directory.path(), {"sweep", docs + "scenes/sweeps/equation_of_state.toml"});
+  const Outcome outcome = run_carom(directory.path(), {"sweep", sweep.string()});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::istringstream lines(outcome.out);
   std::string line;

@@ -64,9 +64,9 @@ TEST_F(PhysicsValidateCommand, WritesItsFilesGoesOnFromThemAndExitsFourWhereAChe
                                  HasSubstr("2 checks in 1 trial, seed 1: all hold"), HasSubstr("report.html")));
   for (const char* product : {"found/trials.jsonl", "found/report.html", "found/validation.json"})
     EXPECT_TRUE(fs::exists(file(product))) << product;
-  const auto json = nlohmann::json::parse(text_of(file("found/validation.json")));
-  EXPECT_EQ(json["failed"], 0);
-  EXPECT_EQ(json["trials"][0]["checks"][1]["holds"], true);
+  const auto validation = nlohmann::json::parse(text_of(file("found/validation.json")));
+  EXPECT_EQ(validation["failed"], 0);
+  EXPECT_EQ(validation["trials"][0]["checks"][1]["holds"], true);
 
   EXPECT_EQ(validate(one).exit_code, 2) << "results are in the way";
   // Interrupted after a trial whose numbers are not those of theory: it is not run again, and fails.

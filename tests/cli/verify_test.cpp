@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const std::string scene = R"([box]
+const std::string thirty_disks = R"([box]
 x = [0.0, 8.0]
 y = [0.0, 8.0]
 boundary = "periodic"
@@ -35,7 +35,7 @@ collisions = 500
 
 class VerifyOption : public ProgramTest {
  protected:
-  VerifyOption() : ProgramTest(scene) {}
+  VerifyOption() : ProgramTest(thirty_disks) {}
 };
 
 TEST_F(VerifyOption, SaysThatInvariantsHold) {

@@ -3,6 +3,8 @@
 
 #include "core/ballistic_contact_time.hpp"
 
+#include "core/unit_roundoff.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -14,8 +16,6 @@
 
 namespace carom::test {
 namespace {
-
-constexpr double u = 0x1p-53;
 
 struct Approach {
   Vec2<double> r;

@@ -3,6 +3,8 @@
 
 #include "core/contact_time.hpp"
 
+#include "core/unit_roundoff.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -11,8 +13,6 @@
 
 namespace carom::test {
 namespace {
-
-constexpr double u = 0x1p-53;
 
 struct Pair {
   Vec2<double> r;

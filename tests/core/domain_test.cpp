@@ -6,17 +6,17 @@
 namespace carom::test {
 namespace {
 
-const Domain<double> periodic(Box{{-1.0, 2.0}, {1.0, 5.0}, {Boundary::periodic, Boundary::periodic}});
+const Domain<double> periodic_domain(Box{{-1.0, 2.0}, {1.0, 5.0}, {Boundary::periodic, Boundary::periodic}});
 
 TEST(Domain, PositionsInsideAreNotTouched) {
   Vec2<double> r(-1.0, 4.999);
-  EXPECT_EQ(periodic.wrap(r), Winding(0, 0));
+  EXPECT_EQ(periodic_domain.wrap(r), Winding(0, 0));
   EXPECT_EQ(r, Vec2<double>(-1.0, 4.999));
 }
 
 TEST(Domain, TheUpperEdgeIsTheLowerEdgeOfTheNextBox) {
   Vec2<double> r(1.0, 5.0);
-  EXPECT_EQ(periodic.wrap(r), Winding(1, 1));
+  EXPECT_EQ(periodic_domain.wrap(r), Winding(1, 1));
   EXPECT_EQ(r, Vec2<double>(-1.0, 2.0));
 }
 
@@ -38,7 +38,7 @@ RC_GTEST_PROP(PropertyDomain, FoldingEndsInsideAndMovesByWholeBoxLengths, ()) {
   const double x =
       static_cast<double>(*rc::gen::inRange<std::int64_t>(-(1ll << 52), 1ll << 52)) * std::ldexp(1.0, *rc::gen::inRange(-60, -9));
   Vec2<double> r(x, 3.0);
-  const Winding winding = periodic.wrap(r);
+  const Winding winding = periodic_domain.wrap(r);
   RC_ASSERT(r.x() >= -1.0 && r.x() < 1.0);
   // The product and the difference are rounded once each, at the size of x; folding an ulp short of an edge adds one.
   RC_ASSERT(std::abs(r.x() + static_cast<double>(winding.x()) * 2.0 - x) <= 0x1p-51 * (std::abs(x) + 2.0));

@@ -3,6 +3,8 @@
 
 #include "core/fall_time.hpp"
 
+#include "core/unit_roundoff.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -11,8 +13,6 @@
 
 namespace carom::test {
 namespace {
-
-constexpr double u = 0x1p-53;
 
 double height_at(double h, double w, double a, double t) {
   return static_cast<double>(Quad(h) + Quad(t) * (Quad(w) + Quad(a) * Quad(t) / 2));

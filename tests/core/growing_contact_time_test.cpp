@@ -3,6 +3,8 @@
 
 #include "core/contact_time.hpp"
 
+#include "core/unit_roundoff.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -15,9 +17,7 @@
 namespace carom::test {
 namespace {
 
-constexpr double u = 0x1p-53;
-
-struct Pair {
+struct GrowingPair {
   Vec2<double> r;
   Vec2<double> v;
   double sigma;
@@ -25,14 +25,14 @@ struct Pair {
 };
 
 /// |r + v t| - sigma - growth t, exact to 113 bits.
-double gap_at(const Pair& pair, Quad t) {
+double gap_at(const GrowingPair& pair, Quad t) {
   using std::sqrt;
   const Vec2<Quad> at = pair.r.cast<Quad>() + pair.v.cast<Quad>() * t;
   return static_cast<double>(sqrt(at.squaredNorm()) - Quad(pair.sigma) - Quad(pair.growth) * t);
 }
 
 /// |v| / sqrt(v^2 - growth^2)
-double conditioning(const Pair& pair) {
+double conditioning(const GrowingPair& pair) {
   const Quad square = pair.v.cast<Quad>().squaredNorm();
   const Quad a = square - Quad(pair.growth) * Quad(pair.growth);
   return a > 0 ? std::sqrt(static_cast<double>(square / a)) : 1.0;
@@ -40,16 +40,16 @@ double conditioning(const Pair& pair) {
 
 /// When the gap is smallest: f = a t^2 + 2 b t + c says how |.|^2 - (.)^2 goes, and f is smallest where the gap over the contact
 /// distance is, which for a grazing pass is the same place.
-Quad closest(const Pair& pair) {
+Quad closest(const GrowingPair& pair) {
   const Vec2<Quad> v = pair.v.cast<Quad>();
   const Quad growth(pair.growth);
   const Quad b = pair.r.cast<Quad>().dot(v) - Quad(pair.sigma) * growth;
   return -b / (v.squaredNorm() - growth * growth);
 }
 
-double scale(const Pair& pair, double t) { return pair.r.norm() + pair.sigma + (pair.v.norm() + pair.growth) * t; }
+double scale(const GrowingPair& pair, double t) { return pair.r.norm() + pair.sigma + (pair.v.norm() + pair.growth) * t; }
 
-void check(const Pair& pair) {
+void check(const GrowingPair& pair) {
   SCOPED_TRACE(::testing::Message() << "r = " << pair.r.transpose() << ", v = " << pair.v.transpose()
                                     << ", sigma = " << pair.sigma << ", growth = " << pair.growth);
   const double k = conditioning(pair);
@@ -68,7 +68,7 @@ void check(const Pair& pair) {
 }
 
 /// A pair at a given distance and impact parameter (in units of sigma), seen from an arbitrary direction.
-Pair aimed(double distance, double impact, double angle, double speed, double sigma, double growth) {
+GrowingPair aimed(double distance, double impact, double angle, double speed, double sigma, double growth) {
   const double along = std::sqrt(std::max(0.0, distance * distance - impact * impact));
   const Vec2<double> e(std::cos(angle), std::sin(angle));
   const Vec2<double> n(-e.y(), e.x());
@@ -118,7 +118,7 @@ TEST_F(GrowingContactTime, StaysWithinItsBoundsForGrazingPasses) {
     const Vec2<double> v = growth * e + std::sqrt((1.0 - growth) * (1.0 + growth)) * across;
     const double time = n % 3 == 0 ? decades(-3.0, 3.0) : between(0.1, 4.0);
     const double offset = double(n % 3 - 1) * decades(-17.0, -6.0);
-    const Pair pair{(1.0 + growth * time) * (1.0 + offset) * e - time * v, v, 1.0, growth};
+    const GrowingPair pair{(1.0 + growth * time) * (1.0 + offset) * e - time * v, v, 1.0, growth};
     if (gap_at(pair, Quad(0)) > 0.0) check(pair);
   }
 }
@@ -185,7 +185,7 @@ TEST_F(EscapeTime, StaysWithinItsBoundsAnywhereInside) {
   for (int n = 0; n < 40'000; ++n) {
     const double distance = n % 2 == 0 ? unit() : 1.0 - decades(-15.0, 0.0);
     const double impact = n % 3 == 0 ? distance : distance * unit();
-    Pair pair = aimed(distance, impact, between(0.0, 6.28), decades(-3.0, 3.0), decades(-2.0, 2.0), 0.0);
+    GrowingPair pair = aimed(distance, impact, between(0.0, 6.28), decades(-3.0, 3.0), decades(-2.0, 2.0), 0.0);
     if (random() % 2 == 0) pair.v = -pair.v;
     if (gap_at(pair, Quad(0)) > 0.0) continue;
     const double t = escape_time<double>(pair.r, pair.v, pair.sigma);

@@ -4,6 +4,7 @@
 #include "core/prediction.hpp"
 #include "core/contact_time.hpp"
 #include "core/instructions.hpp"
+#include "core/unit_roundoff.hpp"
 #include "support/instructions.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,6 @@ namespace carom::test {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double u = 0x1p-53;
 
 /// The kernel of one instruction set, or the best where this machine lacks it.
 template <class Line>

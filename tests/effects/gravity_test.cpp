@@ -1,6 +1,5 @@
 // Disks that fall: [gravity].
 
-#include "observe/energy.hpp"
 #include "observe/mechanics.hpp"
 #include "support/effect_scenes.hpp"
 
@@ -17,11 +16,6 @@ using V = Eigen::Vector2d;
 Scene falling(Scene scene, const V& g) {
   scene.effects.gravity = Gravity{g, {}};
   return scene;
-}
-
-double energy_of(const Simulation& simulation) {
-  const Scene& scene = simulation.scene();
-  return total_energy(scene.box, scene.effects, simulation.disks(), simulation.state());
 }
 
 TEST(Gravity, ADiskBouncesAlongParabolasInClosedForm) {

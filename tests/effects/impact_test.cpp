@@ -50,15 +50,15 @@ void for_contacts(Check&& check) {
 }
 
 // One rounding of each term: a few ulps of the largest speed there is.
-constexpr double few_ulps = 16 * 0x1p-53;
+constexpr double rounding_of_speeds = 16 * 0x1p-53;
 
 TEST(Reversal, IsMinusVPlusTwiceTheCentreOfMassVelocity) {
   for_contacts([](const V& r, double m_i, const V& v_i, double m_j, const V& v_j) {
     const V centre = (m_i * v_i + m_j * v_j) / (m_i + m_j);
     const Outcome after = collided<Reversal>(r, m_i, v_i, m_j, v_j);
     const double speed = v_i.norm() + v_j.norm();
-    EXPECT_LE((after.v_i - (2 * centre - v_i)).norm(), few_ulps * speed);
-    EXPECT_LE((after.v_j - (2 * centre - v_j)).norm(), few_ulps * speed);
+    EXPECT_LE((after.v_i - (2 * centre - v_i)).norm(), rounding_of_speeds * speed);
+    EXPECT_LE((after.v_j - (2 * centre - v_j)).norm(), rounding_of_speeds * speed);
   });
 }
 
@@ -73,7 +73,7 @@ TEST(Reversal, AppliedTwiceIsNoCollisionAtAll) {
     const Outcome once = collided<Reversal>(r, m_i, v_i, m_j, v_j);
     const Outcome twice = collided<Reversal>(-r, m_i, once.v_i, m_j, once.v_j);  // seen from behind, they approach again
     const double speed = v_i.norm() + v_j.norm();
-    EXPECT_LE((twice.v_i - v_i).norm() + (twice.v_j - v_j).norm(), 4 * few_ulps * speed);
+    EXPECT_LE((twice.v_i - v_i).norm() + (twice.v_j - v_j).norm(), 4 * rounding_of_speeds * speed);
   });
 }
 
@@ -82,8 +82,8 @@ TEST(Reversal, ConservesTheWholeTensorOfMomentumFlux) {
     const Outcome after = collided<Reversal>(r, m_i, v_i, m_j, v_j);
     const Eigen::Matrix2d before_tensor = m_i * v_i * v_i.transpose() + m_j * v_j * v_j.transpose();
     const Eigen::Matrix2d after_tensor = m_i * after.v_i * after.v_i.transpose() + m_j * after.v_j * after.v_j.transpose();
-    // An error of few_ulps in each velocity moves m v v by at most twice that.
-    EXPECT_LE((after_tensor - before_tensor).norm(), 4 * few_ulps * (m_i + m_j) * std::pow(v_i.norm() + v_j.norm(), 2));
+    // An error of rounding_of_speeds in each velocity moves m v v by at most twice that.
+    EXPECT_LE((after_tensor - before_tensor).norm(), 4 * rounding_of_speeds * (m_i + m_j) * std::pow(v_i.norm() + v_j.norm(), 2));
   });
 }
 
@@ -94,7 +94,7 @@ TEST(Reversal, ChangesAngularMomentumByMinusTwoSigmaMuTimesTheTangentialVelocity
     // Relative to the centre of mass the angular momentum is mu r x v.
     const double before = mu * cross<double>(r, v_i - v_j);
     const double change = mu * cross<double>(r, after.v_i - after.v_j) - before;
-    EXPECT_NEAR(change, -2 * before, 4 * few_ulps * mu * (v_i.norm() + v_j.norm()));
+    EXPECT_NEAR(change, -2 * before, 4 * rounding_of_speeds * mu * (v_i.norm() + v_j.norm()));
   });
 }
 
@@ -104,9 +104,9 @@ TEST(Specular, TurnsOnlyTheComponentAlongTheLineOfCentres) {
     const V n = r.normalized();
     const V t(-n.y(), n.x());
     const double speed = v_i.norm() + v_j.norm();
-    EXPECT_NEAR(n.dot(after.v_i - after.v_j), -n.dot(v_i - v_j), few_ulps * speed);
-    EXPECT_NEAR(t.dot(after.v_i), t.dot(v_i), few_ulps * speed);
-    EXPECT_NEAR(t.dot(after.v_j), t.dot(v_j), few_ulps * speed);
+    EXPECT_NEAR(n.dot(after.v_i - after.v_j), -n.dot(v_i - v_j), rounding_of_speeds * speed);
+    EXPECT_NEAR(t.dot(after.v_i), t.dot(v_i), rounding_of_speeds * speed);
+    EXPECT_NEAR(t.dot(after.v_j), t.dot(v_j), rounding_of_speeds * speed);
   });
 }
 
@@ -122,9 +122,10 @@ void expect_conservation() {
     const Outcome after = collided<Rule>(r, m_i, v_i, m_j, v_j);
     const double speed = v_i.norm() + v_j.norm();
     const double mass = m_i + m_j;
-    EXPECT_LE((m_i * after.v_i + m_j * after.v_j - m_i * v_i - m_j * v_j).norm(), few_ulps * mass * speed);
+    EXPECT_LE((m_i * after.v_i + m_j * after.v_j - m_i * v_i - m_j * v_j).norm(), rounding_of_speeds * mass * speed);
     const double before = m_i * v_i.squaredNorm() + m_j * v_j.squaredNorm();
-    EXPECT_NEAR(m_i * after.v_i.squaredNorm() + m_j * after.v_j.squaredNorm(), before, 4 * few_ulps * mass * speed * speed);
+    EXPECT_NEAR(m_i * after.v_i.squaredNorm() + m_j * after.v_j.squaredNorm(), before,
+                4 * rounding_of_speeds * mass * speed * speed);
     EXPECT_GE(r.dot(after.v_i - after.v_j), 0.0) << "they still approach";
   });
 }
@@ -143,7 +144,7 @@ TEST(Impact, BothRulesHandOverTheSameVirial) {
     EXPECT_EQ(specular.virial, collided<Reversal>(r, m_i, v_i, m_j, v_j).virial);
     // It is what the momenta say: r . dp_i = -r . dp_j.
     const double mass = m_i + m_j;
-    EXPECT_NEAR(specular.virial, m_j * r.dot(v_j - specular.v_j), few_ulps * mass * (v_i.norm() + v_j.norm()));
+    EXPECT_NEAR(specular.virial, m_j * r.dot(v_j - specular.v_j), rounding_of_speeds * mass * (v_i.norm() + v_j.norm()));
   });
 }
 

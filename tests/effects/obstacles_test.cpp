@@ -15,7 +15,7 @@
 namespace carom::test {
 namespace {
 
-const Box room = box_of(8.0, 8.0, Boundary::walls, Boundary::walls);
+const Box walled_box = box_of(8.0, 8.0, Boundary::walls, Boundary::walls);
 const Box torus = box_of(8.0, 8.0, Boundary::periodic, Boundary::periodic);
 
 TEST(Obstacles, ADiskInTheMiddleOfASinaiBoxIsMetWhereTheClosedFormSays) {
@@ -31,7 +31,7 @@ TEST(Obstacles, ADiskInTheMiddleOfASinaiBoxIsMetWhereTheClosedFormSays) {
 }
 
 TEST(Obstacles, NoneLeavesNothingToMeet) {
-  const Obstacles<double> none(room, {});
+  const Obstacles<double> none(walled_box, {});
   EXPECT_TRUE(none.empty());
   EXPECT_EQ(none.next({1.0, 1.0}, {1.0, 0.0}, {0.0, -1.0}, 0.5, 0.0, infinity<double>).time, infinity<double>);
 }
@@ -63,23 +63,23 @@ TEST(Obstacles, LongPathsAreFollowedThroughManyBoxes) {
 
 TEST(Obstacles, ASegmentIsHardFromBothSidesAndAtItsEnds) {
   const std::vector<Obstacle> bar = {fixed_segment({2.0, 4.0}, {6.0, 4.0})};
-  EXPECT_EQ(Billiard(room, bar, {4.0, 6.0}, {0.25, -1.0}, 0.5).next().time, 1.5);
-  EXPECT_EQ(Billiard(room, bar, {4.0, 2.0}, {0.25, 1.0}, 0.5).next().time, 1.5);
-  EXPECT_EQ(Billiard(room, bar, {1.0, 4.0}, {1.0, 0.0}, 0.5).next().time, 0.5);
-  EXPECT_EQ(Billiard(room, bar, {7.5, 4.0}, {-1.0, 0.0}, 0.5).next().time, 1.0);
-  EXPECT_EQ(Billiard(room, bar, {1.0, 6.0}, {0.0, -1.0}, 0.5).next().time, infinity<double>);
+  EXPECT_EQ(Billiard(walled_box, bar, {4.0, 6.0}, {0.25, -1.0}, 0.5).next().time, 1.5);
+  EXPECT_EQ(Billiard(walled_box, bar, {4.0, 2.0}, {0.25, 1.0}, 0.5).next().time, 1.5);
+  EXPECT_EQ(Billiard(walled_box, bar, {1.0, 4.0}, {1.0, 0.0}, 0.5).next().time, 0.5);
+  EXPECT_EQ(Billiard(walled_box, bar, {7.5, 4.0}, {-1.0, 0.0}, 0.5).next().time, 1.0);
+  EXPECT_EQ(Billiard(walled_box, bar, {1.0, 6.0}, {0.0, -1.0}, 0.5).next().time, infinity<double>);
   // Beside the end by 0.3: the corner is met 0.4 above it.
-  Billiard beside(room, bar, {6.3, 6.0}, {0.0, -1.0}, 0.5);
+  Billiard beside(walled_box, bar, {6.3, 6.0}, {0.0, -1.0}, 0.5);
   EXPECT_NEAR(beside.step().time, 1.6, 1e-14);
   EXPECT_NEAR(beside.v.x(), 2 * 0.8 * 0.6, 1e-13);
 }
 
 TEST(Obstacles, ThrownUpUnderABarADiskMeetsItsLowerFaceAndRoundTheEndItsUpperOne) {
   const std::vector<Obstacle> bar = {fixed_segment({2.0, 4.0}, {6.0, 4.0})};
-  Billiard below(room, bar, {4.0, 1.5}, {0.0, 3.0}, 0.5);
+  Billiard below(walled_box, bar, {4.0, 1.5}, {0.0, 3.0}, 0.5);
   below.g = {0.0, -2.0};
   EXPECT_NEAR(below.next(10.0).time, 1.0, 1e-14);  // 3 - 1 = 2 higher
-  Billiard round(room, bar, {7.0, 3.5}, {-1.0, 3.5}, 0.5);
+  Billiard round(walled_box, bar, {7.0, 3.5}, {-1.0, 3.5}, 0.5);
   round.g = {0.0, -2.0};
   const double t = (3.5 + std::sqrt(3.5 * 3.5 - 4.0)) / 2.0;  // 1 higher, falling
   EXPECT_NEAR(round.next(10.0).time, t, 1e-14);
@@ -89,12 +89,12 @@ TEST(Obstacles, ThrownUpUnderABarADiskMeetsItsLowerFaceAndRoundTheEndItsUpperOne
 TEST(Obstacles, TouchingIsNowForDisksThatApproachAndNeverForThoseThatRecede) {
   const std::vector<Obstacle> list = {fixed_disk(2.0, 2.0, 0.5), fixed_segment({4.0, 1.0}, {4.0, 7.0})};
   for (const double inside : {0.0, 1e-16}) {
-    EXPECT_EQ(Billiard(room, list, {2.0, 3.0 - inside}, {0.5, -1.0}, 0.5).next().time, 0.0);
-    EXPECT_EQ(Billiard(room, list, {2.0, 3.0 - inside}, {0.0, 1.0}, 0.5).next().time, infinity<double>);
-    EXPECT_EQ(Billiard(room, list, {4.5 - inside, 3.0}, {-1.0, 0.0}, 0.5).next().time, 0.0);
-    EXPECT_EQ(Billiard(room, list, {3.5 + inside, 3.0}, {1.0, 0.5}, 0.5).next().time, 0.0);
-    EXPECT_EQ(Billiard(room, list, {4.5 - inside, 3.0}, {1.0, 0.0}, 0.5).next().time, infinity<double>);
-    EXPECT_EQ(Billiard(room, list, {4.5, 3.0}, {0.0, 1.0}, 0.5).next().time, infinity<double>) << "slides along";
+    EXPECT_EQ(Billiard(walled_box, list, {2.0, 3.0 - inside}, {0.5, -1.0}, 0.5).next().time, 0.0);
+    EXPECT_EQ(Billiard(walled_box, list, {2.0, 3.0 - inside}, {0.0, 1.0}, 0.5).next().time, infinity<double>);
+    EXPECT_EQ(Billiard(walled_box, list, {4.5 - inside, 3.0}, {-1.0, 0.0}, 0.5).next().time, 0.0);
+    EXPECT_EQ(Billiard(walled_box, list, {3.5 + inside, 3.0}, {1.0, 0.5}, 0.5).next().time, 0.0);
+    EXPECT_EQ(Billiard(walled_box, list, {4.5 - inside, 3.0}, {1.0, 0.0}, 0.5).next().time, infinity<double>);
+    EXPECT_EQ(Billiard(walled_box, list, {4.5, 3.0}, {0.0, 1.0}, 0.5).next().time, infinity<double>) << "slides along";
   }
 }
 
@@ -102,20 +102,20 @@ TEST(Obstacles, OfTwoAtTheSameTimeTheLowerIndexComesFirst) {
   const Obstacle left = fixed_disk(3.0, 6.0, 0.5);
   const Obstacle right = fixed_disk(5.0, 6.0, 0.5);
   for (const auto& list : {std::vector<Obstacle>{left, right}, std::vector<Obstacle>{right, left}})
-    EXPECT_EQ(Billiard(room, list, {4.0, 2.0}, {0.0, 1.0}, 0.75).next().obstacle, 0);
+    EXPECT_EQ(Billiard(walled_box, list, {4.0, 2.0}, {0.0, 1.0}, 0.75).next().obstacle, 0);
 }
 
 TEST(Obstacles, ASegmentWithoutLengthIsAPoint) {
-  EXPECT_EQ(Billiard(room, {fixed_segment({4.0, 4.0}, {4.0, 4.0})}, {1.0, 4.0}, {1.0, 0.0}, 0.5).next().time, 2.5);
+  EXPECT_EQ(Billiard(walled_box, {fixed_segment({4.0, 4.0}, {4.0, 4.0})}, {1.0, 4.0}, {1.0, 0.0}, 0.5).next().time, 2.5);
 }
 
 TEST(Obstacles, GrowingDisksMeetWhatTheyGrowInto) {
-  Billiard rests(room, {fixed_segment({2.0, 0.0}, {2.0, 8.0}), fixed_disk(6.0, 4.0, 1.0)}, {3.5, 4.0}, {0.0, 0.0}, 0.5);
+  Billiard rests(walled_box, {fixed_segment({2.0, 0.0}, {2.0, 8.0}), fixed_disk(6.0, 4.0, 1.0)}, {3.5, 4.0}, {0.0, 0.0}, 0.5);
   rests.growth = 0.25;
   EXPECT_EQ(rests.next().time, 4.0);
   EXPECT_EQ(rests.next().obstacle, 0);
   const std::vector<Obstacle> bar = {fixed_segment({2.0, 4.0}, {6.0, 4.0})};
-  Billiard moves(room, bar, {3.0, 7.0}, {0.5, -0.5}, 0.5);
+  Billiard moves(walled_box, bar, {3.0, 7.0}, {0.5, -0.5}, 0.5);
   moves.growth = 0.5;
   EXPECT_EQ(moves.next().time, 2.5);
 }
@@ -169,10 +169,10 @@ TEST(Obstacles, ALandingWithinRoundingOfAJointIsALandingOnTheFloor) {
       for (const double side : {-1.0, 1.0})
         for (const double fall : {1.0, 1e-3, 1e-7}) {
           const double t = 0.5 / fall;
-          Billiard disk(room, list, {joint + side * offset - 1.0, 2.0}, {1.0 / t, -fall}, 0.5);
+          Billiard disk(walled_box, list, {joint + side * offset - 1.0, 2.0}, {1.0 / t, -fall}, 0.5);
           const auto meeting = disk.step();
           ASSERT_NEAR(meeting.time, t, 1e-14 * t) << joint << " + " << side * offset;
-          // The place is rounded, to 1e-15 of the room: by so much the line of centres may lean where it is beyond the piece's
+          // The place is rounded, to 1e-15 of the box: by so much the line of centres may lean where it is beyond the piece's
           // end.
           ASSERT_NEAR(disk.v.x(), 1.0 / t, 6e-14 * (fall + 1.0 / t)) << joint << " + " << side * offset;
           ASSERT_NEAR(disk.v.y(), fall, 6e-14 * (fall + 1.0 / t));
@@ -186,14 +186,14 @@ TEST(Obstacles, ADiskThatSlidesAlongAFloorInPiecesMeetsNothing) {
   for (const double height : {0.0, 1e-16, -1e-16, -3e-16, -1e-15})
     for (const double speed : {1.0, 1e-3, 1e3, -1.0})
       for (double x = 0.01; x < 8.0; x += 0.37)
-        EXPECT_EQ(Billiard(room, list, {x, 1.5 + height}, {speed, 0.0}, 0.5).next().obstacle, -1) << x << ", " << height;
+        EXPECT_EQ(Billiard(walled_box, list, {x, 1.5 + height}, {speed, 0.0}, 0.5).next().obstacle, -1) << x << ", " << height;
 }
 
 TEST(Obstacles, ADiskThatRollsOffATableIsCaughtByItsEdge) {
   // Slower than sqrt(g r) it must follow the edge round, and never be inside.
   const std::vector<Obstacle> table = {fixed_segment({1.0, 4.0}, {4.0, 4.0})};
   for (const double hop : {1e-3, 1e-6, 1e-9}) {
-    Billiard disk(room, table, {3.5, 4.5 + hop}, {0.25, 0.0}, 0.5);
+    Billiard disk(walled_box, table, {3.5, 4.5 + hop}, {0.25, 0.0}, 0.5);
     disk.g = {0.0, -1.0};
     const double energy = disk.energy();
     for (int k = 0; k < 100'000 && disk.r.y() > 3.0; ++k) {

@@ -26,7 +26,7 @@ Scene off_centre(double mass, double target_mass, double restitution) {
 }
 
 // A few roundings of each term, relative to the speed 1 with which all this begins.
-constexpr double few_ulps = 32 * 0x1p-53;
+constexpr double rounding_at_speed_one = 32 * 0x1p-53;
 
 TEST(Restitution, TwoDisksPartAsTheClosedFormSays) {
   for (const char* engine : engines_with_effects)
@@ -38,12 +38,13 @@ TEST(Restitution, TwoDisksPartAsTheClosedFormSays) {
         const V n(-0.8, -0.6);  // from disk 1 to disk 0 at contact
         const double u = n.x();
         const V impulse = -(1 + e) * u / (1 + 1 / ratio) * n;
-        EXPECT_NEAR(ran.events[0].time, 1.2, few_ulps * 4);
-        EXPECT_LE((ran.events[0].velocity - (V(1.0, 0.0) + impulse)).norm(), 4 * few_ulps);
-        EXPECT_LE((ran.events[0].partner_velocity + impulse / ratio).norm(), 4 * few_ulps / std::min(1.0, ratio) * 1.0);
+        EXPECT_NEAR(ran.events[0].time, 1.2, rounding_at_speed_one * 4);
+        EXPECT_LE((ran.events[0].velocity - (V(1.0, 0.0) + impulse)).norm(), 4 * rounding_at_speed_one);
+        EXPECT_LE((ran.events[0].partner_velocity + impulse / ratio).norm(),
+                  4 * rounding_at_speed_one / std::min(1.0, ratio) * 1.0);
         // mu (1 - e^2) u^2 / 2 is gone.
         const double mu = ratio / (1 + ratio);
-        EXPECT_NEAR(ran.simulation.totals().dissipated, mu * (1 - e * e) * u * u / 2, 4 * few_ulps * mu);
+        EXPECT_NEAR(ran.simulation.totals().dissipated, mu * (1 - e * e) * u * u / 2, 4 * rounding_at_speed_one * mu);
       }
 }
 
@@ -53,9 +54,9 @@ TEST(Restitution, ScalesTheWholeRelativeVelocityUnderReversal) {
     scene.effects.collision.rule = CollisionRule::reversal;
     const Ran ran = run(scene, engine, 1.5);
     ASSERT_EQ(ran.events.size(), 1U);
-    EXPECT_LE((ran.events[0].velocity - V(0.25, 0.0)).norm(), few_ulps);
-    EXPECT_LE((ran.events[0].partner_velocity - V(0.75, 0.0)).norm(), few_ulps);
-    EXPECT_NEAR(ran.simulation.totals().dissipated, 0.5 * 0.5 * (1 - 0.25), few_ulps);
+    EXPECT_LE((ran.events[0].velocity - V(0.25, 0.0)).norm(), rounding_at_speed_one);
+    EXPECT_LE((ran.events[0].partner_velocity - V(0.75, 0.0)).norm(), rounding_at_speed_one);
+    EXPECT_NEAR(ran.simulation.totals().dissipated, 0.5 * 0.5 * (1 - 0.25), rounding_at_speed_one);
   }
 }
 

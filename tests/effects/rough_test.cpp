@@ -42,12 +42,12 @@ double all_energy(const Disks& disks, const State& state) { return kinetic_energ
 struct Pair {
   double radius = 0.5, mass = 1.0, other_radius = 0.5, other_mass = 1.0, spin = 0.0, other_spin = 0.0;
 };
-constexpr double speed = 1.0;
+constexpr double approach_speed = 1.0;
 Scene scene_of_pair(const Pair& p) {
   const V contact = -(p.radius + p.other_radius) * V(0.8, 0.6);
-  return scene_of(
-      {{-16.0, -16.0}, {16.0, 16.0}, {Boundary::walls, Boundary::walls}},
-      {{contact - V(speed, 0.0), {speed, 0.0}, p.radius, p.mass}, {{0.0, 0.0}, {0.0, 0.0}, p.other_radius, p.other_mass}});
+  return scene_of({{-16.0, -16.0}, {16.0, 16.0}, {Boundary::walls, Boundary::walls}},
+                  {{contact - V(approach_speed, 0.0), {approach_speed, 0.0}, p.radius, p.mass},
+                   {{0.0, 0.0}, {0.0, 0.0}, p.other_radius, p.other_mass}});
 }
 Simulation met(const Scene& scene, const Pair& p, const char* engine) {
   Simulation simulation =
@@ -57,43 +57,46 @@ Simulation met(const Scene& scene, const Pair& p, const char* engine) {
   return simulation;
 }
 
-const Pair pairs[] = {{},
-                      {0.5, 1.0, 0.5, 1.0, 2.0, -3.0},
-                      {0.5, 1.0, 1.5, 7.0, -1.0, 0.5},
-                      {0.25, 1e-6, 2.0, 1.0, 4.0, 1.0},
-                      {1.0, 1.0, 0.5, 1e-12, 0.0, 1.0}};
+const Pair tried_pairs[] = {{},
+                            {0.5, 1.0, 0.5, 1.0, 2.0, -3.0},
+                            {0.5, 1.0, 1.5, 7.0, -1.0, 0.5},
+                            {0.25, 1e-6, 2.0, 1.0, 4.0, 1.0},
+                            {1.0, 1.0, 0.5, 1e-12, 0.0, 1.0}};
 
 // A few roundings of each term, in units of the largest speed on the rim.
-constexpr double few_ulps = 64 * 0x1p-53;
+constexpr double rounding_on_the_rim = 64 * 0x1p-53;
 
 TEST(RoughDisks, PartAsTheClosedFormSays) {
   for (const char* engine : engines_with_effects)
-    for (const Pair& p : pairs)
+    for (const Pair& p : tried_pairs)
       for (const double e : {1.0, 0.5})
         for (const double beta : {-1.0, -0.5, 0.0, 0.7, 1.0}) {
           SCOPED_TRACE(testing::Message() << engine << ", e = " << e << ", beta = " << beta << ", mass " << p.other_mass);
           const Simulation simulation = met(rough(scene_of_pair(p), beta, e), p, engine);
           const State end = simulation.state();
           const V n(-0.8, -0.6), t(0.6, -0.8);  // t: n turned by a right angle
-          const double g_n = n.x() * speed;
-          const double g_t = t.x() * speed - (p.radius * p.spin + p.other_radius * p.other_spin);
+          const double g_n = n.x() * approach_speed;
+          const double g_t = t.x() * approach_speed - (p.radius * p.spin + p.other_radius * p.other_spin);
           const double mu = p.mass * p.other_mass / (p.mass + p.other_mass);
           const V impulse = -mu * ((1 + e) * g_n * n + (1 + beta) / 3 * g_t * t);
           const double turn = (1 + beta) / 3 * mu * g_t;
-          const double rim = speed + std::abs(p.radius * p.spin) + std::abs(p.other_radius * p.other_spin);
-          EXPECT_LE((end.velocities.col(0) - V(speed, 0.0) - impulse / p.mass).norm(), few_ulps * rim * mu / p.mass + few_ulps);
-          EXPECT_LE((end.velocities.col(1) + impulse / p.other_mass).norm(), few_ulps * rim * std::max(1.0, mu / p.other_mass));
-          EXPECT_NEAR(end.spins[0] * p.radius, p.spin * p.radius + 2 * turn / p.mass, few_ulps * rim);
-          EXPECT_NEAR(end.spins[1] * p.other_radius, p.other_spin * p.other_radius + 2 * turn / p.other_mass, few_ulps * rim);
+          const double rim = approach_speed + std::abs(p.radius * p.spin) + std::abs(p.other_radius * p.other_spin);
+          EXPECT_LE((end.velocities.col(0) - V(approach_speed, 0.0) - impulse / p.mass).norm(),
+                    rounding_on_the_rim * rim * mu / p.mass + rounding_on_the_rim);
+          EXPECT_LE((end.velocities.col(1) + impulse / p.other_mass).norm(),
+                    rounding_on_the_rim * rim * std::max(1.0, mu / p.other_mass));
+          EXPECT_NEAR(end.spins[0] * p.radius, p.spin * p.radius + 2 * turn / p.mass, rounding_on_the_rim * rim);
+          EXPECT_NEAR(end.spins[1] * p.other_radius, p.other_spin * p.other_radius + 2 * turn / p.other_mass,
+                      rounding_on_the_rim * rim);
           // The loss of one collision, exactly: mu (1 - e^2) g_n^2 / 2 + mu (1 - beta^2) g_t^2 / 6.
           EXPECT_NEAR(simulation.totals().dissipated, mu / 2 * (1 - e * e) * g_n * g_n + mu / 6 * (1 - beta * beta) * g_t * g_t,
-                      few_ulps * mu * rim * rim);
+                      rounding_on_the_rim * mu * rim * rim);
         }
 }
 
 TEST(RoughDisks, AnIsolatedPairKeepsItsAngularMomentum) {
   for (const char* engine : engines_with_effects)
-    for (const Pair& p : pairs)
+    for (const Pair& p : tried_pairs)
       for (const double beta : {-1.0, -0.3, 0.0, 0.5, 1.0}) {
         const Scene scene = rough(scene_of_pair(p), beta, 0.8);
         const State start = spinning(make_simulation(scene).state(), Eigen::Vector2d(p.spin, p.other_spin));
@@ -101,7 +104,7 @@ TEST(RoughDisks, AnIsolatedPairKeepsItsAngularMomentum) {
         // Terms as large as the box times the momentum, and I w.
         const double scale = 16.0 * (p.mass + p.other_mass) * 4.0;
         EXPECT_NEAR(angular_momentum(simulation.disks(), simulation.state()), angular_momentum(simulation.disks(), start),
-                    few_ulps * scale)
+                    rounding_on_the_rim * scale)
             << engine << ", beta = " << beta << ", masses " << p.mass << " and " << p.other_mass;
       }
 }

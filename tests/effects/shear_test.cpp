@@ -1,7 +1,6 @@
 // Lees-Edwards shear: images that slide, alone, in pairs, in the plan and in the balance of energy.
 
 #include "core/contact_time.hpp"
-#include "engine/textbook.hpp"
 #include "support/effect_scenes.hpp"
 #include "support/engines.hpp"
 
@@ -239,16 +238,16 @@ TEST_P(Shear, LooksForDisksAtRestInImagesThatSlide) {
 
 TEST(ShearInQuad, RunBackwardsLeadsBackToTheStart) {
   const System system = flowing(16, 0.3, 0.25);
-  TextbookEngine<Quad> there(system.box, system.disks, system.state, sheared(0.25));
-  there.run_until({2.0, 0.0}, no_limit, no_limit);
-  ASSERT_GT(there.totals().pair, 16u);
-  State turned = there.state();
+  const auto there = sheared_engine("textbook-quad", system, 0.25);
+  there->run_until({2.0, 0.0}, no_limit, no_limit);
+  ASSERT_GT(there->totals().pair, 16u);
+  State turned = there->state();
   turned.velocities = -turned.velocities;
-  TextbookEngine<Quad> back(system.box, system.disks, turned, sheared(-0.25));
-  back.run_until({2.0, 0.0}, no_limit, no_limit);
+  const auto back = sheared_engine("textbook-quad", {system.box, system.disks, turned}, -0.25);
+  back->run_until({2.0, 0.0}, no_limit, no_limit);
   // The state between was rounded to doubles; chaos magnifies that by less than 3.2 per collision of each disk.
-  const double per_disk = 2.0 * static_cast<double>(there.totals().pair) / 16.0;
-  EXPECT_LT((back.state().velocities + system.state.velocities).cwiseAbs().maxCoeff(), 1e-14 * std::exp(3.2 * per_disk / 2.0));
+  const double per_disk = 2.0 * static_cast<double>(there->totals().pair) / 16.0;
+  EXPECT_LT((back->state().velocities + system.state.velocities).cwiseAbs().maxCoeff(), 1e-14 * std::exp(3.2 * per_disk / 2.0));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Shear, testing::ValuesIn(engines_with_effects),

@@ -1,6 +1,5 @@
 // Attraction and repulsion at a distance: [square_well].
 
-#include "observe/energy.hpp"
 #include "observe/mechanics.hpp"
 #include "support/effect_scenes.hpp"
 
@@ -18,11 +17,6 @@ Scene with_well(Scene scene, double depth, double width = 1.5) {
   return scene;
 }
 
-double energy_of(const Simulation& simulation) {
-  const Scene& scene = simulation.scene();
-  return total_energy(scene.box, scene.effects, simulation.disks(), simulation.state());
-}
-
 /// Two disks on a line, centres 3 apart, that approach at relative speed 1; wells of width 2 begin at 2.
 Scene head_on(double depth, double mass = 1.0, double other_mass = 1.0) {
   return with_well(scene_of({{-32.0, -4.0}, {32.0, 4.0}, {Boundary::walls, Boundary::walls}},
@@ -31,7 +25,7 @@ Scene head_on(double depth, double mass = 1.0, double other_mass = 1.0) {
 }
 
 // A few roundings of numbers of the size of 4.
-constexpr double few_ulps = 64 * 0x1p-53;
+constexpr double rounding_of_four = 64 * 0x1p-53;
 
 TEST(SquareWell, APairIsFasterInsideAndLeavesAsItCame) {
   for (const char* engine : engines_with_effects)
@@ -42,14 +36,16 @@ TEST(SquareWell, APairIsFasterInsideAndLeavesAsItCame) {
       inside.run_until(1.25);  // in at t = 1, at the core at t = 1.5, out at t = 2
       EXPECT_EQ(inside.totals().well, 1U);
       EXPECT_EQ(inside.state().bonds, 1U);
-      EXPECT_NEAR(inside.state().velocities(0, 0) - inside.state().velocities(0, 1), 2.0, few_ulps) << engine << ", M = " << M;
-      EXPECT_NEAR(energy_of(inside), 0.5 * m, few_ulps);
+      EXPECT_NEAR(inside.state().velocities(0, 0) - inside.state().velocities(0, 1), 2.0, rounding_of_four)
+          << engine << ", M = " << M;
+      EXPECT_NEAR(energy_of(inside), 0.5 * m, rounding_of_four);
       const Ran ran = run(scene, engine, 2.5);
       EXPECT_EQ(ran.simulation.totals().pair, 1U);
       EXPECT_EQ(ran.simulation.totals().well, 2U);
       EXPECT_EQ(ran.simulation.state().bonds, 0U);
-      EXPECT_NEAR(ran.simulation.state().velocities(0, 0) - ran.simulation.state().velocities(0, 1), -1.0, few_ulps);
-      EXPECT_LE((total_momentum(ran.simulation.disks(), ran.simulation.state()) - V(m, 0.0)).norm(), few_ulps * (m + M) / M);
+      EXPECT_NEAR(ran.simulation.state().velocities(0, 0) - ran.simulation.state().velocities(0, 1), -1.0, rounding_of_four);
+      EXPECT_LE((total_momentum(ran.simulation.disks(), ran.simulation.state()) - V(m, 0.0)).norm(),
+                rounding_of_four * (m + M) / M);
     }
 }
 
@@ -57,7 +53,7 @@ TEST(SquareWell, AShoulderLetsThroughWhoeverHasTheEnergyAndTurnsBackTheRest) {
   // mu u^2 / 2 = 1/4.
   for (const char* engine : engines_with_effects) {
     const Ran through = run(head_on(-0.1875), engine, 1.5);
-    EXPECT_NEAR(through.simulation.state().velocities(0, 0) - through.simulation.state().velocities(0, 1), 0.5, few_ulps)
+    EXPECT_NEAR(through.simulation.state().velocities(0, 0) - through.simulation.state().velocities(0, 1), 0.5, rounding_of_four)
         << engine;
     EXPECT_EQ(through.simulation.state().bonds, 1U);
     for (const double depth : {-0.25, -0.3, -1e6}) {  // at exactly the height of the shoulder nothing would be left of u
@@ -82,7 +78,7 @@ TEST(SquareWell, APairWithoutTheEnergyToLeaveStaysBoundForEver) {
     // The edge at t = 2, 10, 18, ..., the core at 6, 14, ...
     EXPECT_EQ(ran.simulation.totals().well, 500U);
     EXPECT_EQ(ran.simulation.totals().pair, 500U);
-    EXPECT_NEAR(energy_of(ran.simulation), 1.0 / 64 - 0.5, few_ulps);
+    EXPECT_NEAR(energy_of(ran.simulation), 1.0 / 64 - 0.5, rounding_of_four);
   }
 }
 
@@ -99,12 +95,12 @@ TEST(SquareWell, AGrazingPairIsBentByTheAngleOfRefraction) {
     ASSERT_EQ(simulation.state().bonds, 1U);
     const V v = simulation.state().velocities.col(0) - simulation.state().velocities.col(1);
     const V n(-0.8, -0.6), t(0.6, -0.8);
-    EXPECT_NEAR(n.dot(v), -std::sqrt(0.64 + 4 * depth), few_ulps) << engine;
-    EXPECT_NEAR(t.dot(v), 0.6, few_ulps) << engine;
+    EXPECT_NEAR(n.dot(v), -std::sqrt(0.64 + 4 * depth), rounding_of_four) << engine;
+    EXPECT_NEAR(t.dot(v), 0.6, rounding_of_four) << engine;
     simulation.run_until(20.0);
     EXPECT_EQ(simulation.totals().pair, 0U) << "it passes the core by";
     EXPECT_EQ(simulation.totals().well, 2U);
-    EXPECT_NEAR((simulation.state().velocities.col(0) - simulation.state().velocities.col(1)).norm(), 1.0, few_ulps);
+    EXPECT_NEAR((simulation.state().velocities.col(0) - simulation.state().velocities.col(1)).norm(), 1.0, rounding_of_four);
   }
 }
 
@@ -170,7 +166,7 @@ TEST(SquareWell, PairsThatBeginExactlyAtTheEdgeAreOutsideUntilTheyApproach) {
     const Ran near =
         run(with_well(scene_of(box, {{{-1.0, 0.0}, {1.0, 0.0}}, {{1.0, 0.0}, {0.0, 0.0}}}), 0.75, 2.0), engine, 0.25);
     EXPECT_EQ(near.simulation.state().bonds, 1U);
-    EXPECT_NEAR(near.simulation.state().velocities(0, 0) - near.simulation.state().velocities(0, 1), 2.0, few_ulps);
+    EXPECT_NEAR(near.simulation.state().velocities(0, 0) - near.simulation.state().velocities(0, 1), 2.0, rounding_of_four);
     EXPECT_EQ(near.events.at(0).time, 0.0);
   }
 }

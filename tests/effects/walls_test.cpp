@@ -1,7 +1,6 @@
 // Sides of the box that heat, move or give way: [walls].
 
 #include "effects/maxwell.hpp"
-#include "observe/energy.hpp"
 #include "observe/mechanics.hpp"
 #include "support/effect_scenes.hpp"
 
@@ -17,11 +16,6 @@ using V = Eigen::Vector2d;
 
 Scene one_disk(const V& r, const V& v, double mass = 1.0) {
   return scene_of(box_of(8.0, 4.0, Boundary::walls), {{r, v, 0.5, mass}});
-}
-
-double energy_of(const Simulation& simulation) {
-  const Scene& scene = simulation.scene();
-  return total_energy(scene.box, scene.effects, simulation.disks(), simulation.state());
 }
 
 double given_by_walls(const Totals& totals) {

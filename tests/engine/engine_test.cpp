@@ -1,6 +1,7 @@
 // The fast engine as its users meet it: looking on changes nothing, the clock starts anew, the log is complete, and known
 // motions come out exactly.
 
+#include "engine/triangle_wave.hpp"
 #include "observe/mechanics.hpp"
 #include "support/engines.hpp"
 #include "support/scenes.hpp"
@@ -13,8 +14,6 @@
 namespace carom::test {
 namespace {
 
-constexpr CollisionRule rules[] = {CollisionRule::specular, CollisionRule::reversal};
-
 std::vector<System> systems() {
   Scene channel = gas_scene(100, 0.5, Boundary::periodic);
   channel.box.boundary[1] = Boundary::walls;
@@ -24,7 +23,7 @@ std::vector<System> systems() {
 
 TEST(Engine, SamplingAndStoppingAnywhereLeaveNoTraceInTheBits) {
   for (const System& system : systems())
-    for (const CollisionRule rule : rules) {
+    for (const CollisionRule rule : both_rules) {
       const auto straight = make_engine("fast", system, rule);
       const auto stopping = make_engine("fast", system, rule);
       const auto stepping = make_engine("fast", system, rule);
@@ -92,7 +91,7 @@ TEST(Engine, StopsAtTheCollisionAskedForAndGoesOnFromThere) {
 
 TEST(Engine, ResettingTheClockKeepsTheStateAndForgetsTheTotals) {
   for (const System& system : systems())
-    for (const CollisionRule rule : rules) {
+    for (const CollisionRule rule : both_rules) {
       const auto fast = make_engine("fast", system, rule);
       run_to(*fast, 0.7);
       const State before = fast->state();
@@ -133,12 +132,6 @@ TEST(Engine, ResettingTheClockAtTheStartChangesNothing) {
 }
 
 // ----------------------------------------------------------------------------------------------------- exact motion
-
-/// Where a ball is that bounces between 0 and `room`, starting at x with velocity v. Exact on dyadic numbers.
-double triangle_wave(double x, double v, double t, double room) {
-  const double unfolded = std::fmod(std::fmod(x + v * t, 2 * room) + 2 * room, 2 * room);
-  return unfolded <= room ? unfolded : 2 * room - unfolded;
-}
 
 TEST(EngineExactMotion, OneDiskInABoxIsATriangleWaveWithZeroError) {
   const auto engine = make_engine("fast", system_of(square_box(4.0, Boundary::walls), {{{1.0, 2.25}, {0.5, -2.0}, 0.5}}));
@@ -263,7 +256,7 @@ void run_a_million_collisions(const System& system, CollisionRule rule, Check&& 
 
 TEST(PhysicsEngine, KeepsEnergyAndMomentumOverAMillionCollisions) {
   for (const double packing_fraction : {0.1, 0.3, 0.65}) {
-    for (const CollisionRule rule : rules) {
+    for (const CollisionRule rule : both_rules) {
       const System system = system_of(gas_scene(100, packing_fraction, Boundary::periodic));
       run_a_million_collisions(system, rule, [&](const State& end) {
         EXPECT_NEAR(kinetic_energy(system.disks, end) / kinetic_energy(system.disks, system.state), 1.0, energy_drift);
@@ -275,7 +268,7 @@ TEST(PhysicsEngine, KeepsEnergyAndMomentumOverAMillionCollisions) {
 }
 
 TEST(PhysicsEngine, KeepsTheEnergyOfMixturesAndOfWalledGases) {
-  for (const CollisionRule rule : rules) {
+  for (const CollisionRule rule : both_rules) {
     for (const System& system :
          {system_of(mixture_scene(100, 0.4, Boundary::walls)), system_of(mixture_scene(100, 0.4, Boundary::periodic)),
           system_of(gas_scene(100, 0.5, Boundary::walls))})

@@ -27,8 +27,6 @@ void expect_same_places(const System& system, CollisionRule rule, double time, d
   EXPECT_LE(apart.cwiseAbs().maxCoeff(), tolerance);
 }
 
-Box box_of(double x, double y, Boundary in_x, Boundary in_y) { return {{0.0, 0.0}, {x, y}, {in_x, in_y}}; }
-
 /// As many disks as a square lattice of the given spacing takes in a rectangle, at temperature 1, but for those that would come
 /// within `spacing` of what is there already.
 void fill(std::vector<Placed>& placed, const Eigen::Vector2d& lower, const Eigen::Vector2d& upper, double spacing, double radius,

@@ -3,9 +3,8 @@
 
 #include "effects/reversal.hpp"
 #include "effects/specular.hpp"
-#include "engine/textbook.hpp"
 #include "support/all_pairs.hpp"
-#include "support/systems.hpp"
+#include "support/engines.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -15,15 +14,15 @@ namespace {
 
 template <class Rule>
 void expect_same_events(const System& system, int events) {
-  TextbookEngine<double> engine(system.box, system.disks, system.state, rule_only<Rule>);
+  const auto engine = make_engine("textbook", system, rule_only<Rule>);
   AllPairs<Rule> twin(system.box, system.disks, system.state);
-  engine.record_events(true);
+  engine->record_events(true);
   std::vector<Event> log;
   for (int k = 0; k < 20 * events && log.size() < static_cast<std::size_t>(events); ++k) {  // many events are cell crossings
-    engine.run_until(forever, no_limit, 1);
-    for (const Event& event : engine.take_events()) log.push_back(event);
+    engine->run_until(forever, no_limit, 1);
+    for (const Event& event : engine->take_events()) log.push_back(event);
   }
-  const auto faults = engine.check_invariants();
+  const auto faults = engine->check_invariants();
   EXPECT_TRUE(faults.empty()) << faults.front();
   for (std::size_t k = 0; k < log.size(); ++k) {
     const Event expected = twin.step();

@@ -62,7 +62,7 @@ std::string part_of(const Checkpoint& checkpoint, const std::string& name) {
   return text;
 }
 
-std::string refusal(const fs::path& directory) {
+std::string refusal_to_open(const fs::path& directory) {
   try {
     (void)Checkpoint(directory);
   } catch (const OutputError& error) {
@@ -141,12 +141,12 @@ TEST(Checkpoint, CutAnywhereOrGrownIsNoticed) {
   write_text(path, sound + '\0');
   EXPECT_NE(checkpoint_damage(path), "");
   write_text(path, "");
-  EXPECT_THAT(refusal(temporary.path()), HasSubstr("shorter than any checkpoint"));
+  EXPECT_THAT(refusal_to_open(temporary.path()), HasSubstr("shorter than any checkpoint"));
 }
 
 TEST(Checkpoint, WithoutAnyThereIsASentence) {
   const TemporaryDirectory temporary;
-  EXPECT_THAT(refusal(temporary.path()), HasSubstr("there is no checkpoint from which a run could go on"));
+  EXPECT_THAT(refusal_to_open(temporary.path()), HasSubstr("there is no checkpoint from which a run could go on"));
 }
 
 TEST(Checkpoint, WhatFailsToBeWrittenLeavesTheOldOnesAlone) {

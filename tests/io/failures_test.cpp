@@ -4,6 +4,7 @@
 #include "io/hand_made_run.hpp"
 #include "io/info.hpp"
 #include "io/run_writer.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,7 +35,7 @@ int in_child(const fs::path& message, const std::function<void()>& action) {
     try {
       action();
     } catch (const OutputError& error) {
-      write_file(message, error.what());
+      write_text(message, error.what());
       code = ended_with_output_error;
     } catch (...) {
       code = 99;
@@ -96,15 +97,15 @@ TEST_P(FullDisk, EndsAnH5mdWriterWithOneSentenceAndKeepsItsFlushedSamples) {
       writer.events(events_up_to(50));
       if (k % 37 != 0) continue;
       writer.flush();
-      write_file(safe, std::to_string(writer.safe_samples()));
+      write_text(safe, std::to_string(writer.safe_samples()));
     }
   });
   ASSERT_TRUE(WIFEXITED(status)) << "killed by signal " << WTERMSIG(status);
   EXPECT_EQ(WEXITSTATUS(status), ended_with_output_error);
-  const std::string kept = content_of(safe);
+  const std::string kept = text_of(safe);
   if (!kept.empty() && kept != "0") {
-    EXPECT_THAT(content_of(message), AllOf(HasSubstr(path.string() + ": cannot write: File too large"),
-                                           HasSubstr(kept + " samples"), HasSubstr("readable")));
+    EXPECT_THAT(text_of(message), AllOf(HasSubstr(path.string() + ": cannot write: File too large"), HasSubstr(kept + " samples"),
+                                        HasSubstr("readable")));
     EXPECT_EQ(std::to_string(readable_samples(path, scene)), kept);
   }
 }
@@ -126,12 +127,12 @@ TEST(FullDiskOfARun, StopsTheRunAndKeepsWholeSamplesInEveryPartialFile) {
   });
   ASSERT_TRUE(WIFEXITED(status)) << "killed by signal " << WTERMSIG(status);
   EXPECT_EQ(WEXITSTATUS(status), ended_with_output_error);
-  EXPECT_THAT(content_of(message), AllOf(HasSubstr(".partial: cannot write: File too large"), HasSubstr("readable")));
+  EXPECT_THAT(text_of(message), AllOf(HasSubstr(".partial: cannot write: File too large"), HasSubstr("readable")));
   EXPECT_FALSE(fs::exists(out / "summary.json"));
   EXPECT_FALSE(fs::exists(out / "trajectory.h5md"));
   EXPECT_GT(readable_samples(out / "trajectory.h5md.partial", scene), 0u);
   for (const char* name : {"trajectory.xyz.partial", "samples.csv.partial"}) {
-    const std::string content = content_of(out / name);
+    const std::string content = text_of(out / name);
     EXPECT_GT(content.size(), 100'000u) << name;
     EXPECT_EQ(content.back(), '\n') << name;
     EXPECT_THAT(describe_file(out / name), AllOf(HasSubstr("samples"), ::testing::Not(HasSubstr("cut short")))) << name;

@@ -9,6 +9,7 @@
 #include "observe/energy.hpp"
 #include "observe/geometry.hpp"
 #include "observe/mechanics.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,8 +18,6 @@ namespace carom::test {
 namespace {
 
 using ::testing::ElementsAre;
-
-const std::string particles = "/particles/trajectory";
 
 class H5mdObservables : public ::testing::Test {
  protected:

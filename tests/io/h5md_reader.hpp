@@ -10,6 +10,9 @@
 
 namespace carom::test {
 
+/// The group of a trajectory.
+inline const std::string particles = "/particles/trajectory";
+
 class H5Reader {
  public:
   explicit H5Reader(const std::filesystem::path& path) {

@@ -4,6 +4,7 @@
 
 #include "io/h5md_reader.hpp"
 #include "io/hand_made_run.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,8 +15,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-const std::string particles = "/particles/trajectory";
 
 // The address sanitizer keeps freed memory for a while, so that the size of the process says nothing.
 #if defined(__SANITIZE_ADDRESS__)

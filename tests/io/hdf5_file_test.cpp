@@ -3,6 +3,7 @@
 #include "io/hdf5_file.hpp"
 
 #include "io/hand_made_run.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +31,7 @@ std::string read(Hdf5File& file, std::uint64_t address, std::size_t size) {
 
 class Hdf5FileTest : public ::testing::Test {
  protected:
-  Hdf5FileTest() { file_.open(path_.c_str()); }
+  Hdf5FileTest() { file_.open(path_.c_str(), true); }
   ~Hdf5FileTest() override { file_.close(); }
   void index(std::uint64_t address, std::size_t size, char value) { file_.hold_index(address, size, bytes(size, value).data()); }
   void data(std::uint64_t address, std::size_t size, char value) { file_.write_data(address, size, bytes(size, value).data()); }
@@ -43,11 +44,11 @@ class Hdf5FileTest : public ::testing::Test {
 TEST_F(Hdf5FileTest, TheIndexReachesTheDiskAtTheFlushAndDataAtOnce) {
   data(0, 4, 'd');
   index(4, 4, 'i');
-  EXPECT_EQ(content_of(path_), "dddd");
+  EXPECT_EQ(text_of(path_), "dddd");
   EXPECT_EQ(read(file_, 2, 4), "ddii");
   EXPECT_GT(file_.held_bytes(), 0u);
   file_.commit_index();
-  EXPECT_EQ(content_of(path_), "ddddiiii");
+  EXPECT_EQ(text_of(path_), "ddddiiii");
   EXPECT_EQ(file_.held_bytes(), 0u);
 }
 
@@ -81,7 +82,7 @@ TEST_F(Hdf5FileTest, WritesThatOverlapAcrossPagesAreReadInTheirOrder) {
   EXPECT_EQ(read(file_, 4000, 300), expected);
   file_.commit_index();
   EXPECT_EQ(read(file_, 4000, 300), expected);
-  EXPECT_EQ(content_of(path_), std::string(4000, '\0') + expected);
+  EXPECT_EQ(text_of(path_), std::string(4000, '\0') + expected);
 }
 
 TEST_F(Hdf5FileTest, PastTheEndThereAreZeros) {
@@ -111,7 +112,7 @@ TEST_F(Hdf5FileTest, ACommitThatFailsLeavesTheOldIndexUntouched) {
   int status = 0;
   ::waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
-  EXPECT_EQ(content_of(path_), "oooooooooo");
+  EXPECT_EQ(text_of(path_), "oooooooooo");
 }
 
 }  // namespace

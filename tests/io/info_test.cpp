@@ -5,6 +5,7 @@
 #include "io/hand_made_run.hpp"
 #include "io/run_writer.hpp"
 #include "observe/effects_report.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::string refusal(const fs::path& path) {
+std::string refusal_to_describe(const fs::path& path) {
   try {
     return "no error, but: " + describe_file(path);
   } catch (const OutputError& error) {
@@ -42,9 +43,9 @@ class Info : public ::testing::Test {
   }
   /// A copy that ends after `bytes` (or, where negative, so many bytes before the end).
   fs::path cut(const std::string& name, std::ptrdiff_t bytes) {
-    const std::string whole = content_of(out_ / name);
+    const std::string whole = text_of(out_ / name);
     const auto size = static_cast<std::size_t>(bytes >= 0 ? bytes : static_cast<std::ptrdiff_t>(whole.size()) + bytes);
-    write_file(temporary_.path() / name, whole.substr(0, size));
+    write_text(temporary_.path() / name, whole.substr(0, size));
     return temporary_.path() / name;
   }
 
@@ -118,7 +119,7 @@ TEST_F(Info, SaysOfAPartialFileThatItIsIncomplete) {
 TEST_F(Info, CountsOnlyWholeSamplesOfATextThatIsCutShort) {
   EXPECT_THAT(describe_file(cut("trajectory.xyz", -5)), AllOf(HasSubstr("5, from time 0 to 0.4\n"), HasSubstr("cut short")));
   EXPECT_THAT(describe_file(cut("samples.csv", -5)), AllOf(HasSubstr("5, from time 0 to 0.4\n"), HasSubstr("cut short")));
-  EXPECT_THAT(refusal(cut("trajectory.xyz", 60)), HasSubstr("not hold one whole sample"));
+  EXPECT_THAT(refusal_to_describe(cut("trajectory.xyz", 60)), HasSubstr("not hold one whole sample"));
   EXPECT_THAT(describe_file(cut("samples.csv", 18)), HasSubstr("samples     none"));
 }
 
@@ -128,8 +129,8 @@ std::string descriptions_of(const std::vector<std::string>& contents, const fs::
   const pid_t child = ::fork();
   if (child == 0) {
     for (std::size_t i = 0; i < contents.size(); ++i) {
-      write_file(path, contents[i]);
-      if (refusal(path).find(path.filename().string() + ": ") == std::string::npos) ::_exit(1);
+      write_text(path, contents[i]);
+      if (refusal_to_describe(path).find(path.filename().string() + ": ") == std::string::npos) ::_exit(1);
     }
     ::_exit(0);
   }
@@ -140,16 +141,16 @@ std::string descriptions_of(const std::vector<std::string>& contents, const fs::
 }
 
 TEST_F(Info, EveryTruncationOfATrajectoryIsASentenceOrADescription) {
-  const std::string whole = content_of(out_ / "trajectory.h5md");
+  const std::string whole = text_of(out_ / "trajectory.h5md");
   std::vector<std::string> contents;
   for (std::size_t size = 1; size < whole.size(); size += 1 + whole.size() / 97) contents.push_back(whole.substr(0, size));
   EXPECT_EQ(descriptions_of(contents, temporary_.path() / "cut.h5md"), "");
-  EXPECT_THAT(refusal(cut("trajectory.h5md", static_cast<std::ptrdiff_t>(whole.size() / 2))),
+  EXPECT_THAT(refusal_to_describe(cut("trajectory.h5md", static_cast<std::ptrdiff_t>(whole.size() / 2))),
               AllOf(HasSubstr("cannot open this file"), HasSubstr("cut short")));
 }
 
 TEST_F(Info, ATrajectoryWithFlippedBytesIsNoCrash) {
-  const std::string whole = content_of(out_ / "trajectory.h5md");
+  const std::string whole = text_of(out_ / "trajectory.h5md");
   std::vector<std::string> contents;
   for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 101) {
     contents.push_back(whole);
@@ -160,50 +161,50 @@ TEST_F(Info, ATrajectoryWithFlippedBytesIsNoCrash) {
 
 TEST_F(Info, EmptyFilesAreNamedAsEmpty) {
   for (const char* name : {"t.h5md", "t.xyz", "t.csv", "t.json", "t.toml", "t"}) {
-    write_file(temporary_.path() / name, "");
-    EXPECT_THAT(refusal(temporary_.path() / name), AllOf(HasSubstr(name), HasSubstr("empty")));
+    write_text(temporary_.path() / name, "");
+    EXPECT_THAT(refusal_to_describe(temporary_.path() / name), AllOf(HasSubstr(name), HasSubstr("empty")));
   }
 }
 
 TEST_F(Info, ForeignFilesAreNamedAsSuch) {
   const fs::path directory = temporary_.path();
-  write_file(directory / "t.h5md", "not HDF5 at all");
-  EXPECT_THAT(refusal(directory / "t.h5md"), HasSubstr("no HDF5 file"));
-  write_file(directory / "t.xyz", "3\ncomment\nC 0 0 0\nC 0 0 0\nC 0 0 0\n");
-  EXPECT_THAT(refusal(directory / "t.xyz"), HasSubstr("not extended XYZ as Carom writes it"));
-  write_file(directory / "t.csv", "a,b\n1,2\n");
-  EXPECT_THAT(refusal(directory / "t.csv"), HasSubstr("time,id,x,y,vx,vy"));
-  write_file(directory / "t.json", "{\"some\": 1}");
-  EXPECT_THAT(refusal(directory / "t.json"), HasSubstr("not the summary of a run"));
-  write_file(directory / "t.json", "{\"carom\": ");
-  EXPECT_THAT(refusal(directory / "t.json"), HasSubstr("not whole JSON"));
-  write_file(directory / "t.json", "{\"carom\": 1e999}");
-  EXPECT_THAT(refusal(directory / "t.json"), HasSubstr("beyond the range of doubles"));
-  write_file(directory / "t.json", "{\"carom\": 3}");
-  EXPECT_THAT(refusal(directory / "t.json"), HasSubstr("not the summary of a run"));
-  write_file(directory / "t.png", "\x89PNG");
-  EXPECT_THAT(refusal(directory / "t.png"), HasSubstr("does not know this kind of file"));
+  write_text(directory / "t.h5md", "not HDF5 at all");
+  EXPECT_THAT(refusal_to_describe(directory / "t.h5md"), HasSubstr("no HDF5 file"));
+  write_text(directory / "t.xyz", "3\ncomment\nC 0 0 0\nC 0 0 0\nC 0 0 0\n");
+  EXPECT_THAT(refusal_to_describe(directory / "t.xyz"), HasSubstr("not extended XYZ as Carom writes it"));
+  write_text(directory / "t.csv", "a,b\n1,2\n");
+  EXPECT_THAT(refusal_to_describe(directory / "t.csv"), HasSubstr("time,id,x,y,vx,vy"));
+  write_text(directory / "t.json", "{\"some\": 1}");
+  EXPECT_THAT(refusal_to_describe(directory / "t.json"), HasSubstr("not the summary of a run"));
+  write_text(directory / "t.json", "{\"carom\": ");
+  EXPECT_THAT(refusal_to_describe(directory / "t.json"), HasSubstr("not whole JSON"));
+  write_text(directory / "t.json", "{\"carom\": 1e999}");
+  EXPECT_THAT(refusal_to_describe(directory / "t.json"), HasSubstr("beyond the range of doubles"));
+  write_text(directory / "t.json", "{\"carom\": 3}");
+  EXPECT_THAT(refusal_to_describe(directory / "t.json"), HasSubstr("not the summary of a run"));
+  write_text(directory / "t.png", "\x89PNG");
+  EXPECT_THAT(refusal_to_describe(directory / "t.png"), HasSubstr("does not know this kind of file"));
 
   const hid_t file = H5Fcreate((directory / "foreign.h5md").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   H5Fclose(file);
-  EXPECT_THAT(refusal(directory / "foreign.h5md"), HasSubstr("Carom did not write"));
+  EXPECT_THAT(refusal_to_describe(directory / "foreign.h5md"), HasSubstr("Carom did not write"));
 }
 
 TEST_F(Info, GarbageInAnyTextIsASentence) {
   std::string garbage;
   for (int i = 0; i < 100'000; ++i) garbage += static_cast<char>((i * 7919 + i / 13) % 256);
   for (const char* name : {"t.h5md", "t.xyz", "t.csv", "t.json"}) {
-    write_file(temporary_.path() / name, garbage);
-    EXPECT_THAT(refusal(temporary_.path() / name), HasSubstr(name));
+    write_text(temporary_.path() / name, garbage);
+    EXPECT_THAT(refusal_to_describe(temporary_.path() / name), HasSubstr(name));
   }
 }
 
 TEST_F(Info, MissingFilesOtherDirectoriesAndPipesAreRefused) {
-  EXPECT_THAT(refusal(temporary_.path() / "missing"), HasSubstr("No such file"));
+  EXPECT_THAT(refusal_to_describe(temporary_.path() / "missing"), HasSubstr("No such file"));
   fs::create_directory(temporary_.path() / "other");
-  EXPECT_THAT(refusal(temporary_.path() / "other"), HasSubstr("holds no results"));
+  EXPECT_THAT(refusal_to_describe(temporary_.path() / "other"), HasSubstr("holds no results"));
   ASSERT_EQ(::mkfifo((temporary_.path() / "pipe").c_str(), 0600), 0);
-  EXPECT_THAT(refusal(temporary_.path() / "pipe"), HasSubstr("neither a file nor a directory"));
+  EXPECT_THAT(refusal_to_describe(temporary_.path() / "pipe"), HasSubstr("neither a file nor a directory"));
 }
 
 }  // namespace

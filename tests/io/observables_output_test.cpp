@@ -7,6 +7,7 @@
 #include "io/observables_json.hpp"
 #include "io/run_directory.hpp"
 #include "io/run_writer.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -50,7 +51,7 @@ TEST(ObservablesOutput, JsonCarriesValueErrorAndWhatTheAverageIsOver) {
 TEST(ObservablesOutput, TableIsACommentAHeadingAndRowsThatReadBack) {
   const TemporaryDirectory directory;
   write_table(directory.path() / "t.csv", hand_made()[0].tables[0]);
-  EXPECT_EQ(content_of(directory.path() / "t.csv"),
+  EXPECT_EQ(text_of(directory.path() / "t.csv"),
             "# averages over collisions; units: time, 1 / time\nmiddle,density\n0.25,0.3333333333333333\n0.75,nan\n");
   EXPECT_THAT(describe_file(directory.path() / "t.csv"), HasSubstr("table of an observable"));
   EXPECT_THAT(describe_file(directory.path() / "t.csv"), HasSubstr("middle,density"));

@@ -2,6 +2,7 @@
 
 #include "io/hand_made_run.hpp"
 #include "io/run_writer.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <gtest/gtest.h>
 

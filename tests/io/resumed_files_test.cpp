@@ -6,6 +6,7 @@
 
 #include "io/h5md_reader.hpp"
 #include "io/hand_made_run.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -87,9 +88,9 @@ TEST_F(ResumedTrajectory, WhateverHasBecomeOfItsIndexMeanwhile) {
     write_part(writer, scene, 9000, 9900);
   }
   // As after a power cut in the middle of a flush: the index, which is everything that HDF5 finds its way by, is lost.
-  std::string content = content_of(path);
+  std::string content = text_of(path);
   content.replace(0, 4096, std::string(4096, '?'));
-  write_file(path, content);
+  write_text(path, content);
   ASSERT_FALSE(H5Reader(path).opens());
   H5mdWriter writer(path, scene, all_disks, provenance(), saved);
   write_part(writer, scene, 700, 1500);
@@ -116,19 +117,19 @@ TEST_F(ResumedTrajectory, OneThatWasCutIsRefused) {
 TEST(ResumedText, KeepsItsFirstBytesAndNoMore) {
   const TemporaryDirectory temporary;
   const fs::path path = temporary.path() / "t.csv";
-  write_file(path, "one\ntwo\nthree\n");
+  write_text(path, "one\ntwo\nthree\n");
   detail::TextFile file(path, 8);
   file.buffer() += "2b\n";
   file.close();
   EXPECT_EQ(file.written(), 11U);
-  EXPECT_EQ(content_of(path), "one\ntwo\n2b\n");
+  EXPECT_EQ(text_of(path), "one\ntwo\n2b\n");
 }
 
 TEST(ResumedDirectory, TakesBackWhatGrowsAndRemovesWhatTellsOfAnEnd) {
   const TemporaryDirectory temporary;
   for (const char* name :
        {"trajectory.h5md", "samples.csv", "observe_speeds.csv", "report.html", "summary.json", "checkpoint.h5", "mine.txt"})
-    write_file(temporary.path() / name, name);
+    write_text(temporary.path() / name, name);
   RunDirectory::reopen(temporary.path()).take_back();
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(temporary.path())) names.push_back(entry.path().filename().string());

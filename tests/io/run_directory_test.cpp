@@ -3,6 +3,7 @@
 #include "io/run_directory.hpp"
 
 #include "io/hand_made_run.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -59,10 +60,10 @@ TEST(RunDirectory, DiscardingRemovesOnlyWhatItMadeAndOnlyWhenEmpty) {
   }
   {
     const RunDirectory directory(temporary.path() / "a" / "b", false);
-    write_file(temporary.path() / "a" / "note", "keep");
+    write_text(temporary.path() / "a" / "note", "keep");
     directory.discard_if_empty();
     EXPECT_FALSE(fs::exists(temporary.path() / "a" / "b"));
-    EXPECT_EQ(content_of(temporary.path() / "a" / "note"), "keep");
+    EXPECT_EQ(text_of(temporary.path() / "a" / "note"), "keep");
   }
   const RunDirectory old(temporary.path(), false);
   old.discard_if_empty();
@@ -73,22 +74,22 @@ class RunDirectoryWithResults : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(RunDirectoryWithResults, IsRefusedAndUntouchedWithoutForce) {
   const TemporaryDirectory temporary;
-  write_file(temporary.path() / GetParam(), "old");
+  write_text(temporary.path() / GetParam(), "old");
   const std::string message = message_of([&] { const RunDirectory directory(temporary.path(), false); });
   EXPECT_THAT(message,
               AllOf(HasSubstr(temporary.path().string()), HasSubstr(GetParam()), HasSubstr("--force"), HasSubstr("--out")));
-  EXPECT_EQ(content_of(temporary.path() / GetParam()), "old");
+  EXPECT_EQ(text_of(temporary.path() / GetParam()), "old");
 }
 
 TEST_P(RunDirectoryWithResults, IsClearedOfResultsAndNothingElseWithForce) {
   const TemporaryDirectory temporary;
-  write_file(temporary.path() / GetParam(), "old");
-  write_file(temporary.path() / "notes.txt", "mine");
-  write_file(temporary.path() / "trajectory.h5md.bak", "mine too");
+  write_text(temporary.path() / GetParam(), "old");
+  write_text(temporary.path() / "notes.txt", "mine");
+  write_text(temporary.path() / "trajectory.h5md.bak", "mine too");
   const RunDirectory directory(temporary.path(), true);
   EXPECT_FALSE(fs::exists(temporary.path() / GetParam()));
-  EXPECT_EQ(content_of(temporary.path() / "notes.txt"), "mine");
-  EXPECT_EQ(content_of(temporary.path() / "trajectory.h5md.bak"), "mine too");
+  EXPECT_EQ(text_of(temporary.path() / "notes.txt"), "mine");
+  EXPECT_EQ(text_of(temporary.path() / "trajectory.h5md.bak"), "mine too");
 }
 
 INSTANTIATE_TEST_SUITE_P(RunDirectory, RunDirectoryWithResults,
@@ -97,19 +98,19 @@ INSTANTIATE_TEST_SUITE_P(RunDirectory, RunDirectoryWithResults,
 
 TEST(RunDirectory, OtherFilesAreNoObstacle) {
   const TemporaryDirectory temporary;
-  write_file(temporary.path() / "box.toml", "scene");
+  write_text(temporary.path() / "box.toml", "scene");
   const RunDirectory directory(temporary.path(), false);
-  EXPECT_EQ(content_of(temporary.path() / "box.toml"), "scene");
+  EXPECT_EQ(text_of(temporary.path() / "box.toml"), "scene");
 }
 
 TEST(RunDirectory, AFileInItsPlaceIsNamed) {
   const TemporaryDirectory temporary;
-  write_file(temporary.path() / "file", "text");
+  write_text(temporary.path() / "file", "text");
   EXPECT_THAT(message_of([&] { const RunDirectory directory(temporary.path() / "file", true); }),
               AllOf(HasSubstr((temporary.path() / "file").string()), HasSubstr("is a file"), HasSubstr("--out")));
   EXPECT_THAT(message_of([&] { const RunDirectory directory(temporary.path() / "file" / "below", true); }),
               AllOf(HasSubstr("Not a directory"), HasSubstr("--out")));
-  EXPECT_EQ(content_of(temporary.path() / "file"), "text");
+  EXPECT_EQ(text_of(temporary.path() / "file"), "text");
 }
 
 TEST(RunDirectory, ADirectoryInThePlaceOfAProductIsRefusedEvenWithForce) {
@@ -121,11 +122,11 @@ TEST(RunDirectory, ADirectoryInThePlaceOfAProductIsRefusedEvenWithForce) {
 
 TEST(RunDirectory, ALinkToAnOldResultIsRemovedAndItsTargetStays) {
   const TemporaryDirectory temporary;
-  write_file(temporary.path() / "precious", "data");
+  write_text(temporary.path() / "precious", "data");
   fs::create_symlink(temporary.path() / "precious", temporary.path() / "trajectory.h5md");
   const RunDirectory directory(temporary.path(), true);
   EXPECT_FALSE(fs::is_symlink(temporary.path() / "trajectory.h5md"));
-  EXPECT_EQ(content_of(temporary.path() / "precious"), "data");
+  EXPECT_EQ(text_of(temporary.path() / "precious"), "data");
 }
 
 TEST(RunDirectory, APlaceWhereNothingCanBeWrittenIsNamedBeforeTheRun) {
@@ -152,9 +153,9 @@ TEST(RunDirectory, AnEmptyNameIsRefused) {
 TEST(RunDirectory, PublishingGivesTheFileItsName) {
   const TemporaryDirectory temporary;
   const RunDirectory directory(temporary.path(), false);
-  write_file(directory.partial_name("summary.json"), "{}");
+  write_text(directory.partial_name("summary.json"), "{}");
   directory.publish("summary.json");
-  EXPECT_EQ(content_of(directory.final_name("summary.json")), "{}");
+  EXPECT_EQ(text_of(directory.final_name("summary.json")), "{}");
   EXPECT_FALSE(fs::exists(directory.partial_name("summary.json")));
 }
 

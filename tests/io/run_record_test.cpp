@@ -6,6 +6,7 @@
 #include "io/summary.hpp"
 #include "io/summary_reader.hpp"
 #include "support/recorded_run.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -199,13 +200,13 @@ TEST_F(RunRecordTest, WithoutATrajectoryItHasTheSummaryAndItsScene) {
 
 TEST_F(RunRecordTest, DamagedFilesAreRefusedInOneSentence) {
   (void)recorded();
-  const std::string summary = content_of(run_ / "summary.json"), trajectory = content_of(run_ / "trajectory.h5md");
-  write_file(run_ / "summary.json", summary.substr(0, 200));
+  const std::string summary = text_of(run_ / "summary.json"), trajectory = text_of(run_ / "trajectory.h5md");
+  write_text(run_ / "summary.json", summary.substr(0, 200));
   EXPECT_THAT(refusal(), AllOf(HasSubstr("summary.json: "), HasSubstr("damaged or cut short")));
-  write_file(run_ / "summary.json", "{\"time\": 3}");
+  write_text(run_ / "summary.json", "{\"time\": 3}");
   EXPECT_THAT(refusal(), AllOf(HasSubstr("summary.json: "), HasSubstr("damaged or cut short")));
-  write_file(run_ / "summary.json", summary);
-  write_file(run_ / "trajectory.h5md", trajectory.substr(0, trajectory.size() / 2));
+  write_text(run_ / "summary.json", summary);
+  write_text(run_ / "trajectory.h5md", trajectory.substr(0, trajectory.size() / 2));
   EXPECT_THAT(refusal(), AllOf(HasSubstr("trajectory.h5md: "), HasSubstr("damaged or cut short")));
 }
 

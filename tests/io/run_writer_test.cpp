@@ -4,6 +4,7 @@
 
 #include "io/h5md_reader.hpp"
 #include "io/hand_made_run.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ TEST(RunWriter, WritesEveryProductAskedForAndTheSummaryLast) {
   writer.events(events_up_to(5));
   EXPECT_THAT(writer.finish(report_of(scene)), ElementsAre("trajectory.h5md", "trajectory.xyz", "samples.csv", "summary.json"));
   EXPECT_THAT(names_in(temporary.path()), ElementsAre("samples.csv", "summary.json", "trajectory.h5md", "trajectory.xyz"));
-  EXPECT_EQ(nlohmann::json::parse(content_of(temporary.path() / "summary.json"))["scene"], "hand_made.toml");
+  EXPECT_EQ(nlohmann::json::parse(text_of(temporary.path() / "summary.json"))["scene"], "hand_made.toml");
 }
 
 TEST(RunWriter, WritesOnlyTheSummaryWhereNothingElseIsAskedFor) {
@@ -87,7 +88,7 @@ TEST(RunWriter, UnwrappedPositionsContinuePastPeriodicEdgesOnly) {
   const H5Reader file(temporary.path() / "trajectory.h5md");
   EXPECT_THAT(file.doubles("/particles/trajectory/position/value"), ElementsAre(12.5, 11.0, 0.0, -6.0, 12.0, 0.0));
   EXPECT_THAT(file.ints("/particles/trajectory/image/value"), ElementsAre(3, 0, 0, -2, 0, 0));
-  EXPECT_THAT(content_of(temporary.path() / "samples.csv"), ::testing::HasSubstr("0,0,12.5,11,"));
+  EXPECT_THAT(text_of(temporary.path() / "samples.csv"), ::testing::HasSubstr("0,0,12.5,11,"));
 }
 
 TEST(RunWriter, AnExceptionInTheRunKeepsTheDataAsPartialFiles) {

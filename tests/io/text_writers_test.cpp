@@ -3,6 +3,7 @@
 #include "io/csv_writer.hpp"
 #include "io/hand_made_run.hpp"
 #include "io/xyz_writer.hpp"
+#include "support/temporary_directory.hpp"
 
 #include <gtest/gtest.h>
 

@@ -37,7 +37,7 @@ struct Drawn {
 
 /// Boxes from square to thin, from one to dozens of cells per axis, with disks from resting to a million times faster
 /// than their neighbours, some of them on edges of cells.
-Drawn draw() {
+Drawn draw_flight() {
   Drawn drawn;
   drawn.random.seed(*rc::gen::arbitrary<std::uint64_t>());
   const auto boundary = rc::gen::element(Boundary::walls, Boundary::periodic);
@@ -70,7 +70,7 @@ Drawn draw() {
 }
 
 RC_GTEST_PROP(PropertyCellGrid, ShowsAllWithinReachWhileDisksFly, ()) {
-  Drawn drawn = draw();
+  Drawn drawn = draw_flight();
   FreeFlight flight(drawn.box, drawn.reach, drawn.disks);
   require_complete_view(flight, 0.0);
   std::uniform_real_distribution<double> unit(0.0, 1.0);

@@ -25,7 +25,7 @@ double overlap(const Box& box, const Eigen::Vector2d& a, const Eigen::Vector2d& 
   return (sigma - std::hypot(apart[0], apart[1])) / sigma;
 }
 
-struct Disks {
+struct RestingDisks {
   Box box;
   std::vector<double> radius;
   Eigen::Matrix2Xd positions;
@@ -37,14 +37,14 @@ struct Disks {
 };
 
 /// Rounding of coordinates of size `far` and of a distance, in units of the smallest contact distance.
-double rounding(const Disks& disks) {
+double rounding(const RestingDisks& disks) {
   if (disks.radius.empty()) return 0.0;
   const double far = std::max(disks.box.lower.cwiseAbs().maxCoeff(), disks.box.upper.cwiseAbs().maxCoeff());
   return 8.0 * 2.3e-16 * far / *std::min_element(disks.radius.begin(), disks.radius.end());
 }
 
 /// Places a disk so that it just overlaps another one, if that is in the box.
-void place_beside(Disks& disks, Eigen::Index i, Eigen::Index other, double angle, double depth) {
+void place_beside(RestingDisks& disks, Eigen::Index i, Eigen::Index other, double angle, double depth) {
   const double sigma = disks.radius[static_cast<std::size_t>(i)] + disks.radius[static_cast<std::size_t>(other)];
   Eigen::Vector2d place = disks.positions.col(other) + (1.0 - depth) * sigma * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   for (int a = 0; a < 2; ++a) {
@@ -58,8 +58,8 @@ void place_beside(Disks& disks, Eigen::Index i, Eigen::Index other, double angle
 
 /// Disks anywhere in a box, at its edges and corners too and some just overlapping another, radii up to four decades
 /// apart, in numbers that make some overlap and some not.
-Disks draw() {
-  Disks disks;
+RestingDisks draw_resting_disks() {
+  RestingDisks disks;
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const auto boundary = rc::gen::element(Boundary::walls, Boundary::periodic);
@@ -87,7 +87,7 @@ Disks draw() {
 }
 
 RC_GTEST_PROP(PropertyDisksAtRest, DeepestOverlapIsThatOfAllPairs, ()) {
-  const Disks disks = draw();
+  const RestingDisks disks = draw_resting_disks();
   double expected = 0.0;
   for (Eigen::Index i = 0; i < disks.positions.cols(); ++i)
     for (Eigen::Index j = 0; j < i; ++j) expected = std::max(expected, disks.overlap_of(i, j));
@@ -99,7 +99,7 @@ RC_GTEST_PROP(PropertyDisksAtRest, DeepestOverlapIsThatOfAllPairs, ()) {
 }
 
 RC_GTEST_PROP(PropertyDisksAtRest, ANewcomerMeetsItsDeepestNeighbour, ()) {
-  const Disks disks = draw();
+  const RestingDisks disks = draw_resting_disks();
   DisksAtRest rest(disks.box, disks.radius);
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(disks.radius.size()); ++i) {
     const Eigen::Vector2d place = disks.positions.col(i);
@@ -114,8 +114,8 @@ RC_GTEST_PROP(PropertyDisksAtRest, ANewcomerMeetsItsDeepestNeighbour, ()) {
   }
 }
 
-Disks lattice(int side, double radius, Boundary boundary) {
-  Disks disks;
+RestingDisks lattice(int side, double radius, Boundary boundary) {
+  RestingDisks disks;
   disks.box = {{0.0, 0.0}, {static_cast<double>(side), static_cast<double>(side)}, {boundary, boundary}};
   disks.positions.resize(2, side * side);
   for (int i = 0; i < side * side; ++i) disks.positions.col(i) << i % side + 0.5, i / side + 0.5;
@@ -124,7 +124,7 @@ Disks lattice(int side, double radius, Boundary boundary) {
 }
 
 TEST(DisksAtRest, OneOverlapAmongAHundredThousandIsFound) {
-  Disks disks = lattice(316, 0.499, Boundary::periodic);
+  RestingDisks disks = lattice(316, 0.499, Boundary::periodic);
   ASSERT_EQ(deepest_overlap(disks.box, disks.radius, disks.positions).relative, 0.0);
   const Eigen::Index last = disks.positions.cols() - 1;
   disks.positions(0, last) += 0.25;  // nearer to disk 315 * 316 through the edge: distance 0.75 of 0.998
@@ -135,7 +135,7 @@ TEST(DisksAtRest, OneOverlapAmongAHundredThousandIsFound) {
 }
 
 TEST(DisksAtRest, AHugeDiskAmongThousandsIsSeenFromEverySmallOne) {
-  Disks disks = lattice(100, 1e-3, Boundary::periodic);
+  RestingDisks disks = lattice(100, 1e-3, Boundary::periodic);
   disks.radius.push_back(30.0);
   disks.positions.conservativeResize(2, 10001);
   disks.positions.col(10000) << 99.0, 1.0;
@@ -150,7 +150,7 @@ TEST(DisksAtRest, AHugeDiskAmongThousandsIsSeenFromEverySmallOne) {
 }
 
 TEST(DisksAtRest, TouchingDisksDoNotOverlap) {
-  const Disks disks = lattice(8, 0.5, Boundary::periodic);  // dyadic: distances are exact
+  const RestingDisks disks = lattice(8, 0.5, Boundary::periodic);  // dyadic: distances are exact
   EXPECT_EQ(deepest_overlap(disks.box, disks.radius, disks.positions).relative, 0.0);
 }
 

@@ -156,7 +156,7 @@ void expect_right_while_moving(Cages& cages, int moves, int checks) {
   }
 }
 
-Box box_of(double x, double y, Boundary in_x, Boundary in_y) { return {{-1.0, 2.0}, {x - 1.0, y + 2.0}, {in_x, in_y}}; }
+Box shifted_box(double x, double y, Boundary in_x, Boundary in_y) { return {{-1.0, 2.0}, {x - 1.0, y + 2.0}, {in_x, in_y}}; }
 
 const Boundary kinds[][2] = {{Boundary::periodic, Boundary::periodic},
                              {Boundary::walls, Boundary::walls},
@@ -170,16 +170,16 @@ TEST(NeighbourLists, AreThoseOfAllPairsForEqualDisks) {
     for (const double length : {4.0, 9.0, 30.0})
       for (const double half_width : {0.01, 0.2, 0.8}) {
         if (2.0 * half_width + 1.0 > length / 2.0) continue;  // nearest images would not be the only ones
-        Cages cages(box_of(length, length, kind[0], kind[1]), equal(120, 0.5), half_width, 1);
+        Cages cages(shifted_box(length, length, kind[0], kind[1]), equal(120, 0.5), half_width, 1);
         ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(cages, 2000, 10)) << length << " " << half_width;
       }
 }
 
 TEST(NeighbourLists, AreThoseOfAllPairsInThinBoxes) {
   for (const auto& kind : kinds) {
-    Cages flat(box_of(500.0, 2.6, kind[0], kind[1]), equal(150, 0.5), 0.1, 2);
+    Cages flat(shifted_box(500.0, 2.6, kind[0], kind[1]), equal(150, 0.5), 0.1, 2);
     ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(flat, 2000, 8));
-    Cages tall(box_of(3.0, 2000.0, kind[0], kind[1]), equal(150, 0.5), 0.2, 3);
+    Cages tall(shifted_box(3.0, 2000.0, kind[0], kind[1]), equal(150, 0.5), 0.2, 3);
     ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(tall, 2000, 8));
   }
 }
@@ -193,16 +193,16 @@ TEST(NeighbourLists, AreThoseOfAllPairsForRadiiAFactorOfAHundredApart) {
       continuous.push_back(0.05 * std::pow(100.0, unit(random)));
       two.push_back(i % 30 == 7 ? 5.0 : 0.05);
     }
-    Cages many(box_of(40.0, 40.0, kind[0], kind[1]), continuous, 0.1, 5);
+    Cages many(shifted_box(40.0, 40.0, kind[0], kind[1]), continuous, 0.1, 5);
     ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(many, 3000, 10));
-    Cages few(box_of(40.0, 30.0, kind[0], kind[1]), two, 0.03, 6);
+    Cages few(shifted_box(40.0, 30.0, kind[0], kind[1]), two, 0.03, 6);
     ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(few, 3000, 10));
   }
 }
 
 TEST(NeighbourLists, GrowBeyondSixtyFourAndShrinkAgain) {
   for (const auto& kind : kinds) {
-    Cages cages(box_of(30.0, 30.0, kind[0], kind[1]), equal(150, 0.5), 0.3, 7);
+    Cages cages(shifted_box(30.0, 30.0, kind[0], kind[1]), equal(150, 0.5), 0.3, 7);
     for (int round = 0; round < 3; ++round) {
       std::uint32_t most = 0;
       for (std::int32_t i = 0; i < cages.count(); ++i) {  // everybody into one corner, one by one
@@ -225,7 +225,7 @@ TEST(NeighbourLists, GrowBeyondSixtyFourAndShrinkAgain) {
 }
 
 TEST(NeighbourLists, AreRightAfterEveryRebuild) {
-  Cages cages(box_of(20.0, 20.0, Boundary::periodic, Boundary::walls), equal(200, 0.5), 0.1, 8);
+  Cages cages(shifted_box(20.0, 20.0, Boundary::periodic, Boundary::walls), equal(200, 0.5), 0.1, 8);
   for (const double half_width : {0.5, 0.02, 1.5, 0.3}) {
     cages.rebuild(half_width);
     EXPECT_EQ(cages.lists().half_width(), half_width);
@@ -234,14 +234,14 @@ TEST(NeighbourLists, AreRightAfterEveryRebuild) {
 }
 
 TEST(NeighbourLists, OfCagesInOnePlaceNameEverybody) {
-  Cages cages(box_of(30.0, 30.0, Boundary::periodic, Boundary::periodic), equal(40, 0.5), 0.2, 9);
+  Cages cages(shifted_box(30.0, 30.0, Boundary::periodic, Boundary::periodic), equal(40, 0.5), 0.2, 9);
   for (std::int32_t i = 0; i < 40; ++i) ASSERT_NO_FATAL_FAILURE(cages.move(i, {INT32_MIN, INT32_MIN}));
   for (std::int32_t i = 0; i < 40; ++i) EXPECT_EQ(cages.lists().count(i), 39u);
   ASSERT_NO_FATAL_FAILURE(cages.expect_lists_of_all_pairs());
 }
 
 TEST(NeighbourLists, CountTheChangesOfOthersLists) {
-  Cages cages(box_of(30.0, 30.0, Boundary::walls, Boundary::walls), equal(3, 0.5), 0.2, 10);
+  Cages cages(shifted_box(30.0, 30.0, Boundary::walls, Boundary::walls), equal(3, 0.5), 0.2, 10);
   cages.move(0, cages.at(0.1, 0.1));
   cages.move(1, cages.at(0.5, 0.5));
   cages.move(2, cages.at(0.9, 0.9));
@@ -254,7 +254,7 @@ TEST(NeighbourLists, CountTheChangesOfOthersLists) {
 
 TEST(NeighbourLists, OfNoneOneAndTwoDisksAreWhatTheyShouldBe) {
   for (const auto& kind : kinds) {
-    const Box box = box_of(10.0, 10.0, kind[0], kind[1]);
+    const Box box = shifted_box(10.0, 10.0, kind[0], kind[1]);
     Cages none(box, {}, 0.1, 11);
     EXPECT_EQ(none.lists().entries(), 0u);
     Cages one(box, equal(1, 0.5), 0.1, 12);
@@ -276,7 +276,7 @@ RC_GTEST_PROP(PropertyNeighbourLists, AreThoseOfAllPairsInAnyBoxForAnyRadii, ())
   for (int i = 0; i < count; ++i) radius.push_back(largest * std::pow(spread, -unit(random)));
   // No wider than that nearest images are the only ones.
   const double half_width = (std::min(x, y) / 4.0 - largest) * *rc::gen::element(0.95, 0.3, 0.01);
-  Cages cages(box_of(x, y, kind[0], kind[1]), radius, half_width, random());
+  Cages cages(shifted_box(x, y, kind[0], kind[1]), radius, half_width, random());
   expect_right_while_moving(cages, 200, 5);
   RC_ASSERT(!::testing::Test::HasFatalFailure());
 }

@@ -12,7 +12,7 @@
 namespace carom::test {
 namespace {
 
-constexpr double rounding = 1e-11;  // of sums over 1e3 terms of order one, relative
+constexpr double rounding_of_transfers = 1e-11;  // of sums over 1e3 terms of order one, relative
 
 /// Plays an event log through again: `visit(event, before, partner_before, r)` for collisions of pairs, r from partner to disk.
 template <class Visit>
@@ -73,11 +73,12 @@ TEST_P(ObservedCollisions, PressureTensorIsTheFlowOfMomentumAndWhatCollisionsTra
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b)
       EXPECT_NEAR(o.value("pressure", names[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)]),
-                  (mean_flow(o, a, b) * 40.0 / 39.0 + transfer(a, b) / 5.0) / area, 100.0 * rounding);
+                  (mean_flow(o, a, b) * 40.0 / 39.0 + transfer(a, b) / 5.0) / area, 100.0 * rounding_of_transfers);
   const double kT = kinetic_temperature(o.scene.box, o.disks, o.record.states.front());
   const double Z = 1.0 + transfer.trace() / (2.0 * 5.0 * 40.0 * kT);
-  EXPECT_NEAR(o.value("pressure", "Z"), Z, 100.0 * rounding);
-  EXPECT_NEAR(0.5 * (o.value("pressure", "P_xx") + o.value("pressure", "P_yy")), 40.0 * kT * Z / area, 100.0 * rounding);
+  EXPECT_NEAR(o.value("pressure", "Z"), Z, 100.0 * rounding_of_transfers);
+  EXPECT_NEAR(0.5 * (o.value("pressure", "P_xx") + o.value("pressure", "P_yy")), 40.0 * kT * Z / area,
+              100.0 * rounding_of_transfers);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rules, ObservedCollisions, ::testing::Values("specular", "reversal"));
@@ -89,7 +90,7 @@ TEST(ObservedPressure, FromTheRateIsTheRatesShareOfTheMaxwellRate) {
   const double d = 78.0;  // 2 N - 2 degrees of freedom
   const double slower = std::sqrt(d / 2.0) * std::tgamma(d / 2.0) / std::tgamma((d + 1.0) / 2.0);
   EXPECT_NEAR(o.value("pressure", "Z_rate"), 1.0 + std::sqrt(std::numbers::pi) / 4.0 * rate / std::sqrt(kT / 1.5) / slower,
-              100.0 * rounding);
+              100.0 * rounding_of_transfers);
 }
 
 TEST(ObservedPressure, FromWallsIsTheirPushOverTheRoomOfCentres) {
@@ -100,8 +101,8 @@ TEST(ObservedPressure, FromWallsIsTheirPushOverTheRoomOfCentres) {
   const auto& push = o.totals.wall_impulse;
   const double room = o.scene.box.lengths().x() - 1.0;
   EXPECT_NEAR(o.value("pressure", "Z_walls"), 0.5 * (push[0] + push[1] + push[2] + push[3]) / 5.0 * room / (2.0 * 40.0 * kT),
-              100.0 * rounding);
-  EXPECT_NEAR(o.value("wall_fluxes", "momentum_top"), push[3] / (5.0 * o.scene.box.lengths().x()), 100.0 * rounding);
+              100.0 * rounding_of_transfers);
+  EXPECT_NEAR(o.value("wall_fluxes", "momentum_top"), push[3] / (5.0 * o.scene.box.lengths().x()), 100.0 * rounding_of_transfers);
   EXPECT_EQ(o.value("wall_fluxes", "energy_left"), 0.0);
 }
 
@@ -110,7 +111,7 @@ TEST(ObservedPressure, TracesOfAMixtureBetweenWallsAgree) {
   // Momentum flows both ways through walls, none through the box's edges: the trace is what the virial says, to rounding.
   const double trace = (o.value("pressure", "P_xx") + o.value("pressure", "P_yy")) * o.scene.box.area() / 2.0;
   const double kT = kinetic_temperature(o.scene.box, o.disks, o.record.states.front());
-  EXPECT_NEAR(trace, 32.0 * kT * o.value("pressure", "Z"), 1000.0 * rounding);
+  EXPECT_NEAR(trace, 32.0 * kT * o.value("pressure", "Z"), 1000.0 * rounding_of_transfers);
   EXPECT_FALSE(o.scalar("pressure", "Z_walls").value);
   EXPECT_FALSE(o.scalar("pressure", "Z_walls").note.empty());
 }
@@ -126,11 +127,11 @@ TEST(ObservedRates, CountCollisionsByPairsOfSpecies) {
     counts[b][a] += 1.0;
   }
   ASSERT_GT(counts[0][1], 0.0);
-  EXPECT_NEAR(o.value("collision_rate", "rate"), 2.0 * static_cast<double>(o.totals.pair) / (32.0 * 6.0), rounding);
-  EXPECT_NEAR(o.value("collision_rate", "rate_big_big"), counts[0][0] / (12.0 * 6.0), rounding);
-  EXPECT_NEAR(o.value("collision_rate", "rate_big_small"), counts[0][1] / (12.0 * 6.0), rounding);
-  EXPECT_NEAR(o.value("collision_rate", "rate_small_big"), counts[1][0] / (20.0 * 6.0), rounding);
-  EXPECT_NEAR(o.value("collision_rate", "rate_small_small"), counts[1][1] / (20.0 * 6.0), rounding);
+  EXPECT_NEAR(o.value("collision_rate", "rate"), 2.0 * static_cast<double>(o.totals.pair) / (32.0 * 6.0), rounding_of_transfers);
+  EXPECT_NEAR(o.value("collision_rate", "rate_big_big"), counts[0][0] / (12.0 * 6.0), rounding_of_transfers);
+  EXPECT_NEAR(o.value("collision_rate", "rate_big_small"), counts[0][1] / (12.0 * 6.0), rounding_of_transfers);
+  EXPECT_NEAR(o.value("collision_rate", "rate_small_big"), counts[1][0] / (20.0 * 6.0), rounding_of_transfers);
+  EXPECT_NEAR(o.value("collision_rate", "rate_small_small"), counts[1][1] / (20.0 * 6.0), rounding_of_transfers);
 }
 
 TEST(ObservedFlights, AreThoseBetweenTwoCollisionsOfADisk) {
@@ -167,10 +168,10 @@ TEST(ObservedFlights, AreThoseBetweenTwoCollisionsOfADisk) {
     end(event.partner);
   }
   ASSERT_GT(flights, 50.0);
-  EXPECT_NEAR(o.value("free_flight", "mean_free_time"), time / flights, rounding);
-  EXPECT_NEAR(o.value("free_flight", "mean_free_path"), length / flights, rounding);
+  EXPECT_NEAR(o.value("free_flight", "mean_free_time"), time / flights, rounding_of_transfers);
+  EXPECT_NEAR(o.value("free_flight", "mean_free_path"), length / flights, rounding_of_transfers);
   for (std::size_t b = 0; b < 20; ++b)
-    EXPECT_NEAR(o.column("free_flight", 0, "density")[b], histogram[b] / flights / width, rounding);
+    EXPECT_NEAR(o.column("free_flight", 0, "density")[b], histogram[b] / flights / width, rounding_of_transfers);
 }
 
 TEST(ObservedFlights, OfALargeSystemAreThoseOfEverySecondDisk) {
@@ -192,7 +193,7 @@ TEST(ObservedFlights, OfALargeSystemAreThoseOfEverySecondDisk) {
       last[disk] = event.time;
     }
   ASSERT_GT(flights, 1000.0);
-  EXPECT_NEAR(o.value("free_flight", "mean_free_time"), time / flights, rounding);
+  EXPECT_NEAR(o.value("free_flight", "mean_free_time"), time / flights, rounding_of_transfers);
 }
 
 /// Helfand's moments by their definition, from the replayed log.

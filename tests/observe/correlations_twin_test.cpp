@@ -8,9 +8,9 @@
 namespace carom::test {
 namespace {
 
-constexpr double rounding = 1e-11;  // of sums over 1e4 terms of order one
+constexpr double rounding_of_correlations = 1e-11;  // of sums over 1e4 terms of order one
 
-const Observed& fluid() {
+const Observed& fluid_with_correlations() {
   static const Observed observed = observe(
       parse_scene(small_fluid("mean_square_displacement = { every = 0.05 }\nvelocity_autocorrelation = { every = 0.05 }")), 0.05);
   return observed;
@@ -32,7 +32,7 @@ double over_pairs(const Observed& o, std::size_t k, std::size_t stride, F f) {
 }
 
 TEST(ObservedCorrelations, MeanSquareDisplacementIsThatOfAllPairsOfStates) {
-  const Observed& o = fluid();
+  const Observed& o = fluid_with_correlations();
   const auto& lags = o.column("mean_square_displacement", 0, "lag");
   ASSERT_GT(lags.size(), 25U);
   for (std::size_t r = 0; r < lags.size(); ++r) {
@@ -42,24 +42,24 @@ TEST(ObservedCorrelations, MeanSquareDisplacementIsThatOfAllPairsOfStates) {
     while (k / stride >= 16) stride *= 2;
     const double msd = over_pairs(
         o, k, stride, [&](const State& a, const State& b) { return (unwrapped(o, b) - unwrapped(o, a)).squaredNorm() / 40.0; });
-    EXPECT_NEAR(o.column("mean_square_displacement", 0, "msd")[r], msd, rounding) << "lag " << lags[r];
-    EXPECT_NEAR(o.column("mean_square_displacement", 0, "diffusion")[r], msd / (4.0 * lags[r]), rounding);
+    EXPECT_NEAR(o.column("mean_square_displacement", 0, "msd")[r], msd, rounding_of_correlations) << "lag " << lags[r];
+    EXPECT_NEAR(o.column("mean_square_displacement", 0, "diffusion")[r], msd / (4.0 * lags[r]), rounding_of_correlations);
   }
 }
 
 TEST(ObservedCorrelations, VelocityAutocorrelationAtShortLagsIsThatOfAllPairsOfStates) {
-  const Observed& o = fluid();
+  const Observed& o = fluid_with_correlations();
   for (std::size_t k = 0; k < 16; ++k) {
     ASSERT_EQ(o.column("velocity_autocorrelation", 0, "window")[k], 0.0);
     const double found =
         over_pairs(o, k, 1, [](const State& a, const State& b) { return a.velocities.cwiseProduct(b.velocities).sum() / 40.0; });
-    EXPECT_NEAR(o.column("velocity_autocorrelation", 0, "correlation")[k], found, rounding) << "lag " << k;
+    EXPECT_NEAR(o.column("velocity_autocorrelation", 0, "correlation")[k], found, rounding_of_correlations) << "lag " << k;
   }
 }
 
 /// By way of displacements over windows of the second level, two steps each.
 TEST(ObservedCorrelations, LongerLagsCorrelateDisplacementsOverWindows) {
-  const Observed& o = fluid();
+  const Observed& o = fluid_with_correlations();
   std::vector<Eigen::Matrix2Xd> means;
   for (std::size_t t = 0; t + 2 < o.record.states.size(); t += 2)
     means.push_back((unwrapped(o, o.record.states[t + 2]) - unwrapped(o, o.record.states[t])) / 0.1);
@@ -70,7 +70,8 @@ TEST(ObservedCorrelations, LongerLagsCorrelateDisplacementsOverWindows) {
     const auto k = static_cast<std::size_t>(std::lround(o.column("velocity_autocorrelation", 0, "lag")[r] / 0.1));
     double sum = 0.0;
     for (std::size_t t = k; t < means.size(); ++t) sum += means[t].cwiseProduct(means[t - k]).sum() / 40.0;
-    EXPECT_NEAR(o.column("velocity_autocorrelation", 0, "correlation")[r], sum / static_cast<double>(means.size() - k), rounding);
+    EXPECT_NEAR(o.column("velocity_autocorrelation", 0, "correlation")[r], sum / static_cast<double>(means.size() - k),
+                rounding_of_correlations);
     ++compared;
   }
   EXPECT_EQ(compared, 8);
@@ -119,7 +120,7 @@ TEST(ObservedCorrelations, CommonMotionDoesNotCount) {
 }
 
 TEST(ObservedCorrelations, InitialSlopeCountsEveryChangeOfVelocity) {
-  const Observed& o = fluid();
+  const Observed& o = fluid_with_correlations();
   std::map<std::int32_t, Eigen::Vector2d> velocity;
   for (std::int32_t i = 0; i < 40; ++i) velocity[i] = o.record.states.front().velocities.col(i);
   double changes = 0.0;
@@ -130,7 +131,7 @@ TEST(ObservedCorrelations, InitialSlopeCountsEveryChangeOfVelocity) {
     velocity[event.partner] = event.partner_velocity;
   }
   const double square = o.record.states.front().velocities.squaredNorm();  // conserved
-  EXPECT_NEAR(o.value("velocity_autocorrelation", "initial_slope"), 0.5 * changes / (square * 5.0), rounding);
+  EXPECT_NEAR(o.value("velocity_autocorrelation", "initial_slope"), 0.5 * changes / (square * 5.0), rounding_of_correlations);
 }
 
 }  // namespace

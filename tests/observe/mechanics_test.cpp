@@ -1,7 +1,7 @@
 // Energy, momentum and temperature by their definitions.
 
 #include "observe/mechanics.hpp"
-#include "support/systems.hpp"
+#include "observe/unequal_pair.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,37 +11,36 @@
 namespace carom::test {
 namespace {
 
-const System pair =
-    system_of(square_box(10.0, Boundary::walls), {{{1, 1}, {1.0, 2.0}, 0.5, 2.0}, {{5, 5}, {-3.0, 0.5}, 0.5, 4.0}});
-
 TEST(Mechanics, EnergyAndMomentumAreTheirSums) {
-  EXPECT_EQ(kinetic_energy(pair.disks, pair.state), 5.0 + 18.5);
-  EXPECT_EQ(total_momentum(pair.disks, pair.state), Eigen::Vector2d(-10.0, 6.0));
+  EXPECT_EQ(kinetic_energy(unequal_pair.disks, unequal_pair.state), 5.0 + 18.5);
+  EXPECT_EQ(total_momentum(unequal_pair.disks, unequal_pair.state), Eigen::Vector2d(-10.0, 6.0));
 }
 
 TEST(Mechanics, TemperatureLeavesOutTheMotionThatPeriodicAxesKeep) {
   Box box = square_box(10.0, Boundary::walls);
-  EXPECT_EQ(kinetic_temperature(box, pair.disks, pair.state), 23.5 / 2.0);  // K / N
+  EXPECT_EQ(kinetic_temperature(box, unequal_pair.disks, unequal_pair.state), 23.5 / 2.0);  // K / N
   // P^2 / 2M = 100/12 along x, 36/12 along y.
   box.boundary = {Boundary::periodic, Boundary::walls};
-  EXPECT_DOUBLE_EQ(kinetic_temperature(box, pair.disks, pair.state), 2.0 * (23.5 - 100.0 / 12.0) / 3.0);
+  EXPECT_DOUBLE_EQ(kinetic_temperature(box, unequal_pair.disks, unequal_pair.state), 2.0 * (23.5 - 100.0 / 12.0) / 3.0);
   box.boundary = {Boundary::walls, Boundary::periodic};
-  EXPECT_DOUBLE_EQ(kinetic_temperature(box, pair.disks, pair.state), 2.0 * (23.5 - 3.0) / 3.0);
+  EXPECT_DOUBLE_EQ(kinetic_temperature(box, unequal_pair.disks, unequal_pair.state), 2.0 * (23.5 - 3.0) / 3.0);
   box.boundary = {Boundary::periodic, Boundary::periodic};
-  EXPECT_DOUBLE_EQ(kinetic_temperature(box, pair.disks, pair.state), 23.5 - 136.0 / 12.0);  // K' / (N - 1)
+  EXPECT_DOUBLE_EQ(kinetic_temperature(box, unequal_pair.disks, unequal_pair.state), 23.5 - 136.0 / 12.0);  // K' / (N - 1)
 }
 
 TEST(Mechanics, TemperatureDoesNotKnowTheFrameOfAPeriodicBox) {
   const Box box = square_box(10.0, Boundary::periodic);
-  State moving = pair.state;
+  State moving = unequal_pair.state;
   moving.velocities.colwise() += Eigen::Vector2d(16.0, -8.0);
-  EXPECT_NEAR(kinetic_temperature(box, pair.disks, moving), kinetic_temperature(box, pair.disks, pair.state), 1e-12);
+  EXPECT_NEAR(kinetic_temperature(box, unequal_pair.disks, moving),
+              kinetic_temperature(box, unequal_pair.disks, unequal_pair.state), 1e-12);
 }
 
 TEST(Mechanics, WithoutEffectsTheTemperatureIsTheSameToTheLastBit) {
   for (const Boundary boundary : {Boundary::walls, Boundary::periodic}) {
     const Box box = square_box(10.0, boundary);
-    EXPECT_EQ(kinetic_temperature(box, Effects{}, pair.disks, pair.state), kinetic_temperature(box, pair.disks, pair.state));
+    EXPECT_EQ(kinetic_temperature(box, Effects{}, unequal_pair.disks, unequal_pair.state),
+              kinetic_temperature(box, unequal_pair.disks, unequal_pair.state));
   }
 }
 
@@ -49,23 +48,23 @@ TEST(Mechanics, CommonMotionIsHeatWhereMoreThanDisksPushesDisks) {
   const Box box = square_box(10.0, Boundary::periodic);
   Effects effects;
   effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.0, .where = {}};
-  EXPECT_EQ(kinetic_temperature(box, effects, pair.disks, pair.state), kinetic_temperature(box, pair.disks, pair.state));
+  EXPECT_EQ(kinetic_temperature(box, effects, unequal_pair.disks, unequal_pair.state),
+            kinetic_temperature(box, unequal_pair.disks, unequal_pair.state));
   effects.thermostat->rate = 0.1;
-  EXPECT_EQ(kinetic_temperature(box, effects, pair.disks, pair.state), 23.5 / 2.0);
+  EXPECT_EQ(kinetic_temperature(box, effects, unequal_pair.disks, unequal_pair.state), 23.5 / 2.0);
   Effects pushed;
   pushed.obstacles.emplace_back();
-  EXPECT_EQ(kinetic_temperature(box, pushed, pair.disks, pair.state), 23.5 / 2.0);
+  EXPECT_EQ(kinetic_temperature(box, pushed, unequal_pair.disks, unequal_pair.state), 23.5 / 2.0);
   Box channel = box;
   channel.boundary[1] = Boundary::walls;
   Effects warm;
   warm.walls[3].temperature = 1.0;
-  EXPECT_EQ(kinetic_temperature(channel, warm, pair.disks, pair.state), 23.5 / 2.0);
+  EXPECT_EQ(kinetic_temperature(channel, warm, unequal_pair.disks, unequal_pair.state), 23.5 / 2.0);
 }
 
 TEST(Mechanics, TheFlowOfShearIsNoHeat) {
   const Box box = square_box(10.0, Boundary::periodic);
-  System flowing = pair;
-  flowing.state.positions.col(1) << 5.0, 7.0;
+  System flowing = unequal_pair;
   Effects effects;
   effects.shear = Shear{.rate = 0.25, .where = {}};
   const double at_rest = kinetic_temperature(box, flowing.disks, flowing.state);
@@ -81,11 +80,11 @@ TEST(Mechanics, MomentumFlowIsTakenInTheFrameOfTheFlow) {
 }
 
 TEST(Mechanics, SpinsHaveATemperatureOfTheirOwn) {
-  State state = pair.state;
-  EXPECT_EQ(spin_temperature(pair.disks, state), 0.0);
+  State state = unequal_pair.state;
+  EXPECT_EQ(spin_temperature(unequal_pair.disks, state), 0.0);
   state.spins.resize(2);
   state.spins << 4.0, -2.0;
-  EXPECT_EQ(spin_temperature(pair.disks, state), 3.0);  // 2 (2 + 1) / 2
+  EXPECT_EQ(spin_temperature(unequal_pair.disks, state), 3.0);  // 2 (2 + 1) / 2
   EXPECT_EQ(spin_temperature(Disks{}, State{}), 0.0);
 }
 

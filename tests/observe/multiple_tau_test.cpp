@@ -49,7 +49,7 @@ MultipleTau filled(const Series& series, MultipleTau::Pairs pairs, std::size_t l
 }
 
 /// Of sums of some hundred terms of order one.
-constexpr double rounding = 1e-13;
+constexpr double rounding_of_hundreds = 1e-13;
 
 TEST(MultipleTau, ProductsAreThoseOfAllPairsOfMeans) {
   const Series series = random_series(300, 3);
@@ -67,8 +67,8 @@ TEST(MultipleTau, ProductsAreThoseOfAllPairsOfMeans) {
     }
     // The integral's last term is a whole step: it reaches half a width beyond the lag.
     const double pairs = static_cast<double>(means.size() - k);
-    EXPECT_NEAR(row.pairs.mean, sum / pairs, rounding) << "lag " << row.lag;
-    EXPECT_NEAR(row.integral->mean, row.width * integral / pairs, 100.0 * rounding) << "lag " << row.lag;
+    EXPECT_NEAR(row.pairs.mean, sum / pairs, rounding_of_hundreds) << "lag " << row.lag;
+    EXPECT_NEAR(row.integral->mean, row.width * integral / pairs, 100.0 * rounding_of_hundreds) << "lag " << row.lag;
   }
 }
 
@@ -84,7 +84,7 @@ TEST(MultipleTau, SquaredDifferencesAreThoseOfAllPairsOnTheGridOfTheirLevel) {
       for (std::size_t c = 0; c < 2; ++c) sum += 0.5 * std::pow(series[t][c] - series[t - lag][c], 2);
       pairs += 1.0;
     }
-    EXPECT_NEAR(row.pairs.mean, sum / pairs, rounding) << "lag " << row.lag;
+    EXPECT_NEAR(row.pairs.mean, sum / pairs, rounding_of_hundreds) << "lag " << row.lag;
   }
 }
 

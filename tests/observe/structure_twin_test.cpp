@@ -14,13 +14,13 @@
 namespace carom::test {
 namespace {
 
-constexpr double rounding = 1e-11;  // of sums over 1e5 terms of order one
+constexpr double rounding_of_pair_sums = 1e-11;  // of sums over 1e5 terms of order one
 
 Eigen::Vector2d nearest(const Box& box, const Eigen::Vector2d& r) {
   return {std::remainder(r.x(), box.lengths().x()), std::remainder(r.y(), box.lengths().y())};
 }
 
-const Observed& fluid() {
+const Observed& fluid_with_structure() {
   static const Observed observed = observe(
       parse_scene(small_fluid("radial_distribution = { every = 0.25, range = 3.0, bins = 30 }\nstructure_factor = { every = "
                               "0.25, largest = 9.0 }\nhexatic = { every = 0.25, range = 3.0, bins = 6 }")),
@@ -49,7 +49,7 @@ TEST(ClosePairs, AreThoseOfAllPairs) {
 }
 
 TEST(ObservedStructure, RadialDistributionCountsAllPairs) {
-  const Observed& o = fluid();
+  const Observed& o = fluid_with_structure();
   const double width = 0.1, area = o.scene.box.area();
   std::vector<double> counts(30);
   for (const State& state : o.record.states)
@@ -61,12 +61,12 @@ TEST(ObservedStructure, RadialDistributionCountsAllPairs) {
   for (std::size_t b = 0; b < 30; ++b) {
     const double from = width * static_cast<double>(b), ring = std::numbers::pi * (std::pow(from + width, 2) - from * from);
     const double ideal = 40.0 * 39.0 / 2.0 * ring / area * static_cast<double>(o.record.states.size());
-    EXPECT_NEAR(o.column("radial_distribution", 0, "g")[b], counts[b] / ideal, rounding);
+    EXPECT_NEAR(o.column("radial_distribution", 0, "g")[b], counts[b] / ideal, rounding_of_pair_sums);
   }
 }
 
 TEST(ObservedStructure, StructureFactorIsTheSquareOfTheSumOfWaves) {
-  const Observed& o = fluid();
+  const Observed& o = fluid_with_structure();
   const Eigen::Vector2d unit = 2.0 * std::numbers::pi * o.scene.box.lengths().cwiseInverse();
   // The first shell, below twice the smallest wave number of a square box, holds (1, 0), (0, 1), (1, 1) and (-1, 1).
   ASSERT_EQ(o.column("structure_factor", 0, "vectors")[0], 4.0);
@@ -80,12 +80,12 @@ TEST(ObservedStructure, StructureFactorIsTheSquareOfTheSumOfWaves) {
       sum += 0.25 * std::norm(wave) / 40.0 / static_cast<double>(o.record.states.size());
     }
   }
-  EXPECT_NEAR(o.column("structure_factor", 0, "k")[0], length, rounding);
-  EXPECT_NEAR(o.column("structure_factor", 0, "S")[0], sum, rounding);
+  EXPECT_NEAR(o.column("structure_factor", 0, "k")[0], length, rounding_of_pair_sums);
+  EXPECT_NEAR(o.column("structure_factor", 0, "S")[0], sum, rounding_of_pair_sums);
 }
 
 TEST(ObservedStructure, WaveVectorsReachToTheLargestAndNoFurther) {
-  const auto& k = fluid().column("structure_factor", 0, "k");
+  const auto& k = fluid_with_structure().column("structure_factor", 0, "k");
   EXPECT_TRUE(std::is_sorted(k.begin(), k.end()));
   EXPECT_LE(k.back(), 9.0);
   EXPECT_GT(k.back(), 8.0);
@@ -106,7 +106,7 @@ std::vector<std::complex<double>> sixfold_order(const Box& box, const Eigen::Mat
 }
 
 TEST(ObservedStructure, HexaticOrderIsThatOfSixSortedNeighbours) {
-  const Observed& o = fluid();
+  const Observed& o = fluid_with_structure();
   double local = 0.0, global = 0.0, square = 0.0;
   std::vector<double> sums(6), pairs(6);
   for (const State& state : o.record.states) {
@@ -128,10 +128,10 @@ TEST(ObservedStructure, HexaticOrderIsThatOfSixSortedNeighbours) {
       }
   }
   const double states = static_cast<double>(o.record.states.size());
-  EXPECT_NEAR(o.value("hexatic", "local"), local / states, rounding);
-  EXPECT_NEAR(o.value("hexatic", "global"), global / states, rounding);
-  EXPECT_NEAR(o.value("hexatic", "global_square"), square / states, rounding);
-  for (std::size_t b = 2; b < 6; ++b) EXPECT_NEAR(o.column("hexatic", 0, "g6")[b], sums[b] / pairs[b], rounding);
+  EXPECT_NEAR(o.value("hexatic", "local"), local / states, rounding_of_pair_sums);
+  EXPECT_NEAR(o.value("hexatic", "global"), global / states, rounding_of_pair_sums);
+  EXPECT_NEAR(o.value("hexatic", "global_square"), square / states, rounding_of_pair_sums);
+  for (std::size_t b = 2; b < 6; ++b) EXPECT_NEAR(o.column("hexatic", 0, "g6")[b], sums[b] / pairs[b], rounding_of_pair_sums);
   EXPECT_TRUE(std::isnan(o.column("hexatic", 0, "g6")[0])) << "no pair is that near";
 }
 

@@ -10,7 +10,7 @@ namespace carom::test {
 namespace {
 
 /// Of sums over some thousand terms of order one.
-constexpr double rounding = 1e-12;
+constexpr double rounding_of_means = 1e-12;
 
 const Observed& mixture() {
   static const Observed observed =
@@ -39,13 +39,16 @@ double mean_of(const Observed& o, int species, F f) {
 TEST(ObservedVelocities, TemperatureOfAllAxesAndSpeciesIsThatOfTheStates) {
   const Observed& o = mixture();
   using V = Eigen::Vector2d;
-  EXPECT_NEAR(o.value("temperature", "kT"), mean_of(o, -1, [](double m, V, V v) { return 0.5 * m * v.squaredNorm(); }), rounding);
-  EXPECT_NEAR(o.value("temperature", "kT_x"), mean_of(o, -1, [](double m, V, V v) { return m * v.x() * v.x(); }), rounding);
-  EXPECT_NEAR(o.value("temperature", "kT_y"), mean_of(o, -1, [](double m, V, V v) { return m * v.y() * v.y(); }), rounding);
+  EXPECT_NEAR(o.value("temperature", "kT"), mean_of(o, -1, [](double m, V, V v) { return 0.5 * m * v.squaredNorm(); }),
+              rounding_of_means);
+  EXPECT_NEAR(o.value("temperature", "kT_x"), mean_of(o, -1, [](double m, V, V v) { return m * v.x() * v.x(); }),
+              rounding_of_means);
+  EXPECT_NEAR(o.value("temperature", "kT_y"), mean_of(o, -1, [](double m, V, V v) { return m * v.y() * v.y(); }),
+              rounding_of_means);
   EXPECT_NEAR(o.value("temperature", "kT_big"), mean_of(o, 0, [](double m, V, V v) { return 0.5 * m * v.squaredNorm(); }),
-              rounding);
+              rounding_of_means);
   EXPECT_NEAR(o.value("temperature", "kT_small"), mean_of(o, 1, [](double m, V, V v) { return 0.5 * m * v.squaredNorm(); }),
-              rounding);
+              rounding_of_means);
 }
 
 TEST(ObservedVelocities, TemperatureInAPeriodicBoxLeavesTheCommonMotionOut) {
@@ -56,7 +59,7 @@ TEST(ObservedVelocities, TemperatureInAPeriodicBoxLeavesTheCommonMotionOut) {
   const Eigen::Vector2d common = state.velocities.rowwise().mean();
   ASSERT_GT(common.norm(), 0.01) << "the system should drift for this test to say anything";
   const double K = 0.5 * 1.5 * (state.velocities.colwise() - common).squaredNorm();
-  EXPECT_NEAR(o.value("temperature", "kT"), K / 39.0, rounding);  // equal masses: energy and momentum stay
+  EXPECT_NEAR(o.value("temperature", "kT"), K / 39.0, rounding_of_means);  // equal masses: energy and momentum stay
 }
 
 TEST(ObservedVelocities, MomentsAreThoseOfTheStates) {
@@ -67,14 +70,14 @@ TEST(ObservedVelocities, MomentsAreThoseOfTheStates) {
     const double v4 = mean_of(o, species, [](double, V, V v) { return std::pow(v.squaredNorm(), 2); });
     const double x2 = mean_of(o, species, [](double, V, V v) { return v.x() * v.x(); });
     const double x4 = mean_of(o, species, [](double, V, V v) { return std::pow(v.x(), 4); });
-    EXPECT_NEAR(o.value("velocity_moments", std::string("v2") + suffix), v2, v2 * rounding);
-    EXPECT_NEAR(o.value("velocity_moments", std::string("v4") + suffix), v4, v4 * rounding);
-    EXPECT_NEAR(o.value("velocity_moments", std::string("kurtosis") + suffix), v4 / (v2 * v2), rounding);
-    EXPECT_NEAR(o.value("velocity_moments", std::string("kurtosis_x") + suffix), x4 / (x2 * x2), rounding);
+    EXPECT_NEAR(o.value("velocity_moments", std::string("v2") + suffix), v2, v2 * rounding_of_means);
+    EXPECT_NEAR(o.value("velocity_moments", std::string("v4") + suffix), v4, v4 * rounding_of_means);
+    EXPECT_NEAR(o.value("velocity_moments", std::string("kurtosis") + suffix), v4 / (v2 * v2), rounding_of_means);
+    EXPECT_NEAR(o.value("velocity_moments", std::string("kurtosis_x") + suffix), x4 / (x2 * x2), rounding_of_means);
     EXPECT_NEAR(o.value("velocity_moments", std::string("speed") + suffix),
-                mean_of(o, species, [](double, V, V v) { return v.norm(); }), rounding);
+                mean_of(o, species, [](double, V, V v) { return v.norm(); }), rounding_of_means);
     EXPECT_NEAR(o.value("velocity_moments", std::string("vx3") + suffix),
-                mean_of(o, species, [](double, V, V v) { return std::pow(v.x(), 3); }), 10.0 * rounding);
+                mean_of(o, species, [](double, V, V v) { return std::pow(v.x(), 3); }), 10.0 * rounding_of_means);
   }
 }
 
@@ -88,11 +91,11 @@ TEST(ObservedVelocities, HistogramsCountTheDisksOfTheStates) {
       const double share = mean_of(o, species, [&](double, const Eigen::Vector2d&, const Eigen::Vector2d& v) {
         return std::floor(v.norm() / width) == static_cast<double>(b) ? 1.0 : 0.0;
       });
-      EXPECT_NEAR(o.column("speeds", 0, std::string("density") + suffix)[b], share / width, rounding);
+      EXPECT_NEAR(o.column("speeds", 0, std::string("density") + suffix)[b], share / width, rounding_of_means);
       const double of_energy = mean_of(o, species, [&](double m, const Eigen::Vector2d&, const Eigen::Vector2d& v) {
         return std::floor(0.5 * m * v.squaredNorm() / energy_width) == static_cast<double>(b) ? 1.0 : 0.0;
       });
-      EXPECT_NEAR(o.column("speeds", 1, std::string("density") + suffix)[b], of_energy / energy_width, rounding);
+      EXPECT_NEAR(o.column("speeds", 1, std::string("density") + suffix)[b], of_energy / energy_width, rounding_of_means);
     }
   }
 }
@@ -103,15 +106,15 @@ TEST(ObservedVelocities, DensityProfileCountsTheDisksOfEachStrip) {
   ASSERT_EQ(places.size(), 9U);
   double all = 0.0;
   for (std::size_t b = 0; b < places.size(); ++b) {
-    EXPECT_NEAR(places[b], static_cast<double>(b) + 0.5, rounding);  // strips of width 1 and height 7
+    EXPECT_NEAR(places[b], static_cast<double>(b) + 0.5, rounding_of_means);  // strips of width 1 and height 7
     const auto inside = [&](double, const Eigen::Vector2d& r, const Eigen::Vector2d&) {
       return r.x() >= static_cast<double>(b) && r.x() < static_cast<double>(b) + 1.0 ? 1.0 : 0.0;
     };
-    EXPECT_NEAR(o.column("density_profile", 0, "density")[b], 32.0 / 7.0 * mean_of(o, -1, inside), rounding);
-    EXPECT_NEAR(o.column("density_profile", 0, "density_small")[b], 20.0 / 7.0 * mean_of(o, 1, inside), rounding);
+    EXPECT_NEAR(o.column("density_profile", 0, "density")[b], 32.0 / 7.0 * mean_of(o, -1, inside), rounding_of_means);
+    EXPECT_NEAR(o.column("density_profile", 0, "density_small")[b], 20.0 / 7.0 * mean_of(o, 1, inside), rounding_of_means);
     all += 7.0 * o.column("density_profile", 0, "density")[b];
   }
-  EXPECT_NEAR(all, 32.0, rounding);
+  EXPECT_NEAR(all, 32.0, rounding_of_means);
 }
 
 /// Of the state at the start, from a sorted list of bins in place of a grid of counts.
@@ -137,9 +140,9 @@ TEST(ObservedVelocities, HIsThatOfTheBinsThatVelocitiesFallInto) {
     }
     h -= count / 32.0 * (static_cast<double>(distinct.size()) - 1.0) / (2.0 * count);
   }
-  EXPECT_NEAR(o.column("h_function", 0, "H")[0], h, rounding);
+  EXPECT_NEAR(o.column("h_function", 0, "H")[0], h, rounding_of_means);
   EXPECT_EQ(o.column("h_function", 0, "time")[0], 0.0);
-  EXPECT_NEAR(o.column("h_function", 0, "time")[7], 0.35, rounding);
+  EXPECT_NEAR(o.column("h_function", 0, "time")[7], 0.35, rounding_of_means);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include "queue/calendar_queue.hpp"
 
+#include "core/real.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -17,12 +19,10 @@
 namespace carom::test {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 /// The owner of the events, and the twin.
 class Events {
  public:
-  explicit Events(std::size_t disks) : events_(disks, Event{infinite, 0}) {}
+  explicit Events(std::size_t disks) : events_(disks, Event{infinity<double>, 0}) {}
 
   [[nodiscard]] double time(std::int32_t disk) const { return at(disk).time; }
   [[nodiscard]] std::int32_t other(std::int32_t disk) const { return at(disk).rank; }
@@ -36,7 +36,8 @@ class Events {
   [[nodiscard]] std::int32_t earliest() const {
     std::int32_t first = -1;
     for (std::int32_t i = 0; i < count(); ++i)
-      if (time(i) < infinite && (first < 0 || std::tuple(time(i), rank(i)) < std::tuple(time(first), rank(first)))) first = i;
+      if (time(i) < infinity<double> && (first < 0 || std::tuple(time(i), rank(i)) < std::tuple(time(first), rank(first))))
+        first = i;
     return first;
   }
 
@@ -80,7 +81,7 @@ void expect_as_twin(const Trial& trial, std::uint64_t seed) {
   Queue queue;
   const auto schedule = [&](std::int32_t disk, double now) {
     events.set(disk, trial.draw(random, now), trial.ranks == Ranks::of_disks ? disk : below(random, trial.disks));
-    if (events.time(disk) < infinite) queue.push(events, {events.time(disk), disk, events.other(disk)});
+    if (events.time(disk) < infinity<double>) queue.push(events, {events.time(disk), disk, events.other(disk)});
   };
   const auto start = [&] {
     queue.start(trial.span, static_cast<std::size_t>(trial.disks));
@@ -107,7 +108,7 @@ void expect_as_twin(const Trial& trial, std::uint64_t seed) {
     for (int n = 0; n < trial.partners; ++n) schedule(below(random, trial.disks), last);
     if (k % 64 == 0) {
       for (std::int32_t i = 0; i < trial.disks; ++i)
-        if (events.time(i) < infinite) {
+        if (events.time(i) < infinity<double>) {
           ASSERT_TRUE(queue.holds(events, i)) << "disk " << i << " at time " << events.time(i) << ", event " << k;
         }
     }
@@ -152,7 +153,7 @@ TEST(CalendarQueue, ServesWaitsThatDifferByTwentyFourDecadesInOrder) {
 TEST(CalendarQueue, ServesTimesUpToTheLargestNumberInOrder) {
   const Draw far = [](Random& random, double now) {
     const double kind = unit(random);
-    if (kind < 0.3) return infinite;
+    if (kind < 0.3) return infinity<double>;
     if (kind < 0.5) return std::max(now, 1e300 * unit(random));
     if (kind < 0.55) return std::numeric_limits<double>::max();
     if (kind < 0.6) return std::max(now, std::ldexp(1.0, below(random, 1023)));
@@ -189,12 +190,12 @@ TEST(CalendarQueue, KeepsADiskThatIsRescheduledToTheSameSpanOrTimeAgainAndAgain)
     EXPECT_EQ(next->disk, 3);
     EXPECT_EQ(next->time, events.time(3));
     queue.pop(events);
-    events.set(3, infinite, 3);
+    events.set(3, infinity<double>, 3);
     next = queue.next(events, no_look);
     ASSERT_NE(next, nullptr);
     EXPECT_EQ(next->disk, 4);
     queue.pop(events);
-    events.set(4, infinite, 4);
+    events.set(4, infinity<double>, 4);
     EXPECT_EQ(queue.next(events, no_look), nullptr);
   }
 }
@@ -219,7 +220,7 @@ TEST(CalendarQueue, ServesAnEventAtTheTimeJustTaken) {
   for (const std::int32_t disk : {1, 2, 0}) {
     ASSERT_EQ(queue.next(events, no_look)->disk, disk);
     queue.pop(events);
-    events.set(disk, infinite, 0);
+    events.set(disk, infinity<double>, 0);
   }
   EXPECT_EQ(queue.next(events, no_look), nullptr);
 }
@@ -245,8 +246,8 @@ TEST(CalendarQueue, EventsAtInfinityAreNotKeptEvenAfterTheLastSpanOfAll) {
   queue.push(events, {1e300, 0, events.other(0)});
   ASSERT_NE(queue.next(events, no_look), nullptr);
   queue.pop(events);
-  events.set(0, infinite, 0);
-  queue.push(events, {infinite, 0, events.other(0)});
+  events.set(0, infinity<double>, 0);
+  queue.push(events, {infinity<double>, 0, events.other(0)});
   EXPECT_EQ(queue.next(events, no_look), nullptr);
 }
 
@@ -300,7 +301,7 @@ RC_GTEST_PROP(PropertyCalendarQueue, AnyMixtureOfWaitsIsServedInOrder, ()) {
   const double ties = *rc::gen::element(0.0, 0.1, 0.9), none = *rc::gen::element(0.0, 0.1, 0.5);
   const double grid = *rc::gen::element(0.0, 0.25, 1.0, 64.0);
   const Draw draw = [=](Random& random, double now) {
-    if (unit(random) < none) return infinite;
+    if (unit(random) < none) return infinity<double>;
     if (unit(random) < ties) return now;
     const double time = now + std::pow(10.0, lowest + range * unit(random));
     return grid > 0.0 ? std::max(now, std::floor(time / grid) * grid) : time;

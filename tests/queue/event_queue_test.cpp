@@ -2,6 +2,8 @@
 
 #include "queue/event_queue.hpp"
 
+#include "core/real.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -16,8 +18,6 @@ namespace {
 
 using Event = QueuedEvent<double>;
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 /// The tie rule in words: time, then lower id, then higher id (walls are negative).
 bool earlier(const Event& a, const Event& b) { return std::tie(a.time, a.lower, a.higher) < std::tie(b.time, b.lower, b.higher); }
 
@@ -26,7 +26,7 @@ Event earliest(const std::vector<Event>& events) { return *std::min_element(even
 rc::Gen<double> hostile_time() {
   return rc::gen::weightedOneOf<double>(
       {{4, rc::gen::element(0.0, -0.0, 1.0, 1.0, std::nextafter(1.0, 2.0))},
-       {2, rc::gen::element(infinite, std::numeric_limits<double>::max(), 1e300)},
+       {2, rc::gen::element(infinity<double>, std::numeric_limits<double>::max(), 1e300)},
        {2, rc::gen::element(std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::min(), 1e-310)},
        {1, rc::gen::map(rc::gen::inRange(0, 4), [](int k) { return 1e16 * k; })},
        {2, rc::gen::map(rc::gen::inRange(0, 1'000'000), [](int k) { return 1e-3 * k; })}});
@@ -76,10 +76,10 @@ RC_GTEST_PROP(PropertyEventQueue, ServesAllEventsInOrderWhenEachIsSentToInfinity
   queue.assign(model);
   std::stable_sort(model.begin(), model.end(), earlier);
   for (const Event& expected : model) {
-    if (expected.time == infinite) break;
+    if (expected.time == infinity<double>) break;
     require_same(queue.next(), expected);
     const std::int32_t disk = queue.next().disk;
-    queue.update({infinite, disk, std::numeric_limits<std::int32_t>::max(), disk});
+    queue.update({infinity<double>, disk, std::numeric_limits<std::int32_t>::max(), disk});
   }
 }
 
@@ -120,7 +120,7 @@ TEST(EventQueue, EarlierTimeWinsOverEveryTieRule) {
   const Event late{std::nextafter(1.0, 2.0), 0, -100, 0};
   const Event early{1.0, 7, 9, 7};
   EXPECT_TRUE(early.before(late));
-  EXPECT_TRUE(late.before({infinite, 0, -100, 0}));
+  EXPECT_TRUE(late.before({infinity<double>, 0, -100, 0}));
 }
 
 }  // namespace

@@ -10,26 +10,26 @@ namespace {
 using testing_support::refusal_of;
 using testing_support::small_scene;
 
-Scene with(const std::vector<std::string>& overrides) { return parse_scene(std::string(small_scene), "s.toml", overrides); }
+Scene overridden(const std::vector<std::string>& overrides) { return parse_scene(std::string(small_scene), "s.toml", overrides); }
 std::string refusal(const std::string& override_text) {
-  return refusal_of([&] { with({override_text}); });
+  return refusal_of([&] { overridden({override_text}); });
 }
 
 TEST(Overrides, ReplaceAValue) {
-  EXPECT_EQ(with({"run.time=2"}).run.time, 2.0);
-  EXPECT_EQ(with({"disks.0.radius = 0.125"}).species[0].radius, 0.125);
-  EXPECT_EQ(with({"box.x=[-1, 1]"}).box.lower[0], -1.0);
-  EXPECT_EQ(with({"box.x.1=20"}).box.upper[0], 20.0);
+  EXPECT_EQ(overridden({"run.time=2"}).run.time, 2.0);
+  EXPECT_EQ(overridden({"disks.0.radius = 0.125"}).species[0].radius, 0.125);
+  EXPECT_EQ(overridden({"box.x=[-1, 1]"}).box.lower[0], -1.0);
+  EXPECT_EQ(overridden({"box.x.1=20"}).box.upper[0], 20.0);
 }
 
 TEST(Overrides, BareWordsAreStrings) {
-  EXPECT_EQ(with({"collision.rule=reversal"}).effects.collision.rule, CollisionRule::reversal);
-  EXPECT_EQ(with({"collision.rule=\"reversal\""}).effects.collision.rule, CollisionRule::reversal);
-  EXPECT_EQ(with({"title=Many disks, in a box"}).title, "Many disks, in a box");
+  EXPECT_EQ(overridden({"collision.rule=reversal"}).effects.collision.rule, CollisionRule::reversal);
+  EXPECT_EQ(overridden({"collision.rule=\"reversal\""}).effects.collision.rule, CollisionRule::reversal);
+  EXPECT_EQ(overridden({"title=Many disks, in a box"}).title, "Many disks, in a box");
 }
 
 TEST(Overrides, MissingTablesAreMade) {
-  const Scene scene = with({"output.events=true", "run.equilibrate.time=3"});
+  const Scene scene = overridden({"output.events=true", "run.equilibrate.time=3"});
   EXPECT_TRUE(scene.output.events);
   EXPECT_EQ(scene.run.equilibrate->time, 3.0);
 }
@@ -44,12 +44,13 @@ TEST(Overrides, AWholeSceneCanBeMade) {
 }
 
 TEST(Overrides, AWholeSpeciesCanBeAdded) {
-  const Scene scene = with({R"(disks.1={ name = "one", positions = [[5, 5]], radius = 0.1, mass = 2, velocities = "rest" })"});
+  const Scene scene =
+      overridden({R"(disks.1={ name = "one", positions = [[5, 5]], radius = 0.1, mass = 2, velocities = "rest" })"});
   EXPECT_EQ(scene.species[1].name, "one");
 }
 
 TEST(Overrides, TheLastOneWins) {
-  const Scene scene = with({"run.seed=2", "run.seed=3"});
+  const Scene scene = overridden({"run.seed=2", "run.seed=3"});
   EXPECT_EQ(scene.run.seed, 3U);
   EXPECT_EQ(scene.overrides, (std::vector<std::string>{"run.seed=2", "run.seed=3"}));
   EXPECT_EQ(scene.text, small_scene) << "the text stays as it was read";

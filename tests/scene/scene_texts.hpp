@@ -46,6 +46,10 @@ inline std::string changed(std::initializer_list<std::pair<std::string_view, std
   return text;
 }
 
+inline Scene parse_changed(std::initializer_list<std::pair<std::string_view, std::string_view>> changes) {
+  return parse_scene(changed(changes));
+}
+
 /// what() of the SceneError that `action` throws; an empty string and a failed test where it throws none.
 template <class Action>
 std::string refusal_of(const Action& action) {

@@ -10,18 +10,15 @@ namespace carom {
 namespace {
 
 using testing_support::changed;
+using testing_support::parse_changed;
 using testing_support::refusal_of;
 using testing_support::small_scene;
 
 constexpr double pi = std::numbers::pi;
 constexpr std::string_view limits = "x = [0.0, 10.0]\ny = [0.0, 8.0]";
 
-Scene parse(std::initializer_list<std::pair<std::string_view, std::string_view>> changes) {
-  return parse_scene(changed(changes));
-}
-
 TEST(ShortForms, RadiusFollowsFromCountBoxAndShare) {
-  const Scene scene = parse({{"radius = 0.25", "packing_fraction = 0.4"}});
+  const Scene scene = parse_changed({{"radius = 0.25", "packing_fraction = 0.4"}});
   // pi r^2 10 = 0.4 * 80
   EXPECT_NEAR(scene.species[0].radius, std::sqrt(3.2 / pi), 1e-15);
   EXPECT_NEAR(scene.packing_fraction(), 0.4, 1e-15);
@@ -29,11 +26,11 @@ TEST(ShortForms, RadiusFollowsFromCountBoxAndShare) {
 
 TEST(ShortForms, CountFollowsToTheNearestDisk) {
   // 0.3 * 80 / (pi / 16) = 122.23
-  EXPECT_EQ(parse({{"count = 10", "packing_fraction = 0.3"}}).species[0].count, 122);
+  EXPECT_EQ(parse_changed({{"count = 10", "packing_fraction = 0.3"}}).species[0].count, 122);
 }
 
 TEST(ShortForms, BoxFollowsFromAspectCountRadiusAndShare) {
-  const Scene scene = parse({{limits, "aspect = 2.0"}, {"radius = 0.25", "radius = 0.25\npacking_fraction = 0.3"}});
+  const Scene scene = parse_changed({{limits, "aspect = 2.0"}, {"radius = 0.25", "radius = 0.25\npacking_fraction = 0.3"}});
   EXPECT_EQ(scene.box.lower, Eigen::Vector2d::Zero());
   EXPECT_NEAR(scene.box.upper[0] / scene.box.upper[1], 2.0, 1e-15);
   EXPECT_NEAR(scene.packing_fraction(), 0.3, 1e-15);
@@ -41,13 +38,13 @@ TEST(ShortForms, BoxFollowsFromAspectCountRadiusAndShare) {
 
 TEST(ShortForms, RadiusFollowsFromListedPositions) {
   const Scene scene =
-      parse({{"count = 10\n", ""}, {"radius = 0.25", "packing_fraction = 0.1"}, {"\"random\"", "[[3, 4], [7, 4]]"}});
+      parse_changed({{"count = 10\n", ""}, {"radius = 0.25", "packing_fraction = 0.1"}, {"\"random\"", "[[3, 4], [7, 4]]"}});
   EXPECT_NEAR(scene.species[0].radius, std::sqrt(4.0 / pi), 1e-15);
 }
 
 TEST(ShortForms, ConsistentRedundancyIsAllowed) {
   // 10 pi / 16 / 80 = 0.0245436926
-  EXPECT_EQ(parse({{"mass", "packing_fraction = 0.02454369\nmass"}}).species[0].radius, 0.25);
+  EXPECT_EQ(parse_changed({{"mass", "packing_fraction = 0.02454369\nmass"}}).species[0].radius, 0.25);
 }
 
 TEST(ShortForms, InconsistentRedundancyNamesWhatTheOthersMake) {
@@ -86,13 +83,13 @@ TEST(ShortForms, FileRadiiSizeTheBox) {
 }
 
 TEST(ShortForms, AGrownStartGivesTheRadius) {
-  const Scene scene = parse({{"radius = 0.25\n", ""}, {"\"random\"", "{ packing_fraction = 0.8 }"}});
+  const Scene scene = parse_changed({{"radius = 0.25\n", ""}, {"\"random\"", "{ packing_fraction = 0.8 }"}});
   EXPECT_EQ(std::get<GrownPositions>(scene.species[0].positions).packing_fraction, 0.8);
   EXPECT_NEAR(scene.packing_fraction(), 0.8, 1e-15);
 }
 
 TEST(ShortForms, AGrownStartSizesTheBox) {
-  const Scene scene = parse({{limits, "aspect = 2.0"}, {"\"random\"", "{ packing_fraction = 0.8 }"}});
+  const Scene scene = parse_changed({{limits, "aspect = 2.0"}, {"\"random\"", "{ packing_fraction = 0.8 }"}});
   EXPECT_NEAR(scene.box.upper[0] / scene.box.upper[1], 2.0, 1e-15);
   EXPECT_NEAR(scene.packing_fraction(), 0.8, 1e-15);
 }
@@ -117,7 +114,7 @@ TEST(ShortForms, AGrownMixtureMayGiveTheShareOfEachSpecies) {
 
 TEST(ShortForms, AGrownStartMayRepeatWhatIsKnown) {
   // 10 pi / 16 / 80 = 0.0245436926
-  EXPECT_EQ(parse({{"\"random\"", "{ packing_fraction = 0.02454369 }"}}).species[0].radius, 0.25);
+  EXPECT_EQ(parse_changed({{"\"random\"", "{ packing_fraction = 0.02454369 }"}}).species[0].radius, 0.25);
 }
 
 }  // namespace

@@ -13,12 +13,8 @@
 namespace carom {
 namespace {
 
-using testing_support::changed;
+using testing_support::parse_changed;
 using testing_support::small_scene;
-
-Scene parse(std::initializer_list<std::pair<std::string_view, std::string_view>> changes) {
-  return parse_scene(changed(changes));
-}
 
 TEST(Spellings, DefaultsFillWhatMayBeLeftOut) {
   const Scene scene = parse_scene(std::string(small_scene), "small.toml");
@@ -37,38 +33,38 @@ TEST(Spellings, DefaultsFillWhatMayBeLeftOut) {
 }
 
 TEST(Spellings, ATrajectoryIsWrittenWhereSamplesAreAskedFor) {
-  EXPECT_TRUE(parse({{"time = 5.0", "time = 5.0\nsample_every = 0.5"}}).output.trajectory);
-  EXPECT_FALSE(parse({{"time = 5.0", "time = 5.0\nsample_every = 0.5\n[output]\ntrajectory = false"}}).output.trajectory);
+  EXPECT_TRUE(parse_changed({{"time = 5.0", "time = 5.0\nsample_every = 0.5"}}).output.trajectory);
+  EXPECT_FALSE(parse_changed({{"time = 5.0", "time = 5.0\nsample_every = 0.5\n[output]\ntrajectory = false"}}).output.trajectory);
 }
 
 TEST(Spellings, BoundaryOfOneWordHoldsForBothAxes) {
-  const Scene scene = parse({{"\"walls\"", "\"periodic\""}});
+  const Scene scene = parse_changed({{"\"walls\"", "\"periodic\""}});
   EXPECT_TRUE(scene.box.periodic(0) && scene.box.periodic(1));
 }
 
 TEST(Spellings, BoundaryOfEachAxisCanDiffer) {
   for (const char* spelling :
        {"boundary = { x = \"periodic\", y = \"walls\" }", "boundary.x = \"periodic\"\nboundary.y = \"walls\""}) {
-    const Scene scene = parse({{"boundary = \"walls\"", spelling}});
+    const Scene scene = parse_changed({{"boundary = \"walls\"", spelling}});
     EXPECT_TRUE(scene.box.periodic(0) && !scene.box.periodic(1)) << spelling;
   }
 }
 
 TEST(Spellings, IntegersStandForFloats) {
-  const Scene scene = parse({{"[0.0, 10.0]", "[0, 10]"}, {"mass = 1.0", "mass = 3"}, {"5.0", "5"}});
+  const Scene scene = parse_changed({{"[0.0, 10.0]", "[0, 10]"}, {"mass = 1.0", "mass = 3"}, {"5.0", "5"}});
   EXPECT_EQ(scene.box.upper[0], 10.0);
   EXPECT_EQ(scene.species[0].mass, 3.0);
   EXPECT_EQ(scene.run.time, 5.0);
 }
 
 TEST(Spellings, PositionsByName) {
-  EXPECT_TRUE(std::holds_alternative<RandomPositions>(parse({}).species[0].positions));
-  EXPECT_TRUE(std::holds_alternative<SquareLattice>(parse({{"\"random\"", "\"square\""}}).species[0].positions));
-  EXPECT_TRUE(std::holds_alternative<HexagonalLattice>(parse({{"\"random\"", "\"hexagonal\""}}).species[0].positions));
+  EXPECT_TRUE(std::holds_alternative<RandomPositions>(parse_changed({}).species[0].positions));
+  EXPECT_TRUE(std::holds_alternative<SquareLattice>(parse_changed({{"\"random\"", "\"square\""}}).species[0].positions));
+  EXPECT_TRUE(std::holds_alternative<HexagonalLattice>(parse_changed({{"\"random\"", "\"hexagonal\""}}).species[0].positions));
 }
 
 TEST(Spellings, ListedPositionsGiveTheCount) {
-  const Scene scene = parse({{"count = 10\n", ""}, {"\"random\"", "[[1, 2.5], [3.0, 4.0]]"}});
+  const Scene scene = parse_changed({{"count = 10\n", ""}, {"\"random\"", "[[1, 2.5], [3.0, 4.0]]"}});
   EXPECT_EQ(scene.species[0].count, 2);
   const auto& listed = std::get<ListedPositions>(scene.species[0].positions);
   EXPECT_EQ(listed.values[0], Eigen::Vector2d(1.0, 2.5));
@@ -76,7 +72,9 @@ TEST(Spellings, ListedPositionsGiveTheCount) {
 }
 
 TEST(Spellings, VelocitiesByLaw) {
-  const auto velocities = [](std::string_view text) { return parse({{"{ uniform = 1.0 }", text}}).species[0].velocities; };
+  const auto velocities = [](std::string_view text) {
+    return parse_changed({{"{ uniform = 1.0 }", text}}).species[0].velocities;
+  };
   EXPECT_EQ(std::get<UniformVelocities>(velocities("{ uniform = 2 }")).maximum, 2.0);
   EXPECT_EQ(std::get<MaxwellVelocities>(velocities("{ temperature = 0.0 }")).temperature, 0.0);
   EXPECT_EQ(std::get<FixedSpeed>(velocities("{ speed = 0 }")).speed, 0.0);
@@ -85,29 +83,29 @@ TEST(Spellings, VelocitiesByLaw) {
 
 TEST(Spellings, ListedVelocitiesMayHaveAnyFiniteSize) {
   const Scene scene =
-      parse({{"count = 10", "count = 2"}, {"{ uniform = 1.0 }", "[[1.7976931348623157e308, 5e-324], [-0.0, 0]]"}});
+      parse_changed({{"count = 10", "count = 2"}, {"{ uniform = 1.0 }", "[[1.7976931348623157e308, 5e-324], [-0.0, 0]]"}});
   const auto& listed = std::get<ListedVelocities>(scene.species[0].velocities);
   EXPECT_EQ(listed.values[0], Eigen::Vector2d(DBL_MAX, std::numeric_limits<double>::denorm_min()));
   EXPECT_TRUE(std::signbit(listed.values[1][0]));
 }
 
 TEST(Spellings, RunMayEndByCollisionsAlone) {
-  const Scene scene = parse({{"time = 5.0", "collisions = 1_000_000"}});
+  const Scene scene = parse_changed({{"time = 5.0", "collisions = 1_000_000"}});
   EXPECT_FALSE(scene.run.time);
   EXPECT_EQ(scene.run.collisions, 1'000'000U);
 }
 
 TEST(Spellings, EquilibrateByCollisionsOrByTime) {
-  const Scene by_collisions = parse({{"5.0", "5.0\nequilibrate = { collisions_per_disk = 50 }"}});
+  const Scene by_collisions = parse_changed({{"5.0", "5.0\nequilibrate = { collisions_per_disk = 50 }"}});
   EXPECT_EQ(by_collisions.run.equilibrate->collisions_per_disk, 50.0);
   EXPECT_FALSE(by_collisions.run.equilibrate->time);
-  const Scene by_time = parse({{"5.0", "5.0\nequilibrate.time = 2"}});
+  const Scene by_time = parse_changed({{"5.0", "5.0\nequilibrate.time = 2"}});
   EXPECT_EQ(by_time.run.equilibrate->time, 2.0);
   EXPECT_FALSE(by_time.run.equilibrate->collisions_per_disk);
 }
 
 TEST(Spellings, AnEmptyBoxIsLegal) {
-  EXPECT_EQ(parse({{"count = 10", "count = 0"}}).disk_count(), 0);
+  EXPECT_EQ(parse_changed({{"count = 10", "count = 0"}}).disk_count(), 0);
   const Scene scene = parse_scene(
       "disks = []\nbox = { x = [0, 1], y = [0, 1], boundary = \"walls\" }\ncollision.rule = \"reversal\"\nrun.time = 0");
   EXPECT_EQ(scene.disk_count(), 0);
@@ -125,17 +123,18 @@ TEST(Spellings, CountAndPackingFractionSumOverSpecies) {
 
 TEST(Spellings, DisksThatJustTouchAreAllowed) {
   // In decimal: 0.1 + 0.2 is not 0.3 in double precision, and these are meant to touch the wall and each other.
-  const Scene scene = parse({{"[0.0, 10.0]", "[0.1, 0.9]"},
-                             {"[0.0, 8.0]", "[0.1, 0.3]"},
-                             {"count = 10\n", ""},
-                             {"0.25", "0.1"},
-                             {"\"random\"", "[[0.2, 0.2], [0.4, 0.2], [0.8, 0.2]]"}});
+  const Scene scene = parse_changed({{"[0.0, 10.0]", "[0.1, 0.9]"},
+                                     {"[0.0, 8.0]", "[0.1, 0.3]"},
+                                     {"count = 10\n", ""},
+                                     {"0.25", "0.1"},
+                                     {"\"random\"", "[[0.2, 0.2], [0.4, 0.2], [0.8, 0.2]]"}});
   EXPECT_EQ(scene.disk_count(), 3);
 }
 
 TEST(Spellings, OneDiskMayFillABoxThatRandomAdditionCouldNot) {
   // The limit 0.547 of random sequential addition holds for many disks, not for one in a box of its own size.
-  const Scene scene = parse({{"[0.0, 10.0]", "[0, 1]"}, {"[0.0, 8.0]", "[0, 1]"}, {"count = 10", "count = 1"}, {"0.25", "0.49"}});
+  const Scene scene =
+      parse_changed({{"[0.0, 10.0]", "[0, 1]"}, {"[0.0, 8.0]", "[0, 1]"}, {"count = 10", "count = 1"}, {"0.25", "0.49"}});
   EXPECT_GT(scene.packing_fraction(), 0.7);
 }
 

@@ -3,7 +3,7 @@
 #include "show/compare_page.hpp"
 
 #include "show/compare_plots.hpp"
-#include "show/page.hpp"
+#include "show/page_parts.hpp"
 #include "support/browser.hpp"
 #include "support/child_process.hpp"
 #include "support/comparisons.hpp"
@@ -24,20 +24,6 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-std::vector<Plot> plots_of(const Page& page) {
-  std::vector<Plot> plots;
-  for (const Section& section : page.sections)
-    for (const Block& block : section.blocks)
-      if (const Plot* plot = std::get_if<Plot>(&block)) plots.push_back(*plot);
-  return plots;
-}
-
-std::vector<std::string> ids_of(const Page& page) {
-  std::vector<std::string> ids;
-  for (const Plot& plot : plots_of(page)) ids.push_back(plot.id);
-  return ids;
-}
 
 const Series* series_of(const Plot& plot, const std::string& name) {
   for (const Series& series : plot.series)

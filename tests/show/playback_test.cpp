@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string gas = R"(
+const std::string played_gas = R"(
 [box]
 x = [0.0, 8.0]
 y = [-3.0, 3.0]
@@ -44,7 +44,7 @@ const std::vector<std::string> free_flight = {"disks.0.count=1", "box.boundary=p
 class PlaybackTest : public ::testing::Test {
  protected:
   void play(const std::vector<std::string>& overrides = {}, const PlaybackOptions& options = {}) {
-    scene_ = parse_scene(gas, "gas", overrides);
+    scene_ = parse_scene(played_gas, "gas", overrides);
     record(scene_, directory_.path() / "run");
     run_.emplace(directory_.path() / "run");
     playback_.emplace(*run_, options);

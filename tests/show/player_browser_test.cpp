@@ -3,6 +3,7 @@
 #include "show/player_page.hpp"
 
 #include "observe/geometry.hpp"
+#include "show/visited_page.hpp"
 #include "support/browser.hpp"
 #include "support/child_process.hpp"
 #include "support/recorded_run.hpp"
@@ -18,10 +19,8 @@ namespace carom::test {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
-const std::string gas = R"(
+const std::string watched_gas = R"(
 title = "<b>Gas</b> & \"walls\""
 [box]
 x = [0.0, 10.0]
@@ -51,22 +50,6 @@ Visit played(const Scene& scene, const std::string& script, int seconds = 5) {
   html.insert(html.rfind("</body>"), "<script>\n{\n" + script + "}\n</script>\n");
   write_text(directory.path() / "player.html", html);
   return visit(directory.path() / "player.html", Screen::light, seconds);
-}
-
-std::string script(const std::string& name) { return text_of(std::filesystem::path(CAROM_SOURCE_DIR) / "tests/show" / name); }
-
-/// data-NAME of the document
-std::string data(const Visit& visit, const std::string& name) {
-  const std::string root = visit.dom.substr(0, visit.dom.find('>', visit.dom.find("<html")));
-  const std::string key = "data-" + name + "=\"";
-  const std::size_t from = root.find(key);
-  if (from == std::string::npos) return "there is no data-" + name;
-  return root.substr(from + key.size(), root.find('"', from + key.size()) - from - key.size());
-}
-
-void expect_clean(const Visit& visit) {
-  EXPECT_THAT(visit.console, IsEmpty());
-  EXPECT_EQ(data(visit, "errors"), "");
 }
 
 /// What the engine has at these times, for player_pictures.js.
@@ -105,7 +88,7 @@ void expect_positions_of_the_engine(const Scene& scene, double until) {
 
 TEST(BrowserPlayer, EveryControlDoesWhatItSays) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  const Visit visit = played(parse_scene(gas), script("page_checks.js") + script("player_controls.js"));
+  const Visit visit = played(parse_scene(watched_gas), script("page_checks.js") + script("player_controls.js"));
   expect_clean(visit);
   EXPECT_EQ(data(visit, "failures"), "");
   EXPECT_GT(std::stoi(data(visit, "checks")), 100);
@@ -115,28 +98,28 @@ TEST(BrowserPlayer, EveryControlDoesWhatItSays) {
 
 TEST(BrowserPlayer, DrawsDisksWhereTheEngineHasThemAtFiveRandomInstants) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  expect_positions_of_the_engine(parse_scene(gas), 12.0);
+  expect_positions_of_the_engine(parse_scene(watched_gas), 12.0);
 }
 
 TEST(BrowserPlayer, DrawsFallingDisksWhereTheEngineHasThem) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  const Scene scene = parse_scene(gas, "gas", {"gravity.acceleration=[0.0, -1.5]"});
+  const Scene scene = parse_scene(watched_gas, "gas", {"gravity.acceleration=[0.0, -1.5]"});
   expect_positions_of_the_engine(scene, 12.0);
 }
 
 TEST(BrowserPlayer, DrawsAPistonAndItsGasWhereTheEngineHasThem) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  expect_positions_of_the_engine(parse_scene(gas, "gas", {"walls.top.mass=10.0", "walls.top.load=1.0"}), 12.0);
+  expect_positions_of_the_engine(parse_scene(watched_gas, "gas", {"walls.top.mass=10.0", "walls.top.load=1.0"}), 12.0);
 }
 
 TEST(BrowserPlayer, DrawsGrowingDisksAsLargeAsTheEngineHasThem) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  expect_positions_of_the_engine(parse_scene(gas, "gas", {"growth.rate=0.03"}), 12.0);
+  expect_positions_of_the_engine(parse_scene(watched_gas, "gas", {"growth.rate=0.03"}), 12.0);
 }
 
 TEST(BrowserPlayer, ADiskCrossesTheEdgesOfAShearedBoxWhereItShould) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  const Scene scene = parse_scene(gas, "gas",
+  const Scene scene = parse_scene(watched_gas, "gas",
                                   {"box.boundary=periodic", "disks.0.count=1", "disks.0.positions=[[5.0, 0.0]]",
                                    "disks.0.velocities=[[3.0, 2.5]]", "shear.rate=0.3"});
   // Its velocity changes at an edge by as much as the images beyond move, so that lines from sample to sample are its path.
@@ -156,7 +139,7 @@ TEST(BrowserPlayer, ADiskCrossesTheEdgesOfAShearedBoxWhereItShould) {
 
 TEST(BrowserPlayer, DrawsDisksFromSamplesAtTheirInstantsAndSaysSo) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  const Scene scene = parse_scene(gas, "gas", {"thermostat.temperature=1.0", "thermostat.rate=1.0"});
+  const Scene scene = parse_scene(watched_gas, "gas", {"thermostat.temperature=1.0", "thermostat.rate=1.0"});
   const Visit visit = played(scene, states_at(scene, {6.5}) + script("player_pictures.js"));
   expect_clean(visit);
   EXPECT_EQ(data(visit, "apart"), "less than a hundredth of a pixel");
@@ -167,7 +150,7 @@ TEST(BrowserPlayer, DrawsDisksFromSamplesAtTheirInstantsAndSaysSo) {
 
 TEST(SlowBrowserPlayer, MemoryDoesNotGrowOverAThousandLoops) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  const Visit visit = played(parse_scene(gas), script("player_loops.js"), 300);
+  const Visit visit = played(parse_scene(watched_gas), script("player_loops.js"), 300);
   expect_clean(visit);
   // Each of 3000 frames leaves behind an object of 16 bytes or more where it leaves one, and each loop a list of six numbers: 48
   // kB.

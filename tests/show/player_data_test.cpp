@@ -19,7 +19,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const std::string gas = R"(
+const std::string packed_gas = R"(
 title = "Gas"
 [box]
 x = [0.0, 8.0]
@@ -43,7 +43,7 @@ events = true
 class PlayerDataTest : public ::testing::Test {
  protected:
   PlayerData packed(const std::vector<std::string>& overrides = {}, const PlayerLimits& limits = {}) {
-    scene_ = parse_scene(gas, "gas", overrides);
+    scene_ = parse_scene(packed_gas, "gas", overrides);
     record(scene_, directory_.path() / "run");
     PlayerData data = player_data(RunReader(directory_.path() / "run"), limits);
     description_ = json::parse(data.description);
@@ -184,7 +184,7 @@ TEST_F(PlayerDataTest, TitlesCannotEndTheScriptThatHoldsThem) {
 
 TEST(SlowPlayerPage, OfAThousandDisksAndAHundredThousandCollisionsTakesLessThanFiveMegabytes) {
   const TemporaryDirectory directory;
-  record(parse_scene(gas, "gas",
+  record(parse_scene(packed_gas, "gas",
                      {"disks.0.count=1000", "disks.0.radius=0.1", "box.x=[0.0, 80.0]", "run.time=1e9", "run.collisions=100000",
                       "run.sample_every=5.0"}),
          directory.path() / "run");

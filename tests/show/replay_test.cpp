@@ -11,7 +11,7 @@
 namespace carom::test {
 namespace {
 
-std::string gas(const std::string& boundary, const std::string& more = {}) {
+std::string gas_in(const std::string& boundary, const std::string& more = {}) {
   return "[box]\nx = [0.0, 8.0]\ny = [0.0, 6.0]\nboundary = " + boundary +
          "\n[[disks]]\ncount = 30\nradius = 0.25\nmass = 2.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n"
          "[collision]\nrule = \"specular\"\n" +
@@ -65,22 +65,21 @@ TEST_P(ReplayOf, AMissingEventIsNoticed) {
 
 INSTANTIATE_TEST_SUITE_P(
     Effects, ReplayOf,
-    ::testing::Values(Case{"walls", gas("\"walls\"")}, Case{"periodic", gas("\"periodic\"")},
-                      Case{"gravity", gas("\"walls\"", "[gravity]\nacceleration = [0.0, -0.5]")},
-                      Case{"obstacles", gas("\"walls\"", "[[obstacles]]\ndisk = { centre = [4.0, 3.0], radius = 1.0 }")},
-                      Case{"moving_wall", gas("\"walls\"", "[walls]\nright = { velocity = 0.3 }")},
-                      Case{"pistons",
-                           gas("\"walls\"", "[walls]\nright = { mass = 10.0, load = 1.0 }\nbottom = { mass = 5.0, load = 1.0 }")},
-                      Case{"hot_wall", gas("\"walls\"", "[walls]\nleft = { temperature = 2.0 }")},
-                      Case{"growth", gas("\"periodic\"", "[growth]\nrate = 0.05")},
-                      Case{"inelastic", gas("\"walls\"", "restitution = 0.9")},
-                      Case{"rough", gas("\"walls\"", "roughness = 0.5")},
-                      Case{"well", gas("\"periodic\"", "[square_well]\nwidth = 1.5\ndepth = 0.5")}),
+    ::testing::Values(
+        Case{"walls", gas_in("\"walls\"")}, Case{"periodic", gas_in("\"periodic\"")},
+        Case{"gravity", gas_in("\"walls\"", "[gravity]\nacceleration = [0.0, -0.5]")},
+        Case{"obstacles", gas_in("\"walls\"", "[[obstacles]]\ndisk = { centre = [4.0, 3.0], radius = 1.0 }")},
+        Case{"moving_wall", gas_in("\"walls\"", "[walls]\nright = { velocity = 0.3 }")},
+        Case{"pistons", gas_in("\"walls\"", "[walls]\nright = { mass = 10.0, load = 1.0 }\nbottom = { mass = 5.0, load = 1.0 }")},
+        Case{"hot_wall", gas_in("\"walls\"", "[walls]\nleft = { temperature = 2.0 }")},
+        Case{"growth", gas_in("\"periodic\"", "[growth]\nrate = 0.05")},
+        Case{"inelastic", gas_in("\"walls\"", "restitution = 0.9")}, Case{"rough", gas_in("\"walls\"", "roughness = 0.5")},
+        Case{"well", gas_in("\"periodic\"", "[square_well]\nwidth = 1.5\ndepth = 0.5")}),
     [](const auto& tested) { return tested.param.name; });
 
 TEST(Replay, PistonsAreWhereTheEngineHasThem) {
   const Recorded run =
-      recorded(gas("\"walls\"", "[walls]\nright = { mass = 10.0, load = 1.0 }\nbottom = { mass = 5.0, load = 1.0 }"));
+      recorded(gas_in("\"walls\"", "[walls]\nright = { mass = 10.0, load = 1.0 }\nbottom = { mass = 5.0, load = 1.0 }"));
   Replay replay(run.scene, run.disks, run.samples[0]);
   std::size_t next = 0;
   for (const State& state : run.samples) {
@@ -96,15 +95,15 @@ TEST(Replay, PistonsAreWhereTheEngineHasThem) {
 }
 
 TEST(Replay, SaysWhatTheLogDoesNotHold) {
-  EXPECT_THAT(why_no_replay(parse_scene(gas("\"periodic\"", "[thermostat]\ntemperature = 1.0\nrate = 0.5"))),
+  EXPECT_THAT(why_no_replay(parse_scene(gas_in("\"periodic\"", "[thermostat]\ntemperature = 1.0\nrate = 0.5"))),
               ::testing::HasSubstr("thermostat"));
-  EXPECT_THAT(why_no_replay(parse_scene(gas("\"periodic\"", "[shear]\nrate = 0.5"))), ::testing::HasSubstr("shear"));
-  EXPECT_THAT(why_no_replay(parse_scene(gas("\"periodic\"", "roughness = 0.5\n[growth]\nrate = 0.05"))),
+  EXPECT_THAT(why_no_replay(parse_scene(gas_in("\"periodic\"", "[shear]\nrate = 0.5"))), ::testing::HasSubstr("shear"));
+  EXPECT_THAT(why_no_replay(parse_scene(gas_in("\"periodic\"", "roughness = 0.5\n[growth]\nrate = 0.05"))),
               ::testing::HasSubstr("spins"));
 }
 
 TEST(Replay, SingleDigitsRoundEveryVelocity) {
-  const Recorded run = recorded(gas("\"walls\""));
+  const Recorded run = recorded(gas_in("\"walls\""));
   Replay replay(run.scene, run.disks, run.samples[0], VelocityDigits::single);
   for (const Event& event : run.events) {
     replay.apply(event);

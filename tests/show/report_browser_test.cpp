@@ -2,6 +2,7 @@
 
 #include "show/report_page.hpp"
 
+#include "show/visited_page.hpp"
 #include "support/browser.hpp"
 #include "support/child_process.hpp"
 #include "support/recorded_run.hpp"
@@ -17,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::string gas = R"(
+const std::string reported_gas = R"(
 title = "</script><b>A gas</b>"
 [box]
 x = [0.0, 10.0]
@@ -44,19 +45,10 @@ radial_distribution = { range = 3.0, bins = 30 }
 viscosity = true
 )";
 
-/// data-NAME of the document
-std::string data(const std::string& dom, const std::string& name) {
-  const std::string root = dom.substr(0, dom.find('>', dom.find("<html")));
-  const std::string key = "data-" + name + "=\"";
-  const std::size_t from = root.find(key);
-  if (from == std::string::npos) return "there is no data-" + name;
-  return root.substr(from + key.size(), root.find('"', from + key.size()) - from - key.size());
-}
-
 /// The page after `script` ran, seconds after its own.
 Visit visited(const std::vector<std::string>& overrides, const std::string& script, Screen screen = Screen::light) {
   const TemporaryDirectory directory;
-  record(parse_scene(gas, "gas.toml", overrides), directory.path() / "run");
+  record(parse_scene(reported_gas, "gas.toml", overrides), directory.path() / "run");
   std::string html = report_of(directory.path() / "run").html;
   html.insert(html.rfind("</body>"),
               "<script>addEventListener('load', () => setTimeout(async () => {\n"
@@ -83,15 +75,15 @@ TEST(BrowserReport, DrawsEveryPlotAndPlaysTheRun) {
                                 "root.fits = last.right <= frame.clientWidth;\n",
                                 screen);
     EXPECT_THAT(visit.console, IsEmpty());
-    EXPECT_EQ(data(visit.dom, "errors"), "");
+    EXPECT_EQ(data(visit, "errors"), "");
     // Energy, Z, two of flights, two of speeds, g(r), two of viscosity.
-    EXPECT_EQ(data(visit.dom, "plots"), "9");
-    EXPECT_EQ(data(visit.dom, "exact"), "true");
-    EXPECT_EQ(data(visit.dom, "inside"), "");
-    EXPECT_EQ(data(visit.dom, "before"), "0");
-    EXPECT_EQ(data(visit.dom, "moved"), "true");
-    EXPECT_EQ(data(visit.dom, "wide"), "true");
-    EXPECT_EQ(data(visit.dom, "fits"), "true") << "the last control of the player is within its frame";
+    EXPECT_EQ(data(visit, "plots"), "9");
+    EXPECT_EQ(data(visit, "exact"), "true");
+    EXPECT_EQ(data(visit, "inside"), "");
+    EXPECT_EQ(data(visit, "before"), "0");
+    EXPECT_EQ(data(visit, "moved"), "true");
+    EXPECT_EQ(data(visit, "wide"), "true");
+    EXPECT_EQ(data(visit, "fits"), "true") << "the last control of the player is within its frame";
     EXPECT_THAT(visit.dom, HasSubstr("<h1>&lt;/script&gt;&lt;b&gt;A gas&lt;/b&gt;</h1>"));
   }
 }
@@ -104,8 +96,8 @@ TEST(BrowserReport, WhatGoesWrongInThePlayerIsSaidOnThePage) {
                               "script.textContent = 'nonsense()';\n"
                               "frame.contentDocument.body.append(script);\n"
                               "await new Promise((done) => setTimeout(done, 100));\n");
-  EXPECT_EQ(data(visit.dom, "exact"), "false");
-  EXPECT_THAT(data(visit.dom, "errors"), HasSubstr("The run, replayed: Uncaught ReferenceError: nonsense is not defined"));
+  EXPECT_EQ(data(visit, "exact"), "false");
+  EXPECT_THAT(data(visit, "errors"), HasSubstr("The run, replayed: Uncaught ReferenceError: nonsense is not defined"));
 }
 
 TEST(BrowserReport, ANarrowFrameIsAsHighAsAllOfThePlayer) {
@@ -117,9 +109,9 @@ TEST(BrowserReport, ANarrowFrameIsAsHighAsAllOfThePlayer) {
                               "root.scrolls = body.scrollHeight > frame.clientHeight;\n"
                               "const top = (selector) => body.querySelector(selector).getBoundingClientRect().top;\n"
                               "root.order = top('.stage') < top('footer') && top('footer') < top('aside');\n");
-  EXPECT_EQ(data(visit.dom, "errors"), "");
-  EXPECT_EQ(data(visit.dom, "scrolls"), "false");
-  EXPECT_EQ(data(visit.dom, "order"), "true");
+  EXPECT_EQ(data(visit, "errors"), "");
+  EXPECT_EQ(data(visit, "scrolls"), "false");
+  EXPECT_EQ(data(visit, "order"), "true");
 }
 
 }  // namespace

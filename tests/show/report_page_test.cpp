@@ -2,6 +2,7 @@
 
 #include "show/report_page.hpp"
 
+#include "show/page_parts.hpp"
 #include "show/plot_json.hpp"
 #include "show/run_theory.hpp"
 #include "support/child_process.hpp"
@@ -72,20 +73,6 @@ class ReportPage : public ::testing::Test {
   std::filesystem::path run_ = directory_.path() / "run";
 };
 
-std::vector<Plot> plots_of(const Page& page) {
-  std::vector<Plot> plots;
-  for (const Section& section : page.sections)
-    for (const Block& block : section.blocks)
-      if (const Plot* const plot = std::get_if<Plot>(&block)) plots.push_back(*plot);
-  return plots;
-}
-
-std::vector<std::string> ids_of(const Page& page) {
-  std::vector<std::string> ids;
-  for (const Plot& plot : plots_of(page)) ids.push_back(plot.id);
-  return ids;
-}
-
 std::vector<std::string> headings_of(const Page& page) {
   std::vector<std::string> headings;
   for (const Section& section : page.sections) headings.push_back(section.heading);
@@ -146,9 +133,9 @@ TEST_F(ReportPage, HasAPlotForEveryTableThatWasAskedFor) {
                              HasSubstr("velocity_moments | kurtosis | "), HasSubstr("heat_conductivity | green_kubo | ")));
   for (const Plot& plot : plots_of(page)) {
     EXPECT_FALSE(plot.series.empty()) << plot.id;
-    const std::string json = detail::plot_json(plot);
-    EXPECT_THAT(json, Not(HasSubstr("nan"))) << plot.id;
-    EXPECT_THAT(json, Not(HasSubstr("inf"))) << plot.id;
+    const std::string text = detail::plot_json(plot);
+    EXPECT_THAT(text, Not(HasSubstr("nan"))) << plot.id;
+    EXPECT_THAT(text, Not(HasSubstr("inf"))) << plot.id;
   }
 }
 

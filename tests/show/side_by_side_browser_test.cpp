@@ -3,6 +3,7 @@
 
 #include "show/side_by_side_page.hpp"
 
+#include "show/visited_page.hpp"
 #include "support/browser.hpp"
 #include "support/child_process.hpp"
 
@@ -19,9 +20,8 @@ namespace carom::test {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
-const std::string gas = R"(
+const std::string flown_gas = R"(
 title = "Two flights"
 [box]
 x = [0.0, 10.0]
@@ -40,7 +40,7 @@ time = 4.0
 seed = 5
 )";
 
-SideBySide flown(const Scene& scene, const std::string& method) {
+SideBySide flown_in_steps(const Scene& scene, const std::string& method) {
   return fly_side_by_side(scene, make_simulation(scene).state(),
                           {.step = {method, 0.05}, .until = 4.0, .free_time = 0.6, .sigma = 0.7});
 }
@@ -52,22 +52,6 @@ Visit played(const Scene& scene, const SideBySide& shown, const std::string& scr
   html.insert(html.rfind("</body>"), "<script>\n{\n" + script + "}\n</script>\n");
   write_text(directory.path() / "side_by_side.html", html);
   return visit(directory.path() / "side_by_side.html", Screen::light, 5);
-}
-
-std::string script(const std::string& name) { return text_of(std::filesystem::path(CAROM_SOURCE_DIR) / "tests/show" / name); }
-
-/// data-NAME of the document
-std::string data(const Visit& visit, const std::string& name) {
-  const std::string root = visit.dom.substr(0, visit.dom.find('>', visit.dom.find("<html")));
-  const std::string key = "data-" + name + "=\"";
-  const std::size_t from = root.find(key);
-  if (from == std::string::npos) return "there is no data-" + name;
-  return root.substr(from + key.size(), root.find('"', from + key.size()) - from - key.size());
-}
-
-void expect_clean(const Visit& visit) {
-  EXPECT_THAT(visit.console, IsEmpty());
-  EXPECT_EQ(data(visit, "errors"), "");
 }
 
 /// What a simulation has at these times, for player_pictures.js.
@@ -108,8 +92,8 @@ void expect_places(const Visit& visit) {
 
 TEST(BrowserSideBySide, EveryControlDoesWhatItSaysAndOverlapsFlashWhereThereAreSome) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  const Scene scene = parse_scene(gas);
-  const SideBySide shown = flown(scene, "guarded");
+  const Scene scene = parse_scene(flown_gas);
+  const SideBySide shown = flown_in_steps(scene, "guarded");
   const Visit visit = played(scene, shown, script("page_checks.js") + script("side_by_side_controls.js"));
   expect_clean(visit);
   EXPECT_EQ(data(visit, "failures"), "");
@@ -119,18 +103,18 @@ TEST(BrowserSideBySide, EveryControlDoesWhatItSaysAndOverlapsFlashWhereThereAreS
 
 TEST(BrowserSideBySide, DrawsTheExactSideWhereTheEngineHasIt) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  const Scene scene = parse_scene(gas);
-  const SideBySide shown = flown(scene, "guarded");
+  const Scene scene = parse_scene(flown_gas);
+  const SideBySide shown = flown_in_steps(scene, "guarded");
   expect_places(played(
       scene, shown, states_at(make_simulation(scene), scene.box, {0.0, 0.71, 1.9, 2.33, 3.99}) + script("player_pictures.js")));
 }
 
 TEST(BrowserSideBySide, DrawsTheOtherSideWhereTheMethodHasIt) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  const Scene scene = parse_scene(gas);
+  const Scene scene = parse_scene(flown_gas);
   for (const char* const method : {"guarded", "naive-edge"}) {
     SCOPED_TRACE(method);
-    const SideBySide shown = flown(scene, method);
+    const SideBySide shown = flown_in_steps(scene, method);
     expect_places(played(scene, shown,
                          states_at(make_simulation(scene, FixedStep{method, 0.05}), scene.box, instants_without_overlaps(shown)) +
                              "window.shown = { canvas: document.getElementById(\"steps\"), moment: carom.stepsMoment };\n" +

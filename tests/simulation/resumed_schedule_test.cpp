@@ -71,7 +71,8 @@ void append(std::string& log, const char* what, double number) {
 }
 
 /// Runs to the end, or is saved at moment `stop_at` and stops there.
-Told run(Simulation& simulation, Observation& observation, std::optional<int> stop_at, Saved* saved, std::istream* from) {
+Told run_observed(Simulation& simulation, Observation& observation, std::optional<int> stop_at, Saved* saved,
+                  std::istream* from) {
   Told told;
   RunHooks hooks;
   hooks.start = [&](const State& state) { append(told.log, "start", state.positions.sum()); };
@@ -125,18 +126,18 @@ class ResumedSchedule : public testing::TestWithParam<int> {};
 void expect_the_same_resumed_at(int moment, const Scene& scene) {
   Simulation whole = make_simulation(scene);
   Observation of_whole(whole);
-  const Told expected = run(whole, of_whole, {}, nullptr, nullptr);
+  const Told expected = run_observed(whole, of_whole, {}, nullptr, nullptr);
 
   Saved saved;
   Simulation killed = make_simulation(scene);
   Observation of_killed(killed);
-  const Told before = run(killed, of_killed, moment, &saved, nullptr);
+  const Told before = run_observed(killed, of_killed, moment, &saved, nullptr);
   ASSERT_FALSE(saved.simulation.empty()) << "there are fewer moments than that";
 
   std::istringstream simulation(saved.simulation), schedule(saved.schedule), observables(saved.observables);
   Simulation restored = restore_simulation(scene, simulation);
   Observation of_restored(restored, observables);
-  const Told after = run(restored, of_restored, {}, nullptr, &schedule);
+  const Told after = run_observed(restored, of_restored, {}, nullptr, &schedule);
 
   EXPECT_EQ(before.log + after.log, expected.log);
   EXPECT_EQ(after.result.stopped, expected.result.stopped);

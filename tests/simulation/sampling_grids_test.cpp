@@ -16,7 +16,7 @@
 namespace carom::test {
 namespace {
 
-Scene gas(double time) {
+Scene gas_until(double time) {
   Scene scene = gas_scene(30, 0.3, Boundary::periodic);
   scene.run.time = time;
   scene.run.sample_every.reset();
@@ -24,7 +24,7 @@ Scene gas(double time) {
 }
 
 TEST(SamplingGrids, EachHasItsOwnTimesBesideThoseOfTheScene) {
-  Scene scene = gas(1.0);
+  Scene scene = gas_until(1.0);
   scene.run.sample_every = 0.25;
   Simulation simulation = make_simulation(scene);
   std::vector<std::pair<char, double>> samples;
@@ -45,7 +45,7 @@ TEST(SamplingGrids, EachHasItsOwnTimesBesideThoseOfTheScene) {
 }
 
 TEST(SamplingGrids, EveryCollisionUpToASampleHasBeenHandedOn) {
-  Simulation simulation = make_simulation(gas(5.0));
+  Simulation simulation = make_simulation(gas_until(5.0));
   std::uint64_t pairs = 0;
   RunHooks hooks;
   hooks.events = [&](std::span<const Event> events) { pairs += events.size(); };
@@ -58,7 +58,7 @@ TEST(SamplingGrids, EveryCollisionUpToASampleHasBeenHandedOn) {
 
 TEST(SamplingGrids, LeaveNoTraceInTheBits) {
   const auto end = [](bool sampled) {
-    Simulation simulation = make_simulation(gas(5.0));
+    Simulation simulation = make_simulation(gas_until(5.0));
     RunHooks hooks;
     if (sampled) hooks.grids.push_back({0.0137, [](std::uint64_t, const State&, const Totals&) {}});
     run_schedule(simulation, hooks);
@@ -70,7 +70,7 @@ TEST(SamplingGrids, LeaveNoTraceInTheBits) {
 
 TEST(SamplingGrids, StepsThatAreNoneAreRefused) {
   for (const double step : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
-    Simulation simulation = make_simulation(gas(1.0));
+    Simulation simulation = make_simulation(gas_until(1.0));
     RunHooks hooks;
     hooks.grids.push_back({step, {}});
     EXPECT_THROW(run_schedule(simulation, hooks), std::invalid_argument) << step;

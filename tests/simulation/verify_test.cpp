@@ -13,14 +13,14 @@
 namespace carom::test {
 namespace {
 
-Scene gas() {
+Scene thousand_collisions() {
   Scene scene = gas_scene(36, 0.5, Boundary::periodic);
   scene.run.collisions = 1000;
   return scene;
 }
 
 TEST(Verify, ChecksEverySoManyEventsAndAtTheEnd) {
-  Simulation simulation = make_simulation(gas());
+  Simulation simulation = make_simulation(thousand_collisions());
   RunHooks hooks;
   hooks.verify_every = 500;
   const RunResult result = run_schedule(simulation, hooks);
@@ -33,7 +33,7 @@ TEST(Verify, ChecksEverySoManyEventsAndAtTheEnd) {
 }
 
 TEST(Verify, ChecksLeaveNoTraceInTheBits) {
-  Simulation plain = make_simulation(gas()), verified = make_simulation(gas());
+  Simulation plain = make_simulation(thousand_collisions()), verified = make_simulation(thousand_collisions());
   RunHooks hooks;
   hooks.verify_every = 7;
   run_schedule(plain);
@@ -42,7 +42,7 @@ TEST(Verify, ChecksLeaveNoTraceInTheBits) {
 }
 
 TEST(Verify, ARunWithoutEventsIsCheckedOnce) {
-  Scene scene = gas();
+  Scene scene = thousand_collisions();
   scene.species.front().velocities = AtRest{};
   scene.run.collisions.reset();
   scene.run.time = 1.0;
@@ -131,8 +131,8 @@ TEST(Numerics, ADiskSuddenlyMuchFasterOutrunsItsEpoch) {
 }
 
 TEST(Numerics, LongestListIsKnownFromTheStart) {
-  EXPECT_GE(make_simulation(gas(), "fast").totals().numerics.longest_list, 6U);
-  EXPECT_EQ(make_simulation(gas(), "textbook").totals().numerics.longest_list, 0U);
+  EXPECT_GE(make_simulation(thousand_collisions(), "fast").totals().numerics.longest_list, 6U);
+  EXPECT_EQ(make_simulation(thousand_collisions(), "textbook").totals().numerics.longest_list, 0U);
 }
 
 }  // namespace

@@ -2,20 +2,18 @@
 
 #include "study/compare_answers.hpp"
 
+#include "core/real.hpp"
 #include "support/comparisons.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace carom::test {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// What logarithms, sums over the points and powers of them may round.
 constexpr double rounding = 1e-12;
@@ -35,9 +33,9 @@ TEST(Spread, QuartilesLieBetweenTheValuesAndInfinitiesAreValues) {
   EXPECT_EQ(even.lower, 1.75);
   EXPECT_EQ(even.median, 2.5);
   EXPECT_EQ(even.upper, 3.5);
-  const Spread lost = spread_of({1.0, infinity, infinity});
-  EXPECT_EQ(lost.median, infinity);
-  EXPECT_EQ(lost.upper, infinity);
+  const Spread lost = spread_of({1.0, infinity<double>, infinity<double>});
+  EXPECT_EQ(lost.median, infinity<double>);
+  EXPECT_EQ(lost.upper, infinity<double>);
   EXPECT_EQ(spread_of({7.0}).lower, 7.0);
   EXPECT_TRUE(std::isnan(spread_of({}).median));
 }

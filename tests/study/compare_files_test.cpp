@@ -2,6 +2,7 @@
 
 #include "study/compare_files.hpp"
 
+#include "core/real.hpp"
 #include "support/child_process.hpp"
 #include "support/comparisons.hpp"
 
@@ -24,20 +25,18 @@ using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Numbers that a careless format would change.
 MethodRun awkward_run() {
   MethodRun run;
   run.method = {"naive-edge", 0.1 + 0.2};
   run.seed = std::numeric_limits<std::uint64_t>::max();
-  run.error = {1.0 / 3.0, 5e-324, 1.7976931348623157e308, infinity, -0.0, infinity};
+  run.error = {1.0 / 3.0, 5e-324, 1.7976931348623157e308, infinity<double>, -0.0, infinity<double>};
   run.seconds_early = 1e-300;
   run.seconds = 0.1;
   run.time = 1e22;
   run.pair = (std::uint64_t{1} << 63) + 1;
   run.Z = 2.0 / 3.0;
-  run.collision_rate = infinity;
+  run.collision_rate = infinity<double>;
   run.mean_free_path = 4.35;
   run.energy_drift = -1.1102230246251565e-16;
   run.worst_overlap = 0.9999999999999999;

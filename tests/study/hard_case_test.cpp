@@ -151,10 +151,10 @@ TEST(HardCaseChecks, NotANumberIsWithinNoBound) {
 
 TEST(HardCaseTable, VerdictsAsJsonAndMarkdownNameCaseAndCheck) {
   const std::vector<CaseVerdict> verdicts = {run_hard_case(load_hard_case((wrong_cases / "pair.toml").string()))};
-  const auto json = nlohmann::json::parse(hard_cases_json(verdicts));
-  EXPECT_EQ(json.at("failed"), 1);
-  EXPECT_EQ(json.at("cases").at(0).at("name"), "pair");
-  EXPECT_EQ(json.at("cases").at(0).at("verdict"), "FAILS");
+  const auto written = nlohmann::json::parse(hard_cases_json(verdicts));
+  EXPECT_EQ(written.at("failed"), 1);
+  EXPECT_EQ(written.at("cases").at(0).at("name"), "pair");
+  EXPECT_EQ(written.at("cases").at(0).at("verdict"), "FAILS");
   EXPECT_THAT(hard_cases_markdown(verdicts), HasSubstr("| `pair` |"));
 }
 

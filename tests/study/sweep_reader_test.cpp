@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-const std::string scene = "scene = \"gas.toml\"\n";
+const std::string scene_line = "scene = \"gas.toml\"\n";
 
 class SweepReader : public ::testing::Test {
  protected:
@@ -30,7 +30,7 @@ std::vector<std::string> names_of(const Sweep& sweep) {
 }
 
 TEST_F(SweepReader, AGridHasEveryCombinationAndItsFirstKeyChangesLast) {
-  const Sweep sweep = files_.load(scene + "seeds = 2\n[grid]\n\"run.time\" = [1.0, 2]\ndisks.0.count = [10, 20, 30]\n");
+  const Sweep sweep = files_.load(scene_line + "seeds = 2\n[grid]\n\"run.time\" = [1.0, 2]\ndisks.0.count = [10, 20, 30]\n");
   EXPECT_THAT(sweep.keys, ElementsAre("run.time", "disks.0.count"));
   EXPECT_THAT(names_of(sweep), ElementsAre("time=1.0_count=10", "time=1.0_count=20", "time=1.0_count=30", "time=2_count=10",
                                            "time=2_count=20", "time=2_count=30"));
@@ -41,7 +41,7 @@ TEST_F(SweepReader, AGridHasEveryCombinationAndItsFirstKeyChangesLast) {
 }
 
 TEST_F(SweepReader, ListedPointsFollowTheGridAndMayHaveNames) {
-  const Sweep sweep = files_.load(scene +
+  const Sweep sweep = files_.load(scene_line +
                                   "[grid]\n\"run.time\" = [1.0]\n"
                                   "[[points]]\nname = \"walls\"\n\"box.boundary\" = \"walls\"\n"
                                   "[[points]]\nrun.time = 3.0\n\"disks.0.velocities\" = { speed = 2.0 }\n");
@@ -51,27 +51,27 @@ TEST_F(SweepReader, ListedPointsFollowTheGridAndMayHaveNames) {
 }
 
 TEST_F(SweepReader, WithoutPointsTheSceneItselfIsOne) {
-  const Sweep sweep = files_.load(scene + "seeds = [5, 3]\n");
+  const Sweep sweep = files_.load(scene_line + "seeds = [5, 3]\n");
   EXPECT_THAT(names_of(sweep), ElementsAre("scene"));
   EXPECT_EQ(sweep.directory_of(1), "scene/seed=3");
   EXPECT_EQ(sweep.scene_of(1).run.seed, 3U);
 }
 
 TEST_F(SweepReader, ANumberOfSeedsBeginsWithTheScenesOwn) {
-  EXPECT_THAT(files_.load(scene + "seeds = 3\n[set]\nrun.time = 4.0\n").seeds, ElementsAre(1, 2, 3));
+  EXPECT_THAT(files_.load(scene_line + "seeds = 3\n[set]\nrun.time = 4.0\n").seeds, ElementsAre(1, 2, 3));
   write_text(files_.directory().file("gas.toml"), fifty_disks + "seed = 7\n");
-  EXPECT_THAT(files_.load(scene + "seeds = 3\n").seeds, ElementsAre(7, 8, 9));
+  EXPECT_THAT(files_.load(scene_line + "seeds = 3\n").seeds, ElementsAre(7, 8, 9));
 }
 
 TEST_F(SweepReader, SharedChangesAreAtEveryPointAndAPointsOwnComeAfterThem) {
-  const Sweep sweep = files_.load(scene + "[set]\nrun.time = 4.0\ndisks.0.count = 9\n[[points]]\nrun.time = 5.0\n");
+  const Sweep sweep = files_.load(scene_line + "[set]\nrun.time = 4.0\ndisks.0.count = 9\n[[points]]\nrun.time = 5.0\n");
   EXPECT_EQ(sweep.scene_of(0).run.time, 5.0);
   EXPECT_EQ(sweep.scene_of(0).disk_count(), 9);
   EXPECT_THAT(names_of(sweep), ElementsAre("time=5.0"));
 }
 
 TEST_F(SweepReader, AResolvedSceneReadsBackAsItself) {
-  const Sweep sweep = files_.load(scene +
+  const Sweep sweep = files_.load(scene_line +
                                   "[grid]\ndisks.0.packing_fraction = [0.1]\n\"observe.speeds\" = [{ bins = 20 }]\n"
                                   "[set]\ndisks.0.radius = 0.3\n\"title\" = \"a \\\"name\\\"\"\nbox = { aspect = 2.0, "
                                   "boundary = \"periodic\" }\n");
@@ -85,64 +85,65 @@ TEST_F(SweepReader, WhatIsWrongWithTheFileIsSaidWithItsPlace) {
   EXPECT_THAT(refusal("scene = 3\n"), StartsWith("sweep.toml:1:9: scene is an integer (3); it must be a string"));
   EXPECT_THAT(refusal("scene = \"gone.toml\"\n"),
               AllOf(StartsWith("sweep.toml:1:9: "), HasSubstr("gone.toml: there is no such")));
-  EXPECT_EQ(refusal(scene + "sedes = 2\n"), "sweep.toml:2:1: a sweep has no key \"sedes\"; did you mean \"seeds\"?");
-  EXPECT_THAT(refusal(scene + "seeds = 0\n"), StartsWith("sweep.toml:2:9: seeds is an integer (0); it must be how many, from 1"));
-  EXPECT_THAT(refusal(scene + "seeds = []\n"), StartsWith("sweep.toml:2:9: seeds is an empty list"));
-  EXPECT_THAT(refusal(scene + "seeds = [1, -2]\n"), StartsWith("sweep.toml:2:13: seeds.1 is an integer (-2)"));
-  EXPECT_EQ(refusal(scene + "seeds = [1, 2, 1]\n"),
+  EXPECT_EQ(refusal(scene_line + "sedes = 2\n"), "sweep.toml:2:1: a sweep has no key \"sedes\"; did you mean \"seeds\"?");
+  EXPECT_THAT(refusal(scene_line + "seeds = 0\n"),
+              StartsWith("sweep.toml:2:9: seeds is an integer (0); it must be how many, from 1"));
+  EXPECT_THAT(refusal(scene_line + "seeds = []\n"), StartsWith("sweep.toml:2:9: seeds is an empty list"));
+  EXPECT_THAT(refusal(scene_line + "seeds = [1, -2]\n"), StartsWith("sweep.toml:2:13: seeds.1 is an integer (-2)"));
+  EXPECT_EQ(refusal(scene_line + "seeds = [1, 2, 1]\n"),
             "sweep.toml:2:16: seed 1 is there twice; a seed gives one run, so name it once");
-  EXPECT_THAT(refusal(scene + "grid = 3\n"), StartsWith("sweep.toml:2:8: grid is an integer (3)"));
-  EXPECT_THAT(refusal(scene + "[grid]\n"), StartsWith("sweep.toml:2:1: [grid] is empty"));
-  EXPECT_THAT(refusal(scene + "[grid]\nrun.time = 3.0\n"),
+  EXPECT_THAT(refusal(scene_line + "grid = 3\n"), StartsWith("sweep.toml:2:8: grid is an integer (3)"));
+  EXPECT_THAT(refusal(scene_line + "[grid]\n"), StartsWith("sweep.toml:2:1: [grid] is empty"));
+  EXPECT_THAT(refusal(scene_line + "[grid]\nrun.time = 3.0\n"),
               StartsWith("sweep.toml:3:12: grid.run.time is a floating-point number (3.0); it must be a list of values"));
-  EXPECT_THAT(refusal(scene + "[grid]\n\"run.seed\" = [1, 2]\n"), StartsWith("sweep.toml:3:1: run.seed cannot be swept"));
-  EXPECT_EQ(refusal(scene + "[grid]\n\"run.time\" = [1.0]\nrun.time = [2.0]\n"),
+  EXPECT_THAT(refusal(scene_line + "[grid]\n\"run.seed\" = [1, 2]\n"), StartsWith("sweep.toml:3:1: run.seed cannot be swept"));
+  EXPECT_EQ(refusal(scene_line + "[grid]\n\"run.time\" = [1.0]\nrun.time = [2.0]\n"),
             "sweep.toml:4:5: run.time is there twice; give it once");
-  EXPECT_THAT(refusal(scene + "points = 3\n"),
+  EXPECT_THAT(refusal(scene_line + "points = 3\n"),
               StartsWith("sweep.toml:2:10: points is an integer (3); it must be a list of tables"));
-  EXPECT_THAT(refusal(scene + "[[points]]\nname = \"../up\"\n"),
+  EXPECT_THAT(refusal(scene_line + "[[points]]\nname = \"../up\"\n"),
               StartsWith("sweep.toml:3:8: points.0.name is a string (\"../up\")"));
-  EXPECT_THAT(refusal(scene + "[[points]]\nname = \"sweep.csv\"\n"), HasSubstr("no file of the sweep"));
-  EXPECT_THAT(refusal(scene + "[[points]]\nrun.time = 1979-05-27\n"),
+  EXPECT_THAT(refusal(scene_line + "[[points]]\nname = \"sweep.csv\"\n"), HasSubstr("no file of the sweep"));
+  EXPECT_THAT(refusal(scene_line + "[[points]]\nrun.time = 1979-05-27\n"),
               HasSubstr("is a date or time; it must be a value that a scene"));
   EXPECT_THAT(refusal("scene = \n"), StartsWith("sweep.toml:1:"));
 }
 
 TEST_F(SweepReader, TwoPointsOfOneNameAreRefused) {
-  EXPECT_EQ(files_.refusal(scene + "[grid]\nrun.time = [1.0, 1.0]\n"),
+  EXPECT_EQ(files_.refusal(scene_line + "[grid]\nrun.time = [1.0, 1.0]\n"),
             "sweep.toml:3:18: two points are called time=1.0, the other one in line 3; they are the same: leave one out");
-  EXPECT_EQ(files_.refusal(scene + "[[points]]\nname = \"a\"\nrun.time = 1.0\n[[points]]\nname = \"a\"\nrun.time = 2.0\n"),
+  EXPECT_EQ(files_.refusal(scene_line + "[[points]]\nname = \"a\"\nrun.time = 1.0\n[[points]]\nname = \"a\"\nrun.time = 2.0\n"),
             "sweep.toml:5:1: two points are called a, the other one in line 2; give one of them a name of its own");
 }
 
 TEST_F(SweepReader, WhatASceneRefusesIsSaidOfThePointThatAsksForIt) {
-  EXPECT_THAT(files_.refusal(scene + "[grid]\ndisks.0.radius = [0.1, -0.2]\n"),
+  EXPECT_THAT(files_.refusal(scene_line + "[grid]\ndisks.0.radius = [0.1, -0.2]\n"),
               AllOf(StartsWith("sweep.toml:3:24: the scene of the point radius=-0.2 is refused: --set disks.0.radius=-0.2: "),
                     HasSubstr("above zero")));
   EXPECT_THAT(
-      files_.refusal(scene + "[grid]\nrun.time = [1.0]\ndisks.1.radius = [0.1]\n"),
+      files_.refusal(scene_line + "[grid]\nrun.time = [1.0]\ndisks.1.radius = [0.1]\n"),
       StartsWith("sweep.toml:4:19: the scene of the point time=1.0_radius=0.1 is refused: --set disks.1.radius=0.1: disks has 1 "
                  "entry"));
-  EXPECT_THAT(files_.refusal(scene + "[set]\nrun.tim = 2.0\n"),
+  EXPECT_THAT(files_.refusal(scene_line + "[set]\nrun.tim = 2.0\n"),
               StartsWith("sweep.toml:3:5: the scene of the point scene is refused: "));
-  EXPECT_THAT(files_.refusal(scene + "[grid]\n\"disks.0.a b\" = [1]\n"), HasSubstr("is not a dotted key"));
+  EXPECT_THAT(files_.refusal(scene_line + "[grid]\n\"disks.0.a b\" = [1]\n"), HasSubstr("is not a dotted key"));
 }
 
 TEST_F(SweepReader, TooManyRunsAreRefused) {
-  EXPECT_THAT(files_.refusal(scene + "seeds = 1000000\n[grid]\nrun.time = [1.0, 2.0]\n"),
+  EXPECT_THAT(files_.refusal(scene_line + "seeds = 1000000\n[grid]\nrun.time = [1.0, 2.0]\n"),
               StartsWith("sweep.toml:1:1: these are 2 points with 1000000 seeds each"));
 }
 
 TEST_F(SweepReader, ATableHasNumbersThatSummariesHave) {
-  EXPECT_THAT(files_.load(scene + "table = [\"pressure.Z\", \"observables.temperature.kT\", \"walls.left.force\"]\n").table,
+  EXPECT_THAT(files_.load(scene_line + "table = [\"pressure.Z\", \"observables.temperature.kT\", \"walls.left.force\"]\n").table,
               ElementsAre("pressure.Z", "observables.temperature.kT", "walls.left.force"));
-  EXPECT_EQ(files_.refusal(scene + "table = [\"presure.Z\"]\n"),
+  EXPECT_EQ(files_.refusal(scene_line + "table = [\"presure.Z\"]\n"),
             "sweep.toml:2:10: table.0 is \"presure.Z\", and no summary has that number; did you mean \"pressure.Z\"?");
-  EXPECT_THAT(files_.refusal(scene + "table = [\"wall_seconds\"]\n"), HasSubstr("no summary has that number"));
-  EXPECT_THAT(files_.refusal(scene + "table = [\"observables.temprature.kT\"]\n"),
+  EXPECT_THAT(files_.refusal(scene_line + "table = [\"wall_seconds\"]\n"), HasSubstr("no summary has that number"));
+  EXPECT_THAT(files_.refusal(scene_line + "table = [\"observables.temprature.kT\"]\n"),
               HasSubstr("the name of an observable's number"));
-  EXPECT_THAT(files_.refusal(scene + "table = [\"time\", \"time\"]\n"), HasSubstr("in the list already"));
-  EXPECT_THAT(files_.refusal(scene + "table = []\n"), StartsWith("sweep.toml:2:9: table is an empty list"));
+  EXPECT_THAT(files_.refusal(scene_line + "table = [\"time\", \"time\"]\n"), HasSubstr("in the list already"));
+  EXPECT_THAT(files_.refusal(scene_line + "table = []\n"), StartsWith("sweep.toml:2:9: table is an empty list"));
 }
 
 }  // namespace

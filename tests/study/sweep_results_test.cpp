@@ -61,9 +61,9 @@ class SweepResultsOf : public ::testing::Test {
             {"stopped", "time"},
             {"resolved_scene", resolved_toml(sweep_.scene_of(run))}};
   }
-  void put(std::size_t run, const Json& json) const {
+  void put(std::size_t run, const Json& summary) const {
     fs::create_directories(place(run));
-    write_text(place(run) / "summary.json", json.dump());
+    write_text(place(run) / "summary.json", summary.dump());
   }
   [[nodiscard]] FoundRun found(std::size_t run) const {
     return find_run(place(run), [&] { return resolved_toml(sweep_.scene_of(run)); });
@@ -144,10 +144,10 @@ TEST_F(SweepResultsOf, WithoutATableTheUsualNumbersAreThereAndNoneOfAClock) {
 }
 
 TEST_F(SweepResultsOf, NumbersOfListsAndErrorsOfObservablesHaveNames) {
-  const Json json = {{"momentum", {{"final", {1.0, 2.0}}}},
-                     {"observables", {{"pressure", {{"Z", {{"value", 3.0}, {"error", 0.5}}}}}}}};
+  const Json summary = {{"momentum", {{"final", {1.0, 2.0}}}},
+                        {"observables", {{"pressure", {{"Z", {{"value", 3.0}, {"error", 0.5}}}}}}}};
   std::string text;
-  for (const SummaryNumber& number : numbers_of(json)) text += number.name + " " + std::to_string(*number.value) + "\n";
+  for (const SummaryNumber& number : numbers_of(summary)) text += number.name + " " + std::to_string(*number.value) + "\n";
   EXPECT_EQ(text,
             "momentum.final.0 1.000000\nmomentum.final.1 2.000000\nobservables.pressure.Z 3.000000\n"
             "observables.pressure.Z_error 0.500000\n");

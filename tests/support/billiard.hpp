@@ -3,6 +3,7 @@
 
 #include "core/domain.hpp"
 #include "effects/obstacles.hpp"
+#include "support/scenes.hpp"
 
 #include <initializer_list>
 #include <vector>
@@ -25,13 +26,6 @@ inline std::vector<Obstacle> polygon(const std::vector<Eigen::Vector2d>& corners
   std::vector<Obstacle> sides;
   for (std::size_t k = 0; k < corners.size(); ++k) sides.push_back(fixed_segment(corners[k], corners[(k + 1) % corners.size()]));
   return sides;
-}
-
-inline Box box_of(double width, double height, Boundary x, Boundary y) {
-  Box box;
-  box.upper = {width, height};
-  box.boundary = {x, y};
-  return box;
 }
 
 struct Billiard {

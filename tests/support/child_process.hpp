@@ -2,6 +2,8 @@
 // Runs the program as a user does: as a child process in a directory of its own, with its output and exit code kept. Runs
 // other programs too.
 
+#include "support/temporary_directory.hpp"
+
 #include <sys/types.h>
 #include <filesystem>
 #include <functional>
@@ -16,21 +18,6 @@ struct Outcome {
   std::string err;
 };
 
-/// A directory below the system's temporary one, removed with all that is in it when the test ends.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory();
-  ~TemporaryDirectory();
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// Runs `carom arguments...` in `directory`. `meanwhile` is called with the child's id while it runs.
 Outcome run_carom(const std::filesystem::path& directory, const std::vector<std::string>& arguments,
                   const std::function<void(pid_t)>& meanwhile = {});
@@ -38,9 +25,6 @@ Outcome run_carom(const std::filesystem::path& directory, const std::vector<std:
 /// Runs the program words[0], looked for in PATH, in `directory`. Exit code 127 where there is none.
 Outcome run_program(const std::filesystem::path& directory, std::vector<std::string> words,
                     const std::function<void(pid_t)>& meanwhile = {});
-
-std::string text_of(const std::filesystem::path& file);
-void write_text(const std::filesystem::path& file, const std::string& text);
 
 /// True as soon as `condition` is; false when it is not after half a minute.
 bool wait_until(const std::function<bool()>& condition);

@@ -1,6 +1,7 @@
 #pragma once
 // Scenes with effects, disk by disk, and the engines that run them.
 
+#include "observe/energy.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -43,6 +44,12 @@ inline Ran run(const Scene& scene, const std::string& engine, double time, std::
   const StopReason stopped = simulation.run_until(time, collisions);
   std::vector<Event> events = simulation.take_events();
   return {std::move(simulation), std::move(events), stopped};
+}
+
+/// Of flight, spin, height and wells.
+inline double energy_of(const Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  return total_energy(scene.box, scene.effects, simulation.disks(), simulation.state());
 }
 
 }  // namespace carom::test

@@ -15,6 +15,8 @@ namespace carom::test {
 
 using AnyEngine = detail::AnyEngine;
 
+inline constexpr CollisionRule both_rules[] = {CollisionRule::specular, CollisionRule::reversal};
+
 inline std::unique_ptr<AnyEngine> make_engine(const std::string& name, const System& system, const Effects& effects) {
   Scene scene;
   scene.box = system.box;
@@ -49,8 +51,6 @@ inline std::vector<std::string> engines_covering(const Scene& scene) {
     if (entry.covers(scene, start.disks)) names.push_back(entry.name);
   return names;
 }
-
-inline void run_to(AnyEngine& engine, double time) { engine.run_until(Instant{time, 0.0}, no_limit, no_limit); }
 
 /// The next `count` collisions, or all up to `until`. Goes in stretches of `stretch` events of any kind, after each of which
 /// look(engine) is called.

@@ -8,6 +8,9 @@
 
 namespace carom::test {
 
+/// Of the checkout.
+inline const std::filesystem::path docs = std::filesystem::path(CAROM_SOURCE_DIR) / "docs";
+
 inline std::vector<std::string> example_scenes() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(CAROM_SOURCE_DIR "/docs/scenes"))

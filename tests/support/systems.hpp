@@ -1,6 +1,7 @@
 #pragma once
 // Small systems for tests and benchmarks: a box, disks and a state, without a scene file.
 
+#include "core/instant.hpp"
 #include "simulation/start.hpp"
 
 #include <carom/scene.hpp>
@@ -28,6 +29,11 @@ struct System {
   Disks disks;
   State state;
 };
+
+template <class Engine>
+void run_to(Engine& engine, double time) {
+  engine.run_until(Instant{time, 0.0}, no_limit, no_limit);
+}
 
 inline Box square_box(double length, Boundary boundary) { return {{0.0, 0.0}, {length, length}, {boundary, boundary}}; }
 
