@@ -570,6 +570,7 @@ class Engine {
   std::uint64_t looks_ = 0;    ///< since then: more_looks() of those who collided
 
   std::uint64_t patience_;  ///< events at one instant after which time is taken to stand still
+  bool may_cool_;           ///< collisions take energy, and nothing brings it back by itself
   std::uint64_t at_one_instant_ = 0;
   bool cooled_ = false;
   Totals totals_;

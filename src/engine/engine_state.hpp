@@ -140,7 +140,8 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       spacing_(detail::mean_spacing(box, disks.count())),
       walled_(!box.periodic(0) || !box.periodic(1)),
       bare_(!walled_ && effects.obstacles.empty() && !SlidingImages<double>::acts(effects.shear)),
-      patience_(effects.dissipate() ? 100'000 : 10'000'000) {
+      patience_(effects.dissipate() ? 100'000 : 10'000'000),
+      may_cool_(effects.dissipate() && !effects.gravity) {
   detail::OrderInSpace order = detail::order_in_space(axes_[0], axes_[1], start);
   ids_ = std::move(order.ids);
   radius_ = detail::in_order(disks.radius, ids_);
@@ -396,7 +397,7 @@ void Engine<Impact, Layout, World>::choose_epoch_length() {
       fastest[k] = std::max(fastest[k], std::abs(a.v[k]));
       sum += std::abs(a.v[k]);
     }
-  cooled_ = is_too_slow(std::max(fastest[0], fastest[1]), sigma_);
+  cooled_ = may_cool_ && is_too_slow(std::max(fastest[0], fastest[1]), sigma_);
   mean_speed_ = sum / static_cast<double>(std::max(count(), 1));
   // Rounding x + v t moves a disk by 2^-53 of the way since the epoch: some spacings for most, never more than the room
   // that coordinates have, were the fastest to become somewhat faster.

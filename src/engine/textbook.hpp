@@ -293,7 +293,8 @@ class TextbookEngine {
     sliding_.rebase(now_);
     scale_ += growth_ * now_;
     now_ = 0;
-    cooled_ = is_too_slow(rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; }), 2.0 * largest_radius_);
+    cooled_ = may_cool_ &&
+              is_too_slow(rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; }), 2.0 * largest_radius_);
     epoch_length_ = suitable_epoch_length();
     suit_grid();
     last_collision_.rebase();
@@ -434,6 +435,7 @@ class TextbookEngine {
   double box_size_;  ///< root of the area
   double largest_radius_;
   std::uint64_t patience_;            ///< events at one instant after which time is taken to stand still
+  bool may_cool_;                     ///< collisions take energy, and nothing brings it back by itself
   std::uint64_t at_one_instant_ = 0;  ///< events since time last advanced
   bool cooled_ = false;
   Totals totals_;

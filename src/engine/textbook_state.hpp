@@ -34,7 +34,8 @@ TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const S
       images_(Images::Zero(2, static_cast<Eigen::Index>(disks.count()))),
       box_size_(box.lengths()[0] * std::sqrt(box.lengths()[1] / box.lengths()[0])),
       largest_radius_(disks.count() == 0 ? 0.5 : *std::max_element(disks.radius.begin(), disks.radius.end())),
-      patience_(effects.dissipate() ? 100'000 : 10'000'000) {
+      patience_(effects.dissipate() ? 100'000 : 10'000'000),
+      may_cool_(effects.dissipate() && !effects.gravity) {
   for (std::int32_t i = 0; i < count(); ++i) {
     record(i).r = start.positions.col(i).template cast<Real>();
     record(i).v = start.velocities.col(i).template cast<Real>();

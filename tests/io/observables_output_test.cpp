@@ -64,9 +64,10 @@ TEST(ObservablesOutput, RunWritesThemBesideSamplesAndIntoTheFileOfSamples) {
   scene.observe.emplace_back().name = "free_flight";
   RunReport report = report_of(scene);
   report.observables = hand_made();
-  const RunDirectory results(directory.path() / "run", false);
-  RunWriter writer(results, scene, disks_of(scene), provenance());
-  const std::vector<std::string> files = writer.finish(report);
+  const std::vector<std::string> files = [&] {
+    RunWriter writer(RunDirectory(directory.path() / "run", false), scene, disks_of(scene), provenance());
+    return writer.finish(report);
+  }();
   EXPECT_THAT(files, ::testing::ElementsAre("trajectory.h5md", "observe_free_times.csv", "summary.json"));
   const H5Reader file(directory.path() / "run" / "trajectory.h5md");
   ASSERT_TRUE(file.opens());
