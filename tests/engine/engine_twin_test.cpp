@@ -1,6 +1,7 @@
 // The fast engine against the textbook engine, event by event, for as long as rounding lets two orders of arithmetic
 // agree; and its own plan against an exhaustive search on the way.
 
+#include "support/scenes.hpp"
 #include "support/twin_engines.hpp"
 
 #include <gtest/gtest.h>

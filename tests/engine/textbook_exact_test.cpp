@@ -1,11 +1,15 @@
 // Motions that are known in closed form.
 
+#include "core/vec2.hpp"
 #include "engine/triangle_wave.hpp"
 #include "support/engines.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace carom::test {
 namespace {
