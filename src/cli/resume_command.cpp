@@ -1,8 +1,6 @@
 // carom resume RUN_DIR and carom extend RUN_DIR: a run goes on from its newest sound checkpoint as if it had never stopped.
 
 #include "cli/commands.hpp"
-#include "cli/durations.hpp"
-#include "cli/progress.hpp"
 #include "cli/run_session.hpp"
 #include "io/checkpoint.hpp"
 #include "io/output_error.hpp"
@@ -59,12 +57,10 @@ RunOptions options_for(const CheckpointFacts& facts, const ResumeOptions& option
   return run;
 }
 
-template <class Check>
-ExitCode go_on(const ResumeOptions& options, const Invocation& invocation, Check check) {
+template <class Require>
+ExitCode go_on(const ResumeOptions& options, const Invocation& invocation, Require require) {
   const auto began = std::chrono::steady_clock::now();
-  (void)progress_mode(options.run.progress, options.run.quiet);
-  if (options.run.walltime) (void)seconds_of("--walltime", *options.run.walltime);
-  if (options.run.checkpoint_every) (void)saving_plan(*options.run.checkpoint_every);
+  check_options(options.run);
   std::optional<RunDirectory> directory;
   std::optional<Checkpoint> from;
   try {
@@ -75,7 +71,7 @@ ExitCode go_on(const ResumeOptions& options, const Invocation& invocation, Check
   }
   if (!from->damage().empty()) fmt::print(stderr, "carom: {}; going on from {} instead\n", from->damage(), from->path().string());
   const CheckpointFacts& facts = from->facts();
-  check(facts);
+  require(facts);
   check_end(facts, options);
   const RunOptions run = options_for(facts, options);
   const Scene scene = scene_of(facts, options);

@@ -2,8 +2,6 @@
 // scene or with the place for the results is found before the first event, and then nothing is left behind.
 
 #include "cli/commands.hpp"
-#include "cli/durations.hpp"
-#include "cli/progress.hpp"
 #include "cli/run_session.hpp"
 #include "cli/scene_description.hpp"
 #include "io/provenance.hpp"
@@ -68,15 +66,13 @@ Simulation simulation_for(const RunOptions& options, const Scene& scene, const s
 
 ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   const Clock::time_point began = Clock::now();
-  (void)progress_mode(options.progress, options.quiet);  // what is wrong with it is said before anything is written
+  check_options(options);
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
   if (options.verify == std::uint64_t{0}) throw UsageError("--verify 0: give the number of events between two checks, 1 or more");
   if (options.pace && !options.watch) throw UsageError("--pace slows a run down for those who watch it: give --watch too");
   if (options.pace && !(*options.pace > 0.0 && std::isfinite(*options.pace)))
     throw UsageError(fmt::format("--pace {:g}: it is simulated time per second and must be positive", *options.pace));
-  if (options.walltime) (void)seconds_of("--walltime", *options.walltime);
-  if (options.checkpoint_every) (void)saving_plan(*options.checkpoint_every);
   if (options.verify_horizon) require_no_effects(scene, "--verify-horizon");
   if (options.method != "exact") require_no_effects(scene, "--method");
   if (options.method != "exact" && !scene.observe.empty())

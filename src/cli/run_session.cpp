@@ -266,6 +266,12 @@ class Session {
 
 }  // namespace
 
+void check_options(const RunOptions& options) {
+  (void)progress_mode(options.progress, options.quiet);
+  if (options.walltime) (void)seconds_of("--walltime", *options.walltime);
+  if (options.checkpoint_every) (void)saving_plan(*options.checkpoint_every);
+}
+
 ExitCode carry_out(const RunSession& session) {
   Session running(session);
   try {

@@ -23,6 +23,9 @@ struct RunSession {
   std::chrono::steady_clock::time_point began;
 };
 
+/// Throws UsageError for what carry_out() could not make sense of, before anything is written.
+void check_options(const RunOptions& options);
+
 /// Runs the schedule, saves it as the options say, writes all files, prints the summary.
 ExitCode carry_out(const RunSession& session);
 
