@@ -154,6 +154,7 @@ struct DriverFile {
   H5FD_t header;  // first, because HDF5 knows this struct by it
   Hdf5File* file;
   haddr_t end_of_allocated;
+  haddr_t index_begin, index_end;  ///< what is left of the page that new parts of the index go into
 };
 
 DriverFile* driver_file(H5FD_t* file) { return reinterpret_cast<DriverFile*>(file); }
@@ -179,7 +180,7 @@ herr_t close_file(H5FD_t* file) {
 }
 
 herr_t query(const H5FD_t* /*file*/, unsigned long* flags) {
-  *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+  *flags = H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
   return 0;
 }
 
@@ -188,6 +189,23 @@ haddr_t end_of_allocated(const H5FD_t* file, H5FD_mem_t /*type*/) { return drive
 herr_t set_end_of_allocated(H5FD_t* file, H5FD_mem_t /*type*/, haddr_t address) {
   driver_file(file)->end_of_allocated = address;
   return 0;
+}
+
+/// A part of the index lies in one page, or begins one: a page is written as a whole or not at all, whenever the process is killed.
+haddr_t allocate(H5FD_t* file, H5FD_mem_t type, hid_t /*transfer*/, hsize_t size) {
+  constexpr haddr_t page = Hdf5File::page_size;
+  DriverFile* opened = driver_file(file);
+  const auto extend = [&](haddr_t address, haddr_t by) {
+    opened->end_of_allocated = address + by;
+    return address;
+  };
+  if (type == H5FD_MEM_DRAW) return extend(opened->end_of_allocated, size);
+  if (size > opened->index_end - opened->index_begin) {
+    const haddr_t pages = (size + page - 1) / page;
+    opened->index_begin = extend((opened->end_of_allocated + page - 1) / page * page, pages * page);
+    opened->index_end = opened->end_of_allocated;
+  }
+  return std::exchange(opened->index_begin, opened->index_begin + size);
 }
 
 haddr_t end_of_file(const H5FD_t* file, H5FD_mem_t /*type*/) { return driver_file(file)->file->size(); }
@@ -231,6 +249,7 @@ H5FD_class_t driver_class() {
   driver.open = open_file;
   driver.close = close_file;
   driver.query = query;
+  driver.alloc = allocate;
   driver.get_eoa = end_of_allocated;
   driver.set_eoa = set_end_of_allocated;
   driver.get_eof = end_of_file;

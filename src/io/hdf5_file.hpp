@@ -2,7 +2,8 @@
 // The file under HDF5, as an HDF5 "virtual file driver" with two promises that the library's own driver does not make:
 // - A run that is killed leaves a file that opens, as it was at the last flush. The file's index (object headers, chunk
 //   trees) is held in memory until H5Fflush, and then written from its end to its beginning: new parts before the old ones
-//   that point to them, the superblock last. Sample data goes to the disk at once, into space that no old index names.
+//   that point to them, the superblock last. No part of it that ever changes lies across two pages, so each is the old or the
+//   new one. Sample data goes to the disk at once, into space that no old index names.
 // - A full disk never reaches HDF5, which is known to crash or loop when its closing writes fail. The first failure is
 //   kept in error(); from then on nothing more is written, and the file stays as it was at the last flush.
 
@@ -20,6 +21,8 @@ namespace carom::detail {
 
 class Hdf5File {
  public:
+  static constexpr std::size_t page_size = 4096;  ///< what the system writes as a whole
+
   Hdf5File() = default;
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
@@ -51,7 +54,6 @@ class Hdf5File {
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:
-  static constexpr std::size_t page_size = 4096;
   using Page = std::array<std::byte, page_size>;
 
   [[nodiscard]] Hdf5Id access(const std::filesystem::path& path, bool fresh, std::uint64_t user_bytes);

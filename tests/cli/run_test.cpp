@@ -134,7 +134,7 @@ class Interrupted : public RunCommand, public ::testing::WithParamInterface<int>
 
 TEST_P(Interrupted, RunSavesWhatItHasAndExits130) {
   const auto signal_once_it_runs = [&](pid_t child) {
-    EXPECT_TRUE(wait_until([&] { return fs::exists(file("gas")); }));
+    EXPECT_TRUE(wait_until([&] { return fs::exists(file("gas/trajectory.h5md.partial")); }));
     kill(child, GetParam());
   };
   const Outcome outcome =
