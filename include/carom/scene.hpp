@@ -77,6 +77,18 @@ struct Species {
   [[nodiscard]] double mass_of(std::int64_t i) const { return masses.empty() ? mass : masses[static_cast<std::size_t>(i)]; }
 };
 
+/// What times in a block differ by, at the least, and its length over the shortest of them, at the most: so much doubles can
+/// tell.
+inline constexpr double least_log_base = 1.01, most_log_ratio = 1e12;
+
+/// Samples in blocks of one length: at the beginning of each, and at block / base^(per_block - 1), ..., block / base^2,
+/// block / base after it. A few samples so tell what happens over short times and over long ones.
+struct SampleLog {
+  double base = 0.0;           ///< at least least_log_base; base^(per_block - 1) at most most_log_ratio
+  std::int64_t per_block = 0;  ///< samples of one block, >= 2
+  double block = 0.0;          ///< its length: time, > 0
+};
+
 /// The [run] table. At least one of time and collisions is present.
 struct Run {
   struct Equilibrate {
@@ -85,11 +97,21 @@ struct Run {
   };
   std::optional<double> time;
   std::optional<std::uint64_t> collisions;  ///< pair collisions
-  std::optional<double> sample_every;       ///< no samples where absent
+  // At most one of these three is present, and without them there are no samples.
+  std::optional<double> sample_every;                    ///< time
+  std::optional<std::uint64_t> sample_every_collisions;  ///< of pairs, > 0
+  std::optional<SampleLog> sample_log;
   std::optional<Equilibrate> equilibrate;
   std::uint64_t seed = 1;
   bool keep_momentum = false;
   bool accept_overlap = false;  ///< disks given one by one may overlap each other, however deep
+
+  [[nodiscard]] bool is_sampled() const { return sample_every || sample_every_collisions || sample_log; }
+  void take_no_samples() {
+    sample_every.reset();
+    sample_every_collisions.reset();
+    sample_log.reset();
+  }
 };
 
 /// The [output] table.

@@ -146,14 +146,16 @@ struct Progress {
   bool equilibrating = false;  ///< still in the part before the clock is reset
 };
 
-/// The last k of the sampling grid of a run that is limited by time: the largest k with k * sample_every <= time, where
-/// a time that is a multiple of sample_every to rounding counts as one. 0 where one of the two is absent.
+/// The last k of the samples of a run that is limited by time: the largest k whose sample is not after run.time, where a time
+/// that is a multiple of sample_every, or of the length of a block, to rounding counts as one. With sample_every_collisions, of a
+/// run that is limited by collisions: collisions / sample_every_collisions. 0 where the one or the other is absent.
 std::uint64_t last_sample(const Run& run);
 
-/// States on a grid of their own, beside those at run.sample_every.
+/// States on a grid of their own, beside those of the scene.
 struct SamplingGrid {
   double step = 0.0;  ///< time, > 0 and finite
-  /// At k * step, k = 0, 1, 2, ...; every collision up to then has been handed on.
+  /// At k * step, k = 0, 1, 2, ...; every collision up to then has been handed on. Where step is a multiple of run.sample_every,
+  /// or of the length of a block, to rounding, these are the scene's own samples, to the last bit.
   std::function<void(std::uint64_t k, const State& state, const Totals& totals)> sample;
 };
 
@@ -166,13 +168,15 @@ struct SavingMoment {
 
 /// What a caller may look at while a scene's schedule runs. Any of them may be empty; none can change the run's bits.
 struct RunHooks {
-  std::function<void(const State& start)> start;                    ///< once, when the measured run begins
-  std::function<void(std::uint64_t k, const State& state)> sample;  ///< at k * sample_every, k = 0, 1, 2, ...
-  std::function<void(std::span<const Event> events)> events;        ///< batches of collisions, in order
-  std::function<void(const Progress& progress)> block;              ///< after about every collision per disk, at collisions
-  std::vector<SamplingGrid> grids;                                  ///< of equal steps the first comes first
-  std::function<bool(const Progress& progress)> proceed;            ///< several times a second; false stops the run
-  std::uint64_t verify_every = 0;  ///< events from one check_invariants() to the next; 0 for no checks
+  std::function<void(const State& start)> start;  ///< once, when the measured run begins
+  /// The scene's samples, k = 0, 1, 2, ...: at their times, or just after collision k * sample_every_collisions (a fixed step
+  /// that has several such collisions leaves all k but the last out).
+  std::function<void(std::uint64_t k, const State& state)> sample;
+  std::function<void(std::span<const Event> events)> events;  ///< batches of collisions, in order
+  std::function<void(const Progress& progress)> block;        ///< after about every collision per disk, at collisions
+  std::vector<SamplingGrid> grids;                            ///< of equal steps the first comes first
+  std::function<bool(const Progress& progress)> proceed;      ///< several times a second; false stops the run
+  std::uint64_t verify_every = 0;                             ///< events from one check_invariants() to the next; 0 for no checks
   /// Every few thousand events, after all that has happened so far was handed on; and when the run ends.
   std::function<void(const SavingMoment& moment)> checkpoint;
   std::istream* resume = nullptr;  ///< what SavingMoment::save() wrote: the schedule goes on from there, without `start`

@@ -38,7 +38,7 @@ std::string start_and_engine(const Scene& scene, const Simulation& simulation) {
 std::string files(const Scene& scene) {
   const std::optional<std::uint64_t> samples = expected_samples(scene);
   std::string text = "  files       summary.json";
-  const bool sampled = scene.run.sample_every.has_value();
+  const bool sampled = scene.run.is_sampled();
   if ((scene.output.trajectory && sampled) || scene.output.events || !scene.observe.empty()) {
     text += ", trajectory.h5md";
     if (sampled && samples && scene.output.trajectory) {

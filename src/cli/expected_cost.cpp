@@ -56,7 +56,7 @@ Scene trial_of(const Scene& scene) {
   double time = 0.0, collisions = 0.0;
   for (const Part& part : parts_of(scene)) time += part.time, collisions += part.collisions;
   trial.run.equilibrate.reset();
-  trial.run.sample_every.reset();
+  trial.run.take_no_samples();
   trial.run.time = std::min(time, end_of_time);
   trial.run.collisions.reset();
   if (collisions < 1e18) trial.run.collisions = static_cast<std::uint64_t>(collisions);

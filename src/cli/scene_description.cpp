@@ -16,8 +16,9 @@ std::string describe(const Scene& scene) {
 }
 
 std::optional<std::uint64_t> expected_samples(const Scene& scene) {
-  if (!scene.run.sample_every) return 0;
-  if (!scene.run.time || scene.run.collisions) return std::nullopt;
+  const Run& run = scene.run;
+  if (!run.is_sampled()) return 0;
+  if (run.sample_every_collisions ? !run.collisions || run.time : !run.time || run.collisions) return std::nullopt;
   return last_sample(scene.run) + 1;
 }
 

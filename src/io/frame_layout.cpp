@@ -13,7 +13,8 @@ namespace carom::detail {
 namespace {
 
 std::uint64_t expected_frames(const Run& run) {
-  return run.time && run.sample_every ? last_sample(run) + 1 : std::numeric_limits<std::uint64_t>::max();
+  const bool known = run.sample_every_collisions ? run.collisions.has_value() : run.time && run.is_sampled();
+  return known ? last_sample(run) + 1 : std::numeric_limits<std::uint64_t>::max();
 }
 
 }  // namespace

@@ -42,6 +42,17 @@ std::string box_line(hid_t file, hsize_t samples) {
   return fmt::format("{} x {} from ({}, {}); {}", edges.at(0), edges.at(4), origin[0], origin[1], text);
 }
 
+/// ", every 0.5"
+std::string sampling(hid_t file) {
+  const auto numbers = [&](const char* name) { return read_numbers_attribute(file, parameters, name); };
+  if (const std::vector<double> step = numbers("sample_every"); step.size() == 1) return fmt::format(", every {}", step[0]);
+  if (const std::vector<double> step = numbers("sample_every_collisions"); step.size() == 1)
+    return fmt::format(", every {} collisions", step[0]);
+  if (const std::vector<double> log = numbers("sample_log"); log.size() == 3)
+    return fmt::format(", {} in each block of {}, spaced by powers of {}", log[1], log[2], log[0]);
+  return {};
+}
+
 /// "kinetic_energy, temperature, spin", by name
 std::string observables_line(hid_t file) { return fmt::format("{}", fmt::join(members_of(file, "/observables"), ", ")); }
 
@@ -67,8 +78,7 @@ std::string described(hid_t file) {
   if (samples > 0) {
     const double first = read_rows(file, particles + "/position/time", 0, 1).at(0);
     line = samples_text(samples, first, read_rows(file, particles + "/position/time", samples - 1, 1).at(0));
-    const std::vector<double> dt = read_numbers_attribute(file, parameters, "sample_every");
-    if (dt.size() == 1) line += fmt::format(", every {}", dt[0]);
+    line += sampling(file);
   }
   text += info_line("samples", line);
   text += info_line("observables", observables_line(file));

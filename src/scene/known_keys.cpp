@@ -22,7 +22,7 @@ char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned 
 /// A key that is right in another table is a misplaced key, not a misspelt one.
 std::string_view home_of(std::string_view key) {
   using Home = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Home, 44> homes = {{{"x", "[box]"},
+  static constexpr std::array<Home, 45> homes = {{{"x", "[box]"},
                                                   {"y", "[box]"},
                                                   {"aspect", "[box]"},
                                                   {"boundary", "[box]"},
@@ -54,6 +54,7 @@ std::string_view home_of(std::string_view key) {
                                                   {"time", "[run]"},
                                                   {"collisions", "[run]"},
                                                   {"sample_every", "[run]"},
+                                                  {"sample_log", "[run]"},
                                                   {"equilibrate", "[run]"},
                                                   {"seed", "[run]"},
                                                   {"keep_momentum", "[run]"},

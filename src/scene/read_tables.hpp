@@ -24,7 +24,7 @@ std::array<WallProperties, 4> read_walls(const toml::table& table);
 /// `node` is the value of `obstacles`, a list of tables.
 std::vector<Obstacle> read_obstacles(const toml::node& node);
 Run read_run(const toml::table& table);
-/// `sampled` is whether [run] has sample_every: files of samples need it.
+/// `sampled` is whether [run] has sample_every or sample_log: files of samples need it.
 Output read_output(const toml::table* table, bool sampled);
 
 /// What is to be measured, in the order of the format.

@@ -83,6 +83,10 @@ void put_run(Buffer& out, const Run& run) {
   if (run.time) put(out, "time = {}\n", number_text(*run.time));
   if (run.collisions) put(out, "collisions = {}\n", *run.collisions);
   if (run.sample_every) put(out, "sample_every = {}\n", number_text(*run.sample_every));
+  if (run.sample_every_collisions) put(out, "sample_every = {{ collisions = {} }}\n", *run.sample_every_collisions);
+  if (const auto& log = run.sample_log)
+    put(out, "sample_log = {{ base = {}, per_block = {}, block = {} }}\n", number_text(log->base), log->per_block,
+        number_text(log->block));
   if (run.equilibrate && run.equilibrate->time) put(out, "equilibrate = {{ time = {} }}\n", number_text(*run.equilibrate->time));
   if (run.equilibrate && run.equilibrate->collisions_per_disk) {
     put(out, "equilibrate = {{ collisions_per_disk = {} }}\n", number_text(*run.equilibrate->collisions_per_disk));

@@ -63,7 +63,7 @@ detail::SceneDraft read_document(const toml::table& document, const std::string&
     const toml::table& run = require_table(reader, "run", "give time = 5.0, collisions = 1_000_000, or both");
     draft.run_where = detail::location_of(run);
     scene.run = detail::read_run(run);
-    scene.output = detail::read_output(reader.table("output", "[output]"), scene.run.sample_every.has_value());
+    scene.output = detail::read_output(reader.table("output", "[output]"), scene.run.is_sampled());
     if (const toml::table* observe = reader.table("observe", "[observe]")) scene.observe = detail::read_observe(*observe);
     return draft;
   } catch (const SceneError& error) {

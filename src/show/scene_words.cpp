@@ -71,7 +71,7 @@ std::string words(const Run& run) {
   if (run.time) text += fmt::format("time {:.6g}", *run.time);
   if (run.time && run.collisions) text += " or ";
   if (run.collisions) text += counted(*run.collisions, "collision") + " of pairs";
-  if (run.sample_every) text += fmt::format(", a sample every {:.6g}", *run.sample_every);
+  if (run.is_sampled()) text += ", samples " + sampling_words(run);
   return text + fmt::format("; seed {}", run.seed);
 }
 
@@ -86,6 +86,13 @@ std::string words(const std::vector<ObservableRequest>& requests) {
 }
 
 }  // namespace
+
+std::string sampling_words(const Run& run) {
+  if (run.sample_every) return fmt::format("every {:.6g}", *run.sample_every);
+  if (run.sample_every_collisions) return "every " + counted(*run.sample_every_collisions, "collision");
+  const SampleLog& log = *run.sample_log;
+  return fmt::format("{} in each block of {:.6g}, spaced by powers of {:.6g}", log.per_block, log.block, log.base);
+}
 
 SummaryRows words_of(const Scene& scene) {
   SummaryRows rows;

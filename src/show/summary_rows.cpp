@@ -3,6 +3,7 @@
 #include "observe/equilibrium.hpp"
 #include "show/effects_rows.hpp"
 #include "show/number_words.hpp"
+#include "show/scene_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -47,7 +48,7 @@ void append(SummaryRows& rows, SummaryRows more) {
 
 std::string samples_remark(const RunReport& report, const Scene* scene) {
   if (scene == nullptr) return "";
-  if (scene->run.sample_every) return fmt::format("every {:.6g}", *scene->run.sample_every);
+  if (scene->run.is_sampled()) return sampling_words(scene->run);
   return report.samples == 0 ? "none asked for" : "";
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/archive.hpp"
 #include "simulation/parts.hpp"
+#include "simulation/sampling_times.hpp"
 #include "simulation/standstill.hpp"
 
 #include <algorithm>
@@ -43,16 +44,6 @@ std::vector<std::int32_t> disks_of(std::span<const Event> events) {
 /// Growth to a packing fraction comes to its end whether disks collide or not.
 bool ends_by_growth(const std::optional<Growth>& growth) { return growth && growth->rate > 0.0 && growth->packing_fraction; }
 
-/// The largest k with k * step <= time; a time that is a multiple to rounding counts as one.
-std::uint64_t last_multiple(double time, double step) {
-  const double ratio = time / step;
-  const double nearest = std::nearbyint(ratio);
-  // Both numbers were decimal fractions once: each is off by half an ulp at most, and so is the quotient.
-  const bool multiple = std::abs(ratio - nearest) <= 2.0 * std::numeric_limits<double>::epsilon() * ratio;
-  constexpr double most = 9007199254740992.0;  // 2^53, from where k is no longer exact; no run gets there
-  return static_cast<std::uint64_t>(std::min(multiple ? nearest : std::floor(ratio), most));
-}
-
 class Schedule {
  public:
   Schedule(const Scene& scene, detail::AnyEngine& engine, const Disks& disks, const RunHooks& hooks)
@@ -60,6 +51,8 @@ class Schedule {
         effects_(scene.effects),
         engine_(engine),
         hooks_(hooks),
+        sampling_times_(detail::SamplingTimes::of(run_)),
+        sample_collisions_(run_.sample_every_collisions.value_or(no_limit)),
         block_collisions_(std::max<std::uint64_t>(16, disks.count() / 2)),
         disks_(disks.count()),
         standstill_(disks) {}
@@ -87,7 +80,7 @@ class Schedule {
   void serialize(Archive& archive) {
     archive(measuring_, equilibrating_, next_block_, without_collision_, since_verified_, may_overlap_, standstill_, stands_,
             recording_);
-    archive(standing_, result_.samples, result_.loop_seconds, result_.verified);
+    archive(standing_, result_.samples, result_.loop_seconds, result_.verified, counted_);
     auto grids = static_cast<std::uint64_t>(grids_.size());
     archive(grids);
     for (std::size_t i = 0; i < grids; ++i) {
@@ -122,9 +115,10 @@ class Schedule {
     return true;
   }
 
-  /// Samples that are to be taken: the scene's own, or those of a hook.
+  /// Samples that are to be taken at known times: the scene's own, or those of a hook.
   struct Grid {
-    double step;
+    detail::SamplingTimes times;
+    std::uint64_t stride;  ///< sample k is at number k * stride of these
     std::uint64_t last;
     const SamplingGrid* hook;  ///< null: the scene's own
     std::uint64_t k = 0;
@@ -142,7 +136,7 @@ class Schedule {
     const Instant end = ends_by_time_ ? Instant{*run_.time, 0.0} : forever;
     const std::uint64_t collisions = run_.collisions.value_or(no_limit);
     for (Instant when = next_sample(end); when < forever; when = next_sample(end)) {
-      const bool arrived = advance(when, collisions);
+      const bool arrived = advance_and_count(when, collisions);
       const bool at_start = !(Instant{} < when);
       if (!arrived && !(at_start && collisions == 0)) return;  // the start is sampled even where nothing is to happen
       take_samples(when, end);
@@ -152,7 +146,7 @@ class Schedule {
         return;
       }
     }
-    advance(end, collisions);
+    advance_and_count(end, collisions);
   }
 
   void restore() {
@@ -169,14 +163,23 @@ class Schedule {
   }
 
   void list_grids() {
-    const auto last = [&](double step) { return run_.time ? last_multiple(*run_.time, step) : no_limit; };
-    if (run_.sample_every) grids_.push_back({*run_.sample_every, last(*run_.sample_every), nullptr});
-    for (const SamplingGrid& grid : hooks_.grids) grids_.push_back({grid.step, last(grid.step), &grid});
+    const auto put = [&](const detail::SamplingTimes& times, std::uint64_t stride, const SamplingGrid* hook) {
+      grids_.push_back({times, stride, run_.time ? times.last(*run_.time) / stride : no_limit, hook});
+    };
+    if (sampling_times_) put(*sampling_times_, 1, nullptr);
+    for (const SamplingGrid& grid : hooks_.grids) {
+      const std::optional<std::uint64_t> stride = sampling_times_ ? sampling_times_->stride(grid.step) : std::nullopt;
+      if (stride) {
+        put(*sampling_times_, *stride, &grid);
+      } else {
+        put(detail::SamplingTimes(grid.step), 1, &grid);
+      }
+    }
   }
 
   /// The last product may lie beyond the end by its rounding: 3 * 0.1 > 0.3. The run ends at its end.
   [[nodiscard]] static Instant time_of(const Grid& grid, const Instant& end) {
-    return grid.k > grid.last ? forever : std::min(Instant::product(grid.k, grid.step), end);
+    return grid.k > grid.last ? forever : std::min(grid.times.at(grid.k * grid.stride), end);
   }
 
   /// `forever` where no sample is left.
@@ -202,6 +205,28 @@ class Schedule {
       if (own) ++result_.samples;
       ++grid.k;
     }
+  }
+
+  /// Runs to `target` as advance() does, and on the way takes the samples that are counted in collisions.
+  bool advance_and_count(const Instant& target, std::uint64_t collisions) {
+    if (sample_collisions_ == no_limit) return advance(target, collisions);
+    if (counted_ == 0) take_counted_sample();
+    for (;;) {
+      const std::uint64_t next = counted_ > collisions / sample_collisions_ ? collisions : counted_ * sample_collisions_;
+      if (advance(target, next)) return true;
+      if (result_.stopped != StopReason::collisions) return false;
+      if (engine_.totals().pair >= counted_ * sample_collisions_) take_counted_sample();
+      if (engine_.totals().pair >= collisions) return false;
+      result_.stopped = StopReason::time;  // it goes on
+    }
+  }
+
+  /// A fixed step may have brought several collisions at once: its sample is that of the last of them.
+  void take_counted_sample() {
+    const std::uint64_t k = engine_.totals().pair / sample_collisions_;
+    if (hooks_.sample) hooks_.sample(k, engine_.state());
+    ++result_.samples;
+    counted_ = k + 1;
   }
 
   /// Runs to `target`; false when something else ended the run first, as result_.stopped then says.
@@ -292,6 +317,8 @@ class Schedule {
   const Effects& effects_;
   detail::AnyEngine& engine_;
   const RunHooks& hooks_;
+  const std::optional<detail::SamplingTimes> sampling_times_;
+  const std::uint64_t sample_collisions_;  ///< from one sample to the next; no_limit where they are not counted so
   const std::uint64_t block_collisions_;
   const std::uint64_t disks_;
   detail::Standstill standstill_;
@@ -299,6 +326,7 @@ class Schedule {
   std::vector<std::int32_t> standing_;  ///< who collided when it last did
   bool recording_ = false;              ///< events
   std::uint64_t next_block_ = no_limit;
+  std::uint64_t counted_ = 0;  ///< the next of the samples that are counted in collisions
   std::uint64_t without_collision_ = 0;
   std::uint64_t since_verified_ = 0;  ///< events
   bool may_overlap_ = false;          ///< the start did
@@ -311,14 +339,28 @@ class Schedule {
   RunResult result_;
 };
 
+template <class Refuse>
+void require_sound_sampling(const Run& run, Refuse refuse) {
+  const auto positive = [](double number) { return number > 0.0 && std::isfinite(number); };
+  if (run.sample_every && !positive(*run.sample_every)) refuse("run.sample_every must be positive and finite");
+  if (run.sample_every_collisions == 0) refuse("run.sample_every must be one collision or more");
+  if (run.sample_every.has_value() + run.sample_every_collisions.has_value() + run.sample_log.has_value() > 1)
+    refuse("the run says twice when samples are taken; give one of sample_every and sample_log");
+  if (!run.sample_log) return;
+  const SampleLog& log = *run.sample_log;
+  if (!positive(log.block)) refuse("run.sample_log.block must be positive and finite");
+  if (log.per_block < 2 || !(log.base >= least_log_base) ||
+      !(std::pow(log.base, static_cast<double>(log.per_block - 1)) <= most_log_ratio))
+    refuse("run.sample_log needs a base of at least 1.01, at least two samples per block, and base^(per_block - 1) <= 1e12");
+}
+
 /// Scenes from a file have been checked; those that a program has put together have not.
 void require_sound_schedule(const Run& run, const Effects& effects) {
   const auto refuse = [](const char* what) { throw SceneError({"run", 0, 0}, what); };
   const auto negative = [](const std::optional<double>& number) { return number && !(*number >= 0.0 && std::isfinite(*number)); };
   if (!run.time && !run.collisions) refuse("the run has neither time nor collisions and would never end; give one of them");
   if (negative(run.time)) refuse("run.time must be finite and not negative");
-  if (run.sample_every && !(*run.sample_every > 0.0 && std::isfinite(*run.sample_every)))
-    refuse("run.sample_every must be positive and finite");
+  require_sound_sampling(run, refuse);
   if (!run.equilibrate) return;
   if (effects.growth && effects.growth->rate > 0.0) refuse("growing disks cannot be equilibrated; leave out run.equilibrate");
   if (run.equilibrate->time.has_value() == run.equilibrate->collisions_per_disk.has_value())
@@ -330,8 +372,9 @@ void require_sound_schedule(const Run& run, const Effects& effects) {
 }  // namespace
 
 std::uint64_t last_sample(const Run& run) {
-  if (!run.time || !run.sample_every) return 0;
-  return last_multiple(*run.time, *run.sample_every);
+  if (run.sample_every_collisions) return run.collisions.value_or(0) / *run.sample_every_collisions;
+  const std::optional<detail::SamplingTimes> times = detail::SamplingTimes::of(run);
+  return run.time && times ? times->last(*run.time) : 0;
 }
 
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {

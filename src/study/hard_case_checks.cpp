@@ -63,7 +63,8 @@ void check_samples(const HardCase& hard_case, const Scene& scene, const EngineRu
   const Expectations& expect = hard_case.expect;
   const auto found = static_cast<double>(run.result.samples);
   if (expect.samples) checks.push_back(exactly("samples", run, found, static_cast<double>(*expect.samples)));
-  const bool whole_grid = scene.run.time && scene.run.sample_every && run.result.stopped == StopReason::time;
+  const bool whole_grid =
+      scene.run.time && scene.run.is_sampled() && !scene.run.sample_every_collisions && run.result.stopped == StopReason::time;
   if (!expect.samples && whole_grid)
     checks.push_back(exactly("samples", run, found, static_cast<double>(last_sample(scene.run)) + 1.0));
   if (expect.last_sample) checks.push_back(exactly("last sample", run, run.last_sample, *expect.last_sample));

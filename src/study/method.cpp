@@ -25,7 +25,7 @@ std::optional<State> measured_start(const Scene& scene, const std::string& engin
   Scene beginning = scene;
   beginning.run.time = 0.0;
   beginning.run.collisions.reset();
-  beginning.run.sample_every.reset();
+  beginning.run.take_no_samples();
   Simulation simulation = make_simulation(beginning, engine);
   std::optional<State> start;
   RunHooks hooks;

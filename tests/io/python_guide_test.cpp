@@ -15,6 +15,10 @@ TEST(ScenesPythonGuide, EveryBlockRunsOnTheFilesOfTheRunItNames) {
   const Outcome run = run_carom(directory.path(), {"run", CAROM_SOURCE_DIR "/docs/scenes/box.toml", "--set", "run.time=1",
                                                    "--set", "run.sample_every=0.01", "--xyz", "--csv", "--events"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Outcome gas = run_carom(
+      directory.path(), {"run", CAROM_SOURCE_DIR "/docs/scenes/gas.toml", "--set", "run.sample_every=false", "--set",
+                         "run.sample_log={ base = 1.3, per_block = 40, block = 100.0 }"});
+  ASSERT_EQ(gas.exit_code, 0) << gas.err;
   Outcome outcome;
   for (const char* python : {"/usr/bin/python3", "python3"}) {
     outcome =
@@ -23,7 +27,7 @@ TEST(ScenesPythonGuide, EveryBlockRunsOnTheFilesOfTheRunItNames) {
   }
   if (outcome.exit_code == 77 || outcome.exit_code == 127) GTEST_SKIP() << "h5py, matplotlib or MDAnalysis is not installed";
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_THAT(outcome.out, testing::HasSubstr("8 blocks"));
+  EXPECT_THAT(outcome.out, testing::HasSubstr("9 blocks"));
   for (const char* picture : {"speeds.png", "box.gif"})
     EXPECT_GT(std::filesystem::file_size(directory.file(picture)), 1000U) << picture;
 }

@@ -160,6 +160,19 @@ class SceneMaker {
     return "[" + list + "]";
   }
 
+  static std::string sampling() {
+    switch (*rc::gen::inRange(0, 3)) {
+      case 0:
+        return "sample_every = { collisions = " + std::to_string(*rc::gen::inRange<std::int64_t>(1, INT64_MAX)) + " }\n";
+      case 1:
+        return "sample_log = { base = " + number_text(1.01 + unit_interval()) +
+               ", per_block = " + std::to_string(*rc::gen::inRange(2, 40)) + ", block = " + number_text(1e300 + unit_interval()) +
+               " }\n";
+      default:
+        return "sample_every = " + number_text(1e300 + unit_interval()) + "\n";
+    }
+  }
+
   static std::string run() {
     std::string text = "[run]\ntime = " + number_text(std::abs(any_double())) + "\n";
     if (*rc::gen::arbitrary<bool>())
@@ -169,7 +182,7 @@ class SceneMaker {
     if (*rc::gen::arbitrary<bool>()) text += "accept_overlap = true\n";
     if (*rc::gen::arbitrary<bool>()) text += "equilibrate = { time = " + number_text(std::abs(any_double())) + " }\n";
     const bool sampled = *rc::gen::arbitrary<bool>();
-    if (sampled) text += "sample_every = " + number_text(1e300 + unit_interval()) + "\n";
+    if (sampled) text += sampling();
     text += "[output]\nevents = " + *rc::gen::element<std::string>("true", "false") + "\n";
     for (const char* key : {"trajectory", "xyz", "csv", "unwrapped"}) {
       if (sampled && *rc::gen::arbitrary<bool>())

@@ -78,6 +78,12 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
   if (!same_maybe(a.run.time, b.run.time)) return "run.time";
   if (a.run.collisions != b.run.collisions) return "run.collisions";
   if (!same_maybe(a.run.sample_every, b.run.sample_every)) return "run.sample_every";
+  if (a.run.sample_every_collisions != b.run.sample_every_collisions) return "run.sample_every's collisions";
+  if (a.run.sample_log.has_value() != b.run.sample_log.has_value()) return "run.sample_log";
+  if (a.run.sample_log &&
+      (!same(a.run.sample_log->base, b.run.sample_log->base) || a.run.sample_log->per_block != b.run.sample_log->per_block ||
+       !same(a.run.sample_log->block, b.run.sample_log->block)))
+    return "run.sample_log's value";
   if (a.run.equilibrate.has_value() != b.run.equilibrate.has_value()) return "run.equilibrate";
   if (a.run.equilibrate && (!same_maybe(a.run.equilibrate->time, b.run.equilibrate->time) ||
                             !same_maybe(a.run.equilibrate->collisions_per_disk, b.run.equilibrate->collisions_per_disk))) {

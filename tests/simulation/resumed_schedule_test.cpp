@@ -1,6 +1,7 @@
 // A schedule that is saved at any of its moments and resumed hands on the same samples, events and blocks, and observables find
 // the same to the last bit, as if nothing had happened.
 
+#include "support/same_measurements.hpp"
 #include "support/scenes.hpp"
 
 #include <carom/observe.hpp>
@@ -104,23 +105,6 @@ Told run_observed(Simulation& simulation, Observation& observation, std::optiona
   return told;
 }
 
-void expect_same(const std::vector<Measurement>& a, const std::vector<Measurement>& b) {
-  const auto same = [](double x, double y) { return x == y || (x != x && y != y); };
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t m = 0; m < a.size(); ++m) {
-    ASSERT_EQ(a[m].scalars.size(), b[m].scalars.size());
-    for (std::size_t s = 0; s < a[m].scalars.size(); ++s) {
-      EXPECT_EQ(a[m].scalars[s].value, b[m].scalars[s].value) << a[m].name << "." << a[m].scalars[s].name;
-      EXPECT_EQ(a[m].scalars[s].error, b[m].scalars[s].error) << a[m].name << "." << a[m].scalars[s].name;
-    }
-    ASSERT_EQ(a[m].tables.size(), b[m].tables.size());
-    for (std::size_t t = 0; t < a[m].tables.size(); ++t)
-      for (std::size_t c = 0; c < a[m].tables[t].columns.size(); ++c)
-        EXPECT_TRUE(std::ranges::equal(a[m].tables[t].columns[c].values, b[m].tables[t].columns[c].values, same))
-            << a[m].name << "." << a[m].tables[t].columns[c].name;
-  }
-}
-
 class ResumedSchedule : public testing::TestWithParam<int> {};
 
 void expect_the_same_resumed_at(int moment, const Scene& scene) {
@@ -142,7 +126,7 @@ void expect_the_same_resumed_at(int moment, const Scene& scene) {
   EXPECT_EQ(before.log + after.log, expected.log);
   EXPECT_EQ(after.result.stopped, expected.result.stopped);
   EXPECT_EQ(after.result.samples, expected.result.samples);
-  expect_same(after.measured, expected.measured);
+  expect_same_measurements(after.measured, expected.measured);
 }
 
 TEST_P(ResumedSchedule, TellsTheSameAsOneThatWasNeverStopped) { expect_the_same_resumed_at(GetParam(), parse_scene(fluid)); }
@@ -172,6 +156,16 @@ wall_fluxes = true
 density_profile = true
 free_flight = true
 )");
+  expect_the_same_resumed_at(GetParam(), scene);
+}
+
+TEST_P(ResumedSchedule, TheSameWithSamplesInBlocksAndCounted) {
+  Scene scene = parse_scene(fluid);
+  scene.run.sample_every.reset();
+  scene.run.sample_log = SampleLog{.base = 1.3, .per_block = 20, .block = 4.0};
+  expect_the_same_resumed_at(GetParam(), scene);
+  scene.run.sample_log.reset();
+  scene.run.sample_every_collisions = 700;
   expect_the_same_resumed_at(GetParam(), scene);
 }
 

@@ -1,10 +1,12 @@
 // Grids of samples beside the scene's own: every sample at its exact time, all collisions before it handed on, no trace in the
 // bits.
 
+#include "support/scenes.hpp"
 #include "support/systems.hpp"
 
 #include <carom/simulation.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -54,6 +56,95 @@ TEST(SamplingGrids, EveryCollisionUpToASampleHasBeenHandedOn) {
                          }});
   run_schedule(simulation, hooks);
   EXPECT_GT(pairs, 50U);
+}
+
+TEST(SamplingGrids, MultiplesOfTheScenesStepAreItsOwnSamples) {
+  Scene scene = gas_until(3.0);
+  scene.run.sample_every = 0.1;
+  Simulation simulation = make_simulation(scene);
+  std::vector<State> own, third;
+  RunHooks hooks;
+  hooks.sample = [&](std::uint64_t, const State& state) { own.push_back(state); };
+  hooks.grids.push_back({0.3, [&](std::uint64_t, const State& state, const Totals&) { third.push_back(state); }});
+  run_schedule(simulation, hooks);
+  ASSERT_EQ(third.size(), 11U);
+  for (std::size_t k = 0; k < third.size(); ++k) EXPECT_TRUE(same_bits(third[k], own[3 * k])) << k;
+}
+
+TEST(SamplingGrids, LogarithmicBlocksAreTheStatesAtTheirTimes) {
+  Scene scene = gas_until(16.0);
+  scene.run.sample_log = SampleLog{.base = 2.0, .per_block = 4, .block = 8.0};
+  Simulation simulation = make_simulation(scene), twin = make_simulation(scene);
+  std::vector<double> times, blocks;
+  RunHooks hooks;
+  hooks.sample = [&](std::uint64_t k, const State& state) {
+    EXPECT_EQ(k, times.size());
+    times.push_back(state.time);
+    twin.run_until(state.time);
+    EXPECT_TRUE(same_bits(state, twin.state())) << k;
+  };
+  hooks.grids.push_back({8.0, [&](std::uint64_t, const State& state, const Totals&) { blocks.push_back(state.time); }});
+  const RunResult result = run_schedule(simulation, hooks);
+  EXPECT_THAT(times, testing::ElementsAre(0.0, 1.0, 2.0, 4.0, 8.0, 9.0, 10.0, 12.0, 16.0));
+  EXPECT_THAT(blocks, testing::ElementsAre(0.0, 8.0, 16.0));
+  EXPECT_EQ(result.samples, last_sample(scene.run) + 1);
+}
+
+/// The states just after every so many collisions, as a run that ends there leaves them.
+TEST(SamplingGrids, CountedInCollisionsTheyAreTheStatesJustAfter) {
+  for (const std::uint64_t every : {1U, 7U, 100U}) {
+    Scene scene = gas_until(0.0);
+    scene.run.time.reset();
+    scene.run.collisions = 200;
+    scene.run.sample_every_collisions = every;
+    Simulation simulation = make_simulation(scene), twin = make_simulation(scene);
+    std::uint64_t next = 0;
+    RunHooks hooks;
+    hooks.sample = [&](std::uint64_t k, const State& state) {
+      EXPECT_EQ(k, next++);
+      EXPECT_EQ(simulation.totals().pair, k * every);
+      if (k > 0) twin.run_until(1e9, k * every);
+      EXPECT_TRUE(same_bits(state, twin.state())) << k;
+      EXPECT_EQ(state.time, twin.time());
+    };
+    const RunResult result = run_schedule(simulation, hooks);
+    EXPECT_EQ(next, 200 / every + 1);
+    EXPECT_EQ(result.samples, last_sample(scene.run) + 1);
+    EXPECT_EQ(result.stopped, StopReason::collisions);
+  }
+}
+
+TEST(SamplingGrids, CountedInCollisionsTheyEndWithTheTimeToo) {
+  Scene scene = gas_until(5.0);
+  scene.run.sample_every_collisions = 10;
+  Simulation simulation = make_simulation(scene);
+  std::vector<std::pair<char, double>> samples;
+  RunHooks hooks;
+  hooks.sample = [&](std::uint64_t, const State& state) { samples.emplace_back('s', state.time); };
+  hooks.grids.push_back({2.5, [&](std::uint64_t, const State& state, const Totals&) { samples.emplace_back('g', state.time); }});
+  const RunResult result = run_schedule(simulation, hooks);
+  EXPECT_EQ(result.stopped, StopReason::time);
+  EXPECT_EQ(simulation.time(), 5.0);
+  EXPECT_EQ(result.samples, simulation.totals().pair / 10 + 1);
+  EXPECT_EQ(samples.size(), result.samples + 3);
+  for (std::size_t i = 1; i < samples.size(); ++i) EXPECT_LE(samples[i - 1].second, samples[i].second);
+}
+
+TEST(SamplingGrids, AStepOfSeveralCollisionsGivesTheLastOfThem) {
+  Scene scene = gas_until(5.0);
+  scene.run.sample_every_collisions = 1;
+  Simulation simulation = make_simulation(scene, FixedStep{"guarded", 0.1});
+  std::uint64_t most = 0, samples = 0;
+  RunHooks hooks;
+  hooks.sample = [&](std::uint64_t k, const State&) {
+    EXPECT_EQ(k, simulation.totals().pair);
+    EXPECT_TRUE(k > most || k == 0);
+    most = k;
+    ++samples;
+  };
+  run_schedule(simulation, hooks);
+  EXPECT_EQ(most, simulation.totals().pair);
+  EXPECT_LT(samples, most) << "or no step had several";
 }
 
 TEST(SamplingGrids, LeaveNoTraceInTheBits) {

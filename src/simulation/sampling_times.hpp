@@ -1,0 +1,40 @@
+#pragma once
+// When samples are taken: k * step, or the moments of logarithmic blocks, each without rounding.
+
+#include "core/instant.hpp"
+
+#include <carom/scene.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace carom::detail {
+
+class SamplingTimes {
+ public:
+  /// k * step
+  explicit SamplingTimes(double step) : block_(step), offsets_{0.0} {}
+  explicit SamplingTimes(const SampleLog& log);
+
+  /// Those of a run; nothing where it has none that are known beforehand.
+  [[nodiscard]] static std::optional<SamplingTimes> of(const Run& run);
+
+  [[nodiscard]] Instant at(std::uint64_t k) const {
+    const std::uint64_t n = offsets_.size();
+    const Instant block = Instant::product(k / n, block_);
+    return k % n == 0 ? block : block.plus(offsets_[k % n]);
+  }
+
+  /// The largest k with at(k) <= time; a time that is a multiple of the block to rounding counts as one. At most about 2^53.
+  [[nodiscard]] std::uint64_t last(double time) const;
+
+  /// The m with at(k * m) = k * step, to rounding; nothing where there is none.
+  [[nodiscard]] std::optional<std::uint64_t> stride(double step) const;
+
+ private:
+  double block_;                 ///< length
+  std::vector<double> offsets_;  ///< of the samples of a block from its beginning; rising, the first is 0
+};
+
+}  // namespace carom::detail
