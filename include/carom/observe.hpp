@@ -114,6 +114,8 @@ class Observation {
   /// thermostat, growth, shear.
   void add(std::unique_ptr<Observable> observable);
   [[nodiscard]] bool empty() const;
+  /// kT of the start as it was drawn, or of the thermostat: what default steps and ranges follow from.
+  [[nodiscard]] double reference_temperature() const;
 
   /// Puts what observables need into `hooks`, before what is there already. Requires `hooks` to be used while this lives.
   void attach(RunHooks& hooks);

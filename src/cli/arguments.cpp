@@ -276,6 +276,24 @@ void add_play(CLI::App& program, Action& action) {
   command->callback([&action, options] { action = [options] { return play(*options); }; });
 }
 
+void add_analyze(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("analyze", "Measure observables of a finished run from what it has kept");
+  const auto options = std::make_shared<AnalyzeOptions>();
+  command->add_option("directory", options->directory, "The directory that carom run has written")
+      ->required()
+      ->type_name("RUN_DIR");
+  command
+      ->add_option("observables", options->observables,
+                   "Keys of the table [observe], with settings as there (default: those of the run's scene)")
+      ->type_name("NAME[={ every = 0.1 }]");
+  command->add_option("--out", options->out, "Directory for the results (default: RUN_DIR-analysis)")->type_name("DIR");
+  command->add_flag("--force", options->force, "Replace results that are there");
+  command->add_flag("--json", options->json, "Print JSON in place of the table");
+  command->add_flag("-q,--quiet", options->quiet, "Print no table and no progress");
+  add_progress(*command, options->progress);
+  command->callback([&action, options, invocation] { action = [options, invocation] { return analyze(*options, invocation); }; });
+}
+
 void add_report(CLI::App& program, Action& action) {
   CLI::App* command =
       program.add_subcommand("report", "Write the page of a run: what happened, what it measured, and the run to watch");
@@ -411,6 +429,7 @@ Action parse_arguments(int argc, char** argv) {
   add_init(program, action, invocation);
   add_info(program, action, invocation);
   add_verify(program, action, invocation);
+  add_analyze(program, action, invocation);
   add_play(program, action);
   add_report(program, action);
   add_movie(program, action);

@@ -101,6 +101,17 @@ ExitCode verify(const VerifyOptions& options, const Invocation& invocation);
 /// Shell commands that make the run in `directory` again, in a directory with "-again" behind its name. Throws UsageError.
 std::string reproduction(const std::string& directory, const Invocation& invocation);
 
+struct AnalyzeOptions {
+  std::string directory;                 ///< of a finished run
+  std::vector<std::string> observables;  ///< "NAME" or "NAME={ ... }"; empty: those of the run's scene
+  std::string out;                       ///< empty: RUN_DIR-analysis
+  bool force = false;
+  bool json = false;
+  bool quiet = false;
+  std::string progress = "auto";
+};
+ExitCode analyze(const AnalyzeOptions& options, const Invocation& invocation);
+
 struct PlayOptions {
   std::string directory;  ///< of a finished run
   std::string output;     ///< empty: player.html in it

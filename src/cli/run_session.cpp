@@ -143,11 +143,12 @@ class Session {
     hooks.verify_every = options_.verify.value_or(0);
     hooks.start = [&](const State& start) {
       measurements_.start(start);
+      writer_->start(start, observation_->reference_temperature());
       if (options_.verify_horizon) start_ = start;
     };
     hooks.sample = [&](std::uint64_t k, const State& state) {
       measurements_.sample(state);
-      writer_->sample(k, state);
+      writer_->sample(k, state, simulation_.totals());
     };
     if (scene_.output.events) hooks.events = [&](std::span<const Event> events) { writer_->events(events); };
     hooks.block = [&](const Progress& progress) { measurements_.block(progress); };

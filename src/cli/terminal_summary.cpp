@@ -4,6 +4,7 @@
 #include "cli/terminal_summary.hpp"
 
 #include "show/number_words.hpp"
+#include "show/observed_lines.hpp"
 #include "show/summary_rows.hpp"
 #include "study/horizon_sentence.hpp"
 
@@ -39,11 +40,7 @@ std::string what_was_observed(const RunReport& report) {
     const auto known = std::find_if(measured.scalars.begin(), measured.scalars.end(),
                                     [](const Scalar& scalar) { return scalar.value.has_value(); });
     std::string words = measured.tables.empty() ? measured.note : "in a table of its own";
-    if (known != measured.scalars.end()) {
-      const double error = known->error.value_or(0.0);
-      const bool scatters = error > 1e-13 * std::abs(*known->value);
-      words = known->name + " " + (scatters ? with_error(*known->value, error) : fmt::format("{:.5g}", *known->value));
-    }
+    if (known != measured.scalars.end()) words = known->name + " " + number_words(*known);
     text += fmt::format("  {:<26}{}\n", measured.name, words);
   }
   return text.empty() ? text : "Observed, averages with their standard errors (all of them in summary.json)\n" + text + "\n";

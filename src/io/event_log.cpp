@@ -2,6 +2,9 @@
 
 #include "io/event_log.hpp"
 
+#include <string>
+#include <utility>
+
 namespace carom::detail {
 
 namespace {
@@ -22,17 +25,25 @@ Hdf5Id described_group(hid_t file) {
 
 EventLog::EventLog(hid_t file) : EventLog(described_group(file)) {}
 
-EventLog::EventLog(const Hdf5Id& group)
-    : time_(group.get(), "time", layout({})),
-      time_remainder_(group.get(), "time_remainder", layout({})),
-      disk_(group.get(), "disk", layout({})),
-      partner_(group.get(), "partner", layout({})),
-      velocity_(group.get(), "velocity", layout({2})),
-      partner_velocity_(group.get(), "partner_velocity", layout({2})) {
+EventLog::EventLog(Hdf5Id group)
+    : group_(std::move(group)),
+      time_(group_.get(), "time", layout({})),
+      time_remainder_(group_.get(), "time_remainder", layout({})),
+      disk_(group_.get(), "disk", layout({})),
+      partner_(group_.get(), "partner", layout({})),
+      velocity_(group_.get(), "velocity", layout({2})),
+      partner_velocity_(group_.get(), "partner_velocity", layout({2})) {
   write_attribute(time_.id(), "unit", std::string("ps"));
   write_attribute(time_remainder_.id(), "unit", std::string("ps"));
   write_attribute(velocity_.id(), "unit", std::string("Angstrom ps-1"));
   write_attribute(partner_velocity_.id(), "unit", std::string("Angstrom ps-1"));
+}
+
+void EventLog::start(const State& state) {
+  const Hdf5Id start = create_group(group_.get(), "start");
+  write_attribute(start.get(), "about", std::string("positions in the box and velocities at time 0, before the first event"));
+  write_fixed(start.get(), "position", state.positions);
+  write_fixed(start.get(), "velocity", state.velocities);
 }
 
 void EventLog::append(std::span<const Event> events) {
@@ -56,6 +67,7 @@ void EventLog::write() {
 }
 
 void EventLog::close() {
+  group_.reset();
   for (auto* column : {&time_, &time_remainder_, &velocity_, &partner_velocity_}) column->close();
   for (auto* column : {&disk_, &partner_}) column->close();
 }

@@ -16,6 +16,8 @@ class EventLog {
   /// Creates the group. Throws Hdf5Error, as every function here.
   explicit EventLog(hid_t file);
 
+  /// Where disks were and how they flew before the first event. Once; what is there already stays.
+  void start(const State& state);
   void append(std::span<const Event> events);
   void write();  ///< hands complete chunks to HDF5
   void close();  ///< hands everything to HDF5
@@ -30,8 +32,9 @@ class EventLog {
   [[nodiscard]] std::size_t buffered_bytes() const;
 
  private:
-  explicit EventLog(const Hdf5Id& group);
+  explicit EventLog(Hdf5Id group);
 
+  Hdf5Id group_;
   GrowingDataset<double> time_;
   GrowingDataset<double> time_remainder_;
   GrowingDataset<std::int32_t> disk_;

@@ -69,10 +69,11 @@ H5mdFrames::H5mdFrames(hid_t file, const Groups& groups, const Scene& scene, con
   write_fixed(groups.trajectory.get(), "radius", disks.radius);
 }
 
-void H5mdFrames::append(std::uint64_t k, const Disks& disks, const State& state, const Eigen::Matrix2Xd& positions) {
+void H5mdFrames::append(std::uint64_t k, const Disks& disks, const State& state, const Totals& totals,
+                        const Eigen::Matrix2Xd& positions) {
   step_.add(static_cast<std::int64_t>(k));
   time_.add(state.time);
-  observables_.append(disks, state);
+  observables_.append(disks, state, totals);
   const Eigen::Vector2d lengths = box_of(box_, state).lengths();
   const auto edges = edges_.add_row();
   edges[0] = lengths.x();

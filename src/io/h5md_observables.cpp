@@ -14,16 +14,9 @@ namespace {
 
 bool moves(const WallProperties& wall) { return wall.mass || wall.velocity; }
 
-void positions_of_walls(const Box& box, const Effects&, const Disks&, const State& state, std::span<double> row) {
-  const Box now = box_of(box, state);
-  const std::array<double, 4> positions = {now.lower.x(), now.upper.x(), now.lower.y(), now.upper.y()};
-  std::copy(positions.begin(), positions.end(), row.begin());
-}
-
 /// An engine that finds disks to be smooth keeps no spins, and they are zero.
-void spins(const Box&, const Effects&, const Disks&, const State& state, std::span<double> row) {
-  std::copy(state.spins.begin(), state.spins.end(), row.begin());
-}
+void copy(const Eigen::VectorXd& values, std::span<double> row) { std::copy(values.begin(), values.end(), row.begin()); }
+void copy(const std::array<double, 4>& values, std::span<double> row) { std::copy(values.begin(), values.end(), row.begin()); }
 
 }  // namespace
 
@@ -38,37 +31,41 @@ H5mdObservables::H5mdObservables(hid_t file, const Scene& scene, const Disks& di
   using Row = std::span<double>;
   const bool rough = effects_.collision.roughness.has_value();
   const bool walls_move = std::any_of(effects_.walls.begin(), effects_.walls.end(), moves);
+  const bool walled = !box_.periodic(0) || !box_.periodic(1);
 
-  put(true, "kinetic_energy", {},
-      [](const Box&, const Effects&, const Disks& d, const State& s, Row row) { row[0] = carom::kinetic_energy(d, s); });
+  put(true, "kinetic_energy", {}, [](const Sample& s, Row row) { row[0] = carom::kinetic_energy(s.disks, s.state); });
   put(true, "temperature", {},
-      [](const Box& b, const Effects& e, const Disks& d, const State& s, Row row) { row[0] = kinetic_temperature(b, e, d, s); });
-  put(rough, "spin", {disks.count()}, spins);
-  put(rough, "spin_energy", {},
-      [](const Box&, const Effects&, const Disks& d, const State& s, Row row) { row[0] = carom::spin_energy(d, s); });
-  put(rough, "spin_temperature", {},
-      [](const Box&, const Effects&, const Disks& d, const State& s, Row row) { row[0] = carom::spin_temperature(d, s); });
+      [](const Sample& s, Row row) { row[0] = kinetic_temperature(s.box, s.effects, s.disks, s.state); });
+  put(true, "pair_collisions", {}, [](const Sample& s, Row row) { row[0] = static_cast<double>(s.totals.pair); });
+  put(true, "virial", {}, [](const Sample& s, Row row) { row[0] = s.totals.virial; });
+  put(effects_.square_well.has_value(), "well_passages", {},
+      [](const Sample& s, Row row) { row[0] = static_cast<double>(s.totals.well); });
+  put(walled, "wall_impulse", {4}, [](const Sample& s, Row row) { copy(s.totals.wall_impulse, row); });
+  put(walled, "wall_energy", {4}, [](const Sample& s, Row row) { copy(s.totals.wall_energy, row); });
+  put(rough, "spin", {disks.count()}, [](const Sample& s, Row row) { copy(s.state.spins, row); });
+  put(rough, "spin_energy", {}, [](const Sample& s, Row row) { row[0] = carom::spin_energy(s.disks, s.state); });
+  put(rough, "spin_temperature", {}, [](const Sample& s, Row row) { row[0] = carom::spin_temperature(s.disks, s.state); });
   put(has_potential(effects_), "potential_energy", {},
-      [](const Box& b, const Effects& e, const Disks& d, const State& s, Row row) {
-        row[0] = carom::potential_energy(b, e, d, s);
-      });
+      [](const Sample& s, Row row) { row[0] = carom::potential_energy(s.box, s.effects, s.disks, s.state); });
   put(has_pistons(effects_), "piston_energy", {},
-      [](const Box&, const Effects& e, const Disks&, const State& s, Row row) { row[0] = carom::piston_energy(e, s); });
+      [](const Sample& s, Row row) { row[0] = carom::piston_energy(s.effects, s.state); });
   put(has_more_than_kinetic_energy(effects_), "total_energy", {},
-      [](const Box& b, const Effects& e, const Disks& d, const State& s, Row row) { row[0] = carom::total_energy(b, e, d, s); });
+      [](const Sample& s, Row row) { row[0] = carom::total_energy(s.box, s.effects, s.disks, s.state); });
   put(effects_.square_well.has_value(), "bonds", {},
-      [](const Box&, const Effects&, const Disks&, const State& s, Row row) { row[0] = static_cast<double>(s.bonds); });
-  put(walls_move, "walls", {4}, positions_of_walls);
-  put(effects_.growth.has_value(), "scale", {},
-      [](const Box&, const Effects&, const Disks&, const State& s, Row row) { row[0] = s.scale; });
+      [](const Sample& s, Row row) { row[0] = static_cast<double>(s.state.bonds); });
+  put(walls_move, "walls", {4}, [](const Sample& s, Row row) {
+    const Box now = box_of(s.box, s.state);
+    copy(std::array{now.lower.x(), now.upper.x(), now.lower.y(), now.upper.y()}, row);
+  });
+  put(effects_.growth.has_value(), "scale", {}, [](const Sample& s, Row row) { row[0] = s.state.scale; });
   put(walls_move || effects_.growth, "packing_fraction", {},
-      [](const Box& b, const Effects&, const Disks& d, const State& s, Row row) { row[0] = carom::packing_fraction(b, d, s); });
+      [](const Sample& s, Row row) { row[0] = carom::packing_fraction(s.box, s.disks, s.state); });
   put(effects_.shear.has_value(), "shear_displacement", {},
-      [](const Box&, const Effects&, const Disks&, const State& s, Row row) { row[0] = s.shear_displacement; });
+      [](const Sample& s, Row row) { row[0] = s.state.shear_displacement; });
 }
 
-void H5mdObservables::append(const Disks& disks, const State& state) {
-  for (Column& column : columns_) column.measure(box_, effects_, disks, state, column.values.add_row());
+void H5mdObservables::append(const Disks& disks, const State& state, const Totals& totals) {
+  for (Column& column : columns_) column.measure({box_, effects_, disks, state, totals}, column.values.add_row());
 }
 
 void H5mdObservables::write() {

@@ -1,6 +1,7 @@
 #pragma once
-// The group /observables of trajectory.h5md: one row per sample of everything that is no position or velocity. Energy and
-// temperature are always there, the others where an effect of the scene makes them worth having.
+// The group /observables of trajectory.h5md: one row per sample of everything that is no position or velocity. Energy,
+// temperature, and collisions with their virial up to the sample are always there, the others where an effect of the scene makes
+// them worth having.
 
 #include "io/growing_dataset.hpp"
 
@@ -19,8 +20,8 @@ class H5mdObservables {
   /// Requires particles/trajectory/position/step and time to be in the file. Throws Hdf5Error, as every function here.
   H5mdObservables(hid_t file, const Scene& scene, const Disks& disks);
 
-  void append(const Disks& disks, const State& state);  ///< requires positions inside the box
-  void write();                                         ///< hands everything to HDF5
+  void append(const Disks& disks, const State& state, const Totals& totals);  ///< requires positions inside the box
+  void write();                                                               ///< hands everything to HDF5
   void close();
 
   /// How far all columns have come, for core/archive.hpp.
@@ -32,8 +33,16 @@ class H5mdObservables {
   [[nodiscard]] std::size_t buffered_bytes() const;
 
  private:
-  /// Fills a row of zeros from a state.
-  using Measure = void (*)(const Box& box, const Effects& effects, const Disks& disks, const State& state, std::span<double> row);
+  /// What a row is made of.
+  struct Sample {
+    const Box& box;
+    const Effects& effects;
+    const Disks& disks;
+    const State& state;
+    const Totals& totals;
+  };
+  /// Fills a row of zeros.
+  using Measure = void (*)(const Sample& sample, std::span<double> row);
   struct Column {
     Measure measure;
     GrowingDataset<double> values;

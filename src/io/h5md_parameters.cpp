@@ -47,11 +47,19 @@ void write_parameters(hid_t file, const Scene& scene, const Provenance& provenan
   for (const Species& one : scene.species) species.push_back(one.name);
   if (!species.empty()) write_attribute(group, "species_names", species);
   if (scene.run.sample_every) write_attribute(group, "sample_every", *scene.run.sample_every);
+  if (scene.run.sample_every_collisions)
+    write_attribute(group, "sample_every_collisions", static_cast<std::int64_t>(*scene.run.sample_every_collisions));
+  if (const auto& log = scene.run.sample_log)
+    write_attribute(group, "sample_log", std::array{log->base, static_cast<double>(log->per_block), log->block});
   write_attribute(group, "spatial_dimension", std::int64_t{2});
   write_attribute(group, "positions", std::string(scene.output.unwrapped ? "unwrapped" : "wrapped"));
   write_attribute(group, "units",
                   std::string("reduced: lengths, masses and times are in the units of the scene, with kB = 1. The unit "
                               "attributes (Angstrom, ps) are there because readers ask for some; no value was converted."));
+}
+
+void write_reference_temperature(hid_t file, double temperature) {
+  write_attribute(create_group(file, "parameters").get(), "reference_temperature", temperature);
 }
 
 }  // namespace carom::detail

@@ -11,5 +11,7 @@ namespace carom::detail {
 /// Throws Hdf5Error.
 void write_h5md_header(hid_t file);
 void write_parameters(hid_t file, const Scene& scene, const Provenance& provenance);
+/// kT that observables refer to, known when the measured run begins.
+void write_reference_temperature(hid_t file, double temperature);
 
 }  // namespace carom::detail

@@ -88,8 +88,15 @@ H5mdWriter::~H5mdWriter() {
   h5_.reset();
 }
 
-void H5mdWriter::sample(std::uint64_t k, const State& state, const Eigen::Matrix2Xd& positions) {
-  guard([&] { frames_->append(k, disks_, state, positions); });
+void H5mdWriter::start(const State& state, double temperature) {
+  guard([&] {
+    detail::write_reference_temperature(h5_.get(), temperature);
+    if (events_) events_->start(state);
+  });
+}
+
+void H5mdWriter::sample(std::uint64_t k, const State& state, const Totals& totals, const Eigen::Matrix2Xd& positions) {
+  guard([&] { frames_->append(k, disks_, state, totals, positions); });
   if (file_.bytes_written() - bytes_at_flush_ > most_bytes_between_flushes) flush();
 }
 

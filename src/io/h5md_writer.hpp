@@ -34,9 +34,12 @@ class H5mdWriter {
   H5mdWriter(const H5mdWriter&) = delete;
   H5mdWriter& operator=(const H5mdWriter&) = delete;
 
-  void sample(std::uint64_t k, const State& state) { sample(k, state, state.positions); }
+  /// The beginning of the measured run, for the event log; `temperature` is what observables refer to (ObservedRun::temperature).
+  void start(const State& state, double temperature);
+  /// A state, and the totals up to then.
+  void sample(std::uint64_t k, const State& state, const Totals& totals) { sample(k, state, totals, state.positions); }
   /// The same with other positions, unwrapped ones, in the file.
-  void sample(std::uint64_t k, const State& state, const Eigen::Matrix2Xd& positions);
+  void sample(std::uint64_t k, const State& state, const Totals& totals, const Eigen::Matrix2Xd& positions);
   void events(std::span<const Event> events);  ///< nothing where scene.output.events is not set
   /// What was measured, once, at the end.
   void measurements(const std::vector<Measurement>& observables);

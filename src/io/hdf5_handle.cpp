@@ -2,6 +2,7 @@
 
 #include "io/hdf5_handle.hpp"
 
+#include <array>
 #include <cstdlib>
 #include <functional>
 #include <numeric>
@@ -40,10 +41,9 @@ bool exists(hid_t file, const std::string& path) {
   return path == "/" || H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0;
 }
 
-void write_fixed(hid_t parent, const std::string& name, hid_t file_type, hid_t memory_type, std::size_t count, const void* values,
-                 hid_t properties = H5P_DEFAULT) {
+void write_fixed(hid_t parent, const std::string& name, hid_t file_type, hid_t memory_type, const Hdf5Id& space,
+                 const void* values, hid_t properties = H5P_DEFAULT) {
   if (exists(parent, name)) return;
-  const Hdf5Id space = list_space(count);
   const Hdf5Id dataset(H5Dcreate2(parent, name.c_str(), file_type, space.get(), H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose);
   checked(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
 }
@@ -52,7 +52,7 @@ void write_column(hid_t parent, const std::string& name, hid_t file_type, hid_t 
                   const void* values) {
   const Hdf5Id properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   checked(H5Pset_obj_track_times(properties.get(), false));
-  write_fixed(parent, name, file_type, memory_type, count, values, properties.get());
+  write_fixed(parent, name, file_type, memory_type, list_space(count), values, properties.get());
 }
 
 Hdf5Id open_attribute(hid_t file, const std::string& object, const std::string& name) {
@@ -129,11 +129,17 @@ void write_attribute(hid_t object, const std::string& name, double value) {
 }
 
 void write_fixed(hid_t parent, const std::string& name, std::span<const double> values) {
-  write_fixed(parent, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.size(), values.data());
+  write_fixed(parent, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, list_space(values.size()), values.data());
 }
 
 void write_fixed(hid_t parent, const std::string& name, std::span<const std::int32_t> values) {
-  write_fixed(parent, name, H5T_STD_I32LE, H5T_NATIVE_INT32, values.size(), values.data());
+  write_fixed(parent, name, H5T_STD_I32LE, H5T_NATIVE_INT32, list_space(values.size()), values.data());
+}
+
+void write_fixed(hid_t parent, const std::string& name, const Eigen::Matrix2Xd& values) {
+  const std::array<hsize_t, 2> extents = {static_cast<hsize_t>(values.cols()), 2};
+  const Hdf5Id space(H5Screate_simple(2, extents.data(), nullptr), H5Sclose);
+  write_fixed(parent, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, space, values.data());
 }
 
 void write_column(hid_t parent, const std::string& name, std::span<const double> values) {

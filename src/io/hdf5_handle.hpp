@@ -1,6 +1,8 @@
 #pragma once
 // HDF5's C interface with handles that close themselves, errors that are exceptions, and no printing.
 
+#include <Eigen/Core>
+
 #include <hdf5.h>
 
 #include <cstdint>
@@ -92,6 +94,8 @@ void write_attribute(hid_t object, const std::string& name, double value);
 /// A dataset of one value per disk, which never changes; one that is there already is left as it is.
 void write_fixed(hid_t parent, const std::string& name, std::span<const double> values);
 void write_fixed(hid_t parent, const std::string& name, std::span<const std::int32_t> values);
+/// [N][2], a column for each row.
+void write_fixed(hid_t parent, const std::string& name, const Eigen::Matrix2Xd& values);
 
 /// A column of a table. Unlike other datasets it does not hold the time of day: the same values are the same bytes.
 void write_column(hid_t parent, const std::string& name, std::span<const double> values);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace carom {
@@ -21,9 +22,10 @@ using detail::Hdf5Error;
 const std::string parameters = "/parameters";
 const std::string particles = "/particles/trajectory";
 
-double folded(double x, double lower, double length) {
-  x -= std::floor((x - lower) / length) * length;
-  return x < lower + length ? x : lower;
+double folded(double x, double lower, double upper) {
+  if (x >= lower && x < upper) return x;
+  x -= std::floor((x - lower) / (upper - lower)) * (upper - lower);
+  return x >= lower && x < upper ? x : lower;
 }
 
 }  // namespace
@@ -87,7 +89,8 @@ void RunReader::read_trajectory() {
 /// The box and what acts, from the text that the run was made from.
 void RunReader::read_scene() {
   const auto text = [&](const char* name) { return detail::read_string_attribute(file_.get(), parameters, name); };
-  scene_ = detail::scene_in(file_.get(), path_);
+  resolved_scene_ = text("resolved_scene");
+  scene_ = detail::scene_of(resolved_scene_, path_);
   title_ = text("title");
   species_names_ = detail::read_strings_attribute(file_.get(), parameters, "species_names");
   for (const std::int32_t species : disks_.species)
@@ -126,29 +129,102 @@ State RunReader::sample(std::uint64_t k) const {
     if (!state.positions.allFinite() || !state.velocities.allFinite()) throw Hdf5Error("a sample holds what is no number");
     for (int axis = 0; axis < 2; ++axis)
       if (scene_.box.periodic(axis))
-        for (double& x : state.positions.row(axis)) x = folded(x, scene_.box.lower[axis], scene_.box.lengths()[axis]);
-    const auto present = [&](const std::string& name) { return !detail::extents_of(file_.get(), name).empty(); };
-    if (present("/observables/walls/value"))
-      for (const double wall : rows("/observables/walls/value", k, 1, 4)) state.walls.push_back({wall, 0.0});
-    if (present("/observables/scale/value")) state.scale = rows("/observables/scale/value", k, 1, 1)[0];
-    if (present("/observables/shear_displacement/value"))
-      state.shear_displacement = rows("/observables/shear_displacement/value", k, 1, 1)[0];
+        for (double& x : state.positions.row(axis)) x = folded(x, scene_.box.lower[axis], scene_.box.upper[axis]);
+    const std::vector<double> images = rows(particles + "/image/value", k, 1, 3 * count);
+    state.images.resize(2, static_cast<Eigen::Index>(count));
+    for (std::size_t i = 0; i < count; ++i)
+      for (int axis = 0; axis < 2; ++axis)
+        state.images(axis, static_cast<Eigen::Index>(i)) =
+            static_cast<std::int64_t>(images[3 * i + static_cast<std::size_t>(axis)]);
+    for (const double wall : observable("walls", k, 4)) state.walls.push_back({wall, 0.0});
+    for (const double scale : observable("scale", k, 1)) state.scale = scale;
+    for (const double displacement : observable("shear_displacement", k, 1)) state.shear_displacement = displacement;
+    if (const std::vector<double> spins = observable("spin", k, count); !spins.empty())
+      state.spins = Eigen::Map<const Eigen::VectorXd>(spins.data(), static_cast<Eigen::Index>(count));
     return state;
   });
 }
 
-std::vector<Event> RunReader::event_log() const {
+std::vector<double> RunReader::observable(const std::string& name, std::uint64_t k, std::uint64_t row_size) const {
+  const std::string dataset = "/observables/" + name + "/value";
+  if (detail::extents_of(file_.get(), dataset).empty()) return {};
+  return rows(dataset, k, 1, row_size);
+}
+
+Totals RunReader::totals(std::uint64_t k) const {
+  return guarded([&] {
+    const std::vector<double> pairs = observable("pair_collisions", k, 1), virial = observable("virial", k, 1);
+    if (pairs.empty() || virial.empty())
+      throw OutputError(
+          fmt::format("{}: an earlier version wrote this file, without the collisions up to each sample; run the scene again",
+                      path_.string()));
+    const auto number = [](double count) {
+      if (!(count >= 0.0 && count <= 0x1p53)) throw Hdf5Error("a number of collisions is none");
+      return static_cast<std::uint64_t>(count);
+    };
+    Totals totals;
+    totals.pair = number(pairs[0]);
+    for (const double passages : observable("well_passages", k, 1)) totals.well = number(passages);
+    totals.virial = virial[0];
+    const auto copy = [&](const char* name, std::array<double, 4>& sides) {
+      const std::vector<double> values = observable(name, k, 4);
+      std::copy(values.begin(), values.end(), sides.begin());
+    };
+    copy("wall_impulse", totals.wall_impulse);
+    copy("wall_energy", totals.wall_energy);
+    return totals;
+  });
+}
+
+State RunReader::start() const {
+  return guarded([&] {
+    const auto count = static_cast<Eigen::Index>(disks_.count());
+    const auto columns = [&](const std::string& dataset) {
+      if (detail::extents_of(file_.get(), dataset).empty())
+        throw OutputError(fmt::format(
+            "{}: an earlier version wrote this file, without the start of its event log; run the scene again", path_.string()));
+      const std::vector<double> values = rows(dataset, 0, disks_.count(), 2);
+      return Eigen::Matrix2Xd(Eigen::Map<const Eigen::Matrix2Xd>(values.data(), 2, count));
+    };
+    State state;
+    state.positions = columns("/events/start/position");
+    state.velocities = columns("/events/start/velocity");
+    state.images = Images::Zero(2, count);
+    if (!state.positions.allFinite() || !state.velocities.allFinite()) throw Hdf5Error("the start holds what is no number");
+    return state;
+  });
+}
+
+double RunReader::reference_temperature() const {
+  return guarded([&] {
+    const std::vector<double> kT = detail::read_numbers_attribute(file_.get(), parameters, "reference_temperature");
+    if (kT.size() != 1)
+      throw OutputError(fmt::format(
+          "{}: an earlier version wrote this file, without the temperature that observables refer to; run the scene again",
+          path_.string()));
+    return kT[0];
+  });
+}
+
+Scene RunReader::scene(const std::vector<std::string>& overrides) const {
+  Scene scene = parse_scene(resolved_scene_, "resolved_scene", overrides);
+  if (scene.disk_count() != static_cast<std::int64_t>(disks_.count()))
+    throw OutputError(fmt::format("{}: the scene's start file has changed since the run: it has {} disks now, and the run had {}",
+                                  path_.string(), scene.disk_count(), disks_.count()));
+  return scene;
+}
+
+std::vector<Event> RunReader::event_log(std::uint64_t first, std::uint64_t number, double before) const {
   return guarded([&] {
     const auto column = [&](const char* name, std::uint64_t row) {
-      return rows(std::string("/events/") + name, 0, events_, row);
+      return rows(std::string("/events/") + name, first, number, row);
     };
-    std::vector<Event> events(events_);
-    if (events_ == 0) return events;
+    std::vector<Event> events(number);
+    if (number == 0) return events;
     const std::vector<double> time = column("time", 1), disk = column("disk", 1), partner = column("partner", 1);
     const std::vector<double> velocity = column("velocity", 2), partner_velocity = column("partner_velocity", 2);
     const auto count = static_cast<double>(disks_.count());
     const double last_obstacle = first_obstacle + 1.0 - static_cast<double>(scene_.effects.obstacles.size());
-    double before = 0.0;
     for (std::size_t e = 0; e < events.size(); ++e) {
       const double p = partner[e];
       const bool known = p >= 0.0

@@ -37,10 +37,21 @@ class RunReader {
   [[nodiscard]] bool has_event_log() const { return has_event_log_; }
 
   [[nodiscard]] std::vector<double> sample_times() const;  ///< in order
-  /// Sample k with its time; positions on periodic axes are inside the box, whatever the file holds. No images, no spins.
+  /// Sample k with its time, to the last bit, but for positions of runs whose output was unwrapped: on periodic axes they are
+  /// brought back into the box, whatever the file holds. No remainders, bonds, and velocities of walls.
   [[nodiscard]] State sample(std::uint64_t k) const;
+  /// Collisions of pairs, virial, passages of wells, and what the walls took up to sample k; nothing else.
+  [[nodiscard]] Totals totals(std::uint64_t k) const;
+  /// Positions and velocities at the beginning of the event log. Requires a log.
+  [[nodiscard]] State start() const;
   /// The whole log, in order of time: ids are those of disks, walls and obstacles of this run, numbers are finite.
-  [[nodiscard]] std::vector<Event> event_log() const;
+  [[nodiscard]] std::vector<Event> event_log() const { return event_log(0, events_, 0.0); }
+  /// `count` events from `first` on, the one before which was at time `before`.
+  [[nodiscard]] std::vector<Event> event_log(std::uint64_t first, std::uint64_t count, double before) const;
+  /// kT that observables refer to (ObservedRun::temperature).
+  [[nodiscard]] double reference_temperature() const;
+  /// The scene with other values for some of its keys (load_scene). Throws SceneError for these.
+  [[nodiscard]] Scene scene(const std::vector<std::string>& overrides) const;
 
  private:
   template <class Action>
@@ -50,10 +61,13 @@ class RunReader {
   void read_scene();
   [[nodiscard]] std::vector<double> rows(const std::string& dataset, std::uint64_t first, std::uint64_t count,
                                          std::uint64_t row_size) const;
+  /// Row k of /observables/NAME; empty where the file has none.
+  [[nodiscard]] std::vector<double> observable(const std::string& name, std::uint64_t k, std::uint64_t row_size) const;
 
   std::filesystem::path path_;  ///< of the trajectory
   detail::Hdf5Id file_;
   Scene scene_;
+  std::string resolved_scene_;
   Disks disks_;
   std::vector<std::string> species_names_;
   std::string title_;

@@ -39,7 +39,7 @@ RunWriter::RunWriter(const RunDirectory& directory, const Scene& scene, const Di
       unwrapped_(scene.output.unwrapped && (box_.periodic(0) || box_.periodic(1))),
       provenance_(provenance),
       last_flush_(std::chrono::steady_clock::now()) {
-  const bool samples = scene.run.sample_every.has_value();
+  const bool samples = scene.run.is_sampled();
   const bool h5md = (scene.output.trajectory && samples) || scene.output.events || !scene.observe.empty();
   const bool xyz = scene.output.xyz && samples, csv = scene.output.csv && samples;
   const bool rough = scene.effects.collision.roughness.has_value();
@@ -89,7 +89,11 @@ void RunWriter::discard_partials() const noexcept {
   for (const std::string& product : products_) std::filesystem::remove(directory_.partial_name(product), ignored);
 }
 
-void RunWriter::sample(std::uint64_t k, const State& state) {
+void RunWriter::start(const State& state, double temperature) {
+  if (h5md_) h5md_->start(state, temperature);
+}
+
+void RunWriter::sample(std::uint64_t k, const State& state, const Totals& totals) {
   const State* written = &state;
   if (unwrapped_) {
     unwrapped_state_ = state;
@@ -97,7 +101,7 @@ void RunWriter::sample(std::uint64_t k, const State& state) {
     written = &unwrapped_state_;
   }
   holds_data_ = true;
-  if (h5md_ && trajectory_) h5md_->sample(k, state, written->positions);
+  if (h5md_ && trajectory_) h5md_->sample(k, state, totals, written->positions);
   if (xyz_) xyz_->sample(*written);
   if (csv_) csv_->sample(*written);
   flush_now_and_then();

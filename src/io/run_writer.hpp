@@ -27,7 +27,8 @@ namespace carom {
 class RunWriter {
  public:
   /// Opens all files, so that what cannot be written is known before the simulation starts. trajectory.h5md is written
-  /// where samples, events or observables are asked for. Without run.sample_every there are no samples, and no file for them.
+  /// where samples, events or observables are asked for. Without run.sample_every and run.sample_log there are no samples, and no
+  /// file for them.
   RunWriter(const RunDirectory& directory, const Scene& scene, const Disks& disks, const Provenance& provenance);
   /// Goes on with the files of a run from where save() was called, whether they have their own names or are .partial still. What
   /// was written after that is cut off, and what tells of an end is removed: summary, tables, pages.
@@ -38,7 +39,11 @@ class RunWriter {
   RunWriter(const RunWriter&) = delete;
   RunWriter& operator=(const RunWriter&) = delete;
 
-  void sample(std::uint64_t k, const State& state);
+  /// The measured run begins; `temperature` is what observables refer to (ObservedRun::temperature). What is analysed afterwards
+  /// needs both.
+  void start(const State& state, double temperature);
+  /// A state, and the totals up to then.
+  void sample(std::uint64_t k, const State& state, const Totals& totals);
   void events(std::span<const Event> events);
 
   /// Completes all files, gives them their names, the summary last, and returns these. Call it once; also for a run that

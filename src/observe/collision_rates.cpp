@@ -14,7 +14,7 @@ class CollisionRate final : public SavedObservable<CollisionRate> {
  public:
   CollisionRate(const ObservableRequest& request, const ObservedRun& run)
       : run_(run), step_(run.step(request, 16.0)), kinds_(run.species_count()) {
-    by_species_ = kinds_ > 1 && !is_driven(run.scene.effects);
+    by_species_ = kinds_ > 1 && run.collisions_known && !is_driven(run.scene.effects);
     if (!by_species_) return;
     counts_.assign(kinds_ * kinds_, 0.0);
     before_ = counts_;
@@ -48,7 +48,9 @@ class CollisionRate final : public SavedObservable<CollisionRate> {
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
     put(found, "rate", all_, run_.scene.disk_count());
-    if (kinds_ > 1 && !by_species_) found.note = "rates by species are not told apart where a thermostat, growth or shear acts";
+    if (kinds_ > 1 && !by_species_)
+      found.note = run_.collisions_known ? "rates by species are not told apart where a thermostat, growth or shear acts"
+                                         : "rates by species are not told apart, since the run kept no collisions (--events)";
     for (std::size_t k = 0; k < rates_.size(); ++k) {
       put(found, "rate" + run_.suffix(k / kinds_) + run_.suffix(k % kinds_), rates_[k], run_.scene.species[k / kinds_].count);
     }

@@ -71,23 +71,22 @@ class FreeFlight final : public SavedObservable<FreeFlight> {
   [[nodiscard]] bool follows_collisions() const override { return true; }
 
   void collisions(std::span<const PairCollision> collisions) override {
-    Sums sums;
+    Sums sums = sums_;
     for (const PairCollision& met : collisions) {
       if (!met.contact) continue;
       if (follows(met.disk)) end(met.disk, met.time, met.velocity_before, sums);
       if (follows(met.partner)) end(met.partner, met.time, met.partner_velocity_before, sums);
+      if (sums.flights < batch) continue;  // after so many flights, however collisions are handed over
+      end_sample(sums);
+      if (counted_ >= 16 * batch) end_histograms();
     }
-    flights_ += sums.flights;
-    time_ += sums.time;
-    path_ += sums.path;
-    if (flights_ >= batch) end_sample();
-    if (counted_ >= 16 * batch) end_histograms();
+    sums_ = sums;
   }
 
   [[nodiscard]] Measurement finish(double time, const Totals&) override {
     const double flushes = static_cast<double>(mean_time_.samples());
     const double step = flushes > 0.0 ? time / flushes : 0.0;
-    if (flights_ > 0) end_sample();
+    if (sums_.flights > 0) end_sample(sums_);
     if (counted_ > 0) end_histograms();
     Measurement found{.name = name()};
     found.note = "over flights that began and ended within the run";
@@ -104,7 +103,7 @@ class FreeFlight final : public SavedObservable<FreeFlight> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(times_, paths_, last_, flights_, counted_, time_, path_, mean_time_, mean_path_);
+    archive(times_, paths_, last_, sums_.flights, sums_.time, sums_.path, counted_, mean_time_, mean_path_);
   }
 
  private:
@@ -134,7 +133,7 @@ class FreeFlight final : public SavedObservable<FreeFlight> {
 
   [[nodiscard]] bool follows(std::int32_t disk) const { return (static_cast<std::uint32_t>(disk) & skip_) == 0; }
 
-  struct Sums {
+  struct Sums {  ///< since the last sample of the means
     std::uint64_t flights = 0;
     double time = 0.0, path = 0.0;
   };
@@ -151,13 +150,12 @@ class FreeFlight final : public SavedObservable<FreeFlight> {
     times_.add(flight);
     paths_.add(path);
   }
-  void end_sample() {
-    const double flights = static_cast<double>(flights_);
-    mean_time_.add(time_, flights);
-    mean_path_.add(path_, flights);
-    time_ = path_ = 0.0;
-    counted_ += flights_;
-    flights_ = 0;
+  void end_sample(Sums& sums) {
+    const double flights = static_cast<double>(sums.flights);
+    mean_time_.add(sums.time, flights);
+    mean_path_.add(sums.path, flights);
+    counted_ += sums.flights;
+    sums = {};
   }
   void end_histograms() {
     const double flights = static_cast<double>(counted_);
@@ -176,9 +174,8 @@ class FreeFlight final : public SavedObservable<FreeFlight> {
   std::uint32_t skip_;        ///< disks whose id has one of these bits are not followed
   std::vector<double> last_;  ///< collision of each disk that is followed; `never` before the first
   std::string why_no_path_;
-  std::uint64_t flights_ = 0;  ///< since the last sample of the means
+  Sums sums_;
   std::uint64_t counted_ = 0;  ///< in samples since the last one of the histograms
-  double time_ = 0.0, path_ = 0.0;
   Blocking mean_time_, mean_path_;
 };
 

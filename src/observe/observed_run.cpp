@@ -33,11 +33,16 @@ std::string word_of(std::string name) {
 }  // namespace
 
 ObservedRun observed_run(const Simulation& simulation) {
-  ObservedRun run{simulation.scene(), simulation.disks(), simulation.scene().run.time};
-  const Effects& effects = run.scene.effects;
-  run.temperature = effects.thermostat && effects.thermostat->rate > 0.0
-                        ? effects.thermostat->temperature
-                        : kinetic_temperature(run.scene.box, effects, run.disks, simulation.state());
+  const Scene& scene = simulation.scene();
+  const std::optional<Thermostat>& thermostat = scene.effects.thermostat;
+  return observed_run(scene, simulation.disks(),
+                      thermostat && thermostat->rate > 0.0
+                          ? thermostat->temperature
+                          : kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state()));
+}
+
+ObservedRun observed_run(const Scene& scene, const Disks& disks, double temperature) {
+  ObservedRun run{scene, disks, scene.run.time, temperature};
   double radii = 0.0;
   for (const double radius : run.disks.radius) radii += radius;
   if (run.disks.count() > 0) run.mean_diameter = 2.0 * radii / static_cast<double>(run.disks.count());
@@ -53,7 +58,7 @@ double ObservedRun::step(const ObservableRequest& request, double mean_free_time
     step = step > 0.0 ? std::min(step, most) : most;
   }
   if (step > 0.0) return step;
-  return scene.run.sample_every.value_or(1.0);
+  return scene.run.sample_every.value_or(scene.run.sample_log ? scene.run.sample_log->block : 1.0);
 }
 
 std::string ObservedRun::suffix(std::size_t species) const {

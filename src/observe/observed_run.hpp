@@ -14,6 +14,7 @@ struct ObservedRun {
   std::optional<double> time = {};  ///< that the run was to last when it began
   double temperature = 0.0;         ///< kT at the start, or that of the thermostat
   double mean_diameter = 1.0;       ///< 1 without disks
+  bool collisions_known = true;     ///< can be followed one by one: of a run that is over, its log may not have been kept
   double mean_free_time = 0.0;      ///< as Enskog's theory estimates it for disks of mean size and mass; 0 where nothing moves
 
   /// A step of so many mean free times, or what the scene says; at most 1/256 of the run, so that errors can be told.
@@ -33,6 +34,9 @@ struct ObservedRun {
 /// Velocities as heat: without the flow of a sheared box, and without the common motion where momentum is kept.
 [[nodiscard]] Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state);
 
+/// Before the run: its temperature is that of the start, or of the thermostat.
 [[nodiscard]] ObservedRun observed_run(const Simulation& simulation);
+/// Of a run whose temperature is known. Requires scene and disks to live as long as what is returned.
+[[nodiscard]] ObservedRun observed_run(const Scene& scene, const Disks& disks, double temperature);
 
 }  // namespace carom

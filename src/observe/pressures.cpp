@@ -27,6 +27,8 @@ namespace {
 
 using carom::serialize;
 
+constexpr const char* no_log = "the run kept no collisions (--events)";
+
 /// c above; 1 for many.
 double speed_factor(double d) {
   return d > 0.0 ? std::sqrt(0.5 * d) * std::exp(std::lgamma(0.5 * d) - std::lgamma(0.5 * (d + 1.0))) : 1.0;
@@ -36,7 +38,7 @@ class Pressure final : public SavedObservable<Pressure> {
  public:
   Pressure(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 16.0)) {
     const Effects& effects = run.scene.effects;
-    follows_ = !is_driven(effects) && run.disks.count() > 0;
+    follows_ = run.collisions_known && !is_driven(effects) && run.disks.count() > 0;
     const auto all_equal = [](const std::vector<double>& values) {
       return std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
     };
@@ -52,14 +54,14 @@ class Pressure final : public SavedObservable<Pressure> {
   [[nodiscard]] bool follows_collisions() const override { return follows_; }
 
   void collisions(std::span<const PairCollision> collisions) override {
-    std::array<double, 4> sums{};
+    std::array<double, 4> sums = transfer_;  // one after the other: the sums do not depend on how collisions are handed over
     for (const PairCollision& met : collisions) {
       sums[0] += met.separation.x() * met.impulse.x();
       sums[1] += met.separation.x() * met.impulse.y();
       sums[2] += met.separation.y() * met.impulse.x();
       sums[3] += met.separation.y() * met.impulse.y();
     }
-    for (std::size_t c = 0; c < 4; ++c) transfer_[c] += sums[c];
+    transfer_ = sums;
     if (!equal_) count_meetings(collisions);
   }
 
@@ -89,7 +91,9 @@ class Pressure final : public SavedObservable<Pressure> {
     for (std::size_t c = 0; c < 4; ++c) {
       Scalar scalar{.name = names[c], .unit = "energy / area"};
       if (follows_) tensor_[c].fill(scalar, step_);
-      if (!follows_) scalar.note = "velocities change between collisions, so impulses are not known one by one";
+      if (!follows_)
+        scalar.note =
+            run_.collisions_known ? "velocities change between collisions, so impulses are not known one by one" : no_log;
       found.scalars.push_back(std::move(scalar));
     }
     return found;
@@ -175,7 +179,8 @@ class Pressure final : public SavedObservable<Pressure> {
     if (!why_no_Z_.empty()) return std::string(why_no_Z_);
     if (effects.collision.rule == CollisionRule::reversal) return "under reversal velocities need not be Maxwell's";
     if (effects.square_well) return "wells transfer momentum at their edges too";
-    if (!equal_ && !follows_) return "in a mixture collisions must be followed, and velocities change between them";
+    if (!equal_ && !follows_)
+      return run_.collisions_known ? "in a mixture collisions must be followed, and velocities change between them" : no_log;
     return {};
   }
   [[nodiscard]] std::string why_no_walls() const {

@@ -32,7 +32,7 @@ TEST_F(RunAgain, ARunIsTheSameToTheLastBit) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
   EXPECT_THAT(outcome.err, IsEmpty());
   EXPECT_THAT(outcome.out,
-              AllOf(StartsWith("gas: run again, the same to the last bit: trajectory.h5md (28 datasets), trajectory.xyz ("),
+              AllOf(StartsWith("gas: run again, the same to the last bit: trajectory.h5md (36 datasets), trajectory.xyz ("),
                     HasSubstr("samples.csv ("), HasSubstr("summary.json")));
 }
 

@@ -24,7 +24,7 @@ TEST(EmptyBox, WritesATrajectoryOfFramesWithoutDisks) {
   Simulation simulation = make_simulation(scene);
   RunWriter writer(directory, scene, simulation.disks(), {});
   RunHooks hooks;
-  hooks.sample = [&](std::uint64_t k, const State& state) { writer.sample(k, state); };
+  hooks.sample = [&](std::uint64_t k, const State& state) { writer.sample(k, state, simulation.totals()); };
   EXPECT_EQ(run_schedule(simulation, hooks).samples, 3u);
   writer.finish({});
   EXPECT_NE(describe_file(path / "trajectory.h5md").find("samples     3,"), std::string::npos);

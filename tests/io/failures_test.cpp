@@ -93,7 +93,7 @@ TEST_P(FullDisk, EndsAnH5mdWriterWithOneSentenceAndKeepsItsFlushedSamples) {
     limit_file_size(GetParam());
     H5mdWriter writer(path, scene, disks_of(scene), provenance());
     for (std::uint64_t k = 0; k < 100'000; ++k) {
-      writer.sample(k, state_at(k, scene));
+      writer.sample(k, state_at(k, scene), {});
       writer.events(events_up_to(50));
       if (k % 37 != 0) continue;
       writer.flush();
@@ -119,10 +119,10 @@ TEST(FullDiskOfARun, StopsTheRunAndKeepsWholeSamplesInEveryPartialFile) {
   const fs::path message = temporary.path() / "message";
   const fs::path out = temporary.path() / "out";
   const int status = in_child(message, [&] {
-    limit_file_size(1'000'000);
+    limit_file_size(2'000'000);  // the text files reach it first
     const RunDirectory directory(out, false);
     RunWriter writer(directory, scene, disks_of(scene), provenance());
-    for (std::uint64_t k = 0; k < 100'000; ++k) writer.sample(k, state_at(k, scene));
+    for (std::uint64_t k = 0; k < 100'000; ++k) writer.sample(k, state_at(k, scene), {});
     writer.finish(report_of(scene));
   });
   ASSERT_TRUE(WIFEXITED(status)) << "killed by signal " << WTERMSIG(status);
@@ -168,7 +168,7 @@ TEST(KilledRun, LeavesWhatWasFlushedReadable) {
     if (child == 0) {
       H5mdWriter writer(path, scene, disks_of(scene), provenance());
       for (std::uint64_t k = 0;; ++k) {
-        writer.sample(k, state_at(k, scene));
+        writer.sample(k, state_at(k, scene), {});
         writer.events(events_up_to(50));
         if (k % 10 == 9) writer.flush();
         const std::uint64_t safe = writer.safe_samples();
@@ -198,7 +198,7 @@ TEST(KilledRun, IsNotOverwrittenWithoutForce) {
   const pid_t child = ::fork();
   if (child == 0) {
     RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
-    writer.sample(0, state_at(0, scene));
+    writer.sample(0, state_at(0, scene), {});
     ::raise(SIGKILL);
   }
   int status = 0;

@@ -24,7 +24,7 @@ class H5mdObservables : public ::testing::Test {
   std::filesystem::path write(const Scene& scene, std::uint64_t frames) {
     const std::filesystem::path path = temporary_.path() / "trajectory.h5md";
     H5mdWriter writer(path, scene, disks_of(scene), provenance());
-    for (std::uint64_t k = 0; k < frames; ++k) writer.sample(k, state_with_effects_at(k, scene));
+    for (std::uint64_t k = 0; k < frames; ++k) writer.sample(k, state_with_effects_at(k, scene), {});
     writer.close();
     return path;
   }
@@ -32,20 +32,41 @@ class H5mdObservables : public ::testing::Test {
   TemporaryDirectory temporary_;
 };
 
-TEST_F(H5mdObservables, AreEnergyAndTemperatureWhereNoEffectActs) {
+TEST_F(H5mdObservables, AreEnergyTemperatureAndWhatHasHappenedWhereNoEffectActs) {
   const H5Reader file(write(scene_of(2, 1), 2));
-  EXPECT_THAT(file.members("/observables"), ElementsAre("kinetic_energy", "temperature"));
+  EXPECT_THAT(file.members("/observables"),
+              ElementsAre("kinetic_energy", "pair_collisions", "temperature", "virial", "wall_energy", "wall_impulse"));
   EXPECT_THAT(file.strings("/parameters", "effects"), ElementsAre("specular", "walls"));
+}
+
+TEST_F(H5mdObservables, TellTheTotalsUpToEachSample) {
+  const std::filesystem::path path = temporary_.path() / "trajectory.h5md";
+  const Scene scene = scene_of(2, 1);
+  H5mdWriter writer(path, scene, disks_of(scene), provenance());
+  Totals totals;
+  totals.pair = 12'345'678'901;
+  totals.virial = 0.1;
+  totals.wall_impulse = {1.5, -2.5, 3.5, 4.5};
+  totals.wall_energy = {0.0, 1e-300, 7.0, -8.0};
+  writer.sample(0, state_at(0, scene), totals);
+  writer.close();
+  const H5Reader file(path);
+  EXPECT_THAT(file.doubles("/observables/pair_collisions/value"), ElementsAre(12'345'678'901.0));
+  EXPECT_THAT(file.doubles("/observables/virial/value"), ElementsAre(0.1));
+  EXPECT_THAT(file.doubles("/observables/wall_impulse/value"), ElementsAre(1.5, -2.5, 3.5, 4.5));
+  EXPECT_THAT(file.doubles("/observables/wall_energy/value"), ElementsAre(0.0, 1e-300, 7.0, -8.0));
 }
 
 TEST_F(H5mdObservables, AreThereForWhatTheSceneNames) {
   EXPECT_THAT(H5Reader(write(scene_with_effects(2, 1), 2)).members("/observables"),
-              ElementsAre("bonds", "kinetic_energy", "packing_fraction", "piston_energy", "potential_energy", "scale", "spin",
-                          "spin_energy", "spin_temperature", "temperature", "total_energy", "walls"));
+              ElementsAre("bonds", "kinetic_energy", "packing_fraction", "pair_collisions", "piston_energy", "potential_energy",
+                          "scale", "spin", "spin_energy", "spin_temperature", "temperature", "total_energy", "virial",
+                          "wall_energy", "wall_impulse", "walls", "well_passages"));
   Scene sheared = scene_of(2, 1);
   sheared.effects.shear = Shear{.rate = 0.5, .where = {}};
   EXPECT_THAT(H5Reader(write(sheared, 2)).members("/observables"),
-              ElementsAre("kinetic_energy", "shear_displacement", "temperature"));
+              ElementsAre("kinetic_energy", "pair_collisions", "shear_displacement", "temperature", "virial", "wall_energy",
+                          "wall_impulse"));
 }
 
 TEST_F(H5mdObservables, AreMeasuredOnEverySample) {
@@ -95,7 +116,7 @@ TEST_F(H5mdObservables, SpinsThatAnEngineDoesNotKeepAreZero) {
   const Scene scene = scene_with_effects(2, 1);
   const std::filesystem::path path = temporary_.path() / "t.h5md";
   H5mdWriter writer(path, scene, disks_of(scene), provenance());
-  writer.sample(0, state_at(0, scene));
+  writer.sample(0, state_at(0, scene), {});
   writer.close();
   EXPECT_THAT(H5Reader(path).doubles("/observables/spin/value"), ElementsAre(0.0, 0.0, 0.0));
 }
@@ -117,7 +138,7 @@ TEST_F(H5mdObservables, AreThoseOfTheStateWhereUnwrappedPositionsAreWritten) {
   state.images.row(1).setConstant(-2);
   {
     RunWriter writer(RunDirectory(temporary_.path() / "out", false), scene, disks_of(scene), provenance());
-    writer.sample(0, state);
+    writer.sample(0, state, {});
     writer.finish(report_of(scene));
   }
   const H5Reader file(temporary_.path() / "out/trajectory.h5md");

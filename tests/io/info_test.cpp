@@ -37,7 +37,7 @@ class Info : public ::testing::Test {
   void SetUp() override {
     scene_.output = {.trajectory = true, .xyz = true, .csv = true, .events = true};
     RunWriter writer(RunDirectory(out_, false), scene_, disks_of(scene_), provenance());
-    for (std::uint64_t k = 0; k < 6; ++k) writer.sample(k, state_at(k, scene_));
+    for (std::uint64_t k = 0; k < 6; ++k) writer.sample(k, state_at(k, scene_), {});
     writer.events(events_up_to(9));
     writer.finish(report_of(scene_));
   }
@@ -94,7 +94,7 @@ TEST_F(Info, DescribesWhatEffectsLeftInAllFiles) {
   scene.output = {.trajectory = true, .xyz = true, .csv = true, .events = false};
   const fs::path out = temporary_.path() / "effects";
   RunWriter writer(RunDirectory(out, false), scene, disks_of(scene), provenance());
-  for (std::uint64_t k = 0; k < 5; ++k) writer.sample(k, state_with_effects_at(k, scene));
+  for (std::uint64_t k = 0; k < 5; ++k) writer.sample(k, state_with_effects_at(k, scene), {});
   RunReport report = report_of(scene);
   report.of_effects = effects_report(scene, disks_of(scene), report.totals, state_with_effects_at(4, scene));
   report.of_effects.spin_temperature = 1.25;

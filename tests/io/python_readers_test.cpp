@@ -31,7 +31,7 @@ TEST(PythonReaders, H5pyAndMdanalysisSeeTheSamplesThatWereWritten) {
   scene.output.csv = true;
   scene.output.events = true;
   RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
-  for (std::uint64_t k = 0; k < 23; ++k) writer.sample(k, state_at(k, scene));
+  for (std::uint64_t k = 0; k < 23; ++k) writer.sample(k, state_at(k, scene), {});
   writer.events(events_up_to(100));
   writer.finish(report_of(scene));
   const int code = run_script(temporary.path().string() + " 23 11 4 2.5");
@@ -45,7 +45,7 @@ TEST(PythonReaders, H5pyAndMdanalysisFollowABoxThatMovesAndDisksThatSpinAndGrow)
   scene.output.csv = true;
   scene.output.events = true;
   RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
-  for (std::uint64_t k = 0; k < 23; ++k) writer.sample(k, state_with_effects_at(k, scene));
+  for (std::uint64_t k = 0; k < 23; ++k) writer.sample(k, state_with_effects_at(k, scene), {});
   writer.events(events_up_to(100));
   writer.finish(report_of(scene));
   const int code = run_script(temporary.path().string() + " 23 11 4 2.5 effects");

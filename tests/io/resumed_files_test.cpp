@@ -32,7 +32,7 @@ const std::vector<std::string> datasets = {"/particles/trajectory/position/value
 
 void write_part(H5mdWriter& writer, const Scene& scene, std::uint64_t from, std::uint64_t to) {
   for (std::uint64_t k = from; k < to; ++k) {
-    writer.sample(k, state_at(k, scene));
+    writer.sample(k, state_at(k, scene), {});
     writer.events(events_up_to(40));
   }
 }

@@ -178,7 +178,7 @@ TEST_F(RunRecordTest, HasTheSceneAndAThousandSamplesAtMost) {
   EXPECT_EQ(record.source->samples, 2001U);
   ASSERT_EQ(record.source->times.size(), 667U);  // every third
   EXPECT_EQ(record.source->times[2], 0.06);
-  ASSERT_EQ(record.source->sampled.size(), 2U);
+  ASSERT_EQ(record.source->sampled.size(), 4U);
   EXPECT_EQ(record.source->sampled[0].name, "kinetic_energy");
   EXPECT_EQ(record.source->sampled[0].values.size(), 667U);
   EXPECT_EQ(record.command_line, "in a test");

@@ -33,7 +33,7 @@ TEST(RunWriter, WritesEveryProductAskedForAndTheSummaryLast) {
   RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
   EXPECT_THAT(names_in(temporary.path()),
               ElementsAre("samples.csv.partial", "trajectory.h5md.partial", "trajectory.xyz.partial"));
-  for (std::uint64_t k = 0; k < 3; ++k) writer.sample(k, state_at(k, scene));
+  for (std::uint64_t k = 0; k < 3; ++k) writer.sample(k, state_at(k, scene), {});
   writer.events(events_up_to(5));
   EXPECT_THAT(writer.finish(report_of(scene)), ElementsAre("trajectory.h5md", "trajectory.xyz", "samples.csv", "summary.json"));
   EXPECT_THAT(names_in(temporary.path()), ElementsAre("samples.csv", "summary.json", "trajectory.h5md", "trajectory.xyz"));
@@ -45,7 +45,7 @@ TEST(RunWriter, WritesOnlyTheSummaryWhereNothingElseIsAskedFor) {
   Scene scene = scene_of(1, 1);
   scene.output = {.trajectory = false};
   RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
-  writer.sample(0, state_at(0, scene));
+  writer.sample(0, state_at(0, scene), {});
   writer.events(events_up_to(5));
   EXPECT_THAT(writer.finish(report_of(scene)), ElementsAre("summary.json"));
   EXPECT_THAT(names_in(temporary.path()), ElementsAre("summary.json"));
@@ -65,7 +65,7 @@ TEST(RunWriter, EventsAloneGoIntoATrajectoryWithoutSamples) {
   Scene scene = scene_of(1, 1);
   scene.output = {.trajectory = false, .events = true};
   RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
-  writer.sample(0, state_at(0, scene));
+  writer.sample(0, state_at(0, scene), {});
   writer.events(events_up_to(5));
   EXPECT_THAT(writer.finish(report_of(scene)), ElementsAre("trajectory.h5md", "summary.json"));
   const H5Reader file(temporary.path() / "trajectory.h5md");
@@ -83,7 +83,7 @@ TEST(RunWriter, UnwrappedPositionsContinuePastPeriodicEdgesOnly) {
   State state = state_at(0, scene);
   state.positions << 0.5, 2.0, 11.0, 12.0;  // disk 0 at (0.5, 11), disk 1 at (2, 12)
   state.images << 3, -2, 0, 0;
-  writer.sample(0, state);
+  writer.sample(0, state, {});
   writer.finish(report_of(scene));
   const H5Reader file(temporary.path() / "trajectory.h5md");
   EXPECT_THAT(file.doubles("/particles/trajectory/position/value"), ElementsAre(12.5, 11.0, 0.0, -6.0, 12.0, 0.0));
@@ -98,7 +98,7 @@ TEST(RunWriter, AnExceptionInTheRunKeepsTheDataAsPartialFiles) {
   scene.output.events = true;
   try {
     RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
-    for (std::uint64_t k = 0; k < 7; ++k) writer.sample(k, state_at(k, scene));
+    for (std::uint64_t k = 0; k < 7; ++k) writer.sample(k, state_at(k, scene), {});
     writer.events(events_up_to(3));
     throw std::runtime_error("the physics failed");
   } catch (const std::runtime_error&) {

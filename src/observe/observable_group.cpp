@@ -1,0 +1,105 @@
+#include "observe/observable_group.hpp"
+
+#include "core/archive.hpp"
+#include "observe/observables.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace carom {
+
+ObservableGroup::ObservableGroup(const ObservedRun& run) : run_(run) {
+  for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
+}
+
+ObservableGroup::ObservableGroup(const ObservedRun& run, std::istream& saved) : run_(run) {
+  load(saved);
+  for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
+}
+
+void ObservableGroup::add(std::unique_ptr<Observable> observable) {
+  if (observable->follows_collisions() && is_driven(run_.scene.effects))
+    throw SceneError({run_.scene.source, 0, 0},
+                     observable->name() +
+                         " follows disks from collision to collision, and a thermostat, growth or shear changes "
+                         "their velocities in between; remove one of the two");
+  if (const std::size_t index = observables_.size(); index < saved_.size()) {
+    std::istringstream gathered(std::move(saved_[index]));
+    observable->load(gathered);
+  }
+  observables_.push_back(std::move(observable));
+}
+
+bool ObservableGroup::follows_collisions() const {
+  return std::any_of(observables_.begin(), observables_.end(), [](const auto& one) { return one->follows_collisions(); });
+}
+
+std::map<double, std::vector<Observable*>> ObservableGroup::by_step() const {
+  std::map<double, std::vector<Observable*>> by_step;
+  for (const auto& observable : observables_)
+    if (observable->step() > 0.0) by_step[observable->step()].push_back(observable.get());
+  return by_step;
+}
+
+void ObservableGroup::prepare() {
+  for (const auto& observable : observables_)
+    if (observable->follows_collisions()) followers_.push_back(observable.get());
+  if (followers_.empty()) return;
+  stream_.emplace(run_.scene, run_.disks);
+  if (saved_stream_.empty()) return;
+  std::istringstream saved(saved_stream_);
+  LoadingArchive archive(saved);
+  archive(*stream_);
+}
+
+void ObservableGroup::start(const State& state) {
+  started_ = true;
+  if (stream_) stream_->start(state);
+  for (const auto& observable : observables_) observable->start(state);
+}
+
+/// In pieces that stay in the nearest cache while everybody looks at them.
+void ObservableGroup::follow(std::span<const Event> events) {
+  constexpr std::size_t piece = 128;
+  while (!events.empty()) {
+    const std::size_t count = std::min(piece, events.size());
+    stream_->follow(events.first(count), collisions_);
+    events = events.subspan(count);
+    if (collisions_.empty()) continue;
+    for (Observable* observable : followers_) observable->collisions(collisions_);
+  }
+}
+
+std::vector<Measurement> ObservableGroup::results(double time, const Totals& totals) {
+  std::vector<Measurement> measured;
+  if (!started_) return measured;
+  for (const auto& observable : observables_) measured.push_back(observable->finish(time, totals));
+  return measured;
+}
+
+void ObservableGroup::save(std::ostream& out) const {
+  SavingArchive archive(out);
+  archive(run_.time, run_.temperature, run_.mean_free_time, started_);
+  std::ostringstream stream;
+  if (stream_) {
+    SavingArchive of_stream(stream);
+    of_stream(*stream_);
+  }
+  archive(stream.str(), static_cast<std::uint64_t>(observables_.size()));
+  for (const auto& observable : observables_) {
+    std::ostringstream gathered;
+    observable->save(gathered);
+    archive(gathered.str());
+  }
+}
+
+void ObservableGroup::load(std::istream& saved) {
+  LoadingArchive archive(saved);
+  std::uint64_t observables = 0;
+  archive(run_.time, run_.temperature, run_.mean_free_time, started_, saved_stream_, observables);
+  saved_.resize(observables);
+  for (std::string& gathered : saved_) archive(gathered);
+}
+
+}  // namespace carom

@@ -1,0 +1,58 @@
+#pragma once
+// The observables of one run, fed together: by a simulation while it runs (Observation), or by what a run has stored.
+
+#include "observe/collision_stream.hpp"
+#include "observe/observed_run.hpp"
+
+#include <carom/observe.hpp>
+
+#include <iosfwd>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+class ObservableGroup {
+ public:
+  /// What run.scene.observe lists. Requires scene and disks of the run to live as long as this. Throws SceneError.
+  explicit ObservableGroup(const ObservedRun& run);
+  /// The same, going on from what save() wrote.
+  ObservableGroup(const ObservedRun& run, std::istream& saved);
+
+  /// One more, before start(). Throws SceneError where it follows collisions and something changes velocities between them.
+  void add(std::unique_ptr<Observable> observable);
+
+  [[nodiscard]] const ObservedRun& run() const { return run_; }
+  [[nodiscard]] bool empty() const { return observables_.empty(); }
+  [[nodiscard]] bool follows_collisions() const;
+  /// Those that want states, by the time between two of them.
+  [[nodiscard]] std::map<double, std::vector<Observable*>> by_step() const;
+
+  /// Call it before start(), and for a run that is resumed before follow(), when all observables are there.
+  void prepare();
+  void start(const State& state);
+  /// Requires events in order, none left out. What comes of it does not depend on how they are divided among calls.
+  void follow(std::span<const Event> events);
+  /// One entry per observable; empty where start() was never called. Call it once.
+  [[nodiscard]] std::vector<Measurement> results(double time, const Totals& totals);
+
+  void save(std::ostream& out) const;
+
+ private:
+  void load(std::istream& saved);
+
+  ObservedRun run_;
+  std::string saved_stream_;        ///< what a run that is resumed had gathered
+  std::vector<std::string> saved_;  ///< the same of each observable
+  std::vector<std::unique_ptr<Observable>> observables_;
+  std::vector<Observable*> followers_;
+  std::optional<CollisionStream> stream_;
+  std::vector<PairCollision> collisions_;
+  bool started_ = false;
+};
+
+}  // namespace carom
