@@ -1,6 +1,7 @@
 // What observing costs: nanoseconds per pair collision of a gas of 10,000 disks, with nothing observed, with each observable that
-// follows collisions, with all of them, and with those that look at states, each at its default step. Take turns, for machines
-// are uneven:
+// follows collisions, with all of them, and with those that look at states, each at its default step; in the thread of the run,
+// and beside it. The time is that of a clock on the wall, and processor time is a column of its own. Take turns, for machines are
+// uneven:
 // --benchmark_enable_random_interleaving=true --benchmark_repetitions=9. Before a time is taken one run is looked at: energy is
 // kept, and the rate that was observed is that of the totals.
 
@@ -31,18 +32,18 @@ Scene scene_with(const std::vector<std::string>& observables, double packing_fra
   return scene;
 }
 
-std::vector<Measurement> observe(Simulation& simulation) {
+std::vector<Measurement> observe(Simulation& simulation, bool beside) {
   simulation.reset_clock();
   Observation observation(simulation);
   RunHooks hooks;
-  observation.attach(hooks);
+  beside ? observation.attach_beside(hooks) : observation.attach(hooks);
   run_schedule(simulation, hooks);
   return observation.results();
 }
 
 std::string fault(Simulation& simulation) {
   const double before = kinetic_energy(simulation.disks(), simulation.state());
-  for (const Measurement& measured : observe(simulation)) {
+  for (const Measurement& measured : observe(simulation, false)) {
     if (measured.name != "collision_rate") continue;
     const double rate = 2.0 * static_cast<double>(collisions) / (1e4 * simulation.time());
     if (!(std::abs(measured.scalars[0].value.value_or(0.0) / rate - 1.0) < 0.05)) return "the rate is not that of the totals";
@@ -52,28 +53,36 @@ std::string fault(Simulation& simulation) {
   return std::abs(drift) < 1e-16 * static_cast<double>(collisions) ? "" : "the energy has changed";
 }
 
-void observing(benchmark::State& state, const std::vector<std::string>& observables) {
+void observing(benchmark::State& state, const std::vector<std::string>& observables, bool beside = false) {
   Simulation simulation = make_simulation(scene_with(observables, 0.01 * static_cast<double>(state.range(0))));
   if (const std::string what = fault(simulation); !what.empty()) {
     state.SkipWithError(what.c_str());
     return;
   }
-  for (auto _ : state) benchmark::DoNotOptimize(observe(simulation));
+  for (auto _ : state) benchmark::DoNotOptimize(observe(simulation, beside));
   state.counters["s/collision"] = benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(collisions),
                                                      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
+void beside(benchmark::State& state, const std::vector<std::string>& observables) { observing(state, observables, true); }
+
 using Names = std::vector<std::string>;
-BENCHMARK_CAPTURE(observing, nothing, Names{})->Arg(60);
-BENCHMARK_CAPTURE(observing, collision_rate, Names{"collision_rate"})->Arg(60);
-BENCHMARK_CAPTURE(observing, free_flight, Names{"free_flight"})->Arg(60);
-BENCHMARK_CAPTURE(observing, pressure, Names{"pressure"})->Arg(60);
-BENCHMARK_CAPTURE(observing, viscosity, Names{"viscosity"})->Arg(60);
-BENCHMARK_CAPTURE(observing, heat_conductivity, Names{"heat_conductivity"})->Arg(60);
-BENCHMARK_CAPTURE(observing, all_of_these, Names{"pressure", "collision_rate", "free_flight", "viscosity", "heat_conductivity"})
-    ->Arg(60);
-BENCHMARK_CAPTURE(observing, velocities, Names{"temperature", "speeds", "velocity_moments"})->Arg(60);
-BENCHMARK_CAPTURE(observing, displacements, Names{"mean_square_displacement", "velocity_autocorrelation"})->Arg(60);
-BENCHMARK_CAPTURE(observing, radial_distribution, Names{"radial_distribution"})->Arg(60);
+const Names collisions_alone = {"pressure", "collision_rate", "free_flight", "viscosity", "heat_conductivity"};
+const Names velocities = {"temperature", "speeds", "velocity_moments"};
+const Names displacements = {"mean_square_displacement", "velocity_autocorrelation"};
+BENCHMARK_CAPTURE(observing, nothing, Names{})->Arg(60)->UseRealTime();
+BENCHMARK_CAPTURE(observing, collision_rate, Names{"collision_rate"})->Arg(60)->UseRealTime();
+BENCHMARK_CAPTURE(observing, free_flight, Names{"free_flight"})->Arg(60)->UseRealTime();
+BENCHMARK_CAPTURE(observing, pressure, Names{"pressure"})->Arg(60)->UseRealTime();
+BENCHMARK_CAPTURE(observing, viscosity, Names{"viscosity"})->Arg(60)->UseRealTime();
+BENCHMARK_CAPTURE(observing, heat_conductivity, Names{"heat_conductivity"})->Arg(60)->UseRealTime();
+BENCHMARK_CAPTURE(observing, all_of_these, collisions_alone)->Arg(60)->UseRealTime();
+BENCHMARK_CAPTURE(observing, velocities, velocities)->Arg(60)->UseRealTime();
+BENCHMARK_CAPTURE(observing, displacements, displacements)->Arg(60)->UseRealTime();
+BENCHMARK_CAPTURE(observing, radial_distribution, Names{"radial_distribution"})->Arg(60)->UseRealTime();
+BENCHMARK_CAPTURE(beside, all_of_these, collisions_alone)->Arg(60)->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(beside, velocities, velocities)->Arg(60)->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(beside, displacements, displacements)->Arg(60)->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(beside, radial_distribution, Names{"radial_distribution"})->Arg(60)->UseRealTime()->MeasureProcessCPUTime();
 
 }  // namespace

@@ -119,6 +119,10 @@ class Observation {
 
   /// Puts what observables need into `hooks`, before what is there already. Requires `hooks` to be used while this lives.
   void attach(RunHooks& hooks);
+  /// The same, but observables look at samples and collisions on a thread of their own, behind the run: to the same bits, and faster
+  /// where a second processor is free. Requires observables that a program has added to share nothing with the run. What they throw
+  /// comes out of the run, or of results().
+  void attach_beside(RunHooks& hooks);
 
   /// Writes what all observables have gathered. Call it at a SavingMoment.
   void save(std::ostream& out) const;

@@ -68,6 +68,14 @@ void add_progress(CLI::App& command, std::string& when) {
   command.add_option("--progress", when, "A progress line on stderr: auto (on a terminal), always or never")->type_name("WHEN");
 }
 
+void add_threads(CLI::App& command, RunOptions& options) {
+  command
+      .add_option("--threads", options.threads,
+                  "1, or 2 to measure observables beside the run (default: 2 where there is a second processor)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 2));
+}
+
 void add_saving(CLI::App& command, RunOptions& options) {
   command
       .add_option("--checkpoint-every", options.checkpoint_every,
@@ -105,6 +113,7 @@ void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
   command->add_flag("--watch", options->watch, "Show the run live in the terminal; where stderr is none, the progress line");
   command->add_option("--pace", options->pace, "With --watch: simulated time per second (default: as fast as the machine can)")
       ->type_name("TIME");
+  add_threads(*command, *options);
   add_saving(*command, *options);
   add_progress(*command, options->progress);
   command->callback([&action, options, invocation] { action = [options, invocation] { return run(*options, invocation); }; });
@@ -127,6 +136,7 @@ void add_resumption(CLI::App& program, Action& action, const Invocation& invocat
   command->add_flag("-q,--quiet", how.quiet, "Print no summary and no progress");
   command->add_flag("--report", how.report, "Make the page of the run too: report.html, as carom report does");
   command->add_flag("--watch", how.watch, "Show the run live in the terminal; where stderr is none, the progress line");
+  add_threads(*command, how);
   add_saving(*command, how);
   add_progress(*command, how.progress);
   command->callback([&action, options, invocation, resumption] {

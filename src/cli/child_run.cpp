@@ -34,13 +34,14 @@ using Words = std::vector<std::string>;
 
 Words words_to_run(const RunOrder& order) {
   const std::string scene = (order.directory / scene_file).string();
-  Words words = {"carom", "run", scene, "--out", order.directory.string(), "--force", "--quiet", "--progress", "never"};
+  Words words = {"carom",      "run",   scene,       "--out", order.directory.string(), "--force", "--quiet",
+                 "--progress", "never", "--threads", "1"};  // other runs have the other processors
   if (!order.checkpoint_every.empty()) words.insert(words.end(), {"--checkpoint-every", order.checkpoint_every});
   return words;
 }
 
 Words words_to_resume(const RunOrder& order) {
-  return {"carom", "resume", order.directory.string(), "--quiet", "--progress", "never"};
+  return {"carom", "resume", order.directory.string(), "--quiet", "--progress", "never", "--threads", "1"};
 }
 
 class Child {

@@ -45,6 +45,7 @@ struct RunOptions {
   std::string progress = "auto";
   std::string method = "exact";  ///< or a fixed-step method
   std::optional<double> dt;      ///< of a fixed-step method; absent: the sampling grid's
+  std::optional<int> threads;    ///< 2: observables on one of their own; absent: where there is a second processor
   bool watch = false;
   std::optional<double> pace;                   ///< simulated time per second to watch; absent: as fast as the machine
   std::optional<std::string> checkpoint_every;  ///< "10min" or "1e8 collisions"; absent: only where the run is stopped

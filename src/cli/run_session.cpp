@@ -24,6 +24,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace carom::cli {
@@ -161,7 +162,8 @@ class Session {
     hooks.checkpoint = [&](const SavingMoment& moment) {
       if (is_due(moment)) save(moment);
     };
-    observation_->attach(hooks);
+    const bool beside = options_.threads ? *options_.threads > 1 : std::thread::hardware_concurrency() > 1;
+    beside ? observation_->attach_beside(hooks) : observation_->attach(hooks);
     if (view && options_.pace) keep_pace(*view, *options_.pace, hooks);
     std::istringstream schedule(schedule_);
     if (given_.from != nullptr) hooks.resume = &schedule;

@@ -1,10 +1,14 @@
 // Hands states and collisions of a run to its observables.
 
 #include "observe/observable_group.hpp"
+#include "observe/observing_thread.hpp"
 
 #include <carom/observe.hpp>
 
+#include <map>
+#include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace carom {
@@ -17,6 +21,40 @@ class Observation::Driver {
   [[nodiscard]] ObservableGroup& group() { return group_; }
 
   void attach(RunHooks& hooks) {
+    attach(
+        hooks, [this](std::span<const Event> events) { group_.follow(events); },
+        [](const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
+          for (Observable* observable : observables) observable->sample(state, totals);
+        });
+  }
+  void attach_beside(RunHooks& hooks) {
+    if (group_.empty()) return;
+    try {
+      thread_.emplace(group_);
+    } catch (const std::system_error&) {  // the system gives no thread
+      attach(hooks);
+      return;
+    }
+    attach(
+        hooks, [this](std::span<const Event> events) { thread_->follow(events); },
+        [this](const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
+          thread_->sample(observables, state, totals);
+        });
+  }
+
+  /// All that happened so far has been looked at.
+  void finish() {
+    if (thread_) thread_->finish();
+  }
+
+  [[nodiscard]] std::vector<Measurement> results() {
+    finish();
+    return group_.results(simulation_.time(), simulation_.totals());
+  }
+
+ private:
+  template <class Follow, class Sample>
+  void attach(RunHooks& hooks, Follow follow, Sample sample) {
     if (group_.empty()) return;
     group_.prepare();
     hooks.start = [this, next = std::move(hooks.start)](const State& state) {
@@ -24,21 +62,21 @@ class Observation::Driver {
       if (next) next(state);
     };
     if (group_.follows_collisions())
-      hooks.events = [this, next = std::move(hooks.events)](std::span<const Event> events) {
-        group_.follow(events);
+      hooks.events = [follow, next = std::move(hooks.events)](std::span<const Event> events) {
+        follow(events);
         if (next) next(events);
       };
-    for (auto& [step, observables] : group_.by_step())
-      hooks.grids.push_back({step, [of = observables](std::uint64_t, const State& state, const Totals& totals) {
-                               for (Observable* observable : of) observable->sample(state, totals);
+    steps_ = group_.by_step();
+    for (const auto& [step, observables] : steps_)
+      hooks.grids.push_back({step, [sample, &of = observables](std::uint64_t, const State& state, const Totals& totals) {
+                               sample(of, state, totals);
                              }});
   }
 
-  [[nodiscard]] std::vector<Measurement> results() { return group_.results(simulation_.time(), simulation_.totals()); }
-
- private:
   const Simulation& simulation_;
   ObservableGroup group_;
+  std::map<double, std::vector<Observable*>> steps_;
+  std::optional<ObservingThread> thread_;
 };
 
 void Observable::save(std::ostream& /*out*/) const { throw std::logic_error("the observable " + name() + " cannot be saved"); }
@@ -52,8 +90,12 @@ Observation::~Observation() = default;
 void Observation::add(std::unique_ptr<Observable> observable) { driver_->group().add(std::move(observable)); }
 bool Observation::empty() const { return driver_->group().empty(); }
 double Observation::reference_temperature() const { return driver_->group().run().temperature; }
-void Observation::save(std::ostream& out) const { driver_->group().save(out); }
+void Observation::save(std::ostream& out) const {
+  driver_->finish();
+  driver_->group().save(out);
+}
 void Observation::attach(RunHooks& hooks) { driver_->attach(hooks); }
+void Observation::attach_beside(RunHooks& hooks) { driver_->attach_beside(hooks); }
 std::vector<Measurement> Observation::results() { return driver_->results(); }
 
 }  // namespace carom

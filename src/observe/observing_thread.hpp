@@ -1,0 +1,60 @@
+#pragma once
+// Observables at work on a thread of their own, behind the run that feeds them: events and states are copied and handed over, and
+// looked at in the order in which they came, so that results are the same to the last bit.
+
+#include "observe/observable_group.hpp"
+
+#include <carom/simulation.hpp>
+
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <vector>
+
+namespace carom {
+
+class ObservingThread {
+ public:
+  /// Requires `group` to live as long as this, and nobody else to touch it between two calls of finish().
+  explicit ObservingThread(ObservableGroup& group);
+  /// Does what was handed over, and forgets what an observable threw.
+  ~ObservingThread();
+  ObservingThread(const ObservingThread&) = delete;
+  ObservingThread& operator=(const ObservingThread&) = delete;
+
+  void follow(std::span<const Event> events);
+  void sample(const std::vector<Observable*>& observables, const State& state, const Totals& totals);
+  /// Waits until all is done. Throws what an observable threw, as the functions above do.
+  void finish();
+
+ private:
+  /// Events that came one after the other, and then perhaps a state; its memory is used again.
+  struct Work {
+    std::vector<Event> events;
+    const std::vector<Observable*>* observables = nullptr;  ///< null: no state
+    State state;
+    Totals totals;
+  };
+
+  void hand_over();
+  void work();
+  void rethrow();
+
+  ObservableGroup& group_;
+  Work gathered_;     ///< of the run's thread, not handed over yet
+  std::mutex mutex_;  ///< of all below
+  std::condition_variable changed_;
+  std::deque<Work> waiting_;  ///< the first of them in work
+  std::vector<Work> spare_;
+  std::exception_ptr thrown_;
+  bool ends_ = false;
+  std::thread thread_;  // last: it needs all the others
+};
+
+}  // namespace carom
