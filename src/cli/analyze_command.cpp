@@ -72,6 +72,7 @@ std::string text_of(const Analysis& analysis, const AnalyzeOptions& options, con
   nlohmann::ordered_json json;
   json["carom"] = detail::build_json();
   json["run"] = options.directory;
+  json["seed"] = analysis.scene.run.seed;
   json["samples"] = analysis.samples;
   json["events"] = analysis.events;
   json["observables"] = detail::observables_json(analysis.observables);

@@ -25,13 +25,12 @@ Run::Equilibrate read_equilibrate(const toml::table& node) {
 }
 
 /// Sample numbers are exact in double precision only below 2^53; k * sample_every needs them exact.
-void check_sample_count(const TableReader& table, const std::string& key, double samples, double step, double time) {
+void check_sample_count(const TableReader& table, const char* key, double samples, double step, double time) {
   constexpr double most = 9007199254740992.0;
   if (samples < most) return;
-  throw SceneError(table.where(key.substr(0, key.find('.'))),
-                   fmt::format("run.{} = {} asks for {:.3g} samples up to time {}; there can be "
-                               "at most 2^53, so make it larger",
-                               key, step, samples, time));
+  throw SceneError(table.where(key), fmt::format("{} = {} asks for {:.3g} samples up to time {}; there can be "
+                                                 "at most 2^53, so make it larger",
+                                                 table.path(key), step, samples, time));
 }
 
 /// A time, or { collisions = 1000 }, or false.
@@ -87,8 +86,8 @@ SampleLog read_sample_log(const toml::table& node, const Run& run) {
                      "run.sample_log needs the length of a block where the run has no time, such as block = 100.0");
   }
   if (run.time)
-    check_sample_count(table, "sample_log.block", std::floor(*run.time / log.block) * static_cast<double>(log.per_block),
-                       log.block, *run.time);
+    check_sample_count(table, "block", std::floor(*run.time / log.block) * static_cast<double>(log.per_block), log.block,
+                       *run.time);
   return log;
 }
 
