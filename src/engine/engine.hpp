@@ -30,6 +30,7 @@
 #include "effects/world.hpp"
 #include "engine/contact_count.hpp"
 #include "engine/epoch.hpp"
+#include "engine/image_counts.hpp"
 #include "engine/layout.hpp"
 #include "neighbours/cage_tuner.hpp"
 #include "neighbours/neighbour_lists.hpp"
@@ -458,7 +459,7 @@ class Engine {
     std::int64_t x;
     const std::int64_t steps = axes_[axis].steps_of(by);
     if (__builtin_add_overflow(line(i).x[axis], steps, &x)) [[unlikely]]
-      image(i, axis) += steps < 0 ? -1 : 1;
+      images_.step(i, axis, steps < 0 ? -1 : 1);
     return x;
   }
 
@@ -479,10 +480,6 @@ class Engine {
 
   /// In the box of the disk.
   [[nodiscard]] std::int32_t cage_height(std::int32_t i, double when, double ahead) const;
-
-  [[nodiscard]] std::int64_t& image(std::int32_t i, int axis) {
-    return images_[static_cast<std::size_t>(i)][static_cast<std::size_t>(axis)];
-  }
 
   /// At four neighbours each, after the first eight.
   [[nodiscard]] static std::uint32_t more_looks(std::uint32_t neighbours) { return (std::max(neighbours, 8U) - 5U) / 4U; }
@@ -533,7 +530,7 @@ class Engine {
   LargeVector<Line> lines_;
   LargeVector<Plan> plans_;
   LargeVector<std::int32_t> ids_;  ///< what the world calls them: the engine keeps neighbours near each other in memory
-  LargeVector<std::array<std::int64_t, 2>> images_;
+  ImageCounts images_;
   std::vector<std::int32_t> heights_;  ///< where images slide: of the cages' centres, which are in the boxes of their disks
   NeighbourLists lists_;
   Queue queue_;

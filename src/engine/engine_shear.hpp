@@ -21,7 +21,7 @@ void Engine<Impact, Layout, World>::note_heights(const State& start) {
   for (std::int32_t i = 0; i < count(); ++i) {
     Line& a = line(i);
     const bool rounded_up = a.x[1] == INT64_MIN && start.positions(1, static_cast<Eigen::Index>(id(i))) > axes_[1].lower;
-    if (rounded_up) a.x[1] = INT64_MAX, --image(i, 1);
+    if (rounded_up) a.x[1] = INT64_MAX, images_.step(i, 1, -1);
     height(i) = static_cast<std::int32_t>(a.x[1] >> 32);
   }
 }
@@ -86,9 +86,9 @@ void Engine<Impact, Layout, World>::cross_sliding_edge(std::int32_t i, std::int3
   const double before = a.v[0];
   const std::int64_t displacement = frame_.sliding.displacement;
   if (up > 0 ? __builtin_sub_overflow(a.x[0], displacement, &a.x[0]) : __builtin_add_overflow(a.x[0], displacement, &a.x[0]))
-    image(i, 0) += (displacement < 0) == (up > 0) ? 1 : -1;
+    images_.step(i, 0, (displacement < 0) == (up > 0) ? 1 : -1);
   // Coordinates are displaced by the nearest number of steps, disks to the left by what is left without whole box lengths.
-  image(i, 0) += up * (world_.sliding.whole_lengths(now_) - (displacement < 0 ? 1 : 0));
+  images_.set(i, 0, images_.of(i, 0) + up * (world_.sliding.whole_lengths(now_) - (displacement < 0 ? 1 : 0)));
   a.v[0] -= up * world_.sliding.speed();
   totals_.shear_energy += layout_.mass(a) * (a.v[0] * a.v[0] - before * before) / 2.0;
   height(i) = up > 0 ? INT32_MIN : INT32_MAX;

@@ -152,8 +152,8 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       const double place = start.positions(k, column);
       a.x[k] = axes_[k].at(place);
       a.v[k] = start.velocities(k, column);
-      if (start.images.cols() > column) image(i, k) = start.images(k, column);
-      if (axes_[k].periodic && a.x[k] == INT64_MIN && place > axes_[k].lower) ++image(i, k);  // rounded to the upper edge
+      if (start.images.cols() > column) images_.set(i, k, start.images(k, column));
+      if (axes_[k].periodic && a.x[k] == INT64_MIN && place > axes_[k].lower) images_.step(i, k, 1);  // rounded to the upper edge
     }
     layout_.furnish(a, disks, static_cast<std::size_t>(column));
   }
@@ -364,7 +364,11 @@ void Engine<Impact, Layout, World>::rebase(double now) {
       if constexpr (!World::plain) a.v[k] += world_.g()[k] * now;
     }
     if constexpr (!World::plain)
-      if (world_.sliding.present()) keep_in_box(i, a.x[1], image(i, 1));
+      if (world_.sliding.present()) {
+        std::int64_t image = images_.of(i, 1);
+        keep_in_box(i, a.x[1], image);
+        images_.set(i, 1, image);
+      }
     Plan& mine = plan(i);
     mine.pair_time = std::max(mine.pair_time - now, 0.0);
     mine.edge_time = std::max(mine.edge_time - now, 0.0);
@@ -500,7 +504,7 @@ State Engine<Impact, Layout, World>::state() const {
     const auto column = static_cast<Eigen::Index>(id(i));
     for (int k = 0; k < 2; ++k) {
       std::int64_t x;
-      std::int64_t image = images_[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+      std::int64_t image = images_.of(i, k);
       const std::int64_t way = axes_[k].steps_of(a.v[k] * now_ + world_.fallen(k, now_));
       if (__builtin_add_overflow(a.x[k], way, &x)) image += way < 0 ? -1 : 1;
       bool inside = false;
@@ -589,7 +593,7 @@ void Engine<Impact, Layout, World>::look_ahead(std::int64_t span) const {
 template <class Impact, class Layout, class World>
 std::size_t Engine<Impact, Layout, World>::bytes() const {
   return lines_.capacity() * sizeof(Line) + plans_.capacity() * sizeof(Plan) + ids_.capacity() * sizeof(std::int32_t) +
-         images_.capacity() * sizeof(images_[0]) + lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() +
+         images_.bytes() + lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() +
          radius_.capacity() * sizeof(double) + (places_.capacity() + heights_.capacity()) * sizeof(std::int32_t);
 }
 
