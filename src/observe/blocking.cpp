@@ -81,7 +81,6 @@ void Blocking::fill(Scalar& scalar, double step, double factor, double offset, i
 }
 
 void BlockedColumn::put(Table& table, const std::string& name, const std::string& unit, double factor) const {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   Column values{name, unit, {}}, errors{name + "_error", unit, {}};
   for (const Blocking& row : rows_) {
     const std::optional<Blocking::Estimate> found = row.estimate();

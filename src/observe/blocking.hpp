@@ -4,10 +4,14 @@
 #include <carom/blocking.hpp>
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace carom {
+
+/// What stands in a table for a number that is not known.
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A Blocking for every row of a column.
 class BlockedColumn {

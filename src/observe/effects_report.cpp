@@ -1,6 +1,8 @@
 #include "observe/effects_report.hpp"
 
+#include "observe/any_wall.hpp"
 #include "observe/geometry.hpp"
+#include "scene/wall_names.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,14 +12,7 @@ namespace carom {
 
 namespace {
 
-constexpr std::array<const char*, 4> wall_names = {"left", "right", "bottom", "top"};
-
 bool moves(const WallProperties& wall) { return wall.mass || wall.velocity; }
-
-template <class Property>
-bool any_wall(const Effects& effects, Property property) {
-  return std::any_of(effects.walls.begin(), effects.walls.end(), property);
-}
 
 WallReport wall_report(const Scene& scene, const Totals& totals, const State& end, std::size_t side) {
   WallReport wall;

@@ -1,5 +1,7 @@
 #include "observe/equilibrium.hpp"
 
+#include "observe/any_wall.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -16,11 +18,6 @@ bool has_walls_of_different_temperature(const Effects& effects) {
     first = wall.temperature;
   }
   return false;
-}
-
-template <class Property>
-bool any_wall(const Effects& effects, Property property) {
-  return std::any_of(effects.walls.begin(), effects.walls.end(), property);
 }
 
 }  // namespace

@@ -8,12 +8,13 @@ namespace {
 
 /// Handed over together: enough that waking a thread, some microseconds, is nothing beside them.
 constexpr std::size_t most_events = 16'384;
-/// That may wait; then the run waits. A megabyte of events each, or a state.
-constexpr std::size_t most_waiting = 4;
+/// That may wait; then the run waits. A megabyte of events each, or a state, of which a large system keeps two at a time.
+std::size_t most_waiting(std::size_t disks) { return disks > 100'000 ? 1 : 4; }
 
 }  // namespace
 
-ObservingThread::ObservingThread(ObservableGroup& group) : group_(group), thread_([this] { work(); }) {}
+ObservingThread::ObservingThread(ObservableGroup& group)
+    : group_(group), most_waiting_(most_waiting(group.run().disks.count())), thread_([this] { work(); }) {}
 
 ObservingThread::~ObservingThread() {
   try {
@@ -43,7 +44,7 @@ void ObservingThread::sample(const std::vector<Observable*>& observables, const 
 
 void ObservingThread::hand_over() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_.size() < most_waiting; });
+  changed_.wait(lock, [this] { return waiting_.size() < most_waiting_; });
   rethrow();
   waiting_.push_back(std::move(gathered_));
   gathered_ = {};

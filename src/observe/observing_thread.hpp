@@ -6,12 +6,10 @@
 
 #include <carom/simulation.hpp>
 
-#include <array>
 #include <condition_variable>
-#include <cstdint>
+#include <cstddef>
 #include <deque>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <span>
 #include <thread>
@@ -47,6 +45,7 @@ class ObservingThread {
   void rethrow();
 
   ObservableGroup& group_;
+  const std::size_t most_waiting_;
   Work gathered_;     ///< of the run's thread, not handed over yet
   std::mutex mutex_;  ///< of all below
   std::condition_variable changed_;

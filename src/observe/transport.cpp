@@ -9,8 +9,6 @@ namespace carom {
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 std::string at_lag(double lag) {
   char text[160];
   std::snprintf(text, sizeof text, "at lag %.4g, the longest below half the time that sound takes through the box", lag);

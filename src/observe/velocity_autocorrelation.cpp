@@ -11,14 +11,11 @@
 #include "observe/saved_observable.hpp"
 #include "observe/tracked_disks.hpp"
 
-#include <limits>
 #include <vector>
 
 namespace carom {
 
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrelation> {
  public:

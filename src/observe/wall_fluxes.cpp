@@ -5,14 +5,13 @@
 #include "observe/geometry.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
+#include "scene/wall_names.hpp"
 
 #include <array>
 
 namespace carom {
 
 namespace {
-
-constexpr std::array<const char*, 4> wall_names = {"left", "right", "bottom", "top"};
 
 class WallFluxes final : public SavedObservable<WallFluxes> {
  public:

@@ -24,12 +24,6 @@ constexpr const char* shape = "an override looks like run.time=2 or disks.0.radi
 
 std::string name_of(const std::string& text) { return std::string(prefix) + excerpt(text, 80); }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t begin = text.find_first_not_of(blanks);
-  return begin == std::string_view::npos ? std::string_view() : text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
 std::vector<std::string> split_key(std::string_view key, const Location& where) {
   constexpr std::size_t deepest = 8;
   std::vector<std::string> parts;

@@ -12,14 +12,14 @@
 namespace carom::detail {
 namespace {
 
-constexpr const char* kinds =
+constexpr const char* position_kinds =
     R"("random", "square", "hexagonal", [[x, y], ...], { file = "start.csv" } or { packing_fraction = 0.7 })";
 
 Positions named(const toml::node& node, const std::string& name, const std::string& path) {
   if (name == "random") return RandomPositions{};
   if (name == "square") return SquareLattice{};
   if (name == "hexagonal") return HexagonalLattice{};
-  refuse(node, path, kinds);
+  refuse(node, path, position_kinds);
 }
 
 FilePositions from_file(const TableReader& table, const std::string& directory, DisksDraft& disks) {
@@ -67,7 +67,7 @@ Positions from_table(const toml::table& node, const std::string& path, const std
 
 void read_positions(const TableReader& table, const std::string& directory, DisksDraft& disks) {
   const std::string path = table.path("positions");
-  const toml::node& node = table.require("positions", fmt::format("choose {}", kinds));
+  const toml::node& node = table.require("positions", fmt::format("choose {}", position_kinds));
   disks.species.positions_where = location_of(node);
   std::optional<std::size_t> listed;
   if (const auto* name = node.as_string()) {
@@ -80,7 +80,7 @@ void read_positions(const TableReader& table, const std::string& directory, Disk
     disks.species.positions = from_table(*table_of_one, path, directory, disks);
     if (const auto* file = std::get_if<FilePositions>(&disks.species.positions)) listed = file->values.size();
   } else {
-    refuse(node, path, kinds);
+    refuse(node, path, position_kinds);
   }
   if (!listed) return;
   const auto count = static_cast<std::int64_t>(*listed);

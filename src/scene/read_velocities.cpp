@@ -9,12 +9,12 @@
 namespace carom::detail {
 namespace {
 
-constexpr const char* kinds = R"({ uniform = 1.0 }, { temperature = 1.0 }, { speed = 1.0 }, [[vx, vy], ...] or "rest")";
+constexpr const char* velocity_kinds = R"({ uniform = 1.0 }, { temperature = 1.0 }, { speed = 1.0 }, [[vx, vy], ...] or "rest")";
 
 Velocities drawn(const toml::table& node, const std::string& path) {
   const TableReader table(node, path, {"uniform", "temperature", "speed"});
   if (node.size() != 1) {
-    throw SceneError(table.where(), fmt::format("{} has {} keys; it must be one of {}", path, node.size(), kinds));
+    throw SceneError(table.where(), fmt::format("{} has {} keys; it must be one of {}", path, node.size(), velocity_kinds));
   }
   if (const auto maximum = table.number("uniform", Range::zero_or_more, "{ uniform = 1.0 }")) return UniformVelocities{*maximum};
   if (const auto kT = table.number("temperature", Range::zero_or_more, "{ temperature = 1.0 }")) return MaxwellVelocities{*kT};
@@ -25,7 +25,7 @@ Velocities drawn(const toml::table& node, const std::string& path) {
 
 void read_velocities(const TableReader& table, DisksDraft& disks) {
   const std::string path = table.path("velocities");
-  const toml::node& node = table.require("velocities", fmt::format("choose {}", kinds));
+  const toml::node& node = table.require("velocities", fmt::format("choose {}", velocity_kinds));
   disks.species.velocities_where = location_of(node);
   if (const auto* name = node.as_string(); name != nullptr && name->get() == "rest") {
     disks.species.velocities = AtRest{};
@@ -34,7 +34,7 @@ void read_velocities(const TableReader& table, DisksDraft& disks) {
   } else if (const auto* law = node.as_table()) {
     disks.species.velocities = drawn(*law, path);
   } else {
-    refuse(node, path, kinds);
+    refuse(node, path, velocity_kinds);
   }
 }
 

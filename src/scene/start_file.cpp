@@ -28,11 +28,6 @@ struct Field {
   int column = 1;  ///< where it begins in its line, from 1
 };
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  return begin == std::string_view::npos ? std::string_view() : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
-
 std::string shown(std::string_view text) { return fmt::format("\"{}\"", excerpt(text, 40)); }
 
 void split(std::string_view line, std::vector<Field>& fields) {

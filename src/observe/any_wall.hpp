@@ -1,0 +1,15 @@
+#pragma once
+
+#include <carom/effects.hpp>
+
+#include <algorithm>
+
+namespace carom {
+
+/// Whether one of the four walls at least has a property.
+template <class Property>
+bool any_wall(const Effects& effects, Property property) {
+  return std::any_of(effects.walls.begin(), effects.walls.end(), property);
+}
+
+}  // namespace carom
