@@ -2,6 +2,7 @@
 
 #include "cli/before_anything.hpp"
 #include "cli/commands.hpp"
+#include "cli/named_after.hpp"
 #include "cli/progress.hpp"
 #include "cli/reading_process.hpp"
 #include "cli/study_directory.hpp"
@@ -52,7 +53,6 @@ Analysis measured(const AnalyzeOptions& options) {
   const auto progress = [&](double share) {
     line.update("analyze", share);
     if (Clock::now() - began < std::chrono::seconds(1)) return;
-    limit.reset();
     limit.emplace(options.directory);
     began = Clock::now();
   };
@@ -81,20 +81,12 @@ std::string text_of(const Analysis& analysis, const AnalyzeOptions& options, con
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-/// RUN_DIR-analysis, beside the run.
-fs::path default_place(const std::string& directory) {
-  const fs::path name = fs::path(directory).lexically_normal();
-  fs::path place = name.has_filename() ? name : name.parent_path();
-  place += "-analysis";
-  return place;
-}
-
 }  // namespace
 
 ExitCode analyze(const AnalyzeOptions& options, const Invocation& invocation) {
   return in_reading_process(options.directory, [&] {
     const Analysis analysis = measured(options);
-    const fs::path place = options.out.empty() ? default_place(options.directory) : fs::path(options.out);
+    const fs::path place = options.out.empty() ? named_after(options.directory, "-analysis") : fs::path(options.out);
     const std::vector<std::string_view> names = products();
     const RunDirectory directory = open_study(place, options.force, false, names);
     std::vector<std::string> files;

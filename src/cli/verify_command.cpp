@@ -3,6 +3,7 @@
 
 #include "cli/before_anything.hpp"
 #include "cli/commands.hpp"
+#include "cli/named_after.hpp"
 #include "cli/reading_process.hpp"
 #include "cli/scratch_directory.hpp"
 #include "io/finished_run.hpp"
@@ -78,8 +79,7 @@ ExitCode run_again(const Recorded& run, const fs::path& scratch, const VerifyOpt
 
 std::string reproduction(const std::string& directory, const Invocation& invocation) {
   const Recorded run = recorded(directory);
-  const fs::path name = fs::path(directory).lexically_normal();
-  const std::string again = (name.has_filename() ? name : name.parent_path()).filename().string() + "-again";
+  const std::string again = named_after(directory, "-again").filename().string();
   return fmt::format("cat > {0}.toml <<'END_OF_SCENE'\n{1}END_OF_SCENE\n{2} run {0}.toml {3}\n", shell_quoted(again),
                      run.resolved_scene, invocation.program, engine_options(run));
 }

@@ -1,6 +1,7 @@
 #include "io/h5md_observables.hpp"
 
 #include "io/frame_layout.hpp"
+#include "observe/any_wall.hpp"
 #include "observe/energy.hpp"
 #include "observe/geometry.hpp"
 #include "observe/mechanics.hpp"
@@ -11,8 +12,6 @@
 namespace carom::detail {
 
 namespace {
-
-bool moves(const WallProperties& wall) { return wall.mass || wall.velocity; }
 
 /// An engine that finds disks to be smooth keeps no spins, and they are zero.
 void copy(const Eigen::VectorXd& values, std::span<double> row) { std::copy(values.begin(), values.end(), row.begin()); }
@@ -30,7 +29,7 @@ H5mdObservables::H5mdObservables(hid_t file, const Scene& scene, const Disks& di
   };
   using Row = std::span<double>;
   const bool rough = effects_.collision.roughness.has_value();
-  const bool walls_move = std::any_of(effects_.walls.begin(), effects_.walls.end(), moves);
+  const bool walls_move = any_wall(effects_, moves);
   const bool walled = !box_.periodic(0) || !box_.periodic(1);
 
   put(true, "kinetic_energy", {}, [](const Sample& s, Row row) { row[0] = carom::kinetic_energy(s.disks, s.state); });

@@ -6,6 +6,9 @@
 
 namespace carom {
 
+/// Whether a wall can be anywhere but where the scene puts it.
+inline bool moves(const WallProperties& wall) { return wall.mass || wall.velocity; }
+
 /// Whether one of the four walls at least has a property.
 template <class Property>
 bool any_wall(const Effects& effects, Property property) {

@@ -12,8 +12,6 @@ namespace carom {
 
 namespace {
 
-bool moves(const WallProperties& wall) { return wall.mass || wall.velocity; }
-
 WallReport wall_report(const Scene& scene, const Totals& totals, const State& end, std::size_t side) {
   WallReport wall;
   wall.name = wall_names[side];

@@ -1,5 +1,6 @@
 #include "observe/energy.hpp"
 
+#include "observe/any_wall.hpp"
 #include "observe/mechanics.hpp"
 
 #include <algorithm>
@@ -78,8 +79,7 @@ double total_energy(const Box& box, const Effects& effects, const Disks& disks, 
 }
 
 bool has_pistons(const Effects& effects) {
-  return std::any_of(effects.walls.begin(), effects.walls.end(),
-                     [](const WallProperties& wall) { return wall.mass.has_value(); });
+  return any_wall(effects, [](const WallProperties& wall) { return wall.mass.has_value(); });
 }
 
 bool has_potential(const Effects& effects) { return effects.gravity || effects.square_well || has_pistons(effects); }

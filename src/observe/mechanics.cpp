@@ -1,5 +1,6 @@
 #include "observe/mechanics.hpp"
 
+#include "observe/any_wall.hpp"
 #include "observe/energy.hpp"
 
 #include <algorithm>
@@ -48,8 +49,7 @@ double temperature_of(const std::array<bool, 2>& keeps_momentum, const Disks& di
 /// Whether something beside the other disks pushes a disk along periodic axes.
 bool pushes_along_edges(const Effects& effects) {
   return (effects.thermostat && effects.thermostat->rate > 0.0) || !effects.obstacles.empty() ||
-         std::any_of(effects.walls.begin(), effects.walls.end(),
-                     [](const WallProperties& wall) { return wall.temperature.has_value(); });
+         any_wall(effects, [](const WallProperties& wall) { return wall.temperature.has_value(); });
 }
 
 }  // namespace

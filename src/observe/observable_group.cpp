@@ -29,10 +29,17 @@ void ObservableGroup::add(std::unique_ptr<Observable> observable) {
     observable->load(gathered);
   }
   observables_.push_back(std::move(observable));
+  if (observables_.back()->follows_collisions()) follow_with(*observables_.back());
 }
 
-bool ObservableGroup::follows_collisions() const {
-  return std::any_of(observables_.begin(), observables_.end(), [](const auto& one) { return one->follows_collisions(); });
+void ObservableGroup::follow_with(Observable& observable) {
+  followers_.push_back(&observable);
+  if (stream_) return;
+  stream_.emplace(run_.scene, run_.disks);
+  if (saved_stream_.empty()) return;
+  std::istringstream saved(saved_stream_);
+  LoadingArchive archive(saved);
+  archive(*stream_);
 }
 
 std::map<double, std::vector<Observable*>> ObservableGroup::by_step() const {
@@ -40,17 +47,6 @@ std::map<double, std::vector<Observable*>> ObservableGroup::by_step() const {
   for (const auto& observable : observables_)
     if (observable->step() > 0.0) by_step[observable->step()].push_back(observable.get());
   return by_step;
-}
-
-void ObservableGroup::prepare() {
-  for (const auto& observable : observables_)
-    if (observable->follows_collisions()) followers_.push_back(observable.get());
-  if (followers_.empty()) return;
-  stream_.emplace(run_.scene, run_.disks);
-  if (saved_stream_.empty()) return;
-  std::istringstream saved(saved_stream_);
-  LoadingArchive archive(saved);
-  archive(*stream_);
 }
 
 void ObservableGroup::start(const State& state) {

@@ -28,12 +28,10 @@ class ObservableGroup {
 
   [[nodiscard]] const ObservedRun& run() const { return run_; }
   [[nodiscard]] bool empty() const { return observables_.empty(); }
-  [[nodiscard]] bool follows_collisions() const;
+  [[nodiscard]] bool follows_collisions() const { return !followers_.empty(); }
   /// Those that want states, by the time between two of them.
   [[nodiscard]] std::map<double, std::vector<Observable*>> by_step() const;
 
-  /// Call it before start(), and for a run that is resumed before follow(), when all observables are there.
-  void prepare();
   void start(const State& state);
   /// Requires events in order, none left out. What comes of it does not depend on how they are divided among calls.
   void follow(std::span<const Event> events);
@@ -44,6 +42,7 @@ class ObservableGroup {
 
  private:
   void load(std::istream& saved);
+  void follow_with(Observable& observable);
 
   ObservedRun run_;
   std::string saved_stream_;        ///< what a run that is resumed had gathered

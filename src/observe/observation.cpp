@@ -56,7 +56,6 @@ class Observation::Driver {
   template <class Follow, class Sample>
   void attach(RunHooks& hooks, Follow follow, Sample sample) {
     if (group_.empty()) return;
-    group_.prepare();
     hooks.start = [this, next = std::move(hooks.start)](const State& state) {
       group_.start(state);
       if (next) next(state);

@@ -1,5 +1,6 @@
 #include "observe/observed_run.hpp"
 
+#include "observe/any_wall.hpp"
 #include "observe/mechanics.hpp"
 
 #include <algorithm>
@@ -72,8 +73,7 @@ std::string ObservedRun::suffix(std::size_t species) const {
 bool ObservedRun::keeps_momentum(int axis) const {
   const Effects& effects = scene.effects;
   const bool pushed = (effects.thermostat && effects.thermostat->rate > 0.0) || !effects.obstacles.empty() ||
-                      std::any_of(effects.walls.begin(), effects.walls.end(),
-                                  [](const WallProperties& wall) { return wall.temperature.has_value(); });
+                      any_wall(effects, [](const WallProperties& wall) { return wall.temperature.has_value(); });
   return scene.box.periodic(axis) && !pushed;
 }
 

@@ -20,6 +20,9 @@ class SamplingTimes {
   /// Those of a run; nothing where it has none that are known beforehand.
   [[nodiscard]] static std::optional<SamplingTimes> of(const Run& run);
 
+  /// From one block to the next; with even steps the step.
+  [[nodiscard]] double block() const { return block_; }
+
   [[nodiscard]] Instant at(std::uint64_t k) const {
     const std::uint64_t n = offsets_.size();
     const Instant block = Instant::product(k / n, block_);

@@ -31,25 +31,25 @@ Scene scene_with(const RunReader& run, const std::vector<std::string>& observabl
   return run.scene(overrides);
 }
 
-/// The time between states on a grid that the run has: that of its samples, or of the beginnings of its blocks.
-double even_step(const Run& run) { return run.sample_every ? *run.sample_every : run.sample_log->block; }
-
 [[noreturn]] void refuse(const ObservableRequest& request, const std::string& why) {
   throw std::invalid_argument(fmt::format("{} {}", request.name, why));
 }
 
-/// Says at which of the run's samples an observable is to look, where it looks at states.
+/// Says at which of the run's samples an observable is to look, where it looks at states, and that the run has kept what it
+/// needs.
 void choose_step(ObservableRequest& request, const ObservedRun& run) {
-  const double wanted = make_observable(request, run)->step();
-  if (!(wanted > 0.0)) return;
+  const MadeObservable wished = make_observable(request, run);
+  if (wished->follows_collisions() && !run.collisions_known)
+    refuse(request, "follows collisions, and the run kept none; run the scene with --events");
+  if (!(wished->step() > 0.0)) return;
   const std::optional<SamplingTimes> times = SamplingTimes::of(run.scene.run);
   if (!times)
     refuse(request, run.scene.run.is_sampled()
                         ? "is an average over time, and the run's samples are so many collisions apart; run the scene with "
                           "run.sample_every = TIME"
                         : "needs states, and the run kept no samples; run the scene with run.sample_every");
-  const double step = even_step(run.scene.run);
-  if (!request.every) request.every = step * std::max(1.0, std::nearbyint(wanted / step));
+  const double step = times->block();
+  if (!request.every) request.every = step * std::max(1.0, std::nearbyint(wished->step() / step));
   if (!times->stride(*request.every))
     refuse(request,
            fmt::format("asks for states every {}, and the run has them every {}; take a multiple of that", *request.every, step));
@@ -90,20 +90,12 @@ class Log {
   std::uint64_t pairs_ = 0;  ///< events of two disks so far
 };
 
-void require_log(const RunReader& run, const ObservableGroup& group, const Scene& scene, const ObservedRun& observed) {
-  if (!group.follows_collisions() || run.has_event_log()) return;
-  for (const ObservableRequest& request : scene.observe)
-    if (make_observable(request, observed)->follows_collisions())
-      refuse(request, "follows collisions, and the run kept none; run the scene with --events");
-}
-
 void feed(const RunReader& run, const Scene& scene, ObservableGroup& group, const std::function<void(double)>& progress) {
   const bool follows = group.follows_collisions();
   const std::optional<SamplingTimes> times = SamplingTimes::of(scene.run);
   std::vector<std::pair<std::uint64_t, std::vector<Observable*>>> by_stride;
   for (auto& [step, observables] : group.by_step()) by_stride.emplace_back(times->stride(step).value(), observables);
   Log log(run);
-  group.prepare();
   group.start(follows ? run.start() : run.sample(0));
   for (std::uint64_t k = 0; k < run.samples(); ++k) {
     const auto wants = [&](const auto& of) { return k % of.first == 0; };
@@ -132,7 +124,6 @@ Analysis analyse(const std::filesystem::path& run_directory, const std::vector<s
   observed.collisions_known = run.has_event_log();
   for (ObservableRequest& request : scene.observe) choose_step(request, observed);
   ObservableGroup group(observed);
-  require_log(run, group, scene, observed);
   feed(run, scene, group, progress);
   const Totals totals = run.samples() > 0 ? run.totals(run.samples() - 1) : Totals{};
   analysis.observables = group.results(run.end(), totals);

@@ -1,0 +1,17 @@
+#pragma once
+// Where what is made of a directory goes: beside it, with a word behind its name.
+
+#include <filesystem>
+#include <string>
+
+namespace carom::cli {
+
+/// "runs/gas/" and "-again": runs/gas-again
+inline std::filesystem::path named_after(const std::string& directory, const char* word) {
+  const std::filesystem::path name = std::filesystem::path(directory).lexically_normal();
+  std::filesystem::path beside = name.has_filename() ? name : name.parent_path();
+  beside += word;
+  return beside;
+}
+
+}  // namespace carom::cli
