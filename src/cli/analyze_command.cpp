@@ -35,7 +35,7 @@ namespace {
 constexpr const char* json_name = "analysis.json";
 
 /// The tables of observables among what a run may write, and the numbers.
-std::vector<std::string_view> products() {
+std::vector<std::string_view> analysis_products() {
   std::vector<std::string_view> names;
   for (const std::string_view product : run_products)
     if (product.starts_with("observe_")) names.push_back(product);
@@ -87,7 +87,7 @@ ExitCode analyze(const AnalyzeOptions& options, const Invocation& invocation) {
   return in_reading_process(options.directory, [&] {
     const Analysis analysis = measured(options);
     const fs::path place = options.out.empty() ? named_after(options.directory, "-analysis") : fs::path(options.out);
-    const std::vector<std::string_view> names = products();
+    const std::vector<std::string_view> names = analysis_products();
     const RunDirectory directory = open_study(place, options.force, false, names);
     std::vector<std::string> files;
     for (const Measurement& found : analysis.observables)

@@ -27,12 +27,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double packing_fractions[] = {0.3, 0.6};
-constexpr int turns = 7;
+constexpr double densities[] = {0.3, 0.6};
+constexpr int rounds = 7;
 constexpr std::int64_t usual_disks = 10'000;
 
 /// Collisions in a turn: some hundredths of a second.
-constexpr std::uint64_t usual_turn = 60'000;
+constexpr std::uint64_t usual_effects_turn = 60'000;
 
 struct Ratio {
   double median;
@@ -144,7 +144,7 @@ void print_heading(std::int64_t disks) {
       "the effect at its neutral value (the bits are the same), and acting. Medians of {} turns.\n\n"
       "| box      | packing fraction | effect                      |  neutral |   acting | acting at                       |\n"
       "|----------|------------------|-----------------------------|----------|----------|---------------------------------|\n",
-      grouped(static_cast<std::uint64_t>(disks)), turns);
+      grouped(static_cast<std::uint64_t>(disks)), rounds);
   std::fflush(stdout);
 }
 
@@ -169,22 +169,22 @@ std::int64_t disks_of(const BenchOptions& options) {
 
 ExitCode bench_effects(const BenchOptions& options) {
   const std::int64_t disks = disks_of(options);
-  const std::uint64_t turn = options.collisions.value_or(std::max(usual_turn, static_cast<std::uint64_t>(disks)));
+  const std::uint64_t turn = options.collisions.value_or(std::max(usual_effects_turn, static_cast<std::uint64_t>(disks)));
   const StatusLine status;
   Json json = measured_on_json();
   json["disks"] = disks;
-  json["turns"] = turns;
+  json["turns"] = rounds;
   json["rows"] = Json::array();
   json["failed"] = Json::array();
   if (!options.json) print_heading(disks);
   for (const bool walled : {false, true}) {
-    for (const double packing_fraction : packing_fractions) {
+    for (const double packing_fraction : densities) {
       Scene gas = bench_scene(disks, packing_fraction);
       if (walled) gas.box.boundary = {Boundary::walls, Boundary::walls};
       for (const PricedEffect& effect : priced_effects(gas)) {
         status.show(fmt::format("packing fraction {}: {}", packing_fraction, effect.name));
         Race race(gas, effect, turn);
-        for (int k = 0; k < turns && race.same_bits(); ++k) race.take_turn();
+        for (int k = 0; k < rounds && race.same_bits(); ++k) race.take_turn();
         status.show("");
         if (const std::string fault = race.fault(); !fault.empty()) {
           json["failed"].push_back(fault);

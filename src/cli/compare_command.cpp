@@ -33,8 +33,8 @@ namespace carom::cli {
 namespace {
 
 /// compare.json comes last: where it is, the comparison is complete.
-constexpr std::array<std::string_view, 5> products = {"points.jsonl", side_by_side_file, "compare.csv", "report.html",
-                                                      "compare.json"};
+constexpr std::array<std::string_view, 5> compare_products = {"points.jsonl", side_by_side_file, "compare.csv", "report.html",
+                                                              "compare.json"};
 
 CompareOptions checked(const CompareCommandOptions& options) {
   if (options.seeds < 1 || options.seeds > 10'000)
@@ -86,7 +86,7 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
   if (options.play) play = checked_play(*options.play, scene);
   const std::string key = study_key(scene, study);
   const StopRequest stop;
-  const RunDirectory directory = open_study(directory_for(options), options.force, options.resume, products);
+  const RunDirectory directory = open_study(directory_for(options), options.force, options.resume, compare_products);
   try {
     Comparison before = earlier_points(directory, key, options);
     std::unique_ptr<PointsFile> points;

@@ -47,7 +47,7 @@ std::optional<double> clock_time(std::string_view text) {
   return std::nullopt;
 }
 
-std::optional<double> duration(std::string_view text) {
+std::optional<double> seconds_in(std::string_view text) {
   if (text.find(':') != std::string_view::npos) return clock_time(text);
   const bool alone = text.find_first_not_of("0123456789.") == std::string_view::npos;
   double seconds = 0.0;
@@ -66,7 +66,7 @@ std::optional<double> duration(std::string_view text) {
 }  // namespace
 
 double seconds_of(const std::string& option, const std::string& text) {
-  const std::optional<double> seconds = duration(text);
+  const std::optional<double> seconds = seconds_in(text);
   if (!seconds || !(*seconds > 0.0))
     throw UsageError(fmt::format("{} {}: give a length of time such as 90s, 10min, 1h30min or 01:30:00", option, text));
   return *seconds;

@@ -21,7 +21,7 @@ namespace {
 constexpr double trial_seconds = 0.15;
 
 /// Up to here the disks are a fluid, and how often they collide is known.
-constexpr double densest_fluid = 0.69;
+constexpr double densest_known = 0.69;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
@@ -51,13 +51,13 @@ std::vector<Part> parts_of(const Scene& scene) {
 
 /// The same scene with nothing but its motion: no samples are taken, and what would be equilibrated is run like the rest.
 Scene trial_of(const Scene& scene) {
-  constexpr double end_of_time = 1e15;  // later than any run gets to
+  constexpr double latest = 1e15;  // later than any run gets to
   Scene trial = scene;
   double time = 0.0, collisions = 0.0;
   for (const Part& part : parts_of(scene)) time += part.time, collisions += part.collisions;
   trial.run.equilibrate.reset();
   trial.run.take_no_samples();
-  trial.run.time = std::min(time, end_of_time);
+  trial.run.time = std::min(time, latest);
   trial.run.collisions.reset();
   if (collisions < 1e18) trial.run.collisions = static_cast<std::uint64_t>(collisions);
   return trial;
@@ -78,7 +78,7 @@ std::optional<double> rate_by_theory(const Scene& scene, double kT) {
   const bool uniform = std::all_of(scene.species.begin(), scene.species.end(), fills_the_box);
   // In a system of few disks the rate differs by about 1/N of itself.
   if (!smooth || !periodic || !uniform || scene.disk_count() < 100 || !(kT > 0.0)) return std::nullopt;
-  if (scene.packing_fraction() > densest_fluid) return std::nullopt;
+  if (scene.packing_fraction() > densest_known) return std::nullopt;
   std::vector<theory::Component> gas;
   for (const Species& species : scene.species)
     gas.push_back({static_cast<double>(species.count) / scene.box.area(), species.radius, species.mass});

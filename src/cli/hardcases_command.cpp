@@ -71,7 +71,7 @@ ExitCode in_steps(const HardCasesOptions& options, const std::vector<HardCase>& 
   return exit_done;
 }
 
-void write_page(const std::string& path, const Page& page) {
+void write_cases_page(const std::string& path, const Page& page) {
   std::ofstream file(path);
   file << html_page(page);
   if (!file.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", path));
@@ -110,7 +110,7 @@ ExitCode hardcases(const HardCasesOptions& options, const Invocation& invocation
   if (as_it_goes) fmt::print("{}", hardcases_footer(verdicts));
   if (options.json) fmt::print("{}\n", hard_cases_json(verdicts));
   if (options.markdown) fmt::print("{}", hard_cases_markdown(verdicts));
-  if (!options.page.empty()) write_page(options.page, hard_case_page(cases, verdicts, invocation.command_line));
+  if (!options.page.empty()) write_cases_page(options.page, hard_case_page(cases, verdicts, invocation.command_line));
   return exit_code_of(verdicts);
 }
 

@@ -26,9 +26,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto shortest_interval = 100ms;
-constexpr int share_of_time = 50;        // one part in as many goes to drawing
-constexpr int width_of_gauges = 30;      // characters, beside the picture
-constexpr TextArea smallest = {60, 18};  // terminal
+constexpr int share_of_time = 50;                 // one part in as many goes to drawing
+constexpr int width_of_gauges = 30;               // characters, beside the picture
+constexpr TextArea smallest_terminal = {60, 18};  // terminal
 
 std::string_view environment(const char* name) {
   const char* value = std::getenv(name);
@@ -96,7 +96,7 @@ std::optional<TerminalColours> terminal_for_pictures() {
   const std::string_view terminal = environment("TERM");
   if (terminal.empty() || terminal == "dumb") return std::nullopt;
   const TextArea size = size_of_terminal();
-  if (size.columns < smallest.columns || size.rows < smallest.rows) return std::nullopt;
+  if (size.columns < smallest_terminal.columns || size.rows < smallest_terminal.rows) return std::nullopt;
   if (!environment("NO_COLOR").empty()) return TerminalColours::none;  // https://no-color.org
   const std::string_view colours = environment("COLORTERM");
   return colours == "truecolor" || colours == "24bit" ? TerminalColours::all : TerminalColours::palette;
@@ -120,7 +120,7 @@ void LiveView::keep_pace(double pace, const State& state, const Totals& totals) 
 void LiveView::draw(const Progress& progress) {
   const Clock::time_point began = Clock::now();
   const TextArea terminal = size_of_terminal();
-  if (terminal.columns < smallest.columns || terminal.rows < smallest.rows) return;  // it may grow again
+  if (terminal.columns < smallest_terminal.columns || terminal.rows < smallest_terminal.rows) return;  // it may grow again
   const State state = simulation_.state();
   const TextArea room = {terminal.columns - width_of_gauges - 2, terminal.rows - 1};
   std::vector<std::string> lines = terminal_picture(simulation_.scene(), simulation_.disks(), state, room, colours_);

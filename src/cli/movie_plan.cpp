@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int smallest = 16, largest = 8192;  // pixels: one disk can be seen, and a film's frame stays below 270 MB
+constexpr int fewest_pixels = 16, most_pixels = 8192;  // pixels: one disk can be seen, and a film's frame stays below 270 MB
 constexpr double usual_seconds = 10.0;
 constexpr double most_frames = 100'000.0;  // an hour
 
@@ -38,10 +38,10 @@ std::variant<FilmFormat, PictureFormat> format_of(const fs::path& path) {
 int pixels_of(std::string_view text, const std::string& whole) {
   int pixels = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), pixels);
-  if (error == std::errc() && end == text.data() + text.size() && pixels >= smallest && pixels <= largest) return pixels;
+  if (error == std::errc() && end == text.data() + text.size() && pixels >= fewest_pixels && pixels <= most_pixels) return pixels;
   throw UsageError(
       fmt::format("--size {}: it can be the longer side or WIDTHxHEIGHT in pixels, from {} to {}, such as 1080 or 1920x1080",
-                  whole, smallest, largest));
+                  whole, fewest_pixels, most_pixels));
 }
 
 std::variant<int, PictureSize> size_of(const std::string& text, int usual) {

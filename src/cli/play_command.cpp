@@ -17,13 +17,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-PlayerData read(const std::string& directory) {
+PlayerData read_player(const std::string& directory) {
   const ReadingLimit limit(directory);
   return before_anything([&] { return player_data(RunReader(directory)); });
 }
 
 ExitCode write_player(const PlayOptions& options) {
-  const PlayerData data = read(options.directory);
+  const PlayerData data = read_player(options.directory);
   const fs::path path = place_for_page(options.output, fs::path(options.directory) / "player.html", {"player", player_mark});
   write_page(path, player_page(data));
   fmt::print("{}  {}, {}\n", path.string(), detail::size_text(fs::file_size(path)),

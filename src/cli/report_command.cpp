@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-ReportFile read(const std::string& directory) {
+ReportFile read_report(const std::string& directory) {
   const ReadingLimit limit(directory);
   return before_anything([&] { return report_of(directory); });
 }
@@ -26,7 +26,7 @@ ReportFile read(const std::string& directory) {
 
 ExitCode report(const ReportOptions& options) {
   return in_reading_process(options.directory, [&] {
-    const ReportFile file = read(options.directory);
+    const ReportFile file = read_report(options.directory);
     const fs::path path = place_for_page(options.output, fs::path(options.directory) / "report.html", {"report", report_mark});
     write_page(path, file.html);
     fmt::print("{}  {}, {}\n", path.string(), detail::size_text(fs::file_size(path)), file.player);

@@ -25,7 +25,7 @@ namespace carom::cli {
 namespace {
 
 /// validation.json comes last: where it is, the validation is complete.
-constexpr std::array<std::string_view, 3> products = {"trials.jsonl", "report.html", "validation.json"};
+constexpr std::array<std::string_view, 3> validation_products = {"trials.jsonl", "report.html", "validation.json"};
 
 ValidateOptions checked(const ValidateCommandOptions& options) {
   if (options.quick && options.full) throw UsageError("--quick and --full: give one of them");
@@ -84,7 +84,7 @@ ExitCode validate(const ValidateCommandOptions& options, const Invocation& invoc
   const std::string key = validation_key(chosen);
   const StopRequest stop;
   const RunDirectory directory =
-      open_study(options.out.empty() ? "validation" : options.out, options.force, options.resume, products);
+      open_study(options.out.empty() ? "validation" : options.out, options.force, options.resume, validation_products);
   try {
     const Validation before = earlier_trials(directory, key, options);
     TrialsFile trials(directory.final_name("trials.jsonl"), key, before);

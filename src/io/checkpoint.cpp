@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::size_t head_bytes = 512;
 /// Of the parts' contents: what one format has written, another must not read.
-constexpr std::uint64_t format = 1;
+constexpr std::uint64_t checkpoint_format = 1;
 
 /// The text before the HDF5 file, which is all of it, so that nothing in it can change unnoticed.
 std::string head_for(std::uint64_t bytes, const XXH128_hash_t& sum) {
@@ -61,7 +61,7 @@ std::string right_head(const fs::path& path, std::string& found) {
 void write_facts(hid_t file, const CheckpointFacts& facts) {
   const Hdf5Id group = detail::create_group(file, "run");
   const hid_t run = group.get();
-  detail::write_attribute(run, "format", format);
+  detail::write_attribute(run, "format", checkpoint_format);
   detail::write_attribute(run, "version", build_info().version);
   detail::write_attribute(run, "commit", build_info().commit);
   detail::write_attribute(run, "compiler", build_info().compiler);
@@ -202,8 +202,8 @@ Checkpoint::Checkpoint(const fs::path& directory) {
             : fmt::format("{}, and there is no other checkpoint from which the run could go on", damage_));
   file_ = open(path_);
   const auto text = [&](const char* name) { return detail::read_string_attribute(file_.get(), "run", name); };
-  if (detail::read_unsigned_attribute(file_.get(), "run", "format") != format || text("version") != build_info().version ||
-      text("commit") != build_info().commit)
+  if (detail::read_unsigned_attribute(file_.get(), "run", "format") != checkpoint_format ||
+      text("version") != build_info().version || text("commit") != build_info().commit)
     throw OutputError(fmt::format(
         "{}: carom {} ({}) has written this checkpoint, and only that one can go on from it to the last bit; this is {} ({})",
         path_.string(), text("version"), text("commit"), build_info().version, build_info().commit));

@@ -1,5 +1,7 @@
 #include "io/finished_run.hpp"
 
+#include "io/h5md_groups.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <fstream>
@@ -55,7 +57,7 @@ Hdf5Id open_trajectory(const fs::path& path) {
 }
 
 Scene scene_in(hid_t file, const fs::path& path) {
-  return scene_of(read_string_attribute(file, "/parameters", "resolved_scene"), path);
+  return scene_of(read_string_attribute(file, detail::parameters, "resolved_scene"), path);
 }
 
 Scene scene_of(const std::string& resolved, const fs::path& path) {

@@ -1,5 +1,7 @@
 #include "io/h5md_measurements.hpp"
 
+#include "io/observable_tables.hpp"
+
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -8,24 +10,22 @@ namespace carom::detail {
 
 namespace {
 
-std::string word(Average average) { return average == Average::time ? "time" : "collisions"; }
-
 /// Absent numbers are NaN: an attribute that is always there needs no asking.
-double number(const std::optional<double>& value) { return value.value_or(std::numeric_limits<double>::quiet_NaN()); }
+double number_or_nan(const std::optional<double>& value) { return value.value_or(std::numeric_limits<double>::quiet_NaN()); }
 
 void write(hid_t parent, const Scalar& scalar) {
   const Hdf5Id group = create_group(parent, scalar.name);
-  write_attribute(group.get(), "value", number(scalar.value));
-  write_attribute(group.get(), "error", number(scalar.error));
-  write_attribute(group.get(), "decorrelation_time", number(scalar.decorrelation_time));
-  write_attribute(group.get(), "average", word(scalar.average));
+  write_attribute(group.get(), "value", number_or_nan(scalar.value));
+  write_attribute(group.get(), "error", number_or_nan(scalar.error));
+  write_attribute(group.get(), "decorrelation_time", number_or_nan(scalar.decorrelation_time));
+  write_attribute(group.get(), "average", average_word(scalar.average));
   if (!scalar.unit.empty()) write_attribute(group.get(), "unit", scalar.unit);
   if (!scalar.note.empty()) write_attribute(group.get(), "note", scalar.note);
 }
 
 void write(hid_t parent, const Table& table) {
   const Hdf5Id group = create_group(parent, "table_" + table.name);
-  write_attribute(group.get(), "average", word(table.average));
+  write_attribute(group.get(), "average", average_word(table.average));
   std::vector<std::string> names, units;
   for (const Column& column : table.columns) {
     write_fixed(group.get(), column.name, std::span<const double>(column.values));

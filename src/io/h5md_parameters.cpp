@@ -24,8 +24,8 @@ void write_h5md_header(hid_t file) {
 }
 
 void write_parameters(hid_t file, const Scene& scene, const Provenance& provenance) {
-  const Hdf5Id parameters = create_group(file, "parameters");
-  const hid_t group = parameters.get();
+  const Hdf5Id handle = create_group(file, "parameters");
+  const hid_t group = handle.get();
   write_attribute(group, "title", scene.title);
   write_attribute(group, "scene", scene.text);
   write_attribute(group, "scene_source", scene.source);

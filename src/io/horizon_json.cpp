@@ -8,6 +8,7 @@ namespace carom {
 
 using detail::Json;
 using detail::number;
+using detail::number_in;
 
 namespace {
 
@@ -39,8 +40,6 @@ Json json_of(const HorizonRow& row) {
           {"seconds", timed ? number(row.seconds) : Json(nullptr)},
           {"price", timed && row.price > 0.0 ? number(row.price) : Json(nullptr)}};
 }
-
-std::optional<double> number_in(const Json& json) { return json.is_null() ? std::nullopt : std::optional(json.get<double>()); }
 
 std::optional<FirstDifference> difference_in(const Json& json) {
   if (json.is_null()) return {};

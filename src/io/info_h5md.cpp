@@ -1,5 +1,6 @@
 // What a trajectory.h5md holds.
 
+#include "io/h5md_groups.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/info_parts.hpp"
 #include "io/output_error.hpp"
@@ -13,9 +14,6 @@
 namespace carom::detail {
 
 namespace {
-
-const std::string parameters = "/parameters";
-const std::string particles = "/particles/trajectory";
 
 std::string species_line(hid_t file, hsize_t disks) {
   const std::vector<std::string> names = read_strings_attribute(file, parameters, "species_names");

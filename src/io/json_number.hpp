@@ -15,4 +15,12 @@ inline Json number(double value) { return std::isfinite(value) ? Json(value) : J
 inline Json number(std::optional<double> value) { return value ? number(*value) : Json(nullptr); }
 inline Json vector(const Eigen::Vector2d& value) { return Json::array({number(value.x()), number(value.y())}); }
 
+inline std::optional<double> number_in(const Json& json) {
+  return json.is_null() ? std::nullopt : std::optional(json.get<double>());
+}
+/// Nothing where the key is missing, too.
+inline std::optional<double> number_in(const Json& json, const char* key) {
+  return json.contains(key) ? number_in(json.at(key)) : std::nullopt;
+}
+
 }  // namespace carom::detail

@@ -6,13 +6,11 @@ namespace carom::detail {
 
 namespace {
 
-const char* word(Average average) { return average == Average::time ? "time" : "collisions"; }
-
 Json json_of(const Scalar& scalar) {
   Json json = {{"value", number(scalar.value)},
                {"error", number(scalar.error)},
                {"decorrelation_time", number(scalar.decorrelation_time)},
-               {"average", word(scalar.average)}};
+               {"average", average_word(scalar.average)}};
   if (!scalar.unit.empty()) json["unit"] = scalar.unit;
   if (!scalar.note.empty()) json["note"] = scalar.note;
   return json;
@@ -21,7 +19,7 @@ Json json_of(const Scalar& scalar) {
 Json json_of(const Table& table) {
   Json columns = Json::array();
   for (const Column& column : table.columns) columns.push_back(column.name);
-  return {{"file", table_file(table)}, {"average", word(table.average)}, {"columns", columns}};
+  return {{"file", table_file(table)}, {"average", average_word(table.average)}, {"columns", columns}};
 }
 
 }  // namespace

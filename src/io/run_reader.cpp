@@ -3,6 +3,7 @@
 #include "io/run_reader.hpp"
 
 #include "io/finished_run.hpp"
+#include "io/h5md_groups.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,8 +20,8 @@ namespace {
 
 using detail::Hdf5Error;
 
-const std::string parameters = "/parameters";
-const std::string particles = "/particles/trajectory";
+using detail::parameters;
+using detail::particles;
 
 double folded(double x, double lower, double upper) {
   if (x >= lower && x < upper) return x;

@@ -3,6 +3,7 @@
 #include "io/run_record.hpp"
 
 #include "io/finished_run.hpp"
+#include "io/h5md_groups.hpp"
 #include "io/summary_reader.hpp"
 
 #include <nlohmann/json.hpp>
@@ -13,8 +14,8 @@ namespace {
 
 using detail::Hdf5Error;
 
-const std::string parameters = "/parameters";
-const std::string particles = "/particles/trajectory";
+using detail::parameters;
+using detail::particles;
 
 /// The columns of a table, of one length.
 std::vector<Column> columns_in(hid_t file, const std::string& group) {

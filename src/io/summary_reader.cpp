@@ -11,21 +11,15 @@
 namespace carom {
 
 using detail::Json;
+using detail::number_in;
 
 namespace {
-
-/// `null` stands for what is not finite, or is not there.
-std::optional<double> number_in(const Json& json) { return json.is_null() ? std::nullopt : std::optional(json.get<double>()); }
 
 double finite_in(const Json& json) { return number_in(json).value_or(std::numeric_limits<double>::quiet_NaN()); }
 
 Eigen::Vector2d vector_in(const Json& json) { return {finite_in(json.at(0)), finite_in(json.at(1))}; }
 
 std::uint64_t count_in(const Json& json, const char* key) { return json.contains(key) ? json.at(key).get<std::uint64_t>() : 0; }
-
-std::optional<double> number_in(const Json& json, const char* key) {
-  return json.contains(key) ? number_in(json.at(key)) : std::nullopt;
-}
 
 StopReason stop_reason_in(const std::string& word) {
   for (int k = 0; k <= static_cast<int>(StopReason::invalid_state); ++k)

@@ -24,8 +24,8 @@ constexpr int shades = 9;
 
 std::string colour_sequence(double shade, TerminalColours colours) {
   if (colours == TerminalColours::none) return {};
-  using Colour = std::array<double, 3>;
-  constexpr Colour slow = {75, 125, 230}, middle = {160, 160, 160}, fast = {240, 130, 20};
+  using Shades = std::array<double, 3>;
+  constexpr Shades slow = {75, 125, 230}, middle = {160, 160, 160}, fast = {240, 130, 20};
   const double x = 2.0 * std::clamp(shade, 0.0, 1.0);
   const auto mix = [&](std::size_t part) {
     const double value =

@@ -16,12 +16,6 @@ using detail::embedded_text;
 using detail::html_prose;
 using detail::html_text;
 
-/// The browser itself keeps the page from fetching anything: nothing is allowed but what the file holds, and pictures that its
-/// scripts make.
-constexpr const char* policy =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; "
-    "form-action 'none'";
-
 constexpr std::size_t sections_without_contents = 3;  // more do not fit on a screen
 
 void check_ids(const Page& page) {
@@ -48,8 +42,8 @@ std::string head(const Page& page) {
   return "<head>\n<meta charset=\"utf-8\">\n" + generator +
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "<meta name=\"color-scheme\" content=\"light dark\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"" +
-         std::string(policy) + "\">\n<title>" + html_text(page.title) + "</title>\n<style>\n" + embedded_text("page/page.css") +
-         "</style>\n" + script("page/errors.js") + "</head>\n";
+         std::string(detail::page_policy) + "\">\n<title>" + html_text(page.title) + "</title>\n<style>\n" +
+         embedded_text("page/page.css") + "</style>\n" + script("page/errors.js") + "</head>\n";
 }
 
 std::string header(const Page& page) {

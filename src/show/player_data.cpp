@@ -2,6 +2,7 @@
 
 #include "show/player_data.hpp"
 
+#include "io/json_number.hpp"
 #include "observe/equilibrium.hpp"
 #include "show/event_columns.hpp"
 #include "show/exact_run.hpp"
@@ -23,15 +24,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using detail::NumberColumns;
 
-Json pair(const Eigen::Vector2d& v) { return Json::array({v.x(), v.y()}); }
-
 Json obstacles_of(const Effects& effects) {
   Json list = Json::array();
   for (const Obstacle& obstacle : effects.obstacles) {
     if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape))
-      list.push_back({{"centre", pair(disk->centre)}, {"radius", disk->radius}});
+      list.push_back({{"centre", detail::vector(disk->centre)}, {"radius", disk->radius}});
     else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle.shape))
-      list.push_back({{"from", pair(segment->from)}, {"to", pair(segment->to)}});
+      list.push_back({{"from", detail::vector(segment->from)}, {"to", detail::vector(segment->to)}});
   }
   return list;
 }
@@ -49,11 +48,11 @@ Json description_of(const RunReader& run) {
   const Scene& scene = run.scene();
   const Effects& effects = scene.effects;
   Json json{{"title", run.title()}, {"disks", run.disks().count()}};
-  json["box"] = {{"lower", pair(scene.box.lower)},
-                 {"upper", pair(scene.box.upper)},
+  json["box"] = {{"lower", detail::vector(scene.box.lower)},
+                 {"upper", detail::vector(scene.box.upper)},
                  {"periodic", Json::array({scene.box.periodic(0), scene.box.periodic(1)})}};
   json["species"] = run.species_names();
-  json["gravity"] = pair(effects.gravity ? effects.gravity->acceleration : Eigen::Vector2d::Zero());
+  json["gravity"] = detail::vector(effects.gravity ? effects.gravity->acceleration : Eigen::Vector2d::Zero());
   json["growth"] = effects.growth ? effects.growth->rate : 0.0;
   json["obstacles"] = obstacles_of(effects);
   json["keepsMomentum"] = keeps_momentum(scene);

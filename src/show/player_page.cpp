@@ -10,8 +10,8 @@ namespace carom {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> styles = {"player/player.css"};
-constexpr std::array<std::string_view, 21> scripts = {
+constexpr std::array<std::string_view, 1> player_styles = {"player/player.css"};
+constexpr std::array<std::string_view, 21> player_scripts = {
     "player/recording.js", "player/flights.js",  "player/samples.js",  "player/replay.js",  "player/measures.js",
     "player/hexatic.js",   "player/palettes.js", "player/settings.js", "player/view.js",    "player/trails.js",
     "player/raster.js",    "player/drawing.js",  "player/readings.js", "player/legend.js",  "player/panels.js",
@@ -21,7 +21,8 @@ constexpr std::array<std::string_view, 21> scripts = {
 }  // namespace
 
 std::string player_page(const PlayerData& data) {
-  return playing_page({player_mark, "player/player.html", styles, scripts, "A run of Carom"}, data.description, data.columns);
+  return playing_page({player_mark, "player/player.html", player_styles, player_scripts, "A run of Carom"}, data.description,
+                      data.columns);
 }
 
 }  // namespace carom

@@ -14,11 +14,6 @@ namespace {
 
 using detail::embedded_text;
 
-// Nothing is allowed but what the file holds: the browser itself keeps it from fetching anything.
-constexpr const char* policy =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; "
-    "form-action 'none'";
-
 /// JSON that may stand in a script element: no "</script>", no "<!--".
 std::string in_script(std::string json) {
   for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at + 1)) json.replace(at, 1, "\\u003c");
@@ -43,7 +38,7 @@ std::string playing_page(const PlayingPage& page, const std::string& description
   std::string text = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" + std::string(page.mark) +
                      "\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                      "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
-                     std::string(policy) + "\">\n<title>" + detail::html_text(title) + "</title>\n<style>\n";
+                     std::string(detail::page_policy) + "\">\n<title>" + detail::html_text(title) + "</title>\n<style>\n";
   for (const std::string_view name : page.styles) text += embedded_text(name);
   text += "</style>\n<script>\n" + embedded_text("page/errors.js") + "</script>\n</head>\n" + whole(embedded_text(page.body));
   text += "<script type=\"application/json\" id=\"description\">" + in_script(description) + "</script>\n";

@@ -2,6 +2,7 @@
 
 #include "show/side_by_side_page.hpp"
 
+#include "io/json_number.hpp"
 #include "show/event_columns.hpp"
 #include "show/number_columns.hpp"
 #include "show/number_words.hpp"
@@ -23,30 +24,29 @@ namespace {
 using Json = nlohmann::ordered_json;
 using detail::NumberColumns;
 
-constexpr std::array<std::string_view, 2> styles = {"player/player.css", "side_by_side/side_by_side.css"};
-constexpr std::array<std::string_view, 22> scripts = {"player/recording.js",    "player/flights.js",
-                                                      "side_by_side/sides.js",  "player/measures.js",
-                                                      "player/hexatic.js",      "player/palettes.js",
-                                                      "player/settings.js",     "player/view.js",
-                                                      "player/trails.js",       "player/raster.js",
-                                                      "player/drawing.js",      "player/readings.js",
-                                                      "player/legend.js",       "player/clock.js",
-                                                      "player/controls.js",     "player/keyboard.js",
-                                                      "player/pointer.js",      "player/frames.js",
-                                                      "side_by_side/twins.js",  "side_by_side/overlaps.js",
-                                                      "side_by_side/curves.js", "side_by_side/side_by_side.js"};
-
-Json pair(const Eigen::Vector2d& v) { return Json::array({v.x(), v.y()}); }
+constexpr std::array<std::string_view, 2> side_by_side_styles = {"player/player.css", "side_by_side/side_by_side.css"};
+constexpr std::array<std::string_view, 22> side_by_side_scripts = {"player/recording.js",    "player/flights.js",
+                                                                   "side_by_side/sides.js",  "player/measures.js",
+                                                                   "player/hexatic.js",      "player/palettes.js",
+                                                                   "player/settings.js",     "player/view.js",
+                                                                   "player/trails.js",       "player/raster.js",
+                                                                   "player/drawing.js",      "player/readings.js",
+                                                                   "player/legend.js",       "player/clock.js",
+                                                                   "player/controls.js",     "player/keyboard.js",
+                                                                   "player/pointer.js",      "player/frames.js",
+                                                                   "side_by_side/twins.js",  "side_by_side/overlaps.js",
+                                                                   "side_by_side/curves.js", "side_by_side/side_by_side.js"};
 
 /// What every page that plays needs to know of a scene without effects.
 Json description_of(const SideBySide& shown, const Scene& scene) {
   const Box& box = scene.box;
   Json json{{"title", scene.title}, {"disks", shown.disks.count()}, {"exact", true}, {"duration", shown.until}};
-  json["box"] = {
-      {"lower", pair(box.lower)}, {"upper", pair(box.upper)}, {"periodic", Json::array({box.periodic(0), box.periodic(1)})}};
+  json["box"] = {{"lower", detail::vector(box.lower)},
+                 {"upper", detail::vector(box.upper)},
+                 {"periodic", Json::array({box.periodic(0), box.periodic(1)})}};
   json["species"] = Json::array();
   for (const Species& species : scene.species) json["species"].push_back(species.name);
-  json["gravity"] = pair(Eigen::Vector2d::Zero());
+  json["gravity"] = detail::vector(Eigen::Vector2d::Zero());
   json["growth"] = 0.0;
   json["scale"] = 1.0;
   json["accelerations"] = Json::array({0.0, 0.0, 0.0, 0.0});
@@ -175,7 +175,8 @@ std::string side_by_side_page(const SideBySide& shown, const Scene& scene, const
                                {"Program", fmt::format("carom {} (commit {})", build.version, build.commit)},
                                {"Compiler", fmt::format("{}; {}", build.compiler, build.flags)}});
   json["columns"] = columns.list();
-  return playing_page({side_by_side_mark, "side_by_side/side_by_side.html", styles, scripts, "Exact events and fixed steps"},
+  return playing_page({side_by_side_mark, "side_by_side/side_by_side.html", side_by_side_styles, side_by_side_scripts,
+                       "Exact events and fixed steps"},
                       json.dump(-1, ' ', false, Json::error_handler_t::replace), columns.take_bytes());
 }
 

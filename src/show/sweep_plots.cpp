@@ -24,7 +24,7 @@ struct PlottedPoint {
   std::string label;
 };
 
-struct Curve {
+struct PlottedCurve {
   std::string name;
   std::vector<PlottedPoint> points;
 };
@@ -39,24 +39,24 @@ std::string others_of(const Sweep& sweep, const SweepPoint& point, std::size_t k
   return text;
 }
 
-std::vector<Curve> curves_of(const Sweep& sweep, const SweepResults& results, std::size_t number, std::size_t key) {
-  std::vector<Curve> curves;
+std::vector<PlottedCurve> curves_of(const Sweep& sweep, const SweepResults& results, std::size_t number, std::size_t key) {
+  std::vector<PlottedCurve> curves;
   for (std::size_t p = 0; p < sweep.points.size(); ++p) {
     const SweepPoint& point = sweep.points[p];
     const std::optional<double> x = number_of(point.values[key]);
     const SeedAverage& y = results.averages[p][number];
     if (!x || !y.mean) continue;
     const std::string name = others_of(sweep, point, key);
-    auto curve = std::find_if(curves.begin(), curves.end(), [&](const Curve& c) { return c.name == name; });
+    auto curve = std::find_if(curves.begin(), curves.end(), [&](const PlottedCurve& c) { return c.name == name; });
     if (curve == curves.end()) curve = curves.insert(curves.end(), {.name = name, .points = {}});
     curve->points.push_back({*x, y, fmt::format("{}: {} seeds", point.name, y.count)});
   }
-  for (Curve& curve : curves)
+  for (PlottedCurve& curve : curves)
     std::stable_sort(curve.points.begin(), curve.points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
   return curves;
 }
 
-Series series_of(const Curve& curve, std::size_t place, const std::string& otherwise) {
+Series series_of(const PlottedCurve& curve, std::size_t place, const std::string& otherwise) {
   Series series{
       .name = curve.name.empty() ? otherwise : curve.name, .group = static_cast<int>(place), .visible = place < most_visible};
   for (const PlottedPoint& point : curve.points) {
@@ -94,7 +94,7 @@ std::vector<Plot> plots_of(const Sweep& sweep, const SweepResults& results, std:
   const std::string& name = results.numbers[number];
   for (std::size_t key = 0; key < sweep.keys.size(); ++key) {
     if (!has_several_numbers(sweep, key)) continue;
-    const std::vector<Curve> curves = curves_of(sweep, results, number, key);
+    const std::vector<PlottedCurve> curves = curves_of(sweep, results, number, key);
     if (curves.empty()) continue;
     Plot plot{.id = fmt::format("number-{}-key-{}", number, key),
               .title = fmt::format("{} against {}", name, sweep.keys[key]),

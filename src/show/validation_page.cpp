@@ -15,7 +15,7 @@ namespace carom {
 namespace {
 
 /// What a plot of the page shows, whichever trials give it numbers.
-struct Frame {
+struct TrialPlot {
   const char* id;
   const char* group;
   const char* title;
@@ -24,7 +24,7 @@ struct Frame {
   const char* caption;
   bool log = false;  ///< the axis of y
 };
-constexpr std::array<Frame, 15> frames = {{
+constexpr std::array<TrialPlot, 15> trial_plots = {{
     {"speeds-periodic", "Maxwell and Boltzmann", "Speeds in a periodic box", "speed (v_T)", "density",
      "Two gases that started far from equilibrium, after fifty collisions per disk, and the law for 64 disks."},
     {"speeds-walls", "Maxwell and Boltzmann", "Speeds between walls", "speed (v_T)", "density",
@@ -71,7 +71,7 @@ Series theory_of_equation_of_state() {
 }
 
 /// Points of one name become one series, from whatever trials they come.
-Plot plot_of(const Frame& frame, const Validation& validation) {
+Plot plot_of(const TrialPlot& frame, const Validation& validation) {
   Plot plot{.id = frame.id,
             .title = frame.title,
             .caption = frame.caption,
@@ -133,7 +133,7 @@ Page validation_page(const Validation& validation, const std::string& command_li
     if (groups.empty() || groups.back() != group_of(result)) groups.push_back(group_of(result));
   for (const std::string& group : groups) {
     Section section{.heading = group};
-    for (const Frame& frame : frames) {
+    for (const TrialPlot& frame : trial_plots) {
       if (group != frame.group) continue;
       Plot plot = plot_of(frame, validation);
       if (!plot.series.empty()) section.blocks.emplace_back(std::move(plot));

@@ -1,5 +1,7 @@
 #include "simulation/driven_engine.hpp"
 
+#include "simulation/all_events.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,10 +9,6 @@
 namespace carom::detail {
 
 namespace {
-
-std::uint64_t all_events(const Totals& totals) {
-  return totals.pair + totals.wall + totals.other + totals.stale + totals.obstacle + totals.well;
-}
 
 /// `time` on a clock whose zero is at `zero`.
 Instant moved(const Instant& time, const Instant& zero) {
@@ -63,9 +61,9 @@ bool DrivenEngine::run_until(const Instant& target, std::uint64_t pair_limit, st
   bool arrived = false;
   while (!grown_ && event_limit > 0) {
     const Instant stop = std::min({target, kick_time_, end_});
-    const std::uint64_t before = all_events(engine_->totals());
+    const std::uint64_t before = detail::all_events(engine_->totals());
     arrived = engine_->run_until(stop, std::min(pair_limit, stock_at_), event_limit);
-    event_limit -= std::min(event_limit, all_events(engine_->totals()) - before);
+    event_limit -= std::min(event_limit, detail::all_events(engine_->totals()) - before);
     if (engine_->totals().pair >= stock_at_) {
       arrived = false;
       take_stock();

@@ -5,6 +5,7 @@
 #include <carom/simulation.hpp>
 
 #include "core/archive.hpp"
+#include "simulation/all_events.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/sampling_times.hpp"
 #include "simulation/standstill.hpp"
@@ -259,7 +260,8 @@ class Schedule {
     const std::uint64_t before = detail::all_events(engine_.totals());
     const Instant began = engine_.now();
     const auto started = Clock::now();
-    const bool arrived = engine_.run_until(target, pair_limit, std::min(recording_ ? recorded_events : stretch_events, until_verified()));
+    const bool arrived =
+        engine_.run_until(target, pair_limit, std::min(recording_ ? recorded_events : stretch_events, until_verified()));
     result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
     const std::uint64_t events = detail::all_events(engine_.totals()) - before;
     stands_ = events > 0 && !(began < engine_.now());

@@ -3,6 +3,7 @@
 // every event may move the clock by that digit, and a run would take years for the next thousandth of a unit of time.
 
 #include "core/instant.hpp"
+#include "simulation/all_events.hpp"
 #include "simulation/any_engine.hpp"
 
 #include <carom/state.hpp>
@@ -12,10 +13,6 @@
 #include <cstdint>
 
 namespace carom::detail {
-
-[[nodiscard]] inline std::uint64_t all_events(const Totals& totals) {
-  return totals.pair + totals.wall + totals.other + totals.stale + totals.obstacle + totals.well + totals.kicks;
-}
 
 class Standstill {
  public:

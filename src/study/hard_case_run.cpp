@@ -3,7 +3,7 @@
 #include "core/nearest_image.hpp"
 #include "observe/overlap.hpp"
 #include "observe/run_measurements.hpp"
-#include "simulation/standstill.hpp"
+#include "simulation/all_events.hpp"
 
 #include <algorithm>
 #include <bit>

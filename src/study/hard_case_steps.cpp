@@ -91,7 +91,7 @@ void follow(StepTrial& trial, const Scene& scene, const std::string& method, std
   trial.finer_error = error_in_steps(scene, start, {method, trial.dt / 10.0}, trial.time, end, nullptr);
 }
 
-std::string words(const StepTrial& trial) { return fmt::format("{}", fmt::join(trial.faults(), ", ")); }
+std::string faults_of(const StepTrial& trial) { return fmt::format("{}", fmt::join(trial.faults(), ", ")); }
 
 }  // namespace
 
@@ -135,7 +135,7 @@ std::string steps_markdown(std::span<const StepTrial> trials, const std::string&
     }
     text += fmt::format("| `{}` | {} | {} | {} | {} | {:.2g} | {:.2g} | {:.2g} | {:.1g} | {} |\n", t.name, t.exact_collisions,
                         t.counts.found, t.counts.missed, t.counts.repeated, t.counts.deepest, t.error, t.finer_error, t.energy,
-                        words(t));
+                        faults_of(t));
   }
   text += fmt::format("\nHeld, mostly because nothing collides: {}.\n", fmt::join(fine, ", "));
   return text;
@@ -157,7 +157,7 @@ std::string steps_table(std::span<const StepTrial> trials) {
     if (t.faults().front() == "held") ++fine;
     text += fmt::format(fmt::runtime(line), t.name, number(t.dt), count(t.exact_collisions), count(t.counts.found),
                         count(t.counts.missed), count(t.counts.repeated), number(t.counts.deepest), number(t.error),
-                        number(t.finer_error), number(t.energy), words(t));
+                        number(t.finer_error), number(t.energy), faults_of(t));
   }
   return text + fmt::format("\n{} cases run, {} held. Depths and distances in diameters.\n", ran, fine);
 }

@@ -39,7 +39,7 @@ std::size_t failures(std::span<const CaseVerdict> verdicts) {
 }
 
 /// A bar would end the cell.
-std::string cell(std::string text) {
+std::string table_cell(std::string text) {
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.replace(at, 1, "\\|");
   return text;
 }
@@ -89,8 +89,8 @@ std::string hard_cases_markdown(std::span<const CaseVerdict> verdicts) {
             family);
       first = false;
       const HardCaseRow row = row_of(one);
-      text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name, cell(one.title), one.engines.size(), cell(row.checked),
-                          cell(row.worst), row.verdict);
+      text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name, table_cell(one.title), one.engines.size(),
+                          table_cell(row.checked), table_cell(row.worst), row.verdict);
     }
   }
   return text + "\n" + summary_of(verdicts) + ".\n";

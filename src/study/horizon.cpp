@@ -1,6 +1,7 @@
 #include "study/horizon.hpp"
 
 #include "core/real.hpp"
+#include "simulation/all_events.hpp"
 #include "study/horizon_difference.hpp"
 #include "study/horizon_pace.hpp"
 #include "study/lyapunov.hpp"
@@ -70,9 +71,9 @@ struct Runner {
 };
 
 /// The measurement, step by step; what it finds goes into a Horizon.
-class Measurement {
+class HorizonSearch {
  public:
-  Measurement(const Scene& scene, const State& start, const HorizonOptions& options)
+  HorizonSearch(const Scene& scene, const State& start, const HorizonOptions& options)
       : scene_(scene), start_(start), options_(options) {
     start_.time = 0.0;
     start_.remainders.resize(2, 0);
@@ -187,7 +188,7 @@ class Measurement {
         result_.ended = HorizonEnd::run;
         return;
       }
-      if (static_cast<double>(all_events(best().totals())) + disks_ * static_cast<double>(k) > limit_) {
+      if (static_cast<double>(detail::all_events(best().totals())) + disks_ * static_cast<double>(k) > limit_) {
         result_.ended = HorizonEnd::limit;
         return;
       }
@@ -235,7 +236,8 @@ class Measurement {
     result_.time = time;
     result_.collisions = best().totals().pair;
     result_.collisions_per_disk = collisions;
-    if (result_.timed_until == 0.0 || (best().totals().pair <= timed_pairs && all_events(best().totals()) <= timed_events))
+    if (result_.timed_until == 0.0 ||
+        (best().totals().pair <= timed_pairs && detail::all_events(best().totals()) <= timed_events))
       result_.timed_until = time;
   }
 
@@ -307,7 +309,7 @@ Horizon measure_horizon(const Scene& scene, const State& start, const HorizonOpt
     throw std::invalid_argument(fmt::format(
         "a horizon is measured where nothing but the collision rule and hard walls acts; this scene asks for {} besides",
         words_beyond_the_rule(scene.effects)));
-  return Measurement(scene, start, options)();
+  return HorizonSearch(scene, start, options)();
 }
 
 }  // namespace carom

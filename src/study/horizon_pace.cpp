@@ -1,5 +1,7 @@
 #include "study/horizon_pace.hpp"
 
+#include "simulation/all_events.hpp"
+
 #include <carom/simulation.hpp>
 
 #include <algorithm>
@@ -7,8 +9,6 @@
 #include <cstdint>
 
 namespace carom {
-
-std::uint64_t all_events(const Totals& totals) { return totals.pair + totals.wall + totals.other + totals.stale; }
 
 std::uint64_t stalled(std::uint64_t disks) { return 200'000 + 20 * disks; }
 
@@ -20,7 +20,7 @@ Pace measure_pace(const Scene& scene, const State& start) {
   const double passage = std::sqrt(scene.box.area() / disks) / fastest;
   const double enough = std::max(4000.0, 4.0 * disks);
   Simulation simulation = make_simulation(scene, start);
-  const auto events = [&] { return static_cast<double>(all_events(simulation.totals())); };
+  const auto events = [&] { return static_cast<double>(detail::all_events(simulation.totals())); };
   bool stuck = false;
   for (double time = passage; time <= 4096.0 * passage * std::sqrt(disks) && events() < enough && !stuck; time *= 2.0)
     stuck = simulation.run_until(time) != StopReason::time;

@@ -21,7 +21,4 @@ Pace measure_pace(const Scene& scene, const State& start);
 /// Collisions of pairs that no step of a study comes near, which holds a few per disk or 20,000 events: time has all but stopped.
 [[nodiscard]] std::uint64_t stalled(std::uint64_t disks);
 
-/// All that happened, bookkeeping too.
-[[nodiscard]] std::uint64_t all_events(const Totals& totals);
-
 }  // namespace carom

@@ -10,7 +10,7 @@ namespace carom {
 namespace {
 
 /// Turns are repeated until they have taken this many seconds together: as long as a timer's tick on a slow machine, times ten.
-constexpr double enough = 0.05;
+constexpr double enough_seconds = 0.05;
 constexpr int most_turns = 20;
 
 }  // namespace
@@ -45,7 +45,7 @@ std::vector<double> seconds_in_loop(const Scene& scene, const State& start, cons
                                     const std::vector<double>& times) {
   std::vector<double> least(times.size(), std::numeric_limits<double>::infinity());
   double spent = 0.0;
-  for (int turn = 0; turn < most_turns && spent < enough; ++turn) {
+  for (int turn = 0; turn < most_turns && spent < enough_seconds; ++turn) {
     Simulation simulation = begin(scene, start, method);
     double seconds = 0.0;
     for (std::size_t k = 0; k < times.size(); ++k) {

@@ -15,7 +15,7 @@ namespace carom::validation {
 
 namespace {
 
-constexpr std::int64_t disks = 64;  // few, so that the law for few disks can be told from that for many
+constexpr std::int64_t few_disks = 64;  // few, so that the law for few disks can be told from that for many
 
 /// All along x, half of them to either side, so that momentum is zero.
 void all_along_x(State& start) {
@@ -26,9 +26,9 @@ void all_along_x(State& start) {
 TrialResult relax(const std::string& trial, const std::string& boundary, bool along_x, const Effort& effort) {
   TrialResult result{.trial = trial};
   const bool periodic = boundary == "periodic";
-  const theory::Microcanonical law(disks, periodic);
+  const theory::Microcanonical law(few_disks, periodic);
   // Ten collisions per disk from one snapshot to the next, after which a velocity has forgotten all but exp(-10) of itself.
-  const Gas gas{.disks = disks,
+  const Gas gas{.disks = few_disks,
                 .packing_fraction = 0.3,
                 .collisions = (effort.full ? 2e7 : 4e6),
                 .observe = "temperature = true\nvelocity_moments = true\n",
@@ -41,7 +41,7 @@ TrialResult relax(const std::string& trial, const std::string& boundary, bool al
   own.push_back(std::make_unique<Snapshots>(10.0 * free_time, counts));
   const Found found =
       run(scene_text(gas, effort.seed_of(0)), effort, result, std::move(own), along_x ? Change(all_along_x) : Change());
-  const std::string what = fmt::format("{} disks, {}, at first {}", disks, periodic ? "periodic" : "walls",
+  const std::string what = fmt::format("{} disks, {}, at first {}", few_disks, periodic ? "periodic" : "walls",
                                        along_x ? "all along x" : "all equally fast");
   result.checks.push_back(speed_check(what, counts));
   const double from_maxwell = counts.distance_from_maxwell();
