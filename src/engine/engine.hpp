@@ -14,8 +14,8 @@
 // disk carries). Uniform gravity costs nothing where disks meet: lines are drawn in a frame that falls with the disks from the
 // epoch on, in which they are straight, and only walls and obstacles are looked for along the parabola.
 //
-// The files engine_state.hpp (beginning, epochs, what is seen from outside), engine_shear.hpp (boxes whose images slide),
-// engine_check.hpp (invariants) and engine_archive.hpp (checkpoints) hold the rest.
+// The other files engine_*.hpp hold the rest: how an engine begins, epochs, cages and lists, plans where there is more than hard
+// walls, boxes whose images slide, what is seen from outside, invariants, checkpoints.
 
 #include "core/fetch.hpp"
 #include "core/fixed_axis.hpp"
@@ -276,31 +276,7 @@ class Engine {
 
   /// The same where walls may move, disks fall and grow, and obstacles stand. One copy of it: inlined, it would be one in every
   /// event.
-  [[gnu::noinline]] void plan_world(std::int32_t i) {
-    if (world_.sliding.present()) return plan_sliding_edge(i);
-    const Line& a = line(i);
-    Plan& mine = plan(i);
-    const double radius = layout_.radius(a) * world_.scale(now_), growth = layout_.radius(a) * world_.growth();
-    const auto consider = [&](double time, std::int32_t what) {
-      if (time < mine.edge_time || (time == mine.edge_time && mine.edge == cage)) mine.edge_time = time, mine.edge = what;
-    };
-    for (int axis = 0; axis < 2; ++axis) {
-      if (axes_[axis].periodic) continue;
-      const double v = a.v[axis] + world_.g()[axis] * now_, g = world_.g()[axis];
-      for (const int sign : {-1, 1}) {
-        const Wall wall = wall_of(axis, sign > 0);
-        if (world_.walls.recedes(wall, sign * v, sign * g, growth, now_)) continue;
-        consider(now_ + world_.walls.contact(wall, room(a, axis, sign, radius), sign * v, sign * g, growth, now_), wall);
-      }
-    }
-    if (!world_.obstacles.empty()) {
-      // Disks may fall far while they stay in their cages, but where they fall all is planned anew with every epoch.
-      const double until = falls() ? std::min(mine.edge_time, epoch_length_) : mine.edge_time;
-      const auto meeting = world_.obstacles.next(place(a), velocity(a), world_.g(), radius, growth, until - now_);
-      if (meeting.obstacle >= 0) consider(now_ + meeting.time, first_obstacle - meeting.obstacle);
-    }
-    yield_to_lower_partner(i);
-  }
+  [[gnu::noinline]] void plan_world(std::int32_t i);
 
   /// Puts the edge past which images slide in the place of the edge of the cage where it comes first.
   [[gnu::noinline]] void plan_sliding_edge(std::int32_t i);
@@ -313,13 +289,7 @@ class Engine {
   }
 
   /// A piston has changed its motion: what everybody had planned with it is void.
-  void plan_edges_anew() {
-    for (std::int32_t i = 0; i < count(); ++i) {
-      const double before = time(i);
-      plan_edge(i, plan(i).edge == cage ? plan(i).edge_time : predicted(i, surroundings(i)).edge_time);
-      if (time(i) != before) schedule(i);
-    }
-  }
+  void plan_edges_anew();
 
   /// What lies beyond this epoch is found again when the next one begins.
   void schedule(std::int32_t i) {
@@ -635,6 +605,10 @@ class Engine {
 }  // namespace carom
 
 #include "engine/engine_archive.hpp"
+#include "engine/engine_begin.hpp"
+#include "engine/engine_cages.hpp"
 #include "engine/engine_check.hpp"
+#include "engine/engine_epochs.hpp"
+#include "engine/engine_outside.hpp"
+#include "engine/engine_plans.hpp"
 #include "engine/engine_shear.hpp"
-#include "engine/engine_state.hpp"

@@ -1,0 +1,172 @@
+#pragma once
+// How an engine begins: which scenes it can run, where disks lie in memory, first cages, lists and predictions.
+
+#include "engine/engine.hpp"
+#include "engine/order_in_space.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#if defined(__unix__)
+#include <unistd.h>
+#endif
+
+namespace carom {
+
+namespace detail {
+
+/// Root of the area per disk. The area itself might overflow, and roots of lengths would round lengths in other units otherwise.
+inline double mean_spacing(const Box& box, std::size_t disks) {
+  const Eigen::Vector2d lengths = box.lengths();
+  return lengths[0] * std::sqrt(lengths[1] / lengths[0] / static_cast<double>(std::max<std::size_t>(disks, 1)));
+}
+
+/// In spacings: how far beyond a wall a line may start at the epoch.
+inline constexpr double free_path = 16.0;
+
+inline FixedAxis fixed_axis(const Box& box, int axis, std::size_t disks) {
+  return {box, axis, free_path * mean_spacing(box, disks)};
+}
+
+/// Of any two disks.
+inline double largest_contact_distance(const Disks& disks) {
+  double largest = 0.0, second = 0.0;
+  for (const double radius : disks.radius) {
+    second = std::max(second, std::min(radius, largest));
+    largest = std::max(largest, radius);
+  }
+  return largest + second;
+}
+
+/// Of the disks' radii, times the width of their wells: as large as they may become in a run.
+inline double largest_scale(const Box& box, const Disks& disks, const Effects& effects) {
+  double scale = effects.square_well && effects.square_well->depth != 0.0 ? effects.square_well->width : 1.0;
+  if (!effects.growth || effects.growth->rate == 0.0) return scale;
+  double squares = 0.0;
+  for (const double radius : disks.radius) squares += radius * radius;
+  const double fraction = std::numbers::pi * squares / box.area();
+  return scale * std::sqrt(effects.growth->packing_fraction.value_or(1.0) / fraction);  // no disks fill more than the box
+}
+
+template <class Line>
+const PredictionKernel<Line>& kernel_for(const Effects& effects) {
+  if (effects.growth && effects.growth->rate > 0.0) return prediction_kernel<Line>(Contact::growing);
+  if (effects.square_well && effects.square_well->depth != 0.0) return prediction_kernel<Line>(Contact::wells);
+  if (SlidingImages<double>::acts(effects.shear)) return prediction_kernel<Line>(Contact::sheared);
+  return prediction_kernel<Line>(Contact::hard);
+}
+
+/// Fetching ahead costs 5 to 15 per cent where the data fit the second-level cache and gains 20 to 60 where they are many times
+/// larger. It pays from about three times its size on: much of the data is rarely used.
+inline bool exceeds_cache(std::size_t bytes) {
+#if defined(_SC_LEVEL2_CACHE_SIZE)
+  const long size = sysconf(_SC_LEVEL2_CACHE_SIZE);
+#else
+  const long size = 0;
+#endif
+  return bytes > 3 * static_cast<std::size_t>(size > 0 ? size : 1L << 20);
+}
+
+}  // namespace detail
+
+template <class Impact, class Layout, class World>
+std::string Engine<Impact, Layout, World>::why_not(const Box& box, const Disks& disks, const Effects& effects) {
+  const std::vector<std::string> acting = effects.acting();
+  if ((Impact::plain || World::plain) && !acting.empty()) return fmt::format("the scene asks for {}", fmt::join(acting, ", "));
+  if (disks.count() == 0) return "";
+  const double smallest = *std::min_element(disks.radius.begin(), disks.radius.end());
+  const double reach = detail::largest_contact_distance(disks) * detail::largest_scale(box, disks, effects);
+  for (int k = 0; k < 2; ++k) {
+    const FixedAxis axis = detail::fixed_axis(box, k, disks.count());
+    if (axis.periodic && axis.upper - axis.lower < 2.5 * reach)
+      return fmt::format(
+          "the periodic box is too small: {:.4g} in {}, less than 2.5 times {:.4g}, the farthest that disks notice "
+          "each other",
+          axis.upper - axis.lower, k == 0 ? "x" : "y", reach);
+    if (axis.unit * 0x1p32 > 1e-3 * smallest)
+      return fmt::format("the box is too large for a disk of radius {:.4g}: {:.4g} in {}", smallest, axis.upper - axis.lower,
+                         k == 0 ? "x" : "y");
+  }
+  return Layout::covers(disks) ? "" : "disks differ in radius or mass";
+}
+
+template <class Impact, class Layout, class World>
+Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State start, const Effects& effects, std::uint64_t seed)
+    : axes_{detail::fixed_axis(box, 0, disks.count()), detail::fixed_axis(box, 1, disks.count())},
+      half_{axes_[0].at(axes_[0].upper), axes_[1].at(axes_[1].upper)},
+      middle_{static_cast<double>(axes_[0].middle), static_cast<double>(axes_[1].middle)},
+      layout_(disks),
+      frame_{{axes_[0].unit, axes_[1].unit}, disks.count() > 0 ? 2.0 * disks.radius[0] : 0.0, 0.0, 0.0},
+      impact_(effects, disks.count()),
+      world_(box, effects, start, seed),
+      kernel_(detail::kernel_for<Line>(effects)),
+      lines_(disks.count()),
+      plans_(disks.count()),
+      images_(disks.count()),
+      lists_(axes_[0], axes_[1], {}),
+      spacing_(detail::mean_spacing(box, disks.count())),
+      walled_(!box.periodic(0) || !box.periodic(1)),
+      bare_(!walled_ && effects.obstacles.empty() && !SlidingImages<double>::acts(effects.shear)),
+      patience_(effects.dissipate() ? 100'000 : 10'000'000),
+      may_cool_(effects.dissipate() && !effects.gravity) {
+  detail::OrderInSpace order = detail::order_in_space(axes_[0], axes_[1], start);
+  ids_ = std::move(order.ids);
+  radius_ = detail::in_order(disks.radius, ids_);
+  for (std::int32_t i = 0; i < count(); ++i) {
+    const auto column = static_cast<Eigen::Index>(id(i));
+    Line& a = line(i);
+    for (int k = 0; k < 2; ++k) {
+      const double place = start.positions(k, column);
+      a.x[k] = axes_[k].at(place);
+      a.v[k] = start.velocities(k, column);
+      if (start.images.cols() > column) images_.set(i, k, start.images(k, column));
+      if (axes_[k].periodic && a.x[k] == INT64_MIN && place > axes_[k].lower) images_.step(i, k, 1);  // rounded to the upper edge
+    }
+    layout_.furnish(a, disks, static_cast<std::size_t>(column));
+  }
+
+  sigma_ = 2.0 * std::accumulate(disks.radius.begin(), disks.radius.end(), 0.0) /
+           static_cast<double>(std::max<std::size_t>(disks.count(), 1));
+  area_ = order.area;
+  largest_contact_ = detail::largest_contact_distance(disks);
+  if constexpr (!Impact::plain) {
+    if (impact_.wells().present()) {
+      frame_.well = impact_.wells().reach();
+      frame_.inside = impact_.wells().table();
+    }
+    for (std::int32_t i = 0; i < count() && impact_.spinning(); ++i)
+      if (start.spins.size() > id(i)) impact_.spin(i) = start.spins[id(i)];
+  }
+  frame_.scale = world_.scale(0.0);
+  frame_.growth = world_.growth();
+  make_lists();
+  if constexpr (!World::plain)
+    if (world_.sliding.present()) note_heights(start), note_slide();
+  if (World::plain) radius_ = std::vector<double>();  // nothing will ask for them again; {} alone would keep the memory
+  start = State{};                                    // makes room for what follows
+  double half_width = std::min(suitable_half_width(), widest_);
+  for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sigma_; rebuild(half_width)) half_width *= 0.7;
+  find_wells();
+  choose_epoch_length();
+  predict_all();
+  begin_epoch(0.0);
+  fetching_ = detail::exceeds_cache(bytes());
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::find_wells() {
+  if constexpr (!Impact::plain) {
+    auto& wells = impact_.wells();
+    for (std::int32_t i = 0; i < count() && wells.present(); ++i)
+      for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
+        const std::int32_t j = lists_.ids(i)[n];
+        const double edge = wells.reach() * (layout_.radius(line(i)) + layout_.radius(line(j)));
+        if (i < j && separation(line(i), line(j)).squaredNorm() < edge * edge) wells.enter(i, j);
+      }
+  }
+}
+
+}  // namespace carom

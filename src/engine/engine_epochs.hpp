@@ -1,0 +1,178 @@
+#pragma once
+// Epochs: the loop counts time from the beginning of one, and lines are drawn from there. How long one lasts, and all that is
+// made anew when the next begins.
+
+#include "engine/engine.hpp"
+#include "engine/engine_begin.hpp"
+
+#include <cmath>
+
+namespace carom {
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::begin_epoch(double now) {
+  rebase(now);
+  if constexpr (!World::plain) draw_up_frame(), widen();
+  if (now > 0.0) tune_cages(now);
+  choose_epoch_length();
+  if constexpr (!World::plain) slide_images();
+  if (outgrow_lists())
+    list_larger();
+  else if (falls())
+    predict_all();  // the frame starts from rest again, and disks leave their cages at other times
+  // Too few events tell nothing: an epoch may have been cut short.
+  const std::uint64_t pushed = queue_.pushed() - begun_with_;
+  if (pushed > lines_.size() / 4 + 16) span_ = pushed_per_span * now / static_cast<double>(pushed);
+  start_queue();
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::begin_epoch_between(std::int32_t i, const Vec2<double>& va, std::int32_t j,
+                                                        const Vec2<double>& vb) {
+  const Vec2<double> fallen = world_.g() * now_;
+  rebase(now_);
+  ++totals_.numerics.outrun;
+  for (int k = 0; k < 2; ++k) line(i).v[k] = va[k] + fallen[k], line(j).v[k] = vb[k] + fallen[k];
+  if (world_.growth() > 0.0 || falls()) return go_on();
+  if constexpr (!World::plain) widen();
+  choose_epoch_length();
+  if constexpr (!World::plain) slide_images();
+  for (const std::int32_t k : {i, j}) plan_ahead(k, predicted(k, surroundings(k)));
+  start_queue();
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::go_on() {
+  if constexpr (!World::plain) draw_up_frame(), widen();
+  choose_epoch_length();
+  if (outgrow_lists()) list_larger();
+  if constexpr (!World::plain) slide_images();
+  predict_all();
+  start_queue();
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::rebase(double now) {
+  for (std::int32_t i = 0; i < count(); ++i) {
+    Line& a = line(i);
+    for (int k = 0; k < 2; ++k) {
+      a.x[k] = moved(i, k, a.v[k] * now);
+      if constexpr (!World::plain) a.v[k] += world_.g()[k] * now;
+    }
+    if constexpr (!World::plain)
+      if (world_.sliding.present()) {
+        std::int64_t image = images_.of(i, 1);
+        keep_in_box(i, a.x[1], image);
+        images_.set(i, 1, image);
+      }
+    Plan& mine = plan(i);
+    mine.pair_time = std::max(mine.pair_time - now, 0.0);
+    mine.edge_time = std::max(mine.edge_time - now, 0.0);
+    mine.foreseen = mine.partner >= 0 && is_stale(mine) ? 0 : 1;
+  }
+  for (Plan& any : plans_) any.last_collided = 1;
+  stamp_ = 1;
+  impact_.rebase(now);
+  last_collision_.rebase();
+  ++totals_.numerics.epochs;
+  world_.rebase(now);
+  frame_.scale = world_.scale(0.0);
+  epoch_ = instant(now);
+  now_ = 0.0;
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::choose_epoch_length() {
+  double fastest[2] = {0.0, 0.0}, sum = 0.0;
+  for (const Line& a : lines_)
+    for (int k = 0; k < 2; ++k) {
+      fastest[k] = std::max(fastest[k], std::abs(a.v[k]));
+      sum += std::abs(a.v[k]);
+    }
+  cooled_ = may_cool_ && is_too_slow(std::max(fastest[0], fastest[1]), sigma_);
+  mean_speed_ = sum / static_cast<double>(std::max(count(), 1));
+  // Rounding x + v t moves a disk by 2^-53 of the way since the epoch: some spacings for most, never more than the room
+  // that coordinates have, were the fastest to become somewhat faster.
+  double longest = 4.0 * spacing_ / mean_speed_;
+  for (int k = 0; k < 2; ++k) longest = std::min(longest, travel_[k] / (1.2 * fastest[k]));
+  if constexpr (!World::plain) longest = std::min(longest, longest_by_world());
+  epoch_length_ = longest < 0x1p1000 ? std::ldexp(1.0, std::ilogb(longest)) : never;
+  frame_.edge_step = epoch_length_ < never ? 0x1p-20 * epoch_length_ : 0.0;
+  for (int k = 0; k < 2; ++k) speed_limit_[k] = epoch_length_ < never ? travel_[k] / epoch_length_ : 0.0;
+}
+
+/// How long an epoch may be for what disks and walls will do that they do not do yet.
+template <class Impact, class Layout, class World>
+double Engine<Impact, Layout, World>::longest_by_world() const {
+  double longest = never;
+  const double pull = std::max(world_.g().cwiseAbs().maxCoeff(), world_.walls.strongest());
+  if (pull > 0.0) longest = std::sqrt(8.0 * spacing_ / pull);
+  if (world_.walls.fastest(0.0) > 0.0) longest = std::min(longest, 4.0 * spacing_ / world_.walls.fastest(0.0));
+  if (world_.growth() > 0.0) longest = std::min(longest, world_.scale(0.0) / (64.0 * world_.growth()));
+  if (world_.sliding.present()) longest = std::min(longest, way_ / std::abs(world_.sliding.speed()));
+  return longest;
+}
+
+/// The frame of the lines falls on from epoch to epoch, with the cages in it. Before it leaves the box behind it is drawn up.
+/// Everybody is to be predicted anew then.
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::draw_up_frame() {
+  const double depth[2] = {world_.fallen(0, 0.0), world_.fallen(1, 0.0)};
+  if (std::max(std::abs(depth[0]), std::abs(depth[1])) < 4.0 * spacing_) return;
+  for (std::int32_t i = 0; i < count(); ++i)
+    for (int k = 0; k < 2; ++k) line(i).x[k] += axes_[k].steps_of(depth[k]);
+  world_.rise();
+  rebuild(frame_.half_width);
+}
+
+/// A line has the length of the box and some spacings of room on either side. When walls have used up half of that, coordinates
+/// are made coarser: by a power of two, so that nothing but their last digits changes.
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::widen() {
+  bool wider = false;
+  for (int k = 0; k < 2; ++k) {
+    if (axes_[k].periodic) continue;
+    const double out =
+        std::max(world_.walls.displacement(wall_of(k, false), 0.0), world_.walls.displacement(wall_of(k, true), 0.0));
+    const double length = axes_[k].upper - axes_[k].lower;
+    const double range = 0x1p63 * axes_[k].unit;  // from the middle
+    if (4.0 * (length / 2.0 + out + detail::free_path * spacing_) <= range * 2.0) continue;
+    axes_[k].unit *= 2.0;
+    axes_[k].steps /= 2.0;
+    half_[k] /= 2;
+    frame_.unit[k] = axes_[k].unit;
+    for (Line& a : lines_) a.x[k] >>= 1;
+    wider = true;
+  }
+  if (!wider) return;
+  list_larger();
+  widen();
+}
+
+/// Everybody anew.
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::predict_all() {
+  for (std::int32_t i = 0; i < count(); ++i) plan_ahead(i, predicted(i, surroundings(i)));
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::start_queue() {
+  if (span_ == 0.0) span_ = first_span();
+  queue_.start(span_, lines_.size());
+  for (std::int32_t i = 0; i < count(); ++i) schedule(i);
+  begun_with_ = queue_.pushed();
+}
+
+/// From the times of the first events: half of them come within the median.
+template <class Impact, class Layout, class World>
+double Engine<Impact, Layout, World>::first_span() const {
+  if (count() == 0) return 1.0;
+  std::vector<double> times(lines_.size());
+  for (std::int32_t i = 0; i < count(); ++i) times[static_cast<std::size_t>(i)] = time(i);
+  const auto median = times.begin() + count() / 2;
+  std::nth_element(times.begin(), median, times.end());
+  const double span = 4.0 * *median / static_cast<double>(count());
+  return span > 0.0 && span < never ? span : epoch_length_ < never ? epoch_length_ : 1.0;
+}
+
+}  // namespace carom
