@@ -77,6 +77,7 @@ std::span<const std::int32_t> NeighbourLists::move_cage(std::int32_t i, CageCent
   layers_[layer_of(i)].move(i, before, to, radius(i));
   around_.set_centre(i, to);
   search(i, before, true);
+  for (std::size_t k = 0; k < fresh_count_; ++k) fetch_list(fresh_[k]);  // those left behind were fetched with the cells
   const std::size_t kept = found_count_ - fresh_count_;
   if (kept < count(i)) {
     if (gone_.size() < count(i)) gone_.resize(2 * std::size_t{count(i)});

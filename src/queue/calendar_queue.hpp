@@ -13,6 +13,7 @@
 #include "core/large_memory.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -41,8 +42,9 @@ class CalendarQueue {
  public:
   using Entry = CalendarEntry;
 
-  /// Forgets everything, and starts at time 0 with spans of the given length > 0 for that many disks.
-  void start(double span, std::size_t disks) {
+  /// Forgets everything, and starts at time 0 with spans of the given length > 0 for that many disks. `far`: the ring is not in
+  /// a near cache, and ids wait for the memory that they go to.
+  void start(double span, std::size_t disks, bool far = false) {
     const std::size_t spans = std::bit_ceil(std::max<std::size_t>(64, disks / 2));
     reserve(spans_, spans);
     spans_.resize(spans);
@@ -58,6 +60,8 @@ class CalendarQueue {
     at_hand_.clear();
     heaped_ = false;
     later_.clear();
+    far_ = far;
+    waiting_ = 0;
   }
 
   /// The next event of event.disk is now `event`, which is not before the last one taken.
@@ -68,7 +72,8 @@ class CalendarQueue {
     if (k <= current_) {
       insert_at_hand(events, event);
     } else if (k - current_ <= mask_) {
-      append(k & mask_, event.disk);
+      ++in_ring_;
+      far_ ? wait_for_span(k & mask_, event.disk) : append(k & mask_, event.disk);
     } else {
       later_.push_back(event);
     }
@@ -120,6 +125,8 @@ class CalendarQueue {
     const auto same = [&](const Entry& entry) { return entry == event; };
     const std::int64_t k = span_of(event.time);
     if (k <= current_) return std::any_of(at_hand_.begin(), at_hand_.end(), same);
+    for (std::size_t n = 0; n < waiting_; ++n)
+      if (disks_[n] == disk && places_[n] == (k & mask_)) return true;
     if (k - current_ <= mask_)
       for (std::int64_t place = k & mask_; place != none; place = more_[static_cast<std::size_t>(place)]) {
         const std::int32_t* ids = span(place).ids;
@@ -132,13 +139,14 @@ class CalendarQueue {
   /// Its whole state, for core/archive.hpp.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(spans_, counts_, more_, mask_, per_time_, current_, sort_out_at_, in_ring_, pushed_, free_, at_hand_, heaped_,
-            later_);
+    archive(spans_, counts_, more_, mask_, per_time_, current_, sort_out_at_, in_ring_, pushed_, free_, at_hand_, heaped_, later_,
+            far_, waiting_, places_, disks_);
   }
 
  private:
   static constexpr std::int32_t none = -1;
   static constexpr int room = 16;
+  static constexpr std::size_t waiting_room = 16;
   static constexpr std::size_t few = 48;  ///< as many are kept sorted; more as a heap
 
   /// One cache line of ids.
@@ -163,8 +171,20 @@ class CalendarQueue {
     return events.time(entry.disk) == entry.time && events.other(entry.disk) == entry.other;
   }
 
+  /// Stores leave the processor in order: one to memory that is far away holds up all that are behind it.
+  void wait_for_span(std::int64_t place, std::int32_t disk) {
+    if (waiting_ == waiting_room) append_waiting();
+    fetch(&span(place));
+    fetch(&count(place));
+    places_[waiting_] = static_cast<std::int32_t>(place);
+    disks_[waiting_++] = disk;
+  }
+  void append_waiting() {
+    for (std::size_t n = 0; n < waiting_; ++n) append(places_[n], disks_[n]);
+    waiting_ = 0;
+  }
+
   void append(std::int64_t place, std::int32_t disk) {
-    ++in_ring_;
     if (count(place) == room) [[unlikely]]
       spill(place);
     span(place).ids[count(place)++] = disk;
@@ -191,6 +211,7 @@ class CalendarQueue {
 
   /// Puts the next span that holds anything at hand. False where nothing is left.
   bool turn(const Events& events) {
+    append_waiting();
     if (in_ring_ == 0) {
       if (!jump(events)) return false;
     } else if (current_ >= sort_out_at_) {
@@ -221,7 +242,7 @@ class CalendarQueue {
       if (!counts(events, entry)) continue;
       const std::int64_t k = span_of(entry.time);
       if (k - current_ <= mask_)
-        append(k & mask_, entry.disk);
+        ++in_ring_, append(k & mask_, entry.disk);
       else
         later_[kept++] = entry;
     }
@@ -290,6 +311,9 @@ class CalendarQueue {
   std::vector<Entry> at_hand_;
   bool heaped_ = false;
   std::vector<Entry> later_;
+  bool far_ = false;         ///< ids wait
+  std::size_t waiting_ = 0;  ///< ids that wait until the next turn of a span for where they go
+  std::array<std::int32_t, waiting_room> places_{}, disks_{};
 };
 
 }  // namespace carom

@@ -74,8 +74,8 @@ struct Trial {
   Ranks ranks = Ranks::of_disks;
 };
 
-/// What a loop does: takes the next event, gives its disk and some others new ones, and so on.
-void expect_as_twin(const Trial& trial, std::uint64_t seed) {
+/// What a loop does: takes the next event, gives its disk and some others new ones, and so on. `far`: ids wait for their spans.
+void expect_as_twin(const Trial& trial, std::uint64_t seed, bool far) {
   Random random(seed);
   Events events(static_cast<std::size_t>(trial.disks));
   Queue queue;
@@ -84,7 +84,7 @@ void expect_as_twin(const Trial& trial, std::uint64_t seed) {
     if (events.time(disk) < infinity<double>) queue.push(events, {events.time(disk), disk, events.other(disk)});
   };
   const auto start = [&] {
-    queue.start(trial.span, static_cast<std::size_t>(trial.disks));
+    queue.start(trial.span, static_cast<std::size_t>(trial.disks), far);
     for (std::int32_t i = 0; i < trial.disks; ++i) schedule(i, 0.0);
   };
   start();
@@ -113,6 +113,10 @@ void expect_as_twin(const Trial& trial, std::uint64_t seed) {
         }
     }
   }
+}
+
+void expect_as_twin(const Trial& trial, std::uint64_t seed) {
+  for (const bool far : {false, true}) expect_as_twin(trial, seed, far);
 }
 
 double exponential(Random& random) { return -std::log(1.0 - unit(random)); }
@@ -256,7 +260,7 @@ TEST(CalendarQueue, StartForgetsWhatWasThere) {
   Events events(500);
   Queue queue;
   for (const double span : {1.0, 1e-3, 10.0}) {
-    queue.start(span, 500);
+    queue.start(span, 500, span > 1.0);
     EXPECT_EQ(queue.pushed(), 0u);
     for (std::int32_t i = 0; i < 500; ++i) {
       events.set(i, 100.0 + unit(random), i);
