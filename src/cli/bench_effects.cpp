@@ -27,7 +27,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double densities[] = {0.3, 0.6};
+constexpr double priced_packing_fractions[] = {0.3, 0.6};
 constexpr int rounds = 7;
 constexpr std::int64_t usual_disks = 10'000;
 
@@ -178,7 +178,7 @@ ExitCode bench_effects(const BenchOptions& options) {
   json["failed"] = Json::array();
   if (!options.json) print_heading(disks);
   for (const bool walled : {false, true}) {
-    for (const double packing_fraction : densities) {
+    for (const double packing_fraction : priced_packing_fractions) {
       Scene gas = bench_scene(disks, packing_fraction);
       if (walled) gas.box.boundary = {Boundary::walls, Boundary::walls};
       for (const PricedEffect& effect : priced_effects(gas)) {

@@ -7,6 +7,7 @@
 #include "io/horizon_json.hpp"
 #include "io/json_number.hpp"
 #include "io/observables_json.hpp"
+#include "simulation/all_events.hpp"
 
 namespace carom {
 
@@ -22,7 +23,7 @@ Json events_json(const RunReport& report) {
   if (report.of_effects.obstacles) json["obstacle"] = totals.obstacle;
   if (report.of_effects.bonds) json["well"] = totals.well;
   if (report.of_effects.thermostat) json["kicks"] = totals.kicks;
-  json["total"] = totals.pair + totals.wall + totals.other + totals.stale + totals.obstacle + totals.well + totals.kicks;
+  json["total"] = detail::all_events(totals);
   return json;
 }
 

@@ -31,14 +31,14 @@ Eigen::Vector2d total_momentum(const Disks& disks, const State& state) {
 
 namespace {
 
-double temperature_of(const std::array<bool, 2>& keeps_momentum, const Disks& disks, const State& state) {
+double temperature_of(const std::array<bool, 2>& kept, const Disks& disks, const State& state) {
   long double mass = 0.0L;
   for (const double m : disks.mass) mass += static_cast<long double>(m);
   const Eigen::Vector2d momentum = total_momentum(disks, state);
   double kinetic = kinetic_energy(disks, state);
   double freedom = 2.0 * static_cast<double>(disks.count());
   for (std::size_t a = 0; a < 2; ++a) {
-    if (!keeps_momentum[a] || disks.count() == 0) continue;
+    if (!kept[a] || disks.count() == 0) continue;
     const double along = momentum[static_cast<Eigen::Index>(a)];
     kinetic -= along * along / (2.0 * static_cast<double>(mass));
     freedom -= 1.0;
@@ -46,25 +46,24 @@ double temperature_of(const std::array<bool, 2>& keeps_momentum, const Disks& di
   return freedom > 0.0 ? 2.0 * kinetic / freedom : 0.0;
 }
 
-/// Whether something beside the other disks pushes a disk along periodic axes.
-bool pushes_along_edges(const Effects& effects) {
-  return (effects.thermostat && effects.thermostat->rate > 0.0) || !effects.obstacles.empty() ||
-         any_wall(effects, [](const WallProperties& wall) { return wall.temperature.has_value(); });
-}
-
 }  // namespace
+
+bool keeps_momentum(const Box& box, const Effects& effects, int axis) {
+  const bool pushed = (effects.thermostat && effects.thermostat->rate > 0.0) || !effects.obstacles.empty() ||
+                      any_wall(effects, [](const WallProperties& wall) { return wall.temperature.has_value(); });
+  return box.periodic(axis) && !pushed;
+}
 
 double kinetic_temperature(const Box& box, const Disks& disks, const State& state) {
   return temperature_of({box.periodic(0), box.periodic(1)}, disks, state);
 }
 
 double kinetic_temperature(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
-  const bool pushed = pushes_along_edges(effects);
-  const std::array<bool, 2> keeps_momentum = {!pushed && box.periodic(0), !pushed && box.periodic(1)};
-  if (!effects.shear || effects.shear->rate == 0.0) return temperature_of(keeps_momentum, disks, state);
+  const std::array<bool, 2> kept = {keeps_momentum(box, effects, 0), keeps_momentum(box, effects, 1)};
+  if (!effects.shear || effects.shear->rate == 0.0) return temperature_of(kept, disks, state);
   State in_flow;
   in_flow.velocities = velocities_in_flow(effects.shear->rate, disks, state);
-  return temperature_of(keeps_momentum, disks, in_flow);
+  return temperature_of(kept, disks, in_flow);
 }
 
 double spin_temperature(const Disks& disks, const State& state) {

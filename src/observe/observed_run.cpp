@@ -1,6 +1,5 @@
 #include "observe/observed_run.hpp"
 
-#include "observe/any_wall.hpp"
 #include "observe/mechanics.hpp"
 
 #include <algorithm>
@@ -70,12 +69,7 @@ std::string ObservedRun::suffix(std::size_t species) const {
   return "_" + (unique ? word : std::to_string(species));
 }
 
-bool ObservedRun::keeps_momentum(int axis) const {
-  const Effects& effects = scene.effects;
-  const bool pushed = (effects.thermostat && effects.thermostat->rate > 0.0) || !effects.obstacles.empty() ||
-                      any_wall(effects, [](const WallProperties& wall) { return wall.temperature.has_value(); });
-  return scene.box.periodic(axis) && !pushed;
-}
+bool ObservedRun::keeps_momentum(int axis) const { return carom::keeps_momentum(scene.box, scene.effects, axis); }
 
 bool is_driven(const Effects& effects) {
   return (effects.thermostat && effects.thermostat->rate > 0.0) || (effects.growth && effects.growth->rate > 0.0) ||

@@ -72,7 +72,6 @@ class CalendarQueue {
     if (k <= current_) {
       insert_at_hand(events, event);
     } else if (k - current_ <= mask_) {
-      ++in_ring_;
       far_ ? wait_for_span(k & mask_, event.disk) : append(k & mask_, event.disk);
     } else {
       later_.push_back(event);
@@ -188,6 +187,7 @@ class CalendarQueue {
     if (count(place) == room) [[unlikely]]
       spill(place);
     span(place).ids[count(place)++] = disk;
+    ++in_ring_;
   }
 
   /// Moves the ids of a full span to a span of their own behind it.
@@ -242,7 +242,7 @@ class CalendarQueue {
       if (!counts(events, entry)) continue;
       const std::int64_t k = span_of(entry.time);
       if (k - current_ <= mask_)
-        ++in_ring_, append(k & mask_, entry.disk);
+        append(k & mask_, entry.disk);
       else
         later_[kept++] = entry;
     }

@@ -2,6 +2,7 @@
 
 #include "show/effects_words.hpp"
 
+#include "observe/any_wall.hpp"
 #include "scene/wall_names.hpp"
 #include "show/number_words.hpp"
 
@@ -61,10 +62,6 @@ std::string words(const SquareWell& well) {
                      well.width);
 }
 
-bool any_wall(const Effects& effects) {
-  return std::any_of(effects.walls.begin(), effects.walls.end(), [](const WallProperties& wall) { return wall.present(); });
-}
-
 }  // namespace
 
 SummaryRows words_of(const Effects& effects) {
@@ -98,7 +95,7 @@ std::string absent(const Effects& effects) {
   put(effects.collision.restitution.has_value(), "loss of energy");
   put(effects.collision.roughness.has_value(), "friction and spin");
   put(effects.gravity.has_value(), "gravity");
-  put(any_wall(effects), "walls that move or heat");
+  put(any_wall(effects, [](const WallProperties& wall) { return wall.present(); }), "walls that move or heat");
   put(!effects.obstacles.empty(), "obstacles");
   put(effects.growth.has_value(), "growing disks");
   put(effects.thermostat.has_value(), "a thermostat");

@@ -4,6 +4,7 @@
 
 #include "io/json_number.hpp"
 #include "observe/equilibrium.hpp"
+#include "observe/mechanics.hpp"
 #include "show/event_columns.hpp"
 #include "show/exact_run.hpp"
 #include "show/number_columns.hpp"
@@ -35,15 +36,6 @@ Json obstacles_of(const Effects& effects) {
   return list;
 }
 
-/// Along which axes the common motion is no heat, as in observe/mechanics.cpp.
-Json keeps_momentum(const Scene& scene) {
-  const Effects& effects = scene.effects;
-  const bool pushed = (effects.thermostat && effects.thermostat->rate > 0.0) || !effects.obstacles.empty() ||
-                      std::any_of(effects.walls.begin(), effects.walls.end(),
-                                  [](const WallProperties& wall) { return wall.temperature.has_value(); });
-  return Json::array({!pushed && scene.box.periodic(0), !pushed && scene.box.periodic(1)});
-}
-
 Json description_of(const RunReader& run) {
   const Scene& scene = run.scene();
   const Effects& effects = scene.effects;
@@ -55,7 +47,7 @@ Json description_of(const RunReader& run) {
   json["gravity"] = detail::vector(effects.gravity ? effects.gravity->acceleration : Eigen::Vector2d::Zero());
   json["growth"] = effects.growth ? effects.growth->rate : 0.0;
   json["obstacles"] = obstacles_of(effects);
-  json["keepsMomentum"] = keeps_momentum(scene);
+  json["keepsMomentum"] = Json::array({keeps_momentum(scene.box, effects, 0), keeps_momentum(scene.box, effects, 1)});
   json["whyNoZ"] = why_no_Z(effects);
   json["Z"] = run.Z() ? Json(*run.Z()) : Json(nullptr);
   json["facts"] = Json::array();
