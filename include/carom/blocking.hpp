@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace carom {
@@ -31,7 +32,19 @@ class Blocking {
     std::optional<double> inefficiency;
   };
   /// <x> / <w>^power. Nothing without samples, or where all weights are zero.
-  [[nodiscard]] std::optional<Estimate> estimate(int power = 1) const;
+  [[nodiscard]] std::optional<Estimate> estimate(int power = 1) const { return estimate(levels_, power); }
+
+  /// Blocks of 2^level samples; sums of squares are about the mean of all blocks.
+  struct Level {
+    std::uint64_t blocks = 0;
+    double mean_x = 0.0, mean_w = 0.0;
+    double xx = 0.0, xw = 0.0, ww = 0.0;
+    double waiting_x = 0.0, waiting_w = 0.0;  ///< the block that has no partner yet
+    void add(double x, double w);
+    [[nodiscard]] double variance_of_mean(double ratio) const;
+  };
+  /// The same from levels that were gathered elsewhere.
+  [[nodiscard]] static std::optional<Estimate> estimate(std::span<const Level> levels, int power = 1);
 
   [[nodiscard]] std::uint64_t samples() const { return levels_.empty() ? 0 : levels_.front().blocks; }
 
@@ -45,15 +58,6 @@ class Blocking {
   }
 
  private:
-  /// Blocks of 2^level samples; sums of squares are about the mean of all blocks.
-  struct Level {
-    std::uint64_t blocks = 0;
-    double mean_x = 0.0, mean_w = 0.0;
-    double xx = 0.0, xw = 0.0, ww = 0.0;
-    double waiting_x = 0.0, waiting_w = 0.0;  ///< the block that has no partner yet
-    void add(double x, double w);
-    [[nodiscard]] double variance_of_mean(double ratio) const;
-  };
   std::vector<Level> levels_;
 };
 

@@ -44,9 +44,9 @@ void Blocking::add(double x, double weight) {
   }
 }
 
-std::optional<Blocking::Estimate> Blocking::estimate(int power) const {
-  if (levels_.empty()) return std::nullopt;
-  const Level& single = levels_.front();
+std::optional<Blocking::Estimate> Blocking::estimate(std::span<const Level> levels, int power) {
+  if (levels.empty()) return std::nullopt;
+  const Level& single = levels.front();
   if (single.mean_w == 0.0) return std::nullopt;
   const double scale = std::pow(single.mean_w, power);
   const double slope = power * single.mean_x / single.mean_w;  // x - slope * w is what the mean errs by, times scale
@@ -55,8 +55,8 @@ std::optional<Blocking::Estimate> Blocking::estimate(int power) const {
   if (single.blocks < least_blocks) return estimate;
   const double naive = single.variance_of_mean(slope);
   double largest = naive;
-  for (std::size_t level = 0; level < levels_.size() && levels_[level].blocks >= least_blocks; ++level) {
-    const double variance = levels_[level].variance_of_mean(slope);
+  for (std::size_t level = 0; level < levels.size() && levels[level].blocks >= least_blocks; ++level) {
+    const double variance = levels[level].variance_of_mean(slope);
     const double s = naive > 0.0 ? variance / naive : 1.0;
     largest = std::max(largest, variance);
     estimate.error = std::sqrt(largest) / std::abs(scale);

@@ -2,6 +2,7 @@
 // dimensions D grows with the logarithm of t, so there is no limit to report. Averages over time, of at most a thousand disks of
 // each species.
 
+#include "observe/blocking.hpp"
 #include "observe/multiple_tau.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"

@@ -1,7 +1,10 @@
 #include "observe/multiple_tau.hpp"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace carom {
 
@@ -11,12 +14,8 @@ MultipleTau::MultipleTau(std::size_t channels, Pairs pairs, std::size_t lags, st
 void MultipleTau::add(std::span<const double> value) { add(0, value); }
 
 double MultipleTau::pair(std::span<const double> a, const double* b) const {
-  double sum = 0.0;
-  if (kind_ == Pairs::products)
-    for (std::size_t c = 0; c < channels_; ++c) sum += a[c] * b[c];
-  else
-    for (std::size_t c = 0; c < channels_; ++c) sum += (a[c] - b[c]) * (a[c] - b[c]);
-  return sum / static_cast<double>(channels_);
+  const Eigen::Map<const Eigen::VectorXd> x(a.data(), static_cast<Eigen::Index>(channels_)), y(b, x.size());
+  return (kind_ == Pairs::products ? x.dot(y) : (x - y).squaredNorm()) / static_cast<double>(channels_);
 }
 
 void MultipleTau::add(std::size_t l, std::span<const double> value) {
@@ -24,21 +23,24 @@ void MultipleTau::add(std::size_t l, std::span<const double> value) {
   if (l == levels_.size()) {
     levels_.emplace_back();
     levels_[l].ring.resize(lags_ * channels_);
-    levels_[l].pairs.resize(lags_);
-    if (kind_ == Pairs::products) levels_[l].integrals.resize(lags_);
+    levels_[l].pairs = BlockedRows(lags_);
+    levels_[l].integrals = BlockedRows(lags_);
   }
   Level& level = levels_[l];
-  const std::size_t slot = level.count % lags_;
+  std::size_t slot = level.count % lags_;
   std::copy(value.begin(), value.end(), level.ring.begin() + static_cast<std::ptrdiff_t>(slot * channels_));
   ++level.count;
-  double integral = 0.0;
-  for (std::size_t k = 0; k < std::min(lags_, level.count); ++k) {
-    const double* before = level.ring.data() + (level.count - 1 - k) % lags_ * channels_;
-    const double found = pair(value, before);
-    level.pairs[k].add(found);
-    if (kind_ != Pairs::products) continue;
-    integral += (k == 0 ? 0.5 : 1.0) * found;
-    level.integrals[k].add(integral);
+  const std::size_t lags = std::min(lags_, level.count);
+  found_.resize(lags);
+  for (double& found : found_) {
+    found = pair(value, level.ring.data() + slot * channels_);
+    slot = (slot > 0 ? slot : lags_) - 1;
+  }
+  level.pairs.add(found_);
+  if (kind_ == Pairs::products) {
+    found_.front() *= 0.5;
+    std::partial_sum(found_.begin(), found_.end(), found_.begin());
+    level.integrals.add(found_);
   }
   if (!level.has_waiting) {
     level.has_waiting = true;
@@ -60,11 +62,11 @@ std::vector<MultipleTau::Row> MultipleTau::rows() const {
     const double width = std::ldexp(1.0, static_cast<int>(l));
     const std::size_t first = l > 0 ? lags_ / 2 : kind_ == Pairs::products ? 0 : 1;
     for (std::size_t k = first; k < lags_; ++k) {
-      const std::optional<Blocking::Estimate> found = level.pairs[k].estimate();
+      const std::optional<Blocking::Estimate> found = level.pairs.estimate(k);
       if (!found) continue;
       Row row{width * static_cast<double>(k), width, *found, std::nullopt};
       if (kind_ == Pairs::products) {
-        row.integral = level.integrals[k].estimate();
+        row.integral = level.integrals.estimate(k);
         row.integral->mean *= width;
         if (row.integral->error) *row.integral->error *= width;
       }

@@ -13,7 +13,7 @@
 //
 // A value has any number of channels, over which pairs are averaged. Errors come from blocking over time.
 
-#include "observe/blocking.hpp"
+#include "observe/blocked_rows.hpp"
 
 #include <cstddef>
 #include <span>
@@ -54,7 +54,7 @@ class MultipleTau {
     std::vector<double> waiting;
     bool has_waiting = false;
     std::size_t count = 0;
-    std::vector<Blocking> pairs, integrals;
+    BlockedRows pairs, integrals;  ///< by lag
 
     template <class Archive>
     void serialize(Archive& archive) {
@@ -69,6 +69,7 @@ class MultipleTau {
   std::size_t lags_ = 0;
   std::size_t most_levels_ = 0;
   std::vector<Level> levels_;
+  std::vector<double> found_;  ///< scratch
 };
 
 }  // namespace carom

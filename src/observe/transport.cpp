@@ -1,5 +1,7 @@
 #include "observe/transport.hpp"
 
+#include "observe/blocking.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,0 +1,97 @@
+// Rows blocked together against the obvious: all samples kept, and joined anew for every length.
+
+#include "observe/blocked_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+using Samples = std::vector<std::vector<double>>;  ///< [step][row]; row k begins at step k
+
+Samples samples_of(std::size_t steps, std::size_t rows, double mean) {
+  std::mt19937_64 engine(3);
+  Samples samples(steps);
+  double memory = 0.0;
+  for (std::size_t step = 0; step < steps; ++step)
+    for (std::size_t k = 0; k < std::min(rows, step + 1); ++k)
+      samples[step].push_back(mean + (memory = 0.9 * memory + static_cast<double>(engine() >> 11U) * 0x1p-53 - 0.5));
+  return samples;
+}
+
+/// Blocks of 2^level steps that row k has the whole of, their mean and scatter in two passes.
+std::vector<Blocking::Level> levels_of(const Samples& samples, std::size_t k) {
+  std::vector<Blocking::Level> levels;
+  for (std::size_t length = 1; length <= samples.size(); length *= 2) {
+    std::vector<double> blocks;
+    for (std::size_t begin = 0; begin + length <= samples.size(); begin += length) {
+      if (begin < k) continue;
+      double sum = 0.0;
+      for (std::size_t step = begin; step < begin + length; ++step) sum += samples[step][k];
+      blocks.push_back(sum / static_cast<double>(length));
+    }
+    if (blocks.empty()) break;
+    Blocking::Level& level = levels.emplace_back();
+    level.blocks = blocks.size();
+    level.mean_w = 1.0;
+    for (const double x : blocks) level.mean_x += x / static_cast<double>(blocks.size());
+    for (const double x : blocks) level.xx += (x - level.mean_x) * (x - level.mean_x);
+  }
+  return levels;
+}
+
+TEST(BlockedRows, AreTheBlocksOfAllStoredSamples) {
+  constexpr std::size_t rows = 6;
+  for (const double mean : {0.0, 1e3}) {
+    for (const std::size_t steps : {1U, 5U, 40U, 1000U, 1024U}) {
+      const Samples samples = samples_of(steps, rows, mean);
+      BlockedRows blocked(rows);
+      for (const auto& now : samples) blocked.add(now);
+      for (std::size_t k = 0; k < rows; ++k) {
+        const auto found = blocked.estimate(k);
+        const auto expected = Blocking::estimate(levels_of(samples, k));
+        ASSERT_EQ(found.has_value(), k < steps);
+        if (!found) continue;
+        // Sums of a thousand numbers of order one about the first of a row, beside the mean itself.
+        EXPECT_NEAR(found->mean, expected->mean, 1e-13 * (1.0 + mean));
+        ASSERT_EQ(found->error.has_value(), expected->error.has_value());
+        if (!found->error) continue;
+        EXPECT_NEAR(*found->error / *expected->error, 1.0, 1e-9);
+        ASSERT_EQ(found->inefficiency.has_value(), expected->inefficiency.has_value());
+        if (!found->inefficiency) continue;
+        EXPECT_NEAR(*found->inefficiency / *expected->inefficiency, 1.0, 1e-9);
+      }
+    }
+  }
+}
+
+TEST(BlockedRows, TheFirstRowIsABlockingOfItsOwn) {
+  const Samples samples = samples_of(777, 3, 0.3);
+  BlockedRows blocked(3);
+  Blocking alone;
+  for (const auto& now : samples) {
+    blocked.add(now);
+    alone.add(now[0]);
+  }
+  const auto found = blocked.estimate(0), expected = alone.estimate();
+  EXPECT_NEAR(found->mean, expected->mean, 1e-14);
+  EXPECT_NEAR(*found->error / *expected->error, 1.0, 1e-9);
+}
+
+TEST(BlockedRows, WhatNeverChangesHasNoScatter) {
+  BlockedRows blocked(2);
+  blocked.add(std::vector{0.1});
+  for (int step = 1; step < 500; ++step) blocked.add(std::vector{0.1, 0.7});
+  for (const auto& [row, value] : {std::pair{0U, 0.1}, std::pair{1U, 0.7}}) {
+    EXPECT_EQ(blocked.estimate(row)->mean, value);
+    EXPECT_EQ(*blocked.estimate(row)->error, 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
