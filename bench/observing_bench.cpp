@@ -1,9 +1,8 @@
-// What observing costs: nanoseconds per pair collision of a gas of 10,000 disks, with nothing observed, with each observable that
+// What observing costs: seconds per pair collision of a gas of 10,000 disks, with nothing observed, with each observable that
 // follows collisions, with all of them, and with those that look at states, each at its default step; in the thread of the run,
-// and beside it. The time is that of a clock on the wall, and processor time is a column of its own. Take turns, for machines are
-// uneven:
-// --benchmark_enable_random_interleaving=true --benchmark_repetitions=9. Before a time is taken one run is looked at: energy is
-// kept, and the rate that was observed is that of the totals.
+// and beside it. The same simulation runs with and without them in turns, since two of the same scene differ by some per cent by
+// where they lie in memory; what counts is the median of the ratios. The time is that of a clock on the wall. Before a time is
+// taken one run is looked at: energy is kept, and the rate that was observed is that of the totals.
 
 #include "observe/mechanics.hpp"
 #include "support/systems.hpp"
@@ -11,7 +10,10 @@
 #include <benchmark/benchmark.h>
 #include <carom/carom.hpp>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -19,7 +21,8 @@ namespace {
 
 using namespace carom;
 
-constexpr std::uint64_t collisions = 200'000;
+constexpr std::uint64_t collisions = 1'000'000;
+constexpr int turns = 15;
 
 Scene scene_with(const std::vector<std::string>& observables, double packing_fraction) {
   Scene scene = test::gas_scene(10'000, packing_fraction, Boundary::periodic);
@@ -54,14 +57,39 @@ std::string fault(Simulation& simulation) {
 }
 
 void observing(benchmark::State& state, const std::vector<std::string>& observables, bool beside = false) {
-  Simulation simulation = make_simulation(scene_with(observables, 0.01 * static_cast<double>(state.range(0))));
+  const auto scene = [&](const std::vector<std::string>& names) {
+    return scene_with(names, 0.01 * static_cast<double>(state.range(0)));
+  };
+  Simulation simulation = make_simulation(scene(observables));
   if (const std::string what = fault(simulation); !what.empty()) {
     state.SkipWithError(what.c_str());
     return;
   }
-  for (auto _ : state) benchmark::DoNotOptimize(observe(simulation, beside));
-  state.counters["s/collision"] = benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(collisions),
-                                                     benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  std::vector<double> ratios, plain, observed;
+  for (auto _ : state) {
+    const auto run = [&](auto&& go, std::vector<double>& times) {
+      simulation.reset_clock();
+      const auto began = std::chrono::steady_clock::now();
+      go();
+      times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() / collisions);
+    };
+    const auto without = [&] { run([&] { run_schedule(simulation); }, plain); };
+    const auto with = [&] { run([&] { benchmark::DoNotOptimize(observe(simulation, beside)); }, observed); };
+    const bool first = ratios.size() % 2 == 0;  // who comes first changes
+    first ? without() : with();
+    first ? with() : without();
+    ratios.push_back(observed.back() / plain.back());
+    state.SetIterationTime(observed.back() * collisions);
+  }
+  const auto middle = [](std::vector<double>& values) {
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    return values[values.size() / 2];
+  };
+  state.counters["s/collision"] = middle(observed);
+  state.counters["unobserved"] = middle(plain);
+  state.counters["ratio"] = middle(ratios);
+  state.counters["ratio of fastest"] =
+      *std::min_element(observed.begin(), observed.end()) / *std::min_element(plain.begin(), plain.end());
 }
 
 void beside(benchmark::State& state, const std::vector<std::string>& observables) { observing(state, observables, true); }
@@ -70,19 +98,19 @@ using Names = std::vector<std::string>;
 const Names collisions_alone = {"pressure", "collision_rate", "free_flight", "viscosity", "heat_conductivity"};
 const Names velocities = {"temperature", "speeds", "velocity_moments"};
 const Names displacements = {"mean_square_displacement", "velocity_autocorrelation"};
-BENCHMARK_CAPTURE(observing, nothing, Names{})->Arg(60)->UseRealTime();
-BENCHMARK_CAPTURE(observing, collision_rate, Names{"collision_rate"})->Arg(60)->UseRealTime();
-BENCHMARK_CAPTURE(observing, free_flight, Names{"free_flight"})->Arg(60)->UseRealTime();
-BENCHMARK_CAPTURE(observing, pressure, Names{"pressure"})->Arg(60)->UseRealTime();
-BENCHMARK_CAPTURE(observing, viscosity, Names{"viscosity"})->Arg(60)->UseRealTime();
-BENCHMARK_CAPTURE(observing, heat_conductivity, Names{"heat_conductivity"})->Arg(60)->UseRealTime();
-BENCHMARK_CAPTURE(observing, all_of_these, collisions_alone)->Arg(60)->UseRealTime();
-BENCHMARK_CAPTURE(observing, velocities, velocities)->Arg(60)->UseRealTime();
-BENCHMARK_CAPTURE(observing, displacements, displacements)->Arg(60)->UseRealTime();
-BENCHMARK_CAPTURE(observing, radial_distribution, Names{"radial_distribution"})->Arg(60)->UseRealTime();
-BENCHMARK_CAPTURE(beside, all_of_these, collisions_alone)->Arg(60)->UseRealTime()->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(beside, velocities, velocities)->Arg(60)->UseRealTime()->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(beside, displacements, displacements)->Arg(60)->UseRealTime()->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(beside, radial_distribution, Names{"radial_distribution"})->Arg(60)->UseRealTime()->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(observing, nothing, Names{})->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, collision_rate, Names{"collision_rate"})->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, free_flight, Names{"free_flight"})->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, pressure, Names{"pressure"})->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, viscosity, Names{"viscosity"})->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, heat_conductivity, Names{"heat_conductivity"})->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, all_of_these, collisions_alone)->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, velocities, velocities)->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, displacements, displacements)->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, radial_distribution, Names{"radial_distribution"})->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(beside, all_of_these, collisions_alone)->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(beside, velocities, velocities)->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(beside, displacements, displacements)->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(beside, radial_distribution, Names{"radial_distribution"})->Arg(60)->Iterations(turns)->UseManualTime();
 
 }  // namespace

@@ -9,6 +9,7 @@
 //   carom::run_schedule(simulation, hooks);
 //   for (const carom::Measurement& measured : observation.results()) ...
 
+#include <carom/collisions.hpp>
 #include <carom/simulation.hpp>
 
 #include <Eigen/Core>
@@ -59,18 +60,6 @@ struct Measurement {
   std::string note = {};  ///< what holds of all of it
 };
 
-/// Two disks that met, with what came before.
-struct PairCollision {
-  double time = 0.0;  ///< since the start of the measured run
-  std::int32_t disk = 0;
-  std::int32_t partner = 0;
-  Eigen::Vector2d separation;                                 ///< from the partner to the disk
-  Eigen::Vector2d impulse;                                    ///< that the disk got; the partner got its opposite
-  Eigen::Vector2d velocity_before, velocity;                  ///< of the disk, just before and just after
-  Eigen::Vector2d partner_velocity_before, partner_velocity;  ///< of the partner
-  bool contact = true;                                        ///< false where they meet the edge of each other's square well
-};
-
 /// Something to measure. A program's own observable overrides what it needs of this.
 class Observable {
  public:
@@ -119,9 +108,9 @@ class Observation {
 
   /// Puts what observables need into `hooks`, before what is there already. Requires `hooks` to be used while this lives.
   void attach(RunHooks& hooks);
-  /// The same, but observables look at samples and collisions on a thread of their own, behind the run: to the same bits, and faster
-  /// where a second processor is free. Requires observables that a program has added to share nothing with the run. What they throw
-  /// comes out of the run, or of results().
+  /// The same, but observables look at samples and collisions on a thread of their own, behind the run: to the same bits, and
+  /// faster where a second processor is free. Requires observables that a program has added to share nothing with the run. What
+  /// they throw comes out of the run, or of results().
   void attach_beside(RunHooks& hooks);
 
   /// Writes what all observables have gathered. Call it at a SavingMoment.

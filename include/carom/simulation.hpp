@@ -5,6 +5,7 @@
 //   simulation.run_until(5.0);
 //   const carom::State state = simulation.state();
 
+#include <carom/collisions.hpp>
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
 
@@ -87,6 +88,10 @@ class Simulation {
   [[nodiscard]] std::vector<Event> take_events();
   /// The same into a list whose memory is used again: what it held is gone.
   void take_events(std::vector<Event>& events);
+
+  /// Whether RunHooks::collisions can be asked for: the engine is the fast one, disks are smooth, and nothing but events changes
+  /// velocities.
+  [[nodiscard]] bool tells_collisions() const;
 
   /// Compares the engine's plan with what an exhaustive search finds. Empty when all is well; else one sentence per
   /// fault. O(N^2) for N <= 2000, O(N) beyond.
@@ -173,10 +178,13 @@ struct RunHooks {
   /// that has several such collisions leaves all k but the last out).
   std::function<void(std::uint64_t k, const State& state)> sample;
   std::function<void(std::span<const Event> events)> events;  ///< batches of collisions, in order
-  std::function<void(const Progress& progress)> block;        ///< after about every collision per disk, at collisions
-  std::vector<SamplingGrid> grids;                            ///< of equal steps the first comes first
-  std::function<bool(const Progress& progress)> proceed;      ///< several times a second; false stops the run
-  std::uint64_t verify_every = 0;                             ///< events from one check_invariants() to the next; 0 for no checks
+  /// Collisions of pairs with what came before them, in order, a few at a time and all up to a sample before it; far cheaper than
+  /// to follow events. They may be called while the simulation is between two events. Requires Simulation::tells_collisions().
+  std::function<void(const CollisionNotes& notes)> collisions;
+  std::function<void(const Progress& progress)> block;    ///< after about every collision per disk, at collisions
+  std::vector<SamplingGrid> grids;                        ///< of equal steps the first comes first
+  std::function<bool(const Progress& progress)> proceed;  ///< several times a second; false stops the run
+  std::uint64_t verify_every = 0;                         ///< events from one check_invariants() to the next; 0 for no checks
   /// Every few thousand events, after all that has happened so far was handed on; and when the run ends.
   std::function<void(const SavingMoment& moment)> checkpoint;
   std::istream* resume = nullptr;  ///< what SavingMoment::save() wrote: the schedule goes on from there, without `start`

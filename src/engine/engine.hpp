@@ -32,10 +32,12 @@
 #include "engine/epoch.hpp"
 #include "engine/image_counts.hpp"
 #include "engine/layout.hpp"
+#include "engine/note_listener.hpp"
 #include "neighbours/cage_tuner.hpp"
 #include "neighbours/neighbour_lists.hpp"
 #include "queue/calendar_queue.hpp"
 
+#include <carom/collisions.hpp>
 #include <carom/state.hpp>
 
 #include <algorithm>
@@ -43,6 +45,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -139,7 +142,7 @@ class Engine {
     else
       meet_across_edge(i, va, j, vb, above);
     plan(i).last_collided = plan(j).last_collided = ++stamp_;
-    if (recording_) log_collision(i, j, va, vb);
+    if (noting_) note(i, j, before_a, before_b, va, vb);
     if (outruns_epoch(va) || outruns_epoch(vb)) [[unlikely]]
       return begin_epoch_between(i, va, j, vb);
 
@@ -470,7 +473,14 @@ class Engine {
   }
   [[nodiscard, gnu::noinline, gnu::cold]] std::int32_t lowest_of_tied(std::int32_t i, const Prediction& ahead) const;
 
-  [[gnu::noinline]] void log_collision(std::int32_t i, std::int32_t j, const Vec2<double>& va, const Vec2<double>& vb);
+  /// Writes a collision down for those who want to know: no more than its numbers as they are, for here every instruction counts.
+  void note(std::int32_t i, std::int32_t j, const Vec2<double>& before_a, const Vec2<double>& before_b, const Vec2<double>& va,
+            const Vec2<double>& vb) {
+    if (noted_ == notes_.size()) [[unlikely]]
+      hand_over_notes();
+    notes_[noted_++] = {now_, i, j, {before_a[0], before_a[1]}, {before_b[0], before_b[1]}, {va[0], va[1]}, {vb[0], vb[1]}};
+  }
+  [[gnu::noinline]] void read_notes(std::size_t count);
   [[gnu::noinline]] void log_hit(std::int32_t i, std::int32_t what, const Vec2<double>& v);
   [[gnu::noinline]] void look_ahead(std::int64_t span) const;
 
@@ -542,7 +552,11 @@ class Engine {
   bool cooled_ = false;
   Totals totals_;
   LastInstant last_collision_;
-  bool recording_ = false;
+  bool recording_ = false;  ///< events
+  NoteListener listener_;   ///< to collisions
+  bool noting_ = false;     ///< collisions, for one of the two
+  std::array<CollisionNote, 64> notes_;
+  std::size_t noted_ = 0;
   std::vector<carom::Event> log_;
 
  public:
@@ -583,13 +597,35 @@ class Engine {
   /// All velocities and spins become `factor` times what they are.
   void scale_velocities(double factor);
 
-  void record_events(bool on) { recording_ = on; }
-  [[nodiscard]] std::vector<carom::Event> take_events() { return std::exchange(log_, {}); }
+  void record_events(bool on) {
+    hand_over_notes();
+    recording_ = on;
+    noting_ = recording_ || listener_;
+  }
+  [[nodiscard]] std::vector<carom::Event> take_events() {
+    hand_over_notes();
+    return std::exchange(log_, {});
+  }
   /// The same into a list whose memory is used again.
   void take_events(std::vector<carom::Event>& events) {
+    hand_over_notes();
     events.clear();
     std::swap(events, log_);
   }
+
+  /// Calls `listener` with collisions of pairs from now on, some dozen at a time and all so far at hand_over_notes(); an empty
+  /// one ends that.
+  void listen(NoteListener listener) {
+    listener_ = {};
+    hand_over_notes();
+    listener_ = std::move(listener);
+    noting_ = recording_ || listener_;
+  }
+  void hand_over_notes() {
+    if (noted_ > 0) read_notes(std::exchange(noted_, 0));
+  }
+  /// What the world calls the disks, by their places in notes.
+  [[nodiscard]] std::span<const std::int32_t> ids() const { return ids_; }
 
   /// Bytes of all that has an entry per disk.
   [[nodiscard]] std::size_t bytes() const;
@@ -609,6 +645,7 @@ class Engine {
 #include "engine/engine_cages.hpp"
 #include "engine/engine_check.hpp"
 #include "engine/engine_epochs.hpp"
+#include "engine/engine_log.hpp"
 #include "engine/engine_outside.hpp"
 #include "engine/engine_plans.hpp"
 #include "engine/engine_shear.hpp"

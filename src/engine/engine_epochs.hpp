@@ -77,6 +77,7 @@ void Engine<Impact, Layout, World>::rebase(double now) {
   ++totals_.numerics.epochs;
   world_.rebase(now);
   frame_.scale = world_.scale(0.0);
+  hand_over_notes();
   epoch_ = instant(now);
   now_ = 0.0;
 }

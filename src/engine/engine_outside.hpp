@@ -56,23 +56,6 @@ std::size_t Engine<Impact, Layout, World>::bytes() const {
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::log_collision(std::int32_t i, std::int32_t j, const Vec2<double>& va,
-                                                  const Vec2<double>& vb) {
-  const Instant when = now();
-  const Vec2<double> fallen = world_.g() * now_;
-  if (id(i) < id(j))
-    log_.push_back({when.high, when.low, id(i), id(j), va + fallen, vb + fallen});
-  else
-    log_.push_back({when.high, when.low, id(j), id(i), vb + fallen, va + fallen});
-}
-
-template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::log_hit(std::int32_t i, std::int32_t what, const Vec2<double>& v) {
-  const Instant when = now();
-  log_.push_back({when.high, when.low, id(i), what, v, {0.0, 0.0}});
-}
-
-template <class Impact, class Layout, class World>
 double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eigen::Vector2d& v, double spin) {
   if (places_.empty()) {
     places_.resize(lines_.size());

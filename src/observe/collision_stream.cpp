@@ -1,5 +1,7 @@
 #include "observe/collision_stream.hpp"
 
+#include "simulation/velocities_tell_contacts.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -18,8 +20,7 @@ CollisionStream::CollisionStream(const Scene& scene, const Disks& disks)
     : radius_(disks.radius),
       mass_(disks.mass),
       box_(scene.box),
-      smooth_(scene.effects.collision.rule == CollisionRule::specular &&
-              scene.effects.collision.roughness.value_or(-1.0) == -1.0 && !scene.effects.square_well),
+      smooth_(velocities_tell_contacts(scene.effects)),
       equal_(all_equal(disks.radius) && all_equal(disks.mass)) {
   if (scene.effects.gravity) gravity_ = scene.effects.gravity->acceleration;
   if (scene.effects.square_well) edge_ = 0.5 * (1.0 + scene.effects.square_well->width);

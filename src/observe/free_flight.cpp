@@ -8,6 +8,7 @@
 #include "observe/saved_observable.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -71,16 +72,8 @@ class FreeFlight final : public SavedObservable<FreeFlight> {
   [[nodiscard]] bool follows_collisions() const override { return true; }
 
   void collisions(std::span<const PairCollision> collisions) override {
-    Sums sums = sums_;
-    for (const PairCollision& met : collisions) {
-      if (!met.contact) continue;
-      if (follows(met.disk)) end(met.disk, met.time, met.velocity_before, sums);
-      if (follows(met.partner)) end(met.partner, met.time, met.partner_velocity_before, sums);
-      if (sums.flights < batch) continue;  // after so many flights, however collisions are handed over
-      end_sample(sums);
-      if (counted_ >= 16 * batch) end_histograms();
-    }
-    sums_ = sums;
+    for (; collisions.size() > piece; collisions = collisions.subspan(piece)) look_at(collisions.first(piece));
+    look_at(collisions);
   }
 
   [[nodiscard]] Measurement finish(double time, const Totals&) override {
@@ -113,6 +106,7 @@ class FreeFlight final : public SavedObservable<FreeFlight> {
   static constexpr std::size_t most_disks = 2000;
   /// Flights that count as one sample of the means; a sample of the histograms has 16 times as many.
   static constexpr std::uint64_t batch = 256;
+  static constexpr std::size_t piece = 128;  ///< collisions
   static constexpr double never = -std::numeric_limits<double>::infinity();
 
   /// A path is speed times time where nothing but collisions changes the speed.
@@ -129,6 +123,29 @@ class FreeFlight final : public SavedObservable<FreeFlight> {
     double mass = 0.0;
     for (const double m : run.disks.mass) mass += m / static_cast<double>(run.disks.count());
     return run.temperature > 0.0 ? std::sqrt(run.temperature / mass) : 1.0;
+  }
+
+  /// At most `piece` of them. Who is followed nobody can guess: they are listed without a branch, and looked at then.
+  void look_at(std::span<const PairCollision> collisions) {
+    std::array<std::uint32_t, 2 * piece> ended;
+    std::size_t flights = 0;
+    for (std::uint32_t n = 0; n < collisions.size(); ++n) {
+      const PairCollision& met = collisions[n];
+      ended[flights] = 2 * n;
+      flights += static_cast<std::size_t>(met.contact && follows(met.disk));
+      ended[flights] = 2 * n + 1;
+      flights += static_cast<std::size_t>(met.contact && follows(met.partner));
+    }
+    Sums sums = sums_;
+    for (const std::uint32_t which : std::span(ended).first(flights)) {
+      const PairCollision& met = collisions[which / 2];
+      which % 2 == 0 ? end(met.disk, met.time, met.velocity_before, sums)
+                     : end(met.partner, met.time, met.partner_velocity_before, sums);
+      if (sums.flights < batch) continue;  // after so many flights, however collisions are handed over
+      end_sample(sums);
+      if (counted_ >= 16 * batch) end_histograms();
+    }
+    sums_ = sums;
   }
 
   [[nodiscard]] bool follows(std::int32_t disk) const { return (static_cast<std::uint32_t>(disk) & skip_) == 0; }

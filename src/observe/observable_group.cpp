@@ -34,7 +34,7 @@ void ObservableGroup::add(std::unique_ptr<Observable> observable) {
 
 void ObservableGroup::follow_with(Observable& observable) {
   followers_.push_back(&observable);
-  if (stream_) return;
+  if (stream_ || run_.collisions_told) return;
   stream_.emplace(run_.scene, run_.disks);
   if (saved_stream_.empty()) return;
   std::istringstream saved(saved_stream_);
@@ -65,6 +65,11 @@ void ObservableGroup::follow(std::span<const Event> events) {
     if (collisions_.empty()) continue;
     for (Observable* observable : followers_) observable->collisions(collisions_);
   }
+}
+
+void ObservableGroup::hear(const CollisionNotes& notes) {
+  notes.read(collisions_);
+  for (Observable* observable : followers_) observable->collisions(collisions_);
 }
 
 std::vector<Measurement> ObservableGroup::results(double time, const Totals& totals) {

@@ -33,8 +33,11 @@ class ObservableGroup {
   [[nodiscard]] std::map<double, std::vector<Observable*>> by_step() const;
 
   void start(const State& state);
-  /// Requires events in order, none left out. What comes of it does not depend on how they are divided among calls.
+  /// Requires events in order, none left out, and !run().collisions_told. What comes of it does not depend on how they are
+  /// divided among calls.
   void follow(std::span<const Event> events);
+  /// The same, told by the simulation: requires run().collisions_told.
+  void hear(const CollisionNotes& notes);
   /// One entry per observable; empty where start() was never called. Call it once.
   [[nodiscard]] std::vector<Measurement> results(double time, const Totals& totals);
 
@@ -49,7 +52,7 @@ class ObservableGroup {
   std::vector<std::string> saved_;  ///< the same of each observable
   std::vector<std::unique_ptr<Observable>> observables_;
   std::vector<Observable*> followers_;
-  std::optional<CollisionStream> stream_;
+  std::optional<CollisionStream> stream_;  ///< where events are followed
   std::vector<PairCollision> collisions_;
   bool started_ = false;
 };

@@ -21,11 +21,9 @@ class Observation::Driver {
   [[nodiscard]] ObservableGroup& group() { return group_; }
 
   void attach(RunHooks& hooks) {
-    attach(
-        hooks, [this](std::span<const Event> events) { group_.follow(events); },
-        [](const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
-          for (Observable* observable : observables) observable->sample(state, totals);
-        });
+    attach(hooks, group_, [](const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
+      for (Observable* observable : observables) observable->sample(state, totals);
+    });
   }
   void attach_beside(RunHooks& hooks) {
     if (group_.empty()) return;
@@ -35,11 +33,9 @@ class Observation::Driver {
       attach(hooks);
       return;
     }
-    attach(
-        hooks, [this](std::span<const Event> events) { thread_->follow(events); },
-        [this](const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
-          thread_->sample(observables, state, totals);
-        });
+    attach(hooks, *thread_, [this](const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
+      thread_->sample(observables, state, totals);
+    });
   }
 
   /// All that happened so far has been looked at.
@@ -53,16 +49,22 @@ class Observation::Driver {
   }
 
  private:
-  template <class Follow, class Sample>
-  void attach(RunHooks& hooks, Follow follow, Sample sample) {
+  /// `follower` follows events, or hears of collisions where the simulation tells of them.
+  template <class Follower, class Sample>
+  void attach(RunHooks& hooks, Follower& follower, Sample sample) {
     if (group_.empty()) return;
     hooks.start = [this, next = std::move(hooks.start)](const State& state) {
       group_.start(state);
       if (next) next(state);
     };
-    if (group_.follows_collisions())
-      hooks.events = [follow, next = std::move(hooks.events)](std::span<const Event> events) {
-        follow(events);
+    if (group_.follows_collisions() && group_.run().collisions_told)
+      hooks.collisions = [&follower, next = std::move(hooks.collisions)](const CollisionNotes& notes) {
+        follower.hear(notes);
+        if (next) next(notes);
+      };
+    else if (group_.follows_collisions())
+      hooks.events = [&follower, next = std::move(hooks.events)](std::span<const Event> events) {
+        follower.follow(events);
         if (next) next(events);
       };
     steps_ = group_.by_step();

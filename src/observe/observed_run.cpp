@@ -35,10 +35,12 @@ std::string word_of(std::string name) {
 ObservedRun observed_run(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
   const std::optional<Thermostat>& thermostat = scene.effects.thermostat;
-  return observed_run(scene, simulation.disks(),
-                      thermostat && thermostat->rate > 0.0
-                          ? thermostat->temperature
-                          : kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state()));
+  ObservedRun run = observed_run(scene, simulation.disks(),
+                                 thermostat && thermostat->rate > 0.0
+                                     ? thermostat->temperature
+                                     : kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state()));
+  run.collisions_told = simulation.tells_collisions();
+  return run;
 }
 
 ObservedRun observed_run(const Scene& scene, const Disks& disks, double temperature) {

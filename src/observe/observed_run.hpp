@@ -15,6 +15,7 @@ struct ObservedRun {
   double temperature = 0.0;         ///< kT at the start, or that of the thermostat
   double mean_diameter = 1.0;       ///< 1 without disks
   bool collisions_known = true;     ///< can be followed one by one: of a run that is over, its log may not have been kept
+  bool collisions_told = false;     ///< by the simulation itself, with what came before them
   double mean_free_time = 0.0;      ///< as Enskog's theory estimates it for disks of mean size and mass; 0 where nothing moves
 
   /// A step of so many mean free times, or what the scene says; at most 1/256 of the run, so that errors can be told.

@@ -1,5 +1,8 @@
 #include "observe/observing_thread.hpp"
 
+#include "core/copy_past_caches.hpp"
+
+#include <span>
 #include <utility>
 
 namespace carom {
@@ -7,8 +10,9 @@ namespace carom {
 namespace {
 
 /// Handed over together: enough that waking a thread, some microseconds, is nothing beside them.
-constexpr std::size_t most_events = 16'384;
-/// That may wait; then the run waits. A megabyte of events each, or a state, of which a large system keeps two at a time.
+constexpr std::size_t most_together = 16'384;
+/// That may wait; then the run waits. A megabyte of events or of notes, or a state, of which a large system keeps two at a
+/// time.
 std::size_t most_waiting(std::size_t disks) { return disks > 100'000 ? 1 : 4; }
 
 }  // namespace
@@ -32,7 +36,17 @@ ObservingThread::~ObservingThread() {
 
 void ObservingThread::follow(std::span<const Event> events) {
   gathered_.events.insert(gathered_.events.end(), events.begin(), events.end());
-  if (gathered_.events.size() >= most_events) hand_over();
+  if (gathered_.events.size() >= most_together) hand_over();
+}
+
+void ObservingThread::hear(const CollisionNotes& notes) {
+  if (gathered_.noted + notes.notes.size() > most_together) hand_over();
+  if (gathered_.notes.empty()) gathered_.notes.resize(most_together);
+  CollisionNote* to = gathered_.notes.data() + gathered_.noted;
+  copy_past_caches(notes.notes, to);
+  gathered_.heard.push_back(notes);
+  gathered_.heard.back().notes = {to, notes.notes.size()};
+  gathered_.noted += notes.notes.size();
 }
 
 void ObservingThread::sample(const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
@@ -43,6 +57,7 @@ void ObservingThread::sample(const std::vector<Observable*>& observables, const 
 }
 
 void ObservingThread::hand_over() {
+  end_of_copies();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return waiting_.size() < most_waiting_; });
   rethrow();
@@ -57,7 +72,7 @@ void ObservingThread::hand_over() {
 }
 
 void ObservingThread::finish() {
-  if (!gathered_.events.empty()) hand_over();
+  if (anything()) hand_over();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return waiting_.empty(); });
   rethrow();
@@ -75,12 +90,16 @@ void ObservingThread::work() {
     std::exception_ptr thrown;
     try {
       if (goes_on && !first.events.empty()) group_.follow(first.events);
+      if (goes_on)
+        for (const CollisionNotes& notes : first.heard) group_.hear(notes);
       if (goes_on && first.observables != nullptr)
         for (Observable* observable : *first.observables) observable->sample(first.state, first.totals);
     } catch (...) {
       thrown = std::current_exception();
     }
     first.events.clear();
+    first.heard.clear();
+    first.noted = 0;
     first.observables = nullptr;
     lock.lock();
     if (thrown) thrown_ = thrown;

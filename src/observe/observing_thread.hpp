@@ -27,19 +27,24 @@ class ObservingThread {
   ObservingThread& operator=(const ObservingThread&) = delete;
 
   void follow(std::span<const Event> events);
+  void hear(const CollisionNotes& notes);
   void sample(const std::vector<Observable*>& observables, const State& state, const Totals& totals);
   /// Waits until all is done. Throws what an observable threw, as the functions above do.
   void finish();
 
  private:
-  /// Events that came one after the other, and then perhaps a state; its memory is used again.
+  /// Events or notes that came one after the other, and then perhaps a state; its memory is used again.
   struct Work {
     std::vector<Event> events;
+    std::vector<CollisionNote> notes;  ///< the first noted of them
+    std::size_t noted = 0;
+    std::vector<CollisionNotes> heard;                      ///< parts of `notes`
     const std::vector<Observable*>* observables = nullptr;  ///< null: no state
     State state;
     Totals totals;
   };
 
+  [[nodiscard]] bool anything() const { return !gathered_.events.empty() || gathered_.noted > 0; }
   void hand_over();
   void work();
   void rethrow();

@@ -54,14 +54,13 @@ class Pressure final : public SavedObservable<Pressure> {
   [[nodiscard]] bool follows_collisions() const override { return follows_; }
 
   void collisions(std::span<const PairCollision> collisions) override {
-    std::array<double, 4> sums = transfer_;  // one after the other: the sums do not depend on how collisions are handed over
+    // One after the other: the sums do not depend on how collisions are handed over.
+    Eigen::Vector2d along_x(transfer_[0], transfer_[1]), along_y(transfer_[2], transfer_[3]);
     for (const PairCollision& met : collisions) {
-      sums[0] += met.separation.x() * met.impulse.x();
-      sums[1] += met.separation.x() * met.impulse.y();
-      sums[2] += met.separation.y() * met.impulse.x();
-      sums[3] += met.separation.y() * met.impulse.y();
+      along_x += met.separation.x() * met.impulse;
+      along_y += met.separation.y() * met.impulse;
     }
-    transfer_ = sums;
+    transfer_ = {along_x.x(), along_x.y(), along_y.x(), along_y.y()};
     if (!equal_) count_meetings(collisions);
   }
 

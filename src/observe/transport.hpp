@@ -8,7 +8,7 @@
 //
 // `Flux` says what flies and what jumps:
 //   static Eigen::Vector2d flow(double mass, const Eigen::Vector2d& velocity);   of one disk
-//   static Eigen::Vector2d change(double mass, const PairCollision& met);         of that by a collision, both disks
+//   static Eigen::Vector2d change(const PairCollision& met);                      of that by a collision, both disks
 //   static Eigen::Vector2d jump(const PairCollision& met);
 // Velocities are relative to the common motion, which must be zero in collisions.
 
@@ -53,7 +53,6 @@ class Transport final : public SavedObservable<Transport<Flux>> {
     // What rounding leaves of a total momentum of zero is none.
     const double thermal = std::sqrt(run_.temperature * static_cast<double>(run_.disks.count()) / mass);
     if (common_.norm() <= 1e-12 * thermal) common_.setZero();
-    mass_ = run_.disks.mass.front();
     kT_ = kinetic_temperature(run_.scene.box, run_.disks, state);
     for (std::size_t i = 0; i < run_.disks.count(); ++i)
       flow_ += Flux::flow(run_.disks.mass[i], state.velocities.col(static_cast<Eigen::Index>(i)) - common_);
@@ -76,7 +75,7 @@ class Transport final : public SavedObservable<Transport<Flux>> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(mass_, kT_, time_, next_, ticks_, common_, flow_, moment_, noted_, products_, moments_);
+    archive(kT_, time_, next_, ticks_, common_, flow_, moment_, noted_, products_, moments_);
   }
 
  private:
@@ -87,21 +86,26 @@ class Transport final : public SavedObservable<Transport<Flux>> {
     Eigen::Vector2d flow = flow_, moment = moment_;
     std::size_t taken = 0;
     for (; taken < collisions.size() && !(collisions[taken].time > next_); ++taken) {
-      const PairCollision& met = collisions[taken];
-      const Eigen::Vector2d change = drifts ? Flux::change(mass_, at_rest(met)) : Flux::change(mass_, met);
+      const auto& met = seen<drifts>(collisions[taken]);
+      const Eigen::Vector2d change = Flux::change(met);
       flow += change;
-      moment += (drifts ? Flux::jump(at_rest(met)) : Flux::jump(met)) - (met.time - time_) * change;
+      moment += Flux::jump(met) - (met.time - time_) * change;
     }
     flow_ = flow;
     moment_ = moment;
     collisions = collisions.subspan(taken);
   }
-  [[nodiscard]] PairCollision at_rest(PairCollision met) const {
-    met.velocity -= common_;
-    met.velocity_before -= common_;
-    met.partner_velocity -= common_;
-    met.partner_velocity_before -= common_;
-    return met;
+  /// By one who moves with all disks together.
+  template <bool drifts>
+  [[nodiscard]] decltype(auto) seen(const PairCollision& collision) const {
+    if constexpr (drifts) {
+      PairCollision met = collision;
+      for (Eigen::Vector2d* v : {&met.velocity, &met.velocity_before, &met.partner_velocity, &met.partner_velocity_before})
+        *v -= common_;
+      return met;
+    } else {
+      return (collision);
+    }
   }
 
   /// Notes the moment at every grid time up to `time`.
@@ -121,7 +125,6 @@ class Transport final : public SavedObservable<Transport<Flux>> {
   Words words_;
   double (*factor_)(double kT, double area);
   double step_;
-  double mass_ = 0.0;  ///< of the first disk, for fluxes that are of equal masses only
   double kT_ = 0.0;
   double time_ = 0.0;  ///< of the last tick, from which moment_ counts the time of changes
   double next_ = step_;

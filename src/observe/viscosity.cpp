@@ -13,7 +13,7 @@ class MomentumFlux {
     return {mass * v.x() * v.y(), 0.5 * mass * (v.x() * v.x() - v.y() * v.y())};
   }
   /// m (v' v' - v v) = J (v + v') made symmetric; the partner got -J.
-  static Eigen::Vector2d change(double /*mass*/, const PairCollision& met) {
+  static Eigen::Vector2d change(const PairCollision& met) {
     const Eigen::Vector2d sum = (met.velocity + met.velocity_before) - (met.partner_velocity + met.partner_velocity_before);
     return 0.5 * traceless(met.impulse, sum);
   }

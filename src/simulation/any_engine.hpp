@@ -4,6 +4,7 @@
 
 #include "core/archive.hpp"
 #include "core/instant.hpp"
+#include "engine/note_listener.hpp"
 
 #include <carom/state.hpp>
 
@@ -17,6 +18,7 @@
 #include <cstdlib>
 #endif
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -52,6 +54,13 @@ class AnyEngine {
   [[nodiscard]] virtual std::vector<Event> take_events() = 0;
   /// The same into a list whose memory is used again: to get new memory for every batch takes as long as to fill it.
   virtual void take_events(std::vector<Event>& events) = 0;
+  /// Whether listen() is there: engine/note_listener.hpp.
+  [[nodiscard]] virtual bool tells_collisions() const { return false; }
+  /// Tells of collisions of pairs from now on, all so far by each hand_over_notes(); an empty listener ends that.
+  virtual void listen(NoteListener /*listener*/) {}
+  virtual void hand_over_notes() {}
+  /// By the places of disks in notes.
+  [[nodiscard]] virtual std::span<const std::int32_t> ids() const { return {}; }
   [[nodiscard]] virtual std::vector<std::string> check_invariants() const = 0;
   [[nodiscard]] virtual std::size_t bytes() const = 0;
   /// All that decides how the run goes on. Requires all events to have been taken.
@@ -110,6 +119,19 @@ class EngineAdapter final : public AnyEngine {
   void record_events(bool on) override { engine_.record_events(on); }
   [[nodiscard]] std::vector<Event> take_events() override { return engine_.take_events(); }
   void take_events(std::vector<Event>& events) override { engine_.take_events(events); }
+  [[nodiscard]] bool tells_collisions() const override {
+    return requires(Engine engine) { engine.listen(NoteListener()); };
+  }
+  void listen(NoteListener listener) override {
+    if constexpr (requires { engine_.listen(std::move(listener)); }) engine_.listen(std::move(listener));
+  }
+  void hand_over_notes() override {
+    if constexpr (requires { engine_.hand_over_notes(); }) engine_.hand_over_notes();
+  }
+  [[nodiscard]] std::span<const std::int32_t> ids() const override {
+    if constexpr (requires { engine_.ids(); }) return engine_.ids();
+    return {};
+  }
   [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_.check_invariants(); }
   [[nodiscard]] std::size_t bytes() const override { return sizeof(*this) + engine_.bytes(); }
   void save(SavingArchive& archive) const override { archive(engine_); }

@@ -14,7 +14,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -55,8 +58,12 @@ class Schedule {
         sampling_times_(detail::SamplingTimes::of(run_)),
         sample_collisions_(run_.sample_every_collisions.value_or(no_limit)),
         block_collisions_(std::max<std::uint64_t>(16, disks.count() / 2)),
+        all_disks_(disks),
         disks_(disks.count()),
         standstill_(disks) {}
+  Schedule(const Schedule&) = delete;
+  Schedule& operator=(const Schedule&) = delete;
+  ~Schedule() { engine_.listen({}); }
 
   RunResult operator()() {
     list_grids();
@@ -71,6 +78,8 @@ class Schedule {
     }
     if (measuring_) measure();
     engine_.record_events(false);
+    hand_over_notes();
+    engine_.listen({});
     if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(true));
     if (measuring_ && hooks_.verify_every > 0 && (since_verified_ > 0 || result_.verified == 0)) verify();
     return result_;
@@ -130,6 +139,7 @@ class Schedule {
     next_block_ = block_collisions_;
     if (hooks_.start) hooks_.start(engine_.state());
     record_events(static_cast<bool>(hooks_.events));
+    listen();
   }
 
   void measure() {
@@ -154,6 +164,29 @@ class Schedule {
     LoadingArchive archive(*hooks_.resume);
     archive(*this);
     engine_.record_events(recording_);
+    if (measuring_) listen();
+  }
+
+  void listen() {
+    if (!hooks_.collisions) return;
+    const auto one_if_equal = [](const std::vector<double>& values) {
+      const bool equal = std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
+      return equal ? std::vector<double>{values.front()} : values;
+    };
+    const std::span<const std::int32_t> ids = engine_.ids();
+    auto disks = std::make_shared<const NotedDisks>(
+        NotedDisks{{ids.begin(), ids.end()}, one_if_equal(all_disks_.radius), one_if_equal(all_disks_.mass)});
+    engine_.listen(
+        [this, heard = CollisionNotes{disks, 0.0, 0.0, {}}](const Instant& epoch, std::span<const CollisionNote> notes) mutable {
+          heard.epoch = epoch.high;
+          heard.epoch_remainder = epoch.low;
+          heard.notes = notes;
+          try {
+            if (!thrown_) hooks_.collisions(heard);
+          } catch (...) {
+            thrown_ = std::current_exception();  // the engine is in the middle of an event
+          }
+        });
   }
 
   [[nodiscard]] SavingMoment saving_moment(bool ended) {
@@ -241,6 +274,7 @@ class Schedule {
       const bool arrived = run_stretch(target, std::min(collisions, next_block_));
       if (stands_ && !recording_) record_events(true);  // to be able to say who collides without end
       if (recording_) take_events();
+      hand_over_notes();
       if (hooks_.verify_every > 0 && since_verified_ >= hooks_.verify_every && !verify()) return false;
       if (engine_.totals().pair >= next_block_) {
         if (hooks_.block) hooks_.block(progress());
@@ -296,6 +330,11 @@ class Schedule {
     if (hooks_.events && !equilibrating_) hooks_.events(events_);
   }
 
+  void hand_over_notes() {
+    engine_.hand_over_notes();
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
   void record_events(bool on) { engine_.record_events(recording_ = on); }
 
   bool stop(StopReason reason) {
@@ -322,6 +361,7 @@ class Schedule {
   const std::optional<detail::SamplingTimes> sampling_times_;
   const std::uint64_t sample_collisions_;  ///< from one sample to the next; no_limit where they are not counted so
   const std::uint64_t block_collisions_;
+  const Disks& all_disks_;
   const std::uint64_t disks_;
   detail::Standstill standstill_;
   bool stands_ = false;                 ///< the clock, over a whole stretch
@@ -337,6 +377,7 @@ class Schedule {
   bool ends_by_time_ = false;
   Clock::time_point last_look_ = Clock::now();
   std::vector<Grid> grids_;
+  std::exception_ptr thrown_;  ///< by hooks_.collisions
   std::vector<Event> events_;  ///< kept from batch to batch for its memory
   RunResult result_;
 };
@@ -382,6 +423,8 @@ std::uint64_t last_sample(const Run& run) {
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   auto& parts = *simulation.parts_;
   require_sound_schedule(parts.scene.run, parts.scene.effects);
+  if (hooks.collisions && !simulation.tells_collisions())
+    throw std::invalid_argument("this simulation does not tell of collisions; see Simulation::tells_collisions()");
   for (const SamplingGrid& grid : hooks.grids)
     if (!(grid.step > 0.0 && std::isfinite(grid.step)))
       throw std::invalid_argument("the step of a sampling grid must be positive and finite");

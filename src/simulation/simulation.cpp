@@ -6,6 +6,7 @@
 #include "simulation/parts.hpp"
 #include "simulation/standstill.hpp"
 #include "simulation/start.hpp"
+#include "simulation/velocities_tell_contacts.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -58,6 +59,10 @@ void Simulation::reset_clock() { parts_->engine->reset_clock(); }
 void Simulation::record_events(bool on) { parts_->engine->record_events(on); }
 std::vector<Event> Simulation::take_events() { return parts_->engine->take_events(); }
 void Simulation::take_events(std::vector<Event>& events) { parts_->engine->take_events(events); }
+bool Simulation::tells_collisions() const {
+  const Effects& effects = parts_->scene.effects;
+  return parts_->engine->tells_collisions() && velocities_tell_contacts(effects) && !effects.gravity && !effects.shear;
+}
 std::vector<std::string> Simulation::check_invariants() const { return parts_->engine->check_invariants(); }
 
 std::vector<std::string> engine_names() {

@@ -23,14 +23,14 @@ const std::string everything =
 
 TEST(ObservingThread, GivesTheSameNumbersToTheLastBit) {
   // More collisions than are handed over at once.
-  const Scene scene = parse_scene(small_fluid(everything, "specular", "500.0"));
+  const Scene scene = parse_scene(small_fluid(everything, "specular", "700.0"));
   const auto measured = [&](bool beside) {
     Simulation simulation = make_simulation(scene);
     Observation observation(simulation);
     RunHooks hooks;
     beside ? observation.attach_beside(hooks) : observation.attach(hooks);
     run_schedule(simulation, hooks);
-    EXPECT_GT(simulation.totals().pair, 30'000U);
+    EXPECT_GT(simulation.totals().pair, 40'000U);
     return observation.results();
   };
   expect_same_measurements(measured(true), measured(false));

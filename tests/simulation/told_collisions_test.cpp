@@ -1,0 +1,167 @@
+// Collisions that the engine tells of itself, against those that the event log and a copy of all velocities give: the same bits.
+
+#include "observe/collision_stream.hpp"
+#include "support/scenes.hpp"
+#include "support/systems.hpp"
+
+#include <carom/simulation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+void expect_same(const std::vector<PairCollision>& told, const std::vector<PairCollision>& followed) {
+  ASSERT_EQ(told.size(), followed.size());
+  for (std::size_t n = 0; n < told.size(); ++n) {
+    const PairCollision &a = told[n], &b = followed[n];
+    ASSERT_EQ(a.time, b.time) << n;
+    ASSERT_EQ(a.disk, b.disk) << n;
+    ASSERT_EQ(a.partner, b.partner) << n;
+    ASSERT_EQ(a.separation, b.separation) << n;
+    ASSERT_EQ(a.impulse, b.impulse) << n;
+    ASSERT_EQ(a.velocity_before, b.velocity_before) << n;
+    ASSERT_EQ(a.velocity, b.velocity) << n;
+    ASSERT_EQ(a.partner_velocity_before, b.partner_velocity_before) << n;
+    ASSERT_EQ(a.partner_velocity, b.partner_velocity) << n;
+    ASSERT_EQ(a.contact, b.contact) << n;
+  }
+}
+
+std::vector<Scene> scenes_that_tell() {
+  std::vector<Scene> scenes = {gas_scene(100, 0.5, Boundary::periodic), gas_scene(100, 0.5, Boundary::walls),
+                               mixture_scene(100, 0.4, Boundary::periodic), mixture_scene(100, 0.4, Boundary::walls)};
+  scenes.push_back(gas_scene(100, 0.3, Boundary::periodic));
+  scenes.back().effects.collision.restitution = 0.95;
+  scenes.push_back(gas_scene(100, 0.3, Boundary::walls));
+  scenes.back().effects.walls[0].temperature = 2.0;
+  for (Scene& scene : scenes) {
+    scene.run.time.reset();
+    scene.run.collisions = 3'000;
+    scene.run.equilibrate = Run::Equilibrate{3.0, {}};
+  }
+  return scenes;
+}
+
+TEST(ToldCollisions, AreThoseOfTheEventLog) {
+  for (const Scene& scene : scenes_that_tell()) {
+    Simulation simulation = make_simulation(scene);
+    ASSERT_TRUE(simulation.tells_collisions());
+    std::optional<CollisionStream> stream;
+    std::vector<PairCollision> told, followed, some;
+    RunHooks hooks;
+    hooks.start = [&](const State& state) { stream.emplace(simulation.scene(), simulation.disks()).start(state); };
+    hooks.events = [&](std::span<const Event> events) {
+      stream->follow(events, some);
+      followed.insert(followed.end(), some.begin(), some.end());
+    };
+    hooks.collisions = [&](const CollisionNotes& notes) {
+      notes.read(some);
+      told.insert(told.end(), some.begin(), some.end());
+    };
+    run_schedule(simulation, hooks);
+    EXPECT_EQ(told.size(), 3'000U);
+    expect_same(told, followed);
+  }
+}
+
+TEST(ToldCollisions, ListeningDoesNotChangeTheRun) {
+  const Scene scene = scenes_that_tell()[3];
+  const auto end_of = [&](bool listens) {
+    Simulation simulation = make_simulation(scene);
+    RunHooks hooks;
+    if (listens) hooks.collisions = [](const CollisionNotes&) {};
+    run_schedule(simulation, hooks);
+    return simulation.state();
+  };
+  const State heard = end_of(true), unheard = end_of(false);
+  EXPECT_EQ(heard.positions, unheard.positions);
+  EXPECT_EQ(heard.velocities, unheard.velocities);
+}
+
+TEST(ToldCollisions, AllUpToASampleComeBeforeIt) {
+  Scene scene = gas_scene(30, 0.5, Boundary::periodic);
+  scene.run.time = 5.0;
+  scene.run.sample_every = 0.25;
+  Simulation simulation = make_simulation(scene);
+  std::uint64_t told = 0;
+  RunHooks hooks;
+  hooks.collisions = [&](const CollisionNotes& notes) { told += notes.notes.size(); };
+  hooks.sample = [&](std::uint64_t, const State&) { EXPECT_EQ(told, simulation.totals().pair); };
+  run_schedule(simulation, hooks);
+  EXPECT_EQ(told, simulation.totals().pair);
+  EXPECT_GT(told, 100U);
+}
+
+TEST(ToldCollisions, CanBeReadLater) {
+  Scene scene = gas_scene(40, 0.5, Boundary::periodic);
+  scene.run.collisions = 500;
+  std::vector<PairCollision> at_once, later, some;
+  std::vector<std::vector<CollisionNote>> kept;
+  std::vector<CollisionNotes> heard;
+  {
+    Simulation simulation = make_simulation(scene);
+    RunHooks hooks;
+    hooks.collisions = [&](const CollisionNotes& notes) {
+      notes.read(some);
+      at_once.insert(at_once.end(), some.begin(), some.end());
+      kept.emplace_back(notes.notes.begin(), notes.notes.end());
+      heard.push_back(notes);
+      heard.back().notes = kept.back();
+    };
+    run_schedule(simulation, hooks);
+  }
+  for (const CollisionNotes& notes : heard) {
+    notes.read(some);
+    later.insert(later.end(), some.begin(), some.end());
+  }
+  expect_same(later, at_once);
+}
+
+TEST(ToldCollisions, WhatAListenerThrowsComesOutBetweenTwoEvents) {
+  Scene scene = gas_scene(40, 0.5, Boundary::periodic);
+  scene.run.collisions = 1'000;
+  Simulation simulation = make_simulation(scene);
+  RunHooks hooks;
+  int calls = 0;
+  hooks.collisions = [&](const CollisionNotes&) {
+    ++calls;
+    throw std::runtime_error("no more");
+  };
+  EXPECT_THROW(run_schedule(simulation, hooks), std::runtime_error);
+  EXPECT_EQ(calls, 1);
+  EXPECT_TRUE(simulation.check_invariants().empty());
+  simulation.reset_clock();
+  EXPECT_EQ(run_schedule(simulation).stopped, StopReason::collisions) << "nobody listens any more";
+}
+
+TEST(ToldCollisions, AreNotToBeHadWhereVelocitiesDoNotTellEverything) {
+  const auto tells = [](auto change, const std::string& engine = "auto") {
+    Scene scene = gas_scene(30, 0.3, Boundary::walls);
+    change(scene);
+    return make_simulation(scene, engine).tells_collisions();
+  };
+  EXPECT_TRUE(tells([](Scene&) {}));
+  EXPECT_FALSE(tells([](Scene&) {}, "textbook"));
+  EXPECT_FALSE(tells([](Scene& scene) { scene.effects.collision.rule = CollisionRule::reversal; }));
+  EXPECT_FALSE(tells([](Scene& scene) { scene.effects.collision.roughness = 0.5; }));
+  EXPECT_FALSE(tells([](Scene& scene) { scene.effects.gravity = Gravity{{0.0, -1.0}, {}}; }));
+  EXPECT_FALSE(tells([](Scene& scene) { scene.effects.thermostat = Thermostat{1.0, 1.0, {}}; }));
+  EXPECT_FALSE(tells([](Scene& scene) { scene.effects.square_well = SquareWell{1.5, 0.1, {}}; }));
+  Scene scene = gas_scene(30, 0.3, Boundary::walls);
+  scene.run.collisions = 10;
+  Simulation textbook = make_simulation(scene, "textbook");
+  RunHooks hooks;
+  hooks.collisions = [](const CollisionNotes&) {};
+  EXPECT_THROW(run_schedule(textbook, hooks), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace carom::test
