@@ -76,7 +76,8 @@ class Observable {
   virtual void start(const State& /*state*/) {}
   /// The state at k * step(), k = 0, 1, 2, ... and the totals up to then.
   virtual void sample(const State& /*state*/, const Totals& /*totals*/) {}
-  /// Collisions of pairs since the last call, in order of time; all up to a sample come before it.
+  /// Collisions of pairs since the last call, in order of time; all up to a sample come before it. The simulation may be in the
+  /// middle of an event, and is not to be asked anything.
   virtual void collisions(std::span<const PairCollision> /*collisions*/) {}
   /// Writes what was gathered so far, and reads it back into an observable that was made in the same way: for runs that are saved
   /// and resumed. What these do by themselves is to throw std::logic_error.

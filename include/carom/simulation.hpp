@@ -179,7 +179,8 @@ struct RunHooks {
   std::function<void(std::uint64_t k, const State& state)> sample;
   std::function<void(std::span<const Event> events)> events;  ///< batches of collisions, in order
   /// Collisions of pairs with what came before them, in order, a few at a time and all up to a sample before it; far cheaper than
-  /// to follow events. They may be called while the simulation is between two events. Requires Simulation::tells_collisions().
+  /// to follow events. The simulation may be in the middle of an event, and is not to be asked anything. Requires
+  /// Simulation::tells_collisions().
   std::function<void(const CollisionNotes& notes)> collisions;
   std::function<void(const Progress& progress)> block;    ///< after about every collision per disk, at collisions
   std::vector<SamplingGrid> grids;                        ///< of equal steps the first comes first

@@ -171,7 +171,7 @@ class Schedule {
     if (!hooks_.collisions) return;
     const auto one_if_equal = [](const std::vector<double>& values) {
       const bool equal = std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
-      return equal ? std::vector<double>{values.front()} : values;
+      return equal && !values.empty() ? std::vector<double>{values.front()} : values;
     };
     const std::span<const std::int32_t> ids = engine_.ids();
     auto disks = std::make_shared<const NotedDisks>(

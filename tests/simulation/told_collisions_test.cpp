@@ -125,6 +125,16 @@ TEST(ToldCollisions, CanBeReadLater) {
   expect_same(later, at_once);
 }
 
+TEST(ToldCollisions, ThereAreNoneWithoutDisks) {
+  Scene scene = gas_scene(4, 0.5, Boundary::walls);
+  scene.species.front().count = 0;
+  scene.run.time = 1.0;
+  Simulation simulation = make_simulation(scene);
+  RunHooks hooks;
+  hooks.collisions = [](const CollisionNotes&) { FAIL(); };
+  EXPECT_EQ(run_schedule(simulation, hooks).stopped, StopReason::time);
+}
+
 TEST(ToldCollisions, WhatAListenerThrowsComesOutBetweenTwoEvents) {
   Scene scene = gas_scene(40, 0.5, Boundary::periodic);
   scene.run.collisions = 1'000;
