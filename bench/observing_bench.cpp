@@ -57,10 +57,7 @@ std::string fault(Simulation& simulation) {
 }
 
 void observing(benchmark::State& state, const std::vector<std::string>& observables, bool beside = false) {
-  const auto scene = [&](const std::vector<std::string>& names) {
-    return scene_with(names, 0.01 * static_cast<double>(state.range(0)));
-  };
-  Simulation simulation = make_simulation(scene(observables));
+  Simulation simulation = make_simulation(scene_with(observables, 0.01 * static_cast<double>(state.range(0))));
   if (const std::string what = fault(simulation); !what.empty()) {
     state.SkipWithError(what.c_str());
     return;

@@ -1,5 +1,7 @@
 #include "neighbours/neighbour_lists.hpp"
 
+#include "core/all_equal.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -21,7 +23,7 @@ int size_of(float radius) { return std::ilogb(std::nextafter(radius, 0.0F)); }
 NeighbourLists::NeighbourLists(const FixedAxis& x, const FixedAxis& y, const std::vector<double>& radius)
     : axes_{x, y}, around_(radius.size()), kernel_(&cage_kernel()) {
   if (!radius.empty()) largest_ = *std::max_element(radius.begin(), radius.end());
-  one_radius_ = std::adjacent_find(radius.begin(), radius.end(), std::not_equal_to<>()) == radius.end();
+  one_radius_ = all_equal(radius);
   radius_.reserve(one_radius_ ? 1 : radius.size());
   for (std::size_t i = 0; i < (one_radius_ ? std::min<std::size_t>(radius.size(), 1) : radius.size()); ++i)
     radius_.push_back(static_cast<float>(radius[i] / largest_));

@@ -1,20 +1,11 @@
 #include "observe/collision_stream.hpp"
 
+#include "core/all_equal.hpp"
 #include "simulation/velocities_tell_contacts.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace carom {
-
-namespace {
-
-bool all_equal(const std::vector<double>& values) {
-  return std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
-}
-
-}  // namespace
 
 CollisionStream::CollisionStream(const Scene& scene, const Disks& disks)
     : radius_(disks.radius),

@@ -72,7 +72,7 @@ void ObservingThread::hand_over() {
 }
 
 void ObservingThread::finish() {
-  if (anything()) hand_over();
+  if (!gathered_.events.empty() || gathered_.noted > 0) hand_over();
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return waiting_.empty(); });
   rethrow();

@@ -44,7 +44,6 @@ class ObservingThread {
     Totals totals;
   };
 
-  [[nodiscard]] bool anything() const { return !gathered_.events.empty() || gathered_.noted > 0; }
   void hand_over();
   void work();
   void rethrow();

@@ -9,6 +9,7 @@
 //   P_ab A    = <sum m v_a v_b> N / (N - 1) + (sum over collisions of r_a J_b) / t, without N / (N - 1) where momentum is not
 //   kept
 
+#include "core/all_equal.hpp"
 #include "observe/blocking.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/geometry.hpp"
@@ -39,9 +40,6 @@ class Pressure final : public SavedObservable<Pressure> {
   Pressure(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 16.0)) {
     const Effects& effects = run.scene.effects;
     follows_ = run.collisions_known && !is_driven(effects) && run.disks.count() > 0;
-    const auto all_equal = [](const std::vector<double>& values) {
-      return std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
-    };
     equal_ = all_equal(run.disks.radius) && all_equal(run.disks.mass);
     equal_radii_ = all_equal(run.disks.radius);
     freedom_ =

@@ -6,6 +6,7 @@
 // cubic's own error is below 1e-3 where ln g bends over distances of sigma / 4, which it does up to freezing. It is a linear
 // function of the counts, so blocking tells its error.
 
+#include "core/all_equal.hpp"
 #include "observe/blocking.hpp"
 #include "observe/close_pairs.hpp"
 #include "observe/observables.hpp"
@@ -71,7 +72,8 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
         kinds_(run.species_count()),
         g_(static_cast<std::size_t>(request.bins.value_or(250))),
         counts_(kinds_ > 1 ? 1 + kinds_ * kinds_ : 1, std::vector<double>(g_.size())),
-        contact_(run.mean_diameter, equal(run) ? std::min(range_, 1.25 * run.mean_diameter) : run.mean_diameter) {
+        contact_(run.mean_diameter,
+                 all_equal(run.disks.radius) ? std::min(range_, 1.25 * run.mean_diameter) : run.mean_diameter) {
     if (kinds_ > 1) partial_.resize(kinds_ * kinds_, BlockedColumn(g_.size()));
   }
 
@@ -131,10 +133,6 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
   }
 
  private:
-  static bool equal(const ObservedRun& run) {
-    const std::vector<double>& radius = run.disks.radius;
-    return std::adjacent_find(radius.begin(), radius.end(), std::not_equal_to<>()) == radius.end();
-  }
   [[nodiscard]] double ring(std::size_t bin) const {
     return std::numbers::pi * width_ * width_ * (2.0 * static_cast<double>(bin) + 1.0);
   }

@@ -4,6 +4,7 @@
 
 #include <carom/simulation.hpp>
 
+#include "core/all_equal.hpp"
 #include "core/archive.hpp"
 #include "simulation/all_events.hpp"
 #include "simulation/parts.hpp"
@@ -15,7 +16,6 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -58,8 +58,7 @@ class Schedule {
         sampling_times_(detail::SamplingTimes::of(run_)),
         sample_collisions_(run_.sample_every_collisions.value_or(no_limit)),
         block_collisions_(std::max<std::uint64_t>(16, disks.count() / 2)),
-        all_disks_(disks),
-        disks_(disks.count()),
+        disks_(disks),
         standstill_(disks) {}
   Schedule(const Schedule&) = delete;
   Schedule& operator=(const Schedule&) = delete;
@@ -79,7 +78,6 @@ class Schedule {
     if (measuring_) measure();
     engine_.record_events(false);
     hand_over_notes();
-    engine_.listen({});
     if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(true));
     if (measuring_ && hooks_.verify_every > 0 && (since_verified_ > 0 || result_.verified == 0)) verify();
     return result_;
@@ -113,7 +111,7 @@ class Schedule {
     if (ends_by_time_) {
       until = {*run_.equilibrate->time, 0.0};
     } else {
-      const double asked = std::ceil(*run_.equilibrate->collisions_per_disk * static_cast<double>(disks_) / 2.0);
+      const double asked = std::ceil(*run_.equilibrate->collisions_per_disk * static_cast<double>(disks_.count()) / 2.0);
       if (asked < 0x1p63) collisions = static_cast<std::uint64_t>(asked);
     }
     if (!advance(until, collisions) && result_.stopped != StopReason::collisions) return false;
@@ -170,12 +168,11 @@ class Schedule {
   void listen() {
     if (!hooks_.collisions) return;
     const auto one_if_equal = [](const std::vector<double>& values) {
-      const bool equal = std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
-      return equal && !values.empty() ? std::vector<double>{values.front()} : values;
+      return !values.empty() && all_equal(values) ? std::vector<double>{values.front()} : values;
     };
     const std::span<const std::int32_t> ids = engine_.ids();
     auto disks = std::make_shared<const NotedDisks>(
-        NotedDisks{{ids.begin(), ids.end()}, one_if_equal(all_disks_.radius), one_if_equal(all_disks_.mass)});
+        NotedDisks{{ids.begin(), ids.end()}, one_if_equal(disks_.radius), one_if_equal(disks_.mass)});
     engine_.listen(
         [this, heard = CollisionNotes{disks, 0.0, 0.0, {}}](const Instant& epoch, std::span<const CollisionNote> notes) mutable {
           heard.epoch = epoch.high;
@@ -320,7 +317,8 @@ class Schedule {
 
   /// Only collisions can end this, and none will come.
   [[nodiscard]] bool is_hopeless() const {
-    return !ends_by_time_ && !ends_by_growth(effects_.growth) && (disks_ < 2 || engine_.idle() || without_collision_ > patience);
+    return !ends_by_time_ && !ends_by_growth(effects_.growth) &&
+           (disks_.count() < 2 || engine_.idle() || without_collision_ > patience);
   }
 
   void take_events() {
@@ -361,8 +359,7 @@ class Schedule {
   const std::optional<detail::SamplingTimes> sampling_times_;
   const std::uint64_t sample_collisions_;  ///< from one sample to the next; no_limit where they are not counted so
   const std::uint64_t block_collisions_;
-  const Disks& all_disks_;
-  const std::uint64_t disks_;
+  const Disks& disks_;
   detail::Standstill standstill_;
   bool stands_ = false;                 ///< the clock, over a whole stretch
   std::vector<std::int32_t> standing_;  ///< who collided when it last did
