@@ -11,4 +11,11 @@ inline void fetch(const void* address) {
   asm volatile("");
 }
 
+/// The same for what is needed some events later and is many lines: only into the second-level cache. The first level takes a
+/// line at a time from far away at half that pace (Zen 4: one every 11 ns for one every 4 to 7), and holds up what comes after.
+inline void fetch_early(const void* address) {
+  __builtin_prefetch(address, 0, 2);
+  asm volatile("");
+}
+
 }  // namespace carom

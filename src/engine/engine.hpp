@@ -563,6 +563,7 @@ class Engine {
   // ------------------------------------------------------------------------------------- for the queue
 
   [[nodiscard]] double time(std::int32_t i) const { return std::min(plan(i).pair_time, plan(i).edge_time); }
+  void fetch_event(std::int32_t i) const { fetch_early(&plan(i)); }
   [[nodiscard]] std::int32_t other(std::int32_t i) const {
     const Plan& mine = plan(i);
     const std::int32_t edge = -static_cast<std::int32_t>(edge_first(mine));  // all bits or none: a branch would be guessed wrong

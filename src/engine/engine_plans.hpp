@@ -58,15 +58,15 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::look_ahead(std::int64_t span) const {
   if (!fetching_) return;
   queue_.fetch_span(span + 7);
-  for (const std::int32_t i : queue_.ids_of(span + 5)) fetch(&plan(i));
+  for (const std::int32_t i : queue_.ids_of(span + 5)) fetch_early(&plan(i));
   for (const std::int32_t i : queue_.ids_of(span + 4)) {
     const auto fetch_disk = [this](std::int32_t k) {
-      fetch(&line(k));
-      lists_.fetch_list(k);
+      fetch_early(&line(k));
+      lists_.fetch_list_early(k);
     };
     fetch_disk(i);
     if (plan(i).pair_time < plan(i).edge_time) {
-      fetch(&plan(plan(i).partner));
+      fetch_early(&plan(plan(i).partner));
       fetch_disk(plan(i).partner);
     }
   }
@@ -74,13 +74,16 @@ void Engine<Impact, Layout, World>::look_ahead(std::int64_t span) const {
     if (queue_.span_of(time(i)) != span + 2) continue;
     const auto fetch_neighbours = [this](std::int32_t k) {
       const std::int32_t* ids = lists_.ids(k);
-      for (int n = 0; n < 8; ++n) fetch(&line(ids[n]));  // so many there always are, and no end of a loop to be guessed wrong
-      for (std::uint32_t n = 8, all = std::min(lists_.count(k), 16U); n < all; ++n) fetch(&line(ids[n]));
+      for (int n = 0; n < 8; ++n)
+        fetch_early(&line(ids[n]));  // so many there always are, and no end of a loop to be guessed wrong
+      for (std::uint32_t n = 8, all = std::min(lists_.count(k), 16U); n < all; ++n) fetch_early(&line(ids[n]));
     };
-    if (plan(i).pair_time < plan(i).edge_time)
+    if (plan(i).pair_time < plan(i).edge_time) {
       fetch_neighbours(i), fetch_neighbours(plan(i).partner);
-    else
+    } else {
+      fetch_early(&ids_[static_cast<std::size_t>(i)]);  // decides ties, which times in steps often are
       lists_.fetch_cells(i, cage_around(i, plan(i).edge_time));
+    }
   }
 }
 

@@ -127,8 +127,8 @@ class CageCells {
       for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x) {
         const std::int32_t cell = folded(y, range.cells[1]) * range.cells[0] + folded(x, range.cells[0]);
         const CageBlock& block = blocks_[static_cast<std::size_t>(cell)];
-        fetch(&block);
-        fetch(block.y);
+        fetch_early(&block);
+        fetch_early(block.y);
       }
   }
 
@@ -208,7 +208,7 @@ class CageCells {
   void remove(std::int32_t cell, std::int32_t i) {
     const Slot slot = find(cell, i);
     std::int32_t before = -1, last = cell;
-    while (next_of(last) >= 0) before = last, last = next_of(last);
+    while (at(last).id[7] >= 0 && next_of(last) >= 0) before = last, last = next_of(last);
     int k = 7;
     while (at(last).id[k] < 0) --k;
     CageBlock& to = at(slot.block);

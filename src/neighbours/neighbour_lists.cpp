@@ -79,7 +79,7 @@ std::span<const std::int32_t> NeighbourLists::move_cage(std::int32_t i, CageCent
   layers_[layer_of(i)].move(i, before, to, radius(i));
   around_.set_centre(i, to);
   search(i, before, true);
-  for (std::size_t k = 0; k < fresh_count_; ++k) fetch_list(fresh_[k]);  // those left behind were fetched with the cells
+  for (std::size_t k = 0; k < fresh_count_; ++k) around_.fetch_list(fresh_[k]);  // those left behind were fetched with the cells
   const std::size_t kept = found_count_ - fresh_count_;
   if (kept < count(i)) {
     if (gone_.size() < count(i)) gone_.resize(2 * std::size_t{count(i)});
@@ -163,7 +163,7 @@ void NeighbourLists::slide(std::int64_t displacement, double way) {
 void NeighbourLists::fetch_cells(std::int32_t i, CageCentre to) const {
   const CageCells& layer = layers_[layer_of(i)];
   layer.fetch_blocks(range_around(to, radius(i), layer));
-  for (std::uint32_t k = 0; k < count(i); ++k) fetch_list(ids(i)[k]);
+  for (std::uint32_t k = 0; k < count(i); ++k) fetch_list_early(ids(i)[k]);
 }
 
 bool NeighbourLists::near(std::int32_t i, std::int32_t j) const { return near(centre(j), radius(j), centre(i), radius(i)); }

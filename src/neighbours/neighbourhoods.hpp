@@ -73,6 +73,7 @@ class Neighbourhoods {
   }
 
   void fetch_list(std::int32_t i) const { fetch(&line(i)); }
+  void fetch_list_early(std::int32_t i) const { fetch_early(&line(i)); }
 
   [[nodiscard]] std::size_t bytes() const { return lines_.capacity() * sizeof(Line) + pool_.capacity() * sizeof(std::int32_t); }
 

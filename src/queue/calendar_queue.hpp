@@ -36,7 +36,8 @@ struct CalendarEntry {
 
 /// Events: `double time(std::int32_t disk) const`, when the disk's next event is, >= 0, infinity for never;
 /// `std::int32_t other(std::int32_t disk) const`, whatever else tells which event it is; and `bool precedes(const
-/// CalendarEntry& a, const CalendarEntry& b) const`, a strict order of events at one time that depends on a and b alone.
+/// CalendarEntry& a, const CalendarEntry& b) const`, a strict order of events at one time that depends on a and b alone. Where
+/// there is a `void fetch_event(std::int32_t disk) const` it is told of disks whose events will be asked for soon.
 template <class Events>
 class CalendarQueue {
  public:
@@ -61,7 +62,7 @@ class CalendarQueue {
     heaped_ = false;
     later_.clear();
     far_ = far;
-    waiting_ = 0;
+    waiting_ = fetched_ = 0;
   }
 
   /// The next event of event.disk is now `event`, which is not before the last one taken.
@@ -72,7 +73,7 @@ class CalendarQueue {
     if (k <= current_) {
       insert_at_hand(events, event);
     } else if (k - current_ <= mask_) {
-      far_ ? wait_for_span(k & mask_, event.disk) : append(k & mask_, event.disk);
+      k > current_ + 1 && far_ ? wait_for_span(k & mask_, event.disk) : append(k & mask_, event.disk);
     } else {
       later_.push_back(event);
     }
@@ -102,7 +103,7 @@ class CalendarQueue {
   [[nodiscard]] std::span<const std::int32_t> ids_of(std::int64_t k) const {
     return {span(k & mask_).ids, counts_[static_cast<std::size_t>(k & mask_)]};
   }
-  void fetch_span(std::int64_t k) const { fetch(&span(k & mask_)); }
+  void fetch_span(std::int64_t k) const { fetch_early(&span(k & mask_)); }
 
   /// The span into which a time falls.
   [[nodiscard]] std::int64_t span_of(double time) const {
@@ -139,13 +140,13 @@ class CalendarQueue {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(spans_, counts_, more_, mask_, per_time_, current_, sort_out_at_, in_ring_, pushed_, free_, at_hand_, heaped_, later_,
-            far_, waiting_, places_, disks_);
+            far_, waiting_, fetched_, places_, disks_);
   }
 
  private:
   static constexpr std::int32_t none = -1;
   static constexpr int room = 16;
-  static constexpr std::size_t waiting_room = 16;
+  static constexpr std::size_t waiting_room = 32;
   static constexpr std::size_t few = 48;  ///< as many are kept sorted; more as a heap
 
   /// One cache line of ids.
@@ -173,14 +174,25 @@ class CalendarQueue {
   /// Stores leave the processor in order: one to memory that is far away holds up all that are behind it.
   void wait_for_span(std::int64_t place, std::int32_t disk) {
     if (waiting_ == waiting_room) append_waiting();
-    fetch(&span(place));
-    fetch(&count(place));
+    fetch_early(&span(place));
+    fetch_early(&count(place));
     places_[waiting_] = static_cast<std::int32_t>(place);
     disks_[waiting_++] = disk;
   }
   void append_waiting() {
     for (std::size_t n = 0; n < waiting_; ++n) append(places_[n], disks_[n]);
-    waiting_ = 0;
+    waiting_ = fetched_ = 0;
+  }
+  /// Those that have waited for a whole span. For the next one nobody waits.
+  void append_fetched() {
+    for (std::size_t n = 0; n < fetched_; ++n) append(places_[n], disks_[n]);
+    for (std::size_t n = fetched_; n < waiting_; ++n) {
+      places_[n - fetched_] = places_[n];
+      disks_[n - fetched_] = disks_[n];
+    }
+    waiting_ -= fetched_;
+    fetched_ = waiting_;
+    if (in_ring_ == 0) append_waiting();
   }
 
   void append(std::int64_t place, std::int32_t disk) {
@@ -211,14 +223,14 @@ class CalendarQueue {
 
   /// Puts the next span that holds anything at hand. False where nothing is left.
   bool turn(const Events& events) {
-    append_waiting();
+    append_fetched();
     if (in_ring_ == 0) {
       if (!jump(events)) return false;
     } else if (current_ >= sort_out_at_) {
       sort_out_later(events);
     }
     do ++current_;
-    while (count(current_ & mask_) == 0 && current_ < sort_out_at_);
+    while (count(current_ & mask_) == 0 && current_ < sort_out_at_ && waiting_ == 0);
     collect(events, current_ & mask_);
     return true;
   }
@@ -238,7 +250,10 @@ class CalendarQueue {
   void sort_out_later(const Events& events) {
     sort_out_at_ = current_ + mask_ / 2;
     std::size_t kept = 0;
-    for (const Entry& entry : later_) {
+    for (std::size_t n = 0; n < later_.size(); ++n) {
+      if constexpr (requires { events.fetch_event(later_[n].disk); })
+        if (n + 16 < later_.size()) events.fetch_event(later_[n + 16].disk);
+      const Entry entry = later_[n];
       if (!counts(events, entry)) continue;
       const std::int64_t k = span_of(entry.time);
       if (k - current_ <= mask_)
@@ -312,7 +327,8 @@ class CalendarQueue {
   bool heaped_ = false;
   std::vector<Entry> later_;
   bool far_ = false;         ///< ids wait
-  std::size_t waiting_ = 0;  ///< ids that wait until the next turn of a span for where they go
+  std::size_t waiting_ = 0;  ///< ids that wait until the turn of the span after the next for where they go
+  std::size_t fetched_ = 0;  ///< those of them that have waited since before the last turn
   std::array<std::int32_t, waiting_room> places_{}, disks_{};
 };
 
