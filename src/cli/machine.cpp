@@ -2,6 +2,8 @@
 
 #include "cli/machine.hpp"
 
+#include "core/large_memory.hpp"
+
 #include <unistd.h>
 
 #include <cstdlib>
@@ -36,7 +38,7 @@ std::optional<std::size_t> second_level_cache() {
 std::optional<std::size_t> memory_held() {
 #if CAROM_HAS_MALLINFO2
   const struct mallinfo2 info = mallinfo2();
-  return info.uordblks + info.hblkhd;
+  return info.uordblks + info.hblkhd + large_memory_held;
 #else
   return std::nullopt;
 #endif

@@ -1,8 +1,10 @@
 #pragma once
-// Memory for arrays with an entry per disk: aligned to cache lines and, from 16 MiB on, in pages of 2 MiB where the system
+// Memory for arrays with an entry per disk: aligned to cache lines and, from 2 MiB on, in pages of 2 MiB where the system
 // has them, so that reading all over a large array does not miss the address cache each time.
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <vector>
@@ -11,6 +13,9 @@
 #endif
 
 namespace carom {
+
+/// Bytes that LargeAllocator has straight from the system, beside the account of the C library.
+inline std::atomic<std::size_t> large_memory_held = 0;
 
 template <class T>
 struct LargeAllocator {
@@ -21,23 +26,52 @@ struct LargeAllocator {
   explicit LargeAllocator(const LargeAllocator<U>&) {}
 
   [[nodiscard]] T* allocate(std::size_t n) {
-    constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21, large = 8 * huge_page;
     if (n > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
-    const std::size_t alignment = n * sizeof(T) >= large ? huge_page : line;
-    const std::size_t bytes = (n * sizeof(T) + alignment - 1) / alignment * alignment;
-    void* memory = std::aligned_alloc(alignment, bytes);
-    if (memory == nullptr) throw std::bad_alloc();
+    const std::size_t bytes = bytes_of(n);
 #if defined(__linux__)
-    if (alignment == huge_page) madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: nothing depends on it
+    if (bytes >= huge_page) return static_cast<T*>(map_memory(bytes));
 #endif
+    void* memory = std::aligned_alloc(line, bytes);
+    if (memory == nullptr) throw std::bad_alloc();
     return static_cast<T*>(memory);
   }
-  void deallocate(T* memory, std::size_t) { std::free(memory); }
+  void deallocate(T* memory, std::size_t n) {
+#if defined(__linux__)
+    if (const std::size_t bytes = bytes_of(n); bytes >= huge_page) return give_back(memory, bytes);
+#endif
+    std::free(memory);
+  }
 
   template <class U>
   bool operator==(const LargeAllocator<U>&) const {
     return true;
   }
+
+ private:
+  static constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21;
+
+  static std::size_t whole_pages(std::size_t bytes) { return (bytes + huge_page - 1) / huge_page * huge_page; }
+  static std::size_t bytes_of(std::size_t n) { return (n * sizeof(T) + line - 1) / line * line; }
+
+#if defined(__linux__)
+  /// Memory that was in use before would stay in small pages. What does not fill a large page at the end does so too.
+  static void* map_memory(std::size_t bytes) {
+    const std::size_t mapped = whole_pages(bytes);
+    void* memory = mmap(nullptr, mapped + huge_page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    const std::size_t before = (huge_page - reinterpret_cast<std::uintptr_t>(memory) % huge_page) % huge_page;
+    char* const start = static_cast<char*>(memory) + before;
+    if (before > 0) munmap(memory, before);
+    munmap(start + mapped, huge_page - before);
+    madvise(start, bytes / huge_page * huge_page, MADV_HUGEPAGE);  // a wish: nothing depends on it
+    large_memory_held += bytes;
+    return start;
+  }
+  static void give_back(void* memory, std::size_t bytes) {
+    munmap(memory, whole_pages(bytes));
+    large_memory_held -= bytes;
+  }
+#endif
 };
 
 template <class T>

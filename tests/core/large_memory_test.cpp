@@ -1,0 +1,44 @@
+#include "core/large_memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <new>
+
+namespace carom::test {
+namespace {
+
+constexpr std::size_t huge_page = std::size_t{1} << 21;
+
+TEST(LargeMemory, IsAlignedAndHasRoomFromEndToEnd) {
+  for (const std::size_t bytes : {std::size_t{1}, huge_page - 1, huge_page, huge_page + 1, 5 * huge_page + 12'345}) {
+    LargeVector<char> memory(bytes, 'a');
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory.data()) % (bytes >= huge_page ? huge_page : 64), 0U) << bytes;
+    memory.front() = memory.back() = 'b';
+    EXPECT_EQ(memory[bytes / 2], bytes > 2 ? 'a' : 'b');
+  }
+}
+
+TEST(LargeMemory, IsCountedAndGivenBack) {
+  const std::size_t before = large_memory_held;
+  {
+    LargeVector<double> memory(1'000'000);
+    EXPECT_EQ(large_memory_held, before + 8'000'000);
+    memory.push_back(1.0);
+    EXPECT_EQ(large_memory_held, before + memory.capacity() * sizeof(double));
+    const LargeVector<double> moved = std::move(memory);
+    EXPECT_EQ(moved.back(), 1.0);
+  }
+  EXPECT_EQ(large_memory_held, before);
+}
+
+TEST(LargeMemory, RefusesWhatNoMachineHas) {
+  LargeAllocator<double> allocator;
+  EXPECT_THROW((void)allocator.allocate(std::numeric_limits<std::size_t>::max() / 8), std::bad_array_new_length);
+  EXPECT_THROW((void)allocator.allocate(std::size_t{1} << 52), std::bad_alloc);
+}
+
+}  // namespace
+}  // namespace carom::test
