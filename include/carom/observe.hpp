@@ -69,6 +69,9 @@ class Observable {
   [[nodiscard]] virtual std::string name() const = 0;
   /// Time between two calls of sample(); with 0 it is never called.
   [[nodiscard]] virtual double step() const { return 0.0; }
+  /// Whether sample() looks at no more of a state than time, velocities, scale and walls. The rest may then be missing, which
+  /// takes a fraction of the time.
+  [[nodiscard]] virtual bool looks_at_velocities_alone() const { return false; }
   /// Whether collisions() is to be called. Observables without it leave the event loop as fast as it is.
   [[nodiscard]] virtual bool follows_collisions() const { return false; }
 

@@ -162,6 +162,8 @@ struct SamplingGrid {
   /// At k * step, k = 0, 1, 2, ...; every collision up to then has been handed on. Where step is a multiple of run.sample_every,
   /// or of the length of a block, to rounding, these are the scene's own samples, to the last bit.
   std::function<void(std::uint64_t k, const State& state, const Totals& totals)> sample;
+  /// The state may be without all but time, velocities, scale and walls.
+  bool velocities_alone = false;
 };
 
 /// A moment between two events at which a run can be saved.

@@ -582,6 +582,8 @@ class Engine {
 
   /// The state at now(), computed on the side: nothing in the engine changes.
   [[nodiscard]] State state() const;
+  /// Time, velocities, scale and walls of state(); the rest is left as it is.
+  void look_at_velocities(State& state) const;
 
   /// Makes now the zero of time and forgets the totals.
   void reset_clock() {

@@ -10,9 +10,8 @@ namespace carom {
 template <class Impact, class Layout, class World>
 State Engine<Impact, Layout, World>::state() const {
   State state;
-  state.time = now().high;
+  look_at_velocities(state);
   state.positions.resize(2, count());
-  state.velocities.resize(2, count());
   state.images.resize(2, count());
   state.remainders.resize(2, count());
   for (std::int32_t i = 0; i < count(); ++i) {
@@ -32,20 +31,29 @@ State Engine<Impact, Layout, World>::state() const {
       state.remainders(k, column) = axes_[k].remainder(x, position);
       if (axes_[k].periodic && position >= axes_[k].upper) position = axes_[k].lower, ++image;
       state.positions(k, column) = position;
-      state.velocities(k, column) = velocity(a)[k];
       state.images(k, column) = image;
     }
   }
-  state.scale = world_.scale(now_);
   if constexpr (!World::plain)
     if (world_.sliding.present()) state.shear_displacement = world_.sliding.reduced(now_);
-  if constexpr (!World::plain) state.walls = world_.walls.states(now_);
   if constexpr (!Impact::plain) {
     state.bonds = impact_.wells().pairs();
     if (impact_.spinning()) state.spins.resize(count());
     for (std::int32_t i = 0; i < count() && impact_.spinning(); ++i) state.spins[id(i)] = impact_.spin(i);
   }
   return state;
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::look_at_velocities(State& state) const {
+  state.time = now().high;
+  state.velocities.resize(2, count());
+  for (std::int32_t i = 0; i < count(); ++i) {
+    const Vec2<double> v = velocity(line(i));
+    state.velocities.col(id(i)) << v[0], v[1];
+  }
+  state.scale = world_.scale(now_);
+  if constexpr (!World::plain) state.walls = world_.walls.states(now_);
 }
 
 template <class Impact, class Layout, class World>

@@ -23,6 +23,7 @@ class CollisionRate final : public SavedObservable<CollisionRate> {
 
   [[nodiscard]] std::string name() const override { return "collision_rate"; }
   [[nodiscard]] double step() const override { return step_; }
+  [[nodiscard]] bool looks_at_velocities_alone() const override { return true; }
   [[nodiscard]] bool follows_collisions() const override { return by_species_; }
 
   void collisions(std::span<const PairCollision> collisions) override {

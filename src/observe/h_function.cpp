@@ -32,6 +32,7 @@ class HFunction final : public SavedObservable<HFunction> {
 
   [[nodiscard]] std::string name() const override { return "h_function"; }
   [[nodiscard]] double step() const override { return step_; }
+  [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
 
   void sample(const State& state, const Totals&) override {
     if (calls_++ % stride_ != 0) return;

@@ -5,6 +5,7 @@
 
 #include <carom/observe.hpp>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -68,10 +69,13 @@ class Observation::Driver {
         if (next) next(events);
       };
     steps_ = group_.by_step();
-    for (const auto& [step, observables] : steps_)
-      hooks.grids.push_back({step, [sample, &of = observables](std::uint64_t, const State& state, const Totals& totals) {
-                               sample(of, state, totals);
-                             }});
+    for (const auto& [step, observables] : steps_) {
+      const bool velocities_alone = std::ranges::all_of(observables, &Observable::looks_at_velocities_alone);
+      hooks.grids.push_back(
+          {step,
+           [sample, &of = observables](std::uint64_t, const State& state, const Totals& totals) { sample(of, state, totals); },
+           velocities_alone});
+    }
   }
 
   const Simulation& simulation_;

@@ -79,8 +79,7 @@ bool is_driven(const Effects& effects) {
 }
 
 Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state) {
-  const std::optional<Shear>& shear = run.scene.effects.shear;
-  if (shear && shear->rate != 0.0) return velocities_in_flow(shear->rate, run.disks, state);
+  if (run.sheared()) return velocities_in_flow(run.scene.effects.shear->rate, run.disks, state);
   Eigen::Matrix2Xd velocities = state.velocities;
   double mass = 0.0;
   for (const double m : run.disks.mass) mass += m;

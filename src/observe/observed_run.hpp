@@ -27,6 +27,8 @@ struct ObservedRun {
   [[nodiscard]] std::string suffix(std::size_t species) const;
   /// Whether the total momentum along an axis is kept, so that the common motion is no heat.
   [[nodiscard]] bool keeps_momentum(int axis) const;
+  /// Whether what counts as heat depends on where a disk is: velocities are relative to a flow.
+  [[nodiscard]] bool sheared() const { return scene.effects.shear && scene.effects.shear->rate != 0.0; }
 };
 
 /// Whether a thermostat, growth or shear acts: velocities then change without a collision.

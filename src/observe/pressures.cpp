@@ -50,6 +50,7 @@ class Pressure final : public SavedObservable<Pressure> {
   [[nodiscard]] std::string name() const override { return "pressure"; }
   [[nodiscard]] double step() const override { return step_; }
   [[nodiscard]] bool follows_collisions() const override { return follows_; }
+  [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
 
   void collisions(std::span<const PairCollision> collisions) override {
     // One after the other: the sums do not depend on how collisions are handed over.

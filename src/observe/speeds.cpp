@@ -65,6 +65,7 @@ class Speeds final : public SavedObservable<Speeds> {
 
   [[nodiscard]] std::string name() const override { return "speeds"; }
   [[nodiscard]] double step() const override { return step_; }
+  [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);

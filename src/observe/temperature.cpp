@@ -18,6 +18,7 @@ class Temperature final : public SavedObservable<Temperature> {
 
   [[nodiscard]] std::string name() const override { return "temperature"; }
   [[nodiscard]] double step() const override { return step_; }
+  [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);

@@ -19,6 +19,7 @@ class VelocityMoments final : public SavedObservable<VelocityMoments> {
 
   [[nodiscard]] std::string name() const override { return "velocity_moments"; }
   [[nodiscard]] double step() const override { return step_; }
+  [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);

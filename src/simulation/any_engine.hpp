@@ -44,6 +44,8 @@ class AnyEngine {
   [[nodiscard]] virtual Instant now() const = 0;
   [[nodiscard]] virtual const Totals& totals() const = 0;
   [[nodiscard]] virtual State state() const = 0;
+  /// Time, velocities, scale and walls of state(), into memory that is used again; the rest may be missing.
+  virtual void look_at_velocities(State& state) const { state = this->state(); }
   /// Something from outside changes how a disk moves, at now(); returns the energy that it gave. In a sheared box v is relative
   /// to the flow. Spins are left alone where disks are smooth.
   virtual double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) = 0;
@@ -102,6 +104,10 @@ class EngineAdapter final : public AnyEngine {
   [[nodiscard]] Instant now() const override { return engine_.now(); }
   [[nodiscard]] const Totals& totals() const override { return engine_.totals(); }
   [[nodiscard]] State state() const override { return engine_.state(); }
+  void look_at_velocities(State& state) const override {
+    if constexpr (requires { engine_.look_at_velocities(state); }) return engine_.look_at_velocities(state);
+    state = engine_.state();
+  }
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
     if constexpr (requires { engine_.set_velocity(i, v, spin); }) return engine_.set_velocity(i, v, spin);
     refuse_to_be_driven();

@@ -222,17 +222,23 @@ class Schedule {
 
   /// Of every grid that has one now; the state is that of all of them.
   void take_samples(const Instant& when, const Instant& end) {
-    std::optional<State> state;
+    const auto due = [&](const Grid& grid) { return !(when < time_of(grid, end)); };
+    const auto looks = [&](const Grid& grid) {
+      return due(grid) && (grid.hook == nullptr ? static_cast<bool>(hooks_.sample) : static_cast<bool>(grid.hook->sample));
+    };
+    const bool positions = std::ranges::any_of(
+        grids_, [&](const Grid& grid) { return looks(grid) && (grid.hook == nullptr || !grid.hook->velocities_alone); });
+    State whole;
+    if (positions)
+      whole = engine_.state();
+    else if (std::ranges::any_of(grids_, looks))
+      engine_.look_at_velocities(moving_);
+    State& state = positions ? whole : moving_;
+    state.time = when.high;  // the product itself, not what the engine's clock makes of it
     for (Grid& grid : grids_) {
-      if (when < time_of(grid, end)) continue;
+      if (!due(grid)) continue;
       const bool own = grid.hook == nullptr;
-      const bool wanted = own ? static_cast<bool>(hooks_.sample) : static_cast<bool>(grid.hook->sample);
-      if (wanted && !state) {
-        state = engine_.state();
-        state->time = when.high;  // the product itself, not what the engine's clock makes of it
-      }
-      if (wanted && own) hooks_.sample(grid.k, *state);
-      if (wanted && !own) grid.hook->sample(grid.k, *state, engine_.totals());
+      if (looks(grid)) own ? hooks_.sample(grid.k, state) : grid.hook->sample(grid.k, state, engine_.totals());
       if (own) ++result_.samples;
       ++grid.k;
     }
@@ -374,6 +380,7 @@ class Schedule {
   bool ends_by_time_ = false;
   Clock::time_point last_look_ = Clock::now();
   std::vector<Grid> grids_;
+  State moving_;               ///< of samples that look at velocities alone, kept for its memory
   std::exception_ptr thrown_;  ///< by hooks_.collisions
   std::vector<Event> events_;  ///< kept from batch to batch for its memory
   RunResult result_;

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -69,6 +70,33 @@ TEST(SamplingGrids, MultiplesOfTheScenesStepAreItsOwnSamples) {
   run_schedule(simulation, hooks);
   ASSERT_EQ(third.size(), 11U);
   for (std::size_t k = 0; k < third.size(); ++k) EXPECT_TRUE(same_bits(third[k], own[3 * k])) << k;
+}
+
+/// On the fast engine, and on those that know no other way than to give the whole state.
+TEST(SamplingGrids, MayLookAtVelocitiesAlone) {
+  for (const char* engine : {"auto", "textbook"})
+    for (const bool grows : {false, true}) {
+      Scene scene = gas_until(3.0);
+      if (grows) scene.effects.growth.emplace().rate = 0.01;
+      Simulation simulation = make_simulation(scene, engine);
+      std::vector<State> alone, whole;
+      RunHooks hooks;
+      hooks.grids.push_back({0.3, [&](std::uint64_t, const State& state, const Totals&) { alone.push_back(state); }, true});
+      hooks.grids.push_back({0.1, [&](std::uint64_t, const State& state, const Totals&) { whole.push_back(state); }});
+      hooks.grids.push_back({0.7, [&](std::uint64_t, const State& state, const Totals&) { alone.push_back(state); }, true});
+      run_schedule(simulation, hooks);
+      EXPECT_EQ(whole.size(), 31U);
+      std::size_t without_positions = 0;
+      for (const State& state : alone) {
+        Simulation twin = make_simulation(scene, engine);
+        twin.run_until(state.time);
+        const State expected = twin.state();
+        EXPECT_EQ(state.velocities, expected.velocities);
+        EXPECT_EQ(state.scale, expected.scale);
+        without_positions += static_cast<std::size_t>(state.positions.cols() == 0);
+      }
+      EXPECT_EQ(without_positions > 0, std::string(engine) == "auto" && !grows);
+    }
 }
 
 TEST(SamplingGrids, LogarithmicBlocksAreTheStatesAtTheirTimes) {
