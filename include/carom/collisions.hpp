@@ -1,6 +1,8 @@
 #pragma once
 // Collisions with what came before them: for those who follow disks from one to the next.
 
+#include <carom/collision_note.hpp>
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -16,18 +18,11 @@ struct PairCollision {
   double time = 0.0;  ///< since the start of the measured run
   std::int32_t disk = 0;
   std::int32_t partner = 0;
-  Eigen::Vector2d separation;                                 ///< from the partner to the disk
-  Eigen::Vector2d impulse;                                    ///< that the disk got; the partner got its opposite
+  Eigen::Vector2d separation;  ///< from the partner to the disk
+  Eigen::Vector2d impulse;  ///< that the disk got; the partner got its opposite: reduced mass times change of relative velocity
   Eigen::Vector2d velocity_before, velocity;                  ///< of the disk, just before and just after
   Eigen::Vector2d partner_velocity_before, partner_velocity;  ///< of the partner
   bool contact = true;                                        ///< false where they meet the edge of each other's square well
-};
-
-/// A collision as the event loop writes it down, where every instruction counts: its numbers as they are.
-struct alignas(16) CollisionNote {
-  double time;                                                      ///< since the epoch of the engine
-  std::int32_t place, partner;                                      ///< where the two are in the engine's memory
-  double before[2], partner_before[2], after[2], partner_after[2];  ///< velocities
 };
 
 /// What notes leave unsaid, the same for all of a run.

@@ -1,6 +1,7 @@
 // Writes notes up. Of two disks the lower id comes first; which of them that is nobody can guess, and so nothing branches on it.
 
 #include "core/instant.hpp"
+#include "core/reduced_mass.hpp"
 
 #include <carom/collisions.hpp>
 
@@ -45,7 +46,8 @@ void write_up(const CollisionNotes& from, std::span<const CollisionNote> notes, 
     met.velocity = either(swapped[n], note.after, note.partner_after);
     met.partner_velocity_before = either(swapped[n], note.partner_before, note.before);
     met.partner_velocity = either(swapped[n], note.partner_after, note.after);
-    met.impulse = of(from.disks->mass, met.disk) * (met.velocity - met.velocity_before);
+    met.impulse = reduced_mass(of(from.disks->mass, met.disk), of(from.disks->mass, met.partner)) *
+                  ((met.velocity - met.velocity_before) - (met.partner_velocity - met.partner_velocity_before));
     met.contact = true;
     squares[static_cast<Eigen::Index>(n)] = met.impulse.squaredNorm();
     sigma[static_cast<Eigen::Index>(n)] = of(from.disks->radius, met.disk) + of(from.disks->radius, met.partner);

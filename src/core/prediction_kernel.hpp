@@ -5,31 +5,23 @@
 // core/contact_time.hpp but for r^2 - sigma^2, which is taken as it stands: its error moves the place of contact by
 // 2^-53 sigma, less than what the rounding of x + v t does, and it saves a square root.
 //
-// The vectors are those of GCC and Clang; every operation is IEEE's, so the bits are those of the same operations one by
-// one (tests/core/prediction_test.cpp has that twin). Nothing here branches on what it computes.
+// Every operation is IEEE's, so the bits are those of the same operations one by one (tests/core/prediction_test.cpp has that
+// twin). Nothing here branches on what it computes.
 
+#include "core/doubles_kernel.hpp"
 #include "core/prediction.hpp"
 
-#include <cmath>
 #include <limits>
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
-
-// One function after inlining: what several searches share stays in registers, and they run side by side.
-#define CAROM_INLINE [[gnu::always_inline]] inline
 
 namespace carom::CAROM_INSTRUCTIONS {
 namespace {
 
-using Doubles = double __attribute__((vector_size(32)));
 using Longs = long long __attribute__((vector_size(32)));
 using UnsignedLongs = unsigned long long __attribute__((vector_size(32)));
 using StoredLongs = long long __attribute__((vector_size(32), may_alias));  // as they lie in a line
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-CAROM_INLINE Doubles all(double x) { return Doubles{x, x, x, x}; }
 CAROM_INLINE Longs all(std::int64_t x) { return Longs{x, x, x, x}; }
 
 /// a - b as integers that wrap.
@@ -47,18 +39,6 @@ CAROM_INLINE Doubles to_double(Longs x) {
   const auto low = reinterpret_cast<Doubles>((bits & 0xFFFFFFFFULL) | 0x4330000000000000ULL);
   const auto high = reinterpret_cast<Doubles>((bits >> 32) ^ 0x4530000080000000ULL);
   return (high - all(0x1p84 + 0x1p63 + 0x1p52)) + low;
-#endif
-}
-
-CAROM_INLINE Doubles square_root(Doubles x) {
-#if defined(__AVX__)
-  return reinterpret_cast<Doubles>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(x)));
-#elif defined(__SSE2__)
-  const __m128d low = _mm_sqrt_pd(_mm_set_pd(x[1], x[0]));
-  const __m128d high = _mm_sqrt_pd(_mm_set_pd(x[3], x[2]));
-  return Doubles{low[0], low[1], high[0], high[1]};
-#else
-  return Doubles{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
 #endif
 }
 

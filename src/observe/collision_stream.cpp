@@ -1,6 +1,7 @@
 #include "observe/collision_stream.hpp"
 
 #include "core/all_equal.hpp"
+#include "core/reduced_mass.hpp"
 #include "simulation/velocities_tell_contacts.hpp"
 
 #include <cmath>
@@ -68,8 +69,8 @@ void CollisionStream::meet(const Event& event, PairCollision& met) {
   met.partner_velocity_before = velocity_[j];
   met.velocity = velocity_[i] = event.velocity;
   met.partner_velocity = velocity_[j] = event.partner_velocity;
-  const double m = equal_ ? mass_.front() : mass_[i];
-  met.impulse = m * (met.velocity - met.velocity_before);
+  const double mu = equal_ ? reduced_mass(mass_.front(), mass_.front()) : reduced_mass(mass_[i], mass_[j]);
+  met.impulse = mu * ((met.velocity - met.velocity_before) - (met.partner_velocity - met.partner_velocity_before));
   met.contact = true;
   if (!smooth_) return;
   const double sigma = equal_ ? 2.0 * radius_.front() : radius_[i] + radius_[j];

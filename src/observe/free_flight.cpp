@@ -3,7 +3,10 @@
 // as many as a disk makes. Walls do not end a flight.
 // In large systems every second, fourth, ... disk is followed, at most two thousand.
 
+#include "core/instant.hpp"
 #include "observe/blocking.hpp"
+#include "observe/followed_disks.hpp"
+#include "observe/followers.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 
@@ -11,7 +14,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -59,14 +64,16 @@ class FlightHistogram {
   BlockedColumn shares_;
 };
 
-class FreeFlight final : public SavedObservable<FreeFlight> {
+class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower {
  public:
   FreeFlight(const ObservableRequest& request, const ObservedRun& run)
       : times_(static_cast<std::size_t>(request.bins.value_or(100)), longest * scale(run)),
         paths_(static_cast<std::size_t>(request.bins.value_or(100)), longest * scale(run) * speed(run)),
         skip_(static_cast<std::uint32_t>(std::bit_ceil((run.disks.count() + most_disks - 1) / most_disks)) - 1),
-        last_((run.disks.count() >> std::popcount(skip_)) + 1, never),
-        why_no_path_(why_no_path(run.scene.effects)) {}
+        why_no_path_(why_no_path(run.scene.effects)) {
+    for (std::size_t disk = 0; disk < run.disks.count(); disk += skip_ + 1) ids_.push_back(static_cast<std::int32_t>(disk));
+    last_.assign(ids_.size(), never);
+  }
 
   [[nodiscard]] std::string name() const override { return "free_flight"; }
   [[nodiscard]] bool follows_collisions() const override { return true; }
@@ -74,6 +81,13 @@ class FreeFlight final : public SavedObservable<FreeFlight> {
   void collisions(std::span<const PairCollision> collisions) override {
     for (; collisions.size() > piece; collisions = collisions.subspan(piece)) look_at(collisions.first(piece));
     look_at(collisions);
+  }
+
+  void read(const CollisionNotes& notes) override {
+    if (notes.disks != noted_) follow_in(notes.disks);
+    const Instant epoch{notes.epoch, notes.epoch_remainder};
+    for (std::size_t begin = 0; begin < notes.notes.size(); begin += piece)
+      look_at(epoch, notes.notes.subspan(begin, std::min(piece, notes.notes.size() - begin)));
   }
 
   [[nodiscard]] Measurement finish(double time, const Totals&) override {
@@ -96,7 +110,7 @@ class FreeFlight final : public SavedObservable<FreeFlight> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(times_, paths_, last_, sums_.flights, sums_.time, sums_.path, counted_, mean_time_, mean_path_);
+    archive(times_, paths_, ids_, last_, sums_.flights, sums_.time, sums_.path, counted_, mean_time_, mean_path_);
   }
 
  private:
@@ -125,47 +139,85 @@ class FreeFlight final : public SavedObservable<FreeFlight> {
     return run.temperature > 0.0 ? std::sqrt(run.temperature / mass) : 1.0;
   }
 
-  /// At most `piece` of them. Who is followed nobody can guess: they are listed without a branch, and looked at then.
-  void look_at(std::span<const PairCollision> collisions) {
-    std::array<std::uint32_t, 2 * piece> ended;
-    std::size_t flights = 0;
-    for (std::uint32_t n = 0; n < collisions.size(); ++n) {
-      const PairCollision& met = collisions[n];
-      ended[flights] = 2 * n;
-      flights += static_cast<std::size_t>(met.contact && follows(met.disk));
-      ended[flights] = 2 * n + 1;
-      flights += static_cast<std::size_t>(met.contact && follows(met.partner));
+  /// Who is followed nobody can guess: those whose flight ends are listed without a branch, and looked at then.
+  struct Ended {
+    std::array<std::uint32_t, 2 * piece> which;  ///< twice the number of the collision; plus one for the partner
+    std::size_t count = 0;
+
+    void add(std::uint32_t collision, bool disk, bool partner) {
+      which[count] = 2 * collision;
+      count += static_cast<std::size_t>(disk);
+      which[count] = 2 * collision + 1;
+      count += static_cast<std::size_t>(partner);
     }
+  };
+
+  /// At most `piece` of them.
+  void look_at(std::span<const PairCollision> collisions) {
+    Ended ended;
+    for (std::uint32_t n = 0; n < collisions.size(); ++n)
+      ended.add(n, collisions[n].contact && follows(collisions[n].disk), collisions[n].contact && follows(collisions[n].partner));
     Sums sums = sums_;
-    for (const std::uint32_t which : std::span(ended).first(flights)) {
+    for (const std::uint32_t which : std::span(ended.which).first(ended.count)) {
       const PairCollision& met = collisions[which / 2];
-      which % 2 == 0 ? end(met.disk, met.time, met.velocity_before, sums)
-                     : end(met.partner, met.time, met.partner_velocity_before, sums);
-      if (sums.flights < batch) continue;  // after so many flights, however collisions are handed over
-      end_sample(sums);
-      if (counted_ >= 16 * batch) end_histograms();
+      which % 2 == 0 ? end(last_[row_by_id(met.disk)], met.time, met.velocity_before.norm(), sums)
+                     : end(last_[row_by_id(met.partner)], met.time, met.partner_velocity_before.norm(), sums);
     }
     sums_ = sums;
   }
 
+  /// The same. Where both disks of a collision are followed, the one of lower id comes first here too.
+  void look_at(const Instant& epoch, std::span<const CollisionNote> notes) {
+    Ended ended;
+    for (std::uint32_t n = 0; n < notes.size(); ++n) ended.add(n, places_.has(notes[n].place), places_.has(notes[n].partner));
+    Sums sums = sums_;
+    for (std::size_t e = 0; e < ended.count; ++e) {
+      const std::uint32_t which = ended.which[e], other = which ^ 1U;
+      const CollisionNote& note = notes[which / 2];
+      const bool both = (e + 1 < ended.count && ended.which[e + 1] == other) || (e > 0 && ended.which[e - 1] == other);
+      const bool exchanged = both && id(note.partner) < id(note.place);
+      const bool of_partner = (which % 2 != 0) != exchanged;
+      const double(&v)[2] = of_partner ? note.partner_before : note.before;
+      end(last_[places_.row(of_partner ? note.partner : note.place)], epoch.plus(note.time).high,
+          Eigen::Vector2d(v[0], v[1]).norm(), sums);
+    }
+    sums_ = sums;
+  }
+  [[nodiscard]] std::int32_t id(std::int32_t place) const { return noted_->ids[static_cast<std::size_t>(place)]; }
+
+  /// Rows are by id to begin with; from now on they are by place.
+  void follow_in(const std::shared_ptr<const NotedDisks>& disks) {
+    noted_ = disks;
+    places_ = FollowedDisks(*disks, [this](std::int32_t disk) { return follows(disk); });
+    std::vector<double> by_id(last_.size());
+    for (std::size_t row = 0; row < last_.size(); ++row) by_id[row_by_id(ids_[row])] = last_[row];
+    ids_ = places_.ids();
+    for (std::size_t row = 0; row < last_.size(); ++row) last_[row] = by_id[row_by_id(ids_[row])];
+  }
+
   [[nodiscard]] bool follows(std::int32_t disk) const { return (static_cast<std::uint32_t>(disk) & skip_) == 0; }
+  [[nodiscard]] std::size_t row_by_id(std::int32_t disk) const {
+    return static_cast<std::uint32_t>(disk) >> std::popcount(skip_);
+  }
 
   struct Sums {  ///< since the last sample of the means
     std::uint64_t flights = 0;
     double time = 0.0, path = 0.0;
   };
-  /// A flight ends at a collision, to which the disk came with velocity v: it was as fast all the way.
-  void end(std::int32_t disk, double time, const Eigen::Vector2d& v, Sums& sums) {
-    double& last = last_[static_cast<std::uint32_t>(disk) >> std::popcount(skip_)];
+  /// A flight ends at a collision, to which the disk came with this speed: it was as fast all the way.
+  void end(double& last, double time, double speed, Sums& sums) {
     const double flight = time - last;
     last = time;
     if (!(flight < std::numeric_limits<double>::infinity())) return;
-    const double path = v.norm() * flight;
+    const double path = speed * flight;
     ++sums.flights;
     sums.time += flight;
     sums.path += path;
     times_.add(flight);
     paths_.add(path);
+    if (sums.flights < batch) return;  // after so many flights, however collisions are handed over
+    end_sample(sums);
+    if (counted_ >= 16 * batch) end_histograms();
   }
   void end_sample(Sums& sums) {
     const double flights = static_cast<double>(sums.flights);
@@ -188,8 +240,11 @@ class FreeFlight final : public SavedObservable<FreeFlight> {
   }
 
   FlightHistogram times_, paths_;
-  std::uint32_t skip_;        ///< disks whose id has one of these bits are not followed
-  std::vector<double> last_;  ///< collision of each disk that is followed; `never` before the first
+  std::uint32_t skip_;             ///< disks whose id has one of these bits are not followed
+  std::vector<std::int32_t> ids_;  ///< of those who are followed, by row
+  std::vector<double> last_;       ///< collision of each; `never` before the first
+  std::shared_ptr<const NotedDisks> noted_;
+  FollowedDisks places_;  ///< in noted_
   std::string why_no_path_;
   Sums sums_;
   std::uint64_t counted_ = 0;  ///< in samples since the last one of the histograms

@@ -4,16 +4,17 @@
 #include "observe/observables.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <sstream>
 #include <utility>
 
 namespace carom {
 
-ObservableGroup::ObservableGroup(const ObservedRun& run) : run_(run) {
+ObservableGroup::ObservableGroup(const ObservedRun& run) : run_(run), meter_(run_) {
   for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
 }
 
-ObservableGroup::ObservableGroup(const ObservedRun& run, std::istream& saved) : run_(run) {
+ObservableGroup::ObservableGroup(const ObservedRun& run, std::istream& saved) : run_(run), meter_(run_) {
   load(saved);
   for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
 }
@@ -33,13 +34,23 @@ void ObservableGroup::add(std::unique_ptr<Observable> observable) {
 }
 
 void ObservableGroup::follow_with(Observable& observable) {
-  followers_.push_back(&observable);
+  if (auto* fluxes = dynamic_cast<FluxFollower*>(&observable)) {
+    flux_followers_.push_back(fluxes);
+  } else if (auto* notes = dynamic_cast<NoteFollower*>(&observable); notes != nullptr && run_.collisions_told) {
+    note_followers_.push_back(notes);
+  } else {
+    followers_.push_back(&observable);
+  }
   if (stream_ || run_.collisions_told) return;
   stream_.emplace(run_.scene, run_.disks);
   if (saved_stream_.empty()) return;
   std::istringstream saved(saved_stream_);
   LoadingArchive archive(saved);
   archive(*stream_);
+}
+
+bool ObservableGroup::follows_collisions() const {
+  return !followers_.empty() || !flux_followers_.empty() || !note_followers_.empty();
 }
 
 std::map<double, std::vector<Observable*>> ObservableGroup::by_step() const {
@@ -52,24 +63,37 @@ std::map<double, std::vector<Observable*>> ObservableGroup::by_step() const {
 void ObservableGroup::start(const State& state) {
   started_ = true;
   if (stream_) stream_->start(state);
+  meter_.start(state);
   for (const auto& observable : observables_) observable->start(state);
 }
 
 /// In pieces that stay in the nearest cache while everybody looks at them.
 void ObservableGroup::follow(std::span<const Event> events) {
-  constexpr std::size_t piece = 128;
   while (!events.empty()) {
-    const std::size_t count = std::min(piece, events.size());
+    const std::size_t count = std::min(CollisionFluxes::most, events.size());
     stream_->follow(events.first(count), collisions_);
     events = events.subspan(count);
     if (collisions_.empty()) continue;
+    if (!flux_followers_.empty()) hand_on(meter_.of(collisions_));
     for (Observable* observable : followers_) observable->collisions(collisions_);
   }
 }
 
-void ObservableGroup::hear(const CollisionNotes& notes) {
-  notes.read(collisions_);
+void ObservableGroup::hear(const CollisionNotes& told) {
+  if (!flux_followers_.empty())
+    for (std::span<const CollisionNote> notes = told.notes; !notes.empty();) {
+      const std::size_t count = std::min(CollisionFluxes::most, notes.size());
+      hand_on(meter_.of(told, notes.first(count)));
+      notes = notes.subspan(count);
+    }
+  for (NoteFollower* follower : note_followers_) follower->read(told);
+  if (followers_.empty()) return;
+  told.read(collisions_);
   for (Observable* observable : followers_) observable->collisions(collisions_);
+}
+
+void ObservableGroup::hand_on(const CollisionFluxes& fluxes) {
+  for (FluxFollower* follower : flux_followers_) follower->fluxes(fluxes);
 }
 
 std::vector<Measurement> ObservableGroup::results(double time, const Totals& totals) {
@@ -81,7 +105,7 @@ std::vector<Measurement> ObservableGroup::results(double time, const Totals& tot
 
 void ObservableGroup::save(std::ostream& out) const {
   SavingArchive archive(out);
-  archive(run_.time, run_.temperature, run_.mean_free_time, started_);
+  archive(run_.time, run_.temperature, run_.mean_free_time, started_, meter_);
   std::ostringstream stream;
   if (stream_) {
     SavingArchive of_stream(stream);
@@ -98,7 +122,7 @@ void ObservableGroup::save(std::ostream& out) const {
 void ObservableGroup::load(std::istream& saved) {
   LoadingArchive archive(saved);
   std::uint64_t observables = 0;
-  archive(run_.time, run_.temperature, run_.mean_free_time, started_, saved_stream_, observables);
+  archive(run_.time, run_.temperature, run_.mean_free_time, started_, meter_, saved_stream_, observables);
   saved_.resize(observables);
   for (std::string& gathered : saved_) archive(gathered);
 }

@@ -2,6 +2,8 @@
 // The observables of one run, fed together: by a simulation while it runs (Observation), or by what a run has stored.
 
 #include "observe/collision_stream.hpp"
+#include "observe/flux_meter.hpp"
+#include "observe/followers.hpp"
 #include "observe/observed_run.hpp"
 
 #include <carom/observe.hpp>
@@ -28,7 +30,7 @@ class ObservableGroup {
 
   [[nodiscard]] const ObservedRun& run() const { return run_; }
   [[nodiscard]] bool empty() const { return observables_.empty(); }
-  [[nodiscard]] bool follows_collisions() const { return !followers_.empty(); }
+  [[nodiscard]] bool follows_collisions() const;
   /// Those that want states, by the time between two of them.
   [[nodiscard]] std::map<double, std::vector<Observable*>> by_step() const;
 
@@ -37,7 +39,7 @@ class ObservableGroup {
   /// divided among calls.
   void follow(std::span<const Event> events);
   /// The same, told by the simulation: requires run().collisions_told.
-  void hear(const CollisionNotes& notes);
+  void hear(const CollisionNotes& told);
   /// One entry per observable; empty where start() was never called. Call it once.
   [[nodiscard]] std::vector<Measurement> results(double time, const Totals& totals);
 
@@ -46,13 +48,17 @@ class ObservableGroup {
  private:
   void load(std::istream& saved);
   void follow_with(Observable& observable);
+  void hand_on(const CollisionFluxes& fluxes);
 
   ObservedRun run_;
   std::string saved_stream_;        ///< what a run that is resumed had gathered
   std::vector<std::string> saved_;  ///< the same of each observable
   std::vector<std::unique_ptr<Observable>> observables_;
-  std::vector<Observable*> followers_;
+  std::vector<Observable*> followers_;  ///< of whole collisions
+  std::vector<FluxFollower*> flux_followers_;
+  std::vector<NoteFollower*> note_followers_;
   std::optional<CollisionStream> stream_;  ///< where events are followed
+  FluxMeter meter_;
   std::vector<PairCollision> collisions_;
   bool started_ = false;
 };

@@ -12,6 +12,7 @@
 #include "core/all_equal.hpp"
 #include "observe/blocking.hpp"
 #include "observe/equilibrium.hpp"
+#include "observe/followers.hpp"
 #include "observe/geometry.hpp"
 #include "observe/mechanics.hpp"
 #include "observe/observables.hpp"
@@ -35,7 +36,7 @@ double speed_factor(double d) {
   return d > 0.0 ? std::sqrt(0.5 * d) * std::exp(std::lgamma(0.5 * d) - std::lgamma(0.5 * (d + 1.0))) : 1.0;
 }
 
-class Pressure final : public SavedObservable<Pressure> {
+class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
  public:
   Pressure(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 16.0)) {
     const Effects& effects = run.scene.effects;
@@ -49,18 +50,16 @@ class Pressure final : public SavedObservable<Pressure> {
 
   [[nodiscard]] std::string name() const override { return "pressure"; }
   [[nodiscard]] double step() const override { return step_; }
-  [[nodiscard]] bool follows_collisions() const override { return follows_; }
   [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
+  [[nodiscard]] bool follows_collisions() const override { return follows_; }
 
-  void collisions(std::span<const PairCollision> collisions) override {
-    // One after the other: the sums do not depend on how collisions are handed over.
-    Eigen::Vector2d along_x(transfer_[0], transfer_[1]), along_y(transfer_[2], transfer_[3]);
-    for (const PairCollision& met : collisions) {
-      along_x += met.separation.x() * met.impulse;
-      along_y += met.separation.y() * met.impulse;
-    }
-    transfer_ = {along_x.x(), along_x.y(), along_y.x(), along_y.y()};
-    if (!equal_) count_meetings(collisions);
+  /// One after the other: the sums do not depend on how collisions are handed over.
+  void fluxes(const CollisionFluxes& fluxes) override {
+    std::array<double, 4> transfer = transfer_;
+    for (std::size_t row = 0; row < fluxes.count; ++row)
+      for (std::size_t c = 0; c < 4; ++c) transfer[c] += fluxes.virial[c][row];
+    transfer_ = transfer;
+    for (std::size_t row = 0; row < fluxes.count && !equal_; ++row) meetings_ += fluxes.meeting[row];
   }
 
   void sample(const State& state, const Totals& totals) override {
@@ -103,14 +102,6 @@ class Pressure final : public SavedObservable<Pressure> {
   }
 
  private:
-  void count_meetings(std::span<const PairCollision> collisions) {
-    const std::vector<double>&mass = run_.disks.mass, &radius = run_.disks.radius;
-    for (const PairCollision& met : collisions) {
-      const auto i = static_cast<std::size_t>(met.disk), j = static_cast<std::size_t>(met.partner);
-      if (met.contact) meetings_ += (radius[i] + radius[j]) * std::sqrt(mass[i] * mass[j] / (mass[i] + mass[j]));
-    }
-  }
-
   struct Snapshot {
     double time = 0.0, kT = 0.0, virial = 0.0, meetings = 0.0, area = 0.0;
     std::uint64_t pairs = 0;

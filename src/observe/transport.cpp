@@ -1,11 +1,16 @@
 #include "observe/transport.hpp"
 
 #include "observe/blocking.hpp"
+#include "observe/flux_meter.hpp"
+#include "observe/mechanics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace carom {
 
@@ -55,9 +60,57 @@ double sound_time(const ObservedRun& run) {
   return speed > 0.0 ? 0.5 * run.scene.box.lengths().minCoeff() / speed : std::numeric_limits<double>::infinity();
 }
 
-Measurement transport_measurement(const std::string& name, const std::string& unit, const std::string& unit_of_flux, double step,
-                                  double factor, double longest, const MultipleTau& products, const MultipleTau& moments) {
-  const std::vector<MultipleTau::Row> correlations = products.rows(), growth = moments.rows();
+Transport::Transport(const ObservableRequest& request, const ObservedRun& run, TransportCoefficient coefficient)
+    : run_(run), coefficient_(std::move(coefficient)), step_(run.step(request, 0.25)) {}
+
+void Transport::start(const State& state) {
+  const Eigen::Vector2d common = common_velocity(run_, state);
+  kT_ = kinetic_temperature(run_.scene.box, run_.disks, state);
+  for (std::size_t i = 0; i < run_.disks.count(); ++i)
+    flow_ += coefficient_.flow(run_.disks.mass[i], state.velocities.col(static_cast<Eigen::Index>(i)) - common);
+  moments_.add(std::array{0.0, 0.0});
+}
+
+void Transport::fluxes(const CollisionFluxes& fluxes) {
+  for (std::size_t row = 0; row < fluxes.count; row = take(fluxes, row))
+    if (fluxes.time[row] > next_) tick(fluxes.time[row]);
+}
+
+/// From a row on up to the next tick; returns the first row that is left. The integral of a flow that changes by c at time t
+/// grows by c (end - t): sums without a product between one collision and the next.
+std::size_t Transport::take(const CollisionFluxes& fluxes, std::size_t row) {
+  const CollisionFluxes::Flux& flux = fluxes.*coefficient_.flux;
+  double flow[2] = {flow_[0], flow_[1]}, moment[2] = {moment_[0], moment_[1]};
+  for (; row < fluxes.count && !(fluxes.time[row] > next_); ++row) {
+    const double elapsed = fluxes.time[row] - time_;
+    for (int c = 0; c < 2; ++c) {
+      flow[c] += flux.change[c][row];
+      moment[c] += flux.jump[c][row] - elapsed * flux.change[c][row];
+    }
+  }
+  flow_ = {flow[0], flow[1]};
+  moment_ = {moment[0], moment[1]};
+  return row;
+}
+
+/// Notes the moment at every grid time up to `time`.
+void Transport::tick(double time) {
+  while (next_ <= time) {
+    moment_ += (next_ - time_) * flow_;
+    time_ = next_;
+    const Eigen::Vector2d mean = (moment_ - noted_) / step_;
+    products_.add(std::array{mean.x(), mean.y()});
+    moments_.add(std::array{moment_.x(), moment_.y()});
+    noted_ = moment_;
+    next_ = static_cast<double>(++ticks_ + 1) * step_;
+  }
+}
+
+Measurement Transport::finish(double time, const Totals&) {
+  if (time >= next_) tick(time);
+  const auto& [name, unit, unit_of_flux, flow, flux_of, factor_of] = coefficient_;
+  const double step = step_, factor = factor_of(kT_, run_.scene.box.area()), longest = sound_time(run_);
+  const std::vector<MultipleTau::Row> correlations = products_.rows(), growth = moments_.rows();
   Measurement found{.name = name};
   found.scalars.push_back(coefficient("green_kubo", unit, step, factor * step, longest_row(correlations, longest / step)));
   const MultipleTau::Row* last = longest_row(growth, longest / step);

@@ -1,0 +1,2 @@
+#define CAROM_INSTRUCTIONS portable
+#include "observe/collision_fluxes_kernel.hpp"

@@ -1,0 +1,39 @@
+#pragma once
+// Fluxes of collisions that are told by the simulation or known from the event log: to the same bits.
+
+#include "observe/collision_fluxes.hpp"
+#include "observe/observed_run.hpp"
+
+#include <carom/collisions.hpp>
+
+#include <span>
+
+namespace carom {
+
+/// Velocity of all disks together; zero where it is no more than what rounding leaves.
+[[nodiscard]] Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state);
+
+class FluxMeter {
+ public:
+  explicit FluxMeter(const ObservedRun& run);
+
+  void start(const State& state);
+  /// Of at most CollisionFluxes::most collisions; what is returned holds until the next call. Requires disks that velocities tell
+  /// the contacts of. `notes` are some of those in `told`.
+  const CollisionFluxes& of(const CollisionNotes& told, std::span<const CollisionNote> notes);
+  const CollisionFluxes& of(std::span<const PairCollision> collisions);
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(contacts_.common);
+  }
+
+ private:
+  ObservedRun run_;
+  bool equal_;  ///< all disks are
+  CollisionContacts contacts_{};
+  CollisionFluxes fluxes_{};
+  const FluxKernel& kernel_;
+};
+
+}  // namespace carom

@@ -1,0 +1,35 @@
+#include "observe/followed_disks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+TEST(FollowedDisks, HaveRowsByTheirPlaces) {
+  for (const std::int32_t disks : {1, 31, 32, 33, 64, 1000})
+    for (const std::int32_t stride : {1, 2, 8, 64}) {
+      NotedDisks noted;
+      noted.ids.resize(static_cast<std::size_t>(disks));
+      std::iota(noted.ids.begin(), noted.ids.end(), 0);
+      std::shuffle(noted.ids.begin(), noted.ids.end(), std::mt19937(7));
+      const FollowedDisks followed(noted, [&](std::int32_t id) { return id % stride == 0; });
+      std::vector<std::int32_t> expected;
+      for (std::int32_t place = 0; place < disks; ++place) {
+        const std::int32_t id = noted.ids[static_cast<std::size_t>(place)];
+        ASSERT_EQ(followed.has(place), id % stride == 0);
+        if (id % stride != 0) continue;
+        ASSERT_EQ(followed.row(place), expected.size());
+        expected.push_back(id);
+      }
+      EXPECT_EQ(followed.ids(), expected);
+    }
+}
+
+}  // namespace
+}  // namespace carom::test
