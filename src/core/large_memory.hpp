@@ -8,7 +8,13 @@
 #include <cstdlib>
 #include <new>
 #include <vector>
-#if defined(__linux__)
+#if defined(__has_feature)
+#define CAROM_SANITIZES_ADDRESSES __has_feature(address_sanitizer)
+#elif defined(__SANITIZE_ADDRESS__)
+#define CAROM_SANITIZES_ADDRESSES 1
+#endif
+#if defined(__linux__) && !CAROM_SANITIZES_ADDRESSES  // which watches the C library's memory alone
+#define CAROM_MAPS_MEMORY 1
 #include <sys/mman.h>
 #endif
 
@@ -28,7 +34,7 @@ struct LargeAllocator {
   [[nodiscard]] T* allocate(std::size_t n) {
     if (n > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
     const std::size_t bytes = bytes_of(n);
-#if defined(__linux__)
+#if CAROM_MAPS_MEMORY
     if (bytes >= huge_page) return static_cast<T*>(map_memory(bytes));
 #endif
     void* memory = std::aligned_alloc(line, bytes);
@@ -36,7 +42,7 @@ struct LargeAllocator {
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t n) {
-#if defined(__linux__)
+#if CAROM_MAPS_MEMORY
     if (const std::size_t bytes = bytes_of(n); bytes >= huge_page) return give_back(memory, bytes);
 #endif
     std::free(memory);
@@ -53,7 +59,7 @@ struct LargeAllocator {
   static std::size_t whole_pages(std::size_t bytes) { return (bytes + huge_page - 1) / huge_page * huge_page; }
   static std::size_t bytes_of(std::size_t n) { return (n * sizeof(T) + line - 1) / line * line; }
 
-#if defined(__linux__)
+#if CAROM_MAPS_MEMORY
   /// Memory that was in use before would stay in small pages. What does not fill a large page at the end does so too.
   static void* map_memory(std::size_t bytes) {
     const std::size_t mapped = whole_pages(bytes);

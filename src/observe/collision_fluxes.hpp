@@ -18,7 +18,7 @@ struct alignas(64) CollisionFluxes {
 
   struct Flux {
     Column change[2];  ///< of what flies
-    Column jump[2];    ///< r_ij times what disk i got
+    Column jump[2];    ///< r_ij times what disk i got from j, where both got the same: or half the difference
   };
 
   Column time;       ///< since the start of the measured run
@@ -33,9 +33,9 @@ struct alignas(64) CollisionFluxes {
 struct alignas(64) CollisionContacts {
   using Column = CollisionFluxes::Column;
 
-  double common[2];  ///< velocity of all disks together: what flies is relative to it
   Column mu, sigma;  ///< of two smooth disks, whose velocities tell the rest
   Column impulse[2], separation[2];
+  double common[2];  ///< velocity of all disks together: what flies is relative to it
 };
 
 /// All give the same bits.

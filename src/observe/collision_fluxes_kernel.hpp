@@ -38,6 +38,9 @@ CAROM_INLINE Vectors half_traceless(const Vectors& a, const Vectors& b) {
   return all(0.5) * Vectors{a.x * b.y + a.y * b.x, a.x * b.x - a.y * b.y};
 }
 
+static_assert(offsetof(CollisionNote, partner_before) == offsetof(CollisionNote, before) + 2 * sizeof(double) &&
+              offsetof(CollisionNote, partner_after) == offsetof(CollisionNote, after) + 2 * sizeof(double));
+
 struct Velocities {
   Vectors disk, partner;
 };

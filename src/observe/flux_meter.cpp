@@ -19,18 +19,18 @@ Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state) {
   return common.norm() > 1e-12 * thermal ? common : Eigen::Vector2d(0.0, 0.0);
 }
 
-FluxMeter::FluxMeter(const ObservedRun& run)
-    : run_(run), equal_(all_equal(run.disks.radius) && all_equal(run.disks.mass)), kernel_(flux_kernel()) {
-  if (!equal_ || run.disks.count() == 0) return;
-  std::ranges::fill(contacts_.mu, reduced_mass(run.disks.mass[0], run.disks.mass[0]));
-  std::ranges::fill(contacts_.sigma, 2.0 * run.disks.radius[0]);
+FluxMeter::FluxMeter(const Disks& disks)
+    : disks_(disks), equal_(all_equal(disks.radius) && all_equal(disks.mass)), kernel_(flux_kernel()) {
+  if (!equal_ || disks.count() == 0) return;
+  std::ranges::fill(contacts_.mu, reduced_mass(disks.mass[0], disks.mass[0]));
+  std::ranges::fill(contacts_.sigma, 2.0 * disks.radius[0]);
 }
 
-void FluxMeter::start(const State& state) { Eigen::Vector2d::Map(contacts_.common) = common_velocity(run_, state); }
+void FluxMeter::start(const Eigen::Vector2d& common) { Eigen::Vector2d::Map(contacts_.common) = common; }
 
 const CollisionFluxes& FluxMeter::of(const CollisionNotes& told, std::span<const CollisionNote> notes) {
   const Instant epoch{told.epoch, told.epoch_remainder};
-  const std::vector<double>&radius = run_.disks.radius, &mass = run_.disks.mass;
+  const std::vector<double>&radius = disks_.radius, &mass = disks_.mass;
   fluxes_.count = notes.size();
   for (std::size_t row = 0; row < notes.size(); ++row) fluxes_.time[row] = epoch.plus(notes[row].time).high;
   for (std::size_t row = 0; row < notes.size() && !equal_; ++row) {
@@ -48,7 +48,7 @@ const CollisionFluxes& FluxMeter::of(const CollisionNotes& told, std::span<const
 
 const CollisionFluxes& FluxMeter::of(std::span<const PairCollision> collisions) {
   std::array<CollisionNote, CollisionFluxes::most> notes;
-  const std::vector<double>&radius = run_.disks.radius, &mass = run_.disks.mass;
+  const std::vector<double>&radius = disks_.radius, &mass = disks_.mass;
   fluxes_.count = collisions.size();
   for (std::size_t row = 0; row < collisions.size(); ++row) {
     const PairCollision& met = collisions[row];

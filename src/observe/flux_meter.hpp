@@ -15,9 +15,11 @@ namespace carom {
 
 class FluxMeter {
  public:
-  explicit FluxMeter(const ObservedRun& run);
+  /// Requires `disks` to live as long as this.
+  explicit FluxMeter(const Disks& disks);
 
-  void start(const State& state);
+  /// What flies is relative to this.
+  void start(const Eigen::Vector2d& common);
   /// Of at most CollisionFluxes::most collisions; what is returned holds until the next call. Requires disks that velocities tell
   /// the contacts of. `notes` are some of those in `told`.
   const CollisionFluxes& of(const CollisionNotes& told, std::span<const CollisionNote> notes);
@@ -29,7 +31,7 @@ class FluxMeter {
   }
 
  private:
-  ObservedRun run_;
+  const Disks& disks_;
   bool equal_;  ///< all disks are
   CollisionContacts contacts_{};
   CollisionFluxes fluxes_{};

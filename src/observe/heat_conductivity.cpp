@@ -1,5 +1,5 @@
 // Heat conductivity from the fluctuations of the energy flux: lambda = (1 / A kT^2) times the integral of <J(0) J(t)> of one
-// component, J = sum (m v^2 / 2) v + the jumps r_ij (energy that disk i got) at collisions. For disks of one mass, relative to
+// component, J = sum (m v^2 / 2) v + the jumps r_ij (energy that disk i got from j) at collisions. For disks of one mass, relative to
 // their common motion.
 
 #include "observe/transport.hpp"

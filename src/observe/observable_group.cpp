@@ -10,11 +10,11 @@
 
 namespace carom {
 
-ObservableGroup::ObservableGroup(const ObservedRun& run) : run_(run), meter_(run_) {
+ObservableGroup::ObservableGroup(const ObservedRun& run) : run_(run), meter_(run.disks) {
   for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
 }
 
-ObservableGroup::ObservableGroup(const ObservedRun& run, std::istream& saved) : run_(run), meter_(run_) {
+ObservableGroup::ObservableGroup(const ObservedRun& run, std::istream& saved) : run_(run), meter_(run.disks) {
   load(saved);
   for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
 }
@@ -63,7 +63,7 @@ std::map<double, std::vector<Observable*>> ObservableGroup::by_step() const {
 void ObservableGroup::start(const State& state) {
   started_ = true;
   if (stream_) stream_->start(state);
-  meter_.start(state);
+  meter_.start(common_velocity(run_, state));
   for (const auto& observable : observables_) observable->start(state);
 }
 

@@ -6,7 +6,7 @@
 //   Einstein-Helfand:  <(G(t) - G(0))^2> / 2 t.
 // Both are averages over time, of two components that isotropy makes equal.
 //
-// Velocities are relative to the common motion, which must be zero in collisions.
+// Velocities are relative to the common motion.
 
 #include "observe/followers.hpp"
 #include "observe/multiple_tau.hpp"

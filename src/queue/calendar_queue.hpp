@@ -125,14 +125,15 @@ class CalendarQueue {
     const auto same = [&](const Entry& entry) { return entry == event; };
     const std::int64_t k = span_of(event.time);
     if (k <= current_) return std::any_of(at_hand_.begin(), at_hand_.end(), same);
-    for (std::size_t n = 0; n < waiting_; ++n)
-      if (disks_[n] == disk && places_[n] == (k & mask_)) return true;
-    if (k - current_ <= mask_)
+    if (k - current_ <= mask_) {
+      for (std::size_t n = 0; n < waiting_; ++n)
+        if (disks_[n] == disk && places_[n] == (k & mask_)) return true;
       for (std::int64_t place = k & mask_; place != none; place = more_[static_cast<std::size_t>(place)]) {
         const std::int32_t* ids = span(place).ids;
         const int held = counts_[static_cast<std::size_t>(place)];
         if (std::find(ids, ids + held, disk) != ids + held) return true;
       }
+    }
     return std::any_of(later_.begin(), later_.end(), same);
   }
 

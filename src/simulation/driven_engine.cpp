@@ -101,6 +101,11 @@ State DrivenEngine::state() const {
   return state;
 }
 
+void DrivenEngine::look_at_velocities(State& state) const {
+  engine_->look_at_velocities(state);
+  if (at_end_scale_) state.scale = end_scale_;
+}
+
 template <class Self, class Archive>
 void DrivenEngine::archive_all(Self& self, Archive& archive) {
   archive(self.kicks_, self.next_, self.kick_time_, self.start_scale_, self.end_scale_, self.end_, self.grown_,

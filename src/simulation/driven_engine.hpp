@@ -35,6 +35,7 @@ class DrivenEngine final : public AnyEngine {
   [[nodiscard]] Instant now() const override { return engine_->now(); }
   [[nodiscard]] const Totals& totals() const override { return totals_; }
   [[nodiscard]] State state() const override;
+  void look_at_velocities(State& state) const override;
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
     return engine_->set_velocity(i, v, spin);
   }

@@ -1,7 +1,6 @@
 // What collisions do to fluxes: from the velocities before and after by definition; the same bits from notes and from whole
 // collisions, whichever disk comes first, with every instruction set.
 
-#include "observe/collision_stream.hpp"
 #include "observe/flux_meter.hpp"
 #include "support/instructions.hpp"
 #include "support/systems.hpp"
@@ -10,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <vector>
 
 namespace carom::test {
@@ -51,7 +49,9 @@ struct Told {
     heard.epoch_remainder = 1e-17;
     heard.read(collisions);
   }
-  [[nodiscard]] ObservedRun run() const { return {.scene = scene, .disks = disks, .temperature = 1.0}; }
+  [[nodiscard]] Eigen::Vector2d common() const {
+    return common_velocity({.scene = scene, .disks = disks, .temperature = 1.0}, state);
+  }
 
   Scene scene = mixture_scene(60, 0.4, Boundary::periodic);
   Disks disks = {};
@@ -64,9 +64,9 @@ struct Told {
 TEST(CollisionFluxes, AreWhatTheVelocitiesSay) {
   for (const double restitution : {1.0, 0.9}) {
     const Told told(restitution);
-    FluxMeter meter(told.run());
-    meter.start(told.state);
-    const Eigen::Vector2d common = common_velocity(told.run(), told.state);
+    FluxMeter meter(told.disks);
+    meter.start(told.common());
+    const Eigen::Vector2d common = told.common();
     ASSERT_GT(common.norm(), 0.1);
     const CollisionFluxes& fluxes = meter.of(told.heard, told.heard.notes);
     ASSERT_EQ(fluxes.count, told.collisions.size());
@@ -106,9 +106,9 @@ TEST(CollisionFluxes, AreWhatTheVelocitiesSay) {
 
 TEST(CollisionFluxes, OfNotesAndOfWholeCollisionsAreTheSameBits) {
   const Told told;
-  FluxMeter of_notes(told.run()), of_collisions(told.run());
-  of_notes.start(told.state);
-  of_collisions.start(told.state);
+  FluxMeter of_notes(told.disks), of_collisions(told.disks);
+  of_notes.start(told.common());
+  of_collisions.start(told.common());
   for (const std::size_t count : {std::size_t{1}, std::size_t{5}, told.all.size()})
     EXPECT_EQ(numbers(of_notes.of(told.heard, told.heard.notes.first(count))),
               numbers(of_collisions.of(std::span(told.collisions).first(count))))
@@ -118,9 +118,9 @@ TEST(CollisionFluxes, OfNotesAndOfWholeCollisionsAreTheSameBits) {
 
 TEST(CollisionFluxes, DoNotDependOnWhichDiskComesFirst) {
   Told told;
-  FluxMeter meter(told.run()), other(told.run());
-  meter.start(told.state);
-  other.start(told.state);
+  FluxMeter meter(told.disks), other(told.disks);
+  meter.start(told.common());
+  other.start(told.common());
   const std::vector<double> before = numbers(meter.of(told.heard, told.heard.notes));
   for (CollisionNote& note : told.all) {
     std::swap(note.place, note.partner);
@@ -135,8 +135,8 @@ TEST(CollisionFluxes, AreTheSameBitsWithEveryInstructionSet) {
   std::vector<std::vector<double>> found;
   for (const std::string_view set : instruction_sets) {
     const WithInstructions with(set);
-    FluxMeter meter(told.run());
-    meter.start(told.state);
+    FluxMeter meter(told.disks);
+    meter.start(told.common());
     found.push_back(numbers(meter.of(told.heard, told.heard.notes)));
   }
   EXPECT_EQ(found[0], found[1]);
@@ -145,7 +145,7 @@ TEST(CollisionFluxes, AreTheSameBitsWithEveryInstructionSet) {
 
 TEST(CollisionFluxes, OfDisksThatOnlyTouchAreNothing) {
   const Told told;
-  FluxMeter meter(told.run());
+  FluxMeter meter(told.disks);
   CollisionNote graze = told.all[0];
   std::copy_n(graze.before, 2, graze.after);
   std::copy_n(graze.partner_before, 2, graze.partner_after);

@@ -29,6 +29,7 @@ const overlapPixels = (id) => {
 // Time: both sides go together, from step to step.
 // The browser may have shown some frames already, which play.
 const atMost = settings.rate * performance.now() / 1000;
+carom.frame(0);  // or none at all
 check("it begins at the start", moment.time <= atMost && stepsMoment.time === moment.time && (moment.time > 0 || carom.distance === 0));
 check("the two canvases are one size", stepsStage.width === stageCanvas.width && stepsStage.height === stageCanvas.height);
 carom.seek(0.25 * duration);
