@@ -41,7 +41,7 @@ struct LargeAllocator {
     if (memory == nullptr) throw std::bad_alloc();
     return static_cast<T*>(memory);
   }
-  void deallocate(T* memory, std::size_t n) {
+  void deallocate(T* memory, [[maybe_unused]] std::size_t n) {
 #if CAROM_MAPS_MEMORY
     if (const std::size_t bytes = bytes_of(n); bytes >= huge_page) return give_back(memory, bytes);
 #endif
