@@ -9,14 +9,18 @@
 #include "core/doubles_kernel.hpp"
 #include "observe/collision_fluxes.hpp"
 
+#include <cstddef>
+#include <cstring>
+
 namespace carom::CAROM_INSTRUCTIONS {
 namespace {
 
-using LoadedDoubles = double __attribute__((vector_size(32), may_alias, aligned(8)));
-using StoredDoubles = double __attribute__((vector_size(32), may_alias));
-
-CAROM_INLINE Doubles load(const double* from) { return *reinterpret_cast<const LoadedDoubles*>(from); }
-CAROM_INLINE void store(Doubles x, double* to) { *reinterpret_cast<StoredDoubles*>(to) = x; }
+CAROM_INLINE Doubles load(const double* from) {
+  Doubles x;
+  std::memcpy(&x, from, sizeof x);
+  return x;
+}
+CAROM_INLINE void store(Doubles x, double* to) { std::memcpy(to, &x, sizeof x); }
 
 struct Vectors {
   Doubles x, y;
