@@ -3,21 +3,12 @@
 #include "core/all_equal.hpp"
 #include "core/instant.hpp"
 #include "core/reduced_mass.hpp"
-#include "observe/mechanics.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace carom {
-
-Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state) {
-  double mass = 0.0;
-  for (const double m : run.disks.mass) mass += m;
-  const Eigen::Vector2d common = total_momentum(run.disks, state) / mass;
-  const double thermal = std::sqrt(run.temperature * static_cast<double>(run.disks.count()) / mass);
-  return common.norm() > 1e-12 * thermal ? common : Eigen::Vector2d(0.0, 0.0);
-}
 
 FluxMeter::FluxMeter(const Disks& disks)
     : disks_(disks), equal_(all_equal(disks.radius) && all_equal(disks.mass)), kernel_(flux_kernel()) {

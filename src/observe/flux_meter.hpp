@@ -2,16 +2,13 @@
 // Fluxes of collisions that are told by the simulation or known from the event log: to the same bits.
 
 #include "observe/collision_fluxes.hpp"
-#include "observe/observed_run.hpp"
 
 #include <carom/collisions.hpp>
+#include <carom/state.hpp>
 
 #include <span>
 
 namespace carom {
-
-/// Velocity of all disks together; zero where it is no more than what rounding leaves.
-[[nodiscard]] Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state);
 
 class FluxMeter {
  public:

@@ -90,4 +90,12 @@ Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state)
   return velocities;
 }
 
+Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state) {
+  double mass = 0.0;
+  for (const double m : run.disks.mass) mass += m;
+  const Eigen::Vector2d common = total_momentum(run.disks, state) / mass;
+  const double thermal = std::sqrt(run.temperature * static_cast<double>(run.disks.count()) / mass);
+  return common.norm() > 1e-12 * thermal ? common : Eigen::Vector2d(0.0, 0.0);
+}
+
 }  // namespace carom

@@ -37,6 +37,9 @@ struct ObservedRun {
 /// Velocities as heat: without the flow of a sheared box, and without the common motion where momentum is kept.
 [[nodiscard]] Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state);
 
+/// Velocity of all disks together; zero where it is no more than what rounding leaves.
+[[nodiscard]] Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state);
+
 /// Before the run: its temperature is that of the start, or of the thermostat.
 [[nodiscard]] ObservedRun observed_run(const Simulation& simulation);
 /// Of a run whose temperature is known. Requires scene and disks to live as long as what is returned.

@@ -1,7 +1,6 @@
 #include "observe/transport.hpp"
 
 #include "observe/blocking.hpp"
-#include "observe/flux_meter.hpp"
 #include "observe/mechanics.hpp"
 
 #include <algorithm>
@@ -48,8 +47,7 @@ Scalar coefficient(std::string name, const std::string& unit, double step, doubl
   return scalar;
 }
 
-}  // namespace
-
+/// Half the time that sound takes through the box (Henderson's equation of state): beyond, a fluctuation meets its own image.
 double sound_time(const ObservedRun& run) {
   double mass = 0.0;
   for (const double m : run.disks.mass) mass += m / static_cast<double>(run.disks.count());
@@ -59,6 +57,8 @@ double sound_time(const ObservedRun& run) {
   const double speed = std::sqrt(run.temperature / mass * (z + eta * slope + z * z));
   return speed > 0.0 ? 0.5 * run.scene.box.lengths().minCoeff() / speed : std::numeric_limits<double>::infinity();
 }
+
+}  // namespace
 
 Transport::Transport(const ObservableRequest& request, const ObservedRun& run, TransportCoefficient coefficient)
     : run_(run), coefficient_(std::move(coefficient)), step_(run.step(request, 0.25)) {}

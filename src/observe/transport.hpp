@@ -19,9 +19,6 @@
 
 namespace carom {
 
-/// Half the time that sound takes through the box (Henderson's equation of state): beyond, a fluctuation meets its own image.
-[[nodiscard]] double sound_time(const ObservedRun& run);
-
 /// A coefficient, its flux, and what leads from the integral of <J J> to it.
 struct TransportCoefficient {
   std::string name, unit, unit_of_flux;

@@ -2,6 +2,7 @@
 // collisions, whichever disk comes first, with every instruction set.
 
 #include "observe/flux_meter.hpp"
+#include "observe/observed_run.hpp"
 #include "support/instructions.hpp"
 #include "support/systems.hpp"
 
