@@ -25,7 +25,11 @@ class FollowedDisks {
     }
   }
 
-  [[nodiscard]] bool has(std::int32_t place) const { return (group(place).bits >> bit(place) & 1U) != 0; }
+  [[nodiscard]] bool has(std::int32_t place) const { return (shifted(place) & 1U) != 0; }
+  /// Without a branch, which would be guessed wrong.
+  [[nodiscard]] bool has_either(std::int32_t one, std::int32_t other) const {
+    return ((shifted(one) | shifted(other)) & 1U) != 0;
+  }
   /// Requires has(place).
   [[nodiscard]] std::size_t row(std::int32_t place) const {
     const std::uint32_t earlier = group(place).bits & ((std::uint32_t{1} << bit(place)) - 1);
@@ -40,6 +44,7 @@ class FollowedDisks {
     std::uint32_t before = 0;  ///< rows of groups before
   };
   static std::uint32_t bit(std::int32_t place) { return static_cast<std::uint32_t>(place) % 32; }
+  [[nodiscard]] std::uint32_t shifted(std::int32_t place) const { return group(place).bits >> bit(place); }
   [[nodiscard]] const Group& group(std::int32_t place) const { return groups_[static_cast<std::uint32_t>(place) / 32]; }
 
   std::vector<Group> groups_;

@@ -1,7 +1,7 @@
 // Free flight between two collisions with other disks: mean time and path, and how they are distributed. Averages over
 // collisions; flights that began before the run, or end after it, are left out, which shortens the means by about one flight in
 // as many as a disk makes. Walls do not end a flight.
-// In large systems every second, fourth, ... disk is followed, at most two thousand.
+// In large systems every second, fourth, ... disk is followed, at most a thousand.
 
 #include "core/instant.hpp"
 #include "observe/blocking.hpp"
@@ -31,23 +31,22 @@ class FlightHistogram {
       : width_(range / static_cast<double>(bins)),
         per_width_(static_cast<double>(bins) / range),
         end_(static_cast<double>(bins)),
-        counts_(bins),
+        counts_(bins + 1),
         shares_(bins) {}
 
+  /// Anything: what is no number, infinite or beyond the range is not shown.
   void add(double x) {
     const double bin = x * per_width_;
-    if (bin < end_) ++counts_[static_cast<std::size_t>(static_cast<std::int32_t>(bin))];  // signed numbers convert much faster
+    ++counts_[static_cast<std::size_t>(static_cast<std::int32_t>(bin < end_ ? bin : end_))];  // signed: converts much faster
   }
   void flush(double flights) {
-    for (std::size_t b = 0; b < counts_.size(); ++b) {
-      shares_.add(b, static_cast<double>(counts_[b]), flights);
-      counts_[b] = 0;
-    }
+    for (std::size_t b = 0; b < bins(); ++b) shares_.add(b, static_cast<double>(counts_[b]), flights);
+    std::ranges::fill(counts_, 0);
   }
   [[nodiscard]] Table table(const std::string& name, const std::string& unit) const {
     Table table{.name = name, .average = Average::collisions};
     Column middles{"middle", unit, {}};
-    for (std::size_t b = 0; b < counts_.size(); ++b) middles.values.push_back((static_cast<double>(b) + 0.5) * width_);
+    for (std::size_t b = 0; b < bins(); ++b) middles.values.push_back((static_cast<double>(b) + 0.5) * width_);
     table.columns.push_back(std::move(middles));
     shares_.put(table, "density", "1 / " + unit, 1.0 / width_);
     return table;
@@ -59,8 +58,10 @@ class FlightHistogram {
   }
 
  private:
+  [[nodiscard]] std::size_t bins() const { return counts_.size() - 1; }
+
   double width_, per_width_, end_;
-  std::vector<std::uint32_t> counts_;
+  std::vector<std::uint32_t> counts_;  ///< of the bins, and of all the rest
   BlockedColumn shares_;
 };
 
@@ -117,7 +118,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   /// Of the histograms, in mean free times: one flight in e^10 is longer.
   static constexpr double longest = 10.0;
   /// No more disks are followed: what all of them tell in a run would slow a large one down.
-  static constexpr std::size_t most_disks = 2000;
+  static constexpr std::size_t most_disks = 1000;
   /// Flights that count as one sample of the means; a sample of the histograms has 16 times as many.
   static constexpr std::uint64_t batch = 256;
   static constexpr std::size_t piece = 128;  ///< collisions
@@ -139,51 +140,51 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
     return run.temperature > 0.0 ? std::sqrt(run.temperature / mass) : 1.0;
   }
 
-  /// Who is followed nobody can guess: those whose flight ends are listed without a branch, and looked at then.
-  struct Ended {
-    std::array<std::uint32_t, 2 * piece> which;  ///< twice the number of the collision; plus one for the partner
+  /// Who is followed nobody can guess: collisions that end flights are listed without a branch, and looked at then.
+  struct Listed {
+    std::array<std::uint32_t, piece> which;
     std::size_t count = 0;
 
-    void add(std::uint32_t collision, bool disk, bool partner) {
-      which[count] = 2 * collision;
-      count += static_cast<std::size_t>(disk);
-      which[count] = 2 * collision + 1;
-      count += static_cast<std::size_t>(partner);
+    void add(std::uint32_t collision, bool ends_flights) {
+      which[count] = collision;
+      count += static_cast<std::size_t>(ends_flights);
     }
+    [[nodiscard]] std::span<const std::uint32_t> all() const { return std::span(which).first(count); }
   };
 
   /// At most `piece` of them.
   void look_at(std::span<const PairCollision> collisions) {
-    Ended ended;
+    Listed listed;
     for (std::uint32_t n = 0; n < collisions.size(); ++n)
-      ended.add(n, collisions[n].contact && follows(collisions[n].disk), collisions[n].contact && follows(collisions[n].partner));
+      listed.add(n, collisions[n].contact && (follows(collisions[n].disk) || follows(collisions[n].partner)));
     Sums sums = sums_;
-    for (const std::uint32_t which : std::span(ended.which).first(ended.count)) {
-      const PairCollision& met = collisions[which / 2];
-      which % 2 == 0 ? end(last_[row_by_id(met.disk)], met.time, met.velocity_before.norm(), sums)
-                     : end(last_[row_by_id(met.partner)], met.time, met.partner_velocity_before.norm(), sums);
+    for (const std::uint32_t n : listed.all()) {
+      const PairCollision& met = collisions[n];
+      double nobody = never;
+      end({follows(met.disk) ? &last_[row_by_id(met.disk)] : &nobody, met.velocity_before.data()},
+          {follows(met.partner) ? &last_[row_by_id(met.partner)] : &nobody, met.partner_velocity_before.data()}, met.time, sums);
     }
     sums_ = sums;
   }
 
-  /// The same. Where both disks of a collision are followed, the one of lower id comes first here too.
+  /// The same, whichever of the two comes first.
   void look_at(const Instant& epoch, std::span<const CollisionNote> notes) {
-    Ended ended;
-    for (std::uint32_t n = 0; n < notes.size(); ++n) ended.add(n, places_.has(notes[n].place), places_.has(notes[n].partner));
+    Listed listed;
+    for (std::uint32_t n = 0; n < notes.size(); ++n)
+      listed.add(n, skip_ == 0 || places_.has_either(notes[n].place, notes[n].partner));
     Sums sums = sums_;
-    for (std::size_t e = 0; e < ended.count; ++e) {
-      const std::uint32_t which = ended.which[e], other = which ^ 1U;
-      const CollisionNote& note = notes[which / 2];
-      const bool both = (e + 1 < ended.count && ended.which[e + 1] == other) || (e > 0 && ended.which[e - 1] == other);
-      const bool exchanged = both && id(note.partner) < id(note.place);
-      const bool of_partner = (which % 2 != 0) != exchanged;
-      const double(&v)[2] = of_partner ? note.partner_before : note.before;
-      end(last_[places_.row(of_partner ? note.partner : note.place)], epoch.plus(note.time).high,
-          Eigen::Vector2d(v[0], v[1]).norm(), sums);
+    for (const std::uint32_t n : listed.all()) {
+      const CollisionNote& note = notes[n];
+      double nobody = never;
+      end({last_of(note.place, nobody), note.before}, {last_of(note.partner, nobody), note.partner_before},
+          epoch.plus(note.time).high, sums);
     }
     sums_ = sums;
   }
-  [[nodiscard]] std::int32_t id(std::int32_t place) const { return noted_->ids[static_cast<std::size_t>(place)]; }
+  [[nodiscard]] double* last_of(std::int32_t place, double& nobody) {
+    if (skip_ == 0) return last_.data() + place;
+    return places_.has(place) ? last_.data() + places_.row(place) : &nobody;
+  }
 
   /// Rows are by id to begin with; from now on they are by place.
   void follow_in(const std::shared_ptr<const NotedDisks>& disks) {
@@ -204,17 +205,27 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
     std::uint64_t flights = 0;
     double time = 0.0, path = 0.0;
   };
-  /// A flight ends at a collision, to which the disk came with this speed: it was as fast all the way.
-  void end(double& last, double time, double speed, Sums& sums) {
-    const double flight = time - last;
-    last = time;
-    if (!(flight < std::numeric_limits<double>::infinity())) return;
-    const double path = speed * flight;
-    ++sums.flights;
-    sums.time += flight;
-    sums.path += path;
-    times_.add(flight);
-    paths_.add(path);
+  /// One of the two in a collision.
+  struct Flier {
+    double* last;            ///< collision
+    const double* velocity;  ///< with which it came, and which it had all the way
+  };
+  /// Two flights end, or one where nobody follows the other disk or knows when its flight began. No branches, and the same bits
+  /// in either order.
+  void end(const Flier& a, const Flier& b, double time, Sums& sums) {
+    const auto flight_of = [&](const Flier& flier) {
+      const double flight = time - *flier.last;
+      *flier.last = time;
+      const double path = std::sqrt(flier.velocity[0] * flier.velocity[0] + flier.velocity[1] * flier.velocity[1]) * flight;
+      times_.add(flight);
+      paths_.add(path);
+      const bool known = flight < std::numeric_limits<double>::infinity();
+      return Sums{known, known ? flight : 0.0, known ? path : 0.0};
+    };
+    const Sums first = flight_of(a), second = flight_of(b);
+    sums.flights += first.flights + second.flights;
+    sums.time += first.time + second.time;
+    sums.path += first.path + second.path;
     if (sums.flights < batch) return;  // after so many flights, however collisions are handed over
     end_sample(sums);
     if (counted_ >= 16 * batch) end_histograms();
