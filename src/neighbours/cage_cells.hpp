@@ -3,6 +3,7 @@
 
 #include "core/fetch.hpp"
 #include "core/fixed_axis.hpp"
+#include "core/four.hpp"
 #include "core/large_memory.hpp"
 #include "neighbours/cage_search.hpp"
 
@@ -14,6 +15,18 @@
 #include <vector>
 
 namespace carom {
+
+/// A rectangle of cells in a grid whose lines repeat: first <= last, both less than one grid beyond it.
+struct CageRange {
+  std::int32_t first[2], last[2];
+  std::int32_t cells[2];  ///< of the whole grid
+};
+
+/// The cell with the blocks of one that may lie up to one grid beyond.
+inline std::int32_t folded(std::int32_t cell, std::int32_t cells) {
+  const std::int32_t up = cell < 0 ? cell + cells : cell;
+  return up >= cells ? up - cells : up;
+}
 
 class CageCells {
  public:
@@ -51,17 +64,13 @@ class CageCells {
 
   void insert(std::int32_t i, CageCentre centre, float radius) {
     std::int32_t b = cell_at(centre);
-    for (;; b = follow(b)) {
-      CageBlock& block = at(b);
-      for (int k = 0; k < 8; ++k)
-        if (block.id[k] < 0) {
-          block.id[k] = i;
-          block.x[k] = centre.x;
-          block.y[k] = centre.y;
-          block.radius[k] = radius;
-          return;
-        }
-    }
+    while (at(b).id[7] >= 0) b = follow(b);
+    CageBlock& block = at(b);
+    const int k = taken(block);
+    block.id[k] = i;
+    block.x[k] = centre.x;
+    block.y[k] = centre.y;
+    block.radius[k] = radius;
   }
 
   void move(std::int32_t i, CageCentre from, CageCentre to, float radius) {
@@ -108,6 +117,24 @@ class CageCells {
   [[nodiscard]] static std::size_t cells_in(const CageRange& range) {
     return static_cast<std::size_t>(range.last[0] - range.first[0] + 1) *
            static_cast<std::size_t>(range.last[1] - range.first[1] + 1);
+  }
+
+  /// Writes the cells of a range to `to`, row by row, and returns how many. Requires room for twelve at least.
+  static std::size_t list_cells(const CageRange& range, std::int32_t* to) {
+    const std::int32_t columns = range.last[0] - range.first[0] + 1, rows = range.last[1] - range.first[1] + 1;
+    if (columns <= 4 && rows <= 3) [[likely]] {
+      // Three rows of four cells always: how many of each would be guessed wrong. What is too much is overwritten, or left over.
+      Four column = Four{0, 1, 2, 3} + range.first[0];
+      column += (column < 0) & range.cells[0];
+      column -= (column >= range.cells[0]) & range.cells[0];
+      for (std::int32_t row = 0; row < 3; ++row)
+        store(column + folded(range.first[1] + row, range.cells[1]) * range.cells[0], to + row * columns);
+    } else {
+      for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y)
+        for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x)
+          *to++ = folded(y, range.cells[1]) * range.cells[0] + folded(x, range.cells[0]);
+    }
+    return cells_in(range);
   }
 
   /// Calls visit(id, centre, radius) for every cage in a range of cells.
@@ -198,10 +225,17 @@ class CageCells {
     return next_of(b);
   }
 
+  // Eight places at once, as vectors: where the disk is, and where the first free place is, are as good as random.
+  [[nodiscard]] static int taken(const CageBlock& block) {
+    return 8 + sum((four_of(block.id) >> 31) + (four_of(block.id + 4) >> 31));
+  }
   [[nodiscard]] Slot find(std::int32_t b, std::int32_t i) {
-    for (;; b = next_of(b))
-      for (int k = 0; k < 8; ++k)
-        if (at(b).id[k] == i) return {b, k};
+    for (;; b = next_of(b)) {
+      const CageBlock& block = at(b);
+      const Four low = (four_of(block.id) == i) & Four{0, 1, 2, 3}, high = (four_of(block.id + 4) == i) & Four{4, 5, 6, 7};
+      const int place = sum(low | high);
+      if (block.id[place] == i) return {b, place};
+    }
   }
 
   /// The last disk of the cell takes the place of the one that leaves.
@@ -209,10 +243,9 @@ class CageCells {
     const Slot slot = find(cell, i);
     std::int32_t before = -1, last = cell;
     while (at(last).id[7] >= 0 && next_of(last) >= 0) before = last, last = next_of(last);
-    int k = 7;
-    while (at(last).id[k] < 0) --k;
     CageBlock& to = at(slot.block);
     CageBlock& from = at(last);
+    const int k = taken(from) - 1;
     to.id[slot.place] = from.id[k];
     to.x[slot.place] = from.x[k];
     to.y[slot.place] = from.y[k];

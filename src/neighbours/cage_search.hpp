@@ -27,44 +27,28 @@ struct CageNearness {
   float two_halves;  ///< 2 h and a little more
 };
 
-/// A search around disk `id`, which had its cage at `before` (was_listed) and now has it at `centre`.
+/// A search around disk `id`, which has its cage at `centre`.
 struct CageQuery {
   std::int32_t id;
   float radius;
   CageCentre centre;
-  CageCentre before;
-  bool was_listed;  ///< false: everybody found is fresh
 };
 
-/// A rectangle of cells in a grid whose lines repeat: first <= last, both less than one grid beyond it.
-struct CageRange {
-  std::int32_t first[2], last[2];
-  std::int32_t cells[2];  ///< of the whole grid
-};
-
-/// The cell with the blocks of one that may lie up to one grid beyond. (Always inlined: a copy of its own in a file for one
-/// instruction set could be taken for all.)
-[[gnu::always_inline]] inline std::int32_t folded(std::int32_t cell, std::int32_t cells) {
-  const std::int32_t up = cell < 0 ? cell + cells : cell;
-  return up >= cells ? up - cells : up;
-}
-
-/// What a search has found so far; there must be room for eight more per block, and eight beyond.
-struct CagesFound {
-  std::int32_t* all;
-  std::size_t all_count;
-  std::int32_t* fresh;  ///< not near the cage as it was before
-  std::size_t fresh_count;
+/// How many are found, but not listed, and listed, but not found.
+struct ListChange {
+  std::size_t fresh, gone;
 };
 
 struct CageKernel {
-  /// Looks through the blocks of a range of cells, row by row, and on through next[] where a block is full (-1: no more).
-  void (*search)(const CageBlock* blocks, const std::int32_t* next, const CageRange& range, const CageQuery& query,
-                 const CageNearness& nearness, CagesFound& found);
-  /// Copies to `absent` those of ids[0..count) that are not in among[0..size), and returns how many. Requires room
-  /// for `count`, and `among` readable up to the next multiple of eight.
-  std::size_t (*absent)(const std::int32_t* ids, std::size_t count, const std::int32_t* among, std::size_t size,
-                        std::int32_t* absent);
+  /// Writes to `found` those near, from the blocks of some cells in turn, and on through next[] where a block is full (-1: no
+  /// more), and returns where they end. Requires room for eight more per block, and eight beyond.
+  std::int32_t* (*search)(const CageBlock* blocks, const std::int32_t* next, const std::int32_t* cells, std::size_t count,
+                          const CageQuery& query, const CageNearness& nearness, std::int32_t* found);
+  /// Compares two lists without doubles: writes to `fresh` who is found, but not listed, and to `gone` who is listed, but not
+  /// found, in the order of the lists. Requires eight ids of either to be readable, or as many as the next multiple of eight, and
+  /// room for eight more than there are.
+  ListChange (*compare)(const std::int32_t* listed, std::size_t listed_count, const std::int32_t* found, std::size_t found_count,
+                        std::int32_t* fresh, std::int32_t* gone);
   /// Where `id` is in `ids`. Requires it to be there, and all to be readable up to the next multiple of eight.
   std::size_t (*position)(const std::int32_t* ids, std::int32_t id);
   bool (*near)(CageCentre a, float radius_a, CageCentre b, float radius_b, const CageNearness& nearness);

@@ -14,7 +14,9 @@ using Ints = int __attribute__((vector_size(32)));
 using UnsignedInts = unsigned __attribute__((vector_size(32)));
 
 unsigned bits_of(Ints mask) {
-#if defined(__AVX__)
+#if defined(__AVX512VL__) && defined(__AVX512DQ__)
+  return static_cast<unsigned>(_mm256_movepi32_mask(reinterpret_cast<__m256i>(mask)));
+#elif defined(__AVX__)
   return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
 #else
   unsigned bits = 0;
@@ -59,10 +61,11 @@ std::int32_t* pack(Ints ids, unsigned bits, std::int32_t* to) {
 /// How far apart the two squares are along one axis: 0 where they overlap.
 Floats gap(Ints a, std::int32_t b, float unit, float two_halves) {
   const auto step = reinterpret_cast<Ints>(reinterpret_cast<UnsignedInts>(a) - static_cast<unsigned>(b));  // wraps
-  Floats apart = __builtin_convertvector(step, Floats) * unit;
-  apart = apart < 0.0F ? -apart : apart;
-  const Floats rest = apart - two_halves;
-  return rest > 0.0F ? rest : Floats{};
+  const Floats apart = __builtin_convertvector(step, Floats) * unit;
+  const Floats rest = reinterpret_cast<Floats>(reinterpret_cast<Ints>(apart) & INT32_MAX) - two_halves;
+  // The larger of the bits as integers is one operation, but a comparison and another as numbers.
+  const auto bits = reinterpret_cast<Ints>(rest);
+  return reinterpret_cast<Floats>(bits > 0 ? bits : Ints{});
 }
 
 Ints near_eight(Ints x, Ints y, Floats radius, CageCentre centre, float own_radius, const CageNearness& nearness) {
@@ -72,57 +75,83 @@ Ints near_eight(Ints x, Ints y, Floats radius, CageCentre centre, float own_radi
   return gap_x * gap_x + gap_y * gap_y <= sigma * sigma;
 }
 
-void search(const CageBlock* blocks, const std::int32_t* next, const CageRange& range, const CageQuery& query,
-            const CageNearness& nearness, CagesFound& found) {
-  std::int32_t* all = found.all + found.all_count;
-  std::int32_t* fresh = found.fresh + found.fresh_count;
-  for (std::int32_t row = range.first[1]; row <= range.last[1]; ++row) {
-    const std::int32_t start = folded(row, range.cells[1]) * range.cells[0];
-    for (std::int32_t column = range.first[0]; column <= range.last[0]; ++column) {
-      for (std::int32_t b = start + folded(column, range.cells[0]);;) {
-        const CageBlock& block = blocks[b];
-        const Ints id = *reinterpret_cast<const Ints*>(block.id);
-        const Ints x = *reinterpret_cast<const Ints*>(block.x);
-        const Ints y = *reinterpret_cast<const Ints*>(block.y);
-        const Floats radius = *reinterpret_cast<const Floats*>(block.radius);
-        const Ints others = (id >= 0) & (id != query.id);
-        const unsigned now = bits_of(others & near_eight(x, y, radius, query.centre, query.radius, nearness));
-        unsigned newly = now;
-        if (query.was_listed) newly &= ~bits_of(near_eight(x, y, radius, query.before, query.radius, nearness));
-        all = pack(id, now, all);
-        fresh = pack(id, newly, fresh);
-        if (block.id[7] < 0) break;
-        b = next[b];
-        if (b < 0) break;
-      }
-    }
-  }
-  found.all_count = static_cast<std::size_t>(all - found.all);
-  found.fresh_count = static_cast<std::size_t>(fresh - found.fresh);
-}
-
-std::size_t absent(const std::int32_t* ids, std::size_t count, const std::int32_t* among, std::size_t size,
-                   std::int32_t* absent) {
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    unsigned hits = 0;
-    for (std::size_t k = 0; k < size; k += 8) {
-      Ints some;
-      __builtin_memcpy(&some, among + k, sizeof some);
-      const unsigned within = size - k >= 8 ? 0xFFU : (1U << (size - k)) - 1U;
-      hits |= bits_of(some == ids[i]) & within;
-    }
-    absent[found] = ids[i];
-    found += hits == 0 ? 1 : 0;
+std::int32_t* search(const CageBlock* blocks, const std::int32_t* next, const std::int32_t* cells, std::size_t count,
+                     const CageQuery& query, const CageNearness& nearness, std::int32_t* found) {
+  const CageQuery sought = query;  // copies: for all the compiler knows, the ids found are written over these
+  const CageNearness within = nearness;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::int32_t b = cells[k];
+    do {
+      const CageBlock& block = blocks[b];
+      const Ints id = *reinterpret_cast<const Ints*>(block.id);
+      const Ints x = *reinterpret_cast<const Ints*>(block.x);
+      const Ints y = *reinterpret_cast<const Ints*>(block.y);
+      const Floats radius = *reinterpret_cast<const Floats*>(block.radius);
+      const Ints nobody = (id >> 31) | (id == sought.id);
+      found = pack(id, bits_of(~nobody & near_eight(x, y, radius, sought.centre, sought.radius, within)), found);
+      if (block.id[7] < 0) break;
+      b = next[b];
+    } while (b >= 0);
   }
   return found;
 }
 
+Ints eight_of(const std::int32_t* ids) {
+  Ints eight;
+  __builtin_memcpy(&eight, ids, sizeof eight);
+  return eight;
+}
+
+UnsignedInts lower(UnsignedInts a, UnsignedInts b) { return a < b ? a : b; }
+
+/// 0 where one of four others is the same: of those in the same half of their eight.
+UnsignedInts apart_from_half(Ints ids, Ints others) {
+  const auto apart = [ids](Ints turned) { return reinterpret_cast<UnsignedInts>(ids ^ turned); };
+  return lower(lower(apart(others), apart(__builtin_shufflevector(others, others, 1, 0, 3, 2, 5, 4, 7, 6))),
+               lower(apart(__builtin_shufflevector(others, others, 2, 3, 0, 1, 6, 7, 4, 5)),
+                     apart(__builtin_shufflevector(others, others, 3, 2, 1, 0, 7, 6, 5, 4))));
+}
+
+/// 0 where one of eight others is the same. As the least difference: comparisons would each, with AVX-512, go through a register
+/// for masks and one for integers.
+UnsignedInts apart(Ints ids, Ints others) {
+  return lower(apart_from_half(ids, others),
+               apart_from_half(ids, __builtin_shufflevector(others, others, 4, 5, 6, 7, 0, 1, 2, 3)));
+}
+
+/// The first ids of a list, -1 behind its end.
+Ints first_of(const std::int32_t* ids, std::size_t count) {
+  return eight_of(ids) | (Ints{0, 1, 2, 3, 4, 5, 6, 7} >= static_cast<int>(count));
+}
+
+/// Copies to `absent` those of ids[0..count) that are not in others[0..size), and returns how many.
+inline std::size_t absent(const std::int32_t* ids, std::size_t count, const std::int32_t* others, std::size_t size,
+                          std::int32_t* absent) {
+  std::int32_t* end = absent;
+  std::size_t k = 0;
+  do {
+    const Ints some = first_of(ids + k, count - k);
+    UnsignedInts least = ~UnsignedInts{};
+    std::size_t m = 0;
+    do {
+      least = lower(least, apart(some, first_of(others + m, size - m)));
+      m += 8;
+    } while (m < size);
+    end = pack(some, bits_of((least != 0) & (some >= 0)), end);
+    k += 8;
+  } while (k < count);
+  return static_cast<std::size_t>(end - absent);
+}
+
+ListChange compare(const std::int32_t* listed, std::size_t listed_count, const std::int32_t* found, std::size_t found_count,
+                   std::int32_t* fresh, std::int32_t* gone) {
+  return {absent(found, found_count, listed, listed_count, fresh), absent(listed, listed_count, found, found_count, gone)};
+}
+
 std::size_t position(const std::int32_t* ids, std::int32_t id) {
   for (std::size_t k = 0;; k += 8) {
-    Ints some;
-    __builtin_memcpy(&some, ids + k, sizeof some);
-    if (const unsigned hits = bits_of(some == id); hits != 0) return k + static_cast<std::size_t>(__builtin_ctz(hits));
+    if (const unsigned hits = bits_of(eight_of(ids + k) == id); hits != 0)
+      return k + static_cast<std::size_t>(__builtin_ctz(hits));
   }
 }
 
@@ -134,6 +163,6 @@ bool near(CageCentre a, float radius_a, CageCentre b, float radius_b, const Cage
 
 }  // namespace
 
-extern const CageKernel cage_kernel = {&search, &absent, &position, &near};
+extern const CageKernel cage_kernel = {&search, &compare, &position, &near};
 
 }  // namespace carom::CAROM_INSTRUCTIONS

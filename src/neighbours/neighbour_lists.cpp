@@ -51,6 +51,7 @@ NeighbourLists::NeighbourLists(const FixedAxis& x, const FixedAxis& y, const std
 
 void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> centres) {
   half_width_ = half_width;
+  two_halves_ = 2.0 * half_width / largest_;
   // A few steps of the centres, and of single precision, on the safe side.
   const double h = half_width / largest_;
   nearness_.two_halves = static_cast<float>(2.0 * h * (1.0 + 1e-6) + 4.0 / std::min(steps_[0], steps_[1]));
@@ -69,35 +70,29 @@ void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> cent
     layers_[layer_of(i)].insert(i, centre, radius(i));
   }
   for (std::int32_t i = 0; i < disks; ++i) {
-    search(i, centre(i), false);
+    search(i);
     around_.assign(i, found());
   }
 }
 
 std::span<const std::int32_t> NeighbourLists::move_cage(std::int32_t i, CageCentre to) {
-  const CageCentre before = centre(i);
-  layers_[layer_of(i)].move(i, before, to, radius(i));
+  layers_[layer_of(i)].move(i, centre(i), to, radius(i));
   around_.set_centre(i, to);
-  search(i, before, true);
-  for (std::size_t k = 0; k < fresh_count_; ++k) around_.fetch_list(fresh_[k]);  // those left behind were fetched with the cells
-  const std::size_t kept = found_count_ - fresh_count_;
-  if (kept < count(i)) {
-    if (gone_.size() < count(i)) gone_.resize(2 * std::size_t{count(i)});
-    const std::size_t gone = kernel_->absent(ids(i), count(i), found_.data(), found_count_, gone_.data());
-    for (std::size_t k = 0; k < gone; ++k) around_.remove_at(gone_[k], kernel_->position(ids(gone_[k]), i));
-    changes_ += gone;
-  }
-  for (std::size_t k = 0; k < fresh_count_; ++k) around_.append(fresh_[k], i);
-  changes_ += fresh_count_;
+  search(i);
+  if (gone_.size() < count(i) + 16) gone_.resize(2 * std::size_t{count(i)} + 16);
+  const auto [fresh, gone] = kernel_->compare(ids(i), count(i), found_.data(), found_count_, fresh_.data(), gone_.data());
+  for (std::size_t k = fresh; k < fresh + 8; ++k) fresh_[k] = i;
+  for (std::size_t k = 0; k < 4; ++k) around_.fetch_list(fresh_[k]);  // those left behind were fetched with the cells
+  for (std::size_t k = 0; k < gone; ++k) around_.remove_at(gone_[k], kernel_->position(ids(gone_[k]), i));
+  for (std::size_t k = 0; k < fresh; ++k) around_.append(fresh_[k], i);
+  changes_ += gone + fresh;
   around_.assign(i, found());
-  for (std::size_t k = fresh_count_; k < fresh_count_ + 8; ++k) fresh_[k] = i;
-  return {fresh_.data(), fresh_count_};
+  return {fresh_.data(), fresh};
 }
 
 /// How far apart, in largest radii, cages may be that are near, one of a disk of the given radius and one of a layer.
 double NeighbourLists::reach(float radius, const CageCells& layer) const {
-  return (static_cast<double>(radius) + static_cast<double>(layer.largest_radius()) + 2.0 * half_width_ / largest_) *
-         (1.0 + search_slack);
+  return (static_cast<double>(radius) + static_cast<double>(layer.largest_radius()) + two_halves_) * (1.0 + search_slack);
 }
 
 /// The cells of a layer in which there may be cages near one of a disk of the given radius.
@@ -106,21 +101,22 @@ CageRange NeighbourLists::range_around(CageCentre centre, float radius, const Ca
   return layer.around(centre, {to * steps_[0] + 8.0, to * steps_[1] + 8.0});
 }
 
-/// Fills found_ and fresh_ with those near the cage of disk i as it is now.
-void NeighbourLists::search(std::int32_t i, CageCentre before, bool was_listed) {
-  const CageQuery query{i, radius(i), centre(i), before, was_listed};
-  found_count_ = fresh_count_ = 0;
+/// Fills found_ with those near the cage of disk i as it is now.
+void NeighbourLists::search(std::int32_t i) {
+  const CageQuery query{i, radius(i), centre(i)};
+  found_count_ = 0;
   for (const CageCells& layer : layers_) {
     const CageRange range = range_around(query.centre, query.radius, layer);
+    if (cells_.size() < CageCells::cells_in(range) + 12) cells_.resize(CageCells::cells_in(range) + 12);
     // Room for eight disks of every block, those that follow full ones included.
     const std::size_t most = found_count_ + 8 * (CageCells::cells_in(range) + layer.spilled()) + 16;
     if (found_.size() < most) found_.resize(most), fresh_.resize(most);
-    CagesFound found{found_.data(), found_count_, fresh_.data(), fresh_count_};
-    kernel_->search(layer.blocks(), layer.next(), range, query, nearness_, found);
-    found_count_ = found.all_count;
-    fresh_count_ = found.fresh_count;
+    const std::size_t cells = CageCells::list_cells(range, cells_.data());
+    std::int32_t* const end =
+        kernel_->search(layer.blocks(), layer.next(), cells_.data(), cells, query, nearness_, found_.data() + found_count_);
+    found_count_ = static_cast<std::size_t>(end - found_.data());
   }
-  if (sliding_ && (sliding_->by_edge(query.centre) || sliding_->by_edge(before))) search_across(query);
+  if (sliding_ && sliding_->by_edge(query.centre)) search_across(query);
 }
 
 /// Puts right what search() has found for a cage near an edge past which images slide.
@@ -140,11 +136,7 @@ void NeighbourLists::search_across(const CageQuery& query) {
   }
   found_count_ = found_.size();
   found_.resize(found_count_ + 16);  // which may be read
-  fresh_.resize(std::max(fresh_.size(), found_count_ + 16));
-  fresh_count_ = 0;
-  for (std::size_t k = 0; k < found_count_; ++k)
-    if (!query.was_listed || !near(query.before, query.radius, centre(found_[k]), radius(found_[k])))
-      fresh_[fresh_count_++] = found_[k];
+  fresh_.resize(found_.size());
 }
 
 void NeighbourLists::slide(std::int64_t displacement, double way) {
@@ -155,7 +147,7 @@ void NeighbourLists::slide(std::int64_t displacement, double way) {
   sliding_->set_cages(2.0 * h, 2.0 * (1.0 + h));
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(around_.disks()); ++i) {
     if (!sliding_->by_edge(centre(i))) continue;
-    search(i, centre(i), false);
+    search(i);
     around_.assign(i, found());
   }
 }

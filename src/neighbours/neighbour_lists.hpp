@@ -68,8 +68,8 @@ class NeighbourLists {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(axes_[0], axes_[1], largest_, radius_, one_radius_, half_width_, nearness_, sliding_, around_, sizes_, layers_,
-            layer_of_, steps_[0], steps_[1], changes_, gone_, found_, fresh_, found_count_, fresh_count_);
+    archive(axes_[0], axes_[1], largest_, radius_, one_radius_, half_width_, two_halves_, nearness_, sliding_, around_, sizes_,
+            layers_, layer_of_, steps_[0], steps_[1], changes_, gone_, cells_, found_, fresh_, found_count_);
   }
 
  private:
@@ -80,7 +80,7 @@ class NeighbourLists {
 
   [[nodiscard]] CageRange range_around(CageCentre centre, float radius, const CageCells& layer) const;
   [[nodiscard]] double reach(float radius, const CageCells& layer) const;
-  void search(std::int32_t i, CageCentre before, bool was_listed);
+  void search(std::int32_t i);
   void search_across(const CageQuery& query);
   [[nodiscard]] bool near(CageCentre a, float radius_a, CageCentre b, float radius_b) const;
   [[nodiscard]] std::span<const std::int32_t> found() const { return {found_.data(), found_count_}; }
@@ -90,6 +90,7 @@ class NeighbourLists {
   std::vector<float> radius_;  ///< one for all where all are equal
   bool one_radius_ = true;
   double half_width_ = 0.0;
+  double two_halves_ = 0.0;  ///< 2 h, in largest radii
   CageNearness nearness_;
   std::optional<SlidingCages> sliding_;
 
@@ -105,11 +106,11 @@ class NeighbourLists {
   const CageKernel* kernel_;
   double steps_[2];  ///< of a centre, per largest radius
   std::uint64_t changes_ = 0;
-  std::vector<std::int32_t> gone_;   ///< by move_cage(): those no longer near
+  std::vector<std::int32_t> gone_;   ///< by move_cage(): those who are not near any more
+  std::vector<std::int32_t> cells_;  ///< by search(): those looked through
   std::vector<std::int32_t> found_;  ///< by search(): all
-  std::vector<std::int32_t> fresh_;  ///< by search(): those who were not near before
+  std::vector<std::int32_t> fresh_;  ///< by move_cage(): those who were not near before
   std::size_t found_count_ = 0;
-  std::size_t fresh_count_ = 0;
 };
 
 }  // namespace carom

@@ -3,6 +3,7 @@
 // number of neighbours finds room.
 
 #include "core/fetch.hpp"
+#include "core/four.hpp"
 #include "core/large_memory.hpp"
 #include "neighbours/cage_search.hpp"
 
@@ -60,15 +61,18 @@ class Neighbourhoods {
     mine[last] = i;
   }
 
+  /// Requires sixteen ids to be readable.
   void assign(std::int32_t i, std::span<const std::int32_t> ids) {
     const auto count = static_cast<std::uint32_t>(ids.size());
-    if (count > capacity(i)) [[unlikely]]
-      grow(i, count);
-    if (line(i).grown != none && count <= room) [[unlikely]]
-      shrink(i);
-    std::int32_t* mine = list(i);
-    std::copy(ids.begin(), ids.end(), mine);
-    for (std::uint32_t k = count; k < line(i).count; ++k) mine[k] = i;
+    if (line(i).grown == none && count <= room) [[likely]] {
+      // The whole line at once: how many ids there are would be guessed wrong.
+      for (std::uint32_t k = 0; k < room; k += 4) {
+        const Four left = Four{0, 1, 2, 3} < static_cast<std::int32_t>(count - k);
+        store((four_of(ids.data() + k) & left) | (i & ~left), line(i).ids + k);
+      }
+    } else {
+      assign_grown(i, ids);
+    }
     line(i).count = count;
   }
 
@@ -124,6 +128,15 @@ class Neighbourhoods {
     std::fill(std::copy_n(ids(i), line(i).count, to), to + (std::size_t{16} << size), i);
     if (before != none) free_[before & 31U].push_back(before);
     line(i).grown = grown;
+  }
+
+  void assign_grown(std::int32_t i, std::span<const std::int32_t> ids) {
+    const auto count = static_cast<std::uint32_t>(ids.size());
+    if (count > capacity(i)) grow(i, count);
+    if (line(i).grown != none && count <= room) shrink(i);
+    std::int32_t* mine = list(i);
+    std::copy(ids.begin(), ids.end(), mine);
+    for (std::uint32_t k = count; k < line(i).count; ++k) mine[k] = i;
   }
 
   /// Empties the list of disk i, which goes back to its line.
