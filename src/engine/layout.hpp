@@ -2,25 +2,19 @@
 // What a disk carries with it on the hot path: nothing but its line where all are equal; its radius and mass too where
 // they differ.
 
+#include "core/all_equal.hpp"
 #include "core/flight.hpp"
 
 #include <carom/state.hpp>
 
-#include <algorithm>
 #include <cstddef>
-#include <functional>
 
 namespace carom {
 
 struct EqualDisks {
   using Line = Flight;
 
-  static bool covers(const Disks& disks) {
-    const auto equal = [](const std::vector<double>& all) {
-      return std::adjacent_find(all.begin(), all.end(), std::not_equal_to<>()) == all.end();
-    };
-    return equal(disks.radius) && equal(disks.mass);
-  }
+  static bool covers(const Disks& disks) { return all_equal(disks.radius) && all_equal(disks.mass); }
 
   explicit EqualDisks(const Disks& disks)
       : radius_(disks.count() > 0 ? disks.radius[0] : 1.0), mass_(disks.count() > 0 ? disks.mass[0] : 1.0) {}
