@@ -1,8 +1,8 @@
-// What observing costs: seconds per pair collision of a gas of 10,000 disks, with nothing observed, with each observable that
-// follows collisions, with all of them, and with those that look at states, each at its default step; in the thread of the run,
-// and beside it. The same simulation runs with and without them in turns, since two of the same scene differ by some per cent by
-// where they lie in memory; what counts is the median of the ratios. The time is that of a clock on the wall. Before a time is
-// taken one run is looked at: energy is kept, and the rate that was observed is that of the totals.
+// What observing costs: seconds per pair collision of a gas of 10,000 disks (or as many as it says), with nothing observed, with
+// each observable that follows collisions, with all of them, and with those that look at states, each at its default step; in the
+// thread of the run, and beside it. The same simulation runs with and without them in turns, since two of the same scene differ
+// by some per cent by where they lie in memory; what counts is the median of the ratios. The time is that of a clock on the wall.
+// Before a time is taken one run is looked at: energy is kept, and the rate that was observed is that of the totals.
 
 #include "observe/mechanics.hpp"
 #include "support/systems.hpp"
@@ -24,8 +24,8 @@ using namespace carom;
 constexpr std::uint64_t collisions = 1'000'000;
 constexpr int turns = 15;
 
-Scene scene_with(const std::vector<std::string>& observables, double packing_fraction) {
-  Scene scene = test::gas_scene(10'000, packing_fraction, Boundary::periodic);
+Scene scene_with(const std::vector<std::string>& observables, double packing_fraction, std::int64_t disks) {
+  Scene scene = test::gas_scene(disks, packing_fraction, Boundary::periodic);
   scene.run.time.reset();
   scene.run.collisions = collisions;
   for (const std::string& name : observables) {
@@ -48,7 +48,8 @@ std::string fault(Simulation& simulation) {
   const double before = kinetic_energy(simulation.disks(), simulation.state());
   for (const Measurement& measured : observe(simulation, false)) {
     if (measured.name != "collision_rate") continue;
-    const double rate = 2.0 * static_cast<double>(collisions) / (1e4 * simulation.time());
+    const double rate =
+        2.0 * static_cast<double>(collisions) / (static_cast<double>(simulation.disks().count()) * simulation.time());
     if (!(std::abs(measured.scalars[0].value.value_or(0.0) / rate - 1.0) < 0.05)) return "the rate is not that of the totals";
   }
   // A rounding for each collision, were they all in one direction.
@@ -57,7 +58,7 @@ std::string fault(Simulation& simulation) {
 }
 
 void observing(benchmark::State& state, const std::vector<std::string>& observables, bool beside = false) {
-  Simulation simulation = make_simulation(scene_with(observables, 0.01 * static_cast<double>(state.range(0))));
+  Simulation simulation = make_simulation(scene_with(observables, 0.01 * static_cast<double>(state.range(0)), state.range(1)));
   if (const std::string what = fault(simulation); !what.empty()) {
     state.SkipWithError(what.c_str());
     return;
@@ -95,19 +96,36 @@ using Names = std::vector<std::string>;
 const Names collisions_alone = {"pressure", "collision_rate", "free_flight", "viscosity", "heat_conductivity"};
 const Names velocities = {"temperature", "speeds", "velocity_moments"};
 const Names displacements = {"mean_square_displacement", "velocity_autocorrelation"};
-BENCHMARK_CAPTURE(observing, nothing, Names{})->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(observing, collision_rate, Names{"collision_rate"})->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(observing, free_flight, Names{"free_flight"})->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(observing, pressure, Names{"pressure"})->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(observing, viscosity, Names{"viscosity"})->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(observing, heat_conductivity, Names{"heat_conductivity"})->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(observing, all_of_these, collisions_alone)->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(observing, velocities, velocities)->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(observing, displacements, displacements)->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(observing, radial_distribution, Names{"radial_distribution"})->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(beside, all_of_these, collisions_alone)->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(beside, velocities, velocities)->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(beside, displacements, displacements)->Arg(60)->Iterations(turns)->UseManualTime();
-BENCHMARK_CAPTURE(beside, radial_distribution, Names{"radial_distribution"})->Arg(60)->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, nothing, Names{})->Args({60, 10'000})->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, collision_rate, Names{"collision_rate"})->Args({60, 10'000})->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, free_flight, Names{"free_flight"})->Args({60, 10'000})->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, pressure, Names{"pressure"})->Args({60, 10'000})->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, viscosity, Names{"viscosity"})->Args({60, 10'000})->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, heat_conductivity, Names{"heat_conductivity"})
+    ->Args({60, 10'000})
+    ->Iterations(turns)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(observing, all_of_these, collisions_alone)
+    ->Args({60, 1'000})
+    ->Args({60, 10'000})
+    ->Iterations(turns)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(observing, velocities, velocities)->Args({60, 10'000})->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, displacements, displacements)->Args({60, 10'000})->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(observing, radial_distribution, Names{"radial_distribution"})
+    ->Args({60, 10'000})
+    ->Iterations(turns)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(beside, all_of_these, collisions_alone)
+    ->Args({60, 1'000})
+    ->Args({60, 10'000})
+    ->Iterations(turns)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(beside, velocities, velocities)->Args({60, 10'000})->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(beside, displacements, displacements)->Args({60, 10'000})->Iterations(turns)->UseManualTime();
+BENCHMARK_CAPTURE(beside, radial_distribution, Names{"radial_distribution"})
+    ->Args({60, 10'000})
+    ->Iterations(turns)
+    ->UseManualTime();
 
 }  // namespace
