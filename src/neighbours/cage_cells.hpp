@@ -130,9 +130,7 @@ class CageCells {
       for (std::int32_t row = 0; row < 3; ++row)
         store(column + folded(range.first[1] + row, range.cells[1]) * range.cells[0], to + row * columns);
     } else {
-      for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y)
-        for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x)
-          *to++ = folded(y, range.cells[1]) * range.cells[0] + folded(x, range.cells[0]);
+      for_each_cell(range, [&to](std::int32_t cell) { *to++ = cell; });
     }
     return cells_in(range);
   }
@@ -140,23 +138,20 @@ class CageCells {
   /// Calls visit(id, centre, radius) for every cage in a range of cells.
   template <class Visit>
   void for_each(const CageRange& range, Visit&& visit) const {
-    for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y)
-      for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x)
-        for (std::int32_t b = folded(y, range.cells[1]) * range.cells[0] + folded(x, range.cells[0]); b >= 0;
-             b = next_[static_cast<std::size_t>(b)]) {
-          const CageBlock& block = blocks_[static_cast<std::size_t>(b)];
-          for (int k = 0; k < 8 && block.id[k] >= 0; ++k) visit(block.id[k], CageCentre{block.x[k], block.y[k]}, block.radius[k]);
-        }
+    for_each_cell(range, [&](std::int32_t cell) {
+      for (std::int32_t b = cell; b >= 0; b = next_[static_cast<std::size_t>(b)]) {
+        const CageBlock& block = blocks_[static_cast<std::size_t>(b)];
+        for (int k = 0; k < 8 && block.id[k] >= 0; ++k) visit(block.id[k], CageCentre{block.x[k], block.y[k]}, block.radius[k]);
+      }
+    });
   }
 
   void fetch_blocks(const CageRange& range) const {
-    for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y)
-      for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x) {
-        const std::int32_t cell = folded(y, range.cells[1]) * range.cells[0] + folded(x, range.cells[0]);
-        const CageBlock& block = blocks_[static_cast<std::size_t>(cell)];
-        fetch_early(&block);
-        fetch_early(block.y);
-      }
+    for_each_cell(range, [this](std::int32_t cell) {
+      const CageBlock& block = blocks_[static_cast<std::size_t>(cell)];
+      fetch_early(&block);
+      fetch_early(block.y);
+    });
   }
 
   /// Blocks that follow full ones.
@@ -189,6 +184,16 @@ class CageCells {
       return static_cast<std::int32_t>(columns == cells ? column : column % cells);
     }
   };
+
+  /// Calls visit(cell) for every cell of a range, row by row.
+  template <class Visit>
+  static void for_each_cell(const CageRange& range, Visit&& visit) {
+    for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y) {
+      const std::int32_t row = folded(y, range.cells[1]) * range.cells[0];
+      for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x) visit(row + folded(x, range.cells[0]));
+    }
+  }
+
   struct Slot {
     std::int32_t block;
     int place;

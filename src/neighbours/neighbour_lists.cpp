@@ -51,16 +51,15 @@ NeighbourLists::NeighbourLists(const FixedAxis& x, const FixedAxis& y, const std
 
 void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> centres) {
   half_width_ = half_width;
-  two_halves_ = 2.0 * half_width / largest_;
+  h_ = half_width / largest_;
   // A few steps of the centres, and of single precision, on the safe side.
-  const double h = half_width / largest_;
-  nearness_.two_halves = static_cast<float>(2.0 * h * (1.0 + 1e-6) + 4.0 / std::min(steps_[0], steps_[1]));
+  nearness_.two_halves = static_cast<float>(2.0 * h_ * (1.0 + 1e-6) + 4.0 / std::min(steps_[0], steps_[1]));
 
-  if (sliding_) sliding_->set_cages(2.0 * h, 2.0 * (1.0 + h));
+  if (sliding_) sliding_->set_cages(2.0 * h_, 2.0 * (1.0 + h_));
 
   layers_.clear();
   for (const auto& [disks, largest] : sizes_)
-    layers_.emplace_back(axes_[0], axes_[1], largest, 2.0 * (static_cast<double>(largest) + h) * largest_, disks);
+    layers_.emplace_back(axes_[0], axes_[1], largest, 2.0 * (static_cast<double>(largest) + h_) * largest_, disks);
 
   around_.clear();
   const auto disks = static_cast<std::int32_t>(around_.disks());
@@ -92,7 +91,7 @@ std::span<const std::int32_t> NeighbourLists::move_cage(std::int32_t i, CageCent
 
 /// How far apart, in largest radii, cages may be that are near, one of a disk of the given radius and one of a layer.
 double NeighbourLists::reach(float radius, const CageCells& layer) const {
-  return (static_cast<double>(radius) + static_cast<double>(layer.largest_radius()) + two_halves_) * (1.0 + search_slack);
+  return (static_cast<double>(radius) + static_cast<double>(layer.largest_radius()) + 2.0 * h_) * (1.0 + search_slack);
 }
 
 /// The cells of a layer in which there may be cages near one of a disk of the given radius.
@@ -143,8 +142,7 @@ void NeighbourLists::slide(std::int64_t displacement, double way) {
   if (!sliding_) sliding_.emplace(std::array{1.0 / steps_[0], 1.0 / steps_[1]});
   sliding_->set_way(static_cast<std::int32_t>(displacement >> 32), way / largest_);
   if (layers_.empty()) return;
-  const double h = half_width_ / largest_;
-  sliding_->set_cages(2.0 * h, 2.0 * (1.0 + h));
+  sliding_->set_cages(2.0 * h_, 2.0 * (1.0 + h_));
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(around_.disks()); ++i) {
     if (!sliding_->by_edge(centre(i))) continue;
     search(i);

@@ -68,8 +68,8 @@ class NeighbourLists {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(axes_[0], axes_[1], largest_, radius_, one_radius_, half_width_, two_halves_, nearness_, sliding_, around_, sizes_,
-            layers_, layer_of_, steps_[0], steps_[1], changes_, gone_, cells_, found_, fresh_, found_count_);
+    archive(axes_[0], axes_[1], largest_, radius_, one_radius_, half_width_, h_, nearness_, sliding_, around_, sizes_, layers_,
+            layer_of_, steps_[0], steps_[1], changes_, gone_, cells_, found_, fresh_, found_count_);
   }
 
  private:
@@ -90,7 +90,7 @@ class NeighbourLists {
   std::vector<float> radius_;  ///< one for all where all are equal
   bool one_radius_ = true;
   double half_width_ = 0.0;
-  double two_halves_ = 0.0;  ///< 2 h, in largest radii
+  double h_ = 0.0;  ///< the same in largest radii
   CageNearness nearness_;
   std::optional<SlidingCages> sliding_;
 
