@@ -4,7 +4,8 @@
 // Where it gains: a disk is a line in space and time that nothing but its own collisions changes (core/flight.hpp);
 // neighbours are known from lists that change only when a disk leaves its cage (neighbours/neighbour_lists.hpp); one disk is
 // predicted against eight neighbours at a time (core/prediction.hpp); the next event comes from a calendar in O(1), which
-// also shows the events after it, so that their data can be fetched ahead (queue/calendar_queue.hpp).
+// also shows the events after it, so that their data can be fetched ahead (queue/calendar_queue.hpp), or where disks are few from
+// a tournament without branches (queue/tournament_queue.hpp).
 //
 // Every disk has one plan: the earliest collision that it foresaw when it was last predicted, and when it leaves its cage or
 // meets a wall. Of two partners the one predicted last foresees the collision; a plan whose partner has collided since is stale
@@ -35,7 +36,7 @@
 #include "engine/note_listener.hpp"
 #include "neighbours/cage_tuner.hpp"
 #include "neighbours/neighbour_lists.hpp"
-#include "queue/calendar_queue.hpp"
+#include "queue/future_event_list.hpp"
 
 #include <carom/collisions.hpp>
 #include <carom/state.hpp>
@@ -89,14 +90,13 @@ class Engine {
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
     double end = target.since<double>(epoch_);
     for (; totals_.pair < pair_limit && event_limit > 0 && !jammed(); --event_limit) {
-      const Event* next = queue_.next(*this, [this](std::int64_t span) { look_ahead(span); });
-      const double time = next != nullptr ? next->time : never;
-      if (epoch_length_ <= std::min(time, end) && epoch_length_ < never) {
+      const auto [time, disk] = queue_.next(*this, [this](std::int64_t span) { look_ahead(span); });
+      if (time <= end && time < epoch_length_) [[likely]] {
+        step(disk, time);
+        if (now_ == 0.0) end = target.since<double>(epoch_);  // a new epoch may have begun
+      } else if (epoch_length_ <= std::min(time, end) && epoch_length_ < never) {
         begin_epoch(epoch_length_);
         end = target.since<double>(epoch_);
-      } else if (time <= end && time < never) {
-        step(next->disk, time);
-        if (now_ == 0.0) end = target.since<double>(epoch_);  // a new epoch may have begun
       } else {
         if (target < forever) now_ = std::max(now_, end);
         return true;
@@ -116,13 +116,16 @@ class Engine {
  private:
   /// The next event of all.
   [[gnu::flatten]] void step(std::int32_t i, double time) {
-    queue_.pop(*this);
     at_one_instant_ = time > now_ ? 0 : at_one_instant_ + 1;
     now_ = std::max(now_, time);
     const Plan& mine = plan(i);
     if (edge_first(mine)) {
+      queue_.pop(*this);
+      fetch_next();
       mine.edge == cage ? leave_cage(i) : hit(i, mine.edge);
     } else if (is_stale(mine)) {
+      queue_.pop(*this);
+      fetch_next();
       ++totals_.stale;
       predict(i);
     } else {
@@ -149,12 +152,14 @@ class Engine {
     const Vec2<double> da = before_a - va, db = before_b - vb;
     CollidedPair pair{{i, j}, {surroundings(i), surroundings(j)}, {}};
     looks_ += more_looks(pair.around[0].count) + more_looks(pair.around[1].count);
+    queue_.pop(*this, j);  // not earlier: all up to here goes on while the predictions before still wait for their results
+    fetch_next();
     kernel_.store_and_predict(lines_.data(), frame_, pair, now_, moved(i, 0, da[0] * now_), moved(i, 1, da[1] * now_),
                               moved(j, 0, db[0] * now_), moved(j, 1, db[1] * now_), va[0], va[1], vb[0], vb[1]);
+    fetch_neighbours_of_next();
     plan_ahead(i, pair.ahead[0]);
     plan_ahead(j, pair.ahead[1]);
-    schedule(i);
-    schedule(j);
+    queue_.push(*this, i, time(i), j, time(j));
     if (stamp_ == last_stamp) [[unlikely]]
       begin_epoch(now_);
   }
@@ -294,17 +299,13 @@ class Engine {
   /// A piston has changed its motion: what everybody had planned with it is void.
   void plan_edges_anew();
 
-  /// What lies beyond this epoch is found again when the next one begins.
-  void schedule(std::int32_t i) {
-    const double next = time(i);
-    if (next < epoch_length_) queue_.push(*this, {next, i, other(i)});
-  }
+  void schedule(std::int32_t i) { queue_.push(*this, i, time(i)); }
 
   /// The partner has collided since this was planned. (The plan keeps a stamp of its own and not one of the partner: to read
   /// that would be one more access to memory for every prediction.)
   [[nodiscard]] bool is_stale(const Plan& mine) const { return plan(mine.partner).last_collided > mine.foreseen; }
 
-  [[nodiscard]] std::pair<std::int32_t, std::int32_t> rank(const CalendarEntry& event) const {
+  [[nodiscard]] std::pair<std::int32_t, std::int32_t> rank(const FutureEvent& event) const {
     if (event.other == cage) return {cage, id(event.disk)};
     if (event.other < 0) return {id(event.disk), event.other};
     return std::minmax(id(event.disk), id(event.other));
@@ -483,6 +484,21 @@ class Engine {
   [[gnu::noinline]] void read_notes(std::size_t count);
   [[gnu::noinline]] void log_hit(std::int32_t i, std::int32_t what, const Vec2<double>& v);
   [[gnu::noinline]] void look_ahead(std::int64_t span) const;
+  /// Fetches what the next event will need first.
+  void fetch_next() const {
+    if (!fetching_next_) return;
+    const std::int32_t i = queue_.foreseen();
+    fetch(&plan(i)), fetch_disk(i);
+  }
+  /// And what follows from that.
+  void fetch_neighbours_of_next() const {
+    if (!fetching_next_) return;
+    const std::int32_t i = queue_.foreseen();
+    const std::int32_t j = plan(i).partner < 0 ? i : plan(i).partner;
+    fetch(&plan(j)), fetch_disk(j);
+    for (int n = 0; n < 8; ++n) fetch(&line(lists_.ids(i)[n]));
+  }
+  void fetch_disk(std::int32_t i) const { fetch(&line(i)), lists_.fetch_list(i); }
 
   [[nodiscard]] Instant instant(double t) const { return epoch_.plus(t); }
   [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(lines_.size()); }
@@ -495,9 +511,6 @@ class Engine {
   /// By how much of its half-width a new cage lies ahead of the disk. Between a quarter and three quarters there is little
   /// difference; dilute gases gain from more.
   static constexpr double cage_lead = 0.5;
-
-  using Queue = CalendarQueue<Engine>;
-  using Event = typename Queue::Entry;
 
   FixedAxis axes_[2];
   std::int64_t half_[2];  ///< from the middle to a wall
@@ -513,7 +526,7 @@ class Engine {
   ImageCounts images_;
   std::vector<std::int32_t> heights_;  ///< where images slide: of the cages' centres, which are in the boxes of their disks
   NeighbourLists lists_;
-  Queue queue_;
+  FutureEventList<Engine> queue_;
 
   Instant epoch_;  ///< the loop's zero of time
   double now_ = 0.0;
@@ -535,8 +548,9 @@ class Engine {
   double span_ = 0.0;                 ///< of the queue
   std::uint64_t begun_with_ = 0;      ///< events that the queue got at the beginning of the epoch
   bool walled_;
-  bool bare_;              ///< no walls, no obstacles, no images that slide
-  bool fetching_ = false;  ///< the data do not fit the cache
+  bool bare_;                   ///< no walls, no obstacles, no images that slide
+  bool fetching_ = false;       ///< the data do not fit the second-level cache
+  bool fetching_next_ = false;  ///< they fit that, but not the first
 
   CageTuner tuner_;
   double widest_ = never;      ///< that a cage may be
@@ -572,7 +586,7 @@ class Engine {
 
   /// Ties: cages are left before anything else happens, so that everybody is foreseen; then the event with the lower disk
   /// first, then the one with the lower other disk; a wall is met before a disk.
-  [[nodiscard]] bool precedes(const CalendarEntry& a, const CalendarEntry& b) const { return rank(a) < rank(b); }
+  [[nodiscard]] bool precedes(const FutureEvent& a, const FutureEvent& b) const { return rank(a) < rank(b); }
 
   // ------------------------------------------------------------------------------------- for those who look on
 

@@ -59,15 +59,14 @@ const PredictionKernel<Line>& kernel_for(const Effects& effects) {
   return prediction_kernel<Line>(Contact::hard);
 }
 
-/// Fetching ahead costs 5 to 15 per cent where the data fit the second-level cache and gains 20 to 60 where they are many times
-/// larger. It pays from about three times its size on: much of the data is rarely used.
-inline bool exceeds_cache(std::size_t bytes) {
+/// How many second-level caches so many bytes would fill.
+inline double second_level_caches(std::size_t bytes) {
 #if defined(_SC_LEVEL2_CACHE_SIZE)
   const long size = sysconf(_SC_LEVEL2_CACHE_SIZE);
 #else
   const long size = 0;
 #endif
-  return bytes > 3 * static_cast<std::size_t>(size > 0 ? size : 1L << 20);
+  return static_cast<double>(bytes) / static_cast<double>(size > 0 ? size : 1L << 20);
 }
 
 }  // namespace detail
@@ -153,7 +152,11 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   choose_epoch_length();
   predict_all();
   begin_epoch(0.0);
-  fetching_ = detail::exceeds_cache(bytes());
+  // Looking ahead costs 5 to 15 per cent where the data fit the second-level cache and gains 20 to 60 where they are many times
+  // larger. It pays from about three times its size on: much of the data is rarely used.
+  const double caches = detail::second_level_caches(bytes());
+  fetching_ = caches > 3.0;
+  fetching_next_ = caches > 0.5 && queue_.foresees();
 }
 
 template <class Impact, class Layout, class World>

@@ -159,7 +159,7 @@ void Engine<Impact, Layout, World>::predict_all() {
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::start_queue() {
   if (span_ == 0.0) span_ = first_span();
-  queue_.start(span_, lines_.size(), fetching_);
+  queue_.start(span_, lines_.size(), epoch_length_, fetching_);
   for (std::int32_t i = 0; i < count(); ++i) schedule(i);
   begun_with_ = queue_.pushed();
 }

@@ -57,9 +57,9 @@ std::int32_t Engine<Impact, Layout, World>::lowest_of_tied(std::int32_t i, const
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::look_ahead(std::int64_t span) const {
   if (!fetching_) return;
-  queue_.fetch_span(span + 7);
-  for (const std::int32_t i : queue_.ids_of(span + 5)) fetch_early(&plan(i));
-  for (const std::int32_t i : queue_.ids_of(span + 4)) {
+  queue_.calendar().fetch_span(span + 7);
+  for (const std::int32_t i : queue_.calendar().ids_of(span + 5)) fetch_early(&plan(i));
+  for (const std::int32_t i : queue_.calendar().ids_of(span + 4)) {
     const auto fetch_disk = [this](std::int32_t k) {
       fetch_early(&line(k));
       lists_.fetch_list_early(k);
@@ -70,8 +70,8 @@ void Engine<Impact, Layout, World>::look_ahead(std::int64_t span) const {
       fetch_disk(plan(i).partner);
     }
   }
-  for (const std::int32_t i : queue_.ids_of(span + 2)) {
-    if (queue_.span_of(time(i)) != span + 2) continue;
+  for (const std::int32_t i : queue_.calendar().ids_of(span + 2)) {
+    if (queue_.calendar().span_of(time(i)) != span + 2) continue;
     const auto fetch_neighbours = [this](std::int32_t k) {
       const std::int32_t* ids = lists_.ids(k);
       for (int n = 0; n < 8; ++n)

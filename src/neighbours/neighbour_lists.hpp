@@ -53,6 +53,7 @@ class NeighbourLists {
   /// Entries that move_cage() has put on lists of others, or taken from them, so far.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
 
+  void fetch_list(std::int32_t i) const { around_.fetch_list(i); }
   void fetch_list_early(std::int32_t i) const { around_.fetch_list_early(i); }
   /// What move_cage(i, to) will look through.
   void fetch_cells(std::int32_t i, CageCentre to) const;

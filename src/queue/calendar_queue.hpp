@@ -11,6 +11,7 @@
 
 #include "core/fetch.hpp"
 #include "core/large_memory.hpp"
+#include "queue/future_event.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,27 +26,18 @@
 
 namespace carom {
 
-/// What a disk's next event is: `other` tells events of one disk at one time apart.
-struct CalendarEntry {
-  double time;
-  std::int32_t disk;
-  std::int32_t other;
-
-  friend bool operator==(const CalendarEntry&, const CalendarEntry&) = default;
-};
-
 /// Events: `double time(std::int32_t disk) const`, when the disk's next event is, >= 0, infinity for never;
 /// `std::int32_t other(std::int32_t disk) const`, whatever else tells which event it is; and `bool precedes(const
-/// CalendarEntry& a, const CalendarEntry& b) const`, a strict order of events at one time that depends on a and b alone. Where
+/// FutureEvent& a, const FutureEvent& b) const`, a strict order of events at one time that depends on a and b alone. Where
 /// there is a `void fetch_event(std::int32_t disk) const` it is told of disks whose events will be asked for soon.
 template <class Events>
 class CalendarQueue {
  public:
-  using Entry = CalendarEntry;
+  using Entry = FutureEvent;
 
-  /// Forgets everything, and starts at time 0 with spans of the given length > 0 for that many disks. `far`: the ring is not in
-  /// a near cache, and ids wait for the memory that they go to.
-  void start(double span, std::size_t disks, bool far = false) {
+  /// Forgets everything, and starts at time 0 with spans of the given length > 0 for that many disks. Events at `end` or later
+  /// are not kept. `far`: the ring is not in a near cache, and ids wait for the memory that they go to.
+  void start(double span, std::size_t disks, double end, bool far = false) {
     const std::size_t spans = std::bit_ceil(std::max<std::size_t>(64, disks / 2));
     reserve(spans_, spans);
     spans_.resize(spans);
@@ -53,6 +45,7 @@ class CalendarQueue {
     more_.assign(spans, none);
     mask_ = static_cast<std::int64_t>(spans) - 1;
     per_time_ = 1.0 / span;
+    end_ = end;
     current_ = -1;
     sort_out_at_ = mask_ / 2;
     in_ring_ = 0;
@@ -67,7 +60,7 @@ class CalendarQueue {
 
   /// The next event of event.disk is now `event`, which is not before the last one taken.
   void push(const Events& events, const Entry& event) {
-    if (!(event.time < std::numeric_limits<double>::infinity())) return;
+    if (!(event.time < end_)) return;
     ++pushed_;
     const std::int64_t k = span_of(event.time);
     if (k <= current_) {
@@ -140,8 +133,8 @@ class CalendarQueue {
   /// Its whole state, for core/archive.hpp.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(spans_, counts_, more_, mask_, per_time_, current_, sort_out_at_, in_ring_, pushed_, free_, at_hand_, heaped_, later_,
-            far_, waiting_, fetched_, places_, disks_);
+    archive(spans_, counts_, more_, mask_, per_time_, end_, current_, sort_out_at_, in_ring_, pushed_, free_, at_hand_, heaped_,
+            later_, far_, waiting_, fetched_, places_, disks_);
   }
 
  private:
@@ -319,6 +312,7 @@ class CalendarQueue {
   std::vector<std::int32_t> more_;  ///< the span behind a full one
   std::int64_t mask_ = 0;
   double per_time_ = 1.0;
+  double end_ = std::numeric_limits<double>::infinity();
   std::int64_t current_ = -1;     ///< the span at hand
   std::int64_t sort_out_at_ = 0;  ///< when the far events are looked through
   std::size_t in_ring_ = 0;       ///< ids in the ring, those that no longer count among them

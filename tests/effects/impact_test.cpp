@@ -135,6 +135,21 @@ TEST(Impact, BothRulesConserveMomentumAndEnergyAndLeavePairsReceding) {
   expect_conservation<Specular>();
 }
 
+template <class Rule>
+void expect_the_same_bits_from_either_side() {
+  for_contacts([](const V& r, double m_i, const V& v_i, double m_j, const V& v_j) {
+    const Outcome from_i = collided<Rule>(r, m_i, v_i, m_j, v_j), from_j = collided<Rule>(-r, m_j, v_j, m_i, v_i);
+    EXPECT_EQ(from_i.v_i, from_j.v_j);
+    EXPECT_EQ(from_i.v_j, from_j.v_i);
+    EXPECT_EQ(from_i.virial, from_j.virial);
+  });
+}
+
+TEST(Impact, BothRulesGiveTheSameBitsWhicheverDiskIsFirst) {
+  expect_the_same_bits_from_either_side<Reversal>();
+  expect_the_same_bits_from_either_side<Specular>();
+}
+
 TEST(Impact, BothRulesHandOverTheSameVirial) {
   for_contacts([](const V& r, double m_i, const V& v_i, double m_j, const V& v_j) {
     const double mu = m_i * m_j / (m_i + m_j);

@@ -1,0 +1,2 @@
+#define CAROM_INSTRUCTIONS avx2
+#include "queue/tournament_kernel.hpp"

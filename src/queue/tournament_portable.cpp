@@ -1,0 +1,2 @@
+#define CAROM_INSTRUCTIONS portable
+#include "queue/tournament_kernel.hpp"

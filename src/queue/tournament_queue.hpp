@@ -1,0 +1,220 @@
+#pragma once
+// The engine's future event list where disks are few: a tournament of their times (queue/tournament.hpp). It has one time per
+// disk, that of its event, where a calendar also has those that no longer count; and who is next follows without a branch that
+// could be guessed wrong.
+//
+// Who is next is found as soon as an event is taken away, before its disks are told new ones: predicting these takes longer, and
+// a processor does the one beside the other. Only when a new event is earlier still, which is seldom, is it found again.
+//
+// Ties: events at the same time are ordered by Events::precedes(a, b).
+
+#include "core/large_memory.hpp"
+#include "queue/future_event.hpp"
+#include "queue/tournament.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace carom {
+
+/// Events: as for CalendarQueue.
+template <class Events>
+class TournamentQueue {
+ public:
+  static constexpr std::size_t most_disks = tournament_group * tournament_group * tournament_group;
+
+  TournamentQueue() = default;
+  TournamentQueue(const TournamentQueue&) = delete;
+  TournamentQueue& operator=(const TournamentQueue&) = delete;
+
+  /// Forgets everything. Requires disks <= most_disks.
+  void start(std::size_t disks) {
+    if (kernel_ == nullptr || disks != disks_) {
+      disks_ = disks;
+      lay_out();
+    }
+    std::fill(keys_.begin(), keys_.end(), never);
+    first_ = {never, 0};
+    begun_ = out_ = crowded_ = false;
+    pushed_ = 0;
+  }
+
+  /// The next event of disk i is now at that time, which is not before that of the last one taken; infinity for none.
+  void push(const Events& events, std::int32_t i, double time) {
+    ++pushed_;
+    if (begun_ && !out_ && absent(i)) [[likely]] {
+      kernel_->take_and_enter(tree_, first_.disk, i, time);
+      out_ = true;
+      if (time <= first_.time) [[unlikely]]
+        find_again(events);
+    } else {
+      replace(events, i, time);
+    }
+  }
+  /// The same of two disks.
+  void push(const Events& events, std::int32_t i, double time_i, std::int32_t j, double time_j) {
+    pushed_ += 2;
+    if (begun_ && !out_ && absent(i) && absent(j)) [[likely]] {
+      kernel_->take_and_enter_two(tree_, first_.disk, i, time_i, j, time_j);
+      out_ = true;
+      if ((time_i <= first_.time) | (time_j <= first_.time)) [[unlikely]]
+        find_again(events);
+    } else {
+      replace(events, i, time_i);
+      replace(events, j, time_j);
+    }
+  }
+
+  /// The earliest event.
+  [[nodiscard]] const Upcoming& next(const Events& events) {
+    if (!begun_) [[unlikely]]
+      begin(events);
+    return first_;
+  }
+
+  /// Takes away the event that next() returned.
+  void pop(const Events& events) {
+    if (!out_) [[unlikely]]
+      kernel_->take(tree_, first_.disk);
+    find(events);
+  }
+  /// The same, and that of disk j, which will be told a new one as well.
+  void pop(const Events& events, std::int32_t j) {
+    if (!out_) [[unlikely]]
+      kernel_->take(tree_, first_.disk);
+    const auto place = static_cast<std::size_t>(j);
+    if (tree_.level[0][place] == tree_.level[1][place / tournament_group]) [[unlikely]]
+      kernel_->take(tree_, j);
+    else
+      tree_.level[0][place] = never;  // it was not the first of its group
+    find(events);
+  }
+
+  /// Whose event comes after the one that was popped, unless a new one is earlier.
+  [[nodiscard]] std::int32_t foreseen() const { return first_.disk; }
+
+  /// So many events have been at one time that a calendar is the better place for them.
+  [[nodiscard]] bool crowded() const { return crowded_; }
+
+  /// Calls see(i, time) for every disk that has an event. Not between pop() and the push() that follows.
+  template <class See>
+  void for_each(See&& see) {
+    put_back();
+    for (std::size_t i = 0; i < disks_; ++i)
+      if (tree_.level[0][i] < never) see(static_cast<std::int32_t>(i), tree_.level[0][i]);
+  }
+
+  /// Events pushed since start(), those at infinity among them.
+  [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
+
+  [[nodiscard]] std::size_t bytes() const { return keys_.capacity() * sizeof(double); }
+
+  /// Whether next() will come across the event of a disk.
+  [[nodiscard]] bool holds(const Events& events, std::int32_t disk) const {
+    const bool is_out = out_ && disk == first_.disk;
+    return (is_out ? first_.time : tree_.level[0][static_cast<std::size_t>(disk)]) == events.time(disk);
+  }
+
+  /// Its whole state, for core/archive.hpp.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(disks_, keys_, first_, begun_, out_, crowded_, pushed_);
+    if constexpr (Archive::is_loading::value) lay_out();
+  }
+
+ private:
+  static constexpr double never = std::numeric_limits<double>::infinity();
+  /// At one time. Each of them costs a look at all others.
+  static constexpr int crowd = 64;
+
+  static constexpr std::size_t groups_of(std::size_t keys) { return (keys + tournament_group - 1) / tournament_group; }
+
+  /// Room for all levels, one behind the other.
+  void lay_out() {
+    const std::size_t groups = std::max<std::size_t>(groups_of(disks_), 1), leaves = tournament_group * groups,
+                      nodes = tournament_group * groups_of(groups);
+    levels_ = nodes <= tournament_group ? 2 : 3;
+    keys_.resize(leaves + nodes + (levels_ == 3 ? tournament_group : 0));
+    tree_ = {{keys_.data(), keys_.data() + leaves, keys_.data() + leaves + nodes}};
+    kernel_ = &tournament_kernel(levels_);
+  }
+
+  [[nodiscard]] bool absent(std::int32_t i) const { return tree_.level[0][static_cast<std::size_t>(i)] == never; }
+
+  /// Everybody has been told an event.
+  [[gnu::noinline]] void begin(const Events& events) {
+    for (std::size_t i = 0; i < disks_; ++i) kernel_->enter(tree_, static_cast<std::int32_t>(i), tree_.level[0][i]);
+    begun_ = true;
+    find(events);
+  }
+
+  void find(const Events& events) {
+    const Winner winner = kernel_->winner(tree_);
+    first_ = {winner.time, winner.disk};
+    out_ = false;
+    if (winner.others != 0) [[unlikely]]
+      settle(events);
+  }
+
+  /// A new event is as early as the one that was to be next.
+  [[gnu::noinline]] void find_again(const Events& events) {
+    put_back();
+    find(events);
+  }
+  void put_back() {
+    if (out_ && first_.time < never) kernel_->enter(tree_, first_.disk, first_.time);
+    out_ = false;
+  }
+
+  /// Whatever event there was of disk i.
+  [[gnu::noinline]] void replace(const Events& events, std::int32_t i, double time) {
+    if (begun_) {
+      put_back();
+      kernel_->take(tree_, i);
+      kernel_->enter(tree_, i, time);
+      find(events);
+    } else {
+      tree_.level[0][static_cast<std::size_t>(i)] = time;
+    }
+  }
+
+  /// Of those at the earliest time, the one who precedes the others.
+  [[gnu::noinline]] void settle(const Events& events) {
+    if (first_.time < never) crowded_ |= settle(events, levels_ - 1, 0) > crowd;
+  }
+  /// Of those in one group of a level. Returns how many there are.
+  int settle(const Events& events, int level, std::size_t group) {
+    int count = 0;
+    const double* const times = tree_.level[level] + tournament_group * group;
+    for (std::uint32_t bits = kernel_->among(times, first_.time); bits != 0; bits &= bits - 1) {
+      const std::size_t place = tournament_group * group + static_cast<std::size_t>(std::countr_zero(bits));
+      if (level > 0) {
+        count += settle(events, level - 1, place);
+      } else {
+        const auto disk = static_cast<std::int32_t>(place);
+        if (events.precedes(event(events, disk), event(events, first_.disk))) first_.disk = disk;
+        ++count;
+      }
+    }
+    return count;
+  }
+  [[nodiscard]] FutureEvent event(const Events& events, std::int32_t disk) const {
+    return {first_.time, disk, events.other(disk)};
+  }
+
+  LargeVector<double> keys_;
+  TournamentTree tree_{};
+  const TournamentKernel* kernel_ = nullptr;
+  std::size_t disks_ = 0;
+  int levels_ = 2;
+  Upcoming first_{never, 0};
+  bool begun_ = false;  ///< until then only level[0] is filled
+  bool out_ = false;    ///< first_ has left the tree already, when its turn has not come yet
+  bool crowded_ = false;
+  std::uint64_t pushed_ = 0;
+};
+
+}  // namespace carom
