@@ -1,7 +1,9 @@
-// No include guard: compiled once per instruction set, in the namespace CAROM_INSTRUCTIONS.
+// No include guard: compiled once per instruction set, in the namespace
+// CAROM_INSTRUCTIONS.
 //
-// Nothing here branches on times. What is read as a vector is written as one: a vector read from memory to which a single number
-// was just written waits until that has left the processor.
+// Nothing here branches on times. What will soon be read as a vector is written
+// as one: a vector that is read where a single number was just written waits
+// until that has left the processor.
 
 #include "core/doubles_kernel.hpp"
 #include "queue/tournament.hpp"
@@ -16,52 +18,53 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 #if defined(__AVX2__)
 
-/// Not std::min: where the two are equal, either will do.
-template <class Times>
-CAROM_INLINE Times lesser(Times a, Times b) {
-  return a < b ? a : b;
-}
-
+/// The least of four.
 CAROM_INLINE double least_of(Doubles four) {
-  const Doubles two = lesser(four, __builtin_shufflevector(four, four, 2, 3, 0, 1));
-  return lesser(two, __builtin_shufflevector(two, two, 1, 0, 3, 2))[0];
+  const Doubles swapped = __builtin_shufflevector(four, four, 2, 3, 0, 1), two = four < swapped ? four : swapped;
+  const Doubles turned = __builtin_shufflevector(two, two, 1, 0, 3, 2);
+  return (two < turned ? two : turned)[0];
 }
 
 #endif
-
 #if defined(__AVX512F__)
 
-using EightTimes = double __attribute__((vector_size(64)));
+using Times = double __attribute__((vector_size(64)));
 
-CAROM_INLINE EightTimes load(const double* eight) { return _mm512_load_pd(eight); }
-CAROM_INLINE EightTimes eight_of(double time) { return EightTimes{time, time, time, time, time, time, time, time}; }
-/// The lane of a place among its eight.
-CAROM_INLINE __mmask8 lane(std::size_t place) { return static_cast<__mmask8>(1U << (place & 7)); }
+CAROM_INLINE Times load(const double* times) { return _mm512_load_pd(times); }
+CAROM_INLINE void store(double* to, Times times) { _mm512_store_pd(to, times); }
+CAROM_INLINE Times times_of(double x) { return Times{x, x, x, x, x, x, x, x}; }
+CAROM_INLINE Times lesser(Times a, Times b) { return a < b ? a : b; }
+/// a, but b at a place.
+CAROM_INLINE Times replaced(Times a, std::size_t place, Times b) {
+  return _mm512_mask_mov_pd(a, static_cast<__mmask8>(1U << (place & 7)), b);
+}
 
+CAROM_INLINE double least_of(Times a) {
+  const Doubles low = __builtin_shufflevector(a, a, 0, 1, 2, 3), high = __builtin_shufflevector(a, a, 4, 5, 6, 7);
+  return least_of(low < high ? low : high);
+}
 CAROM_INLINE double least_of(const double* group) {
-  const EightTimes eight = lesser(lesser(load(group), load(group + 8)), lesser(load(group + 16), load(group + 24)));
-  return least_of(lesser(__builtin_shufflevector(eight, eight, 0, 1, 2, 3), __builtin_shufflevector(eight, eight, 4, 5, 6, 7)));
+  return least_of(lesser(lesser(load(group), load(group + 8)), lesser(load(group + 16), load(group + 24))));
 }
 
 CAROM_INLINE std::uint32_t among(const double* group, double time) {
-  const auto eight = [&](int n) -> __mmask16 { return _mm512_cmp_pd_mask(load(group + n), eight_of(time), _CMP_EQ_OQ); };
+  const auto eight = [&](int n) -> __mmask16 { return _mm512_cmp_pd_mask(load(group + n), times_of(time), _CMP_EQ_OQ); };
   const std::uint32_t low = _mm512_kunpackb(eight(8), eight(0)), high = _mm512_kunpackb(eight(24), eight(16));
   return low | high << 16;
 }
 
-CAROM_INLINE void set(double* level, std::size_t place, double time) {
-  double* const eight = level + (place & ~std::size_t{7});
-  _mm512_store_pd(eight, _mm512_mask_mov_pd(load(eight), lane(place), eight_of(time)));
-}
-
-CAROM_INLINE void lower(double* level, std::size_t place, double time) {
-  double* const eight = level + (place & ~std::size_t{7});
-  _mm512_store_pd(eight, _mm512_mask_mov_pd(load(eight), lane(place), lesser(load(eight), eight_of(time))));
-}
-
 #elif defined(__AVX2__)
 
-CAROM_INLINE Doubles load(const double* four) { return _mm256_load_pd(four); }
+using Times = Doubles;
+
+CAROM_INLINE Times load(const double* times) { return _mm256_load_pd(times); }
+CAROM_INLINE void store(double* to, Times times) { _mm256_store_pd(to, times); }
+CAROM_INLINE Times times_of(double x) { return all(x); }
+CAROM_INLINE Times lesser(Times a, Times b) { return a < b ? a : b; }
+CAROM_INLINE Times replaced(Times a, std::size_t place, Times b) {
+  const __m256i lane = _mm256_set1_epi64x(static_cast<long long>(place & 3));
+  return _mm256_blendv_pd(a, b, _mm256_castsi256_pd(_mm256_cmpeq_epi64(lane, _mm256_setr_epi64x(0, 1, 2, 3))));
+}
 
 CAROM_INLINE double least_of(const double* group) {
   const auto eight = [&](int n) { return lesser(load(group + n), load(group + n + 4)); };
@@ -75,30 +78,24 @@ CAROM_INLINE std::uint32_t among(const double* group, double time) {
     return _mm256_castps_si256(_mm256_shuffle_ps(_mm256_castpd_ps(four(n)), _mm256_castpd_ps(four(n + 4)), 0x88));
   };
   const __m256i low = _mm256_packs_epi32(eight(0), eight(8)), high = _mm256_packs_epi32(eight(16), eight(24));
-  const __m256i pairs =
-      _mm256_packs_epi16(low, high);  // of keys: 0 1, 4 5, 8 9, .. in one half and 2 3, 6 7, 10 11, .. in the other
+  const __m256i pairs = _mm256_packs_epi16(low, high);  // of keys: 0 1, 4 5, 8 9, .. in one half
+                                                        // and 2 3, 6 7, 10 11, .. in the other
   const __m128i even = _mm256_castsi256_si128(pairs), odd = _mm256_extracti128_si256(pairs, 1);
   return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_unpacklo_epi16(even, odd))) |
          static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_unpackhi_epi16(even, odd))) << 16;
 }
 
-/// All bits in the lane of a place among its four.
-CAROM_INLINE __m256d lane(std::size_t place) {
-  const __m256i places = _mm256_set1_epi64x(static_cast<long long>(place & 3));
-  return _mm256_castsi256_pd(_mm256_cmpeq_epi64(places, _mm256_setr_epi64x(0, 1, 2, 3)));
-}
-
-CAROM_INLINE void set(double* level, std::size_t place, double time) {
-  double* const four = level + (place & ~std::size_t{3});
-  _mm256_store_pd(four, _mm256_blendv_pd(load(four), all(time), lane(place)));
-}
-
-CAROM_INLINE void lower(double* level, std::size_t place, double time) {
-  double* const four = level + (place & ~std::size_t{3});
-  _mm256_store_pd(four, _mm256_blendv_pd(load(four), lesser(load(four), all(time)), lane(place)));
-}
-
 #else
+
+struct Times {
+  double time;
+};
+
+CAROM_INLINE Times load(const double* times) { return {*times}; }
+CAROM_INLINE void store(double* to, Times times) { *to = times.time; }
+CAROM_INLINE Times times_of(double x) { return {x}; }
+CAROM_INLINE Times lesser(Times a, Times b) { return {std::min(a.time, b.time)}; }
+CAROM_INLINE Times replaced(Times /*a*/, std::size_t /*place*/, Times b) { return b; }
 
 CAROM_INLINE double least_of(const double* group) { return *std::min_element(group, group + tournament_group); }
 
@@ -108,10 +105,37 @@ CAROM_INLINE std::uint32_t among(const double* group, double time) {
   return bits;
 }
 
-CAROM_INLINE void set(double* level, std::size_t place, double time) { level[place] = time; }
-CAROM_INLINE void lower(double* level, std::size_t place, double time) { level[place] = std::min(level[place], time); }
-
 #endif
+
+/// The vector in which a place is.
+CAROM_INLINE double* vector_of(double* level, std::size_t place) {
+  return level + (place & ~(sizeof(Times) / sizeof(double) - 1));
+}
+
+CAROM_INLINE void set(double* level, std::size_t place, double time) {
+  double* const vector = vector_of(level, place);
+  store(vector, replaced(load(vector), place, times_of(time)));
+}
+
+CAROM_INLINE void lower(double* level, std::size_t place, double time) {
+  double* const vector = vector_of(level, place);
+  store(vector, replaced(load(vector), place, lesser(load(vector), times_of(time))));
+}
+
+/// One of a group gets another time. Returns the least of the group then.
+CAROM_INLINE double replace(double* group, std::size_t place, double time) {
+#if defined(__AVX512F__)
+  double* const vector = vector_of(group, place);
+  const Times mine = replaced(load(vector), place, times_of(time));
+  store(vector, mine);
+  // Not read back: that would be waited for.
+  const auto other = [&](std::size_t n) { return load(vector_of(group, (place + n) % tournament_group)); };
+  return least_of(lesser(mine, lesser(lesser(other(8), other(16)), other(24))));
+#else
+  set(group, place, time);
+  return least_of(group);
+#endif
+}
 
 CAROM_INLINE std::size_t first_of(std::uint32_t bits) { return static_cast<std::size_t>(__builtin_ctz(bits)); }
 
@@ -133,9 +157,9 @@ CAROM_INLINE void take(const TournamentTree& tree, std::int32_t disk) {
   auto place = static_cast<std::size_t>(disk);
   double time = never;
   for (int n = 0; n < levels - 1; ++n) {
-    set(tree.level[n], place, time);
-    place /= tournament_group;
-    time = least_of(tree.level[n] + tournament_group * place);
+    const std::size_t group = place / tournament_group;
+    time = replace(tree.level[n] + tournament_group * group, place % tournament_group, time);
+    place = group;
   }
   set(tree.level[levels - 1], place, time);
 }
@@ -143,7 +167,7 @@ CAROM_INLINE void take(const TournamentTree& tree, std::int32_t disk) {
 template <int levels>
 CAROM_INLINE void enter(const TournamentTree& tree, std::int32_t disk, double time) {
   auto place = static_cast<std::size_t>(disk);
-  set(tree.level[0], place, time);
+  tree.level[0][place] = time;
   for (int n = 1; n < levels; ++n) lower(tree.level[n], place /= tournament_group, time);
 }
 
