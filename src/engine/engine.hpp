@@ -156,7 +156,7 @@ class Engine {
     fetch_next();
     kernel_.store_and_predict(lines_.data(), frame_, pair, now_, moved(i, 0, da[0] * now_), moved(i, 1, da[1] * now_),
                               moved(j, 0, db[0] * now_), moved(j, 1, db[1] * now_), va[0], va[1], vb[0], vb[1]);
-    fetch_neighbours_of_next();
+    fetch_partner_of_next();
     plan_ahead(i, pair.ahead[0]);
     plan_ahead(j, pair.ahead[1]);
     queue_.push(*this, i, time(i), j, time(j));
@@ -486,17 +486,16 @@ class Engine {
   [[gnu::noinline]] void look_ahead(std::int64_t span) const;
   /// Fetches what the next event will need first.
   void fetch_next() const {
-    if (!fetching_next_) return;
+    if (!queue_.foresees()) return;
     const std::int32_t i = queue_.foreseen();
     fetch(&plan(i)), fetch_disk(i);
   }
   /// And what follows from that.
-  void fetch_neighbours_of_next() const {
-    if (!fetching_next_) return;
-    const std::int32_t i = queue_.foreseen();
-    const std::int32_t j = plan(i).partner < 0 ? i : plan(i).partner;
+  void fetch_partner_of_next() const {
+    if (!queue_.foresees()) return;
+    const std::int32_t i = queue_.foreseen(), j = plan(i).partner < 0 ? i : plan(i).partner;
     fetch(&plan(j)), fetch_disk(j);
-    for (int n = 0; n < 8; ++n) fetch(&line(lists_.ids(i)[n]));
+    for (int n = 0; n < 8 && fetching_neighbours_; ++n) fetch(&line(lists_.ids(i)[n]));
   }
   void fetch_disk(std::int32_t i) const { fetch(&line(i)), lists_.fetch_list(i); }
 
@@ -548,9 +547,9 @@ class Engine {
   double span_ = 0.0;                 ///< of the queue
   std::uint64_t begun_with_ = 0;      ///< events that the queue got at the beginning of the epoch
   bool walled_;
-  bool bare_;                   ///< no walls, no obstacles, no images that slide
-  bool fetching_ = false;       ///< the data do not fit the second-level cache
-  bool fetching_next_ = false;  ///< they fit that, but not the first
+  bool bare_;                         ///< no walls, no obstacles, no images that slide
+  bool fetching_ = false;             ///< the data do not fit the second-level cache
+  bool fetching_neighbours_ = false;  ///< they do not fit half of it
 
   CageTuner tuner_;
   double widest_ = never;      ///< that a cage may be

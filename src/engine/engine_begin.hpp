@@ -156,7 +156,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   // larger. It pays from about three times its size on: much of the data is rarely used.
   const double caches = detail::second_level_caches(bytes());
   fetching_ = caches > 3.0;
-  fetching_next_ = caches > 0.5 && queue_.foresees();
+  fetching_neighbours_ = caches > 0.5;
 }
 
 template <class Impact, class Layout, class World>
