@@ -46,10 +46,10 @@ class Calendar {
 class Tournament {
  public:
   void start(const Events& /*events*/, std::int32_t disks) { queue_.start(static_cast<std::size_t>(disks)); }
-  void push(const Events& events, std::int32_t i) { queue_.push(events, i, events.time(i)); }
+  void push(const Events& events, std::int32_t i) { queue_.push(i, events.time(i)); }
   carom::Upcoming next(const Events& events) { return queue_.next(events); }
   void pop(const Events& events, std::int32_t other) { queue_.pop(events, other); }
-  void push(const Events& events, std::int32_t i, std::int32_t j) { queue_.push(events, i, events.time(i), j, events.time(j)); }
+  void push(const Events& events, std::int32_t i, std::int32_t j) { queue_.push(i, events.time(i), j, events.time(j)); }
 
  private:
   carom::TournamentQueue<Events> queue_;

@@ -546,6 +546,7 @@ class Engine {
   double speed_limit_[2] = {};        ///< with which a line stays shorter than that until the epoch ends
   double span_ = 0.0;                 ///< of the queue
   std::uint64_t begun_with_ = 0;      ///< events that the queue got at the beginning of the epoch
+  bool busy_ = true;                  ///< the epoch before had a new event for every fourth disk or more
   bool walled_;
   bool bare_;                         ///< no walls, no obstacles, no images that slide
   bool fetching_ = false;             ///< the data do not fit the second-level cache
@@ -584,8 +585,12 @@ class Engine {
   }
 
   /// Ties: cages are left before anything else happens, so that everybody is foreseen; then the event with the lower disk
-  /// first, then the one with the lower other disk; a wall is met before a disk.
-  [[nodiscard]] bool precedes(const FutureEvent& a, const FutureEvent& b) const { return rank(a) < rank(b); }
+  /// first, then the one with the lower other disk; a wall is met before a disk. Of two plans for one collision that of the lower
+  /// disk comes first.
+  [[nodiscard]] bool precedes(const FutureEvent& a, const FutureEvent& b) const {
+    const auto rank_a = rank(a), rank_b = rank(b);
+    return rank_a < rank_b || (rank_a == rank_b && id(a.disk) < id(b.disk));
+  }
 
   // ------------------------------------------------------------------------------------- for those who look on
 

@@ -22,7 +22,9 @@ void Engine<Impact, Layout, World>::begin_epoch(double now) {
     predict_all();  // the frame starts from rest again, and disks leave their cages at other times
   // Too few events tell nothing: an epoch may have been cut short.
   const std::uint64_t pushed = queue_.pushed() - begun_with_;
-  if (pushed > lines_.size() / 4 + 16) span_ = pushed_per_span * now / static_cast<double>(pushed);
+  const bool enough = pushed > lines_.size() / 4 + 16;
+  if (enough) span_ = pushed_per_span * now / static_cast<double>(pushed);
+  if (now > 0.0) busy_ = enough;
   start_queue();
 }
 
@@ -159,7 +161,7 @@ void Engine<Impact, Layout, World>::predict_all() {
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::start_queue() {
   if (span_ == 0.0) span_ = first_span();
-  queue_.start(span_, lines_.size(), epoch_length_, fetching_);
+  queue_.start(span_, lines_.size(), epoch_length_, fetching_, busy_);
   for (std::int32_t i = 0; i < count(); ++i) schedule(i);
   begun_with_ = queue_.pushed();
 }

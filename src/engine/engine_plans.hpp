@@ -38,8 +38,9 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::plan_edges_anew() {
   for (std::int32_t i = 0; i < count(); ++i) {
     const double before = time(i);
+    const std::int32_t other_before = other(i);
     plan_edge(i, plan(i).edge == cage ? plan(i).edge_time : predicted(i, surroundings(i)).edge_time);
-    if (time(i) != before) schedule(i);
+    if (time(i) != before || other(i) != other_before) schedule(i);
   }
 }
 

@@ -70,7 +70,6 @@ void Engine<Impact, Layout, World>::plan_sliding_edge(std::int32_t i) {
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::meet_across_edge(std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb,
                                                      std::int32_t above) {
-  if (id(i) > id(j)) return meet_across_edge(j, vb, i, va, -above);  // the same bits whichever of the two foresaw it
   const Line &a = line(i), &b = line(j);
   const double image_speed = above * frame_.sliding.speed;
   vb[0] += image_speed;

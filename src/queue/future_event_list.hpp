@@ -15,28 +15,28 @@ namespace carom {
 template <class Events>
 class FutureEventList {
  public:
-  /// Disks up to which a tournament is faster.
-  static constexpr std::size_t few = 16384;
+  /// Numbers of disks for which a tournament is faster.
+  static constexpr std::size_t fewest = 16, few = 16384;
 
   /// Forgets everything, and starts at time 0. Events at `end` or later need not be kept: nobody will ask for them. `span` and
-  /// `far` as for the calendar.
-  void start(double span, std::size_t disks, double end, bool far) {
+  /// `far` as for the calendar; `busy`: to expect new events of many disks.
+  void start(double span, std::size_t disks, double end, bool far, bool busy = true) {
     span_ = span;
     disks_ = disks;
     end_ = end;
     far_ = far;
-    in_tournament_ = disks <= few && has_vectors_;
+    in_tournament_ = disks >= fewest && disks <= few && busy && has_vectors_;
     moved_ = 0;
     in_tournament_ ? tournament_.start(disks) : calendar_.start(span, disks, end, far);
   }
 
   /// The next event of disk i is now at that time, which is not before that of the last one taken; infinity for none.
   void push(const Events& events, std::int32_t i, double time) {
-    in_tournament_ ? tournament_.push(events, i, time) : calendar_.push(events, {time, i, events.other(i)});
+    in_tournament_ ? tournament_.push(i, time) : calendar_.push(events, {time, i, events.other(i)});
   }
   /// The same of two disks.
   void push(const Events& events, std::int32_t i, double time_i, std::int32_t j, double time_j) {
-    if (in_tournament_) return tournament_.push(events, i, time_i, j, time_j);
+    if (in_tournament_) return tournament_.push(i, time_i, j, time_j);
     calendar_.push(events, {time_i, i, events.other(i)});
     calendar_.push(events, {time_j, j, events.other(j)});
   }
@@ -87,12 +87,9 @@ class FutureEventList {
   /// Until the next start.
   [[gnu::noinline]] void move_to_calendar(const Events& events) {
     in_tournament_ = false;
-    moved_ = tournament_.pushed();
     calendar_.start(span_, disks_, end_, far_);
-    tournament_.for_each([&](std::int32_t i, double time) {
-      calendar_.push(events, {time, i, events.other(i)});
-      --moved_;  // counted already
-    });
+    tournament_.for_each([&](std::int32_t i, double time) { calendar_.push(events, {time, i, events.other(i)}); });
+    moved_ = tournament_.pushed() - calendar_.pushed();
   }
 
   bool has_vectors_ = chosen_instructions() != Instructions::portable;  ///< without them a calendar is as fast
@@ -103,7 +100,7 @@ class FutureEventList {
   std::size_t disks_ = 0;
   double end_ = std::numeric_limits<double>::infinity();
   bool far_ = false;
-  std::uint64_t moved_ = 0;  ///< events pushed to the tournament before all went to the calendar
+  std::uint64_t moved_ = 0;  ///< events pushed to the tournament and not to the calendar
 };
 
 }  // namespace carom

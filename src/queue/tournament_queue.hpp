@@ -38,52 +38,55 @@ class TournamentQueue {
     }
     std::fill(keys_.begin(), keys_.end(), never);
     first_ = {never, 0};
-    begun_ = out_ = crowded_ = false;
+    stage_ = Stage::filling;
+    crowded_ = false;
     pushed_ = 0;
   }
 
   /// The next event of disk i is now at that time, which is not before that of the last one taken; infinity for none.
-  void push(const Events& events, std::int32_t i, double time) {
+  void push(std::int32_t i, double time) {
     ++pushed_;
-    if (begun_ && !out_ && absent(i)) [[likely]] {
+    if (stage_ == Stage::known && absent(i)) [[likely]] {
       kernel_->take_and_enter(tree_, first_.disk, i, time);
-      out_ = true;
+      stage_ = Stage::out;
       if (time <= first_.time) [[unlikely]]
-        find_again(events);
+        put_back();
     } else {
-      replace(events, i, time);
+      replace(i, time);
     }
   }
   /// The same of two disks.
-  void push(const Events& events, std::int32_t i, double time_i, std::int32_t j, double time_j) {
+  void push(std::int32_t i, double time_i, std::int32_t j, double time_j) {
     pushed_ += 2;
-    if (begun_ && !out_ && absent(i) && absent(j)) [[likely]] {
+    if (stage_ == Stage::known && absent(i) && absent(j)) [[likely]] {
       kernel_->take_and_enter_two(tree_, first_.disk, i, time_i, j, time_j);
-      out_ = true;
+      stage_ = Stage::out;
       if ((time_i <= first_.time) | (time_j <= first_.time)) [[unlikely]]
-        find_again(events);
+        put_back();
     } else {
-      replace(events, i, time_i);
-      replace(events, j, time_j);
+      replace(i, time_i);
+      replace(j, time_j);
     }
   }
 
   /// The earliest event.
   [[nodiscard]] const Upcoming& next(const Events& events) {
-    if (!begun_) [[unlikely]]
-      begin(events);
+    if (stage_ < Stage::known) [[unlikely]] {
+      if (stage_ == Stage::filling) fill();
+      find(events);
+    }
     return first_;
   }
 
   /// Takes away the event that next() returned.
   void pop(const Events& events) {
-    if (!out_) [[unlikely]]
+    if (stage_ == Stage::known) [[unlikely]]
       kernel_->take(tree_, first_.disk);
     find(events);
   }
   /// The same, and that of disk j, which will be told a new one as well.
   void pop(const Events& events, std::int32_t j) {
-    if (!out_) [[unlikely]]
+    if (stage_ == Stage::known) [[unlikely]]
       kernel_->take(tree_, first_.disk);
     const auto place = static_cast<std::size_t>(j);
     if (tree_.level[0][place] == tree_.level[1][place / tournament_group]) [[unlikely]]
@@ -102,7 +105,7 @@ class TournamentQueue {
   /// Calls see(i, time) for every disk that has an event. Not between pop() and the push() that follows.
   template <class See>
   void for_each(See&& see) {
-    put_back();
+    if (stage_ != Stage::filling) put_back();
     for (std::size_t i = 0; i < disks_; ++i)
       if (tree_.level[0][i] < never) see(static_cast<std::int32_t>(i), tree_.level[0][i]);
   }
@@ -114,21 +117,28 @@ class TournamentQueue {
 
   /// Whether next() will come across the event of a disk.
   [[nodiscard]] bool holds(const Events& events, std::int32_t disk) const {
-    const bool is_out = out_ && disk == first_.disk;
+    const bool is_out = stage_ == Stage::out && disk == first_.disk;
     return (is_out ? first_.time : tree_.level[0][static_cast<std::size_t>(disk)]) == events.time(disk);
   }
 
   /// Its whole state, for core/archive.hpp.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(disks_, keys_, first_, begun_, out_, crowded_, pushed_);
+    archive(disks_, keys_, first_, stage_, replaced_, crowded_, pushed_);
     if constexpr (Archive::is_loading::value) lay_out();
   }
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
-  /// At one time. Each of them costs a look at all others.
-  static constexpr int crowd = 64;
+  /// More at one time, each of which costs a look at all others.
+  static constexpr int crowd = 8;
+
+  enum class Stage : std::uint8_t {
+    filling,  ///< only level[0] counts
+    unknown,  ///< who is next
+    known,
+    out  ///< known, and has left the tree already, when its turn has not come yet
+  };
 
   static constexpr std::size_t groups_of(std::size_t keys) { return (keys + tournament_group - 1) / tournament_group; }
 
@@ -144,40 +154,40 @@ class TournamentQueue {
 
   [[nodiscard]] bool absent(std::int32_t i) const { return tree_.level[0][static_cast<std::size_t>(i)] == never; }
 
-  /// Everybody has been told an event.
-  [[gnu::noinline]] void begin(const Events& events) {
-    for (std::size_t i = 0; i < disks_; ++i) kernel_->enter(tree_, static_cast<std::int32_t>(i), tree_.level[0][i]);
-    begun_ = true;
-    find(events);
+  /// All levels from the first.
+  [[gnu::noinline]] void fill() {
+    const std::size_t groups = static_cast<std::size_t>(tree_.level[1] - tree_.level[0]) / tournament_group;
+    for (int n = 0; n + 1 < levels_; ++n)
+      for (std::size_t k = 0; k < (n == 0 ? groups : groups_of(groups)); ++k) {
+        const double* const group = tree_.level[n] + tournament_group * k;
+        tree_.level[n + 1][k] = *std::min_element(group, group + tournament_group);
+      }
+    replaced_ = 0;
   }
 
   void find(const Events& events) {
     const Winner winner = kernel_->winner(tree_);
     first_ = {winner.time, winner.disk};
-    out_ = false;
+    stage_ = Stage::known;
     if (winner.others != 0) [[unlikely]]
       settle(events);
   }
 
-  /// A new event is as early as the one that was to be next.
-  [[gnu::noinline]] void find_again(const Events& events) {
-    put_back();
-    find(events);
-  }
-  void put_back() {
-    if (out_ && first_.time < never) kernel_->enter(tree_, first_.disk, first_.time);
-    out_ = false;
+  /// Another may be as early as the one that was to be next.
+  [[gnu::noinline]] void put_back() {
+    if (stage_ == Stage::out && first_.time < never) kernel_->enter(tree_, first_.disk, first_.time);
+    stage_ = Stage::unknown;
   }
 
-  /// Whatever event there was of disk i.
-  [[gnu::noinline]] void replace(const Events& events, std::int32_t i, double time) {
-    if (begun_) {
-      put_back();
+  /// Whatever event there was of disk i. Where many are replaced, all levels are made anew in the end.
+  [[gnu::noinline]] void replace(std::int32_t i, double time) {
+    if (stage_ != Stage::filling) put_back();
+    if (stage_ != Stage::filling && ++replaced_ > disks_ / 16) stage_ = Stage::filling;
+    if (stage_ == Stage::filling) {
+      tree_.level[0][static_cast<std::size_t>(i)] = time;
+    } else {
       kernel_->take(tree_, i);
       kernel_->enter(tree_, i, time);
-      find(events);
-    } else {
-      tree_.level[0][static_cast<std::size_t>(i)] = time;
     }
   }
 
@@ -211,8 +221,8 @@ class TournamentQueue {
   std::size_t disks_ = 0;
   int levels_ = 2;
   Upcoming first_{never, 0};
-  bool begun_ = false;  ///< until then only level[0] is filled
-  bool out_ = false;    ///< first_ has left the tree already, when its turn has not come yet
+  Stage stage_ = Stage::filling;
+  std::size_t replaced_ = 0;  ///< since all levels were filled
   bool crowded_ = false;
   std::uint64_t pushed_ = 0;
 };
