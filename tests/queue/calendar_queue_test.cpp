@@ -14,8 +14,6 @@ namespace {
 
 using Queue = CalendarQueue<Events>;
 
-const auto no_look = [](std::int64_t) {};
-
 TEST(CalendarQueue, KeepsADiskThatIsRescheduledToTheSameSpanOrTimeAgainAndAgain) {
   for (const bool same_time : {false, true}) {
     Events events(8);

@@ -18,7 +18,6 @@
 namespace carom::test {
 namespace {
 
-const auto no_look = [](std::int64_t) {};
 constexpr double never = infinity<double>;
 
 struct InCalendar {

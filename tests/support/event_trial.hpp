@@ -50,6 +50,8 @@ class Events {
 
 using Random = std::mt19937_64;
 
+inline constexpr auto no_look = [](std::int64_t) {};
+
 inline double unit(Random& random) { return std::uniform_real_distribution<double>(0.0, 1.0)(random); }
 inline std::int32_t below(Random& random, std::int32_t n) {
   return std::uniform_int_distribution<std::int32_t>(0, n - 1)(random);
