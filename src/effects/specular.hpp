@@ -13,12 +13,15 @@ struct Specular {
   /// rounding has put the disks an ulp too near. Energy is kept where d . (v - d) = 0, and one Newton step towards that
   /// takes out a bias: |r|^2 lies next to sigma^2, and with sigma a power of two b / |r|^2 is always rounded the same way,
   /// which heats a gas of unit diameter by 3e-17 of a pair's energy per collision. b = r . v.
+  ///
+  /// The step needs 1 / |d|^2 to a few digits only, for it changes d by an ulp or two: |r|^2 / b^2 will do, which is known before
+  /// d is.
   template <class Real>
   static Vec2<Real> turned(const Vec2<Real>& r, const Vec2<Real>& v, Real b) {
-    const Vec2<Real> d = (b / r.squaredNorm()) * r;
-    const Real square = d.squaredNorm();
-    if (!(square > 0)) return d;  // too small to be squared
-    return d + (d.dot(v - d) / square) * d;
+    const Real rr = r.squaredNorm(), inverse_square = rr / (b * b);
+    const Vec2<Real> d = (b / rr) * r;
+    if (!(inverse_square < infinity<Real>)) return d;  // too small to be squared
+    return d + (d.dot(v - d) * inverse_square) * d;
   }
 };
 

@@ -207,6 +207,20 @@ TEST(Impact, ContactDistancesThatArePowersOfTwoDoNotHeat) {
   }
 }
 
+TEST(Impact, SpeedsTooLowToBeSquaredAreTurnedAsAllOthers) {
+  // 2^-550 squared is 0, 2^-520 squared has lost digits.
+  for_contacts([](const V& r, double m_i, const V& v_i, double m_j, const V& v_j) {
+    const Outcome usual = collided<Specular>(r, m_i, v_i, m_j, v_j);
+    for (const int power : {-550, -520}) {
+      const double unit = std::ldexp(1.0, power);
+      const Outcome after = collided<Specular>(r, m_i, unit * v_i, m_j, unit * v_j);
+      const double speed = v_i.norm() + v_j.norm();
+      EXPECT_LE((after.v_i / unit - usual.v_i).norm(), rounding_of_speeds * speed) << power;
+      EXPECT_LE((after.v_j / unit - usual.v_j).norm(), rounding_of_speeds * speed) << power;
+    }
+  });
+}
+
 TEST(Impact, AGrazingPairIsLeftRecedingEvenWhereItsVelocitiesCannotResolveTheImpulse) {
   // b = r . v is 1e-20 of |r| |v|: subtracting the impulse changes no bit.
   V v_i(0.0, 1.0);
