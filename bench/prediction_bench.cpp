@@ -48,7 +48,7 @@ class Surrounded {
   explicit Surrounded(int neighbours) : neighbours_(static_cast<std::uint32_t>(neighbours)) {
     const Box box{{0.0, 0.0}, {100.0, 100.0}, {Boundary::periodic, Boundary::periodic}};
     const FixedAxis axes[2] = {{box, 0, 0.0}, {box, 1, 0.0}};
-    frame_ = {{axes[0].unit, axes[1].unit}, 1.0, 0.3};
+    frame_ = {{axes[0].unit, axes[1].unit}, {axes[0].steps, axes[1].steps}, 1.0, 0.3};
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> anywhere(0.0, 100.0), beside(-2.0, 2.0);
@@ -152,9 +152,9 @@ void predict(benchmark::State& state) {
   }
 }
 
-/// Two disks at a time, their lines stored as they are.
+/// Two disks at a time, which go on as they went.
 template <class Line, class Instructions>
-void store_and_predict(benchmark::State& state) {
+void turn_and_predict(benchmark::State& state) {
   const auto* kernel = kernel_of<Line, Instructions>();
   if (kernel == nullptr) {
     state.SkipWithError(not_here);
@@ -162,10 +162,9 @@ void store_and_predict(benchmark::State& state) {
   }
   Surrounded<Line> disks(static_cast<int>(state.range(0)));
   const auto collide = [&](std::int32_t i, std::int32_t j) {
-    CollidedPair pair{{i, j}, {disks.around(i), disks.around(j)}, {}};
+    CollidedPair pair{{i, j}, {disks.around(i), disks.around(j)}, {}, 0, 0};
     const Line a = disks.lines()[i], b = disks.lines()[j];
-    kernel->store_and_predict(disks.lines(), disks.frame(), pair, now, a.x[0], a.x[1], b.x[0], b.x[1], a.v[0], a.v[1], b.v[0],
-                              b.v[1]);
+    kernel->turn_and_predict(disks.lines(), disks.frame(), pair, now, a.v[0], a.v[1], b.v[0], b.v[1]);
     return pair;
   };
   for (std::int32_t i = 0; i < centres; i += 2) {
@@ -187,11 +186,11 @@ void lists(benchmark::internal::Benchmark* benchmark) { benchmark->ArgName("neig
 BENCHMARK_TEMPLATE(predict, Flight, Avx512)->Apply(lists);
 BENCHMARK_TEMPLATE(predict, Flight, Avx2)->Apply(lists);
 BENCHMARK_TEMPLATE(predict, Flight, Portable)->Apply(lists);
-BENCHMARK_TEMPLATE(store_and_predict, Flight, Avx512)->Apply(lists);
-BENCHMARK_TEMPLATE(store_and_predict, Flight, Avx2)->Apply(lists);
-BENCHMARK_TEMPLATE(store_and_predict, Flight, Portable)->Apply(lists);
-BENCHMARK_TEMPLATE(store_and_predict, SizedFlight, Avx512)->Apply(lists);
-BENCHMARK_TEMPLATE(store_and_predict, SizedFlight, Avx2)->Apply(lists);
-BENCHMARK_TEMPLATE(store_and_predict, SizedFlight, Portable)->Apply(lists);
+BENCHMARK_TEMPLATE(turn_and_predict, Flight, Avx512)->Apply(lists);
+BENCHMARK_TEMPLATE(turn_and_predict, Flight, Avx2)->Apply(lists);
+BENCHMARK_TEMPLATE(turn_and_predict, Flight, Portable)->Apply(lists);
+BENCHMARK_TEMPLATE(turn_and_predict, SizedFlight, Avx512)->Apply(lists);
+BENCHMARK_TEMPLATE(turn_and_predict, SizedFlight, Avx2)->Apply(lists);
+BENCHMARK_TEMPLATE(turn_and_predict, SizedFlight, Portable)->Apply(lists);
 
 }  // namespace

@@ -23,6 +23,7 @@ struct SlidingFrame {
 /// What all predictions of a run have in common.
 struct PredictionFrame {
   double unit[2];     ///< length of a step of a coordinate, per axis
+  double steps[2];    ///< 1 / unit
   double sigma;       ///< contact distance of equal disks; unused where disks have sizes of their own
   double half_width;  ///< of a cage
   /// The time at which a disk leaves its cage is rounded down to steps of this length (a power of two; 0 for none). It is nothing
@@ -56,11 +57,13 @@ struct Prediction {
   std::int32_t tied;     ///< not 0: another partner comes at the very same time
 };
 
-/// Two disks that have just collided: their new lines, what surrounds them, and (to be filled in) what lies ahead of them.
+/// Two disks that have just collided: what surrounds them, and (to be filled in) what lies ahead of them.
 struct CollidedPair {
   std::int32_t disk[2];
   Surroundings around[2];
   Prediction ahead[2];
+  unsigned wrapped;  ///< a bit for each coordinate, x and y of the one, x and y of the other, that went past the end of its range
+  unsigned downwards;  ///< a bit for each that became smaller, but for wrapping
 };
 
 template <class Line>
@@ -68,10 +71,11 @@ struct PredictionKernel {
   /// Disk i from `now` on.
   void (*predict)(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around, double now,
                   Prediction& ahead);
-  /// Stores the new lines of a pair, then predicts both. (Storing here, in one piece, lets the loads that follow read
-  /// what has just been written.)
-  void (*store_and_predict)(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, std::int64_t ax,
-                            std::int64_t ay, std::int64_t bx, std::int64_t by, double avx, double avy, double bvx, double bvy);
+  /// From `now` on the disks a and b of a pair have other velocities: draws their new lines, which at `now` are where the old
+  /// ones are, then predicts both. No coordinate may change by half its range. (Storing here, in one piece, lets the loads that
+  /// follow read what has just been written.)
+  void (*turn_and_predict)(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, double avx, double avy,
+                           double bvx, double bvy);
   const char* name;  ///< of the instruction set
 };
 

@@ -29,6 +29,28 @@ CAROM_INLINE Longs wrapped(Longs a, Longs b) {
   return reinterpret_cast<Longs>(reinterpret_cast<UnsignedLongs>(a) - reinterpret_cast<UnsignedLongs>(b));
 }
 
+/// One lane in all.
+template <int lane>
+CAROM_INLINE Longs all_of(Longs x) {
+#if defined(__AVX2__)
+  return __builtin_shufflevector(x, x, lane, lane, lane, lane);
+#else
+  return all(std::int64_t{x[lane]});
+#endif
+}
+
+#if defined(__AVX2__)
+/// Rounded towards zero. Requires |x| < 2^63.
+CAROM_INLINE Longs to_longs(Doubles x) {
+#if defined(__AVX512DQ__) && defined(__AVX512VL__)
+  return reinterpret_cast<Longs>(_mm256_cvttpd_epi64(reinterpret_cast<__m256d>(x)));
+#else
+  const auto whole = [&](int lane) { return static_cast<long long>(x[lane]); };
+  return Longs{whole(0), whole(1), whole(2), whole(3)};
+#endif
+}
+#endif
+
 /// Exactly what four conversions would give. Without an instruction for it the two halves of an integer become doubles by
 /// writing them into the significands of 2^84 and 2^52; the last addition alone rounds.
 CAROM_INLINE Doubles to_double(Longs x) {
@@ -61,10 +83,9 @@ struct Mine {
 };
 
 template <class Line>
-CAROM_INLINE Mine spread(std::int64_t x, std::int64_t y, double vx, double vy, const Line& line) {
-  double radius = 0.0;
-  if constexpr (sizeof(Line) > 32) radius = line.radius;
-  return {all(x), all(y), all(vx), all(vy), radius};
+CAROM_INLINE double radius_of(const Line& line) {
+  if constexpr (sizeof(Line) > 32) return line.radius;
+  return 0.0;
 }
 
 template <class Line>
@@ -173,7 +194,7 @@ template <bool growing, class Line>
 void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around, double now,
              Prediction& ahead) {
   const Line& line = lines[i];
-  const Mine mine = spread(line.x[0], line.x[1], line.v[0], line.v[1], line);
+  const Mine mine = {all(line.x[0]), all(line.x[1]), all(line.v[0]), all(line.v[1]), radius_of(line)};
   const Doubles t0 = meeting_times<growing>(lines, frame, mine, around.ids, now);
   Doubles t1 = all(never);
   if (around.count > 4) t1 = meeting_times<growing>(lines, frame, mine, around.ids + 4, now);  // those new on a list are few
@@ -191,18 +212,48 @@ CAROM_INLINE void store(Line& line, Longs x, Doubles v, bool upper) {
       upper ? __builtin_shufflevector(x, bits, 2, 3, 6, 7) : __builtin_shufflevector(x, bits, 0, 1, 4, 5);
 }
 
+/// The coordinates of new lines, x and y of a, x and y of b, where from `now` on the velocities are v.
+template <class Line>
+CAROM_INLINE Longs new_places(const Line& a, const Line& b, Doubles v, const PredictionFrame& frame, double now,
+                              CollidedPair& pair) {
+#if defined(__AVX2__)
+  const Longs old_a = load(a), old_b = load(b), old_x = __builtin_shufflevector(old_a, old_b, 0, 1, 4, 5);
+  const Doubles old_v = reinterpret_cast<Doubles>(__builtin_shufflevector(old_a, old_b, 2, 3, 6, 7));
+  const Doubles steps = {frame.steps[0], frame.steps[1], frame.steps[0], frame.steps[1]};
+  const Longs by = to_longs(((old_v - v) * all(now)) * steps);
+  const Longs x = reinterpret_cast<Longs>(reinterpret_cast<UnsignedLongs>(old_x) + reinterpret_cast<UnsignedLongs>(by));
+  pair.wrapped = bits_of(((old_x ^ x) & (by ^ x)) < all(std::int64_t{0}));
+  pair.downwards = bits_of(by < all(std::int64_t{0}));
+  return x;
+#else
+  unsigned wrapped = 0, downwards = 0;
+  const auto place = [&](const Line& line, int axis, double speed, int k) -> long long {
+    const auto by = static_cast<long long>((line.v[axis] - speed) * now * frame.steps[axis]);
+    long long x;
+    wrapped |= static_cast<unsigned>(__builtin_add_overflow(line.x[axis], by, &x)) << k;
+    downwards |= static_cast<unsigned>(by < 0) << k;
+    return x;
+  };
+  const Longs x = {place(a, 0, v[0], 0), place(a, 1, v[1], 1), place(b, 0, v[2], 2), place(b, 1, v[3], 3)};
+  pair.wrapped = wrapped;
+  pair.downwards = downwards;
+  return x;
+#endif
+}
+
 template <bool growing, class Line>
-void store_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, std::int64_t ax,
-                       std::int64_t ay, std::int64_t bx, std::int64_t by, double avx, double avy, double bvx, double bvy) {
+void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, double avx, double avy,
+                      double bvx, double bvy) {
   Line& a = lines[pair.disk[0]];
   Line& b = lines[pair.disk[1]];
   const Surroundings &near_a = pair.around[0], &near_b = pair.around[1];
-  const Longs x = {ax, ay, bx, by};
   const Doubles v = {avx, avy, bvx, bvy};
+  const Longs x = new_places(a, b, v, frame, now, pair);
   store(a, x, v, false);
   store(b, x, v, true);
 
-  const Mine mine_a = spread(ax, ay, avx, avy, a), mine_b = spread(bx, by, bvx, bvy, b);
+  const Mine mine_a = {all_of<0>(x), all_of<1>(x), all(avx), all(avy), radius_of(a)};
+  const Mine mine_b = {all_of<2>(x), all_of<3>(x), all(bvx), all(bvy), radius_of(b)};
   const Doubles a0 = meeting_times<growing>(lines, frame, mine_a, near_a.ids, now);
   const Doubles b0 = meeting_times<growing>(lines, frame, mine_b, near_b.ids, now);
   const Doubles a1 = meeting_times<growing>(lines, frame, mine_a, near_a.ids + 4, now);
@@ -222,8 +273,8 @@ void store_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& 
 
 #define CAROM_TEXT_OF(name) #name
 #define CAROM_TEXT(name) CAROM_TEXT_OF(name)
-#define CAROM_KERNEL(name, growing, Line)                                                                 \
-  extern const PredictionKernel<Line> name = {&predict<growing, Line>, &store_and_predict<growing, Line>, \
+#define CAROM_KERNEL(name, growing, Line)                                                                \
+  extern const PredictionKernel<Line> name = {&predict<growing, Line>, &turn_and_predict<growing, Line>, \
                                               CAROM_TEXT(CAROM_INSTRUCTIONS)};
 CAROM_KERNEL(flight_kernel, false, Flight)
 CAROM_KERNEL(sized_flight_kernel, false, SizedFlight)

@@ -39,16 +39,16 @@ void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, co
 }
 
 template <class Line, const PredictionKernel<Line>& plain>
-void store_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, std::int64_t ax,
-                       std::int64_t ay, std::int64_t bx, std::int64_t by, double avx, double avy, double bvx, double bvy) {
+void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, double avx, double avy,
+                      double bvx, double bvy) {
   if (is_inner(frame, pair.around[0]) && is_inner(frame, pair.around[1]))
-    return plain.store_and_predict(lines, frame, pair, now, ax, ay, bx, by, avx, avy, bvx, bvy);
-  store(lines, pair, ax, ay, bx, by, avx, avy, bvx, bvy);
+    return plain.turn_and_predict(lines, frame, pair, now, avx, avy, bvx, bvy);
+  turn(lines, frame, pair, now, {avx, avy, bvx, bvy});
   for (int k = 0; k < 2; ++k) predict<Line, plain>(lines, frame, pair.disk[k], pair.around[k], now, pair.ahead[k]);
 }
 
 template <class Line, const PredictionKernel<Line>& plain>
-constexpr PredictionKernel<Line> kernel = {&predict<Line, plain>, &store_and_predict<Line, plain>, "sheared"};
+constexpr PredictionKernel<Line> kernel = {&predict<Line, plain>, &turn_and_predict<Line, plain>, "sheared"};
 
 }  // namespace
 

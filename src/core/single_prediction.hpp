@@ -52,12 +52,18 @@ void predict_singly(const Line* lines, const PredictionFrame& frame, std::int32_
   }
 }
 
+/// Draws the new lines of a pair. `v`: x and y of the one, x and y of the other.
 template <class Line>
-void store(Line* lines, const CollidedPair& pair, std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by, double avx,
-           double avy, double bvx, double bvy) {
-  Line &a = lines[pair.disk[0]], &b = lines[pair.disk[1]];
-  a.x[0] = ax, a.x[1] = ay, a.v[0] = avx, a.v[1] = avy;
-  b.x[0] = bx, b.x[1] = by, b.v[0] = bvx, b.v[1] = bvy;
+void turn(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, const double (&v)[4]) {
+  pair.wrapped = pair.downwards = 0;
+  for (int k = 0; k < 4; ++k) {
+    Line& line = lines[pair.disk[k / 2]];
+    const int axis = k % 2;
+    const auto by = static_cast<std::int64_t>((line.v[axis] - v[k]) * now * frame.steps[axis]);
+    if (__builtin_add_overflow(line.x[axis], by, &line.x[axis])) pair.wrapped |= 1U << k;
+    if (by < 0) pair.downwards |= 1U << k;
+    line.v[axis] = v[k];
+  }
 }
 
 }  // namespace carom

@@ -24,15 +24,15 @@ double meeting_time(const Line* lines, const PredictionFrame& frame, std::int32_
 }
 
 template <class Line>
-void store_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, std::int64_t ax,
-                       std::int64_t ay, std::int64_t bx, std::int64_t by, double avx, double avy, double bvx, double bvy) {
-  store(lines, pair, ax, ay, bx, by, avx, avy, bvx, bvy);
+void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, double avx, double avy,
+                      double bvx, double bvy) {
+  turn(lines, frame, pair, now, {avx, avy, bvx, bvy});
   for (int k = 0; k < 2; ++k)
     predict_singly<Line, &meeting_time<Line>>(lines, frame, pair.disk[k], pair.around[k], now, pair.ahead[k]);
 }
 
 template <class Line>
-constexpr PredictionKernel<Line> kernel = {&predict_singly<Line, &meeting_time<Line>>, &store_and_predict<Line>, "wells"};
+constexpr PredictionKernel<Line> kernel = {&predict_singly<Line, &meeting_time<Line>>, &turn_and_predict<Line>, "wells"};
 
 }  // namespace
 

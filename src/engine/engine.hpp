@@ -149,13 +149,15 @@ class Engine {
     if (outruns_epoch(va) || outruns_epoch(vb)) [[unlikely]]
       return begin_epoch_between(i, va, j, vb);
 
-    const Vec2<double> da = before_a - va, db = before_b - vb;
-    CollidedPair pair{{i, j}, {surroundings(i), surroundings(j)}, {}};
+    CollidedPair pair;
+    pair.disk[0] = i, pair.disk[1] = j;
+    pair.around[0] = surroundings(i), pair.around[1] = surroundings(j);
     looks_ += more_looks(pair.around[0].count) + more_looks(pair.around[1].count);
     queue_.pop(*this, j);  // not earlier: all up to here goes on while the predictions before still wait for their results
     fetch_next();
-    kernel_.store_and_predict(lines_.data(), frame_, pair, now_, moved(i, 0, da[0] * now_), moved(i, 1, da[1] * now_),
-                              moved(j, 0, db[0] * now_), moved(j, 1, db[1] * now_), va[0], va[1], vb[0], vb[1]);
+    kernel_.turn_and_predict(lines_.data(), frame_, pair, now_, va[0], va[1], vb[0], vb[1]);
+    if (pair.wrapped != 0) [[unlikely]]
+      count_images(pair);
     fetch_partner_of_next();
     plan_ahead(i, pair.ahead[0]);
     plan_ahead(j, pair.ahead[1]);
@@ -435,6 +437,11 @@ class Engine {
     if (__builtin_add_overflow(line(i).x[axis], steps, &x)) [[unlikely]]
       images_.step(i, axis, steps < 0 ? -1 : 1);
     return x;
+  }
+  /// The same of a pair whose coordinates have been moved.
+  [[gnu::noinline, gnu::cold]] void count_images(const CollidedPair& pair) {
+    for (int k = 0; k < 4; ++k)
+      if ((pair.wrapped >> k & 1) != 0) images_.step(pair.disk[k / 2], k % 2, (pair.downwards >> k & 1) != 0 ? -1 : 1);
   }
 
   /// A cage round where disk i is at a time, somewhat ahead of it.

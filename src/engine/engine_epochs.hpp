@@ -144,6 +144,7 @@ void Engine<Impact, Layout, World>::widen() {
     axes_[k].steps /= 2.0;
     half_[k] /= 2;
     frame_.unit[k] = axes_[k].unit;
+    frame_.steps[k] = axes_[k].steps;
     for (Line& a : lines_) a.x[k] >>= 1;
     wider = true;
   }

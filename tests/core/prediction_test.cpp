@@ -37,6 +37,11 @@ double radius_of(const SizedFlight& line) { return line.radius; }
 
 // ---------------------------------------------------------------------------------------------------------- the twin
 
+/// With steps of that length along both axes.
+PredictionFrame frame_of(double unit, double sigma, double half_width) {
+  return {{unit, unit}, {1.0 / unit, 1.0 / unit}, sigma, half_width};
+}
+
 template <class Line>
 double contact_distance(const PredictionFrame& frame, const Line& a, const Line& b) {
   return sizeof(Line) > 32 ? radius_of(a) + radius_of(b) : frame.sigma;
@@ -134,8 +139,8 @@ Drawn draw(std::mt19937_64& random, std::size_t count) {
   };
   Drawn drawn;
   const double length = one_of({16.0, 10.0, 1e-3, 7e5});
-  drawn.frame = {
-      {length * 0x1p-64, length * one_of({0x1p-64, 0x1p-61, 3.0 * 0x1p-64})}, length / 16.0, length * one_of({0.02, 0.3})};
+  const double units[2] = {length * 0x1p-64, length * one_of({0x1p-64, 0x1p-61, 3.0 * 0x1p-64})};
+  drawn.frame = {{units[0], units[1]}, {1.0 / units[0], 1.0 / units[1]}, length / 16.0, length * one_of({0.02, 0.3})};
   drawn.now = one_of({0.0, 1.0, 0.3, 123.456, 0x1p-20});
   const double sigma = drawn.frame.sigma;
   SizedFlight first{};
@@ -194,16 +199,25 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
   expect_as_twin(lines, drawn.frame, 0, list, drawn.now, found);
 
   if (count < 2) return;
-  // As after a collision: both get new lines, and are predicted from them.
+  // As after a collision: both have other velocities, get new lines, and are predicted from them.
   std::vector<Line> after = lines;
-  const auto stir = [&](Line& line) {
-    for (int a = 0; a < 2; ++a) {
-      line.v[a] = -0.5 * line.v[a];
-      line.x[a] = static_cast<std::int64_t>(static_cast<std::uint64_t>(line.x[a]) + random() % 1000);
-    }
-  };
-  stir(after[0]);
-  stir(after[1]);
+  unsigned wrapped = 0, downwards = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    Line& line = after[k / 2];
+    const std::size_t a = k % 2;
+    // The coordinate changes by less than half its range, by little, or not at all.
+    const double most = random() % 4 == 0 ? 0.0 : std::ldexp(0.49, -static_cast<int>(random() % 60));
+    const double share = std::uniform_real_distribution<double>(-1.0, 1.0)(random);
+    const double change = share * most * drawn.frame.unit[a] * 0x1p64 / std::max(drawn.now, 1e-3);
+    const double v = line.v[a] - change;
+    const double steps = (line.v[a] - v) * drawn.now * drawn.frame.steps[a];
+    line.v[a] = std::abs(steps) < 0x1p62 ? v : line.v[a];  // fast disks have coarse velocities
+    const auto by = std::abs(steps) < 0x1p62 ? whole(steps) : std::int64_t{0};
+    const __int128 exact = __int128{line.x[a]} + by;
+    line.x[a] = static_cast<std::int64_t>(exact);
+    wrapped |= static_cast<unsigned>(exact != line.x[a]) << k;
+    downwards |= static_cast<unsigned>(by < 0) << k;
+  }
   std::vector<std::int32_t> round_second = {0};
   for (std::int32_t j = 2; j < count; ++j)
     if (random() % 2 == 0) round_second.push_back(j);
@@ -211,11 +225,11 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
   second.centre[0] = static_cast<std::int32_t>(after[1].x[0] >> 32);
   second.centre[1] = static_cast<std::int32_t>(after[1].x[1] >> 32);
   std::vector<Line> stored = lines;
-  CollidedPair pair{{0, 1}, {list.around(), second.around()}, {}};
+  CollidedPair pair{{0, 1}, {list.around(), second.around()}, {}, 0, 0};
   const Line &a = after[0], &b = after[1];
-  kernel<Line>(set, contact)
-      .store_and_predict(stored.data(), drawn.frame, pair, drawn.now, a.x[0], a.x[1], b.x[0], b.x[1], a.v[0], a.v[1], b.v[0],
-                         b.v[1]);
+  kernel<Line>(set, contact).turn_and_predict(stored.data(), drawn.frame, pair, drawn.now, a.v[0], a.v[1], b.v[0], b.v[1]);
+  ASSERT_EQ(pair.wrapped, wrapped);
+  ASSERT_EQ(pair.downwards, downwards);
   for (std::size_t k = 0; k < 2; ++k)
     for (int axis = 0; axis < 2; ++axis) {
       ASSERT_EQ(stored[k].x[axis], after[k].x[axis]);
@@ -264,7 +278,7 @@ TEST_P(PredictionKernels, MeetTheImagesBeyondAnEdgeThatSlides) {
   const auto dyadic = [&] { return static_cast<double>(static_cast<std::int64_t>(random() % 4096) - 2048) / 1024.0; };
   int met = 0;
   for (int k = 0; k < 20'000; ++k) {
-    PredictionFrame frame{{0x1p-60, 0x1p-60}, 1.0, 0.5};
+    PredictionFrame frame = frame_of(0x1p-60, 1.0, 0.5);
     const bool upwards = random() % 2 == 0;
     const std::vector<std::int32_t> across = {upwards ? top : bottom, upwards ? bottom : top}, beside(2, across[0]);
     const double speed = dyadic();
@@ -294,7 +308,7 @@ TEST_P(PredictionKernels, MeetTheImagesBeyondAnEdgeThatSlides) {
 TEST_P(PredictionKernels, ConvertEveryCoordinateDifferenceAsTheHardwareDoes) {
   // A cage of no width round 0, left at speed 1 from a coordinate x: in x, as a double.
   std::mt19937_64 random(2);
-  const PredictionFrame narrow{{1.0, 1.0}, 0.0, 0.0};
+  const PredictionFrame narrow = frame_of(1.0, 0.0, 0.0);
   for (int k = 0; k < 20'000; ++k) {
     const auto bits = static_cast<std::int64_t>(random());
     const std::int64_t x = k % 4 == 0   ? bits
@@ -311,7 +325,7 @@ TEST_P(PredictionKernels, ConvertEveryCoordinateDifferenceAsTheHardwareDoes) {
 
 TEST_P(PredictionKernels, FindNobodyInPaddingAndNobodyAtAll) {
   const std::vector<Flight> lines = {{{0, 0}, {1.0, -2.0}}};
-  const PredictionFrame frame{{0x1p-60, 0x1p-60}, 1.0, 0.5};
+  const PredictionFrame frame = frame_of(0x1p-60, 1.0, 0.5);
   for (const std::size_t padding : {8u, 16u, 24u}) {
     const std::vector<std::int32_t> ids(padding, 0);
     Prediction found;
@@ -326,7 +340,7 @@ TEST_P(PredictionKernels, FindNobodyInPaddingAndNobodyAtAll) {
 TEST_P(PredictionKernels, SayThatTwoAreTiedWhereverTheyStandInTheList) {
   // Disk 0 at rest; 1 and 2 come from either side and touch it at t = 2; everybody else later.
   const double step = 0x1p-56;
-  const PredictionFrame frame{{step, step}, 1.0, 100.0};
+  const PredictionFrame frame = frame_of(step, 1.0, 100.0);
   std::vector<Flight> lines(32);
   for (std::size_t j = 3; j < 32; ++j) lines[j] = {{whole((5.0 + static_cast<double>(j)) / step), 0}, {-1.0, 0.0}};
   lines[0] = {{0, 0}, {0.0, 0.0}};
@@ -357,7 +371,7 @@ TEST_P(PredictionKernels, SayThatTwoAreTiedWhereverTheyStandInTheList) {
 TEST_P(PredictionKernels, MeetRoundThePeriodicEdge) {
   // A box of length 16: from 15.5 to 0.5 there is a way of 1 through the edge.
   const double step = 0x1p-60;
-  const PredictionFrame frame{{step, step}, 0.5, 100.0};
+  const PredictionFrame frame = frame_of(step, 0.5, 100.0);
   const std::vector<Flight> lines = {{{whole(7.5 / step), 0}, {1.0, 0.0}}, {{whole(-7.5 / step), 0}, {0.0, 0.0}}};
   const List list(0, {1});
   Prediction found;
@@ -367,7 +381,7 @@ TEST_P(PredictionKernels, MeetRoundThePeriodicEdge) {
 
 TEST_P(PredictionKernels, TouchingIsAnEventOnlyForDisksThatApproach) {
   const double step = 0x1p-60;
-  const PredictionFrame frame{{step, step}, 1.0, 100.0};
+  const PredictionFrame frame = frame_of(step, 1.0, 100.0);
   const List list(0, {1});
   for (const double apart : {1.0, 0.75}) {
     for (const auto& [vx, vy, time] :
@@ -435,7 +449,7 @@ void expect_contact(const SizedFlight& a, const SizedFlight& b, const Prediction
 TEST(Prediction, MeetsTheContactDistanceWithinTheBoundOfContactTimes) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  const PredictionFrame frame{{0x1p-50, 0x1p-50}, 0.0, 1.0};  // a range of 2^14
+  const PredictionFrame frame = frame_of(0x1p-50, 0.0, 1.0);  // a range of 2^14
   int hits = 0;
   for (int k = 0; k < 40'000; ++k) {
     const double sigma = 0.25 + unit(random);
