@@ -49,12 +49,13 @@ struct Surroundings {
   std::uint32_t count;
 };
 
-/// Times since the epoch; infinity for never.
+/// Times since the epoch; infinity for never. Not side by side: both copied in one piece, a compiler's choice, would have to wait
+/// until the later of them has left the processor.
 struct Prediction {
   double pair_time;
-  double edge_time;      ///< when the disk leaves its cage; not before now
   std::int32_t partner;  ///< -1 where there is none
   std::int32_t tied;     ///< not 0: another partner comes at the very same time
+  double edge_time;      ///< when the disk leaves its cage; not before now
 };
 
 /// Two disks that have just collided: what surrounds them, and (to be filled in) what lies ahead of them.

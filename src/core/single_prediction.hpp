@@ -42,7 +42,7 @@ using MeetingTime = double (*)(const Line* lines, const PredictionFrame& frame, 
 template <class Line, MeetingTime<Line> meeting_time>
 void predict_singly(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around, double now,
                     Prediction& ahead) {
-  ahead = {never, leaving_time(frame, lines[i], around, now), -1, 0};
+  ahead = {never, -1, 0, leaving_time(frame, lines[i], around, now)};
   for (std::uint32_t n = 0; n < around.count; ++n) {
     const double time = meeting_time(lines, frame, i, around.ids[n], now);
     if (time == never || time > ahead.pair_time) continue;

@@ -239,12 +239,11 @@ class Engine {
     schedule(i);
   }
 
-  void plan_ahead(std::int32_t i, Prediction ahead) {
-    if (ahead.tied != 0) [[unlikely]]
-      ahead.partner = lowest_of_tied(i, ahead);
+  /// By reference: see Prediction.
+  void plan_ahead(std::int32_t i, const Prediction& ahead) {
     Plan& mine = plan(i);
     mine.pair_time = ahead.pair_time;
-    mine.partner = ahead.partner;
+    mine.partner = ahead.tied == 0 ? ahead.partner : lowest_of_tied(i, ahead);
     mine.foreseen = stamp_;
     plan_edge(i, ahead.edge_time);
   }
