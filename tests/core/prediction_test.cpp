@@ -213,9 +213,9 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
     const double steps = (line.v[a] - v) * drawn.now * drawn.frame.steps[a];
     line.v[a] = std::abs(steps) < 0x1p62 ? v : line.v[a];  // fast disks have coarse velocities
     const auto by = std::abs(steps) < 0x1p62 ? whole(steps) : std::int64_t{0};
-    const __int128 exact = __int128{line.x[a]} + by;
-    line.x[a] = static_cast<std::int64_t>(exact);
-    wrapped |= static_cast<unsigned>(exact != line.x[a]) << k;
+    const long double exact = static_cast<long double>(line.x[a]) + static_cast<long double>(by);  // has 64 digits
+    line.x[a] = static_cast<std::int64_t>(static_cast<std::uint64_t>(line.x[a]) + static_cast<std::uint64_t>(by));
+    wrapped |= static_cast<unsigned>(exact < -0x1p63L || exact >= 0x1p63L) << k;
     downwards |= static_cast<unsigned>(by < 0) << k;
   }
   std::vector<std::int32_t> round_second = {0};
