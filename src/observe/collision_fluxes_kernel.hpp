@@ -5,15 +5,25 @@
 //   of energy flux    m (v'^2 v' - v^2 v) / 2 = ((v'^2 + v^2) J + (J.s_i) s_i) / 4,
 //   of energy         m (v'^2 - v^2) / 2      = J.s_i / 2,
 // and disk j the same with -J and s_j. Where energy is lost the jump is that of half the difference. No masses: J has them.
+//
+// Of two smooth disks that keep their energy J.(s_i - s_j) = 0, and if their masses are equal the sum of their velocities U,
+// which does not change, is half of s_i + s_j. With S = s_i - s_j, the sum of the relative velocities before and after, both
+// together get
+//   of momentum flux  (J S + S J) / 2,
+//   of energy flux    ((U.J) S + (U.S) J) / 4,
+// and disk i gets the energy U.J / 2 from disk j.
 
 #include "core/doubles_kernel.hpp"
 #include "observe/collision_fluxes.hpp"
 
 #include <cstddef>
 #include <cstring>
+#include <limits>
 
 namespace carom::CAROM_INSTRUCTIONS {
 namespace {
+
+using TwoDoubles = double __attribute__((vector_size(16)));
 
 CAROM_INLINE Doubles load(const double* from) {
   Doubles x;
@@ -29,74 +39,168 @@ CAROM_INLINE Vectors operator+(const Vectors& a, const Vectors& b) { return {a.x
 CAROM_INLINE Vectors operator-(const Vectors& a, const Vectors& b) { return {a.x - b.x, a.y - b.y}; }
 CAROM_INLINE Vectors operator*(Doubles a, const Vectors& b) { return {a * b.x, a * b.y}; }
 CAROM_INLINE Doubles dot(const Vectors& a, const Vectors& b) { return a.x * b.x + a.y * b.y; }
-CAROM_INLINE void store(const Vectors& v, CollisionFluxes::Column (&to)[2], std::size_t row) {
-  store(v.x, to[0] + row);
-  store(v.y, to[1] + row);
-}
-CAROM_INLINE Vectors load(const CollisionFluxes::Column (&from)[2], std::size_t row) {
+CAROM_INLINE Vectors load(const CollisionContacts::Column (&from)[2], std::size_t row) {
   return {load(from[0] + row), load(from[1] + row)};
 }
 
-/// (a_x b_y + a_y b_x) / 2 and (a_x b_x - a_y b_y) / 2
-CAROM_INLINE Vectors half_traceless(const Vectors& a, const Vectors& b) {
-  return all(0.5) * Vectors{a.x * b.y + a.y * b.x, a.x * b.x - a.y * b.y};
+/// Of four collisions, from every second: a of the first and third, b of the second and fourth.
+CAROM_INLINE Vectors joined(Doubles a, Doubles b) {
+  return {__builtin_shufflevector(a, b, 0, 4, 2, 6), __builtin_shufflevector(a, b, 1, 5, 3, 7)};
+}
+
+/// a_x b_y + a_y b_x and a_x b_x - a_y b_y
+CAROM_INLINE Vectors traceless(const Vectors& a, const Vectors& b) { return {a.x * b.y + a.y * b.x, a.x * b.x - a.y * b.y}; }
+
+/// Two vectors, each from two numbers that lie side by side.
+CAROM_INLINE Doubles both(const double* one, const double* other) {
+  TwoDoubles a, b;
+  std::memcpy(&a, one, sizeof a);
+  std::memcpy(&b, other, sizeof b);
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3);
 }
 
 static_assert(offsetof(CollisionNote, partner_before) == offsetof(CollisionNote, before) + 2 * sizeof(double) &&
               offsetof(CollisionNote, partner_after) == offsetof(CollisionNote, after) + 2 * sizeof(double));
 
+/// Of four collisions, from the two velocities that begin at each address.
 struct Velocities {
   Vectors disk, partner;
+
+  CAROM_INLINE Velocities(const double* n0, const double* n1, const double* n2, const double* n3)
+      : disk(joined(both(n0, n2), both(n1, n3))), partner(joined(both(n0 + 2, n2 + 2), both(n1 + 2, n3 + 2))) {}
 };
 
-/// Of four collisions, from the two velocities that begin at each address.
-CAROM_INLINE Velocities velocities(const double* n0, const double* n1, const double* n2, const double* n3) {
-  const Doubles a0 = load(n0), a1 = load(n1), a2 = load(n2), a3 = load(n3);
-  const Doubles x01 = __builtin_shufflevector(a0, a1, 0, 4, 2, 6), x23 = __builtin_shufflevector(a2, a3, 0, 4, 2, 6);
-  const Doubles y01 = __builtin_shufflevector(a0, a1, 1, 5, 3, 7), y23 = __builtin_shufflevector(a2, a3, 1, 5, 3, 7);
-  return {{__builtin_shufflevector(x01, x23, 0, 1, 4, 5), __builtin_shufflevector(y01, y23, 0, 1, 4, 5)},
-          {__builtin_shufflevector(x01, x23, 2, 3, 6, 7), __builtin_shufflevector(y01, y23, 2, 3, 6, 7)}};
+/// Times since the start of the run, as Instant::plus rounds them.
+CAROM_INLINE Doubles times(const NotedFluxes& noted, const CollisionNote* four) {
+  const Doubles epoch = all(noted.epoch), time = {four[0].time, four[1].time, four[2].time, four[3].time};
+  const Doubles sum = epoch + time, part = sum - epoch;
+  return sum + (((epoch - (sum - part)) + (time - part)) + all(noted.epoch_remainder));
 }
 
-/// Rows beyond `count`, up to the next multiple of four, are those of the last collision.
-template <bool smooth>
-void fluxes(const CollisionNote* notes, std::size_t count, const CollisionContacts& contacts, CollisionFluxes& found) {
-  const Vectors common = {all(contacts.common[0]), all(contacts.common[1])};
-  for (std::size_t row = 0; row < count; row += 4) {
-    const auto note = [&](std::size_t n) -> const CollisionNote& { return notes[row + n < count ? row + n : count - 1]; };
-    const CollisionNote &n0 = note(0), &n1 = note(1), &n2 = note(2), &n3 = note(3);
-    const Velocities before = velocities(n0.before, n1.before, n2.before, n3.before);
-    const Velocities after = velocities(n0.after, n1.after, n2.after, n3.after);
+/// What four collisions do.
+struct Fluxes {
+  Vectors J, r;
+  Vectors momentum;     ///< twice the change of xy and (xx - yy) / 2
+  Vectors energy;       ///< four times the change of x and y
+  Vectors energy_jump;  ///< four times
+};
 
-    Vectors J, r;
-    if constexpr (smooth) {
-      J = load(contacts.mu + row) * ((after.disk - before.disk) - (after.partner - before.partner));
-      const Doubles square = dot(J, J);
-      r = (square > all(0.0) ? load(contacts.sigma + row) / square_root(square) : all(0.0)) * J;
-    } else {
-      J = load(contacts.impulse, row);
-      r = load(contacts.separation, row);
-    }
-    store(r.x * J.x, found.virial[0] + row);
-    store(r.x * J.y, found.virial[1] + row);
-    store(r.y * J.x, found.virial[2] + row);
-    store(r.y * J.y, found.virial[3] + row);
+CAROM_INLINE Fluxes of_smooth(const NotedFluxes& noted, const CollisionNote* four, const CollisionContacts& contacts,
+                              std::size_t row) {
+  const auto relative = [](const double* n0, const double* n2) { return both(n0, n2) - both(n0 + 2, n2 + 2); };
+  const auto together = [](const double* n0, const double* n2) { return both(n0, n2) + both(n0 + 2, n2 + 2); };
+  const Vectors before = joined(relative(four[0].before, four[2].before), relative(four[1].before, four[3].before));
+  const Vectors after = joined(relative(four[0].after, four[2].after), relative(four[1].after, four[3].after));
+  const Vectors U = joined(together(four[0].before, four[2].before), together(four[1].before, four[3].before)) -
+                    Vectors{all(2.0 * noted.common[0]), all(2.0 * noted.common[1])};
+  const Vectors S = before + after;
+  Fluxes found;
+  found.J = load(contacts.mu + row) * (after - before);
+  const Doubles square = dot(found.J, found.J), least = all(std::numeric_limits<double>::min());
+  found.r = (load(contacts.sigma + row) / square_root(square > least ? square : least)) * found.J;  // 0 where nothing happened
+  found.momentum = traceless(found.J, S);
+  const Doubles given = dot(U, found.J);
+  found.energy = given * S + dot(U, S) * found.J;
+  found.energy_jump = (given + given) * found.r;
+  return found;
+}
 
-    const Vectors v = before.disk - common, w = after.disk - common;
-    const Vectors partner_v = before.partner - common, partner_w = after.partner - common;
-    const Vectors s = v + w, partner_s = partner_v + partner_w;
-    store(half_traceless(J, s - partner_s), found.momentum.change, row);
-    store(half_traceless(J, r), found.momentum.jump, row);
+CAROM_INLINE Fluxes of_told(const NotedFluxes& noted, const CollisionNote* four, const CollisionContacts& contacts,
+                            std::size_t row) {
+  const Vectors common = {all(noted.common[0]), all(noted.common[1])};
+  const Velocities before(four[0].before, four[1].before, four[2].before, four[3].before);
+  const Velocities after(four[0].after, four[1].after, four[2].after, four[3].after);
+  const Vectors v = before.disk - common, w = after.disk - common;
+  const Vectors partner_v = before.partner - common, partner_w = after.partner - common;
+  const Vectors s = v + w, partner_s = partner_v + partner_w;
+  Fluxes found;
+  found.J = load(contacts.impulse, row);
+  found.r = load(contacts.separation, row);
+  found.momentum = traceless(found.J, s - partner_s);
+  const Doubles squares = (dot(v, v) + dot(w, w)) - (dot(partner_v, partner_v) + dot(partner_w, partner_w));
+  const Doubles gained = dot(found.J, s), lost = dot(found.J, partner_s);
+  found.energy = squares * found.J + (gained * s - lost * partner_s);
+  found.energy_jump = (gained + lost) * found.r;
+  return found;
+}
 
-    const Doubles squares = (dot(v, v) + dot(w, w)) - (dot(partner_v, partner_v) + dot(partner_w, partner_w));
-    const Doubles gained = dot(J, s), lost = dot(J, partner_s);
-    store(all(0.25) * (squares * J + (gained * s - lost * partner_s)), found.energy.change, row);
-    store((all(0.25) * (gained + lost)) * r, found.energy.jump, row);
+/// Where fewer than four are left, or the first is not of lane 0: those there are, among others in which nothing happens.
+inline const CollisionNote* filled_up(const NotedFluxes& noted, std::size_t row, CollisionNote (&four)[4]) {
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const std::size_t n = row + lane - noted.lane;  // very large before the first
+    four[lane] = n < noted.count ? noted.notes[n] : CollisionNote{};
   }
+  return four;
+}
+
+/// Sums in registers.
+template <std::size_t count>
+struct Running {
+  CAROM_INLINE explicit Running(const Lanes (&lanes)[count]) {
+    for (std::size_t k = 0; k < count; ++k) sum[k] = load(lanes[k].of);
+  }
+  CAROM_INLINE void store_in(Lanes (&lanes)[count]) const {
+    for (std::size_t k = 0; k < count; ++k) store(sum[k], lanes[k].of);
+  }
+  Doubles sum[count];
+};
+
+struct RunningFlux {
+  CAROM_INLINE explicit RunningFlux(const FluxSum& flux) : change(flux.change), moment(flux.moment), since(all(flux.since)) {}
+  CAROM_INLINE void add(Doubles time, const Vectors& changed, const Vectors& jump) {
+    const Doubles elapsed = time - since;
+    change.sum[0] += changed.x;
+    change.sum[1] += changed.y;
+    moment.sum[0] += jump.x - elapsed * changed.x;
+    moment.sum[1] += jump.y - elapsed * changed.y;
+  }
+  CAROM_INLINE void store_in(FluxSum& flux) const {
+    change.store_in(flux.change);
+    moment.store_in(flux.moment);
+  }
+  Running<2> change, moment;
+  Doubles since;
+};
+
+/// Who is not asked for is not computed: the compiler leaves out what nobody uses.
+template <bool smooth, bool transfer, bool momentum, bool energy>
+void add(const NotedFluxes& noted, const CollisionContacts& contacts, const FluxSums& sums) {
+  static constexpr TransferSum no_transfer{};
+  static constexpr FluxSum no_flux{};
+  Running<4> virial((transfer ? *sums.transfer : no_transfer).virial);
+  RunningFlux of_momentum(momentum ? *sums.momentum : no_flux), of_energy(energy ? *sums.energy : no_flux);
+  CollisionNote padded[4];
+  const std::size_t end = noted.lane + noted.count;
+  for (std::size_t row = 0, contact = 0; row < end; row += 4, contact += contacts.rows_of_four) {
+    const bool whole = row >= noted.lane && row + 4 <= end;
+    const CollisionNote* four = whole ? noted.notes + (row - noted.lane) : filled_up(noted, row, padded);
+    const Fluxes found = smooth ? of_smooth(noted, four, contacts, contact) : of_told(noted, four, contacts, contact);
+    const Doubles time = times(noted, four);
+    const Doubles xx = found.r.x * found.J.x, xy = found.r.x * found.J.y, yy = found.r.y * found.J.y;
+    const Doubles yx = smooth ? xy : found.r.y * found.J.x;
+    if constexpr (transfer) {
+      virial.sum[0] += xx;
+      virial.sum[1] += xy;
+      if constexpr (!smooth) virial.sum[2] += yx;
+      virial.sum[3] += yy;
+    }
+    if constexpr (momentum) of_momentum.add(time, found.momentum, {xy + yx, xx - yy});
+    if constexpr (energy) of_energy.add(time, found.energy, found.energy_jump);
+  }
+  if constexpr (smooth) virial.sum[2] = virial.sum[1];
+  if constexpr (transfer) virial.store_in(sums.transfer->virial);
+  if constexpr (momentum) of_momentum.store_in(*sums.momentum);
+  if constexpr (energy) of_energy.store_in(*sums.energy);
 }
 
 }  // namespace
 
-extern const FluxKernel flux_kernel = {&fluxes<true>, &fluxes<false>};
+extern const FluxKernel flux_kernel = {
+    {&add<true, false, false, false>, &add<true, true, false, false>, &add<true, false, true, false>,
+     &add<true, true, true, false>, &add<true, false, false, true>, &add<true, true, false, true>, &add<true, false, true, true>,
+     &add<true, true, true, true>},
+    {&add<false, false, false, false>, &add<false, true, false, false>, &add<false, false, true, false>,
+     &add<false, true, true, false>, &add<false, false, false, true>, &add<false, true, false, true>,
+     &add<false, false, true, true>, &add<false, true, true, true>}};
 
 }  // namespace carom::CAROM_INSTRUCTIONS

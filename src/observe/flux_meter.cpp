@@ -3,60 +3,119 @@
 #include "core/all_equal.hpp"
 #include "core/instant.hpp"
 #include "core/reduced_mass.hpp"
+#include "simulation/velocities_tell_contacts.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 
 namespace carom {
 
-FluxMeter::FluxMeter(const Disks& disks)
-    : disks_(disks), equal_(all_equal(disks.radius) && all_equal(disks.mass)), kernel_(flux_kernel()) {
-  if (!equal_ || disks.count() == 0) return;
+FluxMeter::FluxMeter(const Scene& scene, const Disks& disks)
+    : disks_(disks), smooth_(velocities_tell_contacts(scene.effects)), equal_(all_equal(disks.radius) && all_equal(disks.mass)) {
+  if (!equal_ || !smooth_ || disks.count() == 0) return;
   std::ranges::fill(contacts_.mu, reduced_mass(disks.mass[0], disks.mass[0]));
   std::ranges::fill(contacts_.sigma, 2.0 * disks.radius[0]);
+  contacts_.rows_of_four = 0;
 }
 
-void FluxMeter::start(const Eigen::Vector2d& common) { Eigen::Vector2d::Map(contacts_.common) = common; }
-
-const CollisionFluxes& FluxMeter::of(const CollisionNotes& told, std::span<const CollisionNote> notes) {
-  const Instant epoch{told.epoch, told.epoch_remainder};
-  const std::vector<double>&radius = disks_.radius, &mass = disks_.mass;
-  fluxes_.count = notes.size();
-  for (std::size_t row = 0; row < notes.size(); ++row) fluxes_.time[row] = epoch.plus(notes[row].time).high;
-  for (std::size_t row = 0; row < notes.size() && !equal_; ++row) {
-    const auto id = [&](std::int32_t place) {
-      return static_cast<std::size_t>(told.disks->ids[static_cast<std::size_t>(place)]);
-    };
-    const std::size_t i = id(notes[row].place), j = id(notes[row].partner);
-    contacts_.mu[row] = reduced_mass(mass[i], mass[j]);
-    contacts_.sigma[row] = radius[i] + radius[j];
-    fluxes_.meeting[row] = contacts_.sigma[row] * std::sqrt(contacts_.mu[row]);
-  }
-  kernel_.of_smooth(notes.data(), notes.size(), contacts_, fluxes_);
-  return fluxes_;
+void FluxMeter::add(FluxFollower& follower) {
+  followers_.push_back(&follower);
+  follower.ask(sums_);
+  const std::size_t which =
+      (sums_.transfer != nullptr ? 1U : 0U) + (sums_.momentum != nullptr ? 2U : 0U) + (sums_.energy != nullptr ? 4U : 0U);
+  kernel_ = (smooth_ ? flux_kernel().of_smooth : flux_kernel().of_told)[which];
 }
 
-const CollisionFluxes& FluxMeter::of(std::span<const PairCollision> collisions) {
-  std::array<CollisionNote, CollisionFluxes::most> notes;
-  const std::vector<double>&radius = disks_.radius, &mass = disks_.mass;
-  fluxes_.count = collisions.size();
-  for (std::size_t row = 0; row < collisions.size(); ++row) {
-    const PairCollision& met = collisions[row];
-    const auto i = static_cast<std::size_t>(met.disk), j = static_cast<std::size_t>(met.partner);
-    Eigen::Vector2d::Map(notes[row].before) = met.velocity_before;
-    Eigen::Vector2d::Map(notes[row].partner_before) = met.partner_velocity_before;
-    Eigen::Vector2d::Map(notes[row].after) = met.velocity;
-    Eigen::Vector2d::Map(notes[row].partner_after) = met.partner_velocity;
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      contacts_.impulse[axis][row] = met.impulse[static_cast<Eigen::Index>(axis)];
-      contacts_.separation[axis][row] = met.separation[static_cast<Eigen::Index>(axis)];
+void FluxMeter::start(const Eigen::Vector2d& common) { Eigen::Vector2d::Map(noted_.common) = common; }
+
+/// In pieces between which nobody wants to be called: `add(begin, end)` for each.
+template <class TimeOf, class Add>
+void FluxMeter::follow(std::size_t count, TimeOf time_of, Add add) {
+  for (std::size_t begin = 0; begin < count;) {
+    if (time_of(begin) > until_) reach(time_of(begin));
+    std::size_t end = count;
+    if (time_of(count - 1) > until_) {
+      const auto rest = std::views::iota(begin + 1, count);
+      const auto later = std::ranges::partition_point(rest, [&](std::size_t n) { return time_of(n) <= until_; });
+      end = begin + 1 + static_cast<std::size_t>(later - rest.begin());
     }
-    fluxes_.time[row] = met.time;
-    fluxes_.meeting[row] = met.contact && !equal_ ? (radius[i] + radius[j]) * std::sqrt(reduced_mass(mass[i], mass[j])) : 0.0;
+    add(begin, end);
+    begin = end;
   }
-  kernel_.of_told(notes.data(), collisions.size(), contacts_, fluxes_);
-  return fluxes_;
+}
+
+void FluxMeter::reach(double time) {
+  until_ = std::numeric_limits<double>::infinity();
+  for (FluxFollower* follower : followers_) {
+    if (time > follower->until()) follower->reach(time);
+    until_ = std::min(until_, follower->until());
+  }
+}
+
+void FluxMeter::follow(const CollisionNotes& told) {
+  const Instant epoch{told.epoch, told.epoch_remainder};
+  noted_.epoch = told.epoch;
+  noted_.epoch_remainder = told.epoch_remainder;
+  follow(
+      told.notes.size(), [&](std::size_t n) { return epoch.plus(told.notes[n].time).high; },
+      [&](std::size_t begin, std::size_t end) {
+        if (equal_) return add(told.notes.subspan(begin, end - begin));
+        for (std::size_t most = CollisionContacts::most; begin < end; begin += most) {
+          const std::span<const CollisionNote> notes = told.notes.subspan(begin, std::min(most, end - begin));
+          const auto id = [&](std::int32_t place) {
+            return static_cast<std::size_t>(told.disks->ids[static_cast<std::size_t>(place)]);
+          };
+          for (std::size_t n = 0; n < notes.size(); ++n) meet(noted_.lane + n, id(notes[n].place), id(notes[n].partner));
+          add(notes);
+        }
+      });
+}
+
+void FluxMeter::follow(std::span<const PairCollision> collisions) {
+  noted_.epoch = noted_.epoch_remainder = 0.0;
+  follow(
+      collisions.size(), [&](std::size_t n) { return collisions[n].time; },
+      [&](std::size_t begin, std::size_t end) {
+        std::array<CollisionNote, CollisionContacts::most> notes;
+        for (std::size_t most = notes.size(); begin < end; begin += most) {
+          const std::size_t count = std::min(most, end - begin);
+          // Where there is no collision in a row nothing happens.
+          for (auto* column : {&contacts_.impulse, &contacts_.separation})
+            for (auto& axis : *column)
+              for (std::size_t k = 0; k < 3; ++k) axis[k] = axis[noted_.lane + count + k] = 0.0;
+          for (std::size_t n = 0; n < count; ++n) {
+            const PairCollision& met = collisions[begin + n];
+            const std::size_t row = noted_.lane + n;
+            notes[n].time = met.time;
+            Eigen::Vector2d::Map(notes[n].before) = met.velocity_before;
+            Eigen::Vector2d::Map(notes[n].partner_before) = met.partner_velocity_before;
+            Eigen::Vector2d::Map(notes[n].after) = met.velocity;
+            Eigen::Vector2d::Map(notes[n].partner_after) = met.partner_velocity;
+            for (int axis = 0; axis < 2; ++axis) {
+              contacts_.impulse[axis][row] = met.impulse[axis];
+              contacts_.separation[axis][row] = met.separation[axis];
+            }
+            if (met.contact && !equal_) meet(row, static_cast<std::size_t>(met.disk), static_cast<std::size_t>(met.partner));
+          }
+          add(std::span(notes).first(count));
+        }
+      });
+}
+
+/// Of two disks that touch.
+void FluxMeter::meet(std::size_t row, std::size_t disk, std::size_t partner) {
+  contacts_.mu[row] = reduced_mass(disks_.mass[disk], disks_.mass[partner]);
+  contacts_.sigma[row] = disks_.radius[disk] + disks_.radius[partner];
+  if (sums_.transfer != nullptr) sums_.transfer->meetings += contacts_.sigma[row] * std::sqrt(contacts_.mu[row]);
+}
+
+void FluxMeter::add(std::span<const CollisionNote> notes) {
+  noted_.notes = notes.data();
+  noted_.count = notes.size();
+  kernel_(noted_, contacts_, sums_);
+  noted_.lane = (noted_.lane + notes.size()) % 4;
 }
 
 }  // namespace carom

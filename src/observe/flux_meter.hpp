@@ -1,38 +1,56 @@
 #pragma once
-// Fluxes of collisions that are told by the simulation or known from the event log: to the same bits.
+// Adds up the fluxes of collisions that are told by the simulation or known from the event log: to the same bits, however they
+// are handed over.
 
 #include "observe/collision_fluxes.hpp"
+#include "observe/followers.hpp"
 
 #include <carom/collisions.hpp>
+#include <carom/scene.hpp>
 #include <carom/state.hpp>
 
+#include <limits>
 #include <span>
+#include <vector>
 
 namespace carom {
 
 class FluxMeter {
  public:
-  /// Requires `disks` to live as long as this.
-  explicit FluxMeter(const Disks& disks);
+  /// Requires both to live as long as this.
+  FluxMeter(const Scene& scene, const Disks& disks);
+
+  /// Requires it to live as long as this, and to be where it is.
+  void add(FluxFollower& follower);
+  [[nodiscard]] bool has_followers() const { return !followers_.empty(); }
 
   /// What flies is relative to this.
   void start(const Eigen::Vector2d& common);
-  /// Of at most CollisionFluxes::most collisions; what is returned holds until the next call. Requires disks that velocities tell
-  /// the contacts of. `notes` are some of those in `told`.
-  const CollisionFluxes& of(const CollisionNotes& told, std::span<const CollisionNote> notes);
-  const CollisionFluxes& of(std::span<const PairCollision> collisions);
+  /// Adds collisions that come after all before. Requires disks that velocities tell the contacts of.
+  void follow(const CollisionNotes& told);
+  void follow(std::span<const PairCollision> collisions);
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(contacts_.common);
+    archive(noted_.common, noted_.lane);
   }
 
  private:
+  template <class TimeOf, class Add>
+  void follow(std::size_t count, TimeOf time_of, Add add);
+  void reach(double time);
+  void add(std::span<const CollisionNote> notes);
+  void meet(std::size_t row, std::size_t disk, std::size_t partner);
+
   const Disks& disks_;
-  bool equal_;  ///< all disks are
+  bool smooth_;  ///< velocities tell the contacts
+  bool equal_;   ///< all disks are
+  std::vector<FluxFollower*> followers_;
+  double until_ = -std::numeric_limits<double>::infinity();  ///< that of all followers
+  FluxSums sums_;
+  FluxKernel::Function* kernel_ = nullptr;
   CollisionContacts contacts_{};
-  CollisionFluxes fluxes_{};
-  const FluxKernel& kernel_;
+  NotedFluxes noted_{};
 };
 
 }  // namespace carom

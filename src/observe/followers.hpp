@@ -5,14 +5,20 @@
 
 #include <carom/collisions.hpp>
 
+#include <limits>
+
 namespace carom {
 
 /// Follows what collisions do to fluxes, and nothing else of them.
 class FluxFollower {
  public:
   virtual ~FluxFollower() = default;
-  /// Of collisions since the last call, in order of time; all up to a sample come before it.
-  virtual void fluxes(const CollisionFluxes& fluxes) = 0;
+  /// Says where sums are to be added up, in which it then finds all collisions so far, whenever it is called.
+  virtual void ask(FluxSums& sums) = 0;
+  /// Collisions up to this time, itself among them, may be added before it is called again.
+  [[nodiscard]] virtual double until() const { return std::numeric_limits<double>::infinity(); }
+  /// The next collision is at `time`, later than until().
+  virtual void reach(double /*time*/) {}
 };
 
 /// Reads notes itself where the simulation tells of collisions; where it does not, it follows them as others do.

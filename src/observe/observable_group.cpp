@@ -10,11 +10,11 @@
 
 namespace carom {
 
-ObservableGroup::ObservableGroup(const ObservedRun& run) : run_(run), meter_(run.disks) {
+ObservableGroup::ObservableGroup(const ObservedRun& run) : run_(run), meter_(run.scene, run.disks) {
   for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
 }
 
-ObservableGroup::ObservableGroup(const ObservedRun& run, std::istream& saved) : run_(run), meter_(run.disks) {
+ObservableGroup::ObservableGroup(const ObservedRun& run, std::istream& saved) : run_(run), meter_(run.scene, run.disks) {
   load(saved);
   for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
 }
@@ -35,7 +35,7 @@ void ObservableGroup::add(std::unique_ptr<Observable> observable) {
 
 void ObservableGroup::follow_with(Observable& observable) {
   if (auto* fluxes = dynamic_cast<FluxFollower*>(&observable)) {
-    flux_followers_.push_back(fluxes);
+    meter_.add(*fluxes);
   } else if (auto* notes = dynamic_cast<NoteFollower*>(&observable); notes != nullptr && run_.collisions_told) {
     note_followers_.push_back(notes);
   } else {
@@ -50,7 +50,7 @@ void ObservableGroup::follow_with(Observable& observable) {
 }
 
 bool ObservableGroup::follows_collisions() const {
-  return !followers_.empty() || !flux_followers_.empty() || !note_followers_.empty();
+  return !followers_.empty() || meter_.has_followers() || !note_followers_.empty();
 }
 
 std::map<double, std::vector<Observable*>> ObservableGroup::by_step() const {
@@ -70,30 +70,21 @@ void ObservableGroup::start(const State& state) {
 /// In pieces that stay in the nearest cache while everybody looks at them.
 void ObservableGroup::follow(std::span<const Event> events) {
   while (!events.empty()) {
-    const std::size_t count = std::min(CollisionFluxes::most, events.size());
+    const std::size_t count = std::min(CollisionContacts::most, events.size());
     stream_->follow(events.first(count), collisions_);
     events = events.subspan(count);
     if (collisions_.empty()) continue;
-    if (!flux_followers_.empty()) hand_on(meter_.of(collisions_));
+    if (meter_.has_followers()) meter_.follow(collisions_);
     for (Observable* observable : followers_) observable->collisions(collisions_);
   }
 }
 
 void ObservableGroup::hear(const CollisionNotes& told) {
-  if (!flux_followers_.empty())
-    for (std::span<const CollisionNote> notes = told.notes; !notes.empty();) {
-      const std::size_t count = std::min(CollisionFluxes::most, notes.size());
-      hand_on(meter_.of(told, notes.first(count)));
-      notes = notes.subspan(count);
-    }
+  if (meter_.has_followers()) meter_.follow(told);
   for (NoteFollower* follower : note_followers_) follower->read(told);
   if (followers_.empty()) return;
   told.read(collisions_);
   for (Observable* observable : followers_) observable->collisions(collisions_);
-}
-
-void ObservableGroup::hand_on(const CollisionFluxes& fluxes) {
-  for (FluxFollower* follower : flux_followers_) follower->fluxes(fluxes);
 }
 
 std::vector<Measurement> ObservableGroup::results(double time, const Totals& totals) {

@@ -48,14 +48,12 @@ class ObservableGroup {
  private:
   void load(std::istream& saved);
   void follow_with(Observable& observable);
-  void hand_on(const CollisionFluxes& fluxes);
 
   ObservedRun run_;
   std::string saved_stream_;        ///< what a run that is resumed had gathered
   std::vector<std::string> saved_;  ///< the same of each observable
   std::vector<std::unique_ptr<Observable>> observables_;
   std::vector<Observable*> followers_;  ///< of whole collisions
-  std::vector<FluxFollower*> flux_followers_;
   std::vector<NoteFollower*> note_followers_;
   std::optional<CollisionStream> stream_;  ///< where events are followed
   FluxMeter meter_;

@@ -53,14 +53,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
   [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
   [[nodiscard]] bool follows_collisions() const override { return follows_; }
 
-  /// One after the other: the sums do not depend on how collisions are handed over.
-  void fluxes(const CollisionFluxes& fluxes) override {
-    std::array<double, 4> transfer = transfer_;
-    for (std::size_t row = 0; row < fluxes.count; ++row)
-      for (std::size_t c = 0; c < 4; ++c) transfer[c] += fluxes.virial[c][row];
-    transfer_ = transfer;
-    for (std::size_t row = 0; row < fluxes.count && !equal_; ++row) meetings_ += fluxes.meeting[row];
-  }
+  void ask(FluxSums& sums) override { sums.transfer = &transfer_; }
 
   void sample(const State& state, const Totals& totals) override {
     const Snapshot now = look(state, totals);
@@ -98,7 +91,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(transfer_, meetings_, samples_, before_, virial_, rate_, walls_, tensor_);
+    archive(transfer_.virial, transfer_.meetings, samples_, before_, virial_, rate_, walls_, tensor_);
   }
 
  private:
@@ -111,10 +104,10 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
   [[nodiscard]] Snapshot look(const State& state, const Totals& totals) const {
     Snapshot now{.time = state.time,
                  .virial = totals.virial,
-                 .meetings = meetings_,
+                 .meetings = transfer_.meetings,
                  .pairs = totals.pair,
-                 .transfer = transfer_,
                  .walls = totals.wall_impulse};
+    for (std::size_t c = 0; c < 4; ++c) now.transfer[c] = transfer_.virial[c].sum();
     now.kT = kinetic_temperature(run_.scene.box, run_.scene.effects, run_.disks, state);
     now.area = box_of(run_.scene.box, state).area();
     const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);
@@ -184,8 +177,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
   bool follows_, equal_, equal_radii_;
   double freedom_;
   std::string_view why_no_Z_;
-  std::array<double, 4> transfer_{};  ///< sum of r_a J_b: xx, xy, yx, yy
-  double meetings_ = 0.0;
+  TransferSum transfer_;
   std::uint64_t samples_ = 0;
   Snapshot before_;
   Blocking virial_, rate_, walls_;

@@ -71,33 +71,16 @@ void Transport::start(const State& state) {
   moments_.add(std::array{0.0, 0.0});
 }
 
-void Transport::fluxes(const CollisionFluxes& fluxes) {
-  for (std::size_t row = 0; row < fluxes.count; row = take(fluxes, row))
-    if (fluxes.time[row] > next_) tick(fluxes.time[row]);
-}
-
-/// From a row on up to the next tick; returns the first row that is left. The integral of a flow that changes by c at time t
-/// grows by c (end - t): sums without a product between one collision and the next.
-std::size_t Transport::take(const CollisionFluxes& fluxes, std::size_t row) {
-  const CollisionFluxes::Flux& flux = fluxes.*coefficient_.flux;
-  double flow[2] = {flow_[0], flow_[1]}, moment[2] = {moment_[0], moment_[1]};
-  for (; row < fluxes.count && !(fluxes.time[row] > next_); ++row) {
-    const double elapsed = fluxes.time[row] - time_;
-    for (int c = 0; c < 2; ++c) {
-      flow[c] += flux.change[c][row];
-      moment[c] += flux.jump[c][row] - elapsed * flux.change[c][row];
-    }
-  }
-  flow_ = {flow[0], flow[1]};
-  moment_ = {moment[0], moment[1]};
-  return row;
-}
-
 /// Notes the moment at every grid time up to `time`.
 void Transport::tick(double time) {
+  for (int c = 0; c < 2; ++c) {
+    flow_[c] += coefficient_.part * sum_.change[c].sum();
+    moment_[c] += coefficient_.part * sum_.moment[c].sum();
+    sum_.change[c] = sum_.moment[c] = {};
+  }
   while (next_ <= time) {
-    moment_ += (next_ - time_) * flow_;
-    time_ = next_;
+    moment_ += (next_ - sum_.since) * flow_;
+    sum_.since = next_;
     const Eigen::Vector2d mean = (moment_ - noted_) / step_;
     products_.add(std::array{mean.x(), mean.y()});
     moments_.add(std::array{moment_.x(), moment_.y()});
@@ -108,7 +91,7 @@ void Transport::tick(double time) {
 
 Measurement Transport::finish(double time, const Totals&) {
   if (time >= next_) tick(time);
-  const auto& [name, unit, unit_of_flux, flow, flux_of, factor_of] = coefficient_;
+  const auto& [name, unit, unit_of_flux, flow, sum, part, factor_of] = coefficient_;
   const double step = step_, factor = factor_of(kT_, run_.scene.box.area()), longest = sound_time(run_);
   const std::vector<MultipleTau::Row> correlations = products_.rows(), growth = moments_.rows();
   Measurement found{.name = name};

@@ -13,7 +13,6 @@
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -23,7 +22,8 @@ namespace carom {
 struct TransportCoefficient {
   std::string name, unit, unit_of_flux;
   Eigen::Vector2d (*flow)(double mass, const Eigen::Vector2d& velocity);  ///< what one disk carries
-  CollisionFluxes::Flux CollisionFluxes::*flux;                           ///< what collisions do to it
+  FluxSum* FluxSums::*sum;                                                ///< what collisions do to it
+  double part;                                                            ///< that the flux is of this sum
   double (*factor)(double kT, double area);
 };
 
@@ -34,25 +34,26 @@ class Transport final : public SavedObservable<Transport>, public FluxFollower {
   [[nodiscard]] std::string name() const override { return coefficient_.name; }
   [[nodiscard]] bool follows_collisions() const override { return true; }
   void start(const State& state) override;
-  void fluxes(const CollisionFluxes& fluxes) override;
+  void ask(FluxSums& sums) override { sums.*coefficient_.sum = &sum_; }
+  [[nodiscard]] double until() const override { return next_; }
+  void reach(double time) override { tick(time); }
   [[nodiscard]] Measurement finish(double time, const Totals& totals) override;
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(kT_, time_, next_, ticks_, flow_, moment_, noted_, products_, moments_);
+    archive(kT_, next_, ticks_, sum_.change, sum_.moment, sum_.since, flow_, moment_, noted_, products_, moments_);
   }
 
  private:
-  std::size_t take(const CollisionFluxes& fluxes, std::size_t row);
   void tick(double time);
 
   ObservedRun run_;
   TransportCoefficient coefficient_;
   double step_;
   double kT_ = 0.0;
-  double time_ = 0.0;  ///< of the last tick, from which moment_ counts the time of changes
   double next_ = step_;
   std::uint64_t ticks_ = 0;
+  FluxSum sum_;                                     ///< since the last tick
   Eigen::Vector2d flow_ = Eigen::Vector2d::Zero();  ///< the part of the flux that flies
   Eigen::Vector2d moment_ = Eigen::Vector2d::Zero(), noted_ = Eigen::Vector2d::Zero();
   MultipleTau products_{2, MultipleTau::Pairs::products}, moments_{2, MultipleTau::Pairs::squared_differences};

@@ -11,7 +11,7 @@ MadeObservable make_viscosity(const ObservableRequest& request, const ObservedRu
   };
   const auto factor = [](double kT, double area) { return kT > 0.0 ? 1.0 / (area * kT) : 0.0; };
   return std::make_unique<Transport>(
-      request, run, TransportCoefficient{"viscosity", "mass / time", "energy^2", flow, &CollisionFluxes::momentum, factor});
+      request, run, TransportCoefficient{"viscosity", "mass / time", "energy^2", flow, &FluxSums::momentum, 0.5, factor});
 }
 
 }  // namespace carom

@@ -1,6 +1,7 @@
-// What collisions do to fluxes: from the velocities before and after by definition; the same bits from notes and from whole
-// collisions, whichever disk comes first, with every instruction set.
+// What collisions do to fluxes, added up: from the velocities before and after by definition; the same bits from notes and from
+// whole collisions, however they are handed over, whichever disk comes first, with every instruction set.
 
+#include "core/all_equal.hpp"
 #include "observe/flux_meter.hpp"
 #include "observe/observed_run.hpp"
 #include "support/instructions.hpp"
@@ -10,28 +11,56 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace carom::test {
 namespace {
 
-/// All that CollisionFluxes says, row by row.
-std::vector<double> numbers(const CollisionFluxes& fluxes) {
-  std::vector<double> all;
-  for (std::size_t row = 0; row < fluxes.count; ++row) {
-    all.push_back(fluxes.time[row]);
-    for (const auto& column : fluxes.virial) all.push_back(column[row]);
-    for (const CollisionFluxes::Flux* flux : {&fluxes.momentum, &fluxes.energy})
-      for (int axis = 0; axis < 2; ++axis) all.insert(all.end(), {flux->change[axis][row], flux->jump[axis][row]});
-    all.push_back(fluxes.meeting[row]);
+/// Asks for some of the sums, and looks at them every `step` after `begin`.
+class Asking final : public FluxFollower {
+ public:
+  explicit Asking(unsigned which = 7, double begin = 0.0, double step = std::numeric_limits<double>::infinity())
+      : which_(which), step_(step), next_(begin + step) {}
+  void ask(FluxSums& sums) override {
+    if ((which_ & 1U) != 0) sums.transfer = &transfer;
+    if ((which_ & 2U) != 0) sums.momentum = &momentum;
+    if ((which_ & 4U) != 0) sums.energy = &energy;
   }
-  return all;
+  [[nodiscard]] double until() const override { return next_; }
+  void reach(double time) override {
+    while (next_ < time) next_ += step_;
+    look();
+    momentum.since = energy.since = next_ - step_;
+  }
+  void look() {
+    for (const Lanes& sum : transfer.virial) seen.push_back(sum.sum());
+    seen.push_back(transfer.meetings);
+    for (const FluxSum* sum : {&momentum, &energy})
+      for (int axis = 0; axis < 2; ++axis) seen.insert(seen.end(), {sum->change[axis].sum(), sum->moment[axis].sum()});
+  }
+
+  TransferSum transfer;
+  FluxSum momentum, energy;
+  std::vector<double> seen;
+
+ private:
+  unsigned which_;
+  double step_, next_;
+};
+
+Scene two_radii() {
+  Scene scene = mixture_scene(60, 0.4, Boundary::periodic);
+  scene.species[1].mass = scene.species[0].mass;
+  return scene;
 }
 
-/// Told by a run of a mixture that drifts, and read as whole collisions.
+/// Told by a run of a gas that drifts, and read as whole collisions.
 struct Told {
-  explicit Told(double restitution = 1.0) {
-    scene.effects.collision.restitution = restitution;
+  explicit Told(Scene of = mixture_scene(60, 0.4, Boundary::periodic)) : scene(std::move(of)) {
     scene.run.time.reset();
     scene.run.collisions = 500;
     Simulation simulation = make_simulation(scene);
@@ -40,11 +69,14 @@ struct Told {
     disks = simulation.disks();
     RunHooks hooks;
     hooks.collisions = [&](const CollisionNotes& told) {
-      all.insert(all.end(), told.notes.begin(), told.notes.end());
+      for (CollisionNote note : told.notes) {
+        note.time += told.epoch;
+        all.push_back(note);
+      }
       heard = told;
     };
     run_schedule(simulation, hooks);
-    all.resize(CollisionFluxes::most - 3);  // no multiple of four; of one epoch
+    all.resize(61);  // no multiple of four
     heard.notes = all;
     heard.epoch = 7.0;
     heard.epoch_remainder = 1e-17;
@@ -53,8 +85,30 @@ struct Told {
   [[nodiscard]] Eigen::Vector2d common() const {
     return common_velocity({.scene = scene, .disks = disks, .temperature = 1.0}, state);
   }
+  /// What is seen where notes are handed over `together`, and at the end.
+  [[nodiscard]] std::vector<double> of_notes(std::size_t together, Asking asking = Asking()) const {
+    FluxMeter meter(scene, disks);
+    meter.start(common());
+    meter.add(asking);
+    for (std::size_t begin = 0; begin < all.size(); begin += together) {
+      CollisionNotes some = heard;
+      some.notes = std::span(all).subspan(begin, std::min(together, all.size() - begin));
+      meter.follow(some);
+    }
+    asking.look();
+    return asking.seen;
+  }
+  [[nodiscard]] std::vector<double> of_collisions(std::size_t together, Asking asking = Asking()) const {
+    FluxMeter meter(scene, disks);
+    meter.start(common());
+    meter.add(asking);
+    for (std::size_t begin = 0; begin < all.size(); begin += together)
+      meter.follow(std::span(collisions).subspan(begin, std::min(together, all.size() - begin)));
+    asking.look();
+    return asking.seen;
+  }
 
-  Scene scene = mixture_scene(60, 0.4, Boundary::periodic);
+  Scene scene;
   Disks disks = {};
   State state = {};
   std::vector<CollisionNote> all = {};
@@ -62,98 +116,146 @@ struct Told {
   std::vector<PairCollision> collisions = {};
 };
 
+/// Whole collisions that velocities do not tell the contacts of, but say it themselves.
+Scene reversed(Scene scene) {
+  scene.effects.collision.rule = CollisionRule::reversal;
+  return scene;
+}
+
+void expect_what_velocities_say(const Told& told, const Asking& found) {
+  Eigen::Matrix2d virial = Eigen::Matrix2d::Zero(), momentum = virial, momentum_moment = virial;
+  Eigen::Vector2d energy = Eigen::Vector2d::Zero(), energy_moment = energy;
+  double meetings = 0.0;
+  for (const PairCollision& met : told.collisions) {
+    const double m = told.disks.mass[static_cast<std::size_t>(met.disk)];
+    const double M = told.disks.mass[static_cast<std::size_t>(met.partner)];
+    Eigen::Matrix2d of_momentum = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d of_energy = Eigen::Vector2d::Zero();
+    const auto add = [&](double mass, const Eigen::Vector2d& velocity) {
+      const Eigen::Vector2d v = velocity - told.common();
+      of_momentum += mass * v * v.transpose();
+      of_energy += 0.5 * mass * v.squaredNorm() * v;
+      return 0.5 * mass * v.squaredNorm();
+    };
+    const double gained = add(m, met.velocity) + add(-m, met.velocity_before);
+    const double lost = -(add(M, met.partner_velocity) + add(-M, met.partner_velocity_before));
+    const Eigen::Vector2d J = m * (met.velocity - met.velocity_before), r = met.separation;
+    virial += r * J.transpose();
+    momentum += of_momentum;
+    energy += of_energy;
+    momentum_moment += r * J.transpose() - met.time * of_momentum;
+    energy_moment += 0.5 * (gained + lost) * r - met.time * of_energy;
+    meetings += r.norm() * std::sqrt(m * M / (m + M));
+  }
+  // Sums of 61 times some ten operations on numbers below 100, times of about ten.
+  const double rounding = 61e-13;
+  for (int c = 0; c < 4; ++c) EXPECT_NEAR(found.transfer.virial[c].sum(), virial(c / 2, c % 2), rounding) << c;
+  EXPECT_NEAR(0.5 * found.momentum.change[0].sum(), momentum(0, 1), rounding);
+  EXPECT_NEAR(0.5 * found.momentum.change[1].sum(), 0.5 * (momentum(0, 0) - momentum(1, 1)), rounding);
+  EXPECT_NEAR(0.5 * found.momentum.moment[0].sum(), momentum_moment(0, 1), 10.0 * rounding);
+  EXPECT_NEAR(0.5 * found.momentum.moment[1].sum(), 0.5 * (momentum_moment(0, 0) - momentum_moment(1, 1)), 10.0 * rounding);
+  const bool equal_masses = told.disks.mass.front() == told.disks.mass.back();
+  for (int axis = 0; axis < 2 && equal_masses; ++axis) {
+    EXPECT_NEAR(0.25 * found.energy.change[axis].sum(), energy[axis], 10.0 * rounding);
+    EXPECT_NEAR(0.25 * found.energy.moment[axis].sum(), energy_moment[axis], 100.0 * rounding);
+  }
+  if (!all_equal(told.disks.radius)) {
+    EXPECT_NEAR(found.transfer.meetings, meetings, rounding);
+  }
+}
+
 TEST(CollisionFluxes, AreWhatTheVelocitiesSay) {
-  for (const double restitution : {1.0, 0.9}) {
-    const Told told(restitution);
-    FluxMeter meter(told.disks);
+  Scene inelastic = mixture_scene(60, 0.4, Boundary::periodic);
+  inelastic.effects.collision.restitution = 0.9;
+  for (const Scene& scene :
+       {mixture_scene(60, 0.4, Boundary::periodic), inelastic, two_radii(), gas_scene(60, 0.5, Boundary::periodic)}) {
+    const Told told(scene);
+    ASSERT_GT(told.common().norm(), 0.1);
+    Asking asking;
+    FluxMeter meter(told.scene, told.disks);
     meter.start(told.common());
-    const Eigen::Vector2d common = told.common();
-    ASSERT_GT(common.norm(), 0.1);
-    const CollisionFluxes& fluxes = meter.of(told.heard, told.heard.notes);
-    ASSERT_EQ(fluxes.count, told.collisions.size());
-    for (std::size_t row = 0; row < fluxes.count; ++row) {
-      const PairCollision& met = told.collisions[row];
-      const double m = told.disks.mass[static_cast<std::size_t>(met.disk)];
-      const double M = told.disks.mass[static_cast<std::size_t>(met.partner)];
-      Eigen::Matrix2d momentum = Eigen::Matrix2d::Zero();
-      Eigen::Vector2d energy = Eigen::Vector2d::Zero();
-      const auto add = [&](double mass, const Eigen::Vector2d& velocity) {
-        const Eigen::Vector2d v = velocity - common;
-        momentum += mass * v * v.transpose();
-        energy += 0.5 * mass * v.squaredNorm() * v;
-        return 0.5 * mass * v.squaredNorm();
-      };
-      const double gained = add(m, met.velocity) + add(-m, met.velocity_before);
-      const double lost = -(add(M, met.partner_velocity) + add(-M, met.partner_velocity_before));
-      const Eigen::Vector2d J = m * (met.velocity - met.velocity_before), r = met.separation;
-      // Some ten operations on numbers below 100.
-      const double rounding = 1e-13;
-      EXPECT_NEAR(fluxes.momentum.change[0][row], momentum(0, 1), rounding);
-      EXPECT_NEAR(fluxes.momentum.change[1][row], 0.5 * (momentum(0, 0) - momentum(1, 1)), rounding);
-      EXPECT_NEAR(fluxes.momentum.jump[0][row], r.x() * J.y(), rounding);
-      EXPECT_NEAR(fluxes.momentum.jump[1][row], 0.5 * (r.x() * J.x() - r.y() * J.y()), rounding);
-      EXPECT_NEAR(fluxes.virial[1][row], r.x() * J.y(), rounding);
-      EXPECT_NEAR(fluxes.virial[2][row], r.y() * J.x(), rounding);
-      EXPECT_NEAR(fluxes.virial[0][row] + fluxes.virial[3][row], r.dot(J), rounding);
-      for (int axis = 0; axis < 2; ++axis) {
-        EXPECT_NEAR(fluxes.energy.change[axis][row], energy[axis], 10.0 * rounding);
-        EXPECT_NEAR(fluxes.energy.jump[axis][row], 0.5 * (gained + lost) * r[axis], rounding);
-      }
-      EXPECT_EQ(fluxes.time[row], met.time);
-      EXPECT_NEAR(fluxes.meeting[row], r.norm() * std::sqrt(m * M / (m + M)), rounding);
+    meter.add(asking);
+    meter.follow(told.heard);
+    expect_what_velocities_say(told, asking);
+  }
+}
+
+TEST(CollisionFluxes, ThatAreToldAreWhatTheVelocitiesSay) {
+  const Told told(two_radii());
+  const Scene scene = reversed(told.scene);
+  Asking asking;
+  FluxMeter meter(scene, told.disks);
+  meter.start(told.common());
+  meter.add(asking);
+  meter.follow(told.collisions);
+  expect_what_velocities_say(told, asking);
+}
+
+TEST(CollisionFluxes, AreTheSameBitsHoweverTheyAreHandedOver) {
+  for (const Scene& scene : {mixture_scene(60, 0.4, Boundary::periodic), gas_scene(60, 0.5, Boundary::periodic)}) {
+    const Told told(scene);
+    const double begin = told.collisions.front().time, end = told.collisions.back().time;
+    const Asking asking(7, begin, (end - begin) / 4.5);
+    const std::vector<double> expected = told.of_notes(told.all.size(), asking);
+    EXPECT_GT(expected.size(), 3U * 13U);  // looks on the way, and one at the end
+    for (const std::size_t together : {1U, 2U, 3U, 4U, 5U, 8U, 30U}) {
+      EXPECT_EQ(told.of_notes(together, asking), expected) << together;
+      EXPECT_EQ(told.of_collisions(together, asking), expected) << together;
     }
   }
 }
 
-TEST(CollisionFluxes, OfNotesAndOfWholeCollisionsAreTheSameBits) {
-  const Told told;
-  FluxMeter of_notes(told.disks), of_collisions(told.disks);
-  of_notes.start(told.common());
-  of_collisions.start(told.common());
-  for (const std::size_t count : {std::size_t{1}, std::size_t{5}, told.all.size()})
-    EXPECT_EQ(numbers(of_notes.of(told.heard, told.heard.notes.first(count))),
-              numbers(of_collisions.of(std::span(told.collisions).first(count))))
-        << count;
-  EXPECT_EQ(of_notes.of(told.heard, {}).count, 0U);
+TEST(CollisionFluxes, DoNotDependOnWhatElseIsAsked) {
+  for (const bool by_notes : {true, false}) {
+    Told told(two_radii());
+    if (!by_notes) told.scene = reversed(told.scene);
+    const auto seen = [&](const Asking& asking) { return by_notes ? told.of_notes(61, asking) : told.of_collisions(61, asking); };
+    const std::vector<double> all = seen(Asking());
+    for (unsigned which = 1; which < 8; ++which) {
+      const std::vector<double> some = seen(Asking(which));
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        const unsigned of = k < 5 ? 1U : k < 9 ? 2U : 4U;
+        EXPECT_EQ(some[k], (which & of) != 0 ? all[k] : 0.0) << which << " " << k;
+      }
+    }
+  }
 }
 
 TEST(CollisionFluxes, DoNotDependOnWhichDiskComesFirst) {
-  Told told;
-  FluxMeter meter(told.disks), other(told.disks);
-  meter.start(told.common());
-  other.start(told.common());
-  const std::vector<double> before = numbers(meter.of(told.heard, told.heard.notes));
+  Told told(two_radii());
+  const std::vector<double> before = told.of_notes(61);
   for (CollisionNote& note : told.all) {
     std::swap(note.place, note.partner);
     std::swap(note.before, note.partner_before);
     std::swap(note.after, note.partner_after);
   }
-  EXPECT_EQ(numbers(other.of(told.heard, told.heard.notes)), before);
+  EXPECT_EQ(told.of_notes(61), before);
 }
 
 TEST(CollisionFluxes, AreTheSameBitsWithEveryInstructionSet) {
-  const Told told;
-  std::vector<std::vector<double>> found;
-  for (const std::string_view set : instruction_sets) {
-    const WithInstructions with(set);
-    FluxMeter meter(told.disks);
-    meter.start(told.common());
-    found.push_back(numbers(meter.of(told.heard, told.heard.notes)));
+  for (const Scene& scene : {mixture_scene(60, 0.4, Boundary::periodic), gas_scene(60, 0.5, Boundary::periodic)}) {
+    Told told(scene);
+    std::vector<std::vector<double>> of_notes, of_collisions;
+    for (const std::string_view set : instruction_sets) {
+      const WithInstructions with(set);
+      told.scene.effects.collision.rule = CollisionRule::specular;
+      of_notes.push_back(told.of_notes(61));
+      told.scene.effects.collision.rule = CollisionRule::reversal;
+      of_collisions.push_back(told.of_collisions(61));
+    }
+    for (const std::size_t set : {1U, 2U}) {
+      EXPECT_EQ(of_notes[0], of_notes[set]);
+      EXPECT_EQ(of_collisions[0], of_collisions[set]);
+    }
   }
-  EXPECT_EQ(found[0], found[1]);
-  EXPECT_EQ(found[0], found[2]);
 }
 
 TEST(CollisionFluxes, OfDisksThatOnlyTouchAreNothing) {
-  const Told told;
-  FluxMeter meter(told.disks);
-  CollisionNote graze = told.all[0];
-  std::copy_n(graze.before, 2, graze.after);
-  std::copy_n(graze.partner_before, 2, graze.partner_after);
-  const CollisionFluxes& fluxes = meter.of(told.heard, std::span(&graze, 1));
-  for (const auto& column : fluxes.virial) EXPECT_EQ(column[0], 0.0);
-  EXPECT_EQ(fluxes.momentum.change[0][0], 0.0);
-  EXPECT_EQ(fluxes.energy.jump[1][0], 0.0);
+  Told told(gas_scene(60, 0.5, Boundary::periodic));
+  told.all.resize(1);
+  std::copy_n(told.all[0].before, 2, told.all[0].after);
+  std::copy_n(told.all[0].partner_before, 2, told.all[0].partner_after);
+  for (const double sum : told.of_notes(1)) EXPECT_EQ(sum, 0.0);
 }
 
 }  // namespace
