@@ -14,26 +14,18 @@ std::uint64_t first_block(std::size_t row, std::size_t level) { return (row + (s
 void BlockedRows::add(std::span<const double> samples) {
   if (first_.size() < samples.size()) first_.push_back(samples.back());
   now_.resize(rows_);
-  for (std::size_t k = 0; k < samples.size(); ++k) now_[k] = samples[k] - first_[k];
+  kernel_->since(samples.data(), first_.data(), samples.size(), now_.data());
   std::size_t begun = samples.size();  // rows that have the whole of this block
   for (std::size_t level = 0;; ++level) {
     if (level == levels_.size())
       levels_.push_back({0, std::vector<double>(rows_), std::vector<double>(rows_), std::vector<double>(rows_)});
     Level& here = levels_[level];
-    const double* x = now_.data();
-    double *sum = here.sum.data(), *square = here.square.data(), *waiting = here.waiting.data();
-    for (std::size_t k = 0; k < begun; ++k) {
-      sum[k] += x[k];
-      square[k] += x[k] * x[k];
-    }
     const std::uint64_t block = here.blocks++;
-    if (block % 2 == 0) {
-      std::copy_n(x, begun, waiting);
-      return;
-    }
+    const bool second = block % 2 == 1;
+    kernel_->block(second, begun, now_.data(), here.sum.data(), here.square.data(), here.waiting.data());
+    if (!second) return;
     // Those who had the block before too, which began at step (block - 1) 2^level.
     begun = static_cast<std::size_t>(std::min<std::uint64_t>(begun, ((block - 1) << level) + 1));
-    for (std::size_t k = 0; k < begun; ++k) now_[k] = 0.5 * (waiting[k] + x[k]);
   }
 }
 

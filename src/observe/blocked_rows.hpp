@@ -3,6 +3,8 @@
 // Blocking per row gives, at a fifth of the price. Sums of x and x^2 take the place of running means (no division), and all rows
 // go from level to level together. x is taken from the first sample of its row on, which keeps the digits of the variance.
 
+#include "observe/lag_rows.hpp"
+
 #include <carom/blocking.hpp>
 
 #include <cstddef>
@@ -44,6 +46,7 @@ class BlockedRows {
   std::size_t rows_ = 0;
   std::vector<double> first_;  ///< sample of every row
   std::vector<double> now_;    ///< scratch
+  const LagRowsKernel* kernel_ = &lag_rows_kernel();
   std::vector<Level> levels_;
 };
 

@@ -13,34 +13,40 @@ MultipleTau::MultipleTau(std::size_t channels, Pairs pairs, std::size_t lags, st
 
 void MultipleTau::add(std::span<const double> value) { add(0, value); }
 
-double MultipleTau::pair(std::span<const double> a, const double* b) const {
-  if (channels_ == 2) {  // by far the most pairs; the same bits as below
-    if (kind_ == Pairs::products) return 0.5 * (a[0] * b[0] + a[1] * b[1]);
-    const double x = a[0] - b[0], y = a[1] - b[1];
-    return 0.5 * (x * x + y * y);
+/// Pairs of a value with itself and those before it; it is kept for those to come.
+void MultipleTau::find_pairs(Level& level, std::span<const double> value) {
+  std::size_t slot = level.count % lags_;
+  std::copy(value.begin(), value.end(), level.ring.begin() + static_cast<std::ptrdiff_t>(slot * channels_));
+  const Eigen::Map<const Eigen::VectorXd> x(value.data(), static_cast<Eigen::Index>(channels_));
+  for (double& found : found_) {
+    const Eigen::Map<const Eigen::VectorXd> y(level.ring.data() + slot * channels_, x.size());
+    found = (kind_ == Pairs::products ? x.dot(y) : (x - y).squaredNorm()) / static_cast<double>(channels_);
+    slot = (slot > 0 ? slot : lags_) - 1;
   }
-  const Eigen::Map<const Eigen::VectorXd> x(a.data(), static_cast<Eigen::Index>(channels_)), y(b, x.size());
-  return (kind_ == Pairs::products ? x.dot(y) : (x - y).squaredNorm()) / static_cast<double>(channels_);
+}
+
+/// The same of two channels, four lags at a time: by far the most pairs of all.
+void MultipleTau::find_pairs_of_two(Level& level, std::span<const double> value) {
+  const std::size_t slot = lags_ - 1 - level.count % lags_;  // that of the latest value, with older ones behind it
+  double *x = level.ring.data() + slot, *y = x + 2 * lags_;
+  x[0] = x[lags_] = value[0];
+  y[0] = y[lags_] = value[1];
+  (kind_ == Pairs::products ? kernel_->products : kernel_->squares)(value.data(), x, y, found_.size(), found_.data());
 }
 
 void MultipleTau::add(std::size_t l, std::span<const double> value) {
   if (l == most_levels_) return;
   if (l == levels_.size()) {
     levels_.emplace_back();
-    levels_[l].ring.resize(lags_ * channels_);
+    levels_[l].ring.resize(lags_ * channels_ * (channels_ == 2 ? 2 : 1));
+    levels_[l].waiting.resize(channels_);
     levels_[l].pairs = BlockedRows(lags_);
     levels_[l].integrals = BlockedRows(lags_);
   }
   Level& level = levels_[l];
-  std::size_t slot = level.count % lags_;
-  std::copy(value.begin(), value.end(), level.ring.begin() + static_cast<std::ptrdiff_t>(slot * channels_));
+  found_.resize(std::min(lags_, level.count + 1));
+  channels_ == 2 ? find_pairs_of_two(level, value) : find_pairs(level, value);
   ++level.count;
-  const std::size_t lags = std::min(lags_, level.count);
-  found_.resize(lags);
-  for (double& found : found_) {
-    found = pair(value, level.ring.data() + slot * channels_);
-    slot = (slot > 0 ? slot : lags_) - 1;
-  }
   level.pairs.add(found_);
   if (kind_ == Pairs::products) {
     found_.front() *= 0.5;
@@ -49,15 +55,15 @@ void MultipleTau::add(std::size_t l, std::span<const double> value) {
   }
   if (!level.has_waiting) {
     level.has_waiting = true;
-    level.waiting.assign(value.begin(), value.end());
+    std::ranges::copy(value, level.waiting.begin());
     if (kind_ == Pairs::squared_differences) add(l + 1, value);
     return;
   }
   level.has_waiting = false;
   if (kind_ != Pairs::products) return;
-  std::vector<double> mean(channels_);
-  for (std::size_t c = 0; c < channels_; ++c) mean[c] = 0.5 * (level.waiting[c] + value[c]);
-  add(l + 1, mean);
+  mean_.resize(channels_);
+  for (std::size_t c = 0; c < channels_; ++c) mean_[c] = 0.5 * (level.waiting[c] + value[c]);
+  add(l + 1, mean_);
 }
 
 std::vector<MultipleTau::Row> MultipleTau::rows() const {

@@ -50,7 +50,7 @@ class MultipleTau {
 
  private:
   struct Level {
-    std::vector<double> ring;  ///< lags x channels
+    std::vector<double> ring;  ///< lags x channels; of two channels each by itself, twice over, so that all lags lie side by side
     std::vector<double> waiting;
     bool has_waiting = false;
     std::size_t count = 0;
@@ -62,14 +62,17 @@ class MultipleTau {
     }
   };
   void add(std::size_t level, std::span<const double> value);
-  [[nodiscard]] double pair(std::span<const double> a, const double* b) const;
+  void find_pairs(Level& level, std::span<const double> value);
+  void find_pairs_of_two(Level& level, std::span<const double> value);
 
   std::size_t channels_ = 0;
   Pairs kind_ = Pairs::products;
   std::size_t lags_ = 0;
   std::size_t most_levels_ = 0;
   std::vector<Level> levels_;
-  std::vector<double> found_;  ///< scratch
+  std::vector<double> found_;  ///< by lag, with the latest value
+  std::vector<double> mean_;   ///< scratch
+  const LagRowsKernel* kernel_ = &lag_rows_kernel();
 };
 
 }  // namespace carom

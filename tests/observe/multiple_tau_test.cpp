@@ -1,11 +1,14 @@
 // The multiple-tau correlator against sums over all pairs of stored values.
 
 #include "observe/multiple_tau.hpp"
+#include "support/instructions.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <random>
+#include <string_view>
 #include <vector>
 
 namespace carom::test {
@@ -51,8 +54,11 @@ MultipleTau filled(const Series& series, MultipleTau::Pairs pairs, std::size_t l
 /// Of sums of some hundred terms of order one.
 constexpr double rounding_of_hundreds = 1e-13;
 
-TEST(MultipleTau, ProductsAreThoseOfAllPairsOfMeans) {
-  const Series series = random_series(300, 3);
+class MultipleTauOfChannels : public ::testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(Channels, MultipleTauOfChannels, ::testing::Values(1, 2, 3));
+
+TEST_P(MultipleTauOfChannels, ProductsAreThoseOfAllPairsOfMeans) {
+  const Series series = random_series(300, GetParam());
   const auto rows = filled(series, MultipleTau::Pairs::products, 8).rows();
   ASSERT_GT(rows.size(), 20U);
   for (const auto& row : rows) {
@@ -72,8 +78,8 @@ TEST(MultipleTau, ProductsAreThoseOfAllPairsOfMeans) {
   }
 }
 
-TEST(MultipleTau, SquaredDifferencesAreThoseOfAllPairsOnTheGridOfTheirLevel) {
-  const Series series = random_series(300, 2);
+TEST_P(MultipleTauOfChannels, SquaredDifferencesAreThoseOfAllPairsOnTheGridOfTheirLevel) {
+  const Series series = random_series(300, GetParam());
   const auto rows = filled(series, MultipleTau::Pairs::squared_differences, 8).rows();
   ASSERT_GT(rows.size(), 20U);
   for (const auto& row : rows) {
@@ -81,11 +87,35 @@ TEST(MultipleTau, SquaredDifferencesAreThoseOfAllPairsOnTheGridOfTheirLevel) {
     double sum = 0.0, pairs = 0.0;
     for (std::size_t t = lag; t < series.size(); t += 1) {
       if (t % stride != 0) continue;
-      for (std::size_t c = 0; c < 2; ++c) sum += 0.5 * std::pow(series[t][c] - series[t - lag][c], 2);
+      for (std::size_t c = 0; c < GetParam(); ++c)
+        sum += std::pow(series[t][c] - series[t - lag][c], 2) / static_cast<double>(GetParam());
       pairs += 1.0;
     }
     EXPECT_NEAR(row.pairs.mean, sum / pairs, rounding_of_hundreds) << "lag " << row.lag;
   }
+}
+
+TEST(MultipleTau, GivesTheSameBitsWithEveryInstructionSet) {
+  for (const auto pairs : {MultipleTau::Pairs::products, MultipleTau::Pairs::squared_differences})
+    for (const std::size_t lags : {16U, 6U}) {
+      std::vector<std::vector<MultipleTau::Row>> found;
+      for (const std::string_view set : instruction_sets) {
+        const WithInstructions with(set);
+        found.push_back(filled(random_series(1000, 2), pairs, lags).rows());
+      }
+      for (const std::size_t set : {1U, 2U}) {
+        ASSERT_EQ(found[set].size(), found[0].size());
+        for (std::size_t r = 0; r < found[0].size(); ++r) {
+          const MultipleTau::Row &a = found[0][r], &b = found[set][r];
+          EXPECT_EQ(a.pairs.mean, b.pairs.mean);
+          EXPECT_EQ(a.pairs.error, b.pairs.error);
+          ASSERT_EQ(a.integral.has_value(), b.integral.has_value());
+          if (!a.integral) continue;
+          EXPECT_EQ(a.integral->mean, b.integral->mean);
+          EXPECT_EQ(a.integral->error, b.integral->error);
+        }
+      }
+    }
 }
 
 TEST(MultipleTau, LagsRiseAndReachAcrossTheWholeSeries) {

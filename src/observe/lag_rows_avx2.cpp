@@ -1,0 +1,2 @@
+#define CAROM_INSTRUCTIONS avx2
+#include "observe/lag_rows_kernel.hpp"
