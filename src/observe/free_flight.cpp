@@ -5,6 +5,7 @@
 
 #include "core/instant.hpp"
 #include "observe/blocking.hpp"
+#include "observe/ended_flights.hpp"
 #include "observe/followed_disks.hpp"
 #include "observe/followers.hpp"
 #include "observe/observables.hpp"
@@ -14,9 +15,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,22 +31,20 @@ namespace {
 /// A histogram from 0 to `range`, gathered over some thousand flights before it counts as one sample.
 class FlightHistogram {
  public:
-  FlightHistogram(std::size_t bins, double range)
-      : width_(range / static_cast<double>(bins)),
-        per_width_(static_cast<double>(bins) / range),
-        end_(static_cast<double>(bins)),
-        counts_(bins + 1),
-        shares_(bins) {}
+  FlightHistogram(std::size_t bins, double range) : width_(range / static_cast<double>(bins)), counts_(bins + 1), shares_(bins) {}
 
-  /// Anything: what is no number, infinite or beyond the range is not shown.
-  void add(double x) {
-    const double bin = x * per_width_;
-    ++counts_[static_cast<std::size_t>(static_cast<std::int32_t>(bin < end_ ? bin : end_))];  // signed: converts much faster
+  /// What is in the bin behind the last is not shown.
+  void add(std::span<const std::int32_t> found) {
+    std::uint32_t* counts = counts_.data();
+    for (; found.size() >= 4; found = found.subspan(4))
+      for (std::size_t k = 0; k < 4; ++k) ++counts[found[k]];
+    for (const std::int32_t bin : found) ++counts[bin];
   }
   void flush(double flights) {
     for (std::size_t b = 0; b < bins(); ++b) shares_.add(b, static_cast<double>(counts_[b]), flights);
     std::ranges::fill(counts_, 0);
   }
+  [[nodiscard]] double width() const { return width_; }
   [[nodiscard]] Table table(const std::string& name, const std::string& unit) const {
     Table table{.name = name, .average = Average::collisions};
     Column middles{"middle", unit, {}};
@@ -60,7 +62,7 @@ class FlightHistogram {
  private:
   [[nodiscard]] std::size_t bins() const { return counts_.size() - 1; }
 
-  double width_, per_width_, end_;
+  double width_;
   std::vector<std::uint32_t> counts_;  ///< of the bins, and of all the rest
   BlockedColumn shares_;
 };
@@ -70,6 +72,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   FreeFlight(const ObservableRequest& request, const ObservedRun& run)
       : times_(static_cast<std::size_t>(request.bins.value_or(100)), longest * scale(run)),
         paths_(static_cast<std::size_t>(request.bins.value_or(100)), longest * scale(run) * speed(run)),
+        bins_{1.0 / times_.width(), 1.0 / paths_.width(), static_cast<double>(request.bins.value_or(100))},
         skip_(static_cast<std::uint32_t>(std::bit_ceil((run.disks.count() + most_disks - 1) / most_disks)) - 1),
         why_no_path_(why_no_path(run.scene.effects)) {
     for (std::size_t disk = 0; disk < run.disks.count(); disk += skip_ + 1) ids_.push_back(static_cast<std::int32_t>(disk));
@@ -80,8 +83,16 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   [[nodiscard]] bool follows_collisions() const override { return true; }
 
   void collisions(std::span<const PairCollision> collisions) override {
-    for (; collisions.size() > piece; collisions = collisions.subspan(piece)) look_at(collisions.first(piece));
-    look_at(collisions);
+    for (const PairCollision& met : collisions) {
+      if (!met.contact || !(follows(met.disk) || follows(met.partner))) continue;
+      double nobody[2] = {never, never};
+      end(follows(met.disk) ? &last_[row_by_id(met.disk)] : nobody,
+          follows(met.partner) ? &last_[row_by_id(met.partner)] : nobody + 1, met.time);
+      double* velocity = ended_.velocity[count_];
+      Eigen::Vector2d::Map(velocity) = met.velocity_before;
+      Eigen::Vector2d::Map(velocity + 2) = met.partner_velocity_before;
+      if (++count_ == EndedFlights::most) end_sample();
+    }
   }
 
   void read(const CollisionNotes& notes) override {
@@ -94,7 +105,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   [[nodiscard]] Measurement finish(double time, const Totals&) override {
     const double flushes = static_cast<double>(mean_time_.samples());
     const double step = flushes > 0.0 ? time / flushes : 0.0;
-    if (sums_.flights > 0) end_sample(sums_);
+    if (count_ > 0) end_sample();
     if (counted_ > 0) end_histograms();
     Measurement found{.name = name()};
     found.note = "over flights that began and ended within the run";
@@ -111,7 +122,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(times_, paths_, ids_, last_, sums_.flights, sums_.time, sums_.path, counted_, mean_time_, mean_path_);
+    archive(times_, paths_, ids_, last_, ended_.time, ended_.velocity, count_, counted_, samples_, mean_time_, mean_path_);
   }
 
  private:
@@ -119,9 +130,9 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   static constexpr double longest = 10.0;
   /// No more disks are followed: what all of them tell in a run would slow a large one down.
   static constexpr std::size_t most_disks = 1000;
-  /// Flights that count as one sample of the means; a sample of the histograms has 16 times as many.
-  static constexpr std::uint64_t batch = 256;
-  static constexpr std::size_t piece = 128;  ///< collisions
+  /// EndedFlights::most collisions count as one sample of the means; a sample of the histograms has so many times as many.
+  static constexpr std::uint64_t samples_of_histogram = 16;
+  static constexpr std::size_t piece = 64;  ///< notes
   static constexpr double never = -std::numeric_limits<double>::infinity();
 
   /// A path is speed times time where nothing but collisions changes the speed.
@@ -140,50 +151,31 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
     return run.temperature > 0.0 ? std::sqrt(run.temperature / mass) : 1.0;
   }
 
-  /// Who is followed nobody can guess: collisions that end flights are listed without a branch, and looked at then.
-  struct Listed {
-    std::array<std::uint32_t, piece> which;
-    std::size_t count = 0;
-
-    void add(std::uint32_t collision, bool ends_flights) {
-      which[count] = collision;
-      count += static_cast<std::size_t>(ends_flights);
-    }
-    [[nodiscard]] std::span<const std::uint32_t> all() const { return std::span(which).first(count); }
-  };
-
-  /// At most `piece` of them.
-  void look_at(std::span<const PairCollision> collisions) {
-    Listed listed;
-    for (std::uint32_t n = 0; n < collisions.size(); ++n)
-      listed.add(n, collisions[n].contact && (follows(collisions[n].disk) || follows(collisions[n].partner)));
-    Sums sums = sums_;
-    for (const std::uint32_t n : listed.all()) {
-      const PairCollision& met = collisions[n];
-      double nobody = never;
-      end({follows(met.disk) ? &last_[row_by_id(met.disk)] : &nobody, met.velocity_before.data()},
-          {follows(met.partner) ? &last_[row_by_id(met.partner)] : &nobody, met.partner_velocity_before.data()}, met.time, sums);
-    }
-    sums_ = sums;
-  }
-
-  /// The same, whichever of the two comes first.
+  /// At most `piece` of them. Who is followed nobody can guess: collisions that end flights are listed without a branch.
   void look_at(const Instant& epoch, std::span<const CollisionNote> notes) {
-    Listed listed;
-    for (std::uint32_t n = 0; n < notes.size(); ++n)
-      listed.add(n, skip_ == 0 || places_.has_either(notes[n].place, notes[n].partner));
-    Sums sums = sums_;
-    for (const std::uint32_t n : listed.all()) {
-      const CollisionNote& note = notes[n];
-      double nobody = never;
-      end({last_of(note.place, nobody), note.before}, {last_of(note.partner, nobody), note.partner_before},
-          epoch.plus(note.time).high, sums);
+    if (skip_ > 0) {
+      std::array<std::uint32_t, piece> which;
+      for (const std::uint32_t n : std::span(which).first(places_.find(notes, which.data()))) {
+        double nobody[2] = {never, never};
+        end(last_of(notes[n].place, nobody), last_of(notes[n].partner, nobody + 1), epoch.plus(notes[n].time).high);
+        keep_velocities(notes[n]);
+      }
+      return;
     }
-    sums_ = sums;
+    while (!notes.empty()) {
+      const std::size_t count = std::min<std::size_t>(notes.size(), EndedFlights::most - count_);
+      kernel_.gather(epoch, notes.data(), count, last_.data(), ended_, count_);
+      notes = notes.subspan(count);
+      if ((count_ += count) == EndedFlights::most) end_sample();
+    }
   }
-  [[nodiscard]] double* last_of(std::int32_t place, double& nobody) {
-    if (skip_ == 0) return last_.data() + place;
-    return places_.has(place) ? last_.data() + places_.row(place) : &nobody;
+  [[nodiscard]] double* last_of(std::int32_t place, double* nobody) {
+    return places_.has(place) ? last_.data() + places_.row(place) : nobody;
+  }
+  void keep_velocities(const CollisionNote& note) {
+    std::memcpy(ended_.velocity[count_], note.before, sizeof note.before);
+    std::memcpy(ended_.velocity[count_] + 2, note.partner_before, sizeof note.partner_before);
+    if (++count_ == EndedFlights::most) end_sample();
   }
 
   /// Rows are by id to begin with; from now on they are by place.
@@ -201,47 +193,34 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
     return static_cast<std::uint32_t>(disk) >> std::popcount(skip_);
   }
 
-  struct Sums {  ///< since the last sample of the means
-    std::uint64_t flights = 0;
-    double time = 0.0, path = 0.0;
-  };
-  /// One of the two in a collision.
-  struct Flier {
-    double* last;            ///< collision
-    const double* velocity;  ///< with which it came, and which it had all the way
-  };
-  /// Two flights end, or one where nobody follows the other disk or knows when its flight began. No branches, and the same bits
-  /// in either order.
-  void end(const Flier& a, const Flier& b, double time, Sums& sums) {
-    const auto flight_of = [&](const Flier& flier) {
-      const double flight = time - *flier.last;
-      *flier.last = time;
-      const double path = std::sqrt(flier.velocity[0] * flier.velocity[0] + flier.velocity[1] * flier.velocity[1]) * flight;
-      times_.add(flight);
-      paths_.add(path);
-      const bool known = flight < std::numeric_limits<double>::infinity();
-      return Sums{known, known ? flight : 0.0, known ? path : 0.0};
-    };
-    const Sums first = flight_of(a), second = flight_of(b);
-    sums.flights += first.flights + second.flights;
-    sums.time += first.time + second.time;
-    sums.path += first.path + second.path;
-    if (sums.flights < batch) return;  // after so many flights, however collisions are handed over
-    end_sample(sums);
-    if (counted_ >= 16 * batch) end_histograms();
+  /// Two flights end, or one where nobody follows the other disk or knows when its flight began.
+  void end(double* last, double* partner_last, double time) {
+    ended_.time[0][count_] = time - *last;
+    ended_.time[1][count_] = time - *partner_last;
+    *last = *partner_last = time;
   }
-  void end_sample(Sums& sums) {
-    const double flights = static_cast<double>(sums.flights);
-    mean_time_.add(sums.time, flights);
-    mean_path_.add(sums.path, flights);
-    counted_ += sums.flights;
-    sums = {};
+  /// After so many collisions, however they are handed over.
+  void end_sample() {
+    const std::size_t fours = (count_ + 3) / 4;
+    for (std::size_t n = count_; n < 4 * fours; ++n) ended_.time[0][n] = ended_.time[1][n] = EndedFlights::unknown;
+    TalliedFlights found;
+    kernel_.tally(ended_, fours, bins_, found);
+    for (std::size_t k = 0; k < 2; ++k) {
+      times_.add(std::span(found.time_bin[k]).first(count_));
+      paths_.add(std::span(found.path_bin[k]).first(count_));
+    }
+    count_ = 0;
+    if (found.flights == 0.0) return;
+    mean_time_.add(found.time, found.flights);
+    mean_path_.add(found.path, found.flights);
+    counted_ += static_cast<std::uint64_t>(found.flights);
+    if (++samples_ == samples_of_histogram) end_histograms();
   }
   void end_histograms() {
     const double flights = static_cast<double>(counted_);
     times_.flush(flights);
     paths_.flush(flights);
-    counted_ = 0;
+    counted_ = samples_ = 0;
   }
   static void put(Measurement& found, const char* name, const char* unit, const Blocking& series, double step) {
     Scalar scalar{.name = name, .unit = unit, .average = Average::collisions};
@@ -251,14 +230,17 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   }
 
   FlightHistogram times_, paths_;
+  FlightBins bins_;
   std::uint32_t skip_;             ///< disks whose id has one of these bits are not followed
   std::vector<std::int32_t> ids_;  ///< of those who are followed, by row
   std::vector<double> last_;       ///< collision of each; `never` before the first
   std::shared_ptr<const NotedDisks> noted_;
   FollowedDisks places_;  ///< in noted_
   std::string why_no_path_;
-  Sums sums_;
-  std::uint64_t counted_ = 0;  ///< in samples since the last one of the histograms
+  EndedFlights ended_;
+  std::uint64_t count_ = 0;                  ///< of collisions in it
+  std::uint64_t counted_ = 0, samples_ = 0;  ///< flights, and samples, since the last one of the histograms
+  const EndedFlightsKernel& kernel_ = ended_flights_kernel();
   Blocking mean_time_, mean_path_;
 };
 

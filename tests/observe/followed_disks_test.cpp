@@ -33,5 +33,30 @@ TEST(FollowedDisks, HaveRowsByTheirPlaces) {
     }
 }
 
+TEST(FollowedDisks, AreFoundAmongNotes) {
+  for (const std::int32_t disks : {2, 1000, 16'383, 16'384, 40'000, 100'000})
+    for (const std::int32_t stride : {1, 4, 64}) {
+      NotedDisks noted;
+      noted.ids.resize(static_cast<std::size_t>(disks));
+      std::iota(noted.ids.begin(), noted.ids.end(), 0);
+      std::mt19937 engine(7);
+      std::shuffle(noted.ids.begin(), noted.ids.end(), engine);
+      const FollowedDisks followed(noted, [&](std::int32_t id) { return id % stride == 0; });
+      std::vector<CollisionNote> notes(500);
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t n = 0; n < notes.size(); ++n) {
+        const auto place = [&] { return static_cast<std::int32_t>(engine() % static_cast<std::uint32_t>(disks)); };
+        notes[n].place = place();
+        notes[n].partner = place();
+        if (n == 0) notes[n].place = disks - 1;
+        const auto is_followed = [&](std::int32_t at) { return noted.ids[static_cast<std::size_t>(at)] % stride == 0; };
+        if (is_followed(notes[n].place) || is_followed(notes[n].partner)) expected.push_back(n);
+      }
+      std::vector<std::uint32_t> which(notes.size());
+      which.resize(followed.find(notes, which.data()));
+      EXPECT_EQ(which, expected) << disks << " " << stride;
+    }
+}
+
 }  // namespace
 }  // namespace carom::test

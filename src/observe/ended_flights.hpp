@@ -1,0 +1,45 @@
+#pragma once
+// Free flights that collisions have ended, gathered until there are enough of them to be looked at together.
+
+#include "core/instant.hpp"
+
+#include <carom/collision_note.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace carom {
+
+/// Two flights for each collision: those of its disks.
+struct alignas(64) EndedFlights {
+  static constexpr std::size_t most = 128;  ///< collisions
+  static constexpr double unknown = std::numeric_limits<double>::infinity();
+
+  double time[2][most] = {};      ///< that they took; `unknown` where nobody follows the disk or knows when its flight began
+  double velocity[most][4] = {};  ///< of one disk and the other, all the way
+};
+
+/// Bins of two histograms, and sums.
+struct alignas(64) TalliedFlights {
+  std::int32_t time_bin[2][EndedFlights::most], path_bin[2][EndedFlights::most];  ///< beyond the last where there is none
+  double flights, time, path;  ///< of those that are known; the same bits whichever disk comes first
+};
+
+struct FlightBins {
+  double times_per_unit, paths_per_unit;
+  double count;  ///< of each
+};
+
+/// All give the same bits.
+struct EndedFlightsKernel {
+  /// Puts collisions in which both disks are followed into rows from `row` on; `last` is by place. Requires that there is room.
+  void (*gather)(const Instant& epoch, const CollisionNote* notes, std::size_t count, double* last, EndedFlights& ended,
+                 std::size_t row);
+  /// Of four times so many collisions.
+  void (*tally)(const EndedFlights& ended, std::size_t fours, const FlightBins& bins, TalliedFlights& found);
+};
+
+[[nodiscard]] const EndedFlightsKernel& ended_flights_kernel();
+
+}  // namespace carom

@@ -1,0 +1,2 @@
+#define CAROM_INSTRUCTIONS avx2
+#include "observe/ended_flights_kernel.hpp"

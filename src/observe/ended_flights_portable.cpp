@@ -1,0 +1,2 @@
+#define CAROM_INSTRUCTIONS portable
+#include "observe/ended_flights_kernel.hpp"
