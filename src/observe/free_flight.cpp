@@ -76,7 +76,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
         skip_(static_cast<std::uint32_t>(std::bit_ceil((run.disks.count() + most_disks - 1) / most_disks)) - 1),
         why_no_path_(why_no_path(run.scene.effects)) {
     for (std::size_t disk = 0; disk < run.disks.count(); disk += skip_ + 1) ids_.push_back(static_cast<std::int32_t>(disk));
-    last_.assign(ids_.size(), never);
+    last_.assign(ids_.size() + 1, never);
   }
 
   [[nodiscard]] std::string name() const override { return "free_flight"; }
@@ -122,7 +122,8 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(times_, paths_, ids_, last_, ended_.time, ended_.velocity, count_, counted_, samples_, mean_time_, mean_path_);
+    archive(times_, paths_, ids_, last_, ended_.time, ended_.velocity, count_, counted_, samples_, histograms_, mean_time_,
+            mean_path_);
   }
 
  private:
@@ -131,7 +132,8 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   /// No more disks are followed: what all of them tell in a run would slow a large one down.
   static constexpr std::size_t most_disks = 1000;
   /// EndedFlights::most collisions count as one sample of the means; a sample of the histograms has so many times as many.
-  static constexpr std::uint64_t samples_of_histogram = 16;
+  /// Later on four times as many: its errors are known well enough by then, and all its bins have to be gone through.
+  [[nodiscard]] std::uint64_t samples_of_histogram() const { return histograms_ < 64 ? 16 : 64; }
   static constexpr std::size_t piece = 64;  ///< notes
   static constexpr double never = -std::numeric_limits<double>::infinity();
 
@@ -156,8 +158,9 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
     if (skip_ > 0) {
       std::array<std::uint32_t, piece> which;
       for (const std::uint32_t n : std::span(which).first(places_.find(notes, which.data()))) {
-        double nobody[2] = {never, never};
-        end(last_of(notes[n].place, nobody), last_of(notes[n].partner, nobody + 1), epoch.plus(notes[n].time).high);
+        end(last_.data() + places_.row(notes[n].place), last_.data() + places_.row(notes[n].partner),
+            epoch.plus(notes[n].time).high);
+        last_.back() = never;
         keep_velocities(notes[n]);
       }
       return;
@@ -168,9 +171,6 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
       notes = notes.subspan(count);
       if ((count_ += count) == EndedFlights::most) end_sample();
     }
-  }
-  [[nodiscard]] double* last_of(std::int32_t place, double* nobody) {
-    return places_.has(place) ? last_.data() + places_.row(place) : nobody;
   }
   void keep_velocities(const CollisionNote& note) {
     std::memcpy(ended_.velocity[count_], note.before, sizeof note.before);
@@ -183,9 +183,9 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
     noted_ = disks;
     places_ = FollowedDisks(*disks, [this](std::int32_t disk) { return follows(disk); });
     std::vector<double> by_id(last_.size());
-    for (std::size_t row = 0; row < last_.size(); ++row) by_id[row_by_id(ids_[row])] = last_[row];
+    for (std::size_t row = 0; row < ids_.size(); ++row) by_id[row_by_id(ids_[row])] = last_[row];
     ids_ = places_.ids();
-    for (std::size_t row = 0; row < last_.size(); ++row) last_[row] = by_id[row_by_id(ids_[row])];
+    for (std::size_t row = 0; row < ids_.size(); ++row) last_[row] = by_id[row_by_id(ids_[row])];
   }
 
   [[nodiscard]] bool follows(std::int32_t disk) const { return (static_cast<std::uint32_t>(disk) & skip_) == 0; }
@@ -214,13 +214,14 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
     mean_time_.add(found.time, found.flights);
     mean_path_.add(found.path, found.flights);
     counted_ += static_cast<std::uint64_t>(found.flights);
-    if (++samples_ == samples_of_histogram) end_histograms();
+    if (++samples_ >= samples_of_histogram()) end_histograms();
   }
   void end_histograms() {
     const double flights = static_cast<double>(counted_);
     times_.flush(flights);
     paths_.flush(flights);
     counted_ = samples_ = 0;
+    ++histograms_;
   }
   static void put(Measurement& found, const char* name, const char* unit, const Blocking& series, double step) {
     Scalar scalar{.name = name, .unit = unit, .average = Average::collisions};
@@ -233,13 +234,14 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   FlightBins bins_;
   std::uint32_t skip_;             ///< disks whose id has one of these bits are not followed
   std::vector<std::int32_t> ids_;  ///< of those who are followed, by row
-  std::vector<double> last_;       ///< collision of each; `never` before the first
+  std::vector<double> last_;       ///< collision of each, `never` before the first; the last is that of all others
   std::shared_ptr<const NotedDisks> noted_;
   FollowedDisks places_;  ///< in noted_
   std::string why_no_path_;
   EndedFlights ended_;
   std::uint64_t count_ = 0;                  ///< of collisions in it
   std::uint64_t counted_ = 0, samples_ = 0;  ///< flights, and samples, since the last one of the histograms
+  std::uint64_t histograms_ = 0;             ///< that were looked at
   const EndedFlightsKernel& kernel_ = ended_flights_kernel();
   Blocking mean_time_, mean_path_;
 };
