@@ -23,8 +23,6 @@
 namespace carom::CAROM_INSTRUCTIONS {
 namespace {
 
-using TwoDoubles = double __attribute__((vector_size(16)));
-
 CAROM_INLINE Doubles load(const double* from) {
   Doubles x;
   std::memcpy(&x, from, sizeof x);
@@ -51,23 +49,26 @@ CAROM_INLINE Vectors joined(Doubles a, Doubles b) {
 /// a_x b_y + a_y b_x and a_x b_x - a_y b_y
 CAROM_INLINE Vectors traceless(const Vectors& a, const Vectors& b) { return {a.x * b.y + a.y * b.x, a.x * b.x - a.y * b.y}; }
 
-/// Two vectors, each from two numbers that lie side by side.
-CAROM_INLINE Doubles both(const double* one, const double* other) {
-  TwoDoubles a, b;
-  std::memcpy(&a, one, sizeof a);
-  std::memcpy(&b, other, sizeof b);
-  return __builtin_shufflevector(a, b, 0, 1, 2, 3);
-}
-
 static_assert(offsetof(CollisionNote, partner_before) == offsetof(CollisionNote, before) + 2 * sizeof(double) &&
               offsetof(CollisionNote, partner_after) == offsetof(CollisionNote, after) + 2 * sizeof(double));
 
-/// Of four collisions, from the two velocities that begin at each address.
+/// Of two collisions, from the two velocities that begin at each address.
+struct TwoVelocities {
+  Doubles disk, partner;
+
+  CAROM_INLINE TwoVelocities(const double* one, const double* other) {
+    const Doubles a = load(one), b = load(other);
+    disk = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+    partner = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+  }
+};
+
+/// Of four collisions.
 struct Velocities {
   Vectors disk, partner;
 
-  CAROM_INLINE Velocities(const double* n0, const double* n1, const double* n2, const double* n3)
-      : disk(joined(both(n0, n2), both(n1, n3))), partner(joined(both(n0 + 2, n2 + 2), both(n1 + 2, n3 + 2))) {}
+  CAROM_INLINE Velocities(const TwoVelocities& n02, const TwoVelocities& n13)
+      : disk(joined(n02.disk, n13.disk)), partner(joined(n02.partner, n13.partner)) {}
 };
 
 /// Times since the start of the run, as Instant::plus rounds them.
@@ -87,11 +88,11 @@ struct Fluxes {
 
 CAROM_INLINE Fluxes of_smooth(const NotedFluxes& noted, const CollisionNote* four, const CollisionContacts& contacts,
                               std::size_t row) {
-  const auto relative = [](const double* n0, const double* n2) { return both(n0, n2) - both(n0 + 2, n2 + 2); };
-  const auto together = [](const double* n0, const double* n2) { return both(n0, n2) + both(n0 + 2, n2 + 2); };
-  const Vectors before = joined(relative(four[0].before, four[2].before), relative(four[1].before, four[3].before));
-  const Vectors after = joined(relative(four[0].after, four[2].after), relative(four[1].after, four[3].after));
-  const Vectors U = joined(together(four[0].before, four[2].before), together(four[1].before, four[3].before)) -
+  const TwoVelocities before02(four[0].before, four[2].before), before13(four[1].before, four[3].before);
+  const TwoVelocities after02(four[0].after, four[2].after), after13(four[1].after, four[3].after);
+  const Vectors before = joined(before02.disk - before02.partner, before13.disk - before13.partner);
+  const Vectors after = joined(after02.disk - after02.partner, after13.disk - after13.partner);
+  const Vectors U = joined(before02.disk + before02.partner, before13.disk + before13.partner) -
                     Vectors{all(2.0 * noted.common[0]), all(2.0 * noted.common[1])};
   const Vectors S = before + after;
   Fluxes found;
@@ -108,8 +109,8 @@ CAROM_INLINE Fluxes of_smooth(const NotedFluxes& noted, const CollisionNote* fou
 CAROM_INLINE Fluxes of_told(const NotedFluxes& noted, const CollisionNote* four, const CollisionContacts& contacts,
                             std::size_t row) {
   const Vectors common = {all(noted.common[0]), all(noted.common[1])};
-  const Velocities before(four[0].before, four[1].before, four[2].before, four[3].before);
-  const Velocities after(four[0].after, four[1].after, four[2].after, four[3].after);
+  const Velocities before({four[0].before, four[2].before}, {four[1].before, four[3].before});
+  const Velocities after({four[0].after, four[2].after}, {four[1].after, four[3].after});
   const Vectors v = before.disk - common, w = after.disk - common;
   const Vectors partner_v = before.partner - common, partner_w = after.partner - common;
   const Vectors s = v + w, partner_s = partner_v + partner_w;

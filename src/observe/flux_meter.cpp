@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
+#include <numeric>
 
 namespace carom {
 
@@ -36,10 +36,9 @@ void FluxMeter::follow(std::size_t count, TimeOf time_of, Add add) {
   for (std::size_t begin = 0; begin < count;) {
     if (time_of(begin) > until_) reach(time_of(begin));
     std::size_t end = count;
-    if (time_of(count - 1) > until_) {
-      const auto rest = std::views::iota(begin + 1, count);
-      const auto later = std::ranges::partition_point(rest, [&](std::size_t n) { return time_of(n) <= until_; });
-      end = begin + 1 + static_cast<std::size_t>(later - rest.begin());
+    for (std::size_t first = begin + 1; time_of(end - 1) > until_ && first < end;) {
+      const std::size_t middle = std::midpoint(first, end);
+      time_of(middle) > until_ ? end = middle : first = middle + 1;
     }
     add(begin, end);
     begin = end;

@@ -57,7 +57,9 @@ class FollowedDisks {
     });
     return keep(
         found, [which](std::size_t k) { return which[k]; },
-        [&](std::uint32_t n) { return has(notes[n].place) | has(notes[n].partner); });
+        [&](std::uint32_t n) {
+          return static_cast<unsigned>(has(notes[n].place)) | static_cast<unsigned>(has(notes[n].partner));
+        });
   }
 
  private:
