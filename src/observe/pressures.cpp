@@ -14,7 +14,6 @@
 #include "observe/equilibrium.hpp"
 #include "observe/followers.hpp"
 #include "observe/geometry.hpp"
-#include "observe/mechanics.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 
@@ -108,7 +107,6 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
                  .pairs = totals.pair,
                  .walls = totals.wall_impulse};
     for (std::size_t c = 0; c < 4; ++c) now.transfer[c] = transfer_.virial[c].sum();
-    now.kT = kinetic_temperature(run_.scene.box, run_.scene.effects, run_.disks, state);
     now.area = box_of(run_.scene.box, state).area();
     const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);
     for (std::size_t i = 0; i < run_.disks.count(); ++i) {
@@ -118,6 +116,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
       now.flow[3] += run_.disks.mass[i] * u.y() * u.y();
     }
     now.flow[2] = now.flow[1];
+    now.kT = freedom_ > 0.0 ? (now.flow[0] + now.flow[3]) / freedom_ : 0.0;
     // N disks of which N - 1 move freely carry the momentum of N kT all the same: the trace is that of Z.
     const double count = static_cast<double>(run_.disks.count());
     const auto share = [&](int axis) {
