@@ -16,7 +16,15 @@ extern const FluxKernel flux_kernel;
 namespace avx2 = portable;
 #endif
 
-/// Vectors are of four doubles, for which AVX-512 has nothing better to offer.
-const FluxKernel& flux_kernel() { return chosen_kernel(portable::flux_kernel, avx2::flux_kernel, avx2::flux_kernel); }
+#if CAROM_HAS_AVX512
+namespace avx512 {
+extern const FluxKernel flux_kernel;
+}  // namespace avx512
+#else
+namespace avx512 = avx2;
+#endif
+
+/// Vectors are of four doubles on both; AVX-512 has room for all sums in registers.
+const FluxKernel& flux_kernel() { return chosen_kernel(portable::flux_kernel, avx2::flux_kernel, avx512::flux_kernel); }
 
 }  // namespace carom
