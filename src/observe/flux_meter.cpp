@@ -22,10 +22,21 @@ FluxMeter::FluxMeter(const Scene& scene, const Disks& disks)
 
 void FluxMeter::add(FluxFollower& follower) {
   followers_.push_back(&follower);
-  follower.ask(sums_);
+  FluxSums asked;
+  follower.ask(asked);
+  const auto is_free = [&](const Together& some) {
+    return !(some.sums.transfer && asked.transfer) && !(some.sums.momentum && asked.momentum) &&
+           !(some.sums.energy && asked.energy);
+  };
+  auto found = std::ranges::find_if(sums_, is_free);
+  if (found == sums_.end()) found = sums_.insert(found, Together{});
+  FluxSums& sums = found->sums;
+  if (asked.transfer != nullptr) sums.transfer = asked.transfer;
+  if (asked.momentum != nullptr) sums.momentum = asked.momentum;
+  if (asked.energy != nullptr) sums.energy = asked.energy;
   const std::size_t which =
-      (sums_.transfer != nullptr ? 1U : 0U) + (sums_.momentum != nullptr ? 2U : 0U) + (sums_.energy != nullptr ? 4U : 0U);
-  kernel_ = (smooth_ ? flux_kernel().of_smooth : flux_kernel().of_told)[which];
+      (sums.transfer != nullptr ? 1U : 0U) + (sums.momentum != nullptr ? 2U : 0U) + (sums.energy != nullptr ? 4U : 0U);
+  found->kernel = (smooth_ ? flux_kernel().of_smooth : flux_kernel().of_told)[which];
 }
 
 void FluxMeter::start(const Eigen::Vector2d& common) { Eigen::Vector2d::Map(noted_.common) = common; }
@@ -107,13 +118,14 @@ void FluxMeter::follow(std::span<const PairCollision> collisions) {
 void FluxMeter::meet(std::size_t row, std::size_t disk, std::size_t partner) {
   contacts_.mu[row] = reduced_mass(disks_.mass[disk], disks_.mass[partner]);
   contacts_.sigma[row] = disks_.radius[disk] + disks_.radius[partner];
-  if (sums_.transfer != nullptr) sums_.transfer->meetings += contacts_.sigma[row] * std::sqrt(contacts_.mu[row]);
+  for (const Together& some : sums_)
+    if (some.sums.transfer != nullptr) some.sums.transfer->meetings += contacts_.sigma[row] * std::sqrt(contacts_.mu[row]);
 }
 
 void FluxMeter::add(std::span<const CollisionNote> notes) {
   noted_.notes = notes.data();
   noted_.count = notes.size();
-  kernel_(noted_, contacts_, sums_);
+  for (const Together& some : sums_) some.kernel(noted_, contacts_, some.sums);
   noted_.lane = (noted_.lane + notes.size()) % 4;
 }
 

@@ -36,6 +36,11 @@ class FluxMeter {
   }
 
  private:
+  struct Together {  ///< sums of different kinds, for as many followers as it takes
+    FluxSums sums;
+    FluxKernel::Function* kernel = nullptr;
+  };
+
   template <class TimeOf, class Add>
   void follow(std::size_t count, TimeOf time_of, Add add);
   void reach(double time);
@@ -47,8 +52,7 @@ class FluxMeter {
   bool equal_;   ///< all disks are
   std::vector<FluxFollower*> followers_;
   double until_ = -std::numeric_limits<double>::infinity();  ///< that of all followers
-  FluxSums sums_;
-  FluxKernel::Function* kernel_ = nullptr;
+  std::vector<Together> sums_;
   CollisionContacts contacts_{};
   NotedFluxes noted_{};
 };
