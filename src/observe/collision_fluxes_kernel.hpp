@@ -18,7 +18,6 @@
 
 #include <cstddef>
 #include <cstring>
-#include <limits>
 
 namespace carom::CAROM_INSTRUCTIONS {
 namespace {
@@ -97,7 +96,7 @@ CAROM_INLINE Fluxes of_smooth(const NotedFluxes& noted, const CollisionNote* fou
   const Vectors S = before + after;
   Fluxes found;
   found.J = load(contacts.mu + row) * (after - before);
-  const Doubles square = dot(found.J, found.J), least = all(std::numeric_limits<double>::min());
+  const Doubles square = dot(found.J, found.J), least = all(0x1p-1074);
   found.r = (load(contacts.sigma + row) / square_root(square > least ? square : least)) * found.J;  // 0 where nothing happened
   found.momentum = traceless(found.J, S);
   const Doubles given = dot(U, found.J);

@@ -21,6 +21,13 @@ CAROM_INLINE double sum(Doubles x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
 static_assert(offsetof(CollisionNote, partner_before) == offsetof(CollisionNote, before) + 2 * sizeof(double));
 
+/// As Instant::plus rounds it. (That itself would be compiled here for machines that others have not got.)
+template <class Number>
+CAROM_INLINE Number plus(Number high, Number low, Number time) {
+  const Number sum = high + time, part = sum - high;
+  return sum + (((high - (sum - part)) + (time - part)) + low);
+}
+
 CAROM_INLINE void gather(double time, const CollisionNote& note, double* last, EndedFlights& ended, std::size_t row) {
   ended.time[0][row] = time - last[note.place];
   ended.time[1][row] = time - last[note.partner];
@@ -32,13 +39,12 @@ CAROM_INLINE void gather(double time, const CollisionNote& note, double* last, E
 void gather(const Instant& epoch, const CollisionNote* notes, std::size_t count, double* last, EndedFlights& ended,
             std::size_t row) {
   std::size_t n = 0;
-  for (; n + 4 <= count; n += 4) {  // times as Instant::plus rounds them
-    const Doubles high = all(epoch.high), time = {notes[n].time, notes[n + 1].time, notes[n + 2].time, notes[n + 3].time};
-    const Doubles sum = high + time, part = sum - high;
-    const Doubles times = sum + (((high - (sum - part)) + (time - part)) + all(epoch.low));
+  for (; n + 4 <= count; n += 4) {
+    const Doubles times =
+        plus(all(epoch.high), all(epoch.low), Doubles{notes[n].time, notes[n + 1].time, notes[n + 2].time, notes[n + 3].time});
     for (std::size_t k = 0; k < 4; ++k) gather(times[k], notes[n + k], last, ended, row + n + k);
   }
-  for (; n < count; ++n) gather(epoch.plus(notes[n].time).high, notes[n], last, ended, row + n);
+  for (; n < count; ++n) gather(plus(epoch.high, epoch.low, notes[n].time), notes[n], last, ended, row + n);
 }
 
 /// Anything: what is no number, infinite or beyond the range is in the bin behind the last.
