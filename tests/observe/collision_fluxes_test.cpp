@@ -181,14 +181,40 @@ TEST(CollisionFluxes, AreWhatTheVelocitiesSay) {
 }
 
 TEST(CollisionFluxes, ThatAreToldAreWhatTheVelocitiesSay) {
-  const Told told(two_radii());
-  const Scene scene = reversed(told.scene);
-  Asking asking;
-  FluxMeter meter(scene, told.disks);
+  Scene inelastic = two_radii();
+  inelastic.effects.collision.restitution = 0.9;
+  for (const Scene& of : {two_radii(), inelastic}) {
+    const Told told(of);
+    const Scene scene = reversed(told.scene);
+    Asking asking;
+    FluxMeter meter(scene, told.disks);
+    meter.start(told.common());
+    meter.add(asking);
+    meter.follow(told.collisions);
+    expect_what_velocities_say(told, asking);
+  }
+}
+
+TEST(CollisionFluxes, AreAddedUpForAllWhoAskForTheSame) {
+  const Told told;
+  Asking all, momentum(2), others(5);
+  FluxMeter meter(told.scene, told.disks);
   meter.start(told.common());
-  meter.add(asking);
-  meter.follow(told.collisions);
-  expect_what_velocities_say(told, asking);
+  for (Asking* asking : {&all, &momentum, &others}) meter.add(*asking);
+  meter.follow(told.heard);
+  const std::vector<double> alone = told.of_notes(61);
+  for (Asking* asking : {&all, &momentum, &others}) asking->look();
+  EXPECT_EQ(all.seen, alone);
+  for (std::size_t k = 0; k < alone.size(); ++k) EXPECT_EQ(k >= 5 && k < 9 ? momentum.seen[k] : others.seen[k], alone[k]) << k;
+}
+
+TEST(CollisionFluxes, OfImpulsesWhoseSquaresHaveLostDigitsAreThoseOfAllOthers) {
+  Told told(gas_scene(60, 0.5, Boundary::periodic));
+  const std::vector<double> usual = told.of_notes(61);
+  const double unit = 0x1p-518;  // squares of 2^-1036 have some 38 digits
+  for (double& mass : told.disks.mass) mass *= unit;
+  const std::vector<double> light = told.of_notes(61);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(light[k] / unit, usual[k], 61.0 * 10.0 * 0x1p-30) << k;
 }
 
 TEST(CollisionFluxes, AreTheSameBitsHoweverTheyAreHandedOver) {
