@@ -11,26 +11,46 @@ std::uint64_t first_block(std::size_t row, std::size_t level) { return (row + (s
 
 }  // namespace
 
-void BlockedRows::add(std::span<const double> samples) {
-  if (first_.size() < samples.size()) first_.push_back(samples.back());
-  now_.resize(rows_);
-  kernel_->since(samples.data(), first_.data(), samples.size(), now_.data());
-  std::size_t begun = samples.size();  // rows that have the whole of this block
-  for (std::size_t level = 0;; ++level) {
+void BlockedRows::add(std::span<double> samples) {
+  std::size_t lines = samples.size() / rows_;
+  const std::uint64_t before = steps();
+  for (std::uint64_t row = before; row < std::min<std::uint64_t>(rows_, before + lines); ++row)
+    first_[row] = samples[(row - before) * rows_ + row];
+  double* x = samples.data();
+  kernel_->since(x, first_.data(), rows_, lines);
+  for (std::size_t level = 0; lines > 0; ++level) {
     if (level == levels_.size())
       levels_.push_back({0, std::vector<double>(rows_), std::vector<double>(rows_), std::vector<double>(rows_)});
-    Level& here = levels_[level];
-    const std::uint64_t block = here.blocks++;
-    const bool second = block % 2 == 1;
-    kernel_->block(second, begun, now_.data(), here.sum.data(), here.square.data(), here.waiting.data());
-    if (!second) return;
-    // Those who had the block before too, which began at step (block - 1) 2^level.
-    begun = static_cast<std::size_t>(std::min<std::uint64_t>(begun, ((block - 1) << level) + 1));
+    lines = add(level, x, lines);
   }
 }
 
+/// Joins two and two blocks to their means, at the front of all; returns how many there are.
+std::size_t BlockedRows::add(std::size_t level, double* x, std::size_t lines) {
+  Level& here = levels_[level];
+  BlockSums sums{here.sum.data(), here.square.data(), here.waiting.data(), rows_, rows_};
+  double* means = x;
+  const auto look_at = [&](std::size_t count) {
+    const std::uint64_t second = here.blocks % 2;
+    kernel_->blocks(x, sums, second == 1, count, means);
+    x += count * rows_;
+    means += (count + second) / 2 * rows_;
+    here.blocks += count;
+  };
+  const double* end = x + lines * rows_;
+  const std::size_t joined = (lines + here.blocks % 2) / 2;
+  // At first not all rows have the whole of a block.
+  for (const std::uint64_t whole = first_block(rows_ - 1, level); here.blocks < whole && x < end;) {
+    sums.rows = static_cast<std::size_t>(here.blocks << level) + 1;
+    look_at(1);
+  }
+  sums.rows = rows_;
+  look_at(static_cast<std::size_t>(end - x) / rows_);
+  return joined;
+}
+
 std::optional<Blocking::Estimate> BlockedRows::estimate(std::size_t row) const {
-  if (row >= first_.size()) return std::nullopt;
+  if (row >= steps()) return std::nullopt;
   std::vector<Blocking::Level> levels;
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     const std::uint64_t before = first_block(row, level);

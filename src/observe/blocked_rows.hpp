@@ -1,7 +1,7 @@
 #pragma once
 // Blocking for rows that get a sample each at every step, as the lags of a correlation do: the same levels and estimates as a
-// Blocking per row gives, at a fifth of the price. Sums of x and x^2 take the place of running means (no division), and all rows
-// go from level to level together. x is taken from the first sample of its row on, which keeps the digits of the variance.
+// Blocking per row gives, at a small part of the price. Sums of x and x^2 take the place of running means (no division), and all
+// rows go from level to level together. x is taken from the first sample of its row on, which keeps the digits of the variance.
 
 #include "observe/lag_rows.hpp"
 
@@ -18,11 +18,12 @@ namespace carom {
 class BlockedRows {
  public:
   BlockedRows() = default;
-  explicit BlockedRows(std::size_t rows) : rows_(rows) {}
+  explicit BlockedRows(std::size_t rows) : rows_(rows), first_(rows) {}
 
-  /// The next step's samples. Row k begins at step k: requires min(rows, step + 1) numbers, step = 0, 1, 2, ...
-  /// Blocks are the same steps for all rows, so that a row may leave its first sample out of the longer ones.
-  void add(std::span<const double> samples);
+  /// The samples of the next steps, one line of all rows after the other; they are overwritten. Row k begins at step k = 0, 1, 2,
+  /// ...: what is there before means nothing. Blocks are the same steps for all rows, so that a row may leave its first sample
+  /// out of the longer ones. How many steps come together changes no bit.
+  void add(std::span<double> samples);
   /// Nothing before the row has begun.
   [[nodiscard]] std::optional<Blocking::Estimate> estimate(std::size_t row) const;
 
@@ -43,9 +44,11 @@ class BlockedRows {
     }
   };
 
+  [[nodiscard]] std::uint64_t steps() const { return levels_.empty() ? 0 : levels_.front().blocks; }
+  std::size_t add(std::size_t level, double* x, std::size_t lines);
+
   std::size_t rows_ = 0;
   std::vector<double> first_;  ///< sample of every row
-  std::vector<double> now_;    ///< scratch
   const LagRowsKernel* kernel_ = &lag_rows_kernel();
   std::vector<Level> levels_;
 };

@@ -1,17 +1,25 @@
 #pragma once
-// What correlations do to all their lags at every step, in rows that lie side by side: four at a time.
+// What correlations do to all their lags, in rows that lie side by side: four at a time, for many steps in a row.
+//
+// A matrix has a line for each step, as long as there are rows.
 
 #include <cstddef>
 
 namespace carom {
 
+struct BlockSums {
+  double *sum, *square, *waiting;
+  std::size_t rows;    ///< the first of each line
+  std::size_t length;  ///< of a line
+};
+
 /// All give the same bits.
 struct LagRowsKernel {
-  /// now = samples - first
-  void (*since)(const double* samples, const double* first, std::size_t rows, double* now);
-  /// Adds `now` and its square to the sums. The first of two blocks is left in `waiting`; the second is joined with it: now
-  /// becomes the mean of both.
-  void (*block)(bool second, std::size_t rows, double* now, double* sum, double* square, double* waiting);
+  /// Takes `first` from all lines.
+  void (*since)(double* samples, const double* first, std::size_t rows, std::size_t lines);
+  /// Adds lines of `samples` and their squares to the sums. Each two are joined to their mean, a line of `means`, which may be
+  /// where `samples` are; one that is left waits for the next. `second`: the first has one that waits.
+  void (*blocks)(const double* samples, const BlockSums& sums, bool second, std::size_t lines, double* means);
   /// Mean of a.x b.x and a.y b.y over earlier values b.
   void (*products)(const double* a, const double* x, const double* y, std::size_t rows, double* found);
   /// The same of (a.x - b.x)^2 and (a.y - b.y)^2.

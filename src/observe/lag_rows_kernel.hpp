@@ -27,18 +27,40 @@ CAROM_INLINE void for_rows(std::size_t rows, Of of) {
   for (; row < rows; ++row) of(row, double{});
 }
 
-void since(const double* samples, const double* first, std::size_t rows, double* now) {
-  for_rows(rows, [=]<class Number>(std::size_t row, Number) {
-    store(load<Number>(samples + row) - load<Number>(first + row), now + row);
-  });
+void since(double* samples, const double* first, std::size_t rows, std::size_t lines) {
+  for (; lines > 0; --lines, samples += rows)
+    for_rows(rows, [=]<class Number>(std::size_t row, Number) {
+      store(load<Number>(samples + row) - load<Number>(first + row), samples + row);
+    });
 }
 
-void block(bool second, std::size_t rows, double* now, double* sum, double* square, double* waiting) {
-  for_rows(rows, [=]<class Number>(std::size_t row, Number) {
-    const Number x = load<Number>(now + row);
-    store(load<Number>(sum + row) + x, sum + row);
-    store(load<Number>(square + row) + x * x, square + row);
-    second ? store(0.5 * (load<Number>(waiting + row) + x), now + row) : store(x, waiting + row);
+void blocks(const double* samples, const BlockSums& sums, bool second, std::size_t lines, double* means) {
+  for_rows(sums.rows, [=]<class Number>(std::size_t row, Number) {
+    Number sum = load<Number>(sums.sum + row), square = load<Number>(sums.square + row);
+    Number waiting = load<Number>(sums.waiting + row);
+    const double* from = samples + row;
+    double* to = means + row;
+    const auto next = [&] {
+      const Number x = load<Number>(from);
+      from += sums.length;
+      sum += x;
+      square += x * x;
+      return x;
+    };
+    const auto join = [&](Number a, Number b) {
+      store(0.5 * (a + b), to);
+      to += sums.length;
+    };
+    std::size_t line = 0;
+    if (second && lines > 0) join(waiting, next()), ++line;
+    for (; line + 2 <= lines; line += 2) {
+      const Number one = next();
+      join(one, next());
+    }
+    if (line < lines) waiting = next();
+    store(sum, sums.sum + row);
+    store(square, sums.square + row);
+    store(waiting, sums.waiting + row);
   });
 }
 
@@ -57,6 +79,6 @@ void squares(const double* a, const double* x, const double* y, std::size_t rows
 
 }  // namespace
 
-extern const LagRowsKernel lag_rows_kernel = {&since, &block, &products, &squares};
+extern const LagRowsKernel lag_rows_kernel = {&since, &blocks, &products, &squares};
 
 }  // namespace carom::CAROM_INSTRUCTIONS

@@ -41,11 +41,11 @@ class MultipleTau {
     std::optional<Blocking::Estimate> integral;
   };
   /// In order of the lag, as far as there are pairs. Squared differences begin with lag 1.
-  [[nodiscard]] std::vector<Row> rows() const;
+  [[nodiscard]] std::vector<Row> rows();
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(channels_, kind_, lags_, most_levels_, levels_);
+    archive(channels_, kind_, lags_, most_levels_, levels_, new_);
   }
 
  private:
@@ -61,17 +61,21 @@ class MultipleTau {
       archive(ring, waiting, has_waiting, count, pairs, integrals);
     }
   };
-  void add(std::size_t level, std::span<const double> value);
-  void find_pairs(Level& level, std::span<const double> value);
-  void find_pairs_of_two(Level& level, std::span<const double> value);
+  /// Values of few channels come so many together: what has not been looked at for long is far away.
+  [[nodiscard]] std::size_t together() const { return channels_ == 2 ? 32 : 1; }
+  void look_at_new();
+  std::size_t add(std::size_t level, std::size_t count);
+  std::size_t join(Level& level, std::size_t count);
+  void find_pairs(Level& level, const double* value, double* found);
+  void find_pairs_of_two(Level& level, const double* value, double* found);
 
   std::size_t channels_ = 0;
   Pairs kind_ = Pairs::products;
   std::size_t lags_ = 0;
   std::size_t most_levels_ = 0;
   std::vector<Level> levels_;
-  std::vector<double> found_;  ///< by lag, with the latest value
-  std::vector<double> mean_;   ///< scratch
+  std::vector<double> new_;                ///< values nobody has looked at yet
+  std::vector<double> found_, integrals_;  ///< by lag, a line for each value; scratch
   const LagRowsKernel* kernel_ = &lag_rows_kernel();
 };
 

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -14,14 +16,30 @@ namespace {
 
 using Samples = std::vector<std::vector<double>>;  ///< [step][row]; row k begins at step k
 
+/// In a row that has not begun.
+constexpr double nothing = 1e300;
+
 Samples samples_of(std::size_t steps, std::size_t rows, double mean) {
   std::mt19937_64 engine(3);
   Samples samples(steps);
   double memory = 0.0;
   for (std::size_t step = 0; step < steps; ++step)
-    for (std::size_t k = 0; k < std::min(rows, step + 1); ++k)
-      samples[step].push_back(mean + (memory = 0.9 * memory + static_cast<double>(engine() >> 11U) * 0x1p-53 - 0.5));
+    for (std::size_t k = 0; k < rows; ++k)
+      samples[step].push_back(k > step ? nothing
+                                       : mean + (memory = 0.9 * memory + static_cast<double>(engine() >> 11U) * 0x1p-53 - 0.5));
   return samples;
+}
+
+/// So many steps at a time.
+BlockedRows blocked_rows(const Samples& samples, std::size_t together) {
+  BlockedRows blocked(samples.front().size());
+  for (std::size_t begin = 0; begin < samples.size(); begin += together) {
+    std::vector<double> some;
+    for (std::size_t step = begin; step < std::min(begin + together, samples.size()); ++step)
+      some.insert(some.end(), samples[step].begin(), samples[step].end());
+    blocked.add(some);
+  }
+  return blocked;
 }
 
 /// Blocks of 2^level steps that row k has the whole of, their mean and scatter in two passes.
@@ -50,8 +68,7 @@ TEST(BlockedRows, AreTheBlocksOfAllStoredSamples) {
   for (const double mean : {0.0, 1e3}) {
     for (const std::size_t steps : {1U, 5U, 40U, 1000U, 1024U}) {
       const Samples samples = samples_of(steps, rows, mean);
-      BlockedRows blocked(rows);
-      for (const auto& now : samples) blocked.add(now);
+      const BlockedRows blocked = blocked_rows(samples, 1);
       for (std::size_t k = 0; k < rows; ++k) {
         const auto found = blocked.estimate(k);
         const auto expected = Blocking::estimate(levels_of(samples, k));
@@ -70,23 +87,36 @@ TEST(BlockedRows, AreTheBlocksOfAllStoredSamples) {
   }
 }
 
+TEST(BlockedRows, DoNotDependOnHowManyStepsComeTogether) {
+  for (const std::size_t rows : {1U, 4U, 7U, 16U}) {
+    const Samples samples = samples_of(333, rows, 0.3);
+    const BlockedRows one_by_one = blocked_rows(samples, 1);
+    for (const std::size_t together : {2U, 5U, 32U, 333U}) {
+      const BlockedRows blocked = blocked_rows(samples, together);
+      for (std::size_t k = 0; k < rows; ++k) {
+        const auto found = blocked.estimate(k), expected = one_by_one.estimate(k);
+        EXPECT_EQ(found->mean, expected->mean) << together << " of " << rows << " rows, row " << k;
+        EXPECT_EQ(found->error, expected->error) << together << " of " << rows << " rows, row " << k;
+        EXPECT_EQ(found->inefficiency, expected->inefficiency);
+      }
+    }
+  }
+}
+
 TEST(BlockedRows, TheFirstRowIsABlockingOfItsOwn) {
   const Samples samples = samples_of(777, 3, 0.3);
-  BlockedRows blocked(3);
+  const BlockedRows blocked = blocked_rows(samples, 10);
   Blocking alone;
-  for (const auto& now : samples) {
-    blocked.add(now);
-    alone.add(now[0]);
-  }
+  for (const auto& now : samples) alone.add(now[0]);
   const auto found = blocked.estimate(0), expected = alone.estimate();
   EXPECT_NEAR(found->mean, expected->mean, 1e-14);
   EXPECT_NEAR(*found->error / *expected->error, 1.0, 1e-9);
 }
 
 TEST(BlockedRows, WhatNeverChangesHasNoScatter) {
-  BlockedRows blocked(2);
-  blocked.add(std::vector{0.1});
-  for (int step = 1; step < 500; ++step) blocked.add(std::vector{0.1, 0.7});
+  Samples samples(500, {0.1, 0.7});
+  samples[0][1] = nothing;
+  const BlockedRows blocked = blocked_rows(samples, 3);
   for (const auto& [row, value] : {std::pair{0U, 0.1}, std::pair{1U, 0.7}}) {
     EXPECT_EQ(blocked.estimate(row)->mean, value);
     EXPECT_EQ(*blocked.estimate(row)->error, 0.0);

@@ -118,6 +118,25 @@ TEST(MultipleTau, GivesTheSameBitsWithEveryInstructionSet) {
     }
 }
 
+TEST(MultipleTau, MayBeReadAtAnyTime) {
+  for (const auto pairs : {MultipleTau::Pairs::products, MultipleTau::Pairs::squared_differences}) {
+    const Series series = random_series(500, 2);
+    const auto expected = filled(series, pairs, 16).rows();
+    MultipleTau correlator(2, pairs);
+    for (std::size_t t = 0; t < series.size(); ++t) {
+      correlator.add(series[t]);
+      if (t % 7 == 0 || t < 40) static_cast<void>(correlator.rows());
+    }
+    const auto found = correlator.rows();
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t r = 0; r < found.size(); ++r) {
+      EXPECT_EQ(found[r].pairs.mean, expected[r].pairs.mean) << "lag " << found[r].lag;
+      EXPECT_EQ(found[r].pairs.error, expected[r].pairs.error) << "lag " << found[r].lag;
+      if (expected[r].integral) EXPECT_EQ(found[r].integral->mean, expected[r].integral->mean) << "lag " << found[r].lag;
+    }
+  }
+}
+
 TEST(MultipleTau, LagsRiseAndReachAcrossTheWholeSeries) {
   for (const auto pairs : {MultipleTau::Pairs::products, MultipleTau::Pairs::squared_differences}) {
     const auto rows = filled(random_series(1000, 1), pairs, 8).rows();
