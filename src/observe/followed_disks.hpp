@@ -18,10 +18,10 @@ class FollowedDisks {
   template <class Follows>
   FollowedDisks(const NotedDisks& disks, Follows follows) : rows_(disks.ids.size()) {
     while ((disks.ids.size() >> shift_) >= most_near) ++shift_;
-    near_.resize((disks.ids.size() >> shift_) + 1);
+    near_.resize((disks.ids.size() >> shift_) / 64 + 1);
     for (std::size_t place = 0; place < disks.ids.size(); ++place)
       if (follows(disks.ids[place])) {
-        near_[place >> shift_] = 1;
+        near_[(place >> shift_) / 64] |= std::uint64_t{1} << ((place >> shift_) % 64);
         ids_.push_back(disks.ids[place]);
       }
     std::size_t row = 0;
@@ -38,7 +38,7 @@ class FollowedDisks {
   /// Finds the notes of collisions in which one disk at least is followed: their numbers in `which`, which has room for all.
   /// Returns how many. Without branches, which would be guessed wrong.
   std::size_t find(std::span<const CollisionNote> notes, std::uint32_t* which) const {
-    const std::uint8_t* near = near_.data();
+    const auto near = [of = near_.data()](std::uint32_t p) { return (of[p / 64] >> (p % 64)) & 1U; };
     const auto place = [notes](std::uint32_t n) { return static_cast<std::uint32_t>(notes[n].place); };
     const auto partner = [notes](std::uint32_t n) { return static_cast<std::uint32_t>(notes[n].partner); };
     const auto keep = [which](std::size_t count, auto number_of, auto is_kept) {
@@ -51,9 +51,9 @@ class FollowedDisks {
       return kept;
     };
     const auto itself = [](std::size_t k) { return static_cast<std::uint32_t>(k); };
-    if (shift_ == 0) return keep(notes.size(), itself, [=](std::uint32_t n) { return near[place(n)] | near[partner(n)]; });
+    if (shift_ == 0) return keep(notes.size(), itself, [=](std::uint32_t n) { return near(place(n)) | near(partner(n)); });
     const std::size_t found = keep(notes.size(), itself, [=, shift = shift_](std::uint32_t n) {
-      return near[place(n) >> shift] | near[partner(n) >> shift];
+      return near(place(n) >> shift) | near(partner(n) >> shift);
     });
     return keep(
         found, [which](std::size_t k) { return which[k]; },
@@ -63,10 +63,10 @@ class FollowedDisks {
   }
 
  private:
-  static constexpr std::size_t most_near = 16'384;
+  static constexpr std::size_t most_near = 131'072;
 
   unsigned shift_ = 0;
-  std::vector<std::uint8_t> near_;   ///< of 2^shift_ places each: 1 where there is one of the disks, else 0
+  std::vector<std::uint64_t> near_;  ///< of 2^shift_ places each: 1 where there is one of the disks, else 0
   std::vector<std::uint32_t> rows_;  ///< by place
   std::vector<std::int32_t> ids_;
 };

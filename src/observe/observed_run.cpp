@@ -80,14 +80,18 @@ bool is_driven(const Effects& effects) {
 
 Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state) {
   if (run.sheared()) return velocities_in_flow(run.scene.effects.shear->rate, run.disks, state);
-  Eigen::Matrix2Xd velocities = state.velocities;
+  return state.velocities.colwise() - kept_velocity(run, state);
+}
+
+Eigen::Vector2d kept_velocity(const ObservedRun& run, const State& state) {
   double mass = 0.0;
   for (const double m : run.disks.mass) mass += m;
-  if (!(mass > 0.0)) return velocities;
-  const Eigen::Vector2d common = total_momentum(run.disks, state) / mass;
+  Eigen::Vector2d common(0.0, 0.0);
+  if (!(mass > 0.0)) return common;
+  common = total_momentum(run.disks, state) / mass;
   for (int axis = 0; axis < 2; ++axis)
-    if (run.keeps_momentum(axis)) velocities.row(axis).array() -= common[axis];
-  return velocities;
+    if (!run.keeps_momentum(axis)) common[axis] = 0.0;
+  return common;
 }
 
 Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state) {

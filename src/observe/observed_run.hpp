@@ -36,6 +36,8 @@ struct ObservedRun {
 
 /// Velocities as heat: without the flow of a sheared box, and without the common motion where momentum is kept.
 [[nodiscard]] Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state);
+/// The common motion that they are without in a box at rest.
+[[nodiscard]] Eigen::Vector2d kept_velocity(const ObservedRun& run, const State& state);
 
 /// Velocity of all disks together; zero where it is no more than what rounding leaves.
 [[nodiscard]] Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state);

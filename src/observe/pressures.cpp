@@ -108,9 +108,11 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
                  .walls = totals.wall_impulse};
     for (std::size_t c = 0; c < 4; ++c) now.transfer[c] = transfer_.virial[c].sum();
     now.area = box_of(run_.scene.box, state).area();
-    const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);
+    const bool in_flow = run_.sheared();
+    const Eigen::Matrix2Xd v = in_flow ? peculiar_velocities(run_, state) : Eigen::Matrix2Xd();
+    const Eigen::Vector2d common = in_flow ? Eigen::Vector2d(0.0, 0.0) : kept_velocity(run_, state);
     for (std::size_t i = 0; i < run_.disks.count(); ++i) {
-      const auto u = v.col(static_cast<Eigen::Index>(i));
+      const Eigen::Vector2d u = (in_flow ? v : state.velocities).col(static_cast<Eigen::Index>(i)) - common;
       now.flow[0] += run_.disks.mass[i] * u.x() * u.x();
       now.flow[1] += run_.disks.mass[i] * u.x() * u.y();
       now.flow[3] += run_.disks.mass[i] * u.y() * u.y();
