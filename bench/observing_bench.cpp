@@ -22,8 +22,8 @@ namespace {
 
 using namespace carom;
 
-constexpr std::uint64_t collisions = 1'000'000;
-constexpr int turns = 15;
+constexpr std::uint64_t collisions = 2'000'000;
+constexpr int turns = 11;
 
 Scene scene_with(const std::vector<std::string>& observables, double packing_fraction, std::int64_t disks) {
   Scene scene = test::gas_scene(disks, packing_fraction, Boundary::periodic);
