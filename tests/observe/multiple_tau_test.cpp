@@ -132,7 +132,8 @@ TEST(MultipleTau, MayBeReadAtAnyTime) {
     for (std::size_t r = 0; r < found.size(); ++r) {
       EXPECT_EQ(found[r].pairs.mean, expected[r].pairs.mean) << "lag " << found[r].lag;
       EXPECT_EQ(found[r].pairs.error, expected[r].pairs.error) << "lag " << found[r].lag;
-      if (expected[r].integral) EXPECT_EQ(found[r].integral->mean, expected[r].integral->mean) << "lag " << found[r].lag;
+      if (!expected[r].integral) continue;
+      EXPECT_EQ(found[r].integral->mean, expected[r].integral->mean) << "lag " << found[r].lag;
     }
   }
 }
