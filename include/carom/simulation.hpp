@@ -184,6 +184,9 @@ struct RunHooks {
   /// to follow events. The simulation may be in the middle of an event, and is not to be asked anything. Requires
   /// Simulation::tells_collisions().
   std::function<void(const CollisionNotes& notes)> collisions;
+  /// Where `collisions` wants the next of them to be written, all of which it gets in the next call: to keep them without a copy.
+  /// Not there, or empty: in memory that is used again.
+  std::function<std::span<CollisionNote>()> room_for_collisions;
   std::function<void(const Progress& progress)> block;    ///< after about every collision per disk, at collisions
   std::vector<SamplingGrid> grids;                        ///< of equal steps the first comes first
   std::function<bool(const Progress& progress)> proceed;  ///< several times a second; false stops the run

@@ -18,4 +18,15 @@ inline void fetch_early(const void* address) {
   asm volatile("");
 }
 
+/// The same for what will be written and another processor has read: a store would wait until that one has given the line up, and
+/// all stores behind it. Processors that do not know how leave it.
+inline void fetch_to_write(const void* address) {
+#if defined(__x86_64__)
+  asm volatile("prefetchw %0" : : "m"(*static_cast<const char*>(address)));
+#else
+  __builtin_prefetch(address, 1);
+  asm volatile("");
+#endif
+}
+
 }  // namespace carom

@@ -483,11 +483,16 @@ class Engine {
   /// Writes a collision down for those who want to know: no more than its numbers as they are, for here every instruction counts.
   void note(std::int32_t i, std::int32_t j, const Vec2<double>& before_a, const Vec2<double>& before_b, const Vec2<double>& va,
             const Vec2<double>& vb) {
-    if (noted_ == notes_.size()) [[unlikely]]
-      hand_over_notes();
-    notes_[noted_++] = {now_, i, j, {before_a[0], before_a[1]}, {before_b[0], before_b[1]}, {va[0], va[1]}, {vb[0], vb[1]}};
+    if (noted_ == room_.size()) [[unlikely]]
+      find_room_for_notes();
+    CollisionNote& next = room_[noted_++];
+    // Some microseconds ahead, whole lines: another processor may have read what was there before.
+    fetch_to_write(&next + 16);
+    fetch_to_write(&(&next + 16)->partner_after);
+    next = {now_, i, j, {before_a[0], before_a[1]}, {before_b[0], before_b[1]}, {va[0], va[1]}, {vb[0], vb[1]}};
   }
-  [[gnu::noinline]] void read_notes(std::size_t count);
+  [[gnu::noinline]] void find_room_for_notes();
+  [[gnu::noinline]] void read_notes(std::span<const CollisionNote> notes);
   [[gnu::noinline]] void log_hit(std::int32_t i, std::int32_t what, const Vec2<double>& v);
   [[gnu::noinline]] void look_ahead(std::int64_t span) const;
   /// Fetches what the next event will need first.
@@ -576,7 +581,8 @@ class Engine {
   NoteListener listener_;   ///< to collisions
   bool noting_ = false;     ///< collisions, for one of the two
   std::array<CollisionNote, 64> notes_;
-  std::size_t noted_ = 0;
+  std::span<CollisionNote> room_;  ///< for notes: those, or what the listener gave
+  std::size_t noted_ = 0;          ///< in it
   std::vector<carom::Event> log_;
 
  public:
@@ -627,7 +633,7 @@ class Engine {
   void record_events(bool on) {
     hand_over_notes();
     recording_ = on;
-    noting_ = recording_ || listener_;
+    noting_ = recording_ || static_cast<bool>(listener_);
   }
   [[nodiscard]] std::vector<carom::Event> take_events() {
     hand_over_notes();
@@ -646,10 +652,11 @@ class Engine {
     listener_ = {};
     hand_over_notes();
     listener_ = std::move(listener);
-    noting_ = recording_ || listener_;
+    noting_ = recording_ || static_cast<bool>(listener_);
   }
   void hand_over_notes() {
-    if (noted_ > 0) read_notes(std::exchange(noted_, 0));
+    if (noted_ > 0) read_notes(room_.first(std::exchange(noted_, 0)));
+    room_ = {};
   }
   /// What the world calls the disks, by their places in notes.
   [[nodiscard]] std::span<const std::int32_t> ids() const { return ids_; }

@@ -6,9 +6,15 @@
 namespace carom {
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::read_notes(std::size_t count) {
-  const auto notes = std::span<const CollisionNote>(notes_).first(count);
-  if (listener_) listener_(epoch_, notes);
+void Engine<Impact, Layout, World>::find_room_for_notes() {
+  hand_over_notes();
+  if (listener_.room) room_ = listener_.room();
+  if (room_.empty()) room_ = notes_;
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::read_notes(std::span<const CollisionNote> notes) {
+  if (listener_) listener_.hear(epoch_, notes);
   if (!recording_) return;
   for (const CollisionNote& note : notes) {
     const std::int32_t a = id(note.place), b = id(note.partner);

@@ -37,6 +37,7 @@ class Observation::Driver {
     attach(hooks, *thread_, [this](const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
       thread_->sample(observables, state, totals);
     });
+    if (is_told() && !hooks.room_for_collisions) hooks.room_for_collisions = [this] { return thread_->room(); };
   }
 
   /// All that happened so far has been looked at.
@@ -50,6 +51,7 @@ class Observation::Driver {
   }
 
  private:
+  [[nodiscard]] bool is_told() const { return group_.follows_collisions() && group_.run().collisions_told; }
   /// `follower` follows events, or hears of collisions where the simulation tells of them.
   template <class Follower, class Sample>
   void attach(RunHooks& hooks, Follower& follower, Sample sample) {
@@ -58,7 +60,7 @@ class Observation::Driver {
       group_.start(state);
       if (next) next(state);
     };
-    if (group_.follows_collisions() && group_.run().collisions_told)
+    if (is_told())
       hooks.collisions = [&follower, next = std::move(hooks.collisions)](const CollisionNotes& notes) {
         follower.hear(notes);
         if (next) next(notes);

@@ -1,7 +1,7 @@
 #include "observe/observing_thread.hpp"
 
-#include "core/copy_past_caches.hpp"
-
+#include <algorithm>
+#include <chrono>
 #include <span>
 #include <utility>
 
@@ -9,16 +9,19 @@ namespace carom {
 
 namespace {
 
-/// Handed over together: enough that waking a thread, some microseconds, is nothing beside them.
-constexpr std::size_t most_together = 16'384;
-/// That may wait; then the run waits. A megabyte of events or of notes, or a state, of which a large system keeps two at a
-/// time.
-std::size_t most_waiting(std::size_t disks) { return disks > 100'000 ? 1 : 4; }
+/// Events or notes handed over together. What may wait of them, some 1.5 MB, stays in the second-level cache.
+constexpr std::size_t most_together = 4'096;
+/// Of what was handed over; then the run waits.
+constexpr std::size_t most_waiting = 4;
+/// A large system's take much memory.
+std::size_t most_states(std::size_t disks) { return disks > 100'000 ? 2 : 4; }
+/// To wake a thread takes the one that does it some ten microseconds: so it wakes up by itself.
+constexpr std::chrono::milliseconds nap{1};
 
 }  // namespace
 
 ObservingThread::ObservingThread(ObservableGroup& group)
-    : group_(group), most_waiting_(most_waiting(group.run().disks.count())), thread_([this] { work(); }) {}
+    : group_(group), most_states_(most_states(group.run().disks.count())), thread_([this] { work(); }) {}
 
 ObservingThread::~ObservingThread() {
   try {
@@ -39,27 +42,44 @@ void ObservingThread::follow(std::span<const Event> events) {
   if (gathered_.events.size() >= most_together) hand_over();
 }
 
+std::span<CollisionNote> ObservingThread::room() {
+  if (gathered_.noted == most_together) hand_over();
+  gathered_.notes.resize(most_together);
+  return std::span(gathered_.notes).subspan(gathered_.noted);
+}
+
 void ObservingThread::hear(const CollisionNotes& notes) {
-  if (gathered_.noted + notes.notes.size() > most_together) hand_over();
-  if (gathered_.notes.empty()) gathered_.notes.resize(most_together);
-  CollisionNote* to = gathered_.notes.data() + gathered_.noted;
-  copy_past_caches(notes.notes, to);
-  gathered_.heard.push_back(notes);
-  gathered_.heard.back().notes = {to, notes.notes.size()};
-  gathered_.noted += notes.notes.size();
+  for (std::span<const CollisionNote> left = notes.notes; !left.empty();) {
+    const std::span<CollisionNote> to = room();
+    const std::span<const CollisionNote> part = left.first(std::min(left.size(), to.size()));
+    if (part.data() != to.data()) std::ranges::copy(part, to.begin());
+    gathered_.heard.push_back(notes);
+    gathered_.heard.back().notes = to.first(part.size());
+    gathered_.noted += part.size();
+    left = left.subspan(part.size());
+  }
 }
 
 void ObservingThread::sample(const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
+  {
+    std::unique_lock lock(mutex_);
+    wait_until(lock, [this] { return states_waiting_ < most_states_; });
+    ++states_waiting_;
+    if (!spare_states_.empty()) {
+      gathered_.state = std::move(spare_states_.back());
+      spare_states_.pop_back();
+    }
+  }
+  if (!gathered_.state) gathered_.state = std::make_unique<State>();
+  *gathered_.state = state;
   gathered_.observables = &observables;
-  gathered_.state = state;
   gathered_.totals = totals;
   hand_over();
 }
 
 void ObservingThread::hand_over() {
-  end_of_copies();
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_.size() < most_waiting_; });
+  wait_until(lock, [this] { return waiting_.size() < most_waiting; });
   rethrow();
   waiting_.push_back(std::move(gathered_));
   gathered_ = {};
@@ -67,22 +87,29 @@ void ObservingThread::hand_over() {
     gathered_ = std::move(spare_.back());
     spare_.pop_back();
   }
-  lock.unlock();
-  changed_.notify_all();
+  if (2 * waiting_.size() > most_waiting) changed_.notify_all();
 }
 
 void ObservingThread::finish() {
   if (!gathered_.events.empty() || gathered_.noted > 0) hand_over();
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_.empty(); });
+  wait_until(lock, [this] { return waiting_.empty(); });
   rethrow();
+}
+
+/// The other thread may be asleep, with work to do.
+template <class Condition>
+void ObservingThread::wait_until(std::unique_lock<std::mutex>& lock, Condition condition) {
+  if (condition()) return;
+  changed_.notify_all();
+  changed_.wait(lock, condition);
 }
 
 /// After the first error nothing more is looked at.
 void ObservingThread::work() {
   for (;;) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
+    while (!ends_ && waiting_.empty()) changed_.wait_for(lock, nap);
     if (waiting_.empty()) return;
     Work& first = waiting_.front();  // stays where it is: only this thread takes it away
     const bool goes_on = !thrown_;
@@ -92,17 +119,20 @@ void ObservingThread::work() {
       if (goes_on && !first.events.empty()) group_.follow(first.events);
       if (goes_on)
         for (const CollisionNotes& notes : first.heard) group_.hear(notes);
-      if (goes_on && first.observables != nullptr)
-        for (Observable* observable : *first.observables) observable->sample(first.state, first.totals);
+      if (goes_on && first.state)
+        for (Observable* observable : *first.observables) observable->sample(*first.state, first.totals);
     } catch (...) {
       thrown = std::current_exception();
     }
     first.events.clear();
     first.heard.clear();
     first.noted = 0;
-    first.observables = nullptr;
     lock.lock();
     if (thrown) thrown_ = thrown;
+    if (first.state) {
+      --states_waiting_;
+      spare_states_.push_back(std::move(first.state));
+    }
     spare_.push_back(std::move(first));
     waiting_.pop_front();
     lock.unlock();

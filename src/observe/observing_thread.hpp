@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <deque>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <thread>
@@ -27,6 +28,8 @@ class ObservingThread {
   ObservingThread& operator=(const ObservingThread&) = delete;
 
   void follow(std::span<const Event> events);
+  /// Where the next notes to be heard are best written: others are copied.
+  [[nodiscard]] std::span<CollisionNote> room();
   void hear(const CollisionNotes& notes);
   void sample(const std::vector<Observable*>& observables, const State& state, const Totals& totals);
   /// Waits until all is done. Throws what an observable threw, as the functions above do.
@@ -39,22 +42,26 @@ class ObservingThread {
     std::vector<CollisionNote> notes;  ///< the first noted of them
     std::size_t noted = 0;
     std::vector<CollisionNotes> heard;                      ///< parts of `notes`
-    const std::vector<Observable*>* observables = nullptr;  ///< null: no state
-    State state;
+    const std::vector<Observable*>* observables = nullptr;  ///< of the state
+    std::unique_ptr<State> state;                           ///< null where there is none
     Totals totals;
   };
 
   void hand_over();
+  template <class Condition>
+  void wait_until(std::unique_lock<std::mutex>& lock, Condition condition);
   void work();
   void rethrow();
 
   ObservableGroup& group_;
-  const std::size_t most_waiting_;
-  Work gathered_;     ///< of the run's thread, not handed over yet
-  std::mutex mutex_;  ///< of all below
+  const std::size_t most_states_;  ///< that are handed over and not yet looked at
+  Work gathered_;                  ///< of the run's thread, not handed over yet
+  std::mutex mutex_;               ///< of all below
   std::condition_variable changed_;
   std::deque<Work> waiting_;  ///< the first of them in work
   std::vector<Work> spare_;
+  std::size_t states_waiting_ = 0;
+  std::vector<std::unique_ptr<State>> spare_states_;
   std::exception_ptr thrown_;
   bool ends_ = false;
   std::thread thread_;  // last: it needs all the others

@@ -173,17 +173,29 @@ class Schedule {
     const std::span<const std::int32_t> ids = engine_.ids();
     auto disks = std::make_shared<const NotedDisks>(
         NotedDisks{{ids.begin(), ids.end()}, one_if_equal(disks_.radius), one_if_equal(disks_.mass)});
-    engine_.listen(
-        [this, heard = CollisionNotes{disks, 0.0, 0.0, {}}](const Instant& epoch, std::span<const CollisionNote> notes) mutable {
-          heard.epoch = epoch.high;
-          heard.epoch_remainder = epoch.low;
-          heard.notes = notes;
-          try {
-            if (!thrown_) hooks_.collisions(heard);
-          } catch (...) {
-            thrown_ = std::current_exception();  // the engine is in the middle of an event
-          }
-        });
+    // The engine is in the middle of an event: what is thrown has to wait.
+    const auto keep_thrown = [this](auto&& call) {
+      try {
+        if (!thrown_) call();
+      } catch (...) {
+        thrown_ = std::current_exception();
+      }
+    };
+    NoteListener listener;
+    listener.hear = [this, keep_thrown, heard = CollisionNotes{disks, 0.0, 0.0, {}}](
+                        const Instant& epoch, std::span<const CollisionNote> notes) mutable {
+      heard.epoch = epoch.high;
+      heard.epoch_remainder = epoch.low;
+      heard.notes = notes;
+      keep_thrown([&] { hooks_.collisions(heard); });
+    };
+    if (hooks_.room_for_collisions)
+      listener.room = [this, keep_thrown] {
+        std::span<CollisionNote> room;
+        keep_thrown([&] { room = hooks_.room_for_collisions(); });
+        return room;
+      };
+    engine_.listen(std::move(listener));
   }
 
   [[nodiscard]] SavingMoment saving_moment(bool ended) {

@@ -36,6 +36,20 @@ TEST(ObservingThread, GivesTheSameNumbersToTheLastBit) {
   expect_same_measurements(measured(true), measured(false));
 }
 
+TEST(ObservingThread, SeveralSeeTheSameCollisions) {
+  const Scene scene = parse_scene(small_fluid("free_flight = true\nviscosity = true\n", "specular", "700.0"));
+  Simulation simulation = make_simulation(scene);
+  Observation beside(simulation), also_beside(simulation), in_the_run(simulation);
+  RunHooks hooks;
+  beside.attach_beside(hooks);  // collisions are written where this one wants them
+  also_beside.attach_beside(hooks);
+  in_the_run.attach(hooks);
+  run_schedule(simulation, hooks);
+  const std::vector<Measurement> expected = in_the_run.results();
+  expect_same_measurements(beside.results(), expected);
+  expect_same_measurements(also_beside.results(), expected);
+}
+
 TEST(ObservingThread, IsSavedWithAllThatWasHandedOver) {
   const Scene scene = parse_scene(small_fluid(everything, "specular", "50.0"));
   const auto saved = [&](bool beside) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -123,6 +124,52 @@ TEST(ToldCollisions, CanBeReadLater) {
     later.insert(later.end(), some.begin(), some.end());
   }
   expect_same(later, at_once);
+}
+
+TEST(ToldCollisions, AreWrittenWhereTheListenerWantsThem) {
+  Scene scene = gas_scene(40, 0.5, Boundary::periodic);
+  scene.run.collisions = 500;
+  std::vector<CollisionNote> in_order(500), some(7);
+  std::size_t kept = 0, elsewhere = 0;
+  std::span<CollisionNote> given;
+  const auto listen = [&](auto room) {
+    Simulation simulation = make_simulation(scene);
+    RunHooks hooks;
+    std::vector<PairCollision> heard, part;
+    hooks.collisions = [&](const CollisionNotes& notes) {
+      elsewhere += notes.notes.data() != given.data() ? 1U : 0U;
+      EXPECT_TRUE(given.empty() || notes.notes.size() <= given.size());
+      kept += notes.notes.size();
+      notes.read(part);
+      heard.insert(heard.end(), part.begin(), part.end());
+    };
+    if (room) hooks.room_for_collisions = room;
+    run_schedule(simulation, hooks);
+    return heard;
+  };
+  using Room = std::function<std::span<CollisionNote>()>;
+  const std::vector<PairCollision> copied = listen(Room());
+  EXPECT_GT(elsewhere, 0U);
+  for (const bool all : {true, false}) {
+    kept = elsewhere = 0;
+    const Room room = [&] { return given = all ? std::span(in_order).subspan(kept) : std::span(some); };
+    expect_same(listen(room), copied);
+    EXPECT_EQ(elsewhere, 0U);
+  }
+  EXPECT_LT(in_order[0].time, in_order[1].time) << "the notes are still there";
+  given = {};
+  expect_same(listen(Room([] { return std::span<CollisionNote>(); })), copied);
+}
+
+TEST(ToldCollisions, WhatAsksForRoomMayThrow) {
+  Scene scene = gas_scene(40, 0.5, Boundary::periodic);
+  scene.run.collisions = 1'000;
+  Simulation simulation = make_simulation(scene);
+  RunHooks hooks;
+  hooks.collisions = [](const CollisionNotes&) { ADD_FAILURE() << "after the first error nobody is told"; };
+  hooks.room_for_collisions = []() -> std::span<CollisionNote> { throw std::runtime_error("no room"); };
+  EXPECT_THROW(run_schedule(simulation, hooks), std::runtime_error);
+  EXPECT_TRUE(simulation.check_invariants().empty());
 }
 
 TEST(ToldCollisions, ThereAreNoneWithoutDisks) {
