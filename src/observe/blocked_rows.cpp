@@ -1,6 +1,7 @@
 #include "observe/blocked_rows.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace carom {
 
@@ -17,18 +18,35 @@ void BlockedRows::add(std::span<double> samples) {
   for (std::uint64_t row = before; row < std::min<std::uint64_t>(rows_, before + lines); ++row)
     first_[row] = samples[(row - before) * rows_ + row];
   double* x = samples.data();
-  kernel_->since(x, first_.data(), rows_, lines);
-  for (std::size_t level = 0; lines > 0; ++level) {
+  std::size_t level = 0;
+  if (lines == LagRowsKernel::tree_lines && before > 0 && before % lines == 0 && before + 1 >= rows_) {
+    add_tree(x);
+    level = LagRowsKernel::tree_levels;
+    lines = 1;
+  } else {
+    kernel_->since(x, first_.data(), rows_, lines);
+  }
+  for (; lines > 0; ++level) {
     if (level == levels_.size())
       levels_.push_back({0, std::vector<double>(rows_), std::vector<double>(rows_), std::vector<double>(rows_)});
     lines = add(level, x, lines);
   }
 }
 
+/// Leaves the mean of all in the first line. Requires that all rows have begun, and blocks of all these levels begin.
+void BlockedRows::add_tree(double* x) {
+  std::array<BlockSums, LagRowsKernel::tree_levels> sums;
+  for (std::size_t level = 0; level < sums.size(); ++level) {
+    sums[level] = sums_of(level);
+    levels_[level].blocks += LagRowsKernel::tree_lines >> level;
+  }
+  kernel_->blocks_of_tree(x, first_.data(), sums.data());
+}
+
 /// Joins two and two blocks to their means, at the front of all; returns how many there are.
 std::size_t BlockedRows::add(std::size_t level, double* x, std::size_t lines) {
   Level& here = levels_[level];
-  BlockSums sums{here.sum.data(), here.square.data(), here.waiting.data(), rows_, rows_};
+  BlockSums sums = sums_of(level);
   double* means = x;
   const auto look_at = [&](std::size_t count) {
     const std::uint64_t second = here.blocks % 2;

@@ -45,6 +45,11 @@ class BlockedRows {
   };
 
   [[nodiscard]] std::uint64_t steps() const { return levels_.empty() ? 0 : levels_.front().blocks; }
+  [[nodiscard]] BlockSums sums_of(std::size_t level) {
+    Level& here = levels_[level];
+    return {here.sum.data(), here.square.data(), here.waiting.data(), rows_, rows_};
+  }
+  void add_tree(double* x);
   std::size_t add(std::size_t level, double* x, std::size_t lines);
 
   std::size_t rows_ = 0;

@@ -15,15 +15,24 @@ struct BlockSums {
 
 /// All give the same bits.
 struct LagRowsKernel {
+  static constexpr std::size_t tree_levels = 5, tree_lines = std::size_t{1} << tree_levels;
+
   /// Takes `first` from all lines.
   void (*since)(double* samples, const double* first, std::size_t rows, std::size_t lines);
   /// Adds lines of `samples` and their squares to the sums. Each two are joined to their mean, a line of `means`, which may be
   /// where `samples` are; one that is left waits for the next. `second`: the first has one that waits.
   void (*blocks)(const double* samples, const BlockSums& sums, bool second, std::size_t lines, double* means);
-  /// Mean of a.x b.x and a.y b.y over earlier values b.
-  void (*products)(const double* a, const double* x, const double* y, std::size_t rows, double* found);
+  /// Both for tree_lines, with which blocks of all levels below tree_levels begin: those are `sums`. Leaves the mean of all in
+  /// the first line.
+  void (*blocks_of_tree)(double* samples, const double* first, const BlockSums* sums);
+  /// Of values that come latest first: the last of so many lines, and before them as many as there are rows. The first line is
+  /// about the earliest of the former; row k of a line about its value a and b, k values earlier: the mean of a.x b.x and a.y
+  /// b.y.
+  void (*products)(const double* x, const double* y, std::size_t rows, std::size_t lines, double* found);
   /// The same of (a.x - b.x)^2 and (a.y - b.y)^2.
-  void (*squares)(const double* a, const double* x, const double* y, std::size_t rows, double* found);
+  void (*squares)(const double* x, const double* y, std::size_t rows, std::size_t lines, double* found);
+  /// Sum of each line up to each row, with half of its first.
+  void (*integrals)(const double* samples, std::size_t rows, std::size_t lines, double* found);
 };
 
 [[nodiscard]] const LagRowsKernel& lag_rows_kernel();

@@ -11,82 +11,90 @@ MultipleTau::MultipleTau(std::size_t channels, Pairs pairs, std::size_t lags, st
     : channels_(channels), kind_(pairs), lags_(lags), most_levels_(levels) {}
 
 void MultipleTau::add(std::span<const double> value) {
-  new_.insert(new_.end(), value.begin(), value.end());
-  if (new_.size() == together() * channels_) look_at_new();
+  if (channels_ == 0) return;
+  if (levels_.empty()) add_level();
+  std::vector<double>& coming = levels_.front().coming;
+  coming.insert(coming.end(), value.begin(), value.end());
+  if (coming.size() == together() * channels_) look_at_coming(0);
 }
 
-/// Level by level.
-void MultipleTau::look_at_new() {
-  std::size_t count = channels_ > 0 ? new_.size() / channels_ : 0;
-  for (std::size_t level = 0; level < most_levels_ && count > 0; ++level) count = add(level, count);
-  new_.clear();
+void MultipleTau::add_level() {
+  Level& level = levels_.emplace_back();
+  level.earlier.resize(lags_ * channels_);
+  level.waiting.resize(channels_);
+  level.pairs = BlockedRows(lags_);
+  level.integrals = BlockedRows(lags_);
 }
 
-/// The first so many of the new values. Leaves those of the next level in their place, and returns how many.
-std::size_t MultipleTau::add(std::size_t l, std::size_t count) {
-  if (l == levels_.size()) {
-    levels_.emplace_back();
-    levels_[l].ring.resize(lags_ * channels_ * (channels_ == 2 ? 2 : 1));
-    levels_[l].waiting.resize(channels_);
-    levels_[l].pairs = BlockedRows(lags_);
-    levels_[l].integrals = BlockedRows(lags_);
-  }
+/// Of a level, and of those above that are full then.
+void MultipleTau::look_at_coming(std::size_t l) {
+  if (l + 1 == levels_.size() && l + 1 < most_levels_) add_level();
   Level& level = levels_[l];
-  found_.resize(count * lags_);
-  integrals_.resize(kind_ == Pairs::products ? count * lags_ : 0);
-  for (std::size_t n = 0; n < count; ++n) {
-    const double* value = new_.data() + n * channels_;
-    double* found = found_.data() + n * lags_;
-    channels_ == 2 ? find_pairs_of_two(level, value, found) : find_pairs(level, value, found);
-    ++level.count;
-    if (kind_ != Pairs::products) continue;
-    double sum = -0.5 * found[0];
-    for (std::size_t k = 0; k < lags_; ++k) integrals_[n * lags_ + k] = sum += found[k];
+  const std::size_t count = level.coming.size() / channels_;
+  const std::size_t samples = count * lags_;
+  if (found_.size() < samples) found_.resize(samples);
+  channels_ == 2 ? find_pairs_of_two(level, count) : find_pairs(level, count);
+  level.count += count;
+  if (kind_ == Pairs::products) {
+    if (integrals_.size() < samples) integrals_.resize(samples);
+    kernel_->integrals(found_.data(), lags_, count, integrals_.data());
+    level.integrals.add(std::span(integrals_).first(samples));
   }
-  level.pairs.add(found_);
-  if (kind_ == Pairs::products) level.integrals.add(integrals_);
-  return join(level, count);
+  level.pairs.add(std::span(found_).first(samples));
+  if (l + 1 < levels_.size()) join(level, levels_[l + 1].coming);
+  level.coming.clear();
+  if (l + 1 < levels_.size() && levels_[l + 1].coming.size() >= together() * channels_) look_at_coming(l + 1);
 }
 
-/// Pairs of a value with itself and those before it; it is kept for those to come.
-void MultipleTau::find_pairs(Level& level, const double* value, double* found) {
-  std::size_t slot = level.count % lags_;
-  std::copy_n(value, channels_, level.ring.begin() + static_cast<std::ptrdiff_t>(slot * channels_));
-  const Eigen::Map<const Eigen::VectorXd> x(value, static_cast<Eigen::Index>(channels_));
-  for (std::size_t k = 0; k < lags_; ++k) {
-    const Eigen::Map<const Eigen::VectorXd> y(level.ring.data() + slot * channels_, x.size());
-    found[k] = (kind_ == Pairs::products ? x.dot(y) : (x - y).squaredNorm()) / static_cast<double>(channels_);
-    slot = (slot > 0 ? slot : lags_) - 1;
+/// Pairs of each value with itself and those before it, which are kept in a ring.
+void MultipleTau::find_pairs(Level& level, std::size_t count) {
+  for (std::size_t n = 0; n < count; ++n) {
+    const double* value = level.coming.data() + n * channels_;
+    std::size_t slot = (level.count + n) % lags_;
+    std::copy_n(value, channels_, level.earlier.begin() + static_cast<std::ptrdiff_t>(slot * channels_));
+    const Eigen::Map<const Eigen::VectorXd> x(value, static_cast<Eigen::Index>(channels_));
+    for (std::size_t k = 0; k < lags_; ++k) {
+      const Eigen::Map<const Eigen::VectorXd> y(level.earlier.data() + slot * channels_, x.size());
+      found_[n * lags_ + k] = (kind_ == Pairs::products ? x.dot(y) : (x - y).squaredNorm()) / static_cast<double>(channels_);
+      slot = (slot > 0 ? slot : lags_) - 1;
+    }
   }
 }
 
-/// The same of two channels, four lags at a time: by far the most pairs of all.
-void MultipleTau::find_pairs_of_two(Level& level, const double* value, double* found) {
-  const std::size_t slot = lags_ - 1 - level.count % lags_;  // that of the latest value, with older ones behind it
-  double *x = level.ring.data() + slot, *y = x + 2 * lags_;
-  x[0] = x[lags_] = value[0];
-  y[0] = y[lags_] = value[1];
-  (kind_ == Pairs::products ? kernel_->products : kernel_->squares)(value, x, y, lags_, found);
+/// The same of two channels, by far the most pairs of all: latest values come first, each channel by itself, so that lags lie
+/// side by side.
+void MultipleTau::find_pairs_of_two(Level& level, std::size_t count) {
+  const std::size_t length = count + lags_;
+  if (latest_first_.size() < 2 * length) latest_first_.resize(2 * length);
+  for (std::size_t c = 0; c < 2; ++c) {
+    double* x = latest_first_.data() + c * length;
+    double* earlier = level.earlier.data() + c * lags_;
+    for (std::size_t n = 0; n < count; ++n) x[count - 1 - n] = level.coming[2 * n + c];
+    std::copy_n(earlier, lags_, x + count);
+    std::copy_n(x, lags_, earlier);
+  }
+  const double* x = latest_first_.data();
+  (kind_ == Pairs::products ? kernel_->products : kernel_->squares)(x, x + length, lags_, count, found_.data());
 }
 
-/// Means of two and two, or every second.
-std::size_t MultipleTau::join(Level& level, std::size_t count) {
-  std::size_t joined = 0;
-  for (std::size_t n = 0; n < count; ++n) {
-    const double* value = new_.data() + n * channels_;
-    double* next = new_.data() + joined * channels_;
+/// Adds means of two and two values, or every second, to those that come on the next level.
+void MultipleTau::join(Level& level, std::vector<double>& next) {
+  for (const double* value = level.coming.data(); value != level.coming.data() + level.coming.size(); value += channels_) {
     const bool second = level.has_waiting;
     level.has_waiting = !second;
-    if (!second) std::copy_n(value, channels_, level.waiting.begin());
-    if (second != (kind_ == Pairs::products)) continue;
-    for (std::size_t c = 0; c < channels_; ++c) next[c] = second ? 0.5 * (level.waiting[c] + value[c]) : value[c];
-    ++joined;
+    if (kind_ == Pairs::products && second) {
+      for (std::size_t c = 0; c < channels_; ++c) next.push_back(0.5 * (level.waiting[c] + value[c]));
+    } else if (kind_ == Pairs::products) {
+      std::copy_n(value, channels_, level.waiting.begin());
+    } else if (!second) {
+      next.insert(next.end(), value, value + channels_);
+    }
   }
-  return joined;
 }
 
 std::vector<MultipleTau::Row> MultipleTau::rows() {
-  look_at_new();
+  for (std::size_t l = 0; l < levels_.size(); ++l)
+    if (!levels_[l].coming.empty()) look_at_coming(l);
   std::vector<Row> rows;
   for (std::size_t l = 0; l < levels_.size(); ++l) {
     const Level& level = levels_[l];

@@ -45,37 +45,37 @@ class MultipleTau {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(channels_, kind_, lags_, most_levels_, levels_, new_);
+    archive(channels_, kind_, lags_, most_levels_, levels_);
   }
 
  private:
   struct Level {
-    std::vector<double> ring;  ///< lags x channels; of two channels each by itself, twice over, so that all lags lie side by side
-    std::vector<double> waiting;
+    std::vector<double> coming;   ///< values nobody has looked at yet
+    std::vector<double> earlier;  ///< lags x channels of those before
+    std::vector<double> waiting;  ///< for a second one
     bool has_waiting = false;
     std::size_t count = 0;
     BlockedRows pairs, integrals;  ///< by lag
 
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(ring, waiting, has_waiting, count, pairs, integrals);
+      archive(coming, earlier, waiting, has_waiting, count, pairs, integrals);
     }
   };
   /// Values of few channels come so many together: what has not been looked at for long is far away.
-  [[nodiscard]] std::size_t together() const { return channels_ == 2 ? 32 : 1; }
-  void look_at_new();
-  std::size_t add(std::size_t level, std::size_t count);
-  std::size_t join(Level& level, std::size_t count);
-  void find_pairs(Level& level, const double* value, double* found);
-  void find_pairs_of_two(Level& level, const double* value, double* found);
+  [[nodiscard]] std::size_t together() const { return channels_ == 2 ? LagRowsKernel::tree_lines : 1; }
+  void add_level();
+  void look_at_coming(std::size_t level);
+  void join(Level& level, std::vector<double>& next);
+  void find_pairs(Level& level, std::size_t count);
+  void find_pairs_of_two(Level& level, std::size_t count);
 
   std::size_t channels_ = 0;
   Pairs kind_ = Pairs::products;
   std::size_t lags_ = 0;
   std::size_t most_levels_ = 0;
   std::vector<Level> levels_;
-  std::vector<double> new_;                ///< values nobody has looked at yet
-  std::vector<double> found_, integrals_;  ///< by lag, a line for each value; scratch
+  std::vector<double> latest_first_, found_, integrals_;  ///< scratch; the latter by lag, a line for each value
   const LagRowsKernel* kernel_ = &lag_rows_kernel();
 };
 
