@@ -116,6 +116,7 @@ BENCHMARK_CAPTURE(observing, heat_conductivity, Names{"heat_conductivity"})
 BENCHMARK_CAPTURE(observing, all_of_these, collisions_alone)
     ->Args({60, 1'000})
     ->Args({60, 10'000})
+    ->Args({60, 100'000})
     ->Iterations(turns)
     ->UseManualTime();
 BENCHMARK_CAPTURE(observing, velocities, velocities)->Args({60, 10'000})->Iterations(turns)->UseManualTime();
@@ -127,6 +128,7 @@ BENCHMARK_CAPTURE(observing, radial_distribution, Names{"radial_distribution"})
 BENCHMARK_CAPTURE(beside, all_of_these, collisions_alone)
     ->Args({60, 1'000})
     ->Args({60, 10'000})
+    ->Args({60, 100'000})
     ->Iterations(turns)
     ->UseManualTime();
 BENCHMARK_CAPTURE(beside, velocities, velocities)->Args({60, 10'000})->Iterations(turns)->UseManualTime();
