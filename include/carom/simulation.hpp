@@ -184,8 +184,8 @@ struct RunHooks {
   /// to follow events. The simulation may be in the middle of an event, and is not to be asked anything. Requires
   /// Simulation::tells_collisions().
   std::function<void(const CollisionNotes& notes)> collisions;
-  /// Where `collisions` wants the next of them to be written, all of which it gets in the next call: to keep them without a copy.
-  /// Not there, or empty: in memory that is used again.
+  /// Where `collisions` wants the next of them to be written, to keep them without a copy: asked for after each call of it, which
+  /// gets no more than there is room for. Not there, or empty: in memory that is used again.
   std::function<std::span<CollisionNote>()> room_for_collisions;
   std::function<void(const Progress& progress)> block;    ///< after about every collision per disk, at collisions
   std::vector<SamplingGrid> grids;                        ///< of equal steps the first comes first

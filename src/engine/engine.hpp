@@ -493,6 +493,7 @@ class Engine {
   }
   [[gnu::noinline]] void find_room_for_notes();
   [[gnu::noinline]] void read_notes(std::span<const CollisionNote> notes);
+  void log(std::span<const CollisionNote> notes);
   [[gnu::noinline]] void log_hit(std::int32_t i, std::int32_t what, const Vec2<double>& v);
   [[gnu::noinline]] void look_ahead(std::int64_t span) const;
   /// Fetches what the next event will need first.
@@ -646,8 +647,8 @@ class Engine {
     std::swap(events, log_);
   }
 
-  /// Calls `listener` with collisions of pairs from now on, some dozen at a time and all so far at hand_over_notes(); an empty
-  /// one ends that.
+  /// Calls `listener` with collisions of pairs from now on, as many at a time as it has room for (in the engine's own memory some
+  /// dozen), and all so far at hand_over_notes(); an empty one ends that.
   void listen(NoteListener listener) {
     listener_ = {};
     hand_over_notes();

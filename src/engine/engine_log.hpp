@@ -14,8 +14,12 @@ void Engine<Impact, Layout, World>::find_room_for_notes() {
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::read_notes(std::span<const CollisionNote> notes) {
-  if (listener_) listener_.hear(epoch_, notes);
-  if (!recording_) return;
+  if (recording_) log(notes);
+  if (listener_) listener_.hear(epoch_, notes);  // whose notes they are from then on
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::log(std::span<const CollisionNote> notes) {
   for (const CollisionNote& note : notes) {
     const std::int32_t a = id(note.place), b = id(note.partner);
     const bool swapped = b < a;  // the lower id comes first

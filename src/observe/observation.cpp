@@ -57,6 +57,7 @@ class Observation::Driver {
   void attach(RunHooks& hooks, Follower& follower, Sample sample) {
     if (group_.empty()) return;
     hooks.start = [this, next = std::move(hooks.start)](const State& state) {
+      finish();  // of an earlier run
       group_.start(state);
       if (next) next(state);
     };

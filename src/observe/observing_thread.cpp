@@ -61,17 +61,18 @@ void ObservingThread::hear(const CollisionNotes& notes) {
 }
 
 void ObservingThread::sample(const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
+  std::unique_ptr<State> copy;
   {
     std::unique_lock lock(mutex_);
     wait_until(lock, [this] { return states_waiting_ < most_states_; });
-    ++states_waiting_;
     if (!spare_states_.empty()) {
-      gathered_.state = std::move(spare_states_.back());
+      copy = std::move(spare_states_.back());
       spare_states_.pop_back();
     }
   }
-  if (!gathered_.state) gathered_.state = std::make_unique<State>();
-  *gathered_.state = state;
+  if (!copy) copy = std::make_unique<State>();
+  *copy = state;
+  gathered_.state = std::move(copy);
   gathered_.observables = &observables;
   gathered_.totals = totals;
   hand_over();
@@ -81,7 +82,9 @@ void ObservingThread::hand_over() {
   std::unique_lock lock(mutex_);
   wait_until(lock, [this] { return waiting_.size() < most_waiting; });
   rethrow();
+  const bool with_state = gathered_.state != nullptr;
   waiting_.push_back(std::move(gathered_));
+  states_waiting_ += with_state ? 1U : 0U;
   gathered_ = {};
   if (!spare_.empty()) {
     gathered_ = std::move(spare_.back());

@@ -102,6 +102,18 @@ TEST(ObservingThread, WhatAnObservableThrowsComesOut) {
   }
 }
 
+TEST(ObservingThread, WhatWasThrownComesOutAsOftenAsOneTries) {
+  Simulation simulation = make_simulation(parse_scene(small_fluid("")));
+  Observation observation(simulation);
+  observation.add(std::make_unique<Failing>(0));
+  RunHooks hooks;
+  observation.attach_beside(hooks);
+  for (int time = 0; time < 10; ++time) {
+    simulation.reset_clock();
+    EXPECT_THROW(run_schedule(simulation, hooks); (void)observation.results(), std::runtime_error) << time;
+  }
+}
+
 TEST(ObservingThread, ARunThatEndsEarlyLeavesNobodyWaiting) {
   Simulation simulation = make_simulation(parse_scene(small_fluid(everything)));
   Observation observation(simulation);

@@ -161,6 +161,29 @@ TEST(ToldCollisions, AreWrittenWhereTheListenerWantsThem) {
   expect_same(listen(Room([] { return std::span<CollisionNote>(); })), copied);
 }
 
+TEST(ToldCollisions, BelongToTheListenerOnceTheyAreTold) {
+  Scene scene = gas_scene(40, 0.5, Boundary::periodic);
+  scene.run.collisions = 500;
+  const auto log_of = [&](RunHooks hooks) {
+    std::vector<Event> log;
+    hooks.events = [&](std::span<const Event> events) { log.insert(log.end(), events.begin(), events.end()); };
+    Simulation simulation = make_simulation(scene);
+    run_schedule(simulation, hooks);
+    return log;
+  };
+  std::vector<CollisionNote> room(100);
+  RunHooks hooks;
+  hooks.collisions = [&](const CollisionNotes&) { room.assign(100, CollisionNote{-1.0, 7, 7, {}, {}, {}, {}}); };
+  hooks.room_for_collisions = [&] { return std::span(room); };
+  const std::vector<Event> log = log_of(hooks), expected = log_of({});
+  ASSERT_EQ(log.size(), expected.size());
+  for (std::size_t n = 0; n < log.size(); ++n) {
+    EXPECT_EQ(log[n].time, expected[n].time);
+    EXPECT_EQ(log[n].disk, expected[n].disk);
+    EXPECT_EQ(log[n].partner, expected[n].partner);
+  }
+}
+
 TEST(ToldCollisions, WhatAsksForRoomMayThrow) {
   Scene scene = gas_scene(40, 0.5, Boundary::periodic);
   scene.run.collisions = 1'000;
