@@ -634,7 +634,7 @@ class Engine {
   void record_events(bool on) {
     hand_over_notes();
     recording_ = on;
-    noting_ = recording_ || static_cast<bool>(listener_);
+    noting_ = recording_ || listener_;
   }
   [[nodiscard]] std::vector<carom::Event> take_events() {
     hand_over_notes();
@@ -653,7 +653,7 @@ class Engine {
     listener_ = {};
     hand_over_notes();
     listener_ = std::move(listener);
-    noting_ = recording_ || static_cast<bool>(listener_);
+    noting_ = recording_ || listener_;
   }
   void hand_over_notes() {
     if (noted_ > 0) read_notes(room_.first(std::exchange(noted_, 0)));

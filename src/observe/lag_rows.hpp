@@ -25,14 +25,11 @@ struct LagRowsKernel {
   /// Both for tree_lines, with which blocks of all levels below tree_levels begin: those are `sums`. Leaves the mean of all in
   /// the first line.
   void (*blocks_of_tree)(double* samples, const double* first, const BlockSums* sums);
-  /// Of values that come latest first: the last of so many lines, and before them as many as there are rows. The first line is
-  /// about the earliest of the former; row k of a line about its value a and b, k values earlier: the mean of a.x b.x and a.y
-  /// b.y.
+  /// Of values that come latest first: one for each line, behind them as many earlier ones as there are rows. Line n is about a,
+  /// the n-th of the former in time; its row k about a and b, the value k before a: the mean of a.x b.x and a.y b.y.
   void (*products)(const double* x, const double* y, std::size_t rows, std::size_t lines, double* found);
   /// The same of (a.x - b.x)^2 and (a.y - b.y)^2.
   void (*squares)(const double* x, const double* y, std::size_t rows, std::size_t lines, double* found);
-  /// Sum of each line up to each row, with half of its first.
-  void (*integrals)(const double* samples, std::size_t rows, std::size_t lines, double* found);
 };
 
 [[nodiscard]] const LagRowsKernel& lag_rows_kernel();

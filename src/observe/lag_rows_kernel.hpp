@@ -34,18 +34,34 @@ void since(double* samples, const double* first, std::size_t rows, std::size_t l
     });
 }
 
+/// Of x and x^2, in registers.
+template <class Number>
+struct RunningSums {
+  Number sum, square;
+
+  CAROM_INLINE RunningSums(const BlockSums& sums, std::size_t row)
+      : sum(load<Number>(sums.sum + row)), square(load<Number>(sums.square + row)) {}
+  CAROM_INLINE void store_in(const BlockSums& sums, std::size_t row) const {
+    store(sum, sums.sum + row);
+    store(square, sums.square + row);
+  }
+  CAROM_INLINE Number add(Number x) {
+    sum += x;
+    square += x * x;
+    return x;
+  }
+};
+
 void blocks(const double* samples, const BlockSums& sums, bool second, std::size_t lines, double* means) {
   for_rows(sums.rows, [=]<class Number>(std::size_t row, Number) {
-    Number sum = load<Number>(sums.sum + row), square = load<Number>(sums.square + row);
+    RunningSums<Number> running(sums, row);
     Number waiting = load<Number>(sums.waiting + row);
     const double* from = samples + row;
     double* to = means + row;
     const auto next = [&] {
       const Number x = load<Number>(from);
       from += sums.length;
-      sum += x;
-      square += x * x;
-      return x;
+      return running.add(x);
     };
     const auto join = [&](Number a, Number b) {
       store(0.5 * (a + b), to);
@@ -58,52 +74,21 @@ void blocks(const double* samples, const BlockSums& sums, bool second, std::size
       join(one, next());
     }
     if (line < lines) waiting = next();
-    store(sum, sums.sum + row);
-    store(square, sums.square + row);
+    running.store_in(sums, row);
     store(waiting, sums.waiting + row);
   });
 }
 
-/// Sums over blocks of 2^level lines, and of those below.
-template <class Number, std::size_t level>
-struct Tree {
-  Number sum, square;
-  Tree<Number, level - 1> below;
-
-  CAROM_INLINE Tree(const BlockSums* sums, std::size_t row)
-      : sum(load<Number>(sums[level].sum + row)), square(load<Number>(sums[level].square + row)), below(sums, row) {}
-  CAROM_INLINE void store_in(const BlockSums* sums, std::size_t row) const {
-    store(sum, sums[level].sum + row);
-    store(square, sums[level].square + row);
-    below.store_in(sums, row);
+/// Mean of the next 2^level samples; means of the shorter blocks that they make up are added to their sums.
+template <std::size_t level, class Number, class Next>
+CAROM_INLINE Number mean_of_next(RunningSums<Number>* running, Next& next) {
+  if constexpr (level == 0) {
+    return next();
+  } else {
+    const Number one = running[level - 1].add(mean_of_next<level - 1>(running, next));
+    return 0.5 * (one + running[level - 1].add(mean_of_next<level - 1>(running, next)));
   }
-  /// Takes samples for a block from `next`; returns their mean.
-  template <class Next>
-  CAROM_INLINE Number add(Next& next) {
-    const Number one = below.add(next), mean = 0.5 * (one + below.add(next));
-    sum += mean;
-    square += mean * mean;
-    return mean;
-  }
-};
-template <class Number>
-struct Tree<Number, 0> {
-  Number sum, square;
-
-  CAROM_INLINE Tree(const BlockSums* sums, std::size_t row)
-      : sum(load<Number>(sums[0].sum + row)), square(load<Number>(sums[0].square + row)) {}
-  CAROM_INLINE void store_in(const BlockSums* sums, std::size_t row) const {
-    store(sum, sums[0].sum + row);
-    store(square, sums[0].square + row);
-  }
-  template <class Next>
-  CAROM_INLINE Number add(Next& next) {
-    const Number x = next();
-    sum += x;
-    square += x * x;
-    return x;
-  }
-};
+}
 
 void blocks_of_tree(double* samples, const double* first, const BlockSums* sums) {
   for_rows(sums[0].rows, [=, length = sums[0].length]<class Number>(std::size_t row, Number) {
@@ -114,10 +99,10 @@ void blocks_of_tree(double* samples, const double* first, const BlockSums* sums)
       from += length;
       return x;
     };
-    Tree<Number, LagRowsKernel::tree_levels - 1> tree(sums, row);
-    const Number one = tree.add(next);
-    store(0.5 * (one + tree.add(next)), samples + row);
-    tree.store_in(sums, row);
+    static_assert(LagRowsKernel::tree_levels == 5);
+    RunningSums<Number> running[] = {{sums[0], row}, {sums[1], row}, {sums[2], row}, {sums[3], row}, {sums[4], row}};
+    store(mean_of_next<LagRowsKernel::tree_levels>(running, next), samples + row);
+    for (std::size_t level = 0; level < LagRowsKernel::tree_levels; ++level) running[level].store_in(sums[level], row);
   });
 }
 
@@ -136,45 +121,8 @@ void squares(const double* x, const double* y, std::size_t rows, std::size_t lin
     });
 }
 
-CAROM_INLINE void transpose(Doubles (&of)[4]) {
-  const Doubles a = __builtin_shufflevector(of[0], of[1], 0, 4, 2, 6), b = __builtin_shufflevector(of[0], of[1], 1, 5, 3, 7);
-  const Doubles c = __builtin_shufflevector(of[2], of[3], 0, 4, 2, 6), d = __builtin_shufflevector(of[2], of[3], 1, 5, 3, 7);
-  of[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
-  of[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
-  of[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
-  of[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
-}
-
-/// A lane for each of four lines, or for one.
-void integrals(const double* samples, std::size_t rows, std::size_t lines, double* found) {
-  std::size_t line = 0;
-  for (; line + 4 <= lines; line += 4, samples += 4 * rows, found += 4 * rows) {
-    const auto all_at = [=](std::size_t row) {
-      return Doubles{samples[row], samples[rows + row], samples[2 * rows + row], samples[3 * rows + row]};
-    };
-    Doubles sum = -0.5 * all_at(0);
-    std::size_t row = 0;
-    for (; row + 4 <= rows; row += 4) {
-      Doubles x[4];
-      for (std::size_t k = 0; k < 4; ++k) x[k] = load<Doubles>(samples + k * rows + row);
-      transpose(x);
-      for (Doubles& of_lines : x) of_lines = sum += of_lines;
-      transpose(x);
-      for (std::size_t k = 0; k < 4; ++k) store(x[k], found + k * rows + row);
-    }
-    for (; row < rows; ++row) {
-      sum += all_at(row);
-      for (std::size_t k = 0; k < 4; ++k) found[k * rows + row] = sum[k];
-    }
-  }
-  for (; line < lines; ++line, samples += rows, found += rows) {
-    double sum = -0.5 * samples[0];
-    for (std::size_t row = 0; row < rows; ++row) found[row] = sum += samples[row];
-  }
-}
-
 }  // namespace
 
-extern const LagRowsKernel lag_rows_kernel = {&since, &blocks, &blocks_of_tree, &products, &squares, &integrals};
+extern const LagRowsKernel lag_rows_kernel = {&since, &blocks, &blocks_of_tree, &products, &squares};
 
 }  // namespace carom::CAROM_INSTRUCTIONS

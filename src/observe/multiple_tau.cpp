@@ -7,6 +7,24 @@
 
 namespace carom {
 
+namespace {
+
+/// So many numbers, which may be anything.
+std::span<double> scratch(std::vector<double>& memory, std::size_t numbers) {
+  if (memory.size() < numbers) memory.resize(numbers);
+  return std::span(memory).first(numbers);
+}
+
+/// Sums of each line of `found` up to every lag, with half of its first.
+void integrate(std::span<const double> found, std::size_t lags, double* integrals) {
+  for (; !found.empty(); found = found.subspan(lags), integrals += lags) {
+    double sum = -0.5 * found[0];
+    for (std::size_t k = 0; k < lags; ++k) integrals[k] = sum += found[k];
+  }
+}
+
+}  // namespace
+
 MultipleTau::MultipleTau(std::size_t channels, Pairs pairs, std::size_t lags, std::size_t levels)
     : channels_(channels), kind_(pairs), lags_(lags), most_levels_(levels) {}
 
@@ -32,15 +50,14 @@ void MultipleTau::look_at_coming(std::size_t l) {
   Level& level = levels_[l];
   const std::size_t count = level.coming.size() / channels_;
   const std::size_t samples = count * lags_;
-  if (found_.size() < samples) found_.resize(samples);
+  const std::span<double> found = scratch(found_, samples);
   channels_ == 2 ? find_pairs_of_two(level, count) : find_pairs(level, count);
-  level.count += count;
   if (kind_ == Pairs::products) {
-    if (integrals_.size() < samples) integrals_.resize(samples);
-    kernel_->integrals(found_.data(), lags_, count, integrals_.data());
-    level.integrals.add(std::span(integrals_).first(samples));
+    const std::span<double> integrals = scratch(integrals_, samples);
+    integrate(found, lags_, integrals.data());
+    level.integrals.add(integrals);
   }
-  level.pairs.add(std::span(found_).first(samples));
+  level.pairs.add(found);
   if (l + 1 < levels_.size()) join(level, levels_[l + 1].coming);
   level.coming.clear();
   if (l + 1 < levels_.size() && levels_[l + 1].coming.size() >= together() * channels_) look_at_coming(l + 1);
@@ -50,7 +67,7 @@ void MultipleTau::look_at_coming(std::size_t l) {
 void MultipleTau::find_pairs(Level& level, std::size_t count) {
   for (std::size_t n = 0; n < count; ++n) {
     const double* value = level.coming.data() + n * channels_;
-    std::size_t slot = (level.count + n) % lags_;
+    std::size_t slot = level.count++ % lags_;
     std::copy_n(value, channels_, level.earlier.begin() + static_cast<std::ptrdiff_t>(slot * channels_));
     const Eigen::Map<const Eigen::VectorXd> x(value, static_cast<Eigen::Index>(channels_));
     for (std::size_t k = 0; k < lags_; ++k) {
@@ -65,16 +82,16 @@ void MultipleTau::find_pairs(Level& level, std::size_t count) {
 /// side by side.
 void MultipleTau::find_pairs_of_two(Level& level, std::size_t count) {
   const std::size_t length = count + lags_;
-  if (latest_first_.size() < 2 * length) latest_first_.resize(2 * length);
+  double* latest_first = scratch(latest_first_, 2 * length).data();
   for (std::size_t c = 0; c < 2; ++c) {
-    double* x = latest_first_.data() + c * length;
+    double* x = latest_first + c * length;
     double* earlier = level.earlier.data() + c * lags_;
     for (std::size_t n = 0; n < count; ++n) x[count - 1 - n] = level.coming[2 * n + c];
     std::copy_n(earlier, lags_, x + count);
     std::copy_n(x, lags_, earlier);
   }
-  const double* x = latest_first_.data();
-  (kind_ == Pairs::products ? kernel_->products : kernel_->squares)(x, x + length, lags_, count, found_.data());
+  const auto find = kind_ == Pairs::products ? kernel_->products : kernel_->squares;
+  find(latest_first, latest_first + length, lags_, count, found_.data());
 }
 
 /// Adds means of two and two values, or every second, to those that come on the next level.

@@ -54,7 +54,7 @@ class MultipleTau {
     std::vector<double> earlier;  ///< lags x channels of those before
     std::vector<double> waiting;  ///< for a second one
     bool has_waiting = false;
-    std::size_t count = 0;
+    std::size_t count = 0;         ///< of values that the ring has got; of two channels there is none
     BlockedRows pairs, integrals;  ///< by lag
 
     template <class Archive>

@@ -90,7 +90,7 @@ void ObservingThread::hand_over() {
     gathered_ = std::move(spare_.back());
     spare_.pop_back();
   }
-  if (2 * waiting_.size() > most_waiting) changed_.notify_all();
+  if (2 * waiting_.size() > most_waiting) changed_.notify_all();  // else it has time to wake up by itself
 }
 
 void ObservingThread::finish() {

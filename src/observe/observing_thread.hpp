@@ -1,6 +1,7 @@
 #pragma once
-// Observables at work on a thread of their own, behind the run that feeds them: events and states are copied and handed over, and
-// looked at in the order in which they came, so that results are the same to the last bit.
+// Observables at work on a thread of their own, behind the run that feeds them: events and states are copied, notes are written
+// where they will be read, and all are handed over and looked at in the order in which they came, so that results are the same to
+// the last bit.
 
 #include "observe/observable_group.hpp"
 
