@@ -4,6 +4,7 @@
 
 #include "io/checkpoint.hpp"
 #include "io/info_parts.hpp"
+#include "io/info_sweep.hpp"
 #include "io/run_directory.hpp"
 
 #include <fmt/format.h>
@@ -89,6 +90,11 @@ std::string describe_checkpoint(const fs::path& path) {
 
 std::string describe_directory(const fs::path& path) {
   std::string text;
+  for (const std::string_view product : detail::sweep_products) {
+    std::error_code error;
+    if (fs::exists(path / product, error)) text += describe_file(path / product);
+  }
+  if (text.empty()) text = detail::describe_runs_of_sweep(path);
   for (const std::string_view product : run_products) {
     if (product.starts_with("observe_") || product.ends_with(".html"))
       continue;  // the summary tells of them; a page is for looking at
@@ -99,15 +105,15 @@ std::string describe_directory(const fs::path& path) {
   }
   if (text.empty()) {
     throw OutputError(
-        fmt::format("{}: this directory holds no results of Carom; name a directory that carom run has written, "
-                    "or one of its files",
+        fmt::format("{}: this directory holds no results of Carom; name a directory that carom run or "
+                    "carom sweep has written, or one of its files",
                     path.string()));
   }
   return text;
 }
 
 std::string describe_content(const fs::path& path) {
-  if (begins_like_hdf5(path)) return detail::describe_h5md(path);
+  if (begins_like_hdf5(path)) return detail::describe_hdf5(path);
   fs::path name = path;
   if (name.extension() == partial_ending) name.replace_extension();
   const std::string ending = name.extension().string();
@@ -122,8 +128,8 @@ std::string describe_content(const fs::path& path) {
                     "short, or another program's",
                     path.string()));
   throw OutputError(
-      fmt::format("{}: Carom does not know this kind of file; it describes run directories, .h5md, .xyz, .csv, "
-                  "summary.json and scenes (.toml)",
+      fmt::format("{}: Carom does not know this kind of file; it describes directories of runs and sweeps, "
+                  ".h5md, .xyz, .csv, summary.json, sweep.h5 and scenes (.toml)",
                   path.string()));
 }
 

@@ -7,7 +7,7 @@
 
 namespace carom::detail {
 
-std::string describe_h5md(const std::filesystem::path& path);
+std::string describe_hdf5(const std::filesystem::path& path);
 std::string describe_xyz(const std::filesystem::path& path);
 std::string describe_csv(const std::filesystem::path& path);
 std::string describe_summary(const std::filesystem::path& path);

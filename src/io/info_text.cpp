@@ -1,6 +1,7 @@
-// What a trajectory.xyz or a samples.csv holds. Both are read line by line, so their size does not matter.
+// What a trajectory.xyz, a samples.csv or another table holds. Both are read line by line, so their size does not matter.
 
 #include "io/info_parts.hpp"
+#include "io/info_sweep.hpp"
 #include "io/output_error.hpp"
 
 #include <fmt/format.h>
@@ -114,6 +115,7 @@ std::string describe_csv(const std::filesystem::path& path) {
   std::string line;
   std::getline(file, line);
   if (line.starts_with("# averages over ")) return describe_observable_table(path, line, file);
+  if (is_sweep_table(line)) return describe_sweep_table(path);
   const std::string heading = line;
   const bool rough = heading == "time,id,x,y,vx,vy,spin";
   if (heading != "time,id,x,y,vx,vy" && !rough)

@@ -131,6 +131,33 @@ TEST_F(ScenesSweep, ARunThatFailsIsListedAndStopsNoOther) {
   EXPECT_EQ(results(), mended);
 }
 
+TEST_F(ScenesSweep, InfoTellsWhatASweepHasLeft) {
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  const Outcome whole = carom({"info", "gas-sweep"});
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_THAT(whole.out, AllOf(StartsWith("gas-sweep/sweep.h5: results of a sweep\n"), HasSubstr("gas.toml\n"),
+                               HasSubstr(" 3, of disks.0.radius\n"), HasSubstr(" 6, 6 finished\n"), HasSubstr("pressure.Z"),
+                               HasSubstr("sweep.csv: table of a sweep, a row per point\n"),
+                               HasSubstr("runs.csv: table of a sweep, a row per run\n"), Not(HasSubstr("incomplete"))));
+  const std::string bytes = text_of(file("gas-sweep/sweep.h5"));
+  for (std::size_t size = 0; size < bytes.size(); size += bytes.size() / 16) {
+    write_text(file("cut.h5"), bytes.substr(0, size));
+    const Outcome cut = carom({"info", "cut.h5"});
+    EXPECT_EQ(cut.exit_code, 2) << size << cut.out;
+    EXPECT_EQ(std::count(cut.err.begin(), cut.err.end(), '\n'), 1) << size << cut.err;
+  }
+}
+
+TEST_F(ScenesSweep, InfoTellsOfASweepThatWasKilled) {
+  ASSERT_EQ(sweep({"-q"}).exit_code, 0);
+  for (const char* table : {"sweep.h5", "sweep.csv", "runs.csv"}) fs::remove(file("gas-sweep") / table);
+  fs::remove(file("gas-sweep/radius=0.2/seed=2/summary.json"));
+  const Outcome killed = carom({"info", "gas-sweep"});
+  EXPECT_EQ(killed.exit_code, 0) << killed.err;
+  EXPECT_THAT(killed.out, AllOf(StartsWith("gas-sweep: runs of a sweep, without its tables\n"),
+                                HasSubstr(" 6 begun, 5 with results\n"), HasSubstr("goes on from there")));
+}
+
 TEST_F(SweepCommand, WhatIsWrongIsSaidBeforeAnythingRuns) {
   const auto refused_sweep = [&](const std::string& text, const std::string& sentence) {
     write_text(file("wrong.toml"), text);

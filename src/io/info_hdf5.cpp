@@ -1,8 +1,9 @@
-// What a trajectory.h5md holds.
+// What an HDF5 file of Carom holds: a trajectory.h5md, or the sweep.h5 of a sweep.
 
 #include "io/h5md_groups.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/info_parts.hpp"
+#include "io/info_sweep.hpp"
 #include "io/output_error.hpp"
 
 #include <fmt/format.h>
@@ -90,7 +91,7 @@ std::string described(hid_t file) {
 
 }  // namespace
 
-std::string describe_h5md(const std::filesystem::path& path) {
+std::string describe_hdf5(const std::filesystem::path& path) {
   // HDF5 1.10 loses track of what it has opened in some damaged files, and complains on stderr when the process ends. All
   // that is open here is closed here, so there is nothing for it to do then. Without effect where HDF5 is already in use.
   H5dont_atexit();
@@ -105,6 +106,7 @@ std::string describe_h5md(const std::filesystem::path& path) {
                         path.string(), error.what()));
       }
     }();
+    if (is_sweep(file.get())) return fmt::format("{}: results of a sweep\n{}", path.string(), sweep_lines(file.get()));
     const std::string creator = read_string_attribute(file.get(), "/h5md/creator", "name");
     if (creator != "carom")
       throw OutputError(fmt::format("{}: an HDF5 file that Carom did not write{}; look at it with h5dump or h5py", path.string(),
