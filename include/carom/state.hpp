@@ -18,6 +18,8 @@ struct Disks {
   std::vector<std::int32_t> species;  ///< index into Scene::species
 
   [[nodiscard]] std::size_t count() const { return radius.size(); }
+  [[nodiscard]] double total_mass() const;     ///< to u + 2^-64 count() of it, u = 2^-53
+  [[nodiscard]] double mean_diameter() const;  ///< length; to u count() of it; 0 without disks
 };
 
 /// How many box lengths each disk has travelled past the periodic edges. Column i belongs to disk i.

@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #if defined(__unix__)
 #include <unistd.h>
 #endif
@@ -131,8 +130,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
     layout_.furnish(a, disks, static_cast<std::size_t>(column));
   }
 
-  sigma_ = 2.0 * std::accumulate(disks.radius.begin(), disks.radius.end(), 0.0) /
-           static_cast<double>(std::max<std::size_t>(disks.count(), 1));
+  sigma_ = disks.mean_diameter();
   area_ = order.area;
   largest_contact_ = detail::largest_contact_distance(disks);
   if constexpr (!Impact::plain) {

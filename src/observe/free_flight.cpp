@@ -148,8 +148,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   }
   static double scale(const ObservedRun& run) { return run.mean_free_time > 0.0 ? run.mean_free_time : run.step({}, 1.0); }
   static double speed(const ObservedRun& run) {
-    double mass = 0.0;
-    for (const double m : run.disks.mass) mass += m / static_cast<double>(run.disks.count());
+    const double mass = run.disks.total_mass() / static_cast<double>(run.disks.count());
     return run.temperature > 0.0 ? std::sqrt(run.temperature / mass) : 1.0;
   }
 

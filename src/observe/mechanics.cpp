@@ -32,15 +32,14 @@ Eigen::Vector2d total_momentum(const Disks& disks, const State& state) {
 namespace {
 
 double temperature_of(const std::array<bool, 2>& kept, const Disks& disks, const State& state) {
-  long double mass = 0.0L;
-  for (const double m : disks.mass) mass += static_cast<long double>(m);
+  const double mass = disks.total_mass();
   const Eigen::Vector2d momentum = total_momentum(disks, state);
   double kinetic = kinetic_energy(disks, state);
   double freedom = 2.0 * static_cast<double>(disks.count());
   for (std::size_t a = 0; a < 2; ++a) {
     if (!kept[a] || disks.count() == 0) continue;
     const double along = momentum[static_cast<Eigen::Index>(a)];
-    kinetic -= along * along / (2.0 * static_cast<double>(mass));
+    kinetic -= along * along / (2.0 * mass);
     freedom -= 1.0;
   }
   return freedom > 0.0 ? 2.0 * kinetic / freedom : 0.0;
@@ -74,8 +73,7 @@ Eigen::Matrix2Xd velocities_in_flow(double rate, const Disks& disks, const State
   State in_flow;
   in_flow.velocities = state.velocities;
   in_flow.velocities.row(0) -= rate * state.positions.row(1);
-  double mass = 0.0;
-  for (const double m : disks.mass) mass += m;
+  const double mass = disks.total_mass();
   if (mass > 0.0) in_flow.velocities.colwise() -= total_momentum(disks, in_flow) / mass;
   return in_flow.velocities;
 }

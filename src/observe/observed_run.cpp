@@ -15,8 +15,7 @@ namespace {
 double mean_free_time(const ObservedRun& run) {
   const double count = static_cast<double>(run.disks.count());
   if (run.disks.count() < 2 || !(run.temperature > 0.0)) return 0.0;
-  double mass = 0.0;
-  for (const double m : run.disks.mass) mass += m / count;
+  const double mass = run.disks.total_mass() / count;
   const double eta = std::min(run.scene.packing_fraction(), 0.85);
   const double g = (1.0 - 7.0 * eta / 16.0) / ((1.0 - eta) * (1.0 - eta));
   const double density = count / run.scene.box.area();
@@ -45,9 +44,7 @@ ObservedRun observed_run(const Simulation& simulation) {
 
 ObservedRun observed_run(const Scene& scene, const Disks& disks, double temperature) {
   ObservedRun run{scene, disks, scene.run.time, temperature};
-  double radii = 0.0;
-  for (const double radius : run.disks.radius) radii += radius;
-  if (run.disks.count() > 0) run.mean_diameter = 2.0 * radii / static_cast<double>(run.disks.count());
+  if (run.disks.count() > 0) run.mean_diameter = run.disks.mean_diameter();
   run.mean_free_time = mean_free_time(run);
   return run;
 }
@@ -84,8 +81,7 @@ Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state)
 }
 
 Eigen::Vector2d kept_velocity(const ObservedRun& run, const State& state) {
-  double mass = 0.0;
-  for (const double m : run.disks.mass) mass += m;
+  const double mass = run.disks.total_mass();
   Eigen::Vector2d common(0.0, 0.0);
   if (!(mass > 0.0)) return common;
   common = total_momentum(run.disks, state) / mass;
@@ -95,8 +91,7 @@ Eigen::Vector2d kept_velocity(const ObservedRun& run, const State& state) {
 }
 
 Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state) {
-  double mass = 0.0;
-  for (const double m : run.disks.mass) mass += m;
+  const double mass = run.disks.total_mass();
   const Eigen::Vector2d common = total_momentum(run.disks, state) / mass;
   const double thermal = std::sqrt(run.temperature * static_cast<double>(run.disks.count()) / mass);
   return common.norm() > 1e-12 * thermal ? common : Eigen::Vector2d(0.0, 0.0);

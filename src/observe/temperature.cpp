@@ -22,8 +22,7 @@ class Temperature final : public SavedObservable<Temperature> {
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);
-    double mass = 0.0;
-    for (const double m : run_.disks.mass) mass += m;
+    const double mass = run_.disks.total_mass();
     Eigen::Vector2d sum = Eigen::Vector2d::Zero(), freedom = Eigen::Vector2d::Zero();
     std::vector<double> sums(species_.size()), freedoms(species_.size());
     for (std::size_t i = 0; i < run_.disks.count(); ++i) {

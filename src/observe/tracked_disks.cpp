@@ -1,7 +1,5 @@
 #include "observe/tracked_disks.hpp"
 
-#include "observe/mechanics.hpp"
-
 #include <algorithm>
 
 namespace carom {
@@ -30,15 +28,6 @@ std::span<const double> TrackedDisks::unwrapped(const ObservedRun& run, const St
       values_[2 * k + static_cast<std::size_t>(axis)] =
           state.positions(axis, ids_[k]) + static_cast<double>(state.images(axis, ids_[k])) * lengths[axis] - drift[axis];
   return values_;
-}
-
-Eigen::Vector2d common_drift(const ObservedRun& run, const State& state) {
-  double mass = 0.0;
-  for (const double m : run.disks.mass) mass += m;
-  Eigen::Vector2d drift = total_momentum(run.disks, state) * (state.time / mass);
-  for (int axis = 0; axis < 2; ++axis)
-    if (!run.keeps_momentum(axis)) drift[axis] = 0.0;
-  return drift;
 }
 
 }  // namespace carom

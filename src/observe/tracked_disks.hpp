@@ -20,14 +20,12 @@ class TrackedDisks {
   [[nodiscard]] std::size_t channels() const { return 2 * ids_.size(); }
   /// x and y of each disk, relative to the common motion of all along axes that keep momentum. Valid until the next call.
   [[nodiscard]] std::span<const double> velocities(const Eigen::Matrix2Xd& peculiar);
+  /// The same of places, less `drift`: how far the common motion has carried everybody.
   [[nodiscard]] std::span<const double> unwrapped(const ObservedRun& run, const State& state, const Eigen::Vector2d& drift);
 
  private:
   std::vector<Eigen::Index> ids_;
   std::vector<double> values_;
 };
-
-/// How far the common motion has carried everybody along axes that keep momentum.
-[[nodiscard]] Eigen::Vector2d common_drift(const ObservedRun& run, const State& state);
 
 }  // namespace carom

@@ -49,8 +49,7 @@ Scalar coefficient(std::string name, const std::string& unit, double step, doubl
 
 /// Half the time that sound takes through the box (Henderson's equation of state): beyond, a fluctuation meets its own image.
 double sound_time(const ObservedRun& run) {
-  double mass = 0.0;
-  for (const double m : run.disks.mass) mass += m / static_cast<double>(run.disks.count());
+  const double mass = run.disks.total_mass() / static_cast<double>(run.disks.count());
   const double eta = std::min(run.scene.packing_fraction(), 0.85), free = 1.0 - eta;
   const double z = (1.0 + eta * eta / 8.0) / (free * free);
   const double slope = eta / 4.0 / (free * free) + 2.0 * z / free;

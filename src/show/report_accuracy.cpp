@@ -44,9 +44,7 @@ SummaryRow momentum_row(const RunRecord& record) {
   const Scene& scene = record.source->scene;
   const ObservedRun run{scene, record.source->disks};
   const bool driven = is_driven(scene.effects);
-  double mass = 0.0;
-  for (const double m : run.disks.mass) mass += m;
-  const double scale = std::sqrt(2.0 * mass * std::max(report.energy_initial, report.energy_final));
+  const double scale = std::sqrt(2.0 * run.disks.total_mass() * std::max(report.energy_initial, report.energy_final));
   std::vector<std::string> parts;
   for (int axis = 0; axis < 2; ++axis) {
     const char* const name = axis == 0 ? "x" : "y";

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <numeric>
 
 namespace carom {
 
@@ -30,10 +29,6 @@ constexpr double most_looks = 2e7;
 constexpr double held = 1e-6;
 
 double smallest_diameter(const Disks& disks) { return 2.0 * *std::min_element(disks.radius.begin(), disks.radius.end()); }
-
-double mean_diameter(const Disks& disks) {
-  return 2.0 * std::accumulate(disks.radius.begin(), disks.radius.end(), 0.0) / static_cast<double>(disks.count());
-}
 
 /// Largest distance of a disk from itself in the other state.
 double distance(const Box& box, const State& a, const State& b) {
@@ -54,7 +49,7 @@ double error_in_steps(const Scene& scene, const State& start, const FixedStep& s
     const double after = total_energy(scene.box, scene.effects, simulation.disks(), end);
     *energy = before > 0.0 ? (after - before) / before : 0.0;
   }
-  return distance(scene.box, end, exact) / mean_diameter(simulation.disks());
+  return distance(scene.box, end, exact) / simulation.disks().mean_diameter();
 }
 
 std::string why_not_run(const HardCase& hard_case, const Scene& scene) {

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -124,9 +123,8 @@ class HorizonSearch {
     if (result_.row(result_.engine) == nullptr)
       throw std::invalid_argument(fmt::format("no horizon is measured for an engine \"{}\" in this scene", result_.engine));
     const Disks& disks = runners_.front().simulation.disks();
-    const double radii = std::accumulate(disks.radius.begin(), disks.radius.end(), 0.0);
     disks_ = static_cast<double>(disks.count());
-    result_.sigma = disks.count() > 0 ? 2.0 * radii / disks_ : 0.0;
+    result_.sigma = disks.mean_diameter();
   }
 
   bool measure_exponent() {
