@@ -17,7 +17,8 @@ enum class Stream : std::uint32_t {
   lattice_sites = 3,
   perturbations = 4,
   thermal_walls = 5,
-  thermostat = 6
+  thermostat = 6,
+  sampled_disks = 7
 };
 
 /// A uniform random bit generator (32 bits a draw, 2^32 blocks of four) for Boost.Random's distributions.

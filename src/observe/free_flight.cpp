@@ -1,7 +1,7 @@
 // Free flight between two collisions with other disks: mean time and path, and how they are distributed. Averages over
 // collisions; flights that began before the run, or end after it, are left out, which shortens the means by about one flight in
 // as many as a disk makes. Walls do not end a flight.
-// In large systems every second, fourth, ... disk is followed, at most a thousand.
+// In large systems a half, a fourth, ... of the disks are followed, at most a thousand.
 
 #include "core/instant.hpp"
 #include "observe/blocking.hpp"
@@ -9,6 +9,7 @@
 #include "observe/followed_disks.hpp"
 #include "observe/followers.hpp"
 #include "observe/observables.hpp"
+#include "observe/sampled_disks.hpp"
 #include "observe/saved_observable.hpp"
 
 #include <algorithm>
@@ -20,6 +21,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -73,9 +75,13 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
       : times_(static_cast<std::size_t>(request.bins.value_or(100)), longest * scale(run)),
         paths_(static_cast<std::size_t>(request.bins.value_or(100)), longest * scale(run) * speed(run)),
         bins_{1.0 / times_.width(), 1.0 / paths_.width(), static_cast<double>(request.bins.value_or(100))},
-        skip_(static_cast<std::uint32_t>(std::bit_ceil((run.disks.count() + most_disks - 1) / most_disks)) - 1),
         why_no_path_(why_no_path(run.scene.effects)) {
-    for (std::size_t disk = 0; disk < run.disks.count(); disk += skip_ + 1) ids_.push_back(static_cast<std::int32_t>(disk));
+    std::vector<std::int32_t> all(run.disks.count());
+    std::iota(all.begin(), all.end(), 0);
+    const std::size_t share = std::bit_ceil((all.size() + most_disks - 1) / most_disks);
+    ids_ = sampled_disks(all, (all.size() + share - 1) / share, run.scene.run.seed);
+    rows_by_id_.assign(all.size(), static_cast<std::uint32_t>(ids_.size()));
+    for (std::uint32_t row = 0; row < ids_.size(); ++row) rows_by_id_[static_cast<std::size_t>(ids_[row])] = row;
     last_.assign(ids_.size() + 1, never);
   }
 
@@ -154,7 +160,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
 
   /// At most `piece` of them. Who is followed nobody can guess: collisions that end flights are listed without a branch.
   void look_at(const Instant& epoch, std::span<const CollisionNote> notes) {
-    if (skip_ > 0) {
+    if (ids_.size() < rows_by_id_.size()) {
       std::array<std::uint32_t, piece> which;
       for (const std::uint32_t n : std::span(which).first(places_.find(notes, which.data()))) {
         end(last_.data() + places_.row(notes[n].place), last_.data() + places_.row(notes[n].partner),
@@ -187,10 +193,8 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
     for (std::size_t row = 0; row < ids_.size(); ++row) last_[row] = by_id[row_by_id(ids_[row])];
   }
 
-  [[nodiscard]] bool follows(std::int32_t disk) const { return (static_cast<std::uint32_t>(disk) & skip_) == 0; }
-  [[nodiscard]] std::size_t row_by_id(std::int32_t disk) const {
-    return static_cast<std::uint32_t>(disk) >> std::popcount(skip_);
-  }
+  [[nodiscard]] std::size_t row_by_id(std::int32_t disk) const { return rows_by_id_[static_cast<std::size_t>(disk)]; }
+  [[nodiscard]] bool follows(std::int32_t disk) const { return row_by_id(disk) < ids_.size(); }
 
   /// Two flights end, or one where nobody follows the other disk or knows when its flight began.
   void end(double* last, double* partner_last, double time) {
@@ -231,9 +235,9 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
 
   FlightHistogram times_, paths_;
   FlightBins bins_;
-  std::uint32_t skip_;             ///< disks whose id has one of these bits are not followed
-  std::vector<std::int32_t> ids_;  ///< of those who are followed, by row
-  std::vector<double> last_;       ///< collision of each, `never` before the first; the last is that of all others
+  std::vector<std::int32_t> ids_;          ///< of those who are followed, by row
+  std::vector<std::uint32_t> rows_by_id_;  ///< to begin with; one behind the last of those who are not
+  std::vector<double> last_;               ///< collision of each, `never` before the first; the last is that of all others
   std::shared_ptr<const NotedDisks> noted_;
   FollowedDisks places_;  ///< in noted_
   std::string why_no_path_;

@@ -1,15 +1,14 @@
 #include "observe/tracked_disks.hpp"
 
-#include <algorithm>
+#include "observe/sampled_disks.hpp"
 
 namespace carom {
 
 TrackedDisks::TrackedDisks(const ObservedRun& run, std::size_t species) {
-  std::vector<Eigen::Index> all;
+  std::vector<std::int32_t> all;
   for (std::size_t i = 0; i < run.disks.count(); ++i)
-    if (run.disks.species[i] == static_cast<std::int32_t>(species)) all.push_back(static_cast<Eigen::Index>(i));
-  const std::size_t count = std::min(most, all.size());
-  for (std::size_t k = 0; k < count; ++k) ids_.push_back(all[k * all.size() / count]);
+    if (run.disks.species[i] == static_cast<std::int32_t>(species)) all.push_back(static_cast<std::int32_t>(i));
+  ids_ = sampled_disks(all, most, run.scene.run.seed);
   values_.resize(channels());
 }
 

@@ -1,10 +1,11 @@
 #pragma once
-// The disks that are followed through time one by one: at most a thousand of each species, evenly chosen, so that memory stays
-// bounded.
+// The disks that are followed through time one by one: at most a thousand of each species, chosen at random, so that memory
+// stays bounded.
 
 #include "observe/observed_run.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -24,7 +25,7 @@ class TrackedDisks {
   [[nodiscard]] std::span<const double> unwrapped(const ObservedRun& run, const State& state, const Eigen::Vector2d& drift);
 
  private:
-  std::vector<Eigen::Index> ids_;
+  std::vector<std::int32_t> ids_;
   std::vector<double> values_;
 };
 
