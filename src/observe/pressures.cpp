@@ -2,12 +2,12 @@
 // and the whole tensor. All are averages over time.
 //
 //   Z         = 1 + W / (2 t N kT), W the sum over collisions of sigma times the normal impulse
-//   Z_rate    = 1 + pi (sum over collisions of sigma sqrt(mu)) / (N t sqrt(2 pi kT) c): disks of one kinetic energy meet as often
-//   as
-//               those of a Maxwell gas times c = sqrt(d / 2) Gamma(d / 2) / Gamma((d + 1) / 2), d the degrees of freedom
+//   Z_rate    = 1 + pi (sum over collisions of sigma sqrt(mu)) / (N t sqrt(2 pi kT) c): disks of one kinetic energy meet as
+//               often as those of a Maxwell gas times c = sqrt(d / 2) Gamma(d / 2) / Gamma((d + 1) / 2), d the degrees of
+//               freedom
 //   Z_walls   : the virial theorem gives F (L - 2 r) = N kT Z for the mean force F on two opposite walls, when the run is long
 //   P_ab A    = <sum m v_a v_b> N / (N - 1) + (sum over collisions of r_a J_b) / t, without N / (N - 1) where momentum is not
-//   kept
+//               kept
 
 #include "core/all_equal.hpp"
 #include "observe/blocking.hpp"
@@ -16,6 +16,8 @@
 #include "observe/geometry.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
+
+#include <boost/math/special_functions/gamma.hpp>
 
 #include <algorithm>
 #include <array>
@@ -31,9 +33,7 @@ using carom::serialize;
 constexpr const char* no_log = "the run kept no collisions (--events)";
 
 /// c above; 1 for many.
-double speed_factor(double d) {
-  return d > 0.0 ? std::sqrt(0.5 * d) * std::exp(std::lgamma(0.5 * d) - std::lgamma(0.5 * (d + 1.0))) : 1.0;
-}
+double speed_factor(double d) { return d > 0.0 ? std::sqrt(0.5 * d) * boost::math::tgamma_delta_ratio(0.5 * d, 0.5) : 1.0; }
 
 class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
  public:

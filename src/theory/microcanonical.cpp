@@ -1,5 +1,7 @@
 #include "theory/microcanonical.hpp"
 
+#include <boost/math/special_functions/gamma.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,9 +25,7 @@ double Microcanonical::energy_density(double energy, double mean) const {
   return left > 0.0 ? (free_ - 1.0) / (free_ * mean) * std::pow(left, free_ - 2.0) : 0.0;
 }
 
-double Microcanonical::speed_factor() const {
-  return std::exp(0.5 * std::log(free_) + std::lgamma(free_) - std::lgamma(free_ + 0.5));
-}
+double Microcanonical::speed_factor() const { return std::sqrt(free_) * boost::math::tgamma_delta_ratio(free_, 0.5); }
 
 double maxwell_speeds_below(double share) { return -std::expm1(-share); }
 
