@@ -5,7 +5,8 @@
 //   Z_rate    = 1 + pi (sum over collisions of sigma sqrt(mu)) / (N t sqrt(2 pi kT) c): disks of one kinetic energy meet as
 //               often as those of a Maxwell gas times c = sqrt(d / 2) Gamma(d / 2) / Gamma((d + 1) / 2), d the degrees of
 //               freedom
-//   Z_walls   : the virial theorem gives F (L - 2 r) = N kT Z for the mean force F on two opposite walls, when the run is long
+//   Z_walls   : the virial theorem gives F_x (L_x - 2 r) + F_y (L_y - 2 r) = 2 N kT Z for the mean forces F on opposite walls,
+//               when the run is long
 //   P_ab A    = <sum m v_a v_b> N / (N - 1) + (sum over collisions of r_a J_b) / t, without N / (N - 1) where momentum is not
 //               kept
 
@@ -136,15 +137,13 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
         equal_ ? static_cast<double>(now.pairs - before_.pairs) * 2.0 * run_.disks.radius[0] * std::sqrt(0.5 * run_.disks.mass[0])
                : now.meetings - before_.meetings;
     rate_.add(std::numbers::pi * met, count * dt * std::sqrt(2.0 * std::numbers::pi * kT) * speed_factor(freedom_));
-    double push = 0.0, axes = 0.0;
+    double push = 0.0;
     for (int axis = 0; axis < 2; ++axis) {
-      if (run_.scene.box.periodic(axis)) continue;
       const std::size_t low = 2 * static_cast<std::size_t>(axis);
       push += 0.5 * (now.walls[low] - before_.walls[low] + now.walls[low + 1] - before_.walls[low + 1]) *
               (run_.scene.box.lengths()[axis] - 2.0 * run_.disks.radius[0]);
-      axes += 1.0;
     }
-    walls_.add(push, axes * count * kT * dt);
+    walls_.add(push, 2.0 * count * kT * dt);
     const double area = 0.5 * (now.area + before_.area);
     for (std::size_t c = 0; c < 4; ++c)
       tensor_[c].add((0.5 * (now.flow[c] + before_.flow[c]) + (now.transfer[c] - before_.transfer[c]) / dt) / area);
@@ -167,7 +166,10 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     return {};
   }
   [[nodiscard]] std::string why_no_walls() const {
-    if (run_.scene.box.periodic(0) && run_.scene.box.periodic(1)) return "the box has no walls";
+    const Box& box = run_.scene.box;
+    if (box.periodic(0) && box.periodic(1)) return "the box has no walls";
+    if (box.periodic(0)) return "walls along one axis feel P_yy alone, and Z is of both";
+    if (box.periodic(1)) return "walls along one axis feel P_xx alone, and Z is of both";
     if (!why_no_Z_.empty()) return std::string(why_no_Z_);
     if (!equal_radii_) return "disks of several sizes come to the walls at several distances";
     return {};

@@ -5,6 +5,8 @@
 #include "observe/mechanics.hpp"
 #include "observe/sampled_disks.hpp"
 
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -107,6 +109,16 @@ TEST(ObservedPressure, FromWallsIsTheirPushOverTheRoomOfCentres) {
               100.0 * rounding_of_transfers);
   EXPECT_NEAR(o.value("wall_fluxes", "momentum_top"), push[3] / (5.0 * o.scene.box.lengths().x()), 100.0 * rounding_of_transfers);
   EXPECT_EQ(o.value("wall_fluxes", "energy_left"), 0.0);
+}
+
+/// In a narrow channel disks meet along it less often than across: P_xx and P_yy differ, and walls tell one of them.
+TEST(ObservedPressure, FromWallsNeedsThemAlongBothAxes) {
+  std::string scene = small_fluid("pressure = true");
+  scene.replace(scene.find("\"periodic\""), 10, "{ x = \"periodic\", y = \"walls\" }");
+  const Observed o = observe(parse_scene(scene), 0.05);
+  EXPECT_FALSE(o.scalar("pressure", "Z_walls").value);
+  EXPECT_THAT(o.scalar("pressure", "Z_walls").note, testing::HasSubstr("P_yy alone"));
+  EXPECT_TRUE(o.scalar("pressure", "P_yy").value);
 }
 
 TEST(ObservedPressure, TracesOfAMixtureBetweenWallsAgree) {
