@@ -427,7 +427,10 @@ class Engine {
   /// Of a disk that rounding has carried over an edge which it has not crossed.
   void keep_in_box(std::int32_t i, std::int64_t& y, std::int64_t& image) const;
 
-  void check_pair(std::int32_t i, std::int32_t j, std::vector<std::string>& faults) const;
+  [[nodiscard]] double contact_distance(std::int32_t i, std::int32_t j) const {
+    return (layout_.radius(line(i)) + layout_.radius(line(j))) * world_.scale(now_);
+  }
+  void check_pair(std::int32_t i, std::int32_t j, double tolerated_overlap, std::vector<std::string>& faults) const;
 
   /// The coordinate of disk i moved by a length, with its image count where it wraps.
   [[nodiscard]] std::int64_t moved(std::int32_t i, int axis, double by) {
@@ -669,8 +672,11 @@ class Engine {
   template <class Archive>
   void serialize(Archive& archive);
 
-  /// One sentence for every way in which the plan differs from what an exhaustive search finds.
-  [[nodiscard]] std::vector<std::string> check_invariants() const;
+  /// One sentence for every way in which the plan differs from what an exhaustive search finds, and for every pair that overlaps
+  /// by more of its contact distance than is tolerated.
+  [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap = 0.0) const;
+  /// Of any pair, over its contact distance; 0 where none overlaps.
+  [[nodiscard]] double deepest_overlap() const;
 };
 
 }  // namespace carom

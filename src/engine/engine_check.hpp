@@ -12,7 +12,7 @@
 namespace carom {
 
 template <class Impact, class Layout, class World>
-std::vector<std::string> Engine<Impact, Layout, World>::check_invariants() const {
+std::vector<std::string> Engine<Impact, Layout, World>::check_invariants(double tolerated_overlap) const {
   std::vector<std::string> faults;
   const double slack = 1e-9 * lists_.half_width();
   for (std::int32_t i = 0; i < count(); ++i) {
@@ -41,7 +41,7 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants() const
       if (out > 1e-12 * (axes_[k].upper - axes_[k].lower))
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", id(i), out, k));
     }
-    for (std::uint32_t n = 0; n < lists_.count(i); ++n) check_pair(i, lists_.ids(i)[n], faults);
+    for (std::uint32_t n = 0; n < lists_.count(i); ++n) check_pair(i, lists_.ids(i)[n], tolerated_overlap, faults);
   }
   if (count() > 2000) return faults;  // the rest compares all pairs
   for (std::int32_t i = 0; i < count(); ++i) {
@@ -51,21 +51,35 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants() const
       if (listed != (i != j && lists_.near(i, j)))
         faults.push_back(
             fmt::format("disks {} and {}: {}", id(i), id(j), listed ? "listed though not near" : "near but not listed"));
-      if (!listed && i < j) check_pair(i, j, faults);
+      if (!listed && i < j) check_pair(i, j, tolerated_overlap, faults);
     }
   }
   return faults;
 }
 
+template <class Impact, class Layout, class World>
+double Engine<Impact, Layout, World>::deepest_overlap() const {
+  double deepest = 0.0;
+  for (std::int32_t i = 0; i < count(); ++i)
+    for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
+      const std::int32_t j = lists_.ids(i)[n];
+      const double sigma = contact_distance(i, j);
+      deepest = std::max(deepest, (sigma - approach(frame_, line(i), line(j), boxes_above(i, j), now_).r.norm()) / sigma);
+    }
+  return deepest;
+}
+
 /// Two disks must not overlap, and must not meet before one of them has an event planned.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::check_pair(std::int32_t i, std::int32_t j, std::vector<std::string>& faults) const {
-  const double sigma = (layout_.radius(line(i)) + layout_.radius(line(j))) * world_.scale(now_);
+void Engine<Impact, Layout, World>::check_pair(std::int32_t i, std::int32_t j, double tolerated_overlap,
+                                               std::vector<std::string>& faults) const {
+  const double sigma = contact_distance(i, j);
   const auto [r, v] = approach(frame_, line(i), line(j), boxes_above(i, j), now_);
   const double overlap = sigma - r.norm();
   // Separations are known to 4 u times the way since the epoch: docs/numerics.md.
   const double rounding = 4.0 * epsilon<double> * (travel_[0] + travel_[1]);
-  if (overlap > 1e-12 * sigma + rounding) faults.push_back(fmt::format("disks {} and {} overlap by {}", id(i), id(j), overlap));
+  if (overlap > (tolerated_overlap + 1e-12) * sigma + rounding)
+    faults.push_back(fmt::format("disks {} and {} overlap by {}", id(i), id(j), overlap));
   const double meeting = predicted_against(i, j).pair_time;
   const double planned = std::min({time(i), time(j), epoch_length_});
   if (!(meeting < planned)) return;

@@ -141,8 +141,42 @@ void TextbookEngine<Real>::serialize(Archive& archive) {
   if constexpr (Archive::is_loading::value) fill_queue();
 }
 
+/// Of j, seen from i.
 template <class Real>
-std::vector<std::string> TextbookEngine<Real>::check_invariants() const {
+Winding TextbookEngine<Real>::nearest_image(std::int32_t i, std::int32_t j) const {
+  Vec2<Real> apart = position(record(i), now_) - position(record(j), now_);
+  Winding nearest = Winding::Zero();
+  using std::floor;
+  if (sliding_.present()) {
+    nearest[1] = static_cast<std::int64_t>(floor(apart[1] / domain_.length[1] + Real(0.5)));
+    apart[0] -= Real(nearest[1]) * sliding_.displacement(now_);
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    if (domain_.periodic[axis]) nearest[axis] = static_cast<std::int64_t>(floor(apart[axis] / domain_.length[axis] + Real(0.5)));
+  }
+  return nearest;
+}
+
+/// Length; negative where there is a gap.
+template <class Real>
+Real TextbookEngine<Real>::overlap_with(std::int32_t i, std::int32_t j, const Winding& image) const {
+  using std::sqrt;
+  return radius_at(record(i), now_) + radius_at(record(j), now_) -
+         sqrt(separation(record(i), record(j), now_, image).squaredNorm());
+}
+
+template <class Real>
+double TextbookEngine<Real>::deepest_overlap() const {
+  Real deepest = 0;
+  for (std::int32_t i = 0; i < count() && count() <= 2000; ++i)
+    for (std::int32_t j = i + 1; j < count(); ++j)
+      deepest = std::max<Real>(
+          deepest, overlap_with(i, j, nearest_image(i, j)) / (radius_at(record(i), now_) + radius_at(record(j), now_)));
+  return static_cast<double>(deepest);
+}
+
+template <class Real>
+std::vector<std::string> TextbookEngine<Real>::check_invariants(double tolerated_overlap) const {
   std::vector<std::string> faults;
   const Real tolerance = Real(1e-12) + 1000 * epsilon<Real>;
   // Positions are rounded at their size, which far from the origin is not that of the box.
@@ -170,22 +204,10 @@ std::vector<std::string> TextbookEngine<Real>::check_invariants() const {
 
   for (std::int32_t i = 0; i < count(); ++i) {
     for (std::int32_t j = i + 1; j < count(); ++j) {
-      Vec2<Real> apart = position(record(i), now_) - position(record(j), now_);
-      Winding nearest = Winding::Zero();
-      using std::floor;
-      if (sliding_.present()) {
-        nearest[1] = static_cast<std::int64_t>(floor(apart[1] / domain_.length[1] + Real(0.5)));
-        apart[0] -= Real(nearest[1]) * sliding_.displacement(now_);
-      }
-      for (int axis = 0; axis < 2; ++axis) {
-        if (domain_.periodic[axis])
-          nearest[axis] = static_cast<std::int64_t>(floor(apart[axis] / domain_.length[axis] + Real(0.5)));
-      }
-      const Real sigma = radius_at(record(i), now_) + radius_at(record(j), now_);
-      using std::sqrt;
-      const Real gap = sqrt(separation(record(i), record(j), now_, nearest).squaredNorm()) - sigma;
-      if (gap < -tolerance * sigma - rounding)
-        faults.push_back(fmt::format("disks {} and {} overlap by {}", i, j, static_cast<double>(-gap)));
+      const Winding nearest = nearest_image(i, j);
+      const Real overlap = overlap_with(i, j, nearest), sigma = radius_at(record(i), now_) + radius_at(record(j), now_);
+      if (overlap > (Real(tolerated_overlap) + tolerance) * sigma + rounding)
+        faults.push_back(fmt::format("disks {} and {} overlap by {}", i, j, static_cast<double>(overlap)));
       const Real meeting = pair_time(i, j, nearest);
       if (meeting < std::min(next_of(i).time, next_of(j).time))
         faults.push_back(fmt::format("disks {} and {} meet before either has an event planned", i, j));

@@ -44,7 +44,10 @@ class DrivenEngine final : public AnyEngine {
   void record_events(bool on) override { engine_->record_events(on); }
   [[nodiscard]] std::vector<Event> take_events() override { return engine_->take_events(); }
   void take_events(std::vector<Event>& events) override { engine_->take_events(events); }
-  [[nodiscard]] std::vector<std::string> check_invariants() const override { return engine_->check_invariants(); }
+  [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap) const override {
+    return engine_->check_invariants(tolerated_overlap);
+  }
+  [[nodiscard]] double deepest_overlap() const override { return engine_->deepest_overlap(); }
   [[nodiscard]] std::size_t bytes() const override;
   void save(SavingArchive& archive) const override;
   void load(LoadingArchive& archive) override;

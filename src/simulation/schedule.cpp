@@ -69,7 +69,7 @@ class Schedule {
     if (hooks_.resume != nullptr) {
       restore();
     } else if (hooks_.verify_every > 0) {
-      may_overlap_ = detail::any_overlap(engine_.check_invariants());
+      tolerated_overlap_ = engine_.deepest_overlap();
     }
     if (!measuring_) {
       result_.measured = equilibrate();
@@ -86,8 +86,8 @@ class Schedule {
   /// How far it has come, for core/archive.hpp.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(measuring_, equilibrating_, next_block_, without_collision_, since_verified_, may_overlap_, standstill_, stands_,
-            recording_);
+    archive(measuring_, equilibrating_, next_block_, without_collision_, since_verified_, tolerated_overlap_, standstill_,
+            stands_, recording_);
     archive(standing_, result_.samples, result_.loop_seconds, result_.verified, counted_);
     auto grids = static_cast<std::uint64_t>(grids_.size());
     archive(grids);
@@ -328,8 +328,9 @@ class Schedule {
   bool verify() {
     since_verified_ = 0;
     ++result_.verified;
-    result_.faults = engine_.check_invariants();
-    if (may_overlap_) std::erase_if(result_.faults, detail::is_overlap);
+    result_.faults = engine_.check_invariants(tolerated_overlap_);
+    // Disks that overlap from the start come apart, and never overlap deeper.
+    if (tolerated_overlap_ > 0.0) tolerated_overlap_ = std::min(tolerated_overlap_, engine_.deepest_overlap());
     return result_.faults.empty() || stop(StopReason::invalid_state);
   }
 
@@ -386,7 +387,7 @@ class Schedule {
   std::uint64_t counted_ = 0;  ///< the next of the samples that are counted in collisions
   std::uint64_t without_collision_ = 0;
   std::uint64_t since_verified_ = 0;  ///< events
-  bool may_overlap_ = false;          ///< the start did
+  double tolerated_overlap_ = 0.0;    ///< over the contact distance: what is left of that of the start
   bool equilibrating_ = false;
   bool measuring_ = false;  ///< the measured run has begun
   bool ends_by_time_ = false;

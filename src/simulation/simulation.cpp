@@ -63,7 +63,9 @@ bool Simulation::tells_collisions() const {
   const Effects& effects = parts_->scene.effects;
   return parts_->engine->tells_collisions() && velocities_tell_contacts(effects) && !effects.gravity && !effects.shear;
 }
-std::vector<std::string> Simulation::check_invariants() const { return parts_->engine->check_invariants(); }
+std::vector<std::string> Simulation::check_invariants(double tolerated_overlap) const {
+  return parts_->engine->check_invariants(tolerated_overlap);
+}
 
 std::vector<std::string> engine_names() {
   std::vector<std::string> names;

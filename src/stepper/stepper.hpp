@@ -95,7 +95,8 @@ class Stepper {
   }
 
   /// A fixed-step method plans nothing that could be wrong.
-  [[nodiscard]] static std::vector<std::string> check_invariants() { return {}; }
+  [[nodiscard]] static std::vector<std::string> check_invariants(double /*tolerated_overlap*/ = 0.0) { return {}; }
+  [[nodiscard]] static double deepest_overlap() { return 0.0; }
 
   /// All that decides how the run goes on, for core/archive.hpp. Requires all events to have been taken.
   template <class Archive>

@@ -84,8 +84,8 @@ class Witness {
 
   void look_for_faults() {
     if (!watch_.look_for_faults) return;
-    for (std::string& fault : simulation_.check_invariants())
-      if (fault.find(" overlap by ") == std::string::npos) run_.faults.push_back(std::move(fault));
+    for (std::string& fault : simulation_.check_invariants(std::numeric_limits<double>::infinity()))
+      run_.faults.push_back(std::move(fault));
   }
 
   Simulation& simulation_;

@@ -84,6 +84,18 @@ TEST(Verify, AnOverlapThatTheStartBroughtAlongIsNoFault) {
   }
 }
 
+TEST(Verify, OverlapsAreFaultsWhereTheyAreDeeperThanTolerated) {
+  const Scene scene = scene_of(box_of(4.0, 4.0, Boundary::periodic), {{{1.0, 1.0}, {1.0, 0.0}}, {{3.0, 1.0}, {-1.0, 0.0}}});
+  State start = draw_start(scene).state;
+  start.positions.col(1) = Eigen::Vector2d(1.75, 1.0);
+  for (const char* engine : {"fast", "general", "textbook"}) {
+    const Simulation simulation = make_simulation(scene, start, engine);
+    EXPECT_TRUE(simulation.check_invariants(0.25).empty()) << engine;
+    ASSERT_FALSE(simulation.check_invariants(0.2499).empty()) << engine;
+    EXPECT_EQ(simulation.check_invariants().front(), "disks 0 and 1 overlap by 0.25") << engine;
+  }
+}
+
 // ------------------------------------------------------------------------------------------------------- near misses
 
 Numerics numerics_of(const Scene& scene, const std::string& engine, double time) {
