@@ -93,8 +93,8 @@ class Observable {
 /// Drives observables through a run.
 class Observation {
  public:
-  /// Makes the observables that simulation.scene().observe lists. Requires the simulation to live as long as this. Throws
-  /// SceneError for what has no meaning in the scene.
+  /// Makes the observables that simulation.scene().observe lists. Requires the simulation to live as long as this, and not to be
+  /// moved. Throws SceneError for what has no meaning in the scene.
   explicit Observation(const Simulation& simulation);
   /// The same for a simulation that was restored to where save() was called: observables, those that add() brings among them, in
   /// the same order, go on from there.

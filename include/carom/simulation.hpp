@@ -31,10 +31,11 @@ enum class StopReason {
   time,         ///< the time asked for was reached
   collisions,   ///< the number of pair collisions asked for was reached
   interrupted,  ///< the caller's `proceed` said stop
-  jammed,     ///< time has stopped: disks touch and have no room to move that numbers could tell; ten million events lead nowhere
-  collapsed,  ///< time has stopped: inelastic disks collide at ever shorter intervals (see elastic_below)
-  cooled,     ///< inelastic disks have become too slow to compute with: products of speed and diameter are below 1e-150
-  grown,      ///< the packing fraction or pressure at which growth is to end was reached
+  jammed,  ///< time has stopped: disks touch and have no room to move that numbers could tell (docs/hard-cases.md says after how
+           ///< many events)
+  collapsed,      ///< time has stopped: inelastic disks collide at ever shorter intervals (see elastic_below)
+  cooled,         ///< inelastic disks have become too slow to compute with: products of speed and diameter are below 1e-150
+  grown,          ///< the packing fraction or pressure at which growth is to end was reached
   no_collisions,  ///< only a number of collisions was asked for, and no pair will ever (or seems ever to) collide
   invalid_state,  ///< check_invariants() found a fault: RunResult::faults says which
 };
@@ -89,15 +90,16 @@ class Simulation {
   /// The same into a list whose memory is used again: what it held is gone.
   void take_events(std::vector<Event>& events);
 
-  /// Whether RunHooks::collisions can be asked for: the engine is the fast one, disks are smooth, and nothing but events changes
-  /// velocities.
+  /// Whether RunHooks::collisions can be asked for: the engine is "fast" or "general", disks are smooth, and nothing but events
+  /// changes velocities.
   [[nodiscard]] bool tells_collisions() const;
 
   /// Compares the engine's plan with what an exhaustive search finds. Empty when all is well; else one sentence per
-  /// fault. O(N^2) for N <= 2000, O(N) beyond.
-  [[nodiscard]] std::vector<std::string> check_invariants() const;
+  /// fault. A pair that overlaps is one where it does so by more of its contact distance than `tolerated_overlap` and rounding.
+  /// O(N^2) for N <= 2000, O(N) beyond.
+  [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap = 0.0) const;
 
-  /// Writes all that decides how the simulation goes on, some 260 bytes per disk, for restore_simulation(). Requires all recorded
+  /// Writes all that decides how the simulation goes on, some 300 bytes per disk, for restore_simulation(). Requires all recorded
   /// events to have been taken.
   void save(std::ostream& out) const;
 
@@ -120,9 +122,11 @@ class Simulation {
 /// std::invalid_argument when there is no such engine.
 Simulation make_simulation(const Scene& scene, const std::string& engine = "auto");
 
-/// The same from a given state in place of the scene's own start: its positions, velocities and images, at time 0; its
-/// remainders are dropped, so that every engine begins with the same numbers. Throws
-/// std::invalid_argument too where the state does not have one finite position and velocity for each of the scene's disks.
+/// The same from a given state in place of the scene's own start, at time 0: its positions, velocities and images, and what
+/// effects of this scene go on from: spins where there is roughness, the scale of radii where disks grow, places of moving walls
+/// and velocities of pistons, the displacement by shear. The rest is dropped, remainders too, so that every engine begins with
+/// the same numbers. Throws std::invalid_argument too where any of it is not finite, a position is outside the box, or there is
+/// not one position and one velocity for each of the scene's disks.
 Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine = "auto");
 
 /// The scene advanced by a fixed-step method in place of exact events, through the same door: states between two steps are those
@@ -140,7 +144,7 @@ Simulation restore_simulation(const Scene& scene, std::istream& in);
 /// "naive", "naive-edge", "guarded", "grid"
 std::vector<std::string> fixed_step_names();
 
-/// "textbook", "textbook-float", ...: the engines that can run a scene.
+/// "fast", "general", "textbook", "textbook-float", ...: the engines, in the order in which "auto" prefers them.
 std::vector<std::string> engine_names();
 
 /// How far a run has come, for progress lines and for the decision to go on.

@@ -27,19 +27,19 @@ using Images = Eigen::Matrix<std::int64_t, 2, Eigen::Dynamic>;
 
 /// One side of the box at one instant.
 struct WallState {
-  double position = 0.0;  ///< along its axis
-  double velocity = 0.0;
+  double position = 0.0;  ///< along its axis; length
+  double velocity = 0.0;  ///< along +x or +y, whichever side it is; length / time
 };
 
 /// Positions and velocities of all disks at one instant. Column i belongs to disk i. What comes after the remainders is there
 /// for scenes with effects; in others it stays as it is here.
 struct State {
   double time = 0.0;            ///< since the start of the measured run
-  Eigen::Matrix2Xd positions;   ///< 2 x N; on periodic axes inside [lower, upper)
-  Eigen::Matrix2Xd velocities;  ///< 2 x N
+  Eigen::Matrix2Xd positions;   ///< 2 x N; length; on periodic axes inside [lower, upper)
+  Eigen::Matrix2Xd velocities;  ///< 2 x N; length / time
   Images images;                ///< 2 x N; the unwrapped position is positions + images * box length (0 on walled axes)
   Eigen::Matrix2Xd
-      remainders;  ///< 2 x N; exact position minus `positions`; 2 x 0 where the engine knows no more than doubles hold
+      remainders;  ///< 2 x N; length; exact position minus `positions`; 2 x 0 where the engine knows no more than doubles hold
 
   Eigen::VectorXd spins;            ///< N angular velocities, 1 / time, counter-clockwise; of length 0 where disks are smooth
   double scale = 1.0;               ///< radii are scale * Disks::radius (growth)
@@ -69,7 +69,7 @@ struct Event {
 struct Numerics {
   std::uint64_t at_once = 0;       ///< collisions at the very instant of the one before
   std::uint64_t overlapping = 0;   ///< pairs that overlapped by more than 32 u sigma when they met: late, or so from the start
-  double deepest_overlap = 0.0;    ///< of these, over their contact distance
+  double deepest_overlap = 0.0;    ///< of any pair counted here, over the contact distance: rounding where `overlapping` is 0
   std::uint64_t grazing = 0;       ///< pairs that met with a discriminant within rounding of 0: they might as well have missed
   std::uint64_t receding = 0;      ///< pairs that met, and receded already by rounding: nothing was exchanged
   std::uint64_t epochs = 0;        ///< new zeros of the engine's clock
@@ -89,16 +89,19 @@ struct Totals {
   std::uint64_t obstacle = 0;  ///< collisions with an obstacle
   std::uint64_t well = 0;      ///< passages of the edge of a square well, or bounces there
   std::uint64_t kicks = 0;     ///< velocities redrawn by a thermostat
-  /// sum over wall collisions of the impulse that the wall took, outward positive, for left, right, bottom, top
+  /// sum over wall collisions of the impulse that the wall took, outward positive, for left, right, bottom, top; mass length /
+  /// time
   std::array<double, 4> wall_impulse{};
-  /// sum over wall collisions of the energy that the wall took, for left, right, bottom, top: heat and work
+  /// sum over wall collisions of the energy that the wall took, for left, right, bottom, top: heat and work; this and the
+  /// energies below in mass length^2 / time^2
   std::array<double, 4> wall_energy{};
   double dissipated = 0.0;     ///< energy that collisions of pairs took away
   double kick_energy = 0.0;    ///< energy that the thermostat gave
   double growth_energy = 0.0;  ///< energy that growing disks gave, less what the rescaling of velocities took
   double shear_energy = 0.0;   ///< energy that disks gained across the edges of a sheared box
-  double virial_xy = 0.0;      ///< sum over pair collisions of r_x times the impulse along y; kept where there is shear
-  Eigen::Vector2d obstacle_impulse = Eigen::Vector2d::Zero();  ///< that the obstacles took
+  /// sum over pair collisions of r_x times the impulse along y: mass length^2 / time; kept where there is shear
+  double virial_xy = 0.0;
+  Eigen::Vector2d obstacle_impulse = Eigen::Vector2d::Zero();  ///< that the obstacles took; mass length / time
   Numerics numerics;
 };
 

@@ -33,6 +33,8 @@ Radii radii_of(const Scene& scene);
 /// Over all disks. Requires one.
 double mean_diameter(const Scene& scene);
 
+/// Numbers of effects out of their ranges, which a file cannot hold.
+void check_numbers(const Effects& effects);
 /// Effects that cannot act together, or not in this box.
 void check_effects(const Scene& scene);
 void check_walls(const Scene& scene);

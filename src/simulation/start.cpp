@@ -1,5 +1,7 @@
 #include "simulation/start.hpp"
 
+#include "scene/checks.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -106,10 +108,42 @@ void add_flow(const Scene& scene, Start& start) {
   }
 }
 
+/// The walls of a state that may come from another scene: those that stand here stand where the box has them, and those of a
+/// velocity of their own have it.
+std::vector<WallState> walls_from(const Scene& scene, const std::vector<WallState>& given) {
+  const auto moves = [](const WallProperties& wall) { return wall.mass || wall.velocity.value_or(0.0) != 0.0; };
+  if (given.size() != 4 || std::ranges::none_of(scene.effects.walls, moves)) return {};
+  std::vector<WallState> walls;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const WallProperties& wall = scene.effects.walls[k];
+    const auto axis = static_cast<Eigen::Index>(k / 2);
+    const double edge = k % 2 == 0 ? scene.box.lower[axis] : scene.box.upper[axis];
+    walls.push_back({moves(wall) ? given[k].position : edge, wall.mass ? given[k].velocity : wall.velocity.value_or(0.0)});
+    if (!std::isfinite(walls.back().position) || !std::isfinite(walls.back().velocity))
+      throw std::invalid_argument("a wall of the given state is not finite");
+  }
+  return walls;
+}
+
+void require_inside(const Scene& scene, const State& state) {
+  for (int a = 0; a < 2; ++a) {
+    const auto positions = state.positions.row(a);
+    if (positions.size() == 0) continue;
+    const std::size_t low = 2 * static_cast<std::size_t>(a);
+    const double lower = state.walls.empty() ? scene.box.lower[a] : state.walls[low].position;
+    const double upper = state.walls.empty() ? scene.box.upper[a] : state.walls[low + 1].position;
+    const bool below = positions.minCoeff() < lower, periodic = scene.box.periodic(a);
+    if (below || positions.maxCoeff() > upper || (periodic && positions.maxCoeff() == upper))
+      throw std::invalid_argument(fmt::format("the given state has a position outside the box in {}; {}", a == 0 ? "x" : "y",
+                                              periodic ? "fold it into [lower, upper)" : "put it between the walls"));
+  }
+}
+
 }  // namespace
 
 Disks all_disks(const Scene& scene) {
   require_sound_box(scene.box);
+  detail::check_numbers(scene.effects);
   Disks disks;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
     const Species& species = scene.species[s];
@@ -145,18 +179,19 @@ Start start_from(const Scene& scene, const State& state) {
                                             state.positions.cols(), state.velocities.cols(), disks));
   if (!state.positions.allFinite() || !state.velocities.allFinite())
     throw std::invalid_argument("a position or velocity of the given state is not finite");
-  for (int a = 0; a < 2; ++a) {
-    if (!scene.box.periodic(a) || disks == 0) continue;
-    if (state.positions.row(a).minCoeff() >= scene.box.lower[a] && state.positions.row(a).maxCoeff() < scene.box.upper[a])
-      continue;
-    throw std::invalid_argument(
-        fmt::format("the given state has a position outside the box in {}; fold it into [lower, upper)", a == 0 ? "x" : "y"));
-  }
+  start.state = {.positions = state.positions, .velocities = state.velocities, .images = state.images};
+  if (state.images.cols() != disks) start.state.images = Images::Zero(2, disks);
+  if (scene.effects.collision.roughness && state.spins.size() == disks) start.state.spins = state.spins;
+  if (scene.effects.growth && scene.effects.growth->rate > 0.0) start.state.scale = state.scale;
+  if (scene.effects.shear && scene.effects.shear->rate != 0.0) start.state.shear_displacement = state.shear_displacement;
+  if (!start.state.spins.allFinite() || !std::isfinite(start.state.shear_displacement))
+    throw std::invalid_argument("a spin, or the displacement by shear, of the given state is not finite");
+  if (!(start.state.scale > 0.0 && std::isfinite(start.state.scale)))
+    throw std::invalid_argument("the scale of the given state is not positive and finite");
+  start.state.walls = walls_from(scene, state.walls);
+  require_inside(scene, start.state);
   require_room_to_move(scene, start);
   require_resolvable_scale(scene, start);
-  start.state.time = 0.0;
-  start.state.remainders.resize(2, 0);
-  if (state.images.cols() != disks) start.state.images = Images::Zero(2, disks);
   return start;
 }
 

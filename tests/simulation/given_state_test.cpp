@@ -1,5 +1,6 @@
 // Simulations that begin with a state given in place of the scene's own start.
 
+#include "support/effect_scenes.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -50,6 +51,86 @@ TEST(GivenState, OneThatDoesNotFitTheSceneIsRefused) {
   refused([](State& state) { state.velocities(1, 3) = std::numeric_limits<double>::infinity(); });
   refused([&](State& state) { state.positions(0, 3) = scene.box.upper[0]; });
   refused([&](State& state) { state.positions(1, 3) = std::nextafter(scene.box.lower[1], -1e9); });
+}
+
+TEST(GivenState, OneOutsideWallsIsRefused) {
+  const Scene scene = gas_scene(9, 0.2, Boundary::walls);
+  const State good = make_simulation(scene).state();
+  for (const double x : {std::nextafter(scene.box.lower[0], -1e9), std::nextafter(scene.box.upper[0], 1e9), 1e6}) {
+    State state = good;
+    state.positions(0, 3) = x;
+    EXPECT_THROW(make_simulation(scene, state), std::invalid_argument) << x;
+  }
+}
+
+TEST(GivenState, WhatEffectsGoOnFromIsFinite) {
+  Scene scene = gas_scene(4, 0.2, Boundary::walls);
+  State good = make_simulation(scene).state();
+  good.spins = Eigen::VectorXd::Zero(4);
+  good.walls = {{scene.box.lower[0], 0.0}, {scene.box.upper[0], 0.0}, {scene.box.lower[1], 0.0}, {scene.box.upper[1], 0.0}};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [&](auto with, auto spoil) {
+    Scene affected = scene;
+    with(affected);
+    EXPECT_NO_THROW(make_simulation(affected, good));
+    State state = good;
+    spoil(state);
+    EXPECT_THROW(make_simulation(affected, state), std::invalid_argument);
+    EXPECT_NO_THROW(make_simulation(scene, state)) << "nobody asks for it";
+  };
+  refused([](Scene& s) { s.effects.collision.roughness = 0.5; }, [&](State& state) { state.spins[2] = nan; });
+  refused([](Scene& s) { s.effects.growth = Growth{0.1, 0.5, {}, {}}; }, [&](State& state) { state.scale = nan; });
+  refused([](Scene& s) { s.effects.growth = Growth{0.1, 0.5, {}, {}}; }, [](State& state) { state.scale = 0.0; });
+  refused([](Scene& s) { s.effects.walls[1].mass = s.effects.walls[1].load = 1.0; },
+          [&](State& state) { state.walls[1].velocity = nan; });
+  refused([](Scene& s) { s.effects.walls[1].velocity = 0.1; }, [&](State& state) { state.walls[1].position = nan; });
+}
+
+/// The state of a run with an effect begins a run without: no engine takes more of it along than another.
+TEST(GivenState, OfAnotherSceneBringsNoEffectAlong) {
+  const Box box = box_of(8.0, 4.0, Boundary::walls);
+  const Scene plain = scene_of(box, {{{2.0, 2.0}, {1.0, 0.0}}, {{5.0, 2.0}, {-1.0, 0.0}}});
+  State state = make_simulation(plain).state();
+  state.scale = 1.5;
+  state.spins = Eigen::Vector2d(3.0, 4.0);
+  state.walls = {{-1.0, -0.5}, {9.0, 0.5}, {-1.0, 0.0}, {5.0, 0.0}};
+  state.shear_displacement = 1.0;
+  Scene rough = plain, neutral = plain;
+  rough.effects.collision.roughness = 0.0;
+  neutral.effects.growth = Growth{};
+  neutral.effects.walls[0].velocity = 0.0;
+  for (const char* engine : {"fast", "general", "textbook"}) {
+    Simulation first = make_simulation(plain, state, engine);
+    EXPECT_EQ(first.state().scale, 1.0);
+    EXPECT_TRUE(first.state().walls.empty());
+    first.record_events(true);
+    first.run_until(4.0);
+    const std::vector<Event> events = first.take_events();
+    ASSERT_EQ(events.size(), 2U) << engine;
+    EXPECT_EQ(events[0].time, 1.0) << engine << ": two disks of radius 1/2, three apart, meet at speed 2";
+    EXPECT_EQ(events[1].time, 3.5) << engine << ": from 3 to the wall at 0";
+  }
+  for (const char* engine : engines_with_effects) {
+    EXPECT_EQ(make_simulation(rough, state, engine).state().spins, state.spins);
+    EXPECT_EQ(make_simulation(neutral, state, engine).state().scale, 1.0);
+    Simulation at_rest = make_simulation(neutral, state, engine);
+    at_rest.record_events(true);
+    at_rest.run_until(4.0);
+    EXPECT_EQ(at_rest.take_events()[1].time, 3.5) << engine;
+  }
+}
+
+TEST(GivenState, AWallOfAVelocityOfItsOwnHasIt) {
+  Scene scene = scene_of(box_of(8.0, 4.0, Boundary::walls), {{{4.0, 2.0}, {1.0, 0.0}}});
+  scene.effects.walls[1].velocity = 0.5;
+  State state = make_simulation(scene).state();
+  state.walls = {{0.0, 0.0}, {8.5, -7.0}, {0.0, 0.0}, {4.0, 0.0}};
+  for (const char* engine : engines_with_effects) {
+    const State begun = make_simulation(scene, state, engine).state();
+    ASSERT_EQ(begun.walls.size(), 4U);
+    EXPECT_EQ(begun.walls[1].position, 8.5);
+    EXPECT_EQ(begun.walls[1].velocity, 0.5);
+  }
 }
 
 TEST(GivenState, EnginesWiderThanDoubleSayWhatDoublesCannotHold) {
