@@ -63,7 +63,7 @@ void share_out(const Vec2<Real>& v, const Vec2<Real>& d, Real m_i, Vec2<Real>& v
   light = heavy + kept;
 }
 
-/// 2 mu = 2 m_i m_j / (m_i + m_j) times x, as elastic collisions have always rounded it.
+/// 2 mu = 2 m_i m_j / (m_i + m_j) times x; the ratio first, since the product might overflow.
 template <class Real>
 Real twice_reduced(Real x, Real m_i, Real m_j) {
   if (m_i == m_j) return x * m_i;
