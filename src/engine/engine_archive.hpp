@@ -14,7 +14,7 @@ void Engine<Impact, Layout, World>::serialize(Archive& archive) {
   archive(epoch_, now_, epoch_length_, stamp_, at_one_instant_, cooled_, last_collision_, totals_);
   archive(mean_speed_, reach_, area_, listed_scale_, way_, span_, begun_with_);
   for (int k = 0; k < 2; ++k) archive(travel_[k], clear_[k], speed_limit_[k]);
-  archive(tuner_, widest_, settling_, travelled_, left_, changed_, looks_);
+  archive(tuner_, widest_, settling_, travelled_, left_, changed_, looks_, busy_);
   if constexpr (Archive::is_loading::value) {
     frame_.inside = nullptr;
     if constexpr (!Impact::plain)

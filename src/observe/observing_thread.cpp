@@ -20,8 +20,10 @@ constexpr std::chrono::milliseconds nap{1};
 
 }  // namespace
 
-ObservingThread::ObservingThread(ObservableGroup& group)
-    : group_(group), most_states_(most_states(group.run().disks.count())), thread_([this] { work(); }) {}
+ObservingThread::ObservingThread(ObservableGroup& group) : group_(group), most_states_(most_states(group.run().disks.count())) {
+  spare_.reserve(most_waiting + 2), spare_states_.reserve(most_states_ + 1);  // the thread itself asks for no memory
+  thread_ = std::thread([this] { work(); });
+}
 
 ObservingThread::~ObservingThread() {
   try {
