@@ -99,8 +99,9 @@ struct Totals {
   double kick_energy = 0.0;    ///< energy that the thermostat gave
   double growth_energy = 0.0;  ///< energy that growing disks gave, less what the rescaling of velocities took
   double shear_energy = 0.0;   ///< energy that disks gained across the edges of a sheared box
-  /// sum over pair collisions of r_x times the impulse along y: mass length^2 / time; kept where there is shear
-  double virial_xy = 0.0;
+  /// sum over pair collisions of r_y times the impulse along x, momentum along x that goes across y: mass length^2 / time; kept
+  /// where there is shear
+  double virial_yx = 0.0;
   Eigen::Vector2d obstacle_impulse = Eigen::Vector2d::Zero();  ///< that the obstacles took; mass length / time
   Numerics numerics;
 };

@@ -44,7 +44,7 @@ class AnyImpact {
   /// Disks i and j meet at separation r = r_i - r_j at time `now`, at their hard cores or at the edge of their well. `growth`: of
   /// their contact distance. Changes velocities and keeps count.
   void meet(const Vec2<Real>& r, Real growth, const Body& i, const Body& j, Real now, Totals& totals) {
-    const Real before = i.v.y();
+    const Real before = i.v.x();
     ImpactResult<Real> impact;
     if (wells_.present() && wells_.at_edge(r, i.radius + j.radius)) {
       ++totals.well;
@@ -55,7 +55,7 @@ class AnyImpact {
       (growth > 0 ? totals.growth_energy : totals.dissipated) += (growth > 0 ? 1 : -1) * static_cast<double>(impact.energy);
     }
     totals.virial += static_cast<double>(impact.virial);
-    totals.virial_xy += static_cast<double>(r.x() * i.mass * (i.v.y() - before));
+    totals.virial_yx += static_cast<double>(r.y() * i.mass * (i.v.x() - before));
   }
 
   /// TC model (Luding & McNamara 1998): a disk that collided less than `elastic_below` ago loses nothing.

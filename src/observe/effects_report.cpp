@@ -42,7 +42,7 @@ ShearReport shear_report(const Scene& scene, const Totals& totals, const State& 
   ShearReport shear;
   shear.strain = scene.effects.shear->rate * end.time;
   shear.energy = totals.shear_energy;
-  if (end.time > 0.0) shear.pressure_xy_of_collisions = totals.virial_xy / (scene.box.area() * end.time);
+  if (end.time > 0.0) shear.pressure_xy_of_collisions = totals.virial_yx / (scene.box.area() * end.time);
   return shear;
 }
 

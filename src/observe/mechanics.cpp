@@ -61,7 +61,7 @@ double kinetic_temperature(const Box& box, const Effects& effects, const Disks& 
   const std::array<bool, 2> kept = {keeps_momentum(box, effects, 0), keeps_momentum(box, effects, 1)};
   if (!effects.shear || effects.shear->rate == 0.0) return temperature_of(kept, disks, state);
   State in_flow;
-  in_flow.velocities = velocities_in_flow(effects.shear->rate, disks, state);
+  in_flow.velocities = velocities_in_flow(box, effects, disks, state);
   return temperature_of(kept, disks, in_flow);
 }
 
@@ -69,17 +69,21 @@ double spin_temperature(const Disks& disks, const State& state) {
   return disks.count() == 0 ? 0.0 : 2.0 * spin_energy(disks, state) / static_cast<double>(disks.count());
 }
 
-Eigen::Matrix2Xd velocities_in_flow(double rate, const Disks& disks, const State& state) {
+Eigen::Matrix2Xd velocities_in_flow(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
   State in_flow;
   in_flow.velocities = state.velocities;
-  in_flow.velocities.row(0) -= rate * state.positions.row(1);
+  const double middle = 0.5 * (box.lower.y() + box.upper.y());
+  in_flow.velocities.row(0) -= effects.shear->rate * (state.positions.row(1).array() - middle).matrix();
   const double mass = disks.total_mass();
-  if (mass > 0.0) in_flow.velocities.colwise() -= total_momentum(disks, in_flow) / mass;
+  if (!(mass > 0.0)) return in_flow.velocities;
+  const Eigen::Vector2d common = total_momentum(disks, in_flow) / mass;
+  for (int axis = 0; axis < 2; ++axis)
+    if (keeps_momentum(box, effects, axis)) in_flow.velocities.row(axis).array() -= common[axis];
   return in_flow.velocities;
 }
 
-double momentum_flow_xy(double rate, const Disks& disks, const State& state) {
-  const Eigen::Matrix2Xd u = velocities_in_flow(rate, disks, state);
+double momentum_flow_xy(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
+  const Eigen::Matrix2Xd u = velocities_in_flow(box, effects, disks, state);
   long double sum = 0.0L;
   for (std::size_t i = 0; i < disks.count(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);

@@ -31,9 +31,9 @@ namespace carom {
 [[nodiscard]] double spin_temperature(const Disks& disks, const State& state);
 
 /// Velocities relative to the flow v_x = rate y and to the common motion. Requires positions inside the box.
-[[nodiscard]] Eigen::Matrix2Xd velocities_in_flow(double rate, const Disks& disks, const State& state);
+[[nodiscard]] Eigen::Matrix2Xd velocities_in_flow(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 
 /// sum of m u_x u_y, u relative to the flow: the part of P_xy times the area that flight carries
-[[nodiscard]] double momentum_flow_xy(double rate, const Disks& disks, const State& state);
+[[nodiscard]] double momentum_flow_xy(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 
 }  // namespace carom

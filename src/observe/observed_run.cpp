@@ -76,7 +76,7 @@ bool is_driven(const Effects& effects) {
 }
 
 Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state) {
-  if (run.sheared()) return velocities_in_flow(run.scene.effects.shear->rate, run.disks, state);
+  if (run.sheared()) return velocities_in_flow(run.scene.box, run.scene.effects, run.disks, state);
   return state.velocities.colwise() - kept_velocity(run, state);
 }
 

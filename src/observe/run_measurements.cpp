@@ -38,7 +38,7 @@ void RunMeasurements::sample(const State& state) {
   const Disks& disks = simulation_.disks();
   temperature_sum_ += kinetic_temperature(scene.box, scene.effects, disks, state);
   if (scene.effects.collision.roughness) spin_temperature_sum_ += spin_temperature(disks, state);
-  if (scene.effects.shear) momentum_flow_sum_ += momentum_flow_xy(scene.effects.shear->rate, disks, state);
+  if (scene.effects.shear) momentum_flow_sum_ += momentum_flow_xy(scene.box, scene.effects, disks, state);
   ++samples_;
   look_for_overlap(state);
 }

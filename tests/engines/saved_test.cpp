@@ -37,7 +37,7 @@ void expect_same_totals(const Totals& a, const Totals& b) {
   EXPECT_EQ(a.kick_energy, b.kick_energy);
   EXPECT_EQ(a.growth_energy, b.growth_energy);
   EXPECT_EQ(a.shear_energy, b.shear_energy);
-  EXPECT_EQ(a.virial_xy, b.virial_xy);
+  EXPECT_EQ(a.virial_yx, b.virial_yx);
   EXPECT_EQ(a.obstacle_impulse, b.obstacle_impulse);
   EXPECT_EQ(a.numerics.epochs, b.numerics.epochs);
   EXPECT_EQ(a.numerics.lists_made, b.numerics.lists_made);

@@ -92,7 +92,7 @@ void expect_same_totals(const Totals& found, const Totals& expected, double tole
   EXPECT_EQ(found.kicks, expected.kicks);
   const double scale = expected.virial;
   EXPECT_NEAR(found.virial, expected.virial, tolerance * scale);
-  EXPECT_NEAR(found.virial_xy, expected.virial_xy, tolerance * scale);
+  EXPECT_NEAR(found.virial_yx, expected.virial_yx, tolerance * scale);
   EXPECT_NEAR(found.dissipated, expected.dissipated, tolerance * scale);
   EXPECT_NEAR(found.kick_energy, expected.kick_energy, tolerance * scale);
   EXPECT_NEAR(found.shear_energy, expected.shear_energy, tolerance * scale);
@@ -132,7 +132,7 @@ TEST(EnginesShear, SamplingAndStoppingAnywhereLeaveNoTraceInTheBits) {
   }
   EXPECT_TRUE(same_bits(stopping->state(), straight->state()));
   EXPECT_EQ(stopping->totals().shear_energy, straight->totals().shear_energy);
-  EXPECT_EQ(stopping->totals().virial_xy, straight->totals().virial_xy);
+  EXPECT_EQ(stopping->totals().virial_yx, straight->totals().virial_yx);
 }
 
 TEST(EnginesShear, GoOnFromAStateWithItsDisplacement) {

@@ -24,7 +24,7 @@ class EffectsOfARun : public ::testing::Test {
     totals_.kick_energy = 10.0;
     totals_.growth_energy = 20.0;
     totals_.shear_energy = 30.0;
-    totals_.virial_xy = -25.0;
+    totals_.virial_yx = -25.0;
     totals_.obstacle = 4;
     totals_.obstacle_impulse = {1.5, -2.0};
   }

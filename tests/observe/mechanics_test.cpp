@@ -73,10 +73,25 @@ TEST(Mechanics, TheFlowOfShearIsNoHeat) {
 }
 
 TEST(Mechanics, MomentumFlowIsTakenInTheFrameOfTheFlow) {
-  System flowing =
-      system_of(square_box(10.0, Boundary::periodic), {{{1, 2}, {1.0, 2.0}, 0.5, 3.0}, {{5, 6}, {-1.0, -2.0}, 0.5, 3.0}});
+  const Box box = square_box(10.0, Boundary::periodic);
+  Effects effects;
+  effects.shear = Shear{.rate = 0.5, .where = {}};
+  System flowing = system_of(box, {{{1, 2}, {1.0, 2.0}, 0.5, 3.0}, {{5, 6}, {-1.0, -2.0}, 0.5, 3.0}});
   flowing.state.velocities.row(0) += 0.5 * flowing.state.positions.row(1);
-  EXPECT_NEAR(momentum_flow_xy(0.5, flowing.disks, flowing.state), 12.0, 1e-13);
+  EXPECT_NEAR(momentum_flow_xy(box, effects, flowing.disks, flowing.state), 12.0, 1e-13);
+}
+
+TEST(Mechanics, CommonMotionRelativeToTheFlowIsHeatWhereAThermostatPushes) {
+  const Box box{{0.0, 0.0}, {10.0, 10.0}, {Boundary::periodic, Boundary::periodic}};
+  Effects effects;
+  effects.shear = Shear{.rate = 0.5, .where = {}};
+  System drifting = system_of(box, {{{1, 2}, {1.0, 2.0}, 0.5, 3.0}, {{5, 6}, {1.0, 2.0}, 0.5, 3.0}});
+  drifting.state.velocities.row(0).array() += 0.5 * (drifting.state.positions.row(1).array() - 5.0);
+  EXPECT_NEAR(kinetic_temperature(box, effects, drifting.disks, drifting.state), 0.0, 1e-13);
+  effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.1, .where = {}};
+  // 2 disks of 3 (1 + 4) / 2 each, for 4 degrees of freedom.
+  EXPECT_NEAR(kinetic_temperature(box, effects, drifting.disks, drifting.state), 7.5, 1e-13);
+  EXPECT_NEAR(momentum_flow_xy(box, effects, drifting.disks, drifting.state), 12.0, 1e-13);
 }
 
 TEST(Mechanics, SpinsHaveATemperatureOfTheirOwn) {
