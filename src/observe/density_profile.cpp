@@ -1,7 +1,8 @@
 // Disks per area along an axis, of all and of each species. Average over time. The bins are those of the scene's box, whatever
-// its walls do.
+// walls across this axis do; they are as long as those across the other axis are apart.
 
 #include "observe/blocking.hpp"
+#include "observe/geometry.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 
@@ -35,19 +36,19 @@ class DensityProfile final : public SavedObservable<DensityProfile> {
       counts[at] += 1.0;
       if (kinds_ > 1) counts[(1 + static_cast<std::size_t>(run_.disks.species[i])) * bins_ + at] += 1.0;
     }
+    const double across = box_of(run_.scene.box, state).lengths()[1 - axis_];
     for (std::size_t kind = 0; kind < kinds_; ++kind)
-      for (std::size_t b = 0; b < bins_; ++b) densities_[kind].add(b, counts[kind * bins_ + b]);
+      for (std::size_t b = 0; b < bins_; ++b) densities_[kind].add(b, counts[kind * bins_ + b] / across);
   }
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     const Box& box = run_.scene.box;
-    const double strip = width_ * box.lengths()[1 - axis_];
     Table table{.name = name()};
     Column middles{axis_ == 0 ? "x" : "y", "length", {}};
     for (std::size_t b = 0; b < bins_; ++b) middles.values.push_back(box.lower[axis_] + (static_cast<double>(b) + 0.5) * width_);
     table.columns.push_back(std::move(middles));
     for (std::size_t kind = 0; kind < kinds_; ++kind)
-      densities_[kind].put(table, kind == 0 ? "density" : "density" + run_.suffix(kind - 1), "1 / area", 1.0 / strip);
+      densities_[kind].put(table, kind == 0 ? "density" : "density" + run_.suffix(kind - 1), "1 / area", 1.0 / width_);
     Measurement found{.name = name()};
     found.tables.push_back(std::move(table));
     return found;

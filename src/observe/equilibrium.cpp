@@ -12,6 +12,7 @@ namespace {
 
 bool has_walls_of_different_temperature(const Effects& effects) {
   std::optional<double> first;
+  if (effects.thermostat && effects.thermostat->rate > 0.0) first = effects.thermostat->temperature;
   for (const WallProperties& wall : effects.walls) {
     if (!wall.temperature) continue;
     if (first && *first != *wall.temperature) return true;
@@ -31,7 +32,7 @@ std::string_view why_no_Z(const Effects& effects) {
     return "the area changes";
   if (any_wall(effects, [](const WallProperties& wall) { return wall.restitution.value_or(1.0) != 1.0; }))
     return "walls take energy away";
-  if (has_walls_of_different_temperature(effects)) return "walls differ in temperature";
+  if (has_walls_of_different_temperature(effects)) return "walls differ in temperature, or from the thermostat";
   if (!effects.obstacles.empty()) return "obstacles carry pressure and take up area";
   if (effects.growth && effects.growth->rate != 0.0) return "disks grow";
   if (effects.shear && effects.shear->rate != 0.0) return "shear heats the disks";

@@ -46,6 +46,8 @@ class HFunction final : public SavedObservable<HFunction> {
       const auto s = static_cast<std::size_t>(run_.disks.species[i]);
       counts[s][bin(v(1, static_cast<Eigen::Index>(i)), s) * side + bin(v(0, static_cast<Eigen::Index>(i)), s)] += 1.0;
       disks[s] += 1.0;
+      const double fastest = v.col(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff();
+      beyond_ = beyond_ || fastest > 0.25 * static_cast<double>(side) * thermal_[s];
     }
     double h = 0.0, variance = 0.0;
     const double all = static_cast<double>(run_.disks.count());
@@ -71,6 +73,7 @@ class HFunction final : public SavedObservable<HFunction> {
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
+    if (beyond_) found.note = "some velocities were beyond the histogram, 16 thermal velocities of the start to either side";
     found.tables.push_back({.name = name(), .columns = {{"time", "time", times_}, {"H", "", values_}, {"H_error", "", errors_}}});
     Scalar maxwell{.name = "maxwell", .note = "of Maxwell's distribution at the temperature of the start"};
     if (run_.temperature > 0.0) {
@@ -88,7 +91,7 @@ class HFunction final : public SavedObservable<HFunction> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(calls_, stride_, times_, values_, errors_);
+    archive(calls_, stride_, times_, values_, errors_, beyond_);
   }
 
  private:
@@ -113,6 +116,7 @@ class HFunction final : public SavedObservable<HFunction> {
   std::vector<double> thermal_;  ///< velocity, of each species
   std::uint64_t calls_ = 0, stride_ = 1;
   std::vector<double> times_, values_, errors_;
+  bool beyond_ = false;  ///< a velocity was in the last bin that belongs behind it
 };
 
 }  // namespace

@@ -44,20 +44,37 @@ struct Nearest {
   }
 };
 
+/// A periodic box and its images side by side, no narrower than `width` in either direction.
+struct Tiles {
+  Box box;
+  Eigen::Matrix2Xd positions;  ///< those of the first box come first
+};
+Tiles tiles_of(const Box& box, const Eigen::Matrix2Xd& positions, double width) {
+  const Eigen::Vector2d lengths = box.lengths();
+  const Eigen::Vector2d many = (width / lengths.array()).ceil().max(1.0);
+  Tiles tiles{box, Eigen::Matrix2Xd(2, positions.cols() * static_cast<Eigen::Index>(many.prod()))};
+  tiles.box.upper = box.lower + many.cwiseProduct(lengths);
+  Eigen::Index at = 0;
+  for (double y = 0.0; y < many.y(); ++y)
+    for (double x = 0.0; x < many.x(); ++x, at += positions.cols())
+      tiles.positions.middleCols(at, positions.cols()) = positions.colwise() + Eigen::Vector2d(x * lengths.x(), y * lengths.y());
+  return tiles;
+}
+
 std::vector<std::complex<double>> local_order(const Box& box, const Eigen::Matrix2Xd& positions) {
-  const double half_box = 0.5 * box.lengths().minCoeff();
   const auto count = static_cast<std::size_t>(positions.cols());
   std::vector<Nearest> nearest;
-  for (double reach = std::min(half_box, 2.2 * std::sqrt(box.area() / static_cast<double>(count)));;
-       reach = std::min(half_box, 2.0 * reach)) {
+  for (double reach = 2.2 * std::sqrt(box.area() / static_cast<double>(count));; reach *= 2.0) {
     nearest.assign(count, {});
-    for_each_close_pair(box, positions, reach, [&](Eigen::Index i, Eigen::Index j, const Eigen::Vector2d& r) {
-      nearest[static_cast<std::size_t>(i)].offer(r.squaredNorm(), r);
-      nearest[static_cast<std::size_t>(j)].offer(r.squaredNorm(), -r);
+    const auto offer = [&](Eigen::Index i, const Eigen::Vector2d& r) {
+      if (i < positions.cols()) nearest[static_cast<std::size_t>(i)].offer(r.squaredNorm(), r);
+    };
+    const Tiles tiles = tiles_of(box, positions, 2.0 * reach);
+    for_each_close_pair(tiles.box, tiles.positions, reach, [&](Eigen::Index i, Eigen::Index j, const Eigen::Vector2d& r) {
+      offer(i, r);
+      offer(j, -r);
     });
-    const bool complete =
-        std::all_of(nearest.begin(), nearest.end(), [](const Nearest& near) { return near.count == Nearest::six; });
-    if (complete || reach == half_box) break;
+    if (std::ranges::all_of(nearest, [](const Nearest& near) { return near.count == Nearest::six; })) break;
   }
   std::vector<std::complex<double>> psi;
   for (const Nearest& near : nearest) psi.push_back(near.psi());

@@ -131,12 +131,12 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
 
   void add_step(const Snapshot& now, const Totals&) {
     const double dt = now.time - before_.time, count = static_cast<double>(run_.disks.count());
-    const double kT = 0.5 * (now.kT + before_.kT);
+    const double kT = 0.5 * (now.kT + before_.kT), thermal = 0.5 * (std::sqrt(now.kT) + std::sqrt(before_.kT));
     virial_.add(now.virial - before_.virial, 2.0 * count * kT * dt);
     const double met =
         equal_ ? static_cast<double>(now.pairs - before_.pairs) * 2.0 * run_.disks.radius[0] * std::sqrt(0.5 * run_.disks.mass[0])
                : now.meetings - before_.meetings;
-    rate_.add(std::numbers::pi * met, count * dt * std::sqrt(2.0 * std::numbers::pi * kT) * speed_factor(freedom_));
+    rate_.add(std::numbers::pi * met, count * dt * std::sqrt(2.0 * std::numbers::pi) * thermal * speed_factor(freedom_));
     double push = 0.0;
     for (int axis = 0; axis < 2; ++axis) {
       const std::size_t low = 2 * static_cast<std::size_t>(axis);

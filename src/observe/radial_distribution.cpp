@@ -73,11 +73,16 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
         g_(static_cast<std::size_t>(request.bins.value_or(250))),
         counts_(kinds_ > 1 ? 1 + kinds_ * kinds_ : 1, std::vector<double>(g_.size())),
         contact_(run.mean_diameter,
-                 all_equal(run.disks.radius) ? std::min(range_, 1.25 * run.mean_diameter) : run.mean_diameter) {
+                 all_equal(run.disks.radius) ? std::min(range_, smooth_until(run) * run.mean_diameter) : run.mean_diameter) {
     if (kinds_ > 1) partial_.resize(kinds_ * kinds_, BlockedColumn(g_.size()));
   }
 
   [[nodiscard]] std::string name() const override { return "radial_distribution"; }
+  /// In diameters: g jumps at the edge of a well.
+  static double smooth_until(const ObservedRun& run) {
+    const auto& well = run.scene.effects.square_well;
+    return well && well->depth != 0.0 ? std::min(1.25, well->width) : 1.25;
+  }
   [[nodiscard]] double step() const override { return step_; }
 
   void sample(const State& state, const Totals&) override {

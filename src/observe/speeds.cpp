@@ -5,6 +5,8 @@
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -22,7 +24,10 @@ class Distribution {
   void add(std::size_t kind, double x) {
     const double bin = x / width_;
     if (bin < static_cast<double>(bins_)) counts_[kind * bins_ + static_cast<std::size_t>(bin)] += 1.0;
+    if (kind == 0) (bin < static_cast<double>(bins_) ? within_ : beyond_) += 1.0;
   }
+  /// Of all disks at all times.
+  [[nodiscard]] double share_beyond() const { return beyond_ > 0.0 ? beyond_ / (within_ + beyond_) : 0.0; }
   void end_sample(const std::vector<double>& disks) {
     for (std::size_t kind = 0; kind < shares_.size(); ++kind)
       for (std::size_t b = 0; b < bins_; ++b) shares_[kind].add(b, counts_[kind * bins_ + b], disks[kind]);
@@ -40,7 +45,7 @@ class Distribution {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(shares_, counts_);
+    archive(shares_, counts_, within_, beyond_);
   }
 
  private:
@@ -48,6 +53,7 @@ class Distribution {
   std::size_t bins_;
   std::vector<BlockedColumn> shares_;
   std::vector<double> counts_;
+  double within_ = 0.0, beyond_ = 0.0;  ///< of all kinds together
 };
 
 class Speeds final : public SavedObservable<Speeds> {
@@ -81,6 +87,10 @@ class Speeds final : public SavedObservable<Speeds> {
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
+    // In equilibrium one in e^12.5 = 270,000.
+    if (const double beyond = std::max(speeds_.share_beyond(), energies_.share_beyond()); beyond > 1e-3)
+      found.note =
+          fmt::format("{:.2g} % are beyond the histograms, which are scaled with the temperature of the start", 100.0 * beyond);
     found.tables.push_back(speeds_.table("speeds", "length / time", run_));
     found.tables.push_back(energies_.table("energies", "energy", run_));
     return found;

@@ -57,6 +57,12 @@ double sound_time(const ObservedRun& run) {
   return speed > 0.0 ? 0.5 * run.scene.box.lengths().minCoeff() / speed : std::numeric_limits<double>::infinity();
 }
 
+/// By more than five standard errors.
+bool flows_steadily(const Blocking& flux) {
+  const std::optional<Blocking::Estimate> found = flux.estimate();
+  return found && found->error && found->inefficiency && std::abs(found->mean) > 5.0 * *found->error;
+}
+
 }  // namespace
 
 Transport::Transport(const ObservableRequest& request, const ObservedRun& run, TransportCoefficient coefficient)
@@ -82,6 +88,7 @@ void Transport::tick(double time) {
     sum_.since = next_;
     const Eigen::Vector2d mean = (moment_ - noted_) / step_;
     products_.add(std::array{mean.x(), mean.y()});
+    for (std::size_t c = 0; c < 2; ++c) mean_flux_[c].add(mean[static_cast<Eigen::Index>(c)]);
     moments_.add(std::array{moment_.x(), moment_.y()});
     noted_ = moment_;
     next_ = static_cast<double>(++ticks_ + 1) * step_;
@@ -99,6 +106,11 @@ Measurement Transport::finish(double time, const Totals&) {
   found.scalars.push_back(
       coefficient("einstein_helfand", unit, step, last == nullptr ? 0.0 : factor / (2.0 * step * last->lag), last));
 
+  if (std::ranges::any_of(mean_flux_, flows_steadily)) {
+    found.note =
+        "the flux has a mean that is not zero, as the stress of a strained crystal has: what grows with it is no coefficient";
+    for (Scalar& scalar : found.scalars) scalar = {.name = scalar.name, .unit = unit, .note = found.note};
+  }
   Table table{.name = name};
   Column lags{"lag", "time", {}}, flux{"correlation", unit_of_flux, {}}, flux_error{"correlation_error", unit_of_flux, {}};
   Column until{"integral_to", "time", {}}, integral{"green_kubo", unit, {}}, integral_error{"green_kubo_error", unit, {}};

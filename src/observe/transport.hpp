@@ -8,11 +8,13 @@
 //
 // Velocities are relative to the common motion.
 
+#include "observe/blocking.hpp"
 #include "observe/followers.hpp"
 #include "observe/multiple_tau.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -41,7 +43,7 @@ class Transport final : public SavedObservable<Transport>, public FluxFollower {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(kT_, next_, ticks_, sum_.change, sum_.moment, sum_.since, flow_, moment_, noted_, products_, moments_);
+    archive(kT_, next_, ticks_, sum_.change, sum_.moment, sum_.since, flow_, moment_, noted_, products_, moments_, mean_flux_);
   }
 
  private:
@@ -54,6 +56,7 @@ class Transport final : public SavedObservable<Transport>, public FluxFollower {
   double next_ = step_;
   std::uint64_t ticks_ = 0;
   FluxSum sum_;                                     ///< since the last tick
+  std::array<Blocking, 2> mean_flux_;               ///< over each step
   Eigen::Vector2d flow_ = Eigen::Vector2d::Zero();  ///< the part of the flux that flies
   Eigen::Vector2d moment_ = Eigen::Vector2d::Zero(), noted_ = Eigen::Vector2d::Zero();
   MultipleTau products_{2, MultipleTau::Pairs::products}, moments_{2, MultipleTau::Pairs::squared_differences};

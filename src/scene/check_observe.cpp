@@ -112,10 +112,10 @@ void check_observe(const Scene& scene) {
     if (!one_of(request.name, {"viscosity", "heat_conductivity"})) continue;
     if (const std::string_view why = what_spoils_transport(scene); !why.empty())
       refuse_observable(request, fmt::format("has no meaning here: {}", why));
-    if (request.name == "heat_conductivity" && !equal_masses(scene))
+    if (request.name == "heat_conductivity" && !(equal_masses(scene) && radii_of(scene).equal()))
       refuse_observable(request,
-                        "is measured for disks of one mass only: in a mixture heat also goes with diffusion; remove it, or "
-                        "make all masses equal");
+                        "is measured for disks of one mass and size only: in a mixture heat also goes with diffusion; "
+                        "remove it, or make all disks equal");
   }
 }
 

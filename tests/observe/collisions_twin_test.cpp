@@ -98,6 +98,22 @@ TEST(ObservedPressure, FromTheRateIsTheRatesShareOfTheMaxwellRate) {
               100.0 * rounding_of_transfers);
 }
 
+/// sqrt(kT) changes from sample to sample, and its mean is not the root of the mean.
+TEST(ObservedPressure, FromTheRateInABathTakesTheMeanThermalSpeed) {
+  std::string scene = small_fluid("pressure = { every = 0.05 }");
+  scene.insert(scene.find("[observe]"), "[thermostat]\ntemperature = 1.0\nrate = 2.0\n");
+  const Observed o = observe(parse_scene(scene), 0.05);
+  double thermal = 0.0;
+  for (std::size_t k = 1; k < o.record.states.size(); ++k)
+    for (const std::size_t end : {k - 1, k})
+      thermal += 0.5 * 0.05 * std::sqrt(kinetic_temperature(o.scene.box, o.scene.effects, o.disks, o.record.states[end]));
+  const double d = 80.0, met = static_cast<double>(o.totals.pair) * std::sqrt(0.75);
+  const double slower = std::sqrt(d / 2.0) * std::tgamma(d / 2.0) / std::tgamma((d + 1.0) / 2.0);
+  EXPECT_NEAR(o.value("pressure", "Z_rate"),
+              1.0 + std::numbers::pi * met / (40.0 * std::sqrt(2.0 * std::numbers::pi) * thermal * slower),
+              100.0 * rounding_of_transfers);
+}
+
 TEST(ObservedPressure, FromWallsIsTheirPushOverTheRoomOfCentres) {
   std::string scene = small_fluid("pressure = { every = 0.05 }\nwall_fluxes = { every = 0.05 }");
   scene.replace(scene.find("periodic"), 8, "walls");
@@ -212,6 +228,22 @@ TEST(ObservedFlights, OfALargeSystemAreThoseOfAFourthOfItsDisks) {
     }
   ASSERT_GT(flights, 500.0);
   EXPECT_NEAR(o.value("free_flight", "mean_free_time"), time / flights, rounding_of_transfers);
+}
+
+/// Thirty disks of a triangular lattice in a square box: P_xx and P_yy differ for good.
+TEST(ObservedTransport, OfAStrainedCrystalIsNone) {
+  const Observed o = observe(
+      parse_scene(
+          "[box]\naspect = 1.0\nboundary = \"periodic\"\n[[disks]]\ncount = 30\nradius = 0.5\nmass = 1.0\npacking_fraction = "
+          "0.8\n"
+          "positions = \"hexagonal\"\nvelocities = { temperature = 1.0 }\n[collision]\nrule = \"specular\"\n[run]\ntime = 100.0\n"
+          "equilibrate = { collisions_per_disk = 50 }\n[observe]\nviscosity = true\nheat_conductivity = true\n"),
+      100.0);
+  for (const char* name : {"green_kubo", "einstein_helfand"}) {
+    EXPECT_FALSE(o.scalar("viscosity", name).value) << name;
+    EXPECT_THAT(o.scalar("viscosity", name).note, testing::HasSubstr("strained crystal")) << name;
+    EXPECT_TRUE(o.scalar("heat_conductivity", name).value) << name;
+  }
 }
 
 /// Helfand's moments by their definition, from the replayed log.

@@ -134,5 +134,13 @@ TEST(ObservedCorrelations, InitialSlopeCountsEveryChangeOfVelocity) {
   EXPECT_NEAR(o.value("velocity_autocorrelation", "initial_slope"), 0.5 * changes / (square * 5.0), rounding_of_correlations);
 }
 
+TEST(ObservedAutocorrelation, HasNoInitialSlopeWhereEnergyIsLost) {
+  std::string scene = small_fluid("velocity_autocorrelation = true");
+  scene.replace(scene.find("rule = \"specular\""), 17, "rule = \"specular\"\nrestitution = 0.9");
+  const Observed o = observe(parse_scene(scene), 1.0);
+  EXPECT_FALSE(o.scalar("velocity_autocorrelation", "initial_slope").value);
+  EXPECT_NE(o.scalar("velocity_autocorrelation", "initial_slope").note.find("energy"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace carom::test

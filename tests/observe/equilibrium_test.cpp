@@ -66,6 +66,11 @@ TEST(Equilibrium, OutOfItThereIsNoZ) {
                 e.growth = Growth{.rate = 0.1, .packing_fraction = {}, .reduced_pressure = {}, .where = {}};
               })),
               HasSubstr("grow"));
+  EXPECT_THAT(why_no_Z(with([](Effects& e) {
+                e.walls[0].temperature = 4.0;
+                e.thermostat = Thermostat{.temperature = 1.0, .rate = 0.5, .where = {}};
+              })),
+              HasSubstr("thermostat"));
   EXPECT_THAT(why_no_Z(with([](Effects& e) { e.shear = Shear{.rate = 0.1, .where = {}}; })), HasSubstr("shear"));
 }
 

@@ -135,6 +135,34 @@ TEST(ObservedStructure, HexaticOrderIsThatOfSixSortedNeighbours) {
   EXPECT_TRUE(std::isnan(o.column("hexatic", 0, "g6")[0])) << "no pair is that near";
 }
 
+/// In a box narrower than the way to the sixth neighbour, images count.
+TEST(ObservedStructure, HexaticOrderOfANarrowBoxLooksAtImages) {
+  const Observed o = observe(
+      parse_scene(
+          "[box]\nx = [0.0, 30.0]\ny = [0.0, 2.0]\nboundary = \"periodic\"\n[[disks]]\ncount = 20\nradius = 0.5\nmass = 1.0\n"
+          "positions = \"random\"\nvelocities = { temperature = 1.0 }\n[collision]\nrule = \"specular\"\n[run]\ntime = 5.0\n"
+          "[observe]\nhexatic = { every = 0.5, range = 1.0 }"),
+      0.5);
+  double local = 0.0;
+  for (const State& state : o.record.states) {
+    for (Eigen::Index i = 0; i < 20; ++i) {
+      std::vector<Eigen::Vector2d> others;
+      for (Eigen::Index j = 0; j < 20; ++j)
+        for (int nx = -1; nx <= 1; ++nx)
+          for (int ny = -9; ny <= 9; ++ny)
+            if (i != j || nx != 0 || ny != 0)
+              others.push_back(state.positions.col(j) - state.positions.col(i) + Eigen::Vector2d(30.0 * nx, 2.0 * ny));
+      std::sort(others.begin(), others.end(), [](const auto& a, const auto& b) { return a.norm() < b.norm(); });
+      std::complex<double> sum = 0.0;
+      for (std::size_t k = 0; k < 6; ++k) sum += std::polar(1.0 / 6.0, 6.0 * std::atan2(others[k].y(), others[k].x()));
+      local += std::abs(sum) / 20.0;
+    }
+  }
+  // Images at equal distances to either side: which of the two is the sixth may depend on rounding, and psi does not, since they
+  // are opposite.
+  EXPECT_NEAR(o.value("hexatic", "local"), local / static_cast<double>(o.record.states.size()), rounding_of_pair_sums);
+}
+
 TEST(ObservedStructure, PerfectTriangularLatticeHasFullHexaticOrder) {
   const Scene scene = parse_scene(
       "[box]\nx = [0.0, 6.0]\ny = [0.0, 6.92820323027551]\nboundary = \"periodic\"\n[[disks]]\ncount = 48\nradius = 0.3\nmass = "

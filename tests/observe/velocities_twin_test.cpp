@@ -145,5 +145,34 @@ TEST(ObservedVelocities, HIsThatOfTheBinsThatVelocitiesFallInto) {
   EXPECT_NEAR(o.column("h_function", 0, "time")[7], 0.35, rounding_of_means);
 }
 
+TEST(ObservedSpeeds, BeyondTheHistogramsAreSaid) {
+  const auto heated = [](double kT) {
+    return observe(
+        parse_scene("[box]\nx = [0.0, 6.0]\ny = [0.0, 6.0]\nboundary = \"walls\"\n[[disks]]\ncount = 12\nradius = 0.3\nmass = "
+                    "1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n[collision]\nrule = \"specular\"\n"
+                    "[walls]\ntop = { temperature = " +
+                    std::to_string(kT) + " }\n[run]\ntime = 40.0\n[observe]\nspeeds = true\nh_function = true"),
+        40.0);
+  };
+  const Observed hot = heated(1000.0), mild = heated(1.0);
+  for (const char* name : {"speeds", "h_function"}) {
+    EXPECT_NE(hot.of(name).note.find("beyond the histogram"), std::string::npos) << name;
+    EXPECT_EQ(mild.of(name).note, "") << name;
+  }
+}
+
+TEST(ObservedPlaces, AreasAreThoseThatMovingWallsLeave) {
+  const Observed o = observe(
+      parse_scene(
+          "[box]\nx = [0.0, 10.0]\ny = [0.0, 6.0]\nboundary = \"walls\"\n[[disks]]\ncount = 12\nradius = 0.3\nmass = 1.0\n"
+          "positions = \"random\"\nvelocities = { temperature = 1.0 }\n[collision]\nrule = \"specular\"\n[walls]\nright = { "
+          "velocity = -1.0 }\n[run]\ntime = 4.0\n[observe]\ndensity_profile = { every = 0.25, axis = \"y\", bins = 3 }"),
+      0.25);
+  double density = 0.0, expected = 0.0;
+  for (const double one : o.column("density_profile", 0, "density")) density += 2.0 * one;
+  for (const State& state : o.record.states) expected += 12.0 / state.walls[1].position;
+  EXPECT_NEAR(density, expected / static_cast<double>(o.record.states.size()), rounding_of_means);
+}
+
 }  // namespace
 }  // namespace carom::test

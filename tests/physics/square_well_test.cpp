@@ -5,10 +5,13 @@
 #include "support/block_means.hpp"
 #include "support/effect_scenes.hpp"
 
+#include <carom/observe.hpp>
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace carom::test {
 namespace {
@@ -73,6 +76,31 @@ void expect_jump(double depth) {
 TEST(PhysicsSquareWell, TheJumpOfGAtTheEdgeIsTheBoltzmannFactor) {
   expect_jump(1.0);
   expect_jump(-0.5);
+}
+
+/// Every disk meets 2 sqrt(pi) n sigma g(sigma+) sqrt(kT / m) others per time at its core, exactly, whatever is round it.
+TEST(PhysicsSquareWell, ContactValueOfANarrowShoulderIsThatOfTheRate) {
+  Scene scene = gas_scene(256, 0.3, Boundary::periodic);
+  scene.effects.square_well = SquareWell{1.1, -1.0, {}};
+  scene.effects.thermostat = Thermostat{1.0, 0.5, {}};
+  scene.run.time = 3000.0;
+  scene.run.equilibrate = Run::Equilibrate{20.0, {}};
+  ObservableRequest& request = scene.observe.emplace_back();
+  request.name = "radial_distribution";
+  request.every = 0.5;
+  Simulation gas = make_simulation(scene);
+  Observation observation(gas);
+  RunHooks hooks;
+  observation.attach(hooks);
+  run_schedule(gas, hooks);
+  const Scalar contact = observation.results().at(0).scalars.at(0);
+  const double sigma = 2.0 * scene.species.front().radius, mass = scene.species.front().mass;
+  const double rate = 2.0 * static_cast<double>(gas.totals().pair) / (256.0 * gas.time());
+  const double expected = rate / (2.0 * std::sqrt(std::numbers::pi / mass) * 256.0 / scene.box.area() * sigma) * 256.0 / 255.0;
+  ASSERT_TRUE(contact.value && contact.error);
+  // The rate is known better than pairs at contact.
+  EXPECT_NEAR(*contact.value, expected, 4.0 * *contact.error);
+  EXPECT_LT(*contact.error, 0.02) << "bins across the shoulder's edge would be wrong by 0.07";
 }
 
 }  // namespace
