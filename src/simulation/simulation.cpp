@@ -86,7 +86,9 @@ Simulation make_simulation(const Scene& scene, const std::string& engine) {
 }
 
 Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine) {
-  return Simulation::begin(scene, start_from(scene, start), engine);
+  Start from = start_from(scene, start);
+  require_between_walls(scene, from.state);
+  return Simulation::begin(scene, std::move(from), engine);
 }
 
 std::string to_string(StopReason reason) {

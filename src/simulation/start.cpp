@@ -125,18 +125,13 @@ std::vector<WallState> walls_from(const Scene& scene, const std::vector<WallStat
   return walls;
 }
 
-void require_inside(const Scene& scene, const State& state) {
-  for (int a = 0; a < 2; ++a) {
-    const auto positions = state.positions.row(a);
-    if (positions.size() == 0) continue;
-    const std::size_t low = 2 * static_cast<std::size_t>(a);
-    const double lower = state.walls.empty() ? scene.box.lower[a] : state.walls[low].position;
-    const double upper = state.walls.empty() ? scene.box.upper[a] : state.walls[low + 1].position;
-    const bool below = positions.minCoeff() < lower, periodic = scene.box.periodic(a);
-    if (below || positions.maxCoeff() > upper || (periodic && positions.maxCoeff() == upper))
-      throw std::invalid_argument(fmt::format("the given state has a position outside the box in {}; {}", a == 0 ? "x" : "y",
-                                              periodic ? "fold it into [lower, upper)" : "put it between the walls"));
-  }
+void require_inside(const Scene& scene, const State& state, int axis, double lower, double upper, const char* advice) {
+  const auto positions = state.positions.row(axis);
+  if (positions.size() == 0) return;
+  const double most = positions.maxCoeff();
+  if (positions.minCoeff() >= lower && (most < upper || (most == upper && !scene.box.periodic(axis)))) return;
+  throw std::invalid_argument(
+      fmt::format("the given state has a position outside the box in {}; {}", axis == 0 ? "x" : "y", advice));
 }
 
 }  // namespace
@@ -189,10 +184,22 @@ Start start_from(const Scene& scene, const State& state) {
   if (!(start.state.scale > 0.0 && std::isfinite(start.state.scale)))
     throw std::invalid_argument("the scale of the given state is not positive and finite");
   start.state.walls = walls_from(scene, state.walls);
-  require_inside(scene, start.state);
+  for (const int axis : {0, 1})
+    if (scene.box.periodic(axis))
+      require_inside(scene, start.state, axis, scene.box.lower[axis], scene.box.upper[axis], "fold it into [lower, upper)");
   require_room_to_move(scene, start);
   require_resolvable_scale(scene, start);
   return start;
+}
+
+void require_between_walls(const Scene& scene, const State& state) {
+  for (const int axis : {0, 1}) {
+    if (scene.box.periodic(axis)) continue;
+    const std::size_t low = 2 * static_cast<std::size_t>(axis);
+    const double lower = state.walls.empty() ? scene.box.lower[axis] : state.walls[low].position;
+    const double upper = state.walls.empty() ? scene.box.upper[axis] : state.walls[low + 1].position;
+    require_inside(scene, state, axis, lower, upper, "put it between the walls");
+  }
 }
 
 }  // namespace carom

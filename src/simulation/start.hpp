@@ -21,6 +21,9 @@ Start draw_start(const Scene& scene);
 /// itself lacks. Disks may overlap; remainders are dropped, so that every engine starts from the same numbers.
 Start start_from(const Scene& scene, const State& state);
 
+/// Throws std::invalid_argument where a centre is beyond a wall: a fixed-step method gets there, exact events never do.
+void require_between_walls(const Scene& scene, const State& state);
+
 /// All disks of a scene, in the order of its species. Throws SceneError where a species that a program made is incomplete.
 Disks all_disks(const Scene& scene);
 
