@@ -21,9 +21,12 @@ class SceneError : public std::runtime_error {
  public:
   SceneError(const Location& where, const std::string& sentence);
   [[nodiscard]] const Location& where() const { return where_; }
+  /// what() without the place.
+  [[nodiscard]] const std::string& sentence() const { return sentence_; }
 
  private:
   Location where_;
+  std::string sentence_;
 };
 
 struct RandomPositions {};   ///< uniform without overlap, by random sequential addition

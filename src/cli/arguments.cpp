@@ -14,8 +14,10 @@
 #include <carom/version.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <sstream>
 
@@ -44,6 +46,9 @@ Invocation invocation_of(int argc, char** argv) {
   invocation.program = shell_quoted(invocation.program);
   return invocation;
 }
+
+/// Of a count: the parser would take -1 for 2^64 - 1.
+CLI::Validator countable() { return CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description(""); }
 
 void add_scene_options(CLI::App& command, SceneOptions& scene) {
   command.add_option("scene", scene.path, "The scene file (TOML)")->required()->type_name("SCENE");
@@ -106,7 +111,8 @@ void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
   command
       ->add_option("--verify", options->verify,
                    "Check the engine's invariants every K events, and end the run where one is broken")
-      ->type_name("K");
+      ->type_name("K")
+      ->check(countable());
   command->add_flag("--verify-horizon", options->verify_horizon,
                     "Say too how far the trajectory can be trusted, by repeating its beginning in 24 to 113 bits");
   command->add_flag("--report", options->report, "Make the page of the run too: report.html, as carom report does");
@@ -130,6 +136,7 @@ void add_resumption(CLI::App& program, Action& action, const Invocation& invocat
   CLI::Option* time = command->add_option("--time", options->time, "Simulated time at which the run is to end")->type_name("T");
   command->add_option("--collisions", options->collisions, "Collisions of pairs, since its beginning, with which it is to end")
       ->type_name("N")
+      ->check(countable())
       ->excludes(time);
   RunOptions& how = options->run;
   command->add_flag("--json", how.json, "Print summary.json in place of the summary for people");
@@ -160,7 +167,8 @@ void add_horizon(CLI::App& program, Action& action) {
   command
       ->add_option("--collisions", options->collisions,
                    "Collisions that the Lyapunov exponent is measured over (default: 500000, or 100 per disk)")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(countable());
   command->add_flag("--json", options->json, "Print JSON in place of the table");
   command->add_flag("-q,--quiet", options->quiet, "Print the sentence alone, and no progress");
   add_progress(*command, options->progress);
@@ -366,7 +374,8 @@ void add_bench(CLI::App& program, Action& action) {
           "--collisions", options->collisions,
           "Collisions that the textbook engine does in a turn (default: 200000, or one per disk); the fast one does four "
           "times as many")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(countable());
   command->callback([&action, options] { action = [options] { return bench(*options); }; });
 }
 

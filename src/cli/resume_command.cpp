@@ -4,6 +4,7 @@
 #include "cli/run_session.hpp"
 #include "io/checkpoint.hpp"
 #include "io/output_error.hpp"
+#include "io/run_writer.hpp"
 
 #include <fmt/format.h>
 #include <carom/simulation.hpp>
@@ -34,6 +35,18 @@ Scene scene_of(const CheckpointFacts& facts, const ResumeOptions& options) {
     scene.run.time.reset();
   }
   return scene;
+}
+
+/// The scene must bear its new end as it would have borne it from the start: moving walls, samples.
+void check_scene(const Scene& scene, const ResumeOptions& options) {
+  if (!options.time && !options.collisions) return;
+  try {
+    (void)parse_scene(resolved_toml(scene), scene.source);
+  } catch (const SceneError& error) {
+    throw UsageError(fmt::format(
+        "{}: {}", options.time ? fmt::format("--time {:g}", *options.time) : fmt::format("--collisions {}", *options.collisions),
+        error.sentence()));
+  }
 }
 
 /// The end must lie ahead.
@@ -75,6 +88,12 @@ ExitCode go_on(const ResumeOptions& options, const Invocation& invocation, Requi
   check_end(facts, options);
   const RunOptions run = options_for(facts, options);
   const Scene scene = scene_of(facts, options);
+  check_scene(scene, options);
+  try {
+    from->read("files", [&](std::istream& in) { RunWriter::require_files(*directory, scene, in); });
+  } catch (const OutputError& error) {
+    throw UsageError(error.what());
+  }
   std::optional<Simulation> simulation;
   from->read("simulation", [&](std::istream& in) { simulation.emplace(restore_simulation(scene, in)); });
   Provenance provenance = facts.provenance;

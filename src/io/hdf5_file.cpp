@@ -121,6 +121,13 @@ void Hdf5File::save_index(std::ostream& out) {
   }
 }
 
+std::uint64_t Hdf5File::saved_size(std::istream& saved) {
+  LoadingArchive archive(saved);
+  std::uint64_t size = 0;
+  archive(size);
+  return size;
+}
+
 Hdf5Id Hdf5File::reopen(const std::filesystem::path& path, std::istream& saved) {
   LoadingArchive archive(saved);
   std::uint64_t size = 0, pages = 0;
@@ -191,7 +198,8 @@ herr_t set_end_of_allocated(H5FD_t* file, H5FD_mem_t /*type*/, haddr_t address) 
   return 0;
 }
 
-/// A part of the index lies in one page, or begins one: a page is written as a whole or not at all, whenever the process is killed.
+/// A part of the index lies in one page, or begins one: a page is written as a whole or not at all, whenever the process is
+/// killed.
 haddr_t allocate(H5FD_t* file, H5FD_mem_t type, hid_t /*transfer*/, hsize_t size) {
   constexpr haddr_t page = Hdf5File::page_size;
   DriverFile* opened = driver_file(file);

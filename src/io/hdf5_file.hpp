@@ -34,6 +34,8 @@ class Hdf5File {
   [[nodiscard]] Hdf5Id create_behind(std::uint64_t bytes, const std::filesystem::path& path) { return access(path, true, bytes); }
   /// Writes where all parts of the index are and what they hold, as of the last flush. Requires nothing to have happened since.
   void save_index(std::ostream& out);
+  /// Bytes of the file when save_index() was called.
+  [[nodiscard]] static std::uint64_t saved_size(std::istream& saved);
   /// Makes a file what it was when save_index() was called, whatever was written there since, and opens it to be written on. Data
   /// that the index named then are as they were, since new data never take their place. Throws OutputError, also where
   /// the file is shorter than it was, or Hdf5Error.

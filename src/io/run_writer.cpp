@@ -3,10 +3,15 @@
 #include "io/run_writer.hpp"
 
 #include "core/archive.hpp"
+#include "io/hdf5_file.hpp"
 #include "io/observable_tables.hpp"
 #include "io/summary.hpp"
 #include "io/text_file.hpp"
 
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -21,6 +26,31 @@ constexpr const char* summary_name = "summary.json";
 
 // A killed run loses no more than this. A flush takes about a millisecond.
 constexpr auto time_between_flushes = std::chrono::seconds(1);
+
+/// The growing files that a scene asks for.
+struct Wanted {
+  bool h5md, xyz, csv;
+};
+Wanted wanted_by(const Scene& scene) {
+  const bool samples = scene.run.is_sampled();
+  return {.h5md = (scene.output.trajectory && samples) || scene.output.events || !scene.observe.empty(),
+          .xyz = scene.output.xyz && samples,
+          .csv = scene.output.csv && samples};
+}
+
+/// Whether it has its own name or is .partial still.
+void require_file(const RunDirectory& directory, const char* name, std::uint64_t bytes) {
+  for (const std::filesystem::path& path : {directory.final_name(name), directory.partial_name(name)}) {
+    std::error_code error;
+    const std::uint64_t size = std::filesystem::file_size(path, error);
+    if (error) continue;
+    if (size >= bytes) return;
+    throw OutputError(fmt::format("{}: the file has {} bytes and must have {} for the run to go on; it was changed or cut",
+                                  path.string(), size, bytes));
+  }
+  throw OutputError(fmt::format("{}: this file of the run is missing; put it back, and the run can go on",
+                                directory.final_name(name).string()));
+}
 
 }  // namespace
 
@@ -39,9 +69,7 @@ RunWriter::RunWriter(const RunDirectory& directory, const Scene& scene, const Di
       unwrapped_(scene.output.unwrapped && (box_.periodic(0) || box_.periodic(1))),
       provenance_(provenance),
       last_flush_(std::chrono::steady_clock::now()) {
-  const bool samples = scene.run.is_sampled();
-  const bool h5md = (scene.output.trajectory && samples) || scene.output.events || !scene.observe.empty();
-  const bool xyz = scene.output.xyz && samples, csv = scene.output.csv && samples;
+  const auto [h5md, xyz, csv] = wanted_by(scene);
   const bool rough = scene.effects.collision.roughness.has_value();
   const auto open = [&](const char* name) {
     products_.emplace_back(name);
@@ -66,6 +94,16 @@ RunWriter::RunWriter(const RunDirectory& directory, const Scene& scene, const Di
     if (!holds_data_) discard_partials();
     throw;
   }
+}
+
+void RunWriter::require_files(const RunDirectory& directory, const Scene& scene, std::istream& saved) {
+  const auto [h5md, xyz, csv] = wanted_by(scene);
+  LoadingArchive archive(saved);
+  std::uint64_t xyz_bytes = 0, csv_bytes = 0;
+  archive(xyz_bytes, csv_bytes);
+  if (h5md) require_file(directory, h5md_name, detail::Hdf5File::saved_size(saved));
+  if (xyz) require_file(directory, xyz_name, xyz_bytes);
+  if (csv) require_file(directory, csv_name, csv_bytes);
 }
 
 void RunWriter::save(std::ostream& out) {

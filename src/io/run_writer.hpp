@@ -34,6 +34,9 @@ class RunWriter {
   /// was written after that is cut off, and what tells of an end is removed: summary, tables, pages.
   RunWriter(const RunDirectory& directory, const Scene& scene, const Disks& disks, const Provenance& provenance,
             std::istream& saved);
+  /// Throws OutputError where a file that the constructor above would go on with is missing, or shorter than when save() was
+  /// called. Changes nothing.
+  static void require_files(const RunDirectory& directory, const Scene& scene, std::istream& saved);
   /// Without finish(): keeps what there is as .partial, or removes it where nothing has happened yet.
   ~RunWriter();
   RunWriter(const RunWriter&) = delete;

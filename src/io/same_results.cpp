@@ -24,8 +24,8 @@ constexpr std::size_t most_per_file = 3;  // differences: where one bit goes ano
 
 /// What may differ between two runs that are the same.
 constexpr std::array<std::string_view, 9> not_compared = {
-    "carom",        "scene",          "wall_seconds", "collisions_per_second", "loop_seconds",
-    "command_line", "resolved_scene", "horizon",      "verification"};
+    "carom",          "scene",   "wall_seconds", "collisions_per_second", "loop_seconds", "command_line",
+    "resolved_scene", "horizon", "verified"};
 
 void collect_datasets(hid_t file, const std::string& group, std::vector<std::string>& paths) {
   for (const std::string& name : detail::members_of(file, group.empty() ? "/" : group)) {

@@ -69,14 +69,14 @@ detail::SceneDraft read_document(const toml::table& document, const std::string&
   } catch (const SceneError& error) {
     // Nodes of a document without any text carry no source name.
     if (!error.where().source.empty()) throw;
-    throw SceneError({source, 1, 1}, std::string(error.what()).substr(located(error.where(), "").size()));
+    throw SceneError({source, 1, 1}, error.sentence());
   }
 }
 
 }  // namespace
 
 SceneError::SceneError(const Location& where, const std::string& sentence)
-    : std::runtime_error(located(where, sentence)), where_(where) {}
+    : std::runtime_error(located(where, sentence)), where_(where), sentence_(sentence) {}
 
 std::int64_t Scene::disk_count() const {
   std::int64_t sum = 0;

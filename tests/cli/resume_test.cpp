@@ -102,6 +102,31 @@ TEST_F(Resume, AFinishedRunIsExtended) {
   EXPECT_EQ(summary("whole")["energy"], summary("longer")["energy"]);
 }
 
+TEST_F(Resume, WhatCannotBeExtendedIsLeftAsItIs) {
+  ASSERT_EQ(carom({"run", "gas.toml", "--out", "done", "-q", "--checkpoint-every", "1h"}).exit_code, 0);
+  const json before = summary("done");
+  const auto trajectory = text_of(file("done/trajectory.h5md"));
+  const auto left_alone = [&] {
+    EXPECT_EQ(summary("done"), before);
+    EXPECT_TRUE(text_of(file("done/trajectory.h5md")) == trajectory);
+  };
+  refused({"extend", "done", "--time", "1e300"}, "--time 1e+300: ");
+  left_alone();
+  refused({"extend", "done", "--collisions", "-1"}, "--collisions");
+  refused({"extend", "done", "--collisions", "9223372036854775808"}, "--collisions");
+  left_alone();
+  for (const char* product : {"samples.csv", "trajectory.xyz", "trajectory.h5md"}) {
+    const fs::path path = file("done") / product, aside = file("aside");
+    fs::rename(path, aside);
+    refused({"extend", "done", "--collisions", "40000"}, std::string(product) + ": this file of the run is missing; put it back");
+    write_text(path, text_of(aside).substr(0, 100));
+    refused({"extend", "done", "--collisions", "40000"}, "the file has 100 bytes and must have ");
+    fs::rename(aside, path);
+    left_alone();
+  }
+  EXPECT_EQ(carom({"extend", "done", "-q", "--collisions", "40000"}).exit_code, 0);
+}
+
 TEST_F(Resume, WithADamagedCheckpointThePreviousOneIsUsedAndSaid) {
   ASSERT_EQ(carom({"run", "gas.toml", "--out", "whole", "-q"}).exit_code, 0);
   ASSERT_EQ(carom({"run", "gas.toml", "--out", "hurt", "-q", "--checkpoint-every", "5000 collisions"}).exit_code, 0);

@@ -47,6 +47,7 @@ TEST_F(VerifyOption, SaysThatInvariantsHold) {
   EXPECT_EQ(summary["verified"]["every"], 100);
   EXPECT_GE(summary["verified"]["checks"], 5);
   EXPECT_TRUE(summary["verified"]["faults"].empty());
+  EXPECT_EQ(carom({"verify", "out"}).exit_code, 0) << "what was checked is no result";
 }
 
 TEST_F(VerifyOption, IsNotMentionedWhereItWasNotAskedFor) {
