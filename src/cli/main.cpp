@@ -14,8 +14,10 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 namespace {
 
@@ -37,6 +39,9 @@ ExitCode run_program(int argc, char** argv) {
     return complain(exit_usage, error.what());
   } catch (const std::bad_alloc&) {
     return complain(exit_failed, "there is not enough memory");
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string path = error.path1().empty() ? "the current directory" : error.path1().string();
+    return complain(exit_usage, (path + ": " + error.code().message()).c_str());
   } catch (const std::exception& error) {
     return complain(exit_failed, error.what());
   } catch (...) {

@@ -100,7 +100,8 @@ std::string describe_directory(const fs::path& path) {
       continue;  // the summary tells of them; a page is for looking at
     for (const fs::path& file : {path / product, path / fmt::format("{}{}", product, partial_ending)}) {
       std::error_code error;
-      if (fs::exists(file, error)) text += describe_file(file);
+      const bool unfinished_checkpoint = file.extension() == partial_ending && product.starts_with("checkpoint");
+      if (!unfinished_checkpoint && fs::exists(file, error)) text += describe_file(file);
     }
   }
   if (text.empty()) {

@@ -25,6 +25,7 @@ Positions named(const toml::node& node, const std::string& name, const std::stri
 FilePositions from_file(const TableReader& table, const std::string& directory, DisksDraft& disks) {
   const toml::node& name = *table.find("file");
   const std::string written = read_string(name, table.path("file"), R"({ file = "start.csv" })");
+  if (written.empty()) refuse(name, table.path("file"), R"(the name of a file: { file = "start.csv" })");
   // Relative paths are relative to the scene; the absolute one still resolves when the resolved scene lies elsewhere.
   const std::filesystem::path seen = (std::filesystem::path(directory) / written).lexically_normal();
   FilePositions positions{std::filesystem::absolute(seen).lexically_normal().string(), {}};

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 #include <hdf5.h>
+#include <fstream>
 
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -113,6 +114,8 @@ TEST_F(Info, SaysOfAPartialFileThatItIsIncomplete) {
   fs::rename(out_ / "trajectory.h5md", out_ / "trajectory.h5md.partial");
   EXPECT_THAT(describe_file(out_ / "trajectory.h5md.partial"), AllOf(HasSubstr("6, from time"), HasSubstr("incomplete")));
   fs::rename(out_ / "samples.csv", out_ / "samples.csv.partial");
+  EXPECT_THAT(describe_file(out_), HasSubstr("samples.csv.partial: table of samples"));
+  std::ofstream(out_ / "checkpoint.h5.partial") << "what a run was writing when it was killed";
   EXPECT_THAT(describe_file(out_), HasSubstr("samples.csv.partial: table of samples"));
 }
 
