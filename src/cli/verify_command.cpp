@@ -7,6 +7,7 @@
 #include "cli/reading_process.hpp"
 #include "cli/scratch_directory.hpp"
 #include "io/finished_run.hpp"
+#include "io/hdf5_handle.hpp"
 #include "io/same_results.hpp"
 #include "show/number_words.hpp"
 
@@ -85,6 +86,7 @@ std::string reproduction(const std::string& directory, const Invocation& invocat
 }
 
 ExitCode verify(const VerifyOptions& options, const Invocation& invocation) {
+  detail::close_nothing_at_exit();
   const Recorded run = recorded(options.directory);
   if (run.interrupted)
     throw UsageError(

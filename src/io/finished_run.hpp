@@ -27,7 +27,7 @@ void require_finished_run(const std::filesystem::path& directory);
 /// Does what may throw Hdf5Error, and says it of the file at `path`.
 template <class Action>
 auto reading_hdf5(const std::filesystem::path& path, Action action) {
-  H5dont_atexit();  // as in info_hdf5.cpp: HDF5 complains of damaged files when the process ends
+  close_nothing_at_exit();
   const SilentHdf5 silent;
   try {
     return action();

@@ -78,6 +78,8 @@ void throw_hdf5_error() {
   throw Hdf5Error(reason.empty() ? "HDF5 gives no reason" : reason);
 }
 
+void close_nothing_at_exit() { H5dont_atexit(); }
+
 SilentHdf5::SilentHdf5() {
   H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

@@ -55,6 +55,10 @@ class Hdf5Id {
   Close close_ = nullptr;
 };
 
+/// HDF5 1.10 loses track of what it has opened in some damaged files, and complains on stderr when the process ends. For programs
+/// that close what they open, before anything else is asked of HDF5: later on it is without effect.
+void close_nothing_at_exit();
+
 /// While it lives, HDF5 prints nothing on stderr in this thread.
 class SilentHdf5 {
  public:

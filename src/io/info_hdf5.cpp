@@ -92,9 +92,7 @@ std::string described(hid_t file) {
 }  // namespace
 
 std::string describe_hdf5(const std::filesystem::path& path) {
-  // HDF5 1.10 loses track of what it has opened in some damaged files, and complains on stderr when the process ends. All
-  // that is open here is closed here, so there is nothing for it to do then. Without effect where HDF5 is already in use.
-  H5dont_atexit();
+  close_nothing_at_exit();
   const SilentHdf5 silent;
   try {
     const Hdf5Id file = [&] {

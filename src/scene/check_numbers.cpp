@@ -11,8 +11,8 @@
 namespace carom::detail {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double least = std::numeric_limits<double>::min();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr double smallest_normal = std::numeric_limits<double>::min();
 
 /// NaN is in no range; infinity neither.
 void require(double value, double lowest, double highest, const std::string& name, const char* range, const Location& where) {
@@ -28,24 +28,24 @@ void check_collision(const Collision& collision) {
   const Location where{"collision", 0, 0};
   require(collision.restitution, 0.0, 1.0, "collision.restitution", "between 0 and 1", where);
   require(collision.roughness, -1.0, 1.0, "collision.roughness", "between -1 and 1", where);
-  require(collision.elastic_below, 0.0, infinity, "collision.elastic_below", "finite and not negative", where);
+  require(collision.elastic_below, 0.0, unbounded, "collision.elastic_below", "finite and not negative", where);
 }
 
 void check_wall(const WallProperties& wall, const std::string& name) {
   require(wall.restitution, 0.0, 1.0, name + ".restitution", "between 0 and 1", wall.where);
-  require(wall.temperature, least, infinity, name + ".temperature", "finite and positive", wall.where);
-  require(wall.velocity, -infinity, infinity, name + ".velocity", "finite", wall.where);
-  require(wall.mass, least, infinity, name + ".mass", "finite and positive", wall.where);
-  require(wall.load, 0.0, infinity, name + ".load", "finite and not negative", wall.where);
+  require(wall.temperature, smallest_normal, unbounded, name + ".temperature", "finite and positive", wall.where);
+  require(wall.velocity, -unbounded, unbounded, name + ".velocity", "finite", wall.where);
+  require(wall.mass, smallest_normal, unbounded, name + ".mass", "finite and positive", wall.where);
+  require(wall.load, 0.0, unbounded, name + ".load", "finite and not negative", wall.where);
 }
 
 void check_obstacle(const Obstacle& obstacle, const std::string& name) {
   const auto point = [&](const Eigen::Vector2d& p, const char* what) {
-    for (const double coordinate : p) require(coordinate, -infinity, infinity, name + what, "finite", obstacle.where);
+    for (const double coordinate : p) require(coordinate, -unbounded, unbounded, name + what, "finite", obstacle.where);
   };
   if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
     point(disk->centre, ".disk.centre");
-    require(disk->radius, least, infinity, name + ".disk.radius", "finite and positive", obstacle.where);
+    require(disk->radius, smallest_normal, unbounded, name + ".disk.radius", "finite and positive", obstacle.where);
   } else {
     point(std::get<SegmentObstacle>(obstacle.shape).from, ".segment.from");
     point(std::get<SegmentObstacle>(obstacle.shape).to, ".segment.to");
@@ -60,21 +60,23 @@ void check_numbers(const Effects& effects) {
   for (std::size_t k = 0; k < effects.obstacles.size(); ++k) check_obstacle(effects.obstacles[k], fmt::format("obstacles.{}", k));
   if (const auto& gravity = effects.gravity)
     for (const double g : gravity->acceleration)
-      require(g, -infinity, infinity, "gravity.acceleration", "finite", gravity->where);
+      require(g, -unbounded, unbounded, "gravity.acceleration", "finite", gravity->where);
   if (const auto& growth = effects.growth) {
-    require(growth->rate, 0.0, infinity, "growth.rate", "finite and not negative", growth->where);
-    require(growth->packing_fraction, least, 1.0, "growth.until.packing_fraction", "between 0 and 1", growth->where);
-    require(growth->reduced_pressure, least, infinity, "growth.until.reduced_pressure", "finite and positive", growth->where);
+    require(growth->rate, 0.0, unbounded, "growth.rate", "finite and not negative", growth->where);
+    require(growth->packing_fraction, smallest_normal, 1.0, "growth.until.packing_fraction", "between 0 and 1", growth->where);
+    require(growth->reduced_pressure, smallest_normal, unbounded, "growth.until.reduced_pressure", "finite and positive",
+            growth->where);
   }
   if (const auto& thermostat = effects.thermostat) {
-    require(thermostat->temperature, least, infinity, "thermostat.temperature", "finite and positive", thermostat->where);
-    require(thermostat->rate, 0.0, infinity, "thermostat.rate", "finite and not negative", thermostat->where);
+    require(thermostat->temperature, smallest_normal, unbounded, "thermostat.temperature", "finite and positive",
+            thermostat->where);
+    require(thermostat->rate, 0.0, unbounded, "thermostat.rate", "finite and not negative", thermostat->where);
   }
-  if (const auto& shear = effects.shear) require(shear->rate, -infinity, infinity, "shear.rate", "finite", shear->where);
+  if (const auto& shear = effects.shear) require(shear->rate, -unbounded, unbounded, "shear.rate", "finite", shear->where);
   if (const auto& well = effects.square_well) {
-    require(well->width, 1.0 + std::numeric_limits<double>::epsilon(), infinity, "square_well.width", "finite and above 1",
+    require(well->width, 1.0 + std::numeric_limits<double>::epsilon(), unbounded, "square_well.width", "finite and above 1",
             well->where);
-    require(well->depth, -infinity, infinity, "square_well.depth", "finite", well->where);
+    require(well->depth, -unbounded, unbounded, "square_well.depth", "finite", well->where);
   }
 }
 

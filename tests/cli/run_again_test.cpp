@@ -75,6 +75,7 @@ TEST_F(RunAgain, WhatCannotBeRunAgainIsRefused) {
   const Outcome outcome = carom({"info", "gas", "--reproduce"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("damaged or cut short"));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << "HDF5 has nothing to say of it: " << outcome.err;
 }
 
 TEST_F(RunAgain, TheCommandsPrintedMakeTheSameRun) {
