@@ -75,7 +75,17 @@ TEST_F(RunAgain, WhatCannotBeRunAgainIsRefused) {
   const Outcome outcome = carom({"info", "gas", "--reproduce"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("damaged or cut short"));
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << "HDF5 has nothing to say of it: " << outcome.err;
+}
+
+TEST_F(RunAgain, OfADamagedTrajectoryHdf5HasNothingToSay) {
+  ASSERT_EQ(carom({"run", "gas.toml", "-q"}).exit_code, 0);
+  std::string bytes = text_of(file("gas/trajectory.h5md"));
+  for (std::size_t at = 700; at < 3600; at += 100) bytes.at(at) = '\xff';
+  write_text(file("gas/trajectory.h5md"), bytes);
+  const Outcome outcome = carom({"verify", "gas"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("it is damaged or cut short"));
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
 TEST_F(RunAgain, TheCommandsPrintedMakeTheSameRun) {
