@@ -174,7 +174,10 @@ Start start_from(const Scene& scene, const State& state) {
                                             state.positions.cols(), state.velocities.cols(), disks));
   if (!state.positions.allFinite() || !state.velocities.allFinite())
     throw std::invalid_argument("a position or velocity of the given state is not finite");
-  start.state = {.positions = state.positions, .velocities = state.velocities, .images = state.images};
+  start.state = State();
+  start.state.positions = state.positions;
+  start.state.velocities = state.velocities;
+  start.state.images = state.images;
   if (state.images.cols() != disks) start.state.images = Images::Zero(2, disks);
   if (scene.effects.collision.roughness && state.spins.size() == disks) start.state.spins = state.spins;
   if (scene.effects.growth && scene.effects.growth->rate > 0.0) start.state.scale = state.scale;
