@@ -167,14 +167,14 @@ Start draw_start(const Scene& scene) {
 }
 
 Start start_from(const Scene& scene, const State& state) {
-  Start start{all_disks(scene), state};
+  Start start;
+  start.disks = all_disks(scene);
   const auto disks = static_cast<Eigen::Index>(start.disks.count());
   if (state.positions.cols() != disks || state.velocities.cols() != disks)
     throw std::invalid_argument(fmt::format("a state of {} positions and {} velocities is given for {} disks; give one per disk",
                                             state.positions.cols(), state.velocities.cols(), disks));
   if (!state.positions.allFinite() || !state.velocities.allFinite())
     throw std::invalid_argument("a position or velocity of the given state is not finite");
-  start.state = State();
   start.state.positions = state.positions;
   start.state.velocities = state.velocities;
   start.state.images = state.images;
