@@ -11,7 +11,6 @@
 #include "observe/saved_observable.hpp"
 #include "observe/tracked_disks.hpp"
 
-#include <cmath>
 #include <vector>
 
 namespace carom {
@@ -30,8 +29,6 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
     const bool curved = effects.gravity && !effects.gravity->acceleration.isZero(0.0);
     follows_ = run.collisions_known && !curved && !is_driven(effects) && run.scene.box.periodic(0) && run.scene.box.periodic(1) &&
                effects.obstacles.empty();
-    loses_energy_ =
-        effects.collision.restitution.value_or(1.0) != 1.0 || std::abs(effects.collision.roughness.value_or(-1.0)) != 1.0;
     for (std::size_t s = 0; s < run.species_count(); ++s) {
       tracked_.emplace_back(run, s);
       instants_.emplace_back(tracked_.back().channels(), MultipleTau::Pairs::products, lags, 1);
@@ -78,7 +75,7 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
     for (std::size_t s = 0; s < tracked_.size(); ++s) {
       if (follows_) {
         Scalar slope{.name = "initial_slope" + run_.suffix(s), .unit = "1 / time"};
-        if (loses_energy_)
+        if (run_.scene.effects.dissipate())
           slope.note = "collisions take energy away, so that no slope is that of all times";
         else
           slopes_[s].fill(slope, step_);
@@ -132,7 +129,7 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
 
   ObservedRun run_;
   double step_;
-  bool follows_, loses_energy_;
+  bool follows_;
   std::vector<TrackedDisks> tracked_;
   std::vector<MultipleTau> instants_, means_;
   std::vector<std::vector<double>> before_;  ///< unwrapped places at the last sample
