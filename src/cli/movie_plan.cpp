@@ -141,7 +141,7 @@ std::vector<double> picture_times(const MovieOptions& options, const MoviePlan& 
   const double frames = std::floor((to - from) / step * (1.0 + 1e-12)) + 1.0;  // the last one too, whatever division made of it
   if (frames > most_frames)
     throw UsageError(
-        fmt::format("--speed {}: the film would have {:.0f} frames, and {:.0f} are the most; give a larger --speed, a "
+        fmt::format("--speed {}: the film would have {:.6g} frames, and {:.0f} are the most; give a larger --speed, a "
                     "smaller --fps, or less between --from and --to",
                     step * plan.fps, frames, most_frames));
   std::vector<double> times;

@@ -1,6 +1,7 @@
 #include "show/summary_rows.hpp"
 
 #include "observe/equilibrium.hpp"
+#include "observe/mechanics.hpp"
 #include "show/effects_rows.hpp"
 #include "show/number_words.hpp"
 #include "show/scene_words.hpp"
@@ -40,6 +41,15 @@ std::string why_there_is_no_Z(const RunReport& report, const Scene* scene) {
   if (report.totals.pair == 0) return "no pair of disks has collided";
   return report.measured && scene != nullptr && temperature_fluctuates(scene->effects) ? "no samples tell the mean temperature"
                                                                                        : "nothing was measured";
+}
+
+/// Common motion is no heat along axes that keep it.
+std::string what_temperature_counts(const Scene* scene) {
+  if (scene == nullptr) return "kinetic";
+  const bool x = keeps_momentum(scene->box, scene->effects, 0), y = keeps_momentum(scene->box, scene->effects, 1);
+  if (x && y) return "kinetic, without common motion";
+  if (x || y) return x ? "kinetic, without common motion along x" : "kinetic, without common motion along y";
+  return "kinetic";
 }
 
 void append(SummaryRows& rows, SummaryRows more) {
@@ -116,7 +126,7 @@ SummaryRows rows_of_accuracy(const RunReport& report) {
 }
 
 SummaryRows rows_of_results(const RunReport& report, const Scene* scene) {
-  SummaryRows rows = {{"temperature kT", fmt::format("{:.5g}", report.temperature_mean), "kinetic, without common motion"}};
+  SummaryRows rows = {{"temperature kT", fmt::format("{:.5g}", report.temperature_mean), what_temperature_counts(scene)}};
   append(rows, rows_of_effects(report, scene));
   if (!report.Z) {
     rows.push_back({"Z = PA/(NkT)", "none", why_there_is_no_Z(report, scene)});

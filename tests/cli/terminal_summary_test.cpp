@@ -46,6 +46,15 @@ TEST_F(TerminalSummary, WallsThatTheSceneNamesTellPressureAndHeat) {
                             ContainsRegex("Z = PA/\\(NkT\\) +none +the area changes")));
 }
 
+TEST_F(TerminalSummary, TemperatureIsWithoutCommonMotionWhereDisksKeepIt) {
+  scene_.box.boundary = {Boundary::periodic, Boundary::periodic};
+  EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic, without common motion\n"));
+  scene_.box.boundary[1] = Boundary::walls;
+  EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic, without common motion along x\n"));
+  scene_.effects.walls[2].temperature = 2.0;  // it gives and takes momentum along itself too
+  EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic\n"));
+}
+
 TEST_F(TerminalSummary, EveryEffectHasARow) {
   EffectsReport& effects = report_.of_effects;
   report_.totals.obstacle = 1234;
