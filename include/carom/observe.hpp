@@ -109,6 +109,9 @@ class Observation {
   [[nodiscard]] bool empty() const;
   /// kT of the start as it was drawn, or of the thermostat: what default steps and ranges follow from.
   [[nodiscard]] double reference_temperature() const;
+  /// Time between two looks of what simulation.scene().observe lists, in its order: as the scene says, or as it followed from
+  /// the end that the run had when it began; 0 of what takes no steps.
+  [[nodiscard]] std::vector<double> steps() const;
 
   /// Puts what observables need into `hooks`, before what is there already. Requires `hooks` to be used while this lives.
   void attach(RunHooks& hooks);

@@ -95,6 +95,7 @@ class Session {
         mode_(progress_mode(options_.progress, options_.quiet)),
         simulation_(given.simulation),
         scene_(simulation_.scene()),
+        provenance_(given.provenance),
         walltime_(options_.walltime ? seconds_of("--walltime", *options_.walltime) : std::numeric_limits<double>::infinity()),
         measurements_(simulation_),
         last_saved_(Clock::now()),
@@ -105,7 +106,7 @@ class Session {
       extended_ = given.from->facts().finished;
     } else {
       observation_.emplace(simulation_);
-      writer_.emplace(given.directory, scene_, simulation_.disks(), given.provenance);
+      writer_.emplace(given.directory, scene_, simulation_.disks(), provenance_);
     }
   }
 
@@ -120,7 +121,7 @@ class Session {
     if (saved_) files.emplace_back(checkpoint_name);
     const bool report_failed = options_.report && !wrote_report(given_.directory, files);
     if (options_.json) {
-      fmt::print("{}\n", summary_json(report, given_.provenance));
+      fmt::print("{}\n", summary_json(report, provenance_));
     } else if (!options_.quiet) {
       fmt::print("{}", terminal_summary(report, scene_, {given_.directory.path(), files, given_.invocation.program}));
     }
@@ -188,7 +189,7 @@ class Session {
   }
 
   void save(const SavingMoment& moment) {
-    const CheckpointFacts facts{.provenance = given_.provenance,
+    const CheckpointFacts facts{.provenance = provenance_,
                                 .scene_source = scene_.source,
                                 .scene_text = scene_.text,
                                 .overrides = scene_.overrides,
@@ -230,6 +231,7 @@ class Session {
       archive(measurements_);
     });
     from.read("observables", [&](std::istream& in) { observation_.emplace(simulation_, in); });
+    if (provenance_.resolved_scene != from.facts().provenance.resolved_scene) provenance_.resolved_scene = scene_with_steps();
     from.read("schedule", [&](std::istream& in) { schedule_.assign(std::istreambuf_iterator<char>(in), {}); });
     if (from.has("start"))
       from.read("start", [&](std::istream& in) {
@@ -237,7 +239,16 @@ class Session {
         archive(start_.emplace());
       });
     from.read("files",
-              [&](std::istream& in) { writer_.emplace(given_.directory, scene_, simulation_.disks(), given_.provenance, in); });
+              [&](std::istream& in) { writer_.emplace(given_.directory, scene_, simulation_.disks(), provenance_, in); });
+  }
+
+  /// Observables keep the steps that followed from the end which the run began with; from another end others would follow.
+  [[nodiscard]] std::string scene_with_steps() const {
+    Scene told = scene_;
+    const std::vector<double> steps = observation_->steps();
+    for (std::size_t k = 0; k < steps.size(); ++k)
+      if (steps[k] > 0.0) told.observe[k].every = steps[k];
+    return resolved_toml(told);
   }
 
   void say_how_to_go_on() const {
@@ -252,6 +263,7 @@ class Session {
   const ProgressMode mode_;
   Simulation& simulation_;
   const Scene& scene_;
+  Provenance provenance_;
   const double walltime_;
   std::optional<SavingPlan> plan_;
   const StopRequest stop_;  // from here on there is something to save

@@ -13,7 +13,7 @@ namespace {
 class CollisionRate final : public SavedObservable<CollisionRate> {
  public:
   CollisionRate(const ObservableRequest& request, const ObservedRun& run)
-      : run_(run), step_(run.step(request, 16.0)), kinds_(run.species_count()) {
+      : run_(run), step_(run.step(request)), kinds_(run.species_count()) {
     by_species_ = kinds_ > 1 && run.collisions_known && !is_driven(run.scene.effects);
     if (!by_species_) return;
     counts_.assign(kinds_ * kinds_, 0.0);

@@ -17,7 +17,7 @@ class DensityProfile final : public SavedObservable<DensityProfile> {
  public:
   DensityProfile(const ObservableRequest& request, const ObservedRun& run)
       : run_(run),
-        step_(run.step(request, 4.0)),
+        step_(run.step(request)),
         axis_(request.axis.value_or(1)),
         bins_(static_cast<std::size_t>(request.bins.value_or(100))),
         width_(run.scene.box.lengths()[axis_] / static_cast<double>(bins_)),

@@ -152,7 +152,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
     });
     return still ? "" : "walls change speeds between two collisions";
   }
-  static double scale(const ObservedRun& run) { return run.mean_free_time > 0.0 ? run.mean_free_time : run.step({}, 1.0); }
+  static double scale(const ObservedRun& run) { return run.mean_free_time > 0.0 ? run.mean_free_time : run.step_of(1.0); }
   static double speed(const ObservedRun& run) {
     const double mass = run.disks.total_mass() / static_cast<double>(run.disks.count());
     return run.temperature > 0.0 ? std::sqrt(run.temperature / mass) : 1.0;

@@ -20,7 +20,7 @@ namespace {
 
 class HFunction final : public SavedObservable<HFunction> {
  public:
-  HFunction(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 0.25)) {
+  HFunction(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request)) {
     for (std::size_t s = 0; s < run.species_count(); ++s) {
       double mass = 0.0, count = 0.0;
       for (std::size_t i = 0; i < run.disks.count(); ++i)

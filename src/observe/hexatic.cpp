@@ -85,7 +85,7 @@ class Hexatic final : public SavedObservable<Hexatic> {
  public:
   Hexatic(const ObservableRequest& request, const ObservedRun& run)
       : run_(run),
-        step_(run.step(request, 16.0)),
+        step_(run.step(request)),
         range_(request.range.value_or(10.0) * run.mean_diameter),
         correlation_(static_cast<std::size_t>(request.bins.value_or(100))),
         width_(range_ / static_cast<double>(correlation_.size())) {}

@@ -16,7 +16,7 @@ namespace {
 
 class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplacement> {
  public:
-  MeanSquareDisplacement(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 0.25)) {
+  MeanSquareDisplacement(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request)) {
     for (std::size_t s = 0; s < run.species_count(); ++s) {
       tracked_.emplace_back(run, s);
       ladders_.emplace_back(tracked_.back().channels(), MultipleTau::Pairs::squared_differences);

@@ -60,6 +60,12 @@ std::map<double, std::vector<Observable*>> ObservableGroup::by_step() const {
   return by_step;
 }
 
+std::vector<double> ObservableGroup::steps() const {
+  std::vector<double> steps;
+  for (const ObservableRequest& request : run_.scene.observe) steps.push_back(run_.step(request));
+  return steps;
+}
+
 void ObservableGroup::start(const State& state) {
   started_ = true;
   if (stream_) stream_->start(state);

@@ -31,6 +31,8 @@ class ObservableGroup {
   [[nodiscard]] const ObservedRun& run() const { return run_; }
   [[nodiscard]] bool empty() const { return observables_.empty(); }
   [[nodiscard]] bool follows_collisions() const;
+  /// Of what run().scene.observe lists, in its order; 0 of what takes no steps.
+  [[nodiscard]] std::vector<double> steps() const;
   /// Those that want states, by the time between two of them.
   [[nodiscard]] std::map<double, std::vector<Observable*>> by_step() const;
 

@@ -98,6 +98,7 @@ Observation::~Observation() = default;
 void Observation::add(std::unique_ptr<Observable> observable) { driver_->group().add(std::move(observable)); }
 bool Observation::empty() const { return driver_->group().empty(); }
 double Observation::reference_temperature() const { return driver_->group().run().temperature; }
+std::vector<double> Observation::steps() const { return driver_->group().steps(); }
 void Observation::save(std::ostream& out) const {
   driver_->finish();
   driver_->group().save(out);

@@ -1,6 +1,7 @@
 #include "observe/observed_run.hpp"
 
 #include "observe/mechanics.hpp"
+#include "scene/observables_known.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -49,8 +50,13 @@ ObservedRun observed_run(const Scene& scene, const Disks& disks, double temperat
   return run;
 }
 
-double ObservedRun::step(const ObservableRequest& request, double mean_free_times) const {
-  if (request.every) return *request.every;
+double ObservedRun::step(const ObservableRequest& request) const {
+  const detail::KnownObservable* known = detail::find_observable(request.name);
+  if (known == nullptr || !(known->step > 0.0)) return 0.0;
+  return request.every ? *request.every : step_of(known->step);
+}
+
+double ObservedRun::step_of(double mean_free_times) const {
   double step = mean_free_times * mean_free_time;
   if (time && *time > 0.0) {
     const double most = *time / 256.0;

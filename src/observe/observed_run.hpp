@@ -18,8 +18,10 @@ struct ObservedRun {
   bool collisions_told = false;     ///< by the simulation itself, with what came before them
   double mean_free_time = 0.0;      ///< as Enskog's theory estimates it for disks of mean size and mass; 0 where nothing moves
 
-  /// A step of so many mean free times, or what the scene says; at most 1/256 of the run, so that errors can be told.
-  [[nodiscard]] double step(const ObservableRequest& request, double mean_free_times) const;
+  /// What the scene says, else so many mean free times as the observable is known to take; 0 where it takes no steps.
+  [[nodiscard]] double step(const ObservableRequest& request) const;
+  /// So many mean free times; at most 1/256 of the run, so that errors can be told.
+  [[nodiscard]] double step_of(double mean_free_times) const;
 
   [[nodiscard]] std::size_t species_count() const { return scene.species.size(); }
   /// "" with one species, else "_NAME", with nothing in it that a file could not have in a name; "_0", "_1" where that is

@@ -38,7 +38,7 @@ double speed_factor(double d) { return d > 0.0 ? std::sqrt(0.5 * d) * boost::mat
 
 class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
  public:
-  Pressure(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 16.0)) {
+  Pressure(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request)) {
     const Effects& effects = run.scene.effects;
     follows_ = run.collisions_known && !is_driven(effects) && run.disks.count() > 0;
     equal_ = all_equal(run.disks.radius) && all_equal(run.disks.mass);

@@ -66,7 +66,7 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
  public:
   RadialDistribution(const ObservableRequest& request, const ObservedRun& run)
       : run_(run),
-        step_(run.step(request, 16.0)),
+        step_(run.step(request)),
         range_(request.range.value_or(5.0) * run.mean_diameter),
         width_(range_ / static_cast<double>(request.bins.value_or(250))),
         kinds_(run.species_count()),

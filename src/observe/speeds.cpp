@@ -60,7 +60,7 @@ class Speeds final : public SavedObservable<Speeds> {
  public:
   Speeds(const ObservableRequest& request, const ObservedRun& run)
       : run_(run),
-        step_(run.step(request, 4.0)),
+        step_(run.step(request)),
         kinds_(run.species_count() > 1 ? 1 + run.species_count() : 1),
         speeds_(static_cast<std::size_t>(request.bins.value_or(100)), 5.0 * std::sqrt(energy(run) / lightest(run)), kinds_),
         energies_(static_cast<std::size_t>(request.bins.value_or(100)), 12.5 * energy(run), kinds_) {

@@ -59,7 +59,7 @@ class StructureFactor final : public SavedObservable<StructureFactor> {
  public:
   StructureFactor(const ObservableRequest& request, const ObservedRun& run)
       : run_(run),
-        step_(run.step(request, 32.0)),
+        step_(run.step(request)),
         shells_(shells_up_to(request.largest.value_or(20.0) / run.mean_diameter, run.scene.box.lengths())),
         values_(shells_.size()) {}
 

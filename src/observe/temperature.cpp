@@ -14,7 +14,7 @@ namespace {
 class Temperature final : public SavedObservable<Temperature> {
  public:
   Temperature(const ObservableRequest& request, const ObservedRun& run)
-      : run_(run), step_(run.step(request, 4.0)), species_(run.species_count() > 1 ? run.species_count() : 0) {}
+      : run_(run), step_(run.step(request)), species_(run.species_count() > 1 ? run.species_count() : 0) {}
 
   [[nodiscard]] std::string name() const override { return "temperature"; }
   [[nodiscard]] double step() const override { return step_; }

@@ -21,7 +21,7 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
  public:
   VelocityAutocorrelation(const ObservableRequest& request, const ObservedRun& run)
       : run_(run),
-        step_(run.step(request, 0.25)),
+        step_(run.step(request)),
         slopes_(run.species_count()),
         changes_(run.species_count()),
         noted_(run.species_count()) {

@@ -15,7 +15,7 @@ namespace {
 class VelocityMoments final : public SavedObservable<VelocityMoments> {
  public:
   VelocityMoments(const ObservableRequest& request, const ObservedRun& run)
-      : run_(run), step_(run.step(request, 4.0)), species_(run.species_count()) {}
+      : run_(run), step_(run.step(request)), species_(run.species_count()) {}
 
   [[nodiscard]] std::string name() const override { return "velocity_moments"; }
   [[nodiscard]] double step() const override { return step_; }

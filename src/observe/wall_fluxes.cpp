@@ -15,7 +15,7 @@ namespace {
 
 class WallFluxes final : public SavedObservable<WallFluxes> {
  public:
-  WallFluxes(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request, 16.0)) {}
+  WallFluxes(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request)) {}
 
   [[nodiscard]] std::string name() const override { return "wall_fluxes"; }
   [[nodiscard]] double step() const override { return step_; }

@@ -12,6 +12,7 @@ namespace carom::detail {
 struct KnownObservable {
   std::string_view name;
   std::string_view example;  ///< what the key could look like
+  double step = 0.0;         ///< where the scene says none, in mean free times; 0: it takes no steps
   std::optional<std::int64_t> bins = {};
   std::optional<double> range = {};
   std::optional<double> largest = {};
@@ -20,22 +21,26 @@ struct KnownObservable {
 
 /// In the order of docs/scene-format.md, which is that of all results.
 inline constexpr std::array<KnownObservable, 16> known_observables = {{
-    {"temperature", "temperature = true"},
-    {"pressure", "pressure = true"},
-    {"collision_rate", "collision_rate = true"},
+    {.name = "temperature", .example = "temperature = true", .step = 4.0},
+    {.name = "pressure", .example = "pressure = true", .step = 16.0},
+    {.name = "collision_rate", .example = "collision_rate = true", .step = 16.0},
     {.name = "free_flight", .example = "free_flight = { bins = 100 }", .bins = 100},
-    {.name = "speeds", .example = "speeds = { bins = 100 }", .bins = 100},
-    {"velocity_moments", "velocity_moments = true"},
-    {.name = "radial_distribution", .example = "radial_distribution = { range = 5.0, bins = 250 }", .bins = 250, .range = 5.0},
-    {.name = "structure_factor", .example = "structure_factor = { largest = 20.0 }", .largest = 20.0},
-    {.name = "hexatic", .example = "hexatic = { range = 10.0, bins = 100 }", .bins = 100, .range = 10.0},
-    {.name = "density_profile", .example = "density_profile = { axis = \"y\", bins = 100 }", .bins = 100, .axis = 1},
-    {"mean_square_displacement", "mean_square_displacement = true"},
-    {"velocity_autocorrelation", "velocity_autocorrelation = true"},
-    {"viscosity", "viscosity = true"},
-    {"heat_conductivity", "heat_conductivity = true"},
-    {"h_function", "h_function = true"},
-    {"wall_fluxes", "wall_fluxes = true"},
+    {.name = "speeds", .example = "speeds = { bins = 100 }", .step = 4.0, .bins = 100},
+    {.name = "velocity_moments", .example = "velocity_moments = true", .step = 4.0},
+    {.name = "radial_distribution",
+     .example = "radial_distribution = { range = 5.0, bins = 250 }",
+     .step = 16.0,
+     .bins = 250,
+     .range = 5.0},
+    {.name = "structure_factor", .example = "structure_factor = { largest = 20.0 }", .step = 32.0, .largest = 20.0},
+    {.name = "hexatic", .example = "hexatic = { range = 10.0, bins = 100 }", .step = 16.0, .bins = 100, .range = 10.0},
+    {.name = "density_profile", .example = "density_profile = { axis = \"y\", bins = 100 }", .step = 4.0, .bins = 100, .axis = 1},
+    {.name = "mean_square_displacement", .example = "mean_square_displacement = true", .step = 0.25},
+    {.name = "velocity_autocorrelation", .example = "velocity_autocorrelation = true", .step = 0.25},
+    {.name = "viscosity", .example = "viscosity = true", .step = 0.25},
+    {.name = "heat_conductivity", .example = "heat_conductivity = true", .step = 0.25},
+    {.name = "h_function", .example = "h_function = true", .step = 0.25},
+    {.name = "wall_fluxes", .example = "wall_fluxes = true", .step = 16.0},
 }};
 
 /// Null where there is no observable of that name.

@@ -36,6 +36,17 @@ TEST_F(RunAgain, ARunIsTheSameToTheLastBit) {
                     HasSubstr("samples.csv ("), HasSubstr("summary.json")));
 }
 
+TEST_F(RunAgain, ARunThatWasExtendedIsTheSameWithTheStepsThatItBeganWith) {
+  write_text(file("observed.toml"), std::string(fifty_disks) + "[observe]\nspeeds = true\nviscosity = true\nh_function = true\n");
+  ASSERT_EQ(carom({"run", "observed.toml", "--out", "gas", "-q", "--checkpoint-every", "1h"}).exit_code, 0);
+  for (const char* end : {"64", "80"}) {
+    ASSERT_EQ(carom({"extend", "gas", "-q", "--time", end}).exit_code, 0);
+    const Outcome outcome = carom({"verify", "gas"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+  }
+  EXPECT_THAT(text_of(file("gas/summary.json")), HasSubstr("viscosity = { every = 0.0078125 }"));  // 2 / 256
+}
+
 TEST_F(RunAgain, EngineAndMethodAreThoseOfTheRun) {
   ASSERT_EQ(carom({"run", "gas.toml", "-q", "--engine", "textbook-float"}).exit_code, 0);
   EXPECT_EQ(carom({"verify", "gas"}).exit_code, 0);

@@ -7,6 +7,7 @@
 #include "observe/observables.hpp"
 #include "scene/observables_known.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -85,6 +86,22 @@ TEST(Observation, HooksThatWereThereAreCalledAfterIt) {
   run_schedule(simulation, hooks);
   EXPECT_EQ(starts, 1);
   EXPECT_EQ(events, simulation.totals().pair);
+}
+
+TEST(Observation, TellsTheStepsThatItTakes) {
+  const auto steps = [](const std::string& observables) {
+    const Simulation simulation = make_simulation(parse_scene(small_fluid(observables)));
+    return Observation(simulation).steps();
+  };
+  const std::vector<double> chosen = steps("temperature = { every = 0.75 }\nfree_flight = true\nspeeds = true\nviscosity = true");
+  ASSERT_EQ(chosen.size(), 4U);
+  EXPECT_EQ(chosen[0], 0.75);
+  EXPECT_EQ(chosen[1], 0.0);  // it follows collisions alone
+  for (const std::size_t k : {2U, 3U}) {
+    EXPECT_GT(chosen[k], 0.0);
+    EXPECT_LE(chosen[k], 5.0 / 256.0);  // the run ends at 5
+  }
+  EXPECT_EQ(steps(fmt::format("speeds = {{ every = {} }}", chosen[2])), std::vector<double>({chosen[2]}));
 }
 
 TEST(Observation, HasNoResultsOfARunThatNeverBegan) {
