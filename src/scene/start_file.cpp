@@ -3,14 +3,13 @@
 #include "scene/start_file.hpp"
 
 #include "scene/excerpt.hpp"
-#include "scene/known_keys.hpp"
+#include "scene/npy_file.hpp"
+#include "scene/start_rows.hpp"
 #include "scene/text_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -19,9 +18,6 @@
 
 namespace carom::detail {
 namespace {
-
-enum Column : std::size_t { x, y, vx, vy, radius, mass, column_count };
-constexpr std::array<std::string_view, column_count> column_names = {"x", "y", "vx", "vy", "radius", "mass"};
 
 struct Field {
   std::string_view text;
@@ -50,10 +46,25 @@ std::optional<double> parse_number(std::string_view text) {
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+bool names_column(const Field& field) {
+  return std::find(start_columns.begin(), start_columns.end(), field.text) != start_columns.end();
+}
+
+/// Throws at files of other kinds, in which no line would be worth naming.
+void refuse_foreign(std::string_view bytes, const std::string& path) {
+  const char* kind = bytes.starts_with("PK\x03\x04")    ? "this is a zip archive, such as numpy.savez writes"
+                     : bytes.starts_with("\x89HDF\r\n") ? "this is an HDF5 file"
+                                                        : nullptr;
+  if (kind == nullptr) return;
+  throw SceneError({path, 0, 0}, fmt::format("{}; write the table of disks as CSV, or with numpy.save", kind));
+}
+
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& path) : text_(text) {
-    file_.rows.source = path;
+  Reader(std::string_view text, const std::string& path)
+      : text_(text), path_(path), rows_(path, [this](std::size_t column, const std::string& sentence) {
+          fail(fields_[column].column, sentence);
+        }) {
     if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // the byte order mark that spreadsheets write
   }
 
@@ -62,18 +73,24 @@ class Reader {
       line_number_ = 1;
       fail(1, "the file is empty; its first row must name the columns, such as x,y or x,y,vx,vy,radius,mass");
     }
-    read_header();
+    if (parse_number(fields_.front().text)) {
+      read_header_in_comment();
+      read_row();
+    } else {
+      read_header();
+    }
     while (next_line()) read_row();
-    return std::move(file_);
+    return rows_.take();
   }
 
  private:
   [[noreturn]] void fail(int column, const std::string& sentence) const {
-    throw SceneError({file_.rows.source, line_number_, column}, sentence);
+    throw SceneError({path_, line_number_, column}, sentence);
   }
 
-  /// Moves to the next line that counts; its fields are in fields_.
+  /// Moves to the next line that counts; its fields are in fields_, and the comment just above it in comment_.
   bool next_line() {
+    comment_ = {};
     while (position_ < text_.size()) {
       const std::size_t end = std::min(text_.find('\n', position_), text_.size());
       std::string_view line = text_.substr(position_, end - position_);
@@ -81,82 +98,85 @@ class Reader {
       ++line_number_;
       if (line.ends_with('\r')) line.remove_suffix(1);
       const std::string_view content = trimmed(line);
-      if (content.empty() || content.starts_with('#')) continue;
-      split(line, fields_);
-      return true;
+      if (content.starts_with('#')) {
+        comment_ = line;
+        comment_line_ = line_number_;
+      } else if (!content.empty()) {
+        split(line, fields_);
+        return true;
+      }
     }
     return false;
   }
 
   void read_header() {
-    std::array<bool, column_count> has{};
+    std::vector<std::string_view> names;
     for (const Field& field : fields_) {
-      const auto name = std::find(column_names.begin(), column_names.end(), field.text);
-      if (name == column_names.end()) refuse_column(field);
-      const auto column = static_cast<Column>(name - column_names.begin());
-      if (has[column]) fail(field.column, fmt::format("the column {} is named twice; name it once", field.text));
-      has[column] = true;
-      columns_.push_back(column);
+      if (!names_column(field) && field.text.find_first_of(";\t ") != std::string_view::npos) {
+        fail(field.column, fmt::format("{} is not a column; separate the columns with commas, such as x,y,vx,vy{}",
+                                       shown(field.text), field.text.find(' ') != std::string_view::npos ? numpy_delimiter : ""));
+      }
+      names.push_back(field.text);
     }
-    for (const Column column : {x, y}) {
-      if (!has[column]) fail(1, fmt::format("there is no column {}; the columns x and y are required", column_names[column]));
-    }
-    if (has[vx] != has[vy]) fail(1, fmt::format("there is no column {}; give both vx and vy, or neither", has[vx] ? "vy" : "vx"));
-    file_.has_velocities = has[vx];
-    file_.has_radii = has[radius];
-    file_.has_masses = has[mass];
+    rows_.name_columns(names);
   }
 
-  [[noreturn]] void refuse_column(const Field& field) const {
-    if (parse_number(field.text)) fail(field.column, "the first row must name the columns, such as x,y,vx,vy; found numbers");
-    const std::string_view near = nearest_word(field.text, column_names);
-    if (field.text.find_first_of(";\t ") != std::string_view::npos) {
-      fail(field.column,
-           fmt::format("{} is not a column; separate the columns with commas, such as x,y,vx,vy", shown(field.text)));
+  /// The first row holds numbers, and numpy.savetxt writes its header as a comment: "# x,y,vx,vy" just above the numbers is taken
+  /// as it was meant, where it names a column at all.
+  void read_header_in_comment() {
+    const std::vector<Field> first_row = fields_;
+    const int first_line = line_number_;
+    const std::size_t begin = std::min(comment_.find_first_not_of("# \t"), comment_.size());
+    split(comment_.substr(begin), fields_);
+    for (Field& field : fields_) field.column += static_cast<int>(begin);
+    if (std::none_of(fields_.begin(), fields_.end(), names_column)) {
+      fail(first_row.front().column, "the first row must name the columns, such as x,y,vx,vy; found numbers");
     }
-    if (!near.empty() && field.text.size() > 1) {
-      fail(field.column, fmt::format("there is no column {}; did you mean {}?", shown(field.text), near));
-    }
-    fail(field.column,
-         fmt::format("there is no column {}; the columns are {}", shown(field.text), fmt::join(column_names, ", ")));
+    line_number_ = comment_line_;
+    read_header();
+    line_number_ = first_line;
+    fields_ = first_row;
   }
 
   void read_row() {
-    if (fields_.size() != columns_.size()) {
-      fail(1, fmt::format("this row has {} {}, but the header names {} columns", fields_.size(),
-                          fields_.size() == 1 ? "value" : "values", columns_.size()));
+    if (fields_.size() != rows_.column_count()) {
+      const bool blanks = fields_.size() == 1 && fields_[0].text.find_first_of(" \t") != std::string_view::npos;
+      fail(1, fmt::format("this row has {} {}, but the header names {} columns{}", fields_.size(),
+                          fields_.size() == 1 ? "value" : "values", rows_.column_count(),
+                          blanks ? fmt::format("; separate them with commas{}", numpy_delimiter) : ""));
     }
-    std::array<double, column_count> values{};
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      const Column column = columns_[i];
+    values_.clear();
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
       const std::optional<double> value = parse_number(fields_[i].text);
       if (!value) {
         fail(fields_[i].column,
-             fmt::format("{} is {}; it must be a finite number, such as 0.5", column_names[column], shown(fields_[i].text)));
+             fmt::format("{} is {}; it must be a finite number, such as 0.5", rows_.name(i), shown(fields_[i].text)));
       }
-      if ((column == radius || column == mass) && *value <= 0.0) {
-        fail(fields_[i].column, fmt::format("{} is {}; it must be above zero", column_names[column], *value));
-      }
-      values[column] = *value;
+      values_.push_back(*value);
     }
-    file_.positions.emplace_back(values[x], values[y]);
-    if (file_.has_velocities) file_.velocities.emplace_back(values[vx], values[vy]);
-    if (file_.has_radii) file_.radii.push_back(values[radius]);
-    if (file_.has_masses) file_.masses.push_back(values[mass]);
-    file_.rows.places.push_back({line_number_, 1});
+    rows_.add(values_, {line_number_, 1});
   }
 
+  static constexpr const char* numpy_delimiter = " (numpy: delimiter=\",\")";
+
   std::string_view text_;
+  const std::string& path_;
   std::size_t position_ = 0;
   int line_number_ = 0;
   std::vector<Field> fields_;
-  std::vector<Column> columns_;
-  StartFile file_;
+  std::vector<double> values_;  ///< of the row at hand
+  std::string_view comment_;
+  int comment_line_ = 0;
+  StartRows rows_;
 };
 
 }  // namespace
 
-StartFile parse_start_file(std::string_view text, const std::string& path) { return Reader(text, path).read(); }
+StartFile parse_start_file(std::string_view text, const std::string& path) {
+  if (is_npy(text)) return parse_npy(text, path);
+  refuse_foreign(text, path);
+  return Reader(text, path).read();
+}
 
 StartFile read_start_file(const std::string& path) { return parse_start_file(read_text_file(path), path); }
 
