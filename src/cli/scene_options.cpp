@@ -3,29 +3,35 @@
 #include "cli/scene_options.hpp"
 
 #include "cli/commands.hpp"
+#include "scene/table_reader.hpp"
+#include "scene/text_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <carom/simulation.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace carom::cli {
 
 namespace {
 
-/// The digits of a seed, as TOML takes them.
+/// A seed as the scene reader takes it, which also knows 1e5.
 std::string checked_seed(const std::string& text) {
-  std::int64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error != std::errc() || end != text.data() + text.size() || seed < 0)
+  std::optional<std::int64_t> seed;
+  try {
+    seed = detail::whole_number(*detail::parse_toml("seed = " + text, "--seed").get("seed"));
+  } catch (const SceneError&) {
+    // not even TOML
+  }
+  if (!seed || *seed < 0)
     throw UsageError(
         fmt::format("--seed {}: a seed is a whole number from 0 to {}", text, std::numeric_limits<std::int64_t>::max()));
-  return std::to_string(seed);
+  return std::to_string(*seed);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "scene/known_keys.hpp"
 
 #include "scene/excerpt.hpp"
+#include "scene/foreign_words.hpp"
 #include "scene/observables_known.hpp"
 
 #include <fmt/format.h>
@@ -72,6 +73,13 @@ std::string_view home_of(std::string_view key) {
   return find_observable(key) != nullptr ? "[observe]" : std::string_view();
 }
 
+/// Whether a user of another program might look here for all that its input file had. A radius in [[obstacles]] is another one.
+bool takes_foreign_words(std::string_view path) {
+  static constexpr std::array<std::string_view, 6> tables = {"the scene",   "[box]", "[[disks]]",
+                                                             "[collision]", "[run]", "[output]"};
+  return std::find(tables.begin(), tables.end(), table_title(path)) != tables.end();
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -120,6 +128,7 @@ std::string unknown_key_sentence(std::string_view key, std::string_view path, st
   const std::string problem = fmt::format("{} has no key \"{}\"", table_title(path), excerpt(key, 60));
   // One edit away from a key of this table is a slip of the finger, whatever the word means elsewhere: [[disk]] for [[disks]].
   const std::string_view near = nearest_word(key, known);
+  if (takes_foreign_words(path) && !meant_by(key).empty()) return fmt::format("{}; {}", problem, meant_by(key));
   const std::string_view home = !near.empty() && edit_distance(key, near) == 1 ? std::string_view() : home_of(key);
   if (!home.empty()) return fmt::format("{}; it belongs to {}", problem, home);
   if (key == "title") return problem + "; it belongs to the top of the file, before the first [table]";

@@ -16,8 +16,8 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
 /// "[run]" for "run", "[[disks]]" for "disks.0", "the scene" for "", and the path itself for inline tables.
 std::string table_title(std::string_view path);
 
-/// The sentence for a key that the table at `path` does not have: it names the nearest key of that table, or the
-/// table where a key of just this name belongs, or all keys of the table.
+/// The sentence for a key that the table at `path` does not have: it names what other programs mean by it, the nearest key of
+/// that table, or the table where a key of just this name belongs, or all keys of the table.
 std::string unknown_key_sentence(std::string_view key, std::string_view path, std::span<const std::string_view> known);
 
 }  // namespace carom::detail

@@ -62,10 +62,18 @@ double read_number_between(const toml::node& node, const std::string& path, doub
   return value;
 }
 
+std::optional<std::int64_t> whole_number(const toml::node& node) {
+  constexpr double most = 9007199254740992.0;  // 2^53: below it every whole number is a double of its own
+  if (const auto* integer = node.as_integer()) return integer->get();
+  const auto* number = node.as_floating_point();
+  const bool whole = number != nullptr && std::abs(number->get()) <= most && std::trunc(number->get()) == number->get();
+  return whole ? std::optional(static_cast<std::int64_t>(number->get())) : std::nullopt;
+}
+
 std::int64_t read_integer(const toml::node& node, const std::string& path, const std::string& example) {
-  const auto* integer = node.as_integer();
-  if (integer == nullptr || integer->get() < 0) refuse(node, path, "a whole number, zero or more, such as " + example);
-  return integer->get();
+  const std::optional<std::int64_t> number = whole_number(node);
+  if (!number || *number < 0) refuse(node, path, "a whole number, zero or more, such as " + example);
+  return *number;
 }
 
 bool read_switch(const toml::node& node, const std::string& path, const std::string& example) {

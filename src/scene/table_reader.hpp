@@ -30,6 +30,8 @@ double read_number(const toml::node& node, const std::string& path, Range range,
 /// A number from `least` to `most`, both included.
 double read_number_between(const toml::node& node, const std::string& path, double least, double most,
                            const std::string& example);
+/// The whole number that a node is, also with a point or an exponent (1e5) where it is at most 2^53; empty where it is none.
+std::optional<std::int64_t> whole_number(const toml::node& node);
 std::int64_t read_integer(const toml::node& node, const std::string& path, const std::string& example);  ///< zero or more
 bool read_switch(const toml::node& node, const std::string& path, const std::string& example);
 std::string read_string(const toml::node& node, const std::string& path, const std::string& example);

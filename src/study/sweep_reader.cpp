@@ -74,14 +74,13 @@ std::vector<std::uint64_t> read_seeds(const toml::table& document, std::uint64_t
     if (list->empty()) refuse(*node, "seeds", expected);
     return listed_seeds(*list);
   }
-  const auto* count = node->as_integer();
-  const auto most = static_cast<std::int64_t>(most_runs);
-  if (count == nullptr || count->get() < 1 || count->get() > most) refuse(*node, "seeds", expected);
-  if (first > static_cast<std::uint64_t>(largest_seed - count->get()))
+  const std::optional<std::int64_t> count = detail::whole_number(*node);
+  if (!count || *count < 1 || *count > static_cast<std::int64_t>(most_runs)) refuse(*node, "seeds", expected);
+  if (first > static_cast<std::uint64_t>(largest_seed - *count))
     throw SceneError(location_of(*node),
                      fmt::format("the scene's seed is {}, too large for others to follow it; list them", first));
   std::vector<std::uint64_t> seeds;
-  for (std::int64_t k = 0; k < count->get(); ++k) seeds.push_back(first + static_cast<std::uint64_t>(k));
+  for (std::int64_t k = 0; k < *count; ++k) seeds.push_back(first + static_cast<std::uint64_t>(k));
   return seeds;
 }
 

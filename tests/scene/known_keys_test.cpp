@@ -35,6 +35,23 @@ TEST(KnownKeys, ASlipIsNotTakenForAKeyOfAnotherTable) {
   EXPECT_EQ(unknown_key_sentence("disk", "box", {}), "[box] has no key \"disk\"; it belongs to [[obstacles]]");
 }
 
+TEST(KnownKeys, WordsOfTimeSteppersLeadToOurs) {
+  const auto leads = [](std::string_view word, std::string_view key) {
+    const std::string sentence = unknown_key_sentence(word, "run", std::array<std::string_view, 2>{"time", "seed"});
+    EXPECT_NE(sentence.find(key), std::string::npos) << sentence;
+  };
+  for (const char* word : {"dt", "timestep", "time_step", "Delta_t", "h"}) leads(word, "sample_every");
+  for (const char* word : {"steps", "nsteps", "N_steps", "num-steps", "iterations", "t_max"}) leads(word, "time or collisions");
+  for (const char* word : {"N", "n", "num", "n_particles", "numParticles"}) leads(word, "count");
+  for (const char* word : {"T", "temp", "kT", "temperature"}) leads(word, "velocities = {");
+  for (const char* word : {"L", "box_size", "Lx", "width"}) leads(word, "[box]");
+  for (const char* word : {"R", "diameter", "sigma"}) leads(word, "radius");
+  leads("viscosity", "[observe]");
+  leads("density", "packing_fraction");
+  EXPECT_EQ(unknown_key_sentence("r", "obstacles.0.disk", std::array<std::string_view, 2>{"centre", "radius"}),
+            "obstacles.0.disk has no key \"r\"; its keys are centre, radius");
+}
+
 TEST(KnownKeys, TablesAreNamedAsTheyAreWritten) {
   EXPECT_EQ(table_title("walls"), "[walls]");
   EXPECT_EQ(table_title("obstacles.3"), "[[obstacles]]");

@@ -89,6 +89,20 @@ TEST(Spellings, ListedVelocitiesMayHaveAnyFiniteSize) {
   EXPECT_TRUE(std::signbit(listed.values[1][0]));
 }
 
+TEST(Spellings, WholeNumbersMayHaveAPointOrAnExponent) {
+  const Scene scene = parse_changed(
+      {{"count = 10", "count = 1.2e1"},
+       {"time = 5.0", "collisions = 1e7\nseed = 9007199254740992.0\nsample_every = { collisions = 1e3 }"}});
+  EXPECT_EQ(scene.disk_count(), 12);
+  EXPECT_EQ(scene.run.collisions, 10'000'000U);
+  EXPECT_EQ(scene.run.seed, 9007199254740992U);
+  EXPECT_EQ(scene.run.sample_every_collisions, 1000U);
+  for (const char* wrong : {"seed = 1.5", "seed = -1e3", "seed = 1e16", "seed = inf", "seed = nan", "seed = 1e-300"}) {
+    const std::string run = std::string("time = 5.0\n") + wrong;
+    EXPECT_THAT(testing_support::refusal_of([&] { parse_changed({{"time = 5.0", run}}); }), testing::HasSubstr("whole number"));
+  }
+}
+
 TEST(Spellings, RunMayEndByCollisionsAlone) {
   const Scene scene = parse_changed({{"time = 5.0", "collisions = 1_000_000"}});
   EXPECT_FALSE(scene.run.time);
