@@ -65,9 +65,8 @@ std::string lines_of(const TrialResult& result) {
   std::string text = fmt::format("{} ({})\n", result.trial, duration(result.seconds));
   for (const Check& check : result.checks) {
     const CheckRow row = row_of(check);
-    text += fmt::format("  {:<18} {}: {}, expected {}; {} standard errors\n", row.verdict, row.name, row.measured,
-                        check.equivalent ? check.theory : row.expected, row.deviation);
-    if (!check.holds()) text += fmt::format("  {:<18} theory: {}; {}\n", "", row.theory, row.source);
+    text += fmt::format("  {:<23} {}\n", row.verdict, sentence_of(check));
+    if (!check.holds()) text += fmt::format("  {:<23} theory: {}; {}\n", "", row.theory, row.source);
   }
   return text;
 }

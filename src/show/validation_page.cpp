@@ -43,11 +43,12 @@ constexpr std::array<TrialPlot, 15> trial_plots = {{
     {"free-times", "collisions", "Flights that last longer than t", "t (mean free times)", "share",
      "A mixture of exponentials, one for each speed.", true},
     {"transport", "transport", "Transport over Enskog", "packing fraction", "measured / Enskog",
-     "Enskog's theory leaves correlations out; by how much it is off is physics."},
+     "Enskog's theory leaves correlations out; by how much it is off is physics, and not judged."},
     {"diffusion", "transport", "D(t) over Enskog", "t (mean free times)", "D(t) / Enskog",
      "In two dimensions D grows with the logarithm of time. Beyond the time that sound takes to the middle of the box it is that "
      "of the box."},
-    {"haff", "cooling, weight and walls", "Cooling", "time", "(T(0) / T)^1/2", "Haff's law is a straight line."},
+    {"haff", "cooling, weight and walls", "Cooling", "time", "(T(0) / T)^1/2", 
+     "Haff's law is a straight line. In the larger box shear waves grow, and the gas cools more slowly."},
     {"barometer", "cooling, weight and walls", "A gas with weight", "height", "disks in a layer", "Layers of height 5.", true},
     {"wall-pressure", "cooling, weight and walls", "Pressure on walls", "N^-1/2", "Z from walls",
      "Walls add terms of 1 / sqrt N; the fit comes to the fluid's Z."},
@@ -105,13 +106,14 @@ Plot plot_of(const TrialPlot& frame, const Validation& validation) {
 }
 
 TextTable table_of(const TrialResult& result) {
-  TextTable table{.title = result.trial, .columns = {"what", "expected", "measured", "standard errors", "verdict", "theory"}};
+  TextTable table{.title = result.trial,
+                  .columns = {"what", "expected", "measured", "z", "per cent", "z beyond the allowance", "verdict", "theory"}};
   for (const Check& check : result.checks) {
     const CheckRow row = row_of(check);
     std::string theory = row.theory;
     if (!row.source.empty()) theory += "; " + row.source;
     if (!row.allowance.empty()) theory += "; allowance " + row.allowance;
-    table.rows.push_back({row.name, row.expected, row.measured, row.deviation, row.verdict, theory});
+    table.rows.push_back({row.name, row.expected, row.measured, row.z, row.per_cent, row.beyond, row.verdict, theory});
   }
   return table;
 }
@@ -124,9 +126,10 @@ Page validation_page(const Validation& validation, const std::string& command_li
             .subtitle = summary_of(validation),
             .lead =
                 "Every check holds a number that this program has measured against theory or the literature. It holds where the "
-                "two are within five standard errors, and an allowance where theory itself is approximate. Negative controls "
-                "must fail: they show that the check could tell. What fixed steps make of the same questions is shown, not "
-                "judged.",
+                "two are within five standard errors of each other, and an allowance where the theory itself has a small error, "
+                "which is named. z is the whole difference in standard errors, without any allowance. Negative controls "
+                "must fail: they show that the check could tell. Approximate theories, and what fixed steps make of the same "
+                "questions, are shown and not judged.",
             .key_numbers = {{fmt::format("{} of {}", validation.checks() - failed, validation.checks()), "checks hold"}}};
   std::vector<std::string> groups;
   for (const TrialResult& result : validation.results)

@@ -67,14 +67,66 @@ TEST(ValidationCheck, ANegativeControlMustNotFit) {
 
 TEST(ValidationCheck, WhatIsShownNeverFails) {
   EXPECT_TRUE(check(1.0, 2.0, 0.1, 0.0, Judged::shown).holds());
-  EXPECT_EQ(row_of(check(1.0, 2.0, 0.1, 0.0, Judged::shown)).verdict, "shown: fails");
+  EXPECT_EQ(row_of(check(1.0, 2.0, 0.1, 0.0, Judged::shown)).verdict, "differs (not judged)");
+  EXPECT_EQ(row_of(check(1.0, 1.1, 0.1, 0.0, Judged::shown)).verdict, "consistent (not judged)");
+}
+
+TEST(ValidationCheck, ZKnowsNoAllowance) {
+  EXPECT_NEAR(check(1.0, 1.3, 0.1, 1.0).z(), 3.0, 1e-12);
+  EXPECT_EQ(check(1.0, 1.3, 0.1, 1.0).deviation(), 0.0);
+  EXPECT_TRUE(std::isinf(check(1.0, nan, 0.1, 1.0).z()));
+  Check statistic = check(0.0, 9.0, 0.0);
+  statistic.equivalent = 1.5;
+  EXPECT_EQ(statistic.z(), 1.5);
+}
+
+TEST(ValidationCheck, TheErrorOfAReferenceCountsLikeThatOfTheMeasurement) {
+  Check both = check(1.0, 1.5, 0.3);
+  both.reference_error = 0.4;
+  EXPECT_NEAR(both.z(), 1.0, 1e-12);
+  EXPECT_NEAR(both.deviation(), 1.0, 1e-12);
+}
+
+TEST(ValidationCheck, OnlyNormalStatisticsAgainstExactTheoryCalibrate) {
+  EXPECT_TRUE(check(1.0, 1.1, 0.1).calibrates());
+  EXPECT_TRUE(check(1.0, 1.1, 0.1, 0.01).calibrates());
+  EXPECT_FALSE(check(1.0, 1.1, 0.1, 0.03).calibrates());
+  EXPECT_FALSE(check(1.0, 1.1, 0.0).calibrates());
+  Check bound = check(1.0, 1.1, 0.1);
+  bound.error_is_bound = true;
+  EXPECT_FALSE(bound.calibrates());
+  EXPECT_FALSE(check(1.0, 1.1, 0.1, 0.0, Judged::disagrees).calibrates());
+  EXPECT_FALSE(check(1.0, 1.1, 0.1, 0.0, Judged::shown).calibrates());
+  Check statistic = check(0.0, 9.0, 1.0);
+  statistic.equivalent = 1.5;
+  EXPECT_FALSE(statistic.calibrates());
+}
+
+TEST(ValidationCheck, SentencesSayWhatCanBeConcluded) {
+  EXPECT_EQ(sentence_of(check(2.0, 2.2, 0.1)), "a number: 2.20 ± 0.10, expected 2.00; z = +2.0 (+10 %)");
+  EXPECT_EQ(sentence_of(check(2.0, 2.2, 0.1, 0.15)),
+            "a number: 2.20 ± 0.10, expected 2.00; z = +2.0 (+10 %), +0.5 beyond the allowance of 0.15");
+  EXPECT_EQ(sentence_of(check(0.0, 0.0, 0.0)), "a number: 0, expected 0; exactly equal");
+  EXPECT_EQ(sentence_of(check(0.0, 0.25, 0.0, 1e-12)),
+            "a number: 0.25, expected 0; not equal, beyond the allowance of 1e-12");
+  EXPECT_EQ(sentence_of(check(1.0, 1.0 + 1e-14, 0.0, 1e-12)),
+            "a number: 1, expected 1; not equal (+1e-12 %), within the allowance of 1e-12");
+  EXPECT_EQ(sentence_of(check(1.0, nan, 0.1)), "a number: no number, expected 1.00; z = unknown");
+  Check measured_reference = check(2.0, 2.2, 0.03);
+  measured_reference.reference_error = 0.04;
+  EXPECT_EQ(sentence_of(measured_reference), "a number: 2.200 ± 0.030, expected 2.000 ± 0.040; z = +4.0 (+10 %)");
+  Check statistic = check(0.0, 0.8, 0.0);
+  statistic.equivalent = 1.25;
+  EXPECT_EQ(sentence_of(statistic), "a number: 0.8, theory: one; z = +1.2");
 }
 
 TEST(ValidationCheck, RowsHaveAsManyDigitsAsTheErrorTells) {
   const CheckRow row = row_of(check(2.0602345, 2.0599123, 0.00097, 0.0021));
   EXPECT_EQ(row.measured, "2.05991 ± 0.00097");
   EXPECT_EQ(row.expected, "2.06023");
-  EXPECT_EQ(row.deviation, "+0.0 (-0.016 %)");
+  EXPECT_EQ(row.z, "-0.3");
+  EXPECT_EQ(row.per_cent, "-0.016 %");
+  EXPECT_EQ(row.beyond, "+0.0");
   EXPECT_EQ(row.allowance, "0.0021: a reason");
 }
 
@@ -150,6 +202,8 @@ TrialResult awkward_result() {
   result.checks = {check(1.0 / 3.0, 0.1, 5e-324), check(0.0, nan, nan, 0.5, Judged::disagrees),
                    check(1e300, 2.0, 0.0, 0.0, Judged::shown)};
   result.checks[1].equivalent = 3.25;
+  result.checks[0].reference_error = 0.1;
+  result.checks[2].error_is_bound = true;
   result.curves = {{.plot = "p", .name = "measured | by us", .x = {1.0, nan}, .y = {2.0, -0.0}, .error = {}},
                    {.plot = "p", .name = "theory", .theory = true, .x = {0.1}, .y = {0.2}, .error = {0.3}}};
   return result;
@@ -175,6 +229,8 @@ TEST(ValidationFiles, GiveBackWhatWasWritten) {
     EXPECT_EQ(a.judged, b.judged);
     EXPECT_EQ(a.equivalent, b.equivalent);
     EXPECT_EQ(a.allowance_for, b.allowance_for);
+    EXPECT_EQ(a.reference_error, b.reference_error);
+    EXPECT_EQ(a.error_is_bound, b.error_is_bound);
     EXPECT_TRUE(same(a.expected, b.expected) && same(a.measured.value, b.measured.value) &&
                 same(a.measured.error, b.measured.error) && same(a.allowance, b.allowance));
     EXPECT_EQ(a.holds(), b.holds());

@@ -15,9 +15,9 @@ struct Measured {
 
 /// What a check is for.
 enum class Judged {
-  agrees,     ///< what is measured is to agree with theory
-  disagrees,  ///< a negative control: a law that must not be found here, or the test could not tell it from the right one
-  shown       ///< what a method makes of it; no verdict depends on that
+  agrees,     ///< the measured number must agree with the expected one
+  disagrees,  ///< negative control: the measured number must not agree, or the test could not tell a right law from a wrong one
+  shown       ///< a comparison with an approximate theory, or of an approximate method; no verdict depends on it
 };
 
 struct Check {
@@ -26,17 +26,28 @@ struct Check {
   std::string source = {};  ///< who says so
   double expected = 0.0;
   Measured measured = {};
-  double allowance = 0.0;          ///< how far theory itself may be off
-  std::string allowance_for = {};  ///< why
-  /// In standard errors, where it is not the difference over the error: a test whose statistic is not normal.
+  double reference_error = 0.0;    ///< standard error of `expected`, where that is a measured number of the literature
+  double allowance = 0.0;          ///< bound on the error of the theory itself
+  std::string allowance_for = {};  ///< which error of the theory that is
+  /// Whether the measurement's error is an upper bound: of two numbers of one run, put together as if they were independent.
+  bool error_is_bound = false;
+  /// The deviation in standard errors, where it is not the difference over the error: a test whose statistic is not normal.
   std::optional<double> equivalent = {};
   Judged judged = Judged::agrees;
 
-  /// What is beyond the allowance, in standard errors; with a sign where it has one.
+  /// The standard error of measured - expected: that of both.
+  [[nodiscard]] double error() const;
+  /// (measured - expected) / error(), without any allowance; infinite where they differ and there is no error, or where one of
+  /// them is no number. Of a calibrated measurement against an exact theory this is a normal variable of variance 1.
+  [[nodiscard]] double z() const;
+  /// What is beyond the allowance, in standard errors, with the sign of z(): what the verdict depends on.
   [[nodiscard]] double deviation() const;
-  /// Within five standard errors: chance is farther off once in 1.7 million.
+  /// Whether deviation() is within five standard errors, which chance exceeds once in 1.7 million.
   [[nodiscard]] bool fits() const;
-  /// Whether it is as it must be.
+  /// Whether z() is that of the measurement alone: a normal statistic that must agree, with an error of its own
+  /// that is no bound, of which the errors of reference and theory together are less than a fifth.
+  [[nodiscard]] bool calibrates() const;
+  /// Whether fits() is what it must be.
   [[nodiscard]] bool holds() const;
 };
 

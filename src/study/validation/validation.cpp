@@ -99,7 +99,7 @@ namespace {
 
 /// With as many decimals as the second digit of the error has.
 std::string number(double value, double error) {
-  if (!std::isfinite(value)) return "none";
+  if (!std::isfinite(value)) return "no number";
   if (!(error > 0.0) || !std::isfinite(error)) return fmt::format("{:.6g}", value);
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
   return fmt::format("{:.{}f}", value, decimals);
@@ -112,7 +112,7 @@ std::string verdict_of(const Check& check) {
     case Judged::disagrees:
       return check.fits() ? "FITS, and must not" : "fails, as it must";
     case Judged::shown:
-      return check.fits() ? "shown: agrees" : "shown: fails";
+      return check.fits() ? "consistent (not judged)" : "differs (not judged)";
   }
   return {};
 }
@@ -128,15 +128,36 @@ std::string cell(const std::string& text) {
 CheckRow row_of(const Check& check) {
   CheckRow row{.name = check.name, .theory = check.theory, .source = check.source};
   const auto [value, error] = check.measured;
-  row.measured = error > 0.0 ? number(value, error) + " ± " + number(error, error) : number(value, 0.0);
+  row.measured = error > 0.0 && std::isfinite(value) ? number(value, error) + " ± " + number(error, error) : number(value, 0.0);
   row.expected = check.equivalent ? "see theory" : number(check.expected, error);
-  const double deviation = check.deviation();
-  row.deviation = std::isinf(deviation) ? "no error explains it" : fmt::format("{:+.1f}", deviation);
+  if (!check.equivalent && check.reference_error > 0.05 * error)
+    row.expected = number(check.expected, check.error()) + " ± " + number(check.reference_error, check.reference_error);
+  const auto in_errors = [&](double deviation) {
+    if (std::isfinite(deviation)) return check.error() > 0.0 || check.equivalent ? fmt::format("{:+.1f}", deviation) : "equal";
+    return std::string(std::isfinite(value) && std::isfinite(error) ? "not equal" : "unknown");
+  };
+  row.z = in_errors(check.z());
   if (!check.equivalent && check.expected != 0.0 && std::isfinite(value))
-    row.deviation += fmt::format(" ({:+.2g} %)", 100.0 * (value / check.expected - 1.0));
-  if (check.allowance > 0.0) row.allowance = fmt::format("{:.2g}: {}", check.allowance, check.allowance_for);
+    row.per_cent = fmt::format("{:+.2g} %", 100.0 * (value / check.expected - 1.0));
+  if (check.allowance > 0.0) {
+    row.allowance = fmt::format("{:.2g}: {}", check.allowance, check.allowance_for);
+    row.beyond = std::isfinite(check.deviation()) ? fmt::format("{:+.1f}", check.deviation()) : in_errors(check.deviation());
+  }
   row.verdict = verdict_of(check);
   return row;
+}
+
+std::string sentence_of(const Check& check) {
+  const CheckRow row = row_of(check);
+  const bool statistic = check.equivalent.has_value(), counted = check.error() > 0.0 || statistic;
+  std::string text = fmt::format("{}: {}, ", row.name, row.measured);
+  text += statistic ? "theory: " + row.theory : "expected " + row.expected;
+  text += counted ? "; z = " + row.z : "; " + (row.z == "equal" ? "exactly equal" : row.z);
+  if (!row.per_cent.empty() && row.z != "equal") text += fmt::format(" ({})", row.per_cent);
+  if (check.allowance > 0.0)
+    text += counted ? fmt::format(", {} beyond the allowance of {:.2g}", row.beyond, check.allowance)
+                    : fmt::format(", {} the allowance of {:.2g}", check.fits() ? "within" : "beyond", check.allowance);
+  return text;
 }
 
 std::string summary_of(const Validation& validation) {
@@ -158,14 +179,15 @@ std::string validation_markdown(const Validation& validation) {
       if (trial.name != result.trial || trial.group == group) continue;
       group = trial.group;
       text += fmt::format(
-          "\n### {}\n\n| what | theory | expected | measured | standard errors | allowance | verdict |\n"
-          "|---|---|---|---|---|---|---|\n",
+          "\n### {}\n\n| what | theory | expected | measured | z | per cent | allowance | z beyond it | verdict |\n"
+          "|---|---|---|---|---|---|---|---|---|\n",
           group);
     }
     for (const Check& check : result.checks) {
       const CheckRow row = row_of(check);
-      text += fmt::format("| {} | {}; {} | {} | {} | {} | {} | {} |\n", cell(row.name), cell(row.theory), cell(row.source),
-                          row.expected, row.measured, row.deviation, cell(row.allowance), row.verdict);
+      text += fmt::format("| {} | {}; {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(row.name), cell(row.theory),
+                          cell(row.source), row.expected, row.measured, row.z, row.per_cent, cell(row.allowance), row.beyond,
+                          row.verdict);
     }
   }
   return text + "\n" + summary_of(validation) + ".\n";

@@ -44,11 +44,17 @@ struct CheckRow {
   std::string name = {}, theory = {}, source = {};
   std::string expected = {};   ///< "2.0602"
   std::string measured = {};   ///< "2.0599 +- 0.0010", with the sign of plus or minus
-  std::string deviation = {};  ///< "-0.3 (0.01 %)": standard errors beyond the allowance; per cent of what is expected
+  std::string z = {};          ///< "-0.3": the whole difference in standard errors; "exact", "not equal" where there is no error
+  std::string per_cent = {};   ///< "-0.01 %" of what is expected; empty where that is 0 or no number
+  std::string beyond = {};     ///< "-2.1": standard errors beyond the allowance; empty where there is no allowance
   std::string allowance = {};  ///< "0.02: why"; empty where there is none
-  std::string verdict = {};    ///< "agrees", "FAILS", "fails, as it must", "FITS, and must not", "shown: agrees", "shown: fails"
+  /// "agrees", "FAILS", "fails, as it must", "FITS, and must not", "consistent (not judged)", "differs (not judged)"
+  std::string verdict = {};
 };
 [[nodiscard]] CheckRow row_of(const Check& check);
+
+/// One check as a sentence: "Z of 256 disks: 2.0599 +- 0.0010, expected 2.0602; z = -0.3 (-0.01 %)"
+[[nodiscard]] std::string sentence_of(const Check& check);
 
 /// "98 checks in 40 trials: all hold"
 [[nodiscard]] std::string summary_of(const Validation& validation);

@@ -50,6 +50,10 @@ Json json_of(const Check& check) {
                {"expected", number(check.expected)},
                {"measured", number(check.measured.value)},
                {"error", number(check.measured.error)},
+               {"reference_error", check.reference_error},
+               {"error_is_bound", check.error_is_bound},
+               {"z", number(check.z())},
+               {"calibrates", check.calibrates()},
                {"allowance", check.allowance},
                {"allowance_for", check.allowance_for},
                {"deviation", number(check.deviation())},
@@ -66,8 +70,10 @@ Check check_of(const Json& json) {
               .source = json.at("source"),
               .expected = number_in(json.at("expected")),
               .measured = {number_in(json.at("measured")), number_in(json.at("error"))},
+              .reference_error = json.at("reference_error"),
               .allowance = json.at("allowance"),
-              .allowance_for = json.at("allowance_for")};
+              .allowance_for = json.at("allowance_for"),
+              .error_is_bound = json.at("error_is_bound")};
   if (json.contains("equivalent"))
     check.equivalent = json["equivalent"].is_null() ? std::numeric_limits<double>::infinity() : json["equivalent"].get<double>();
   const std::string judged = json.at("judged");
