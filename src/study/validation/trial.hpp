@@ -36,6 +36,7 @@ struct Trial {
 void add_maxwell_boltzmann(std::vector<Trial>& trials);
 void add_reversal(std::vector<Trial>& trials);
 void add_equation_of_state(std::vector<Trial>& trials);
+void add_single_file(std::vector<Trial>& trials);
 void add_collisions(std::vector<Trial>& trials);
 void add_transport(std::vector<Trial>& trials);
 void add_cooling_fields_walls(std::vector<Trial>& trials);

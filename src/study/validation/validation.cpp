@@ -19,6 +19,7 @@ const std::vector<Trial>& all_trials() {
     add_maxwell_boltzmann(list);
     add_reversal(list);
     add_equation_of_state(list);
+    add_single_file(list);
     add_collisions(list);
     add_transport(list);
     add_cooling_fields_walls(list);

@@ -1,0 +1,69 @@
+#include "theory/single_file.hpp"
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace carom::test {
+namespace {
+
+using theory::single_file;
+
+TEST(SingleFile, IsTheOneOfAnIndependentSolution) {
+  // To the last digit given, of a solution of the same integral equation by a program of its own.
+  EXPECT_NEAR(single_file(1.8, 1.0).force, 6.637817, 5e-7);
+  EXPECT_NEAR(single_file(1.8, 1.0).wall_pressure, 4.173444, 5e-7);
+}
+
+TEST(SingleFile, OfFewDisksHasTheirSecondVirialCoefficient) {
+  // The mean of the closest distance along the channel over both heights; the next term is of the order of its square.
+  using Rule = boost::math::quadrature::gauss<double, 30>;
+  constexpr double h = 0.7, length = 1e4;
+  const double closest = Rule::integrate(
+      [&](double y) { return Rule::integrate([&](double z) { return std::sqrt(1.0 - (y - z) * (y - z)); }, 0.0, h); }, 0.0, h);
+  EXPECT_NEAR(length * (single_file(1.0 + h, length).force * length - 1.0), closest / (h * h), 5.0 / length);
+  EXPECT_NEAR(single_file(1.0 + h, length).wall_pressure * length * h, 1.0, 5.0 / length);
+}
+
+TEST(SingleFile, ForcesAreSlopesOfOneFreeEnergy) {
+  // The force is -df/dl and the pressure times the length -df/dh of one function f(l, h). Central differences err by step^2.
+  constexpr double h = 0.6, length = 1.1, step = 1e-4;
+  const auto force = [&](double range) { return single_file(1.0 + range, length).force; };
+  const auto wall_force = [&](double l) { return single_file(1.0 + h, l).wall_pressure * l; };
+  EXPECT_NEAR((force(h + step) - force(h - step)) / (2 * step),
+              (wall_force(length + step) - wall_force(length - step)) / (2 * step), 1e-5);
+}
+
+TEST(SingleFile, NearClosePackingHasTwoDegreesOfFreedomForEachDisk) {
+  // F (l - l_min) comes to 2 (Montero & Santos, arXiv:2212.08932), where hard rods on a line have 1.
+  const double closest = std::sqrt(1.0 - 0.8 * 0.8);
+  const double near = single_file(1.8, closest + 0.04).force * 0.04, nearer = single_file(1.8, closest + 0.02).force * 0.02;
+  EXPECT_NEAR(2.0 * nearer - near, 2.0, 0.005) << near << ' ' << nearer;
+}
+
+TEST(SingleFile, InAChannelWithoutRoomIsThatOfRodsForAnyNumberOfDisks) {
+  // N rods on a ring of length N l have l (l - 1)^(N - 1) to be in: force 1 / N l + (1 - 1/N) / (l - 1), with no further terms.
+  for (const double length : {1.2, 1.5, 3.0})
+    EXPECT_NEAR(single_file(1.001, length, 10).force, 0.1 / length + 0.9 / (length - 1.0), 2e-5 / (length - 1.0)) << length;
+}
+
+TEST(SingleFile, FirstTermInOneOverN) {
+  // The pressure on the walls of N disks was seen to be less by some 3.2 / N.
+  const double infinite = single_file(1.8, 1.0).wall_pressure;
+  EXPECT_NEAR(400.0 * (single_file(1.8, 1.0, 400).wall_pressure - infinite), -3.18, 0.03);
+}
+
+TEST(SingleFile, WhereDisksCanPassOrDoNotFitIsRefused) {
+  EXPECT_THROW((void)single_file(1.0, 2.0), std::invalid_argument);
+  EXPECT_THROW((void)single_file(1.87, 2.0), std::invalid_argument);
+  EXPECT_THROW((void)single_file(1.8, 0.599), std::invalid_argument);
+  EXPECT_THROW((void)single_file(1.8, 0.6001), std::invalid_argument) << "too close to be resolved";
+  EXPECT_THROW((void)single_file(1.8, std::nan("")), std::invalid_argument);
+  EXPECT_THROW((void)single_file(std::nan(""), 1.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace carom::test
