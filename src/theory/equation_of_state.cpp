@@ -53,6 +53,8 @@ Derivatives evaluate(double eta) {
 
 double kolafa_rottner(double eta) { return evaluate(eta).z; }
 
+double kolafa_rottner_error(double eta) { return 1e-5 * (kolafa_rottner(eta) - 1.0); }
+
 double kolafa_rottner_finite(double eta, std::int64_t disks) {
   const auto [z, z1, z2] = evaluate(eta);
   return z - eta / (2.0 * static_cast<double>(disks)) * (2.0 * z1 + eta * z2) / (z + eta * z1);

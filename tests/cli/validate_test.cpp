@@ -35,7 +35,7 @@ TEST_F(ValidateCommand, ListNamesTheTrialsAndWritesNothing) {
   const Outcome outcome = validate({"--list"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("Maxwell and Boltzmann\n  relaxation-periodic-one-speed\n"),
-                                 HasSubstr("transition-0.704 (--full)")));
+                                 HasSubstr("transition-0.708 (--full)")));
   EXPECT_TRUE(fs::is_empty(directory_.path()));
 }
 

@@ -45,6 +45,10 @@ using Change = std::function<void(State& start)>;
 [[nodiscard]] Found run(const std::string& scene, const Effort& effort, TrialResult& result,
                         std::vector<std::unique_ptr<Observable>> own = {}, const Change& change = {});
 
+/// A start without order for a dense system: disks of diameter 1 in a square periodic box, a liquid that has been compressed
+/// slowly to packing fraction `eta`. Requires a density that a liquid can be compressed to, some 0.72. Throws Interrupted.
+[[nodiscard]] State compressed_liquid(std::int64_t disks, double eta, const Effort& effort, std::uint64_t seed);
+
 /// The mean of independent values, and its error from their scatter.
 [[nodiscard]] Measured mean_of(const std::vector<double>& values);
 
