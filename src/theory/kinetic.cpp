@@ -5,9 +5,12 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/special_functions/bessel.hpp>
+#include <boost/math/special_functions/ellint_2.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace carom::theory {
 
@@ -62,6 +65,52 @@ double relative_rate(double speed) {
          std::numbers::sqrt2;
 }
 
+double relative_rate(double speed, std::int64_t disks) {
+  const auto N = static_cast<double>(disks);
+  // The others have the momentum -v, so a mean velocity of -v / (N - 1), and the energy that is left.
+  const double left = N - 1.0 - 0.5 * speed * speed * N / (N - 1.0);
+  if (left <= 0.0) return 0.0;
+  const Microcanonical others(disks - 1, true);
+  const double mean_square = 2.0 * left / (N - 1.0), away = speed * N / (N - 1.0);
+  const auto at = [&](double u) {
+    const double sum = away + u;
+    // The mean of |away - u| over the directions of u.
+    const double mean = sum > 0.0 ? 2.0 / pi * sum * boost::math::ellint_2(std::min(1.0, 2.0 * std::sqrt(away * u) / sum)) : 0.0;
+    return mean * others.speed_density(u, mean_square);
+  };
+  const double fastest = std::min(12.0, std::sqrt(mean_square * (N - 2.0)));
+  double sum = 0.0;
+  // The elliptic integral has a weak singularity where u = away.
+  for (const auto& [from, to] : {std::pair(0.0, std::min(away, fastest)), std::pair(std::min(away, fastest), fastest)})
+    for (int panel = 0; panel < 4; ++panel) {
+      const double width = 0.25 * (to - from);
+      if (width > 0.0)
+        sum += boost::math::quadrature::gauss<double, 30>::integrate(at, from + panel * width, from + (panel + 1) * width);
+    }
+  return sum / (sqrt_pi * Microcanonical(disks, true).speed_factor());
+}
+
+double mean_relative_rate(double from, double to, std::int64_t disks) {
+  using Rule = boost::math::quadrature::gauss<double, 10>;
+  const Microcanonical law(disks, true);
+  const double mean_square = 2.0 * (static_cast<double>(disks) - 1.0) / static_cast<double>(disks);
+  const auto weight = [&](double v) { return law.speed_density(v, mean_square); };
+  const auto weighted = [&](double v) { return weight(v) * relative_rate(v, disks); };
+  return Rule::integrate(weighted, from, to) / Rule::integrate(weight, from, to);
+}
+
+double path_ahead() {
+  // Flights are weighted with the rate at their speed, instants with the speeds themselves.
+  return over_flights([](double v, double rate) { return v / (rate * rate); }) / std::sqrt(pi / 2.0);
+}
+
+double flights_longer_within(double time, double run) {
+  const double longer = flights_longer_than(time);
+  // The integral of the share from `time` on is the mean time by which flights are longer.
+  const double beyond = over_flights([&](double, double rate) { return std::exp(-rate * time) / rate; });
+  return (longer * (run - time) - beyond) / (run - 1.0);
+}
+
 double flights_longer_than(double time) {
   return over_flights([&](double, double rate) { return std::exp(-rate * time); });
 }
@@ -74,9 +123,55 @@ double flight_length_density(double length) {
   return over_flights([&](double v, double rate) { return rate / v * std::exp(-rate * length / v); });
 }
 
-double cooling_kurtosis(double e) {
-  const double a2 = 16.0 * (1.0 - e) * (1.0 - 2.0 * e * e) / (57.0 - 25.0 * e + 30.0 * e * e * (1.0 - e));
-  return 2.0 * (1.0 + a2);
+double instantaneous_viscosity(double eta, std::int64_t disks) {
+  const double Z = kolafa_rottner_finite(eta, disks);
+  return density(eta) * disk_collision_rate(Z) / 8.0 * Microcanonical(disks, true).moment_factor(3.0);
 }
+
+double instantaneous_conductivity(double eta, std::int64_t disks) {
+  const double Z = kolafa_rottner_finite(eta, disks), N = static_cast<double>(disks);
+  return density(eta) * disk_collision_rate(Z) / 4.0 * (1.0 - 2.0 / N) * Microcanonical(disks, true).moment_factor(5.0);
+}
+
+double diffusion_growth(double eta, std::int64_t disks, double from, double to) {
+  const double Z = kolafa_rottner(eta), rho = density(eta), N = static_cast<double>(disks);
+  const double D = enskog_diffusion(eta), viscosity = enskog_viscosity(eta), conductivity = enskog_conductivity(eta);
+  const double stiffness = 1.0 / structure_factor_at_zero(eta);  // d P / d rho at constant temperature
+  const double bulk_viscosity = rho * (Z - 1.0) / sqrt_pi;
+  // A disk's heat capacity is 1 at constant volume and 1 + Z^2 / stiffness at constant pressure.
+  const double excess = Z * Z / stiffness, sound = std::sqrt(stiffness + Z * Z);
+  const double damping = 0.5 * ((viscosity + bulk_viscosity) / rho + excess * conductivity / (rho * (1.0 + excess)));
+  const double shear = D + viscosity / rho, wave = D + damping, unit = 2.0 * pi / std::sqrt(N / rho);
+  const int reach = static_cast<int>(6.5 / (unit * std::sqrt(std::min(shear, wave) * from))) + 2;  // exp(-40) is left out
+  double sum = 0.0;
+  for (int i = -reach; i <= reach; ++i)
+    for (int j = -reach; j <= reach; ++j) {
+      const double k2 = unit * unit * static_cast<double>(i * i + j * j);
+      if (k2 == 0.0) continue;
+      const double a = shear * k2, b = wave * k2, w = sound * std::sqrt(k2);
+      const auto to_and_fro = [&](double t) {
+        return std::exp(-b * t) * (w * std::sin(w * t) - b * std::cos(w * t)) / (b * b + w * w);
+      };
+      sum += (std::exp(-a * from) - std::exp(-a * to)) / a + to_and_fro(to) - to_and_fro(from);
+    }
+  return sum / (2.0 * N);
+}
+
+double cooling_sonine(double e) {
+  return 16.0 * (1.0 - e) * (1.0 - 2.0 * e * e) / (57.0 - 25.0 * e + 30.0 * e * e * (1.0 - e));
+}
+
+double haff_rate(double e, double eta, std::int64_t disks) {
+  return (1.0 - e * e) / 4.0 * disk_collision_rate(kolafa_rottner_finite(eta, disks)) * (1.0 + 3.0 / 16.0 * cooling_sonine(e)) *
+         Microcanonical(disks, true).moment_factor(3.0);
+}
+
+double shear_instability(double e, double eta) {
+  // k^2 = (2 pi)^2 rho / N, and rho nu is the viscosity.
+  const double rate = (1.0 - e * e) / 4.0 * disk_collision_rate(kolafa_rottner(eta));
+  return 4.0 * pi * pi * enskog_viscosity(eta) / rate;
+}
+
+double cooling_kurtosis(double e) { return 2.0 * (1.0 + cooling_sonine(e)); }
 
 }  // namespace carom::theory

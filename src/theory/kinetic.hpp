@@ -28,10 +28,24 @@ namespace carom::theory {
 /// Maxwell's v', over sqrt(pi). Boltzmann's theory, and Enskog's.
 [[nodiscard]] double relative_rate(double speed);
 
+/// The same in a periodic box of `disks` disks at fixed energy and zero total momentum, exactly: the velocities of the others
+/// then depend a little on that of the disk. `speed` is in units of sqrt(kT / m) with kT = K / (N - 1). Requires disks > 3.
+[[nodiscard]] double relative_rate(double speed, std::int64_t disks);
+
+/// The mean of relative_rate(v, disks) over the disks with speeds of `from` to `to`.
+[[nodiscard]] double mean_relative_rate(double from, double to, std::int64_t disks);
+
+/// Mean of v / relative_rate(v) over Maxwell's v, over the mean speed: the mean path of a disk from an instant to its next
+/// collision, over the mean free path.
+[[nodiscard]] double path_ahead();
+
 /// Share of the flights between collisions that last longer than `time` mean free times. A disk leaves a collision with a speed
 /// that it is the likelier to have the more often disks of that speed collide, and flies on as long as its rate says: exact for a
 /// dilute gas (Visco, van Wijland & Trizac, Phys. Rev. E 77, 041117 (2008)).
 [[nodiscard]] double flights_longer_than(double time);
+
+/// The same of those flights that begin and end within a run of `run` mean free times: a long flight has less room in it.
+[[nodiscard]] double flights_longer_within(double time, double run);
 
 /// The density of these times, in mean free times: minus the derivative.
 [[nodiscard]] double flight_time_density(double time);
@@ -39,8 +53,35 @@ namespace carom::theory {
 /// 2).
 [[nodiscard]] double flight_length_density(double length);
 
-/// Kurtosis <v^4> / <v^2>^2 of a gas of restitution e that cools evenly: 2 (1 + a2), with a2 from the second Sonine
-/// polynomial (van Noije & Ernst, Granular Matter 1, 57 (1998)), here for disks.
+/// Shear viscosity and heat conductivity at once: the limits, for short times t, of the mean squares of what Helfand's moments
+/// have grown by, over 2 t A kT (viscosity) and 2 t A kT^2 (conductivity). Collisions alone contribute, by what they carry from
+/// one centre to the other, so that both follow from the pressure of this many disks. Exact for N disks of one energy
+/// and zero total momentum; derived in docs/validation.md. Requires eta <= 0.63 and disks > 2.
+[[nodiscard]] double instantaneous_viscosity(double eta, std::int64_t disks);
+[[nodiscard]] double instantaneous_conductivity(double eta, std::int64_t disks);
+
+/// How much the diffusion coefficient D(t) of disks in a square periodic box grows between two times by the slow modes of the
+/// fluid: the velocity of a disk is carried by shear waves, and to and fro by sound. Sum over the wave vectors k of the box,
+///   C(t) = kT / (2 m N) sum of exp(-(D + nu) k^2 t) + cos(c k t) exp(-(D + Gamma) k^2 t)
+/// with Enskog's D, viscosity and conductivity; for a large box and late times it comes to the tail kT / (8 pi rho m (D + nu) t)
+/// of Ernst, Hauge & van Leeuwen, Phys. Rev. Lett. 25, 1254 (1970). It holds beyond some 20 mean free times (Erpenbeck & Wood,
+/// Phys. Rev. A 26, 1648 (1982), who sum in the same way).
+[[nodiscard]] double diffusion_growth(double eta, std::int64_t disks, double from, double to);
+
+/// The coefficient a2 of the second Sonine polynomial in the velocities of a gas of restitution e that cools evenly (van Noije &
+/// Ernst, Granular Matter 1, 57 (1998)), here for disks.
+[[nodiscard]] double cooling_sonine(double restitution);
+
+/// 1 / t_H of Haff's law T(t) = T(0) / (1 + t / t_H)^2 for kT(0) = 1 and this number of disks in a periodic box:
+/// (1 - e^2) omega / 4, omega the rate that belongs to the pressure of this many disks, with what a2 (1 + 3 a2 / 16) and the
+/// fixed energy make of the mean cube of the relative speed. Requires eta <= 0.63 and disks > 2.
+[[nodiscard]] double haff_rate(double restitution, double eta, std::int64_t disks);
+
+/// The number of disks in a square box above which its longest shear wave grows, in units of the thermal speed, while the gas
+/// cools: k^2 = zeta / 2 nu at k = 2 pi / L, zeta / 2 = 1 / t_H and Enskog's viscosity.
+[[nodiscard]] double shear_instability(double restitution, double eta);
+
+/// Kurtosis <v^4> / <v^2>^2 of a gas of restitution e that cools evenly: 2 (1 + a2).
 [[nodiscard]] double cooling_kurtosis(double restitution);
 
 }  // namespace carom::theory

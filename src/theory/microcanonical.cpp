@@ -25,7 +25,9 @@ double Microcanonical::energy_density(double energy, double mean) const {
   return left > 0.0 ? (free_ - 1.0) / (free_ * mean) * std::pow(left, free_ - 2.0) : 0.0;
 }
 
-double Microcanonical::speed_factor() const { return std::sqrt(free_) * boost::math::tgamma_delta_ratio(free_, 0.5); }
+double Microcanonical::moment_factor(double power) const {
+  return std::pow(free_, 0.5 * power) * boost::math::tgamma_delta_ratio(free_, 0.5 * power);
+}
 
 double maxwell_speeds_below(double share) { return -std::expm1(-share); }
 

@@ -24,8 +24,11 @@ class Microcanonical {
   [[nodiscard]] double kurtosis() const { return 2.0 * free_ / (free_ + 1.0); }
   /// <v_x^4> / <v_x^2>^2 = 3 n / (n + 1)
   [[nodiscard]] double axis_kurtosis() const { return 1.5 * kurtosis(); }
-  /// Mean of the speed of an energy that is fixed, over that of a temperature: sqrt(n) Gamma(n) / Gamma(n + 1/2)
-  [[nodiscard]] double speed_factor() const;
+  /// Mean of any homogeneous function of degree `power` of all velocities (a speed has degree 1) at fixed energy, over that at a
+  /// temperature: n^(power / 2) Gamma(n) / Gamma(n + power / 2), which is 1 - power (power - 2) / 8n + ...
+  [[nodiscard]] double moment_factor(double power) const;
+  /// Mean of the speed at fixed energy, over that at a temperature.
+  [[nodiscard]] double speed_factor() const { return moment_factor(1.0); }
 
  private:
   double free_;  ///< n

@@ -7,9 +7,12 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <random>
+#include <vector>
 
 namespace carom::test {
 namespace {
@@ -55,6 +58,103 @@ TEST(RelativeRate, IsTheMeanRelativeSpeedOfDraws) {
   }
 }
 
+/// Velocities of N disks with zero momentum and the energy N - 1, kT = 1.
+std::vector<std::array<double, 2>> drawn_velocities(std::size_t disks, std::mt19937_64& bits) {
+  std::normal_distribution<double> gauss;
+  std::vector<std::array<double, 2>> v(disks);
+  const auto n = static_cast<double>(disks);
+  std::array<double, 2> mean = {};
+  for (auto& one : v)
+    for (std::size_t c = 0; c < 2; ++c) mean[c] += (one[c] = gauss(bits)) / n;
+  double energy = 0.0;
+  for (auto& one : v)
+    for (std::size_t c = 0; c < 2; ++c) one[c] -= mean[c], energy += 0.5 * one[c] * one[c];
+  for (auto& one : v)
+    for (double& component : one) component *= std::sqrt((n - 1.0) / energy);
+  return v;
+}
+
+/// The mean of what was added, and five standard errors of it.
+struct Mean {
+  double sum = 0.0, squares = 0.0, number = 0.0;
+  void add(double x) { sum += x, squares += x * x, number += 1.0; }
+  [[nodiscard]] double mean() const { return sum / number; }
+  [[nodiscard]] double within() const { return 5.0 * std::sqrt((squares / number - mean() * mean()) / number); }
+};
+
+TEST(RelativeRate, OfFewDisksIsTheMeanRelativeSpeedOfDraws) {
+  constexpr std::size_t disks = 5;
+  std::mt19937_64 bits(7);
+  Mean slow, fast, all;
+  for (int k = 0; k < 200'000; ++k) {
+    const auto v = drawn_velocities(disks, bits);
+    const double speed = std::hypot(v[0][0], v[0][1]), relative = std::hypot(v[0][0] - v[1][0], v[0][1] - v[1][1]);
+    all.add(relative);
+    if (speed < 0.5) slow.add(relative);
+    if (speed > 1.5 && speed < 2.0) fast.add(relative);
+  }
+  EXPECT_NEAR(theory::mean_relative_rate(0.0, 0.5, disks), slow.mean() / all.mean(), (slow.within() + all.within()) / all.mean());
+  EXPECT_NEAR(theory::mean_relative_rate(1.5, 2.0, disks), fast.mean() / all.mean(), (fast.within() + all.within()) / all.mean());
+}
+
+TEST(RelativeRate, OfManyDisksIsThatOfInfinitelyMany) {
+  for (const double v : {0.0, 0.7, 2.0})
+    EXPECT_NEAR(theory::relative_rate(v, 1'000'000), theory::relative_rate(v), 1e-5) << "terms of 1/N";
+}
+
+TEST(Instantaneous, TransportIsWhatCollisionsOfDrawnVelocitiesCarry) {
+  // n is along x. Collisions come in proportion to g_n; an impulse is g_n; the energy that it carries g_n times the velocity of
+  // the pair along n.
+  constexpr std::size_t disks = 4;
+  constexpr double eta = 0.2;
+  std::mt19937_64 bits(11);
+  Mean impulse, square, energy;
+  for (int k = 0; k < 400'000; ++k) {
+    const auto v = drawn_velocities(disks, bits);
+    const double g = std::abs(v[0][0] - v[1][0]), both = 0.5 * (v[0][0] + v[1][0]);
+    impulse.add(g * g), square.add(g * g * g), energy.add(g * g * g * both * both);
+  }
+  // 2 N (Z - 1) impulse per time, <n_x^2 n_y^2> = 1/8, <n_x^2> = 1/2.
+  const double per = 4.0 * eta / std::numbers::pi * (theory::kolafa_rottner_finite(eta, disks) - 1.0) / impulse.mean();
+  EXPECT_NEAR(theory::instantaneous_viscosity(eta, disks), per * square.mean() / 8.0,
+              per / 8.0 * (square.within() + square.mean() / impulse.mean() * impulse.within()));
+  EXPECT_NEAR(theory::instantaneous_conductivity(eta, disks), per * energy.mean() / 2.0,
+              per / 2.0 * (energy.within() + energy.mean() / impulse.mean() * impulse.within()));
+}
+
+TEST(Instantaneous, TransportOfManyDisksFollowsFromTheContactValue) {
+  constexpr double eta = 0.4;
+  const double g = theory::contact_value(eta), root = std::sqrt(std::numbers::pi);
+  EXPECT_NEAR(theory::instantaneous_viscosity(eta, 100'000'000), 8.0 / std::numbers::pi * eta * eta * g / (2.0 * root), 1e-7);
+  EXPECT_NEAR(theory::instantaneous_conductivity(eta, 100'000'000), 4.0 * eta * eta / std::numbers::pi * g * 2.0 / root, 1e-7);
+}
+
+TEST(DiffusionGrowth, InALargeBoxIsTheTailAndEndsInASmallOne) {
+  constexpr double eta = 0.3, rho = 4.0 * eta / std::numbers::pi;
+  const double spreading = theory::enskog_diffusion(eta) + theory::enskog_viscosity(eta) / rho;
+  const double tail = 1.0 / (8.0 * std::numbers::pi * rho * spreading);
+  // The wave vector 0, kept out by the momentum of all, takes t / 2 N away, and sound 2 (D + nu) / c^2 t of the tail: 1e-3 here.
+  EXPECT_NEAR(theory::diffusion_growth(eta, 1'000'000, 500.0, 1000.0), tail * std::log(2.0) - 500.0 / 2e6, 2e-3 * tail);
+  EXPECT_NEAR(theory::diffusion_growth(eta, 100, 500.0, 1000.0), 0.0, 1e-3 * tail) << "the box is 16 wide: all modes are gone";
+}
+
+TEST(HaffRate, OfManyDisksHasTheSonineTermAlone) {
+  constexpr double e = 0.95, eta = 0.1;
+  const double bare = (1.0 - e * e) / 4.0 * theory::disk_collision_rate(theory::kolafa_rottner(eta));
+  EXPECT_NEAR(theory::haff_rate(e, eta, 1'000'000) / bare, 1.0 + 3.0 / 16.0 * theory::cooling_sonine(e), 1e-5);
+  EXPECT_NEAR(theory::haff_rate(e, eta, 100) / bare, 0.984, 0.001) << "Z of so few disks, and their fixed energy";
+}
+
+TEST(ShearInstability, IsThatOfTheLongestWave) {
+  // k = 2 pi / L decays at nu k^2 where the thermal speed falls at 1 / t_H.
+  constexpr double e = 0.95, eta = 0.1, rho = 4.0 * eta / std::numbers::pi;
+  const double disks = theory::shear_instability(e, eta);
+  const double k = 2.0 * std::numbers::pi * std::sqrt(rho / disks);
+  const double cooling = (1.0 - e * e) / 4.0 * theory::disk_collision_rate(theory::kolafa_rottner(eta));
+  EXPECT_NEAR(theory::enskog_viscosity(eta) / rho * k * k, cooling, 1e-12);
+  EXPECT_NEAR(disks, 955.0, 5.0);
+}
+
 /// From 0 to where next to nothing is left, in panels.
 double integral_to_the_end(auto f) {
   double sum = 0.0;
@@ -76,6 +176,21 @@ TEST(FlightLengthDensity, HasTheMeanSpeedTimesTheMeanFreeTimeAsItsMean) {
   EXPECT_NEAR(integral_to_the_end([](double x) { return theory::flight_length_density(x); }), 1.0, 1e-6);
   EXPECT_NEAR(integral_to_the_end([](double x) { return x * theory::flight_length_density(x); }),
               std::sqrt(std::numbers::pi / 2.0), 1e-6);
+}
+
+TEST(FlightsLongerWithin, CountsThoseThatBeginAndEndInTheRun) {
+  // A flight of length x fits into a run of length T in proportion to T - x.
+  constexpr double run = 50.0, time = 2.0;
+  double fits = 0.0;
+  const auto room = [](double x) { return theory::flight_time_density(x) * (run - x); };
+  for (int panel = 0; panel < 24; ++panel) fits += integral(room, time + 2.0 * panel, time + 2.0 * (panel + 1));
+  EXPECT_NEAR(theory::flights_longer_within(time, run), fits / (run - 1.0), 1e-9);
+  EXPECT_NEAR(theory::flights_longer_within(0.0, run), 1.0, 1e-9);
+}
+
+TEST(PathAhead, IsTheMeanOfSpeedOverRateAtAnInstant) {
+  const double mean = integral([](double v) { return v * std::exp(-0.5 * v * v) * v / theory::relative_rate(v); }, 0.0, 12.0);
+  EXPECT_NEAR(theory::path_ahead(), mean / std::sqrt(std::numbers::pi / 2.0), 1e-9);
 }
 
 TEST(DiskCollisionRate, OfManyDisksIsThatOfInfinitelyMany) {

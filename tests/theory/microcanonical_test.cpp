@@ -78,6 +78,12 @@ TEST_P(MicrocanonicalDraw, HasTheSameMomentsAndShares) {
   EXPECT_NEAR(speed, std::sqrt(std::numbers::pi / 4.0) * law.speed_factor(), within / 6.0) << n;
 }
 
+TEST(Microcanonical, MomentsOfEvenDegreeAreThoseOfTheKurtosis) {
+  const theory::Microcanonical law(9, true);
+  EXPECT_NEAR(law.moment_factor(2.0), 1.0, 1e-15) << "the energy is that of the temperature";
+  EXPECT_NEAR(law.moment_factor(4.0), 0.5 * law.kurtosis(), 1e-15) << "<v^4> / <v^2>^2 is 2 at a temperature";
+}
+
 TEST(Microcanonical, EnergiesAreSpeedsInOtherUnits) {
   const theory::Microcanonical law(7, true);
   for (const double v : {0.1, 1.0, 2.5}) {

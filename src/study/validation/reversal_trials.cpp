@@ -76,8 +76,7 @@ TrialResult frozen(const std::string& trial, const Effort& effort) {
        .source = "r . dp is the same; Kolafa & Rottner, Mol. Phys. 104, 3435 (2006), with the first term in 1/N",
        .expected = Z,
        .measured = found.measured("pressure", "Z"),
-       .allowance = 2e-5 * Z,
-       .allowance_for = "the error of the equation of state"});
+       .reference_error = theory::kolafa_rottner_error(eta)});
   const PairMoments g = pair_moments(velocities);
   const Measured rate = found.measured("collision_rate", "rate");
   const double expected = 4.0 * (Z - 1.0) * g.first / std::numbers::pi;
@@ -85,7 +84,8 @@ TrialResult frozen(const std::string& trial, const Effort& effort) {
                            .theory = "4 (Z - 1) <g> / pi sigma, <g> the mean relative speed of the frozen velocities",
                            .source = "docs/model.md",
                            .expected = expected,
-                           .measured = rate});
+                           .measured = rate,
+                           .reference_error = 1e-5 * expected});
   const Measured slope = found.measured("velocity_autocorrelation", "initial_slope");
   const double square = velocities.colwise().squaredNorm().mean();
   result.checks.push_back(
@@ -94,7 +94,8 @@ TrialResult frozen(const std::string& trial, const Effort& effort) {
        .source = "docs/model.md",
        .expected = g.third / g.first / (2.0 * square),
        .measured = {slope.value / rate.value,
-                    slope.value / rate.value * std::hypot(slope.error / slope.value, rate.error / rate.value)}});
+                    slope.value / rate.value * std::hypot(slope.error / slope.value, rate.error / rate.value)},
+       .error_is_bound = true});
   result.curves.push_back(counts.density("speeds-reversal", "reversal, equal masses"));
   result.curves.push_back(speed_curve("speeds-reversal", law, square));
   return result;
@@ -127,7 +128,8 @@ TrialResult tensor(const std::string& trial, const Effort& effort) {
                            .theory = "K_x / K_y in a square box",
                            .source = "docs/model.md",
                            .expected = x_to_y,
-                           .measured = {quotient, quotient * std::hypot(xx.error / xx.value, yy.error / yy.value)}});
+                           .measured = {quotient, quotient * std::hypot(xx.error / xx.value, yy.error / yy.value)},
+                           .error_is_bound = true});
   return result;
 }
 
@@ -163,8 +165,8 @@ TrialResult unequal(const std::string& trial, const Effort& effort) {
                            .source = "docs/model.md",
                            .expected = 1.0,
                            .measured = {end.x() / end.y() / x_to_y, 0.0},
-                           .allowance = effort.collisions(2e6) * 2.2e-16,
-                           .allowance_for = "one rounding of the energy in each collision, all to one side"});
+                           .allowance = 20.0 * std::sqrt(effort.collisions(2e6)) * 1.1e-16,
+                           .allowance_for = "rounding: a random walk of one unit of rounding of the energy in each collision"});
   const double kT = found.scalar("temperature", "kT").value.value();
   for (const char* species : {"heavy", "light"}) {
     result.checks.push_back({.name = fmt::format("kT of the {} disks, {}", species, what),
