@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Are the error bars of `carom validate` right? Draws the deviations z of all exact checks over many seeds.
+
+    docs/images/calibration.py PROGRAM [DIRECTORY [SEEDS]]
+
+Runs `PROGRAM validate --seed K --out DIRECTORY/K` for K = 1 to SEEDS (20), but for those that DIRECTORY (calibration) holds
+already, and goes on with one that was interrupted. Takes the checks that calibrate (see docs/output.md): z of these must be normal with
+variance 1. Prints how well they are and writes calibration.svg beside this file. Needs python3-matplotlib.
+"""
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+import matplotlib
+
+matplotlib.use("svg")
+matplotlib.rcParams["svg.hashsalt"] = "carom"
+import matplotlib.pyplot as plt
+
+program = sys.argv[1]
+directory = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else "calibration")
+seeds = int(sys.argv[3]) if len(sys.argv) > 3 else 20
+
+directory.mkdir(exist_ok=True)
+validations = []
+for seed in range(1, seeds + 1):
+    out = directory / str(seed)
+    if not (out / "validation.json").exists():
+        resume = ["--resume"] if (out / "trials.jsonl").exists() else []
+        # Exit code 4 says that a check failed, which is for the reader of the histogram to judge.
+        code = subprocess.run([program, "validate", "--seed", str(seed), "--out", str(out), "-q", *resume]).returncode
+        if code not in (0, 4):
+            sys.exit(f"carom validate --seed {seed} ended with code {code}")
+    validations.append(json.loads((out / "validation.json").read_text()))
+
+by_check = {}
+judged = failed = 0
+for validation in validations:
+    judged += validation["checks"]
+    failed += validation["failed"]
+    for trial in validation["trials"]:
+        for check in trial["checks"]:
+            if check["calibrates"]:
+                by_check.setdefault((trial["trial"], check["name"]), []).append(check["z"])
+by_check = {name: z for name, z in by_check.items() if len(z) == seeds}
+every = sorted(z for values in by_check.values() for z in values)
+n = len(every)
+
+
+def below(z):
+    """The normal distribution."""
+    return 0.5 * math.erfc(-z / math.sqrt(2.0))
+
+
+def mean_over_seeds(f):
+    """Seeds are independent; checks of one seed are not all: the error comes from the scatter over seeds."""
+    means = [sum(f(z[k]) for z in by_check.values()) / len(by_check) for k in range(seeds)]
+    mean = sum(means) / seeds
+    return mean, math.sqrt(sum((m - mean) ** 2 for m in means) / (seeds * (seeds - 1)))
+
+
+def chi_squared_above(x, freedom):
+    """The probability that chi squared exceeds x, for an even number of degrees of freedom."""
+    term = total = 1.0
+    for k in range(1, freedom // 2):
+        term *= 0.5 * x / k
+        total += term
+    return math.exp(-0.5 * x) * total
+
+
+print(f"{seeds} seeds: {judged} checks judged, {failed} failed; {len(by_check)} checks calibrate: {n} values of z")
+for title, f, expected in (
+    ("mean of z", lambda z: z, 0.0),
+    ("mean of z^2", lambda z: z * z, 1.0),
+    ("share beyond 1", lambda z: abs(z) > 1.0, 2.0 * below(-1.0)),
+    ("share beyond 2", lambda z: abs(z) > 2.0, 2.0 * below(-2.0)),
+    ("share beyond 3", lambda z: abs(z) > 3.0, 2.0 * below(-3.0)),
+):
+    mean, error = mean_over_seeds(f)
+    print(f"{title}: {mean:.4f} +- {error:.4f}, a normal variable {expected:.4f}")
+distance = max(max((k + 1) / n - below(z), below(z) - k / n) for k, z in enumerate(every))
+print(f"Kolmogorov-Smirnov: sqrt(n) D = {distance * math.sqrt(n):.2f}; independent values exceed 1.36 once in 20 times, 1.63 once in 100")
+if seeds % 2 == 0:
+    scatter = sorted((chi_squared_above(sum(x * x for x in z), seeds), name, sum(x * x for x in z) / seeds) for name, z in by_check.items())
+    low, high = sum(p > 0.99 for p, _, _ in scatter), sum(p < 0.01 for p, _, _ in scatter)
+    print(f"mean z^2 of one check over the seeds beyond the 1 % point of chi squared: {high} checks above, {low} below; expected "
+          f"{0.01 * len(scatter):.1f} each")
+    for p, (trial, name), square in scatter[:3] + scatter[-3:]:
+        print(f"  {square:.2f} (probability to exceed it {p:.2g}): {trial}, {name}")
+
+figure, axes = plt.subplots(figsize=(6.0, 3.6))
+edges = [-4.0 + 0.25 * k for k in range(33)]
+axes.hist(every, bins=edges, density=True, color="C0", alpha=0.5, label=f"{n} deviations, {seeds} seeds")
+x = [-4.0 + 0.05 * k for k in range(161)]
+axes.plot(x, [math.exp(-0.5 * z * z) / math.sqrt(2.0 * math.pi) for z in x], color="black", linewidth=1, label="normal, variance 1")
+axes.set(xlabel="z = (measured - expected) / standard error", ylabel="density")
+axes.grid(alpha=0.2)
+axes.legend(frameon=False, fontsize="small")
+figure.tight_layout()
+figure.savefig(pathlib.Path(__file__).resolve().parent / "calibration.svg", metadata={"Date": None})
