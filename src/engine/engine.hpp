@@ -430,6 +430,8 @@ class Engine {
   [[nodiscard]] double contact_distance(std::int32_t i, std::int32_t j) const {
     return (layout_.radius(line(i)) + layout_.radius(line(j))) * world_.scale(now_);
   }
+  /// How far disk i reaches beyond the walls across an axis; negative where it does not.
+  [[nodiscard]] double beyond_walls(std::int32_t i, int axis) const;
   void check_pair(std::int32_t i, std::int32_t j, double tolerated_overlap, std::vector<std::string>& faults) const;
 
   /// The coordinate of disk i moved by a length, with its image count where it wraps.
@@ -675,7 +677,7 @@ class Engine {
   /// One sentence for every way in which the plan differs from what an exhaustive search finds, and for every pair that overlaps
   /// by more of its contact distance than is tolerated.
   [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap = 0.0) const;
-  /// Of any pair, over its contact distance; 0 where none overlaps.
+  /// Of any pair, over its contact distance, and of any disk that touches a wall, over its radius; 0 where none overlaps.
   [[nodiscard]] double deepest_overlap() const;
 };
 

@@ -31,14 +31,8 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants(double 
       if (!(std::abs(off) <= lists_.half_width() + slack))
         faults.push_back(
             fmt::format("disk {}: outside its cage along axis {} by {}", id(i), k, std::abs(off) - lists_.half_width()));
-      if (axes_[k].periodic) continue;
-      double out = -never;
-      for (const int sign : {-1, 1}) {
-        double left = room(a, k, sign, layout_.radius(a) * world_.scale(now_));
-        if constexpr (!World::plain) left += world_.walls.displacement(wall_of(k, sign > 0), now_);
-        out = std::max(out, -left);
-      }
-      if (out > 1e-12 * (axes_[k].upper - axes_[k].lower))
+      const double out = beyond_walls(i, k);
+      if (out > tolerated_overlap * layout_.radius(a) * world_.scale(now_) + 1e-12 * (axes_[k].upper - axes_[k].lower))
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", id(i), out, k));
     }
     for (std::uint32_t n = 0; n < lists_.count(i); ++n) check_pair(i, lists_.ids(i)[n], tolerated_overlap, faults);
@@ -58,8 +52,26 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants(double 
 }
 
 template <class Impact, class Layout, class World>
+double Engine<Impact, Layout, World>::beyond_walls(std::int32_t i, int axis) const {
+  if (axes_[axis].periodic) return -never;
+  const Line& a = line(i);
+  double out = -never;
+  for (const int sign : {-1, 1}) {
+    double left = room(a, axis, sign, layout_.radius(a) * world_.scale(now_));
+    if constexpr (!World::plain) left += world_.walls.displacement(wall_of(axis, sign > 0), now_);
+    out = std::max(out, -left);
+  }
+  return out;
+}
+
+template <class Impact, class Layout, class World>
 double Engine<Impact, Layout, World>::deepest_overlap() const {
   double deepest = 0.0;
+  for (std::int32_t i = 0; i < count(); ++i)
+    for (int axis = 0; axis < 2; ++axis) {
+      const double depth = beyond_walls(i, axis) / (layout_.radius(line(i)) * world_.scale(now_));
+      if (depth <= touches_a_wall) deepest = std::max(deepest, depth);
+    }
   for (std::int32_t i = 0; i < count(); ++i)
     for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
       const std::int32_t j = lists_.ids(i)[n];

@@ -370,6 +370,8 @@ class TextbookEngine {
 
   /// When the two records meet; the same whichever is called i, and whenever it is asked.
   [[nodiscard]] Winding nearest_image(std::int32_t i, std::int32_t j) const;
+  /// How far disk i reaches beyond the walls across an axis; negative where it does not.
+  [[nodiscard]] Real beyond_walls(std::int32_t i, int axis) const;
   [[nodiscard]] Real overlap_with(std::int32_t i, std::int32_t j, const Winding& image) const;
   [[nodiscard]] Real pair_time(std::int32_t i, std::int32_t j, const Winding& shift) const {
     const Record &a = record(i), &b = record(j);
@@ -513,7 +515,8 @@ class TextbookEngine {
   /// One sentence for every way in which the plan differs from what an exhaustive search finds, and for every pair that overlaps
   /// by more of its contact distance than is tolerated.
   [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap = 0.0) const;
-  /// Of any pair, over its contact distance; 0 where none overlaps, and of more than 2000 disks.
+  /// Of any pair, over its contact distance, and of any disk that touches a wall, over its radius; 0 where none overlaps, and of
+  /// more than 2000 disks.
   [[nodiscard]] double deepest_overlap() const;
 
   /// All that decides how the run goes on, for core/archive.hpp. Requires all events to have been taken.

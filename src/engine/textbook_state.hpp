@@ -166,8 +166,22 @@ Real TextbookEngine<Real>::overlap_with(std::int32_t i, std::int32_t j, const Wi
 }
 
 template <class Real>
+Real TextbookEngine<Real>::beyond_walls(std::int32_t i, int axis) const {
+  if (domain_.periodic[axis] || sliding_.present()) return -infinity<Real>;
+  const Record& a = record(i);
+  const Real r = position(a, now_)[axis], radius = radius_at(a, now_);
+  return std::max<Real>(domain_.lower[axis] + radius - r - walls_.displacement(wall_of(axis, false), now_),
+                        r - domain_.upper[axis] + radius - walls_.displacement(wall_of(axis, true), now_));
+}
+
+template <class Real>
 double TextbookEngine<Real>::deepest_overlap() const {
   Real deepest = 0;
+  for (std::int32_t i = 0; i < count() && count() <= 2000; ++i)
+    for (int axis = 0; axis < 2; ++axis) {
+      const Real depth = beyond_walls(i, axis) / radius_at(record(i), now_);
+      if (depth <= touches_a_wall) deepest = std::max<Real>(deepest, depth);
+    }
   for (std::int32_t i = 0; i < count() && count() <= 2000; ++i)
     for (std::int32_t j = i + 1; j < count(); ++j)
       deepest = std::max<Real>(
@@ -192,11 +206,8 @@ std::vector<std::string> TextbookEngine<Real>::check_invariants(double tolerated
       const Real beyond = std::max<Real>(from[axis] - r[axis], r[axis] - from[axis] - grid_.width()[axis]);
       if (beyond > slack && domain_.periodic[axis])
         faults.push_back(fmt::format("disk {}: outside its cell along axis {}", i, axis));
-      const Real radius = radius_at(a, now_);
-      const Real out = std::max<Real>(domain_.lower[axis] + radius - r[axis] - walls_.displacement(wall_of(axis, false), now_),
-                                      r[axis] - domain_.upper[axis] + radius - walls_.displacement(wall_of(axis, true), now_));
-      if (sliding_.present()) continue;
-      if (!domain_.periodic[axis] && out > tolerance * domain_.length[axis] + rounding)
+      const Real out = beyond_walls(i, axis);
+      if (out > Real(tolerated_overlap) * radius_at(a, now_) + tolerance * domain_.length[axis] + rounding)
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", i, static_cast<double>(out), axis));
     }
   }

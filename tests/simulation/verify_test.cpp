@@ -84,6 +84,21 @@ TEST(Verify, AnOverlapThatTheStartBroughtAlongIsNoFault) {
   }
 }
 
+TEST(Verify, AStartThatTouchesAWallToRoundingIsNoFault) {
+  // The first stays where decimal digits have put it, a tenth of a billionth beyond the wall, until it is hit.
+  Scene scene = scene_of(box_of(4.0, 4.0, Boundary::walls), {{{0.4999999999, 2.0}, {0.0, 0.0}}, {{2.5, 2.0}, {0.25, 1.0}}});
+  scene.run.time = 5.0;
+  for (const char* engine : {"fast", "general", "textbook"}) {
+    Simulation simulation = make_simulation(scene, engine);
+    RunHooks hooks;
+    hooks.verify_every = 1;
+    const RunResult result = run_schedule(simulation, hooks);
+    EXPECT_EQ(result.stopped, StopReason::time) << engine;
+    EXPECT_TRUE(result.faults.empty()) << engine << ": " << result.faults.front();
+    EXPECT_FALSE(simulation.check_invariants().empty()) << engine << ": nothing has moved it";
+  }
+}
+
 TEST(Verify, OverlapsAreFaultsWhereTheyAreDeeperThanTolerated) {
   const Scene scene = scene_of(box_of(4.0, 4.0, Boundary::periodic), {{{1.0, 1.0}, {1.0, 0.0}}, {{3.0, 1.0}, {-1.0, 0.0}}});
   State start = draw_start(scene).state;
