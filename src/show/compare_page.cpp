@@ -30,15 +30,22 @@ std::string percent_of(double fraction, std::uint64_t events) {
   return events < 20 ? "–" : fmt::format("{:.2f} %", 100.0 * fraction);
 }
 
+/// Of a single start no error is known.
+std::string Z_text(const std::optional<Estimate>& Z) {
+  if (!Z) return "–";
+  return std::isfinite(Z->error) ? fmt::format("{:.4g} ± {:.1g}", Z->value, Z->error) : fmt::format("{:.4g}", Z->value);
+}
+
 TextTable table_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
   TextTable table{
       .title = "Every method and step",
-      .columns = {"method", "dt", "dt / mean free time", "error", "time", "Z", "missed", "repeated", "spurious",
-                  "deepest overlap"},
+      .columns = {"method", "dt (scene units)", "dt / mean free time", "error / diameter", "processor time", "Z", "missed",
+                  "repeated", "spurious", "deepest overlap / diameter"},
       .caption =
-          "Error in diameters and processor time at the early sample: medians over the seeds. Z with its standard error. "
-          "A dash: not "
-          "measured, because the run was cut short or the method is exact."};
+          "Error in mean diameters, root mean square over the disks, and processor time until then, when methods are compared: "
+          "medians over the starts. Z = PA/(NkT), with its standard error where there are several starts. Missed: of all "
+          "collisions that there were; repeated and spurious: of all reversals. A dash: not measured, because the run was cut "
+          "short or the method is exact."};
   for (const MethodSummary& s : summaries) {
     const auto counted = [&](double (StepCounts::*fraction)() const, std::uint64_t (StepCounts::*of)() const) {
       return s.counts ? percent_of((*s.counts.*fraction)(), (*s.counts.*of)()) : "–";
@@ -46,7 +53,7 @@ TextTable table_of(const Comparison& comparison, const std::vector<MethodSummary
     table.rows.push_back({name_of(s.method.name), s.method.exact() ? "–" : fmt::format("{:.3g}", s.method.dt),
                           s.method.exact() ? "–" : fmt::format("{:.2g}", comparison.plan.in_free_times(s.method.dt)),
                           fmt::format("{:.2e}", s.error.median), seconds_text(s.seconds_early),
-                          s.Z ? fmt::format("{:.4g} ± {:.1g}", s.Z->value, s.Z->error) : "–",
+                          Z_text(s.Z),
                           counted(&StepCounts::missed_fraction, &StepCounts::collisions),
                           counted(&StepCounts::repeated_fraction, &StepCounts::reversals),
                           counted(&StepCounts::spurious_fraction, &StepCounts::reversals),
@@ -106,7 +113,7 @@ Block energy_block(const Comparison& comparison, const std::vector<MethodSummary
   const bool changed = std::any_of(summaries.begin(), summaries.end(),
                                    [](const MethodSummary& s) { return !s.method.exact() && s.energy_drift > 0.0; });
   if (changed) return energy_of_steps(comparison, summaries);
-  return Paragraph{"And energy shows nothing of all this: no method, with no step, has changed it in any digit."};
+  return Paragraph{"Energy tells nothing of these faults: no method has changed it in any digit, whatever its step."};
 }
 
 std::string left_out(const Comparison& comparison) {
@@ -123,17 +130,16 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
   const Answers answers = answers_of(comparison);
   const std::vector<MethodSummary> summaries = summaries_of(comparison);
   Page page{.title = "What accuracy costs: " + (scene.title.empty() ? scene.source : scene.title),
-            .subtitle = fmt::format("{} disks, packing fraction {:.4g}, {} rule; {} starts; mean free time {:.4g}",
+            .subtitle = fmt::format("{} disks, packing fraction {:.4g}, {} rule; {}; mean free time {:.4g} (scene units)",
                                     scene.disk_count(), scene.packing_fraction(),
                                     scene.effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular",
-                                    plan.seeds.size(), plan.mean_free_time),
+                                    starts_words(plan), plan.mean_free_time),
             .lead = fmt::format("{}", fmt::join(answers.sentences, " ")),
             .key_numbers = key_numbers(comparison, answers)};
   page.sections = {
       {"Work and precision",
-       {Paragraph{"The same start, advanced by exact events and by fixed steps. Until chaos has made any error large, an error "
-                  "tells the method; "
-                  "that is where methods are compared."},
+       {Paragraph{"The same start, advanced by exact events and by fixed steps. Until chaos has made every error large, an error "
+                  "tells of the method: methods are compared there."},
         work_precision(comparison, summaries), Paragraph{answers.sentences.empty() ? "" : answers.sentences.front()}}},
       {"How errors grow",
        {error_in_time(comparison), horizon_table(plan.horizon, "for the first seed"), Paragraph{sentence_of(plan.horizon)}}},
@@ -152,7 +158,8 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
                 {"Command", command_line},
                 {"Program", fmt::format("carom {} (commit {}; {}; {})", build_info().version, build_info().commit,
                                         build_info().compiler, build_info().flags)},
-                {"Seeds", fmt::format("{} to {}", plan.seeds.front(), plan.seeds.back())}};
+                {"Seeds", plan.seeds.size() == 1 ? fmt::format("{}", plan.seeds.front())
+                                                 : fmt::format("{} to {}", plan.seeds.front(), plan.seeds.back())}};
   return page;
 }
 

@@ -93,9 +93,8 @@ Plot error_in_time(const Comparison& comparison) {
   Plot plot{.id = "error-in-time",
             .title = "Error against time",
             .caption =
-                "Root mean square distance of the disks from where 113 bits have them: median over the seeds and, shaded, the "
-                "middle half "
-                "of them.",
+                "Root mean square distance of the disks from where 113 bits have them, in mean diameters: median over the starts "
+                "and, shaded, the middle half of them.",
             .x = {.title = "time (mean free times = collisions per disk)"},
             .y = {.title = "rms error of position (diameters)", .log = true}};
   for (const Method& method : methods_of(comparison)) {
@@ -132,7 +131,7 @@ Plot work_precision(const Comparison& comparison, const std::vector<MethodSummar
       .id = "work-precision",
       .title = "Work and precision",
       .caption = fmt::format(
-          "Error after {:.2g} collisions per disk against the processor time it took, medians over the seeds; bars span the "
+          "Error after {:.2g} collisions per disk against the processor time it took, medians over the starts; bars span the "
           "middle half of them. Down is better, left is better. Every point of a fixed-step method is one dt.",
           plan.in_free_times(plan.early_time())),
       .x = {.title = "processor time (s)", .log = true},
@@ -179,7 +178,7 @@ Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSumma
                 "both of all "
                 "reversals. None is not drawn. Guarded and grid are one trajectory.",
             .x = {.title = in_free_times, .log = true},
-            .y = {.title = "fraction", .log = true}};
+            .y = {.title = "fraction of collisions or reversals", .log = true}};
   const auto add = [&](const std::string& what, double (StepCounts::*fraction)() const, Style style) {
     for (Series& series : over_steps(comparison, summaries, [&](const MethodSummary& s) -> std::optional<Estimate> {
            if (!s.counts || (*s.counts.*fraction)() == 0.0) return std::nullopt;
@@ -236,7 +235,9 @@ Plot bias_of(const Comparison& comparison, const std::vector<MethodSummary>& sum
              const std::string& what, std::optional<Estimate> MethodSummary::*bias) {
   Plot plot{.id = id,
             .title = fmt::format("Bias of {}", what),
-            .caption = "Relative difference from the exact engine, seed by seed, with standard errors over the seeds.",
+            .caption = comparison.plan.seeds.size() > 1
+                           ? "Relative difference from the exact engine, start by start, with standard errors over the starts."
+                           : "Relative difference from the exact engine from this one start, which tells no error.",
             .x = {.title = in_free_times, .log = true},
             .y = {.title = fmt::format("relative bias of {}", what)}};
   plot.series = over_steps(comparison, summaries, [&](const MethodSummary& s) { return s.*bias; });
@@ -246,11 +247,10 @@ Plot bias_of(const Comparison& comparison, const std::vector<MethodSummary>& sum
 
 Plot energy_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
   Plot plot{.id = "energy",
-            .title = "What energy shows of all this",
+            .title = "Energy tells nothing of these faults",
             .caption =
-                "Largest relative change of the energy over the seeds. A collision rule conserves energy whether or not there "
-                "was a collision, "
-                "so this stays at rounding while everything else is wrong. No change at all is not drawn.",
+                "Largest relative change of the energy over the starts. A collision rule conserves energy whether or not there "
+                "was a collision, so this stays at rounding while everything else is wrong. No change at all is not drawn.",
             .x = {.title = in_free_times, .log = true},
             .y = {.title = "relative change of energy", .log = true}};
   plot.series = over_steps(comparison, summaries, [](const MethodSummary& s) {
@@ -284,7 +284,7 @@ Plot cost_against_size(const Comparison& comparison, double packing_fraction) {
             .title = "Cost against the number of disks",
             .caption = "Processor time per disk and mean free time; fixed steps with the dt for which the bias of Z is 1 %.",
             .x = {.title = "number of disks", .log = true},
-            .y = {.title = "seconds per disk and mean free time", .log = true}};
+            .y = {.title = "processor time per disk and mean free time (s)", .log = true}};
   plot.series = costs_over(
       comparison, [&](const CostPoint& p) { return p.packing_fraction == packing_fraction; },
       [](const CostPoint& p) { return static_cast<double>(p.disks); });
@@ -297,7 +297,7 @@ Plot cost_against_density(const Comparison& comparison) {
             .caption =
                 "1024 disks; processor time per disk and mean free time; fixed steps with the dt for which the bias of Z is 1 %.",
             .x = {.title = "packing fraction"},
-            .y = {.title = "seconds per disk and mean free time", .log = true}};
+            .y = {.title = "processor time per disk and mean free time (s)", .log = true}};
   plot.series = costs_over(
       comparison, [](const CostPoint& p) { return p.disks == 1024; }, [](const CostPoint& p) { return p.packing_fraction; });
   for (Series& series : plot.series) {  // the scene's own density may lie anywhere among the others

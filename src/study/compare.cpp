@@ -5,6 +5,7 @@
 #include "neighbours/disks_at_rest.hpp"
 #include "observe/mechanics.hpp"
 #include "observe/pressure.hpp"
+#include "scene/drawn.hpp"
 #include "study/compare_costs.hpp"
 #include "study/horizon.hpp"
 #include "study/horizon_pace.hpp"
@@ -85,7 +86,8 @@ class Study {
     choose_samples(plan);
     plan.dts = options_.dts.empty() ? usual_ladder(plan.mean_free_time) : options_.dts;
     std::sort(plan.dts.rbegin(), plan.dts.rend());
-    for (std::uint64_t k = 0; k < options_.seeds; ++k) plan.seeds.push_back(scene_.run.seed + k);
+    plan.drawn = start_is_drawn(scene_);
+    for (std::uint64_t k = 0; k < (plan.drawn ? options_.seeds : 1); ++k) plan.seeds.push_back(scene_.run.seed + k);
     plan.longest = options_.longest;
     if (hooks_.planned) hooks_.planned(plan, *start);
     return true;

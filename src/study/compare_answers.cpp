@@ -13,14 +13,13 @@ namespace {
 /// Errors in this range are those of the method: above, disks have lost each other; below, doubles end.
 constexpr double largest_lawful_error = 0.03, smallest_lawful_error = 1e-11;
 
-/// Standard error of a mean; of a single run none is known.
 std::optional<Estimate> mean_of(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
   const auto n = static_cast<double>(values.size());
   double mean = 0.0, squares = 0.0;
   for (const double value : values) mean += value / n;
   for (const double value : values) squares += (value - mean) * (value - mean);
-  return Estimate{mean, values.size() < 2 ? 0.0 : std::sqrt(squares / (n - 1.0) / n)};
+  return Estimate{mean, values.size() < 2 ? NAN : std::sqrt(squares / (n - 1.0) / n)};
 }
 
 /// The run of the engine that runs the scene, from the same start.

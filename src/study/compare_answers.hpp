@@ -12,7 +12,7 @@ namespace carom {
 
 struct Estimate {
   double value = 0.0;
-  double error = 0.0;  ///< standard error over the seeds
+  double error = 0.0;  ///< standard error over the starts; NaN of a single one, which tells none
 };
 
 /// Over the seeds.

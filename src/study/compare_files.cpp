@@ -108,6 +108,7 @@ Json json_of(const ComparePlan& plan) {
           {"until", plan.until()},
           {"dt", plan.dts},
           {"seeds", plan.seeds},
+          {"drawn", plan.drawn},
           {"longest", plan.longest}};
 }
 

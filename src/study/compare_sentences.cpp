@@ -16,6 +16,11 @@ std::string two_digits(double value) {
   return text;
 }
 
+std::string starts_words(const ComparePlan& plan) {
+  if (!plan.drawn) return "1 start, as nothing of it is drawn";
+  return fmt::format("{} start{}", plan.seeds.size(), plan.seeds.size() == 1 ? "" : "s");
+}
+
 namespace {
 
 bool was_run(const std::vector<MethodSummary>& summaries, const std::string& method) {
@@ -31,18 +36,18 @@ std::string what_it_costs(const ComparePlan& plan, const std::vector<MethodSumma
   const std::string when =
       fmt::format("after {} (t = {:.4g})", collisions_per_disk(plan.in_free_times(plan.early_time())), plan.early_time());
   if (!was_run(summaries, "grid"))
-    return fmt::format("The exact engine is right to {:.1e} sigma {}; no fixed step was run, as each would have taken too long.",
-                       answers.exact_error, when);
+    return fmt::format(
+        "The exact engine is right to {:.1e} diameters {}; no fixed step was run, as each would have taken too long.",
+        answers.exact_error, when);
   if (!answers.to_millionth)
     return fmt::format(
-        "The exact engine is right to {:.1e} sigma {}; too few of the steps that were run have errors between 1e-11 and 0.03 "
-        "sigma "
-        "there to say what a finer one would cost.",
+        "The exact engine is right to {:.1e} diameters {}; too few of the steps that were run have errors between 1e-11 and 0.03 "
+        "diameters there to say what a finer one would cost.",
         answers.exact_error, when);
   const double ratio = answers.to_millionth->seconds / answers.exact_seconds;
   return fmt::format(
-      "To reach an error of 1e-6 sigma {} the fixed step would need {} times the time of the exact engine, which is right to "
-      "{:.1e} there{}.",
+      "To reach an error of 1e-6 diameters {} the fixed step would need {} times the time of the exact engine, which is right to "
+      "{:.1e} diameters there{}.",
       when, two_digits(ratio), answers.exact_error,
       answers.to_millionth->extrapolated
           ? fmt::format(" (dt = {:.1e}, smaller than those run: extrapolated with the first order that the points show)",
@@ -57,14 +62,13 @@ std::string where_it_is_cheaper(const ComparePlan& plan, const std::vector<Metho
   if (!was_run(summaries, "grid")) return "";
   if (answers.crossover_error && *answers.crossover_error < lost)
     return fmt::format(
-        "For an answer cruder than {} sigma the fixed step is the cheaper way (dt above {:.2g} mean free times, with the grid); "
-        "for "
-        "anything finer the exact engine is.",
+        "For an answer cruder than {} diameters the fixed step is the cheaper way (dt above {:.2g} mean free times, with the "
+        "grid); for anything finer the exact engine is.",
         two_digits(*answers.crossover_error), plan.in_free_times(*answers.crossover_dt));
   if (answers.crossover_error)
     return fmt::format(
-        "The fixed step is cheaper only with dt above {:.2g} mean free times, where its error is {} sigma and the trajectory is "
-        "lost.",
+        "The fixed step is cheaper only with dt above {:.2g} mean free times, where its error is {} diameters and the trajectory "
+        "is lost.",
         plan.in_free_times(*answers.crossover_dt), two_digits(*answers.crossover_error));
   double cheapest = INFINITY;
   for (const MethodSummary& summary : summaries)
@@ -89,7 +93,8 @@ std::string what_the_naive_does(const std::vector<MethodSummary>& summaries, con
   const bool differs = naive->Z_bias && std::abs(naive->Z_bias->value) > 2.0 * naive->Z_bias->error;
   if (!differs && repeated < 0.01) return "";
   return fmt::format(
-      "The naive method with dt = {:.2g} has Z = {:.4g} where {:.4g} is right{}; its energy has {}, which shows nothing of it.",
+      "The naive method with dt = {:.2g} has Z = {:.4g} where the exact engine has {:.4g}{}; its energy has {}, which tells "
+      "nothing of that.",
       naive->method.dt, naive->Z->value, exact->Z->value,
       repeated > 0.0 ? fmt::format(", and {} % of its reversals repeat one that was already done", two_digits(100.0 * repeated))
                      : "",
@@ -112,16 +117,6 @@ std::string what_pressure_costs(const Answers& answers) {
                      two_digits(*percent), two_digits(*thousandth));
 }
 
-bool seeds_change_nothing(const Comparison& comparison) {
-  const MethodRun* first = nullptr;
-  for (const MethodRun& run : comparison.runs) {
-    if (run.method.name != comparison.plan.horizon.engine) continue;
-    if (first != nullptr && run.error != first->error) return false;
-    first = &run;
-  }
-  return comparison.plan.seeds.size() > 1;
-}
-
 }  // namespace
 
 std::vector<std::string> compare_sentences(const Comparison& comparison, const std::vector<MethodSummary>& summaries,
@@ -130,8 +125,9 @@ std::vector<std::string> compare_sentences(const Comparison& comparison, const s
   std::vector<std::string> sentences = {what_it_costs(comparison.plan, summaries, answers),
                                         where_it_is_cheaper(comparison.plan, summaries, answers),
                                         what_the_naive_does(summaries, answers), what_pressure_costs(answers)};
-  if (seeds_change_nothing(comparison))
-    sentences.emplace_back("Nothing in this scene is drawn, so its seeds change nothing and errors over them mean nothing.");
+  if (!comparison.plan.drawn)
+    sentences.emplace_back(
+        "Nothing of this scene's start is drawn, so there is one start, and no error bar tells what of a bias is chance.");
   std::erase(sentences, "");
   return sentences;
 }

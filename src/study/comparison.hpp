@@ -24,7 +24,8 @@ struct ComparePlan {
   std::uint64_t samples = 0;
   std::uint64_t early = 0;  ///< the sample at which methods are compared before chaos takes over: a sixteenth of the horizon
   std::vector<double> dts;  ///< of the fixed-step methods, falling
-  std::vector<std::uint64_t> seeds;
+  std::vector<std::uint64_t> seeds;  ///< one per start
+  bool drawn = true;                 ///< another seed gives another start; else there is one
   double longest = 0.0;  ///< seconds of processor time that one run of a fixed-step method may be foreseen to take
 
   [[nodiscard]] double early_time() const { return static_cast<double>(early) * sample_step; }

@@ -74,7 +74,7 @@ std::string sentence_of(const Horizon& horizon) {
   if (own == nullptr || (horizon.ended == HorizonEnd::interrupted && horizon.time == 0.0))
     return "Interrupted before anything was compared: nothing is known of how far this trajectory can be trusted.";
   const std::string in = fmt::format("{} {}", own->bits == 24 || own->bits == 53 ? "In" : "With", precision_name(own->bits));
-  const std::string right = fmt::format("this trajectory is right to {:g} sigma", horizon.tolerance);
+  const std::string right = fmt::format("this trajectory is right to {:g} diameters", horizon.tolerance);
   if (!own->time) return fmt::format("{} {} {}.", in, right, why_ended(horizon));
   const std::string until =
       fmt::format("{}{}", own->estimated ? "about " : "", place(*own->time, own->collisions_per_disk.value_or(0.0)));

@@ -122,6 +122,26 @@ TEST_F(CompareCommand, WritesPageTablesAndPointsAndPrintsTheAnswerAndKeepsWhatIs
   EXPECT_EQ(forced.out, sentences);
 }
 
+TEST_F(CompareCommand, AStartThatIsNotDrawnIsRunOnceAndTheTableHasNoErrors) {
+  const Outcome outcome = compare({"--seeds", "8", "--dt", "0.02", "--set", "disks.0.positions=[[1,1],[3,1.2],[2,3]]", "--set",
+                                   "disks.0.count=3", "--set", "disks.0.velocities=[[1,0],[-1,0],[0,-1]]"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("; 1 start, as nothing of it is drawn;"), HasSubstr("no error bar tells"),
+                                 Not(HasSubstr("±")), Not(HasSubstr(" ns")), Not(HasSubstr("to know Z"))));
+  EXPECT_EQ(json::parse(text_of(file("gas-compare/compare.json")))["runs"].size(), 4U + 3U);
+  EXPECT_THAT(text_of(file("gas-compare/report.html")), Not(HasSubstr("± nan")));
+}
+
+TEST_F(CompareCommand, TheTableSaysWhatItsColumnsAre) {
+  const Outcome outcome = compare({"--seeds", "2", "--dt", "0.02"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* words : {"bias of Z    missed   repeated", "          %         %          %", "in mean diameters (1)",
+                            "  missed: pairs that came into",
+                            "  repeated: reversals of a pair", "± its standard error over the 2 starts"})
+    EXPECT_THAT(outcome.out, HasSubstr(words));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("sigma")));
+}
+
 TEST_F(CompareCommand, JsonPrintsTheFileOfThatName) {
   const Outcome outcome = compare({"--json", "--dt", "0.02", "--out", "elsewhere/deep", "--engine", "textbook", "--seed", "7"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

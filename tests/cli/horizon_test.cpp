@@ -41,7 +41,7 @@ TEST_F(HorizonCommand, PrintsARowForEveryPrecisionAndOneSentenceAndWritesNothing
 
 TEST_F(HorizonCommand, QuietPrintsTheSentenceAlone) {
   const Outcome outcome = carom({"horizon", "gas.toml", "--collisions", "20000", "-q"});
-  EXPECT_THAT(outcome.out, StartsWith("In double precision this trajectory is right to 0.001 sigma"));
+  EXPECT_THAT(outcome.out, StartsWith("In double precision this trajectory is right to 0.001 diameters"));
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
 }
 

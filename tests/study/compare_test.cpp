@@ -2,6 +2,9 @@
 
 #include "study/compare.hpp"
 
+#include "scene/drawn.hpp"
+#include "study/compare_answers.hpp"
+#include "study/compare_files.hpp"
 #include "study/reference.hpp"
 #include "support/comparisons.hpp"
 
@@ -101,6 +104,35 @@ TEST(Compare, GoesOnWhereItWasStoppedAndComputesNothingTwice) {
     EXPECT_EQ(resumed.runs[k].error, whole.runs[k].error);
     EXPECT_EQ(resumed.runs[k].Z, whole.runs[k].Z);
   }
+}
+
+TEST(Compare, OfASceneThatDrawsNothingOneStartIsRunAndNoErrorGiven) {
+  Scene scene = dozen_scene();
+  const State start = make_simulation(scene).state();
+  ListedPositions places;
+  ListedVelocities velocities;
+  for (Eigen::Index i = 0; i < start.positions.cols(); ++i) {
+    places.values.push_back(start.positions.col(i));
+    velocities.values.push_back(start.velocities.col(i));
+  }
+  scene.species.front().velocities = velocities;
+  EXPECT_EQ(plan_of(scene).seeds.size(), 2U) << "random places are drawn";
+  scene.species.front().positions = places;
+  const Comparison comparison = compare(scene, dozen_options({0.02}, 2, "textbook"), {});
+  EXPECT_EQ(comparison.plan.seeds, std::vector<std::uint64_t>{scene.run.seed});
+  EXPECT_FALSE(comparison.plan.drawn);
+  for (const MethodSummary& summary : summaries_of(comparison)) {
+    ASSERT_TRUE(summary.Z);
+    EXPECT_TRUE(std::isnan(summary.Z->error));
+  }
+  const Answers answers = answers_of(comparison);
+  EXPECT_TRUE(answers.time_to_Z.empty());
+  EXPECT_THAT(answers.sentences.back(), testing::HasSubstr("there is one start, and no error bar"));
+  EXPECT_THAT(compare_json(comparison, scene, "carom"), testing::HasSubstr("\"drawn\": false"));
+  scene.species.front().velocities = MaxwellVelocities{1.0};
+  EXPECT_EQ(plan_of(scene).seeds.size(), 2U) << "velocities are drawn";
+  scene.species.front().velocities = MaxwellVelocities{0.0};
+  EXPECT_FALSE(start_is_drawn(scene)) << "no temperature is rest";
 }
 
 TEST(Compare, ARunThatWouldTakeTooLongIsLeftOutByName) {

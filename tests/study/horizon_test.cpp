@@ -86,7 +86,7 @@ TEST(Horizon, GrowsWithThePrecision) {
   EXPECT_EQ(horizon.rows.back().bits, 113);
   ASSERT_NE(horizon.row("textbook"), nullptr);
   EXPECT_EQ(horizon.row("textbook")->price, 1.0);
-  EXPECT_THAT(sentence_of(horizon), AllOf(StartsWith("In double precision this trajectory is right to 0.001 sigma"),
+  EXPECT_THAT(sentence_of(horizon), AllOf(StartsWith("In double precision this trajectory is right to 0.001 diameters"),
                                           HasSubstr("113 bits carry it to about t = "), HasSubstr("times the cost")));
 }
 
