@@ -2,6 +2,7 @@
 
 #include "show/number_words.hpp"
 #include "show/sweep_words.hpp"
+#include "show/unit_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -51,6 +52,10 @@ std::string table_of(const Sweep& sweep, const SweepResults& results) {
   const std::vector<std::size_t> columns = shown_columns(sweep, results);
   std::vector<std::vector<std::string>> rows = {{"point"}};
   for (const std::size_t k : columns) rows.front().push_back(results.numbers[k]);
+  const bool has_units = std::any_of(columns.begin(), columns.end(), [&](std::size_t k) { return !results.units[k].empty(); });
+  if (has_units) rows.push_back({"in scene units"});
+  for (const std::size_t k : columns)
+    if (has_units) rows.back().push_back(unit_words(results.units[k]));
   for (std::size_t point = 0; point < std::min(most_points, sweep.points.size()); ++point) {
     rows.push_back({sweep.points[point].name});
     for (const std::size_t k : columns) rows.back().push_back(average_words(results.averages[point][k]));
@@ -74,9 +79,12 @@ std::string failures_of(const Sweep& sweep, const SweepResults& results) {
 }  // namespace
 
 std::string sweep_text(const Sweep& sweep, const SweepResults& results, const std::filesystem::path& directory) {
+  const char* over = sweep.seeds.size() == 1 ? ""
+                     : sweep.drawn           ? "; means and standard errors over seeds"
+                                             : "; nothing of them is drawn, so that every seed gives the same run";
   return fmt::format("{}: {} with {} each{}\n{}{}\nFiles in {}: {}\n", sweep.scene_path, counted(sweep.points.size(), "point"),
-                     counted(sweep.seeds.size(), "seed"), sweep.seeds.size() > 1 ? "; means and standard errors over seeds" : "",
-                     table_of(sweep, results), failures_of(sweep, results), directory.string(), fmt::join(sweep_products, ", "));
+                     counted(sweep.seeds.size(), "seed"), over, table_of(sweep, results), failures_of(sweep, results),
+                     directory.string(), fmt::join(sweep_products, ", "));
 }
 
 std::string commands_of(const Sweep& sweep, const std::vector<std::size_t>& runs, const std::filesystem::path& directory,

@@ -23,7 +23,10 @@ char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned 
 /// A key that is right in another table is a misplaced key, not a misspelt one.
 std::string_view home_of(std::string_view key) {
   using Home = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Home, 45> homes = {{{"x", "[box]"},
+  static constexpr std::array<Home, 48> homes = {{{"grid", "a sweep, which carom sweep runs"},
+                                                  {"points", "a sweep, which carom sweep runs"},
+                                                  {"seeds", "a sweep, which carom sweep runs"},
+                                                  {"x", "[box]"},
                                                   {"y", "[box]"},
                                                   {"aspect", "[box]"},
                                                   {"boundary", "[box]"},

@@ -3,6 +3,7 @@
 #include "show/number_words.hpp"
 #include "show/sweep_plots.hpp"
 #include "show/sweep_words.hpp"
+#include "show/unit_words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -26,7 +27,7 @@ std::vector<Block> tables_of(const Sweep& sweep, const SweepResults& results) {
   for (std::size_t first = 0; first < std::max<std::size_t>(1, results.numbers.size()); first += at_a_time) {
     const std::size_t end = std::min(first + at_a_time, results.numbers.size());
     TextTable table{.columns = {"point", "finished"}};
-    for (std::size_t k = first; k < end; ++k) table.columns.push_back(results.numbers[k]);
+    for (std::size_t k = first; k < end; ++k) table.columns.push_back(with_unit(results.numbers[k], results.units[k]));
     for (std::size_t point = 0; point < std::min(most_rows, sweep.points.size()); ++point) {
       table.rows.push_back({sweep.points[point].name,
                             fmt::format("{} of {}", results.count(sweep, point, RunState::finished), sweep.seeds.size())});

@@ -1,7 +1,9 @@
 #include "show/sweep_plots.hpp"
 
 #include "show/sweep_words.hpp"
+#include "show/unit_words.hpp"
 #include "study/sweep_names.hpp"
+#include "study/sweep_units.hpp"
 #include "study/sweep_values.hpp"
 
 #include <fmt/format.h>
@@ -98,8 +100,8 @@ std::vector<Plot> plots_of(const Sweep& sweep, const SweepResults& results, std:
     if (curves.empty()) continue;
     Plot plot{.id = fmt::format("number-{}-key-{}", number, key),
               .title = fmt::format("{} against {}", name, sweep.keys[key]),
-              .x = {.title = sweep.keys[key]},
-              .y = {.title = name}};
+              .x = {.title = with_unit(sweep.keys[key], unit_of_key(sweep.keys[key]))},
+              .y = {.title = with_unit(name, results.units[number])}};
     if (sweep.seeds.size() > 1) plot.caption = "Means over seeds; bars are their standard errors.";
     if (curves.size() > most_visible)
       plot.caption += fmt::format(" The first {} curves are drawn; click on others in the legend.", most_visible);

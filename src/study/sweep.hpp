@@ -33,7 +33,9 @@ struct Sweep {
   std::vector<std::string> keys;        ///< what is changed, "disks.0.radius", in the order of the file
   std::vector<SweepPoint> points;
   std::vector<std::uint64_t> seeds;
-  std::vector<std::string> table;  ///< numbers of summary.json that the results are to hold; empty: the usual ones
+  std::vector<std::string> table;      ///< numbers of summary.json that the results are to hold; empty: the usual ones
+  std::vector<Location> table_places;  ///< where each was written
+  bool drawn = true;                   ///< some point's runs differ from seed to seed
 
   /// Runs are numbered point by point, the seeds of one after each other.
   [[nodiscard]] std::size_t run_count() const { return points.size() * seeds.size(); }

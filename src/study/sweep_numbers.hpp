@@ -1,6 +1,8 @@
 #pragma once
 // The numbers of a summary.json by name, "pressure.Z": what can be averaged over seeds. What a clock measured is none of them.
 
+#include <carom/scene.hpp>
+
 #include <nlohmann/json_fwd.hpp>
 
 #include <optional>
@@ -13,6 +15,7 @@ namespace carom {
 struct SummaryNumber {
   std::string name;             ///< keys joined by dots, entries of lists numbered from 0; "observables.temperature.kT"
   std::optional<double> value;  ///< absent where the summary has null
+  std::string unit = {};        ///< made of the scene's units; empty for a pure number
 };
 
 /// In the order of the summary. An observable has its value under its name, and its standard error within the run under the name
@@ -22,8 +25,10 @@ struct SummaryNumber {
 /// Whether a sweep's table holds the number where nothing else is asked for.
 [[nodiscard]] bool is_usual_number(std::string_view name);
 
-/// What is wrong with the name where no run can have such a number, as the end of a sentence; else empty. Names of observables'
-/// numbers are known only when they have been measured.
-[[nodiscard]] std::string fault_of_number_name(const std::string& name);
+/// The names of all numbers that a run of the scene has in its summary, with a value or null. Nothing is drawn and nothing run.
+[[nodiscard]] std::vector<std::string> number_names(const Scene& scene);
+
+/// The end of a sentence that says why `name` is none of the numbers, and which there are.
+[[nodiscard]] std::string fault_of_number_name(const std::string& name, const std::vector<std::string>& numbers);
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 
 #include "study/sweep_reader.hpp"
 
+#include "scene/drawn.hpp"
 #include "scene/excerpt.hpp"
 #include "scene/known_keys.hpp"
 #include "scene/table_reader.hpp"
@@ -33,10 +34,12 @@ void check_keys(const toml::table& document) {
   for (const auto& [key, value] : document) {
     if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
     const std::string_view near = detail::nearest_word(key.str(), known);
+    const bool of_a_scene = document.contains("box") || document.contains("disks");
     throw SceneError(location_of(key.source()),
                      fmt::format("a sweep has no key \"{}\"; {}", detail::excerpt(key.str(), 60),
-                                 near.empty() ? "its keys are scene, seeds, table, [set], [grid] and [[points]]"
-                                              : fmt::format("did you mean \"{}\"?", near)));
+                                 of_a_scene     ? "this is a scene: carom run runs it, and a sweep names it, scene = \"gas.toml\""
+                                 : near.empty() ? "its keys are scene, seeds, table, [set], [grid] and [[points]]"
+                                                : fmt::format("did you mean \"{}\"?", near)));
   }
 }
 
@@ -84,10 +87,9 @@ std::vector<std::uint64_t> read_seeds(const toml::table& document, std::uint64_t
   return seeds;
 }
 
-std::vector<std::string> read_table(const toml::table& document) {
-  std::vector<std::string> table;
+void read_table(const toml::table& document, Sweep& sweep) {
   const toml::node* node = document.get("table");
-  if (node == nullptr) return table;
+  if (node == nullptr) return;
   constexpr auto example = "table = [\"pressure.Z\", \"temperature.mean\"]";
   const toml::array* list = node->as_array();
   if (list == nullptr || list->empty())
@@ -95,15 +97,42 @@ std::vector<std::string> read_table(const toml::table& document) {
   for (std::size_t k = 0; k < list->size(); ++k) {
     const std::string path = fmt::format("table.{}", k);
     const std::string name = detail::read_string((*list)[k], path, example);
-    if (const std::string fault = fault_of_number_name(name); !fault.empty())
-      throw SceneError(location_of((*list)[k]), fmt::format("{} is \"{}\", and {}", path, detail::excerpt(name, 60), fault));
-    if (std::find(table.begin(), table.end(), name) != table.end())
+    if (std::find(sweep.table.begin(), sweep.table.end(), name) != sweep.table.end())
       throw SceneError(location_of((*list)[k]),
                        fmt::format("{} is \"{}\", which is in the list already; name it once", path, name));
-    table.push_back(name);
+    sweep.table.push_back(name);
+    sweep.table_places.push_back(location_of((*list)[k]));
   }
-  return table;
 }
+
+/// Which numbers the table asks for that none of the points has had yet.
+class MissingNumbers {
+ public:
+  explicit MissingNumbers(const Sweep& sweep) : sweep_(sweep), missing_(sweep.table.size(), true) {}
+
+  void look_in(const Scene& scene) {
+    if (std::find(missing_.begin(), missing_.end(), true) == missing_.end()) return;
+    for (const std::string& name : number_names(scene)) {
+      const auto found = std::find(sweep_.table.begin(), sweep_.table.end(), name);
+      if (found != sweep_.table.end()) missing_[static_cast<std::size_t>(found - sweep_.table.begin())] = false;
+      if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
+    }
+  }
+
+  /// Throws where one is missing in all of them: no run would have it.
+  void refuse_the_first() const {
+    const auto first = std::find(missing_.begin(), missing_.end(), true);
+    if (first == missing_.end()) return;
+    const auto k = static_cast<std::size_t>(first - missing_.begin());
+    throw SceneError(sweep_.table_places[k], fmt::format("table.{} is \"{}\", and {}", k, detail::excerpt(sweep_.table[k], 60),
+                                                         fault_of_number_name(sweep_.table[k], names_)));
+  }
+
+ private:
+  const Sweep& sweep_;
+  std::vector<bool> missing_;
+  std::vector<std::string> names_;  ///< of all numbers that there are
+};
 
 /// Reads the scene of a point. What is wrong with it is said with the place in the sweep file of the value that is to blame, or
 /// of the point.
@@ -143,7 +172,7 @@ Sweep load_sweep(const std::string& path) {
   const toml::table document = detail::parse_toml(sweep.text, path);
   check_keys(document);
   read_scene(document, sweep);
-  sweep.table = read_table(document);
+  read_table(document, sweep);
   read_points(document, most_runs, sweep);
   check_names(sweep);
   const Scene first = checked_scene(sweep, sweep.points.front(), sweep.changes_of(sweep.points.front()));
@@ -153,8 +182,14 @@ Sweep load_sweep(const std::string& path) {
                      fmt::format("these are {} points with {} seeds each, and a sweep can have {} runs; make several "
                                  "sweeps of it",
                                  sweep.points.size(), sweep.seeds.size(), most_runs));
-  for (std::size_t point = 0; point < sweep.points.size(); ++point)
-    (void)checked_scene(sweep, sweep.points[point], sweep.overrides_of(point * sweep.seeds.size()));
+  sweep.drawn = false;
+  MissingNumbers missing(sweep);
+  for (std::size_t point = 0; point < sweep.points.size(); ++point) {
+    const Scene scene = checked_scene(sweep, sweep.points[point], sweep.overrides_of(point * sweep.seeds.size()));
+    sweep.drawn = sweep.drawn || run_is_drawn(scene);
+    missing.look_in(scene);
+  }
+  missing.refuse_the_first();
   return sweep;
 }
 

@@ -28,6 +28,14 @@ std::vector<std::string> columns_of(const Sweep& sweep, const std::vector<Number
   return columns;
 }
 
+/// Of the first run that has the number.
+std::string unit_in(const std::vector<Numbers>& found, const std::string& name) {
+  for (const Numbers& numbers : found)
+    for (const SummaryNumber& number : numbers)
+      if (number.name == name) return number.unit;
+  return {};
+}
+
 std::optional<double> value_of(const Numbers& numbers, const std::string& name) {
   const auto found = std::find_if(numbers.begin(), numbers.end(), [&](const SummaryNumber& n) { return n.name == name; });
   return found == numbers.end() ? std::nullopt : found->value;
@@ -72,6 +80,7 @@ SweepResults collect(const Sweep& sweep, const std::filesystem::path& directory)
     results.runs.push_back(std::move(one));
   }
   results.numbers = columns_of(sweep, found);
+  for (const std::string& name : results.numbers) results.units.push_back(unit_in(found, name));
   for (const Numbers& numbers : found) {
     results.values.emplace_back();
     for (const std::string& name : results.numbers) results.values.back().push_back(value_of(numbers, name));

@@ -23,6 +23,7 @@ struct SeedAverage {
 
 struct SweepResults {
   std::vector<std::string> numbers;                        ///< the columns
+  std::vector<std::string> units;                          ///< of each, made of the scene's units; empty for a pure number
   std::vector<FoundRun> runs;                              ///< of every run its state; `numbers` is empty
   std::vector<std::vector<std::optional<double>>> values;  ///< of every run, one per column
   std::vector<std::vector<SeedAverage>> averages;          ///< of every point, one per column

@@ -2,12 +2,15 @@
 
 #include "show/sweep_page.hpp"
 
+#include "show/unit_words.hpp"
+#include "study/sweep_units.hpp"
 #include "support/browser.hpp"
 #include "support/child_process.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 #include <variant>
 #include <vector>
@@ -36,7 +39,10 @@ Sweep two_boxes() {
 }
 
 SweepResults results_of(const Sweep& sweep) {
-  SweepResults results{.numbers = {"pressure.Z", "time"}, .runs = {}, .values = {}, .averages = {}, .versions = {"1 (commit a)"}};
+  SweepResults results;
+  results.numbers = {"pressure.Z", "time"};
+  results.units = {"", "time"};
+  results.versions = {"1 (commit a)"};
   for (std::size_t run = 0; run < sweep.run_count(); ++run) {
     const double Z = static_cast<double>(run);
     results.runs.push_back({.state = RunState::finished});
@@ -58,12 +64,50 @@ TEST(SweepPage, HasACurveForEveryCombinationOfTheOtherKeysWithErrorBars) {
   ASSERT_EQ(page.sections[0].blocks.size(), 1U);  // the kind of box is no axis
   const Plot& plot = std::get<Plot>(page.sections[0].blocks[0]);
   ASSERT_EQ(plot.series.size(), 2U);
+  EXPECT_EQ(plot.x.title, "disks.0.radius (length in scene units)");
+  EXPECT_EQ(plot.y.title, "pressure.Z");
   EXPECT_EQ(plot.series[0].name, "boundary = walls");
   EXPECT_THAT(plot.series[0].x, ElementsAre(0.1, 0.3));
   EXPECT_THAT(plot.series[0].y, ElementsAre(2.5, 0.5));
   EXPECT_THAT(plot.series[0].y_low, ElementsAre(2.0, 0.0));  // of two values half their distance
   EXPECT_THAT(plot.series[0].y_high, ElementsAre(3.0, 1.0));
   EXPECT_THAT(plot.series[1].y_low, ElementsAre(6.0, 4.0));  // one seed has no error
+}
+
+TEST(UnitWords, ALabelHasItsUnitBehindItAndAPureNumberNone) {
+  EXPECT_EQ(with_unit("Z", ""), "Z");
+  EXPECT_EQ(with_unit("time", "time"), "time (scene units)");
+  EXPECT_EQ(with_unit("speed", "length / time"), "speed (length / time in scene units)");
+  EXPECT_EQ(unit_words("energy^2 length^2 / time^2"), "energy² length² / time²");
+  EXPECT_EQ(unit_words("length^3 / time^4"), "length³ / time⁴");
+}
+
+TEST(SweepUnits, AreThoseOfTheTablesInTheDocs) {
+  const std::vector<std::array<const char*, 2>> numbers = {{"time", "time"},
+                                                           {"energy.final", "energy"},
+                                                           {"energy.relative_drift", ""},
+                                                           {"momentum.final.0", "mass length / time"},
+                                                           {"temperature.mean", "energy"},
+                                                           {"pressure.Z", ""},
+                                                           {"events.pair", ""},
+                                                           {"walls.left.pressure", "energy / area"},
+                                                           {"thermostat.kicks", ""},
+                                                           {"thermostat.energy", "energy"},
+                                                           {"shear.pressure_xy.flight", "energy / area"},
+                                                           {"shear.strain", ""}};
+  for (const auto& [name, unit] : numbers) EXPECT_EQ(unit_of_number(name), unit) << name;
+  const std::vector<std::array<const char*, 2>> keys = {{"disks.0.radius", "length"},
+                                                        {"disks.0.count", ""},
+                                                        {"disks.1.velocities.temperature", "energy"},
+                                                        {"run.time", "time"},
+                                                        {"run.equilibrate.time", "time"},
+                                                        {"run.collisions", ""},
+                                                        {"collision.restitution", ""},
+                                                        {"shear.rate", "1 / time"},
+                                                        {"box.x.1", "length"},
+                                                        {"box.boundary", ""},
+                                                        {"square_well.width", ""}};
+  for (const auto& [name, unit] : keys) EXPECT_EQ(unit_of_key(name), unit) << name;
 }
 
 TEST(SweepPage, LeavesOutNumbersThatAreTheSameEverywhereAndListsWhatFailed) {

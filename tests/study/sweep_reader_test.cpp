@@ -1,9 +1,16 @@
 // Sweep files: which points and seeds they mean, and what is refused with which sentence.
 
+#include "io/summary.hpp"
+#include "scene/observables_known.hpp"
+#include "study/sweep_numbers.hpp"
+#include "support/recorded_run.hpp"
 #include "support/sweep_files.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>
@@ -135,15 +142,86 @@ TEST_F(SweepReader, TooManyRunsAreRefused) {
 }
 
 TEST_F(SweepReader, ATableHasNumbersThatSummariesHave) {
-  EXPECT_THAT(files_.load(scene_line + "table = [\"pressure.Z\", \"observables.temperature.kT\", \"walls.left.force\"]\n").table,
-              ElementsAre("pressure.Z", "observables.temperature.kT", "walls.left.force"));
+  const std::string observed = scene_line + "table = [\"pressure.Z\", \"observables.temperature.kT\"]\n[set]\n";
+  EXPECT_THAT(files_.load(observed + "observe.temperature = true\n").table,
+              ElementsAre("pressure.Z", "observables.temperature.kT"));
   EXPECT_EQ(files_.refusal(scene_line + "table = [\"presure.Z\"]\n"),
-            "sweep.toml:2:10: table.0 is \"presure.Z\", and no summary has that number; did you mean \"pressure.Z\"?");
-  EXPECT_THAT(files_.refusal(scene_line + "table = [\"wall_seconds\"]\n"), HasSubstr("no summary has that number"));
-  EXPECT_THAT(files_.refusal(scene_line + "table = [\"observables.temprature.kT\"]\n"),
-              HasSubstr("the name of an observable's number"));
+            "sweep.toml:2:10: table.0 is \"presure.Z\", and no run has that number; did you mean \"pressure.Z\"?");
+  EXPECT_THAT(files_.refusal(scene_line + "table = [\"wall_seconds\"]\n"), HasSubstr("no run has that number; docs/output.md"));
   EXPECT_THAT(files_.refusal(scene_line + "table = [\"time\", \"time\"]\n"), HasSubstr("in the list already"));
   EXPECT_THAT(files_.refusal(scene_line + "table = []\n"), StartsWith("sweep.toml:2:9: table is an empty list"));
+}
+
+TEST_F(SweepReader, ATableHasNumbersThatSomePointOfThisVerySweepHas) {
+  // Walls and thermostats are known, and this gas has neither.
+  for (const char* name : {"walls.left.force", "thermostat.kicks", "events.kicks", "growth.scale", "overlap.start"})
+    EXPECT_THAT(files_.refusal(scene_line + "table = [\"time\", \"" + name + "\"]\n"),
+                StartsWith(std::string("sweep.toml:2:18: table.1 is \"") + name + "\", and no run has that number"))
+        << name;
+  const std::string kicks = scene_line + "table = [\"thermostat.kicks\"]\n";
+  EXPECT_EQ(files_.refusal(kicks + "[set]\nthermostat = { temperature = 1.0, rate = 0.0 }\n"), "");
+  EXPECT_EQ(files_.refusal(kicks + "[[points]]\nname = \"a\"\n[[points]]\nname = \"b\"\n"
+                                   "thermostat = { temperature = 1.0, rate = 0.1 }\n"),
+            "");
+  const auto observed = [&](const std::string& name) {
+    return files_.refusal(scene_line + "table = [\"observables." + name +
+                          "\"]\n[set]\nobserve = { pressure = true, mean_square_displacement = true }\n");
+  };
+  EXPECT_EQ(observed("pressure.Z_error"), "");
+  EXPECT_THAT(observed("pressure.Zet"), HasSubstr("did you mean \"observables.pressure.Z\"?"));
+  EXPECT_THAT(observed("pressure.something_else"), HasSubstr("of pressure there are observables.pressure.Z"));
+  EXPECT_THAT(observed("mean_square_displacement.diffusion"),
+              AllOf(HasSubstr("does not ask for mean_square_displacement, or it makes tables alone; there are"),
+                    HasSubstr("observables.pressure.Z")));
+  EXPECT_THAT(observed("msd.D"), HasSubstr("there is no observable \"msd\"; there are observables.pressure.Z"));
+}
+
+TEST_F(SweepReader, ASceneIsToldFromASweep) {
+  EXPECT_THAT(files_.refusal(fifty_disks), HasSubstr("this is a scene: carom run runs it"));
+}
+
+/// The names of a run that has been made.
+std::vector<std::string> names_in_summary(const Scene& scene) {
+  const TemporaryDirectory directory;
+  const RunReport report = record(scene, directory.path() / "run");
+  std::vector<std::string> names;
+  const auto summary = nlohmann::ordered_json::parse(summary_json(report, {}));
+  for (const SummaryNumber& number : numbers_of(summary)) names.push_back(number.name);
+  return names;
+}
+
+TEST(ScenesSweepNumbers, AreForetoldForEveryEffectAndObservable) {
+  const std::vector<std::vector<std::string>> bases = {
+      {},
+      {"box.boundary=walls", "gravity.acceleration=[0.0,-0.1]", "walls.left.temperature=1.0"},
+      {"box.boundary=walls", "walls.top.mass=10.0", "walls.top.load=1.0", "walls.right.restitution=0.9"},
+      {"collision.restitution=0.9", "collision.roughness=0.1", "run.accept_overlap=true"},
+      {"collision.rule=reversal", "obstacles=[{ segment = { from = [0.0, 0.0], to = [0.1, 0.0] } }]", "disks.0.positions=random"},
+      {"growth.rate=0.001"},
+      {"thermostat.temperature=1.0", "thermostat.rate=1.0"},
+      {"shear.rate=0.1"},
+      {"square_well.width=1.1", "square_well.depth=0.1"},
+      {"disks=[{ name = \"small\", count = 6, radius = 0.1, mass = 1.0, positions = \"random\", velocities = \"rest\" }, "
+       "{ count = 6, radius = 0.3, mass = 2.0, positions = \"random\", velocities = { temperature = 1.0 } }]"}};
+  std::size_t observed = 0;
+  for (const auto& base : bases)
+    for (const char* time : {"run.time=0.0", "run.time=0.02"}) {
+      std::vector<std::string> changes = base;
+      if (changes.empty() || !changes.front().starts_with("disks=")) changes.emplace_back("disks.0.count=12");
+      changes.emplace_back(time);
+      for (const detail::KnownObservable& known : detail::known_observables) {
+        changes.push_back(fmt::format("observe.{}=true", known.name));
+        try {
+          (void)number_names(parse_scene(fifty_disks, "gas.toml", changes));
+          ++observed;
+        } catch (const SceneError&) {  // it has no meaning there
+          changes.pop_back();
+        }
+      }
+      const Scene scene = parse_scene(fifty_disks, "gas.toml", changes);
+      EXPECT_EQ(number_names(scene), names_in_summary(scene)) << fmt::format("{}", fmt::join(changes, " "));
+    }
+  EXPECT_GT(observed, 200U);
 }
 
 }  // namespace

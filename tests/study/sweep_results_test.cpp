@@ -50,7 +50,8 @@ class SweepResultsOf : public ::testing::Test {
   SweepResultsOf() {
     sweep_ = files_.load(
         "scene = \"gas.toml\"\nseeds = 2\ntable = [\"pressure.Z\", \"observables.temperature.kT\"]\n"
-        "[grid]\nrun.time = [1.0, 2.0]\n[[points]]\nname = \"walls\"\n\"box.boundary\" = \"walls\"\n");
+        "[set]\nobserve.temperature = true\n[grid]\nrun.time = [1.0, 2.0]\n"
+        "[[points]]\nname = \"walls\"\n\"box.boundary\" = \"walls\"\n");
   }
   [[nodiscard]] fs::path place(std::size_t run) const { return files_.directory().path() / "out" / sweep_.directory_of(run); }
   [[nodiscard]] Json summary(std::size_t run, const Json& Z) const {
