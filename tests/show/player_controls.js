@@ -17,6 +17,18 @@ for (const [name, act] of [["play button", () => byId("play").click()], ["space"
   carom.frame(0.01);
   check(`${name} pauses`, !settings.isPlaying && moment.time === at);
 }
+// A click on a button leaves Space to play, and does not have it press the button again.
+for (const id of ["arrows", "trails", "next"]) {
+  byId(id).focus();
+  byId(id).click();
+  const isOn = settings[id];
+  for (const plays of [true, false]) {
+    const isTaken = !byId(id).dispatchEvent(new KeyboardEvent("keydown", { key: " ", bubbles: true, cancelable: true }));
+    check(`space after a click on ${id} ${plays ? "plays" : "pauses"}`, settings.isPlaying === plays && isTaken && settings[id] === isOn);
+  }
+  check(`${id} has lost the focus`, document.activeElement !== byId(id));
+  if (isOn) byId(id).click();
+}
 press("Home");
 check("Home", moment.time === 0 && moment.done === 0);
 byId("next").click();

@@ -1,4 +1,4 @@
-// Every control has a key. Fields and sliders that have the focus keep the keys that they need themselves.
+// Every control has a key. Fields, sliders and buttons that have the focus keep the keys that they need themselves.
 "use strict";
 
 const keys = {
@@ -37,10 +37,18 @@ function connectKeyboard() {
     const { tagName, type } = event.target;
     if (tagName === "SELECT" || (tagName === "INPUT" && type === "number")) return;
     if (tagName === "INPUT" && (event.key.startsWith("Arrow") || event.key === "Home" || event.key === "End")) return;
-    if (tagName === "BUTTON" && event.key === " ") return;  // it presses the button
+    if (tagName === "BUTTON" && event.key === " " && event.target === document.activeElement) return;  // it presses the button
     const action = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!action) return;
     event.preventDefault();
     action(event);
+  });
+  // A click leaves no focus behind, so that Space plays after it, as in any player of films; who came by keys keeps their place.
+  window.addEventListener("click", (event) => {
+    const isKey = event.isTrusted && event.detail === 0;
+    if (!isKey && event.target.closest("button")) document.activeElement.blur();
+  });
+  window.addEventListener("change", (event) => {
+    if (event.target.tagName === "SELECT" && !event.target.matches(":focus-visible")) event.target.blur();
   });
 }
