@@ -4,6 +4,7 @@
 #include "cli/expected_cost.hpp"
 #include "cli/scene_description.hpp"
 #include "observe/mechanics.hpp"
+#include "scene/drawn.hpp"
 #include "show/effects_words.hpp"
 #include "show/number_words.hpp"
 
@@ -29,9 +30,10 @@ std::string start_and_engine(const Scene& scene, const Simulation& simulation) {
   const auto bytes = static_cast<double>(simulation.bytes());
   const double disks = std::max(1.0, static_cast<double>(scene.disk_count()));
   return fmt::format(
-      "  start       drawn: every disk has its place, {}; kT = {:.4g}\n"
+      "  start       {}: every disk has its place, {}; kT = {:.4g}\n"
       "  engine      {}: {}; {}, {:.0f} bytes per disk\n",
-      scene.run.accept_overlap ? "overlaps are accepted" : "none overlap", kT, simulation.engine(), simulation.engine_reason(),
+      start_is_drawn(scene) ? "drawn" : "given", scene.run.accept_overlap ? "overlaps are accepted" : "none overlap", kT,
+      simulation.engine(), simulation.engine_reason(),
       size(bytes), bytes / disks);
 }
 
@@ -72,7 +74,7 @@ ExitCode check(const CheckOptions& options) {
   fmt::print("{}{}", describe(scene), start);
   if (trial) fmt::print("  cost        {}\n", words(trial->run()));
   fmt::print("{}", files(scene));
-  if (const std::string missing = absent(scene.effects); !missing.empty()) fmt::print("  not here    {}\n", missing);
+  if (const std::string missing = absent(scene.effects); !missing.empty()) fmt::print("  without     {}\n", missing);
   return exit_done;
 }
 

@@ -4,9 +4,12 @@
 #include "show/number_words.hpp"
 #include "theory/collision_rate.hpp"
 
+#include <carom/observe.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -23,12 +26,17 @@ constexpr double trial_seconds = 0.15;
 /// Up to here the disks are a fluid, and how often they collide is known.
 constexpr double densest_known = 0.69;
 
+constexpr double latest = 1e15;  // later than any run gets to
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// A part of the schedule: it ends at a time or at a number of collisions, whichever comes first.
 struct Part {
   double time = unlimited;
   double collisions = unlimited;
+
+  [[nodiscard]] double lasts(double collisions_per_time) const {
+    return collisions_per_time > 0.0 ? std::min(time, collisions / collisions_per_time) : time;
+  }
 };
 
 std::vector<Part> parts_of(const Scene& scene) {
@@ -51,7 +59,6 @@ std::vector<Part> parts_of(const Scene& scene) {
 
 /// The same scene with nothing but its motion: no samples are taken, and what would be equilibrated is run like the rest.
 Scene trial_of(const Scene& scene) {
-  constexpr double latest = 1e15;  // later than any run gets to
   Scene trial = scene;
   double time = 0.0, collisions = 0.0;
   for (const Part& part : parts_of(scene)) time += part.time, collisions += part.collisions;
@@ -88,9 +95,32 @@ std::optional<double> rate_by_theory(const Scene& scene, double kT) {
 }  // namespace
 
 Trial::Trial(const Scene& scene, const std::string& engine)
-    : scene_(scene), simulation_(make_simulation(trial_of(scene), engine)) {}
+    : scene_(scene), engine_(engine), simulation_(make_simulation(trial_of(scene), engine)) {}
+
+void Trial::observe(ExpectedCost& cost, const State& start, double equilibrated, double measured) const {
+  Scene scene = scene_;
+  scene.run.equilibrate.reset();
+  scene.run.take_no_samples();
+  if (scene.run.time) scene.run.time = std::min(*scene.run.time, latest);
+  Simulation simulation = make_simulation(scene, start, engine_);
+  Observation observation(simulation);
+  RunHooks hooks;
+  observation.attach_beside(hooks);
+  const auto began = std::chrono::steady_clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(); };
+  hooks.proceed = [&](const Progress&) { return seconds() < trial_seconds; };
+  const RunResult result = run_schedule(simulation, hooks);
+  (void)observation.results();  // which waits for what is still looked at
+  const double done = result.stopped == StopReason::interrupted ? simulation.time() / measured : 1.0;
+  if (!(done > 0.0)) return;
+  cost.observables = scene.observe.size();
+  const double all = equilibrated + measured;
+  const double before = all > 0.0 ? *cost.seconds * equilibrated / all : 0.0;
+  cost.seconds = before + seconds() / std::min(done, 1.0);
+}
 
 ExpectedCost Trial::run() {
+  const State start = scene_.observe.empty() ? State{} : simulation_.state();
   const double kT = kinetic_temperature(scene_.box, scene_.effects, simulation_.disks(), simulation_.state());
   RunHooks hooks;
   hooks.proceed = [](const Progress& progress) { return progress.loop_seconds < trial_seconds; };
@@ -102,12 +132,15 @@ ExpectedCost Trial::run() {
   cost.trial_time = simulation_.time();
   if (result.stopped == StopReason::jammed || result.stopped == StopReason::collapsed)
     cost.came_to_rest = to_string(result.stopped);
-  cost.whole = result.stopped != StopReason::interrupted && cost.came_to_rest.empty() && cost.trial_time < 1e15;
+  cost.whole = result.stopped != StopReason::interrupted && cost.came_to_rest.empty() && cost.trial_time < latest;
 
   const auto tried = static_cast<double>(cost.trial_collisions);
+  const std::vector<Part> parts = parts_of(scene_);
   if (cost.whole) {
     cost.collisions = tried;
     cost.seconds = cost.trial_seconds;
+    const double before = parts.size() > 1 ? std::min(parts.front().lasts(tried / cost.trial_time), cost.trial_time) : 0.0;
+    if (!scene_.observe.empty()) observe(cost, start, before, cost.trial_time - before);
     return cost;
   }
   if (!cost.came_to_rest.empty() || !(cost.trial_time > 0.0)) return cost;
@@ -116,14 +149,14 @@ ExpectedCost Trial::run() {
   cost.at_least = scene_.effects.growth && scene_.effects.growth->rate > 0.0;
   const double per_time = known.value_or(tried / cost.trial_time);
   double collisions = 0.0, time = 0.0;
-  for (const Part& part : parts_of(scene_)) {
-    const double lasts = per_time > 0.0 ? std::min(part.time, part.collisions / per_time) : part.time;
-    time += lasts;
-    collisions += lasts * per_time;
+  for (const Part& part : parts) {
+    time += part.lasts(per_time);
+    collisions += part.lasts(per_time) * per_time;
   }
-  if (!(time < 1e15)) return cost;
+  if (!(time < latest)) return cost;
   cost.collisions = collisions;
   cost.seconds = tried > 0.0 ? collisions * cost.trial_seconds / tried : time * cost.trial_seconds / cost.trial_time;
+  if (!scene_.observe.empty()) observe(cost, start, time - parts.back().lasts(per_time), parts.back().lasts(per_time));
   return cost;
 }
 
@@ -132,8 +165,9 @@ std::string words(const ExpectedCost& cost) {
     return collisions < 1e6 ? counted(static_cast<std::uint64_t>(std::llround(collisions)), "collision")
                             : fmt::format("{:.3g} million collisions", collisions / 1e6);
   };
+  const std::string with = cost.observables > 0 ? fmt::format(", with {},", counted(cost.observables, "observable")) : "";
   if (cost.whole)
-    return fmt::format("{} and {} on this machine (a trial ran to the end)", duration(*cost.seconds),
+    return fmt::format("{}{} and {} on this machine (a trial ran to the end)", duration(*cost.seconds), with,
                        number_of(*cost.collisions));
   const std::string trial = cost.trial_collisions > 0
                                 ? fmt::format("a trial of {}: {} collisions per second", duration(cost.trial_seconds),
@@ -142,8 +176,8 @@ std::string words(const ExpectedCost& cost) {
   if (!cost.came_to_rest.empty())
     return fmt::format("unknown: {} by time {:.4g} ({})", cost.came_to_rest, cost.trial_time, trial);
   if (!cost.seconds) return fmt::format("unknown ({})", trial);
-  return fmt::format("{} {} and {}{} on this machine ({})", cost.at_least ? "at least" : "about", duration(*cost.seconds),
-                     number_of(*cost.collisions), cost.by_theory ? ", as kinetic theory has it," : "", trial);
+  return fmt::format("{} {}{} and {}{} on this machine ({})", cost.at_least ? "at least" : "about", duration(*cost.seconds),
+                     with, number_of(*cost.collisions), cost.by_theory ? ", as kinetic theory has it," : "", trial);
 }
 
 }  // namespace carom::cli

@@ -40,7 +40,8 @@ TEST(CheckCommand, DescribesEachEffectAndNamesTheAbsent) {
   const TemporaryDirectory directory;
   const Outcome plain = run_carom(directory.path(), {"check", CAROM_SOURCE_DIR "/docs/scenes/box.toml"});
   EXPECT_THAT(plain.out,
-              AllOf(HasSubstr("hard walls on all sides"), HasSubstr("not here    loss of energy, friction and spin, gravity, ")));
+              AllOf(HasSubstr("hard walls on all sides"),
+                    HasSubstr("without     loss of energy in collisions, friction and spin, gravity, ")));
   const Outcome outcome = run_carom(
       directory.path(), {"check", CAROM_SOURCE_DIR "/docs/scenes/box.toml", "--set", "gravity.acceleration=[0.0, -1.0]", "--set",
                          "walls={ left = { temperature = 2.0 }, top = { restitution = 0.8 } }", "--set",
@@ -49,7 +50,7 @@ TEST(CheckCommand, DescribesEachEffectAndNamesTheAbsent) {
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("; restitution 0.9\n"), HasSubstr("  gravity     acceleration (0, -1)\n"),
                                  HasSubstr("  wall        left: velocities drawn anew at kT = 2\n"),
                                  HasSubstr("  wall        top: restitution 0.8\n"), HasSubstr("  obstacles   1 fixed disk\n"),
-                                 HasSubstr("  not here    friction and spin, growing disks, a thermostat, shear, attraction\n")));
+                                 HasSubstr("  without     friction and spin, growth, a thermostat, shear, attraction at a distance\n")));
 }
 
 TEST(CheckCommand, SaysWhichEngineRunsTheSceneAndWhyAndHowMuchMemoryItTakes) {
@@ -81,6 +82,10 @@ TEST(CheckCommand, SaysWhatTheRunWillCost) {
                     "trial of [0-9.]+ m?s: .* collisions per second\\)\n"));
   EXPECT_THAT(cost({"--set", "run.time=1e6", "--set", "collision.restitution=0.9999"}),
               ContainsRegex("\n  cost        about .* million collisions on this machine"));
+  const std::string observed = cost({"--set", "run.time=1e6", "--set", "observe={ temperature = true, pressure = true }"});
+  EXPECT_THAT(observed, ContainsRegex("\n  cost        about .*, with 2 observables, and .* million collisions"));
+  EXPECT_THAT(cost({"--set", "run.time=0.01", "--set", "observe={ hexatic = true }"}),
+              ContainsRegex("\n  cost        .*, with 1 observable, and .* collisions"));
   EXPECT_THAT(cost({"--set", "run.time=1e-9", "--set", "run.sample_every=1e-9", "--set", "run.equilibrate={ time = 0.0 }"}),
               HasSubstr("0 collisions on this machine (a trial ran to the end)\n"));
   EXPECT_TRUE(fs::is_empty(directory.path()));
