@@ -3,9 +3,11 @@
 
 #include "cli/terminal_summary.hpp"
 
+#include "scene/drawn.hpp"
 #include "show/number_words.hpp"
 #include "show/observed_lines.hpp"
 #include "show/summary_rows.hpp"
+#include "show/unit_words.hpp"
 #include "study/horizon_sentence.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +29,8 @@ std::string lines_of(const SummaryRows& rows) {
 }
 
 std::string heading(const RunReport& report, const Scene& scene) {
-  return fmt::format("{}\n{}, packing fraction {:.4g}; {}; seed {}, {}\n\n", report.title.empty() ? report.scene : report.title,
+  return fmt::format("{}\n{}, packing fraction {:.4g}; {}; seed {}, {}; numbers in scene units\n\n",
+                     report.title.empty() ? report.scene : report.title,
                      counted(static_cast<std::uint64_t>(report.disks), "disk"), report.packing_fraction,
                      fmt::join(report.effects, ", "), scene.run.seed,
                      (report.time_step ? "method " : "engine ") + method_words(report.engine, report.time_step));
@@ -40,10 +43,14 @@ std::string what_was_observed(const RunReport& report) {
     const auto known = std::find_if(measured.scalars.begin(), measured.scalars.end(),
                                     [](const Scalar& scalar) { return scalar.value.has_value(); });
     std::string words = measured.tables.empty() ? measured.note : "in a table of its own";
-    if (known != measured.scalars.end()) words = known->name + " " + number_words(*known);
+    if (known != measured.scalars.end()) {
+      words = known->name + " " + number_words(*known);
+      if (!known->unit.empty()) words += fmt::format(" ({})", unit_words(known->unit));
+    }
     text += fmt::format("  {:<26}{}\n", measured.name, words);
   }
-  return text.empty() ? text : "Observed, averages with their standard errors (all of them in summary.json)\n" + text + "\n";
+  if (text.empty()) return text;
+  return "Observed, averages with their standard errors, in scene units (all of them in summary.json)\n" + text + "\n";
 }
 
 std::string how_far_to_trust(const RunReport& report) { return report.horizon ? sentence_of(*report.horizon) + "\n\n" : ""; }
@@ -55,7 +62,9 @@ std::string where_the_files_are(const Results& results) {
 }
 
 std::string what_to_try_next(const RunReport& report, const Scene& scene, const Results& results) {
-  const std::string rerun = fmt::format("{} run {}", results.program, shell_quoted(report.scene));
+  std::string rerun = fmt::format("{} run {}", results.program, shell_quoted(report.scene));
+  for (const std::string& change : scene.overrides)
+    if (!change.starts_with("run.seed=")) rerun += " --set " + shell_quoted(change);
   const std::filesystem::path here = std::filesystem::absolute(results.directory / "").lexically_normal().parent_path();
   const std::string elsewhere = std::filesystem::proximate(here).string();
   std::string text = "\nTry next\n";
@@ -65,13 +74,14 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
     if (name != "trajectory.h5md") continue;
     const std::filesystem::path path = results.directory / name;
     text += fmt::format("  {} info {}\n", results.program, shell_quoted(path.string()));
+    if (report.samples == 0 || !scene.output.trajectory) continue;  // MDAnalysis opens no file without frames
     text += fmt::format("  python3 -c {}\n",
                         shell_quoted(fmt::format("import MDAnalysis as m; print(m.Universe(\"{}\").trajectory)", path.string())));
   }
   if (scene.effects.collision.rule == CollisionRule::reversal) {
     text += fmt::format("  {} --set collision.rule=specular --out {}   # smooth hard disks\n", rerun,
                         shell_quoted(elsewhere + "-specular"));
-  } else {
+  } else if (run_is_drawn(scene)) {
     text += fmt::format("  {} --seed {} --out {}   # another start\n", rerun, scene.run.seed == 1 ? 2 : 1,
                         shell_quoted(elsewhere + "-again"));
   }

@@ -59,9 +59,9 @@ SummaryRow row_of_energy(const RunReport& report) {
     return {"energy", energy,
             report.relative_energy_drift() == 0.0 ? "no drift in any digit"
                                                   : fmt::format("relative drift {:.1e}", report.relative_energy_drift())};
-  return {
-      "energy", energy,
-      fmt::format("{:.6g} at the start; the difference is explained to {:.1e}", report.energy_initial, std::abs(*unexplained))};
+  const std::string left = *unexplained == 0.0 ? "" : fmt::format(" to within {:.1e} of it", std::abs(*unexplained));
+  return {"energy", energy,
+          fmt::format("{:.6g} at the start; what came and went accounts for the change{}", report.energy_initial, left)};
 }
 
 SummaryRows rows_of_effects(const RunReport& report, const Scene* scene) {

@@ -133,8 +133,11 @@ SummaryRows rows_of_results(const RunReport& report, const Scene* scene) {
     return rows;
   }
   rows.push_back({"Z = PA/(NkT)", report.Z_error ? with_error(*report.Z, *report.Z_error) : fmt::format("{:.5g}", *report.Z),
-                  report.Z_error ? "from the momentum transfer" : "from too short a run for an error"});
-  if (report.reduced_pressure) rows.push_back({"P sigma^2/kT", fmt::format("{:.5g}", *report.reduced_pressure)});
+                  report.Z_error ? "from the momentum transfer" : "the run is too short to tell an error"});
+  if (!report.reduced_pressure) return rows;
+  const double reduced = *report.reduced_pressure;  // in proportion to Z, and so is its error
+  rows.push_back({"P sigma^2/kT", report.Z_error && *report.Z != 0.0 ? with_error(reduced, *report.Z_error * reduced / *report.Z)
+                                                                     : fmt::format("{:.5g}", reduced)});
   return rows;
 }
 

@@ -77,7 +77,7 @@ TEST_F(TerminalSummary, EveryEffectHasARow) {
 
 TEST_F(TerminalSummary, EnergyThatWasGivenIsToldFromEnergyThatWasLost) {
   report_.of_effects.energy_given = 0.5;  // from 32 to 32.5
-  EXPECT_THAT(text(), HasSubstr("32 at the start; the difference is explained to 0.0e+00"));
+  EXPECT_THAT(text(), HasSubstr("32 at the start; what came and went accounts for the change\n"));
 }
 
 TEST_F(TerminalSummary, ReasonsToStopAreSentences) {
@@ -96,6 +96,41 @@ TEST_F(TerminalSummary, WithoutZItSaysWhy) {
   EXPECT_THAT(text(), HasSubstr("no pair of disks has collided"));
   scene_.effects.gravity = Gravity{.acceleration = {0.0, -1.0}, .where = {}};
   EXPECT_THAT(text(), HasSubstr("pressure and density change with height"));
+}
+
+TEST_F(TerminalSummary, PressureHasTheErrorOfZInProportion) {
+  report_.Z = 2.0;
+  report_.Z_error = 0.1;
+  report_.reduced_pressure = 1.0;
+  EXPECT_THAT(text(), ContainsRegex("P sigma\\^2/kT +1\\.000 ± 0\\.050\n"));
+  report_.Z_error.reset();
+  EXPECT_THAT(text(), ContainsRegex("P sigma\\^2/kT +1\n"));
+}
+
+TEST_F(TerminalSummary, WhatToTryNextIsWhatWorks) {
+  const auto next = [&] {
+    const std::string all = cli::terminal_summary(report_, scene_, {"out", {"out/trajectory.h5md"}, "carom"});
+    return all.substr(all.find("Try next"));
+  };
+  scene_.output.trajectory = true;
+  report_.samples = 3;
+  EXPECT_THAT(next(), AllOf(HasSubstr("carom info out/trajectory.h5md"), HasSubstr("MDAnalysis")));
+  report_.samples = 0;  // events or observables alone
+  EXPECT_THAT(next(), AllOf(HasSubstr("carom info out/trajectory.h5md"), Not(HasSubstr("MDAnalysis"))));
+  report_.samples = 3;
+  scene_.output.trajectory = false;
+  EXPECT_THAT(next(), Not(HasSubstr("MDAnalysis")));
+  // The same changes, and no other seed where none is asked for.
+  scene_.overrides = {"run.time=2", "run.seed=7", "disks.0.velocities={ speed = 1.0 }"};
+  scene_.effects.collision.rule = CollisionRule::specular;
+  scene_.species.front().positions = RandomPositions{};
+  EXPECT_THAT(next(), ContainsRegex("carom run .* --set run.time=2 --set 'disks.0.velocities=\\{ speed = 1.0 \\}' --seed"));
+  EXPECT_THAT(next(), Not(HasSubstr("run.seed=7")));
+  for (Species& species : scene_.species) {
+    species.positions = ListedPositions{};
+    species.velocities = AtRest{};
+  }
+  EXPECT_THAT(next(), Not(HasSubstr("another start")));
 }
 
 TEST_F(TerminalSummary, ARunThatTimeStopsNamesTheDisks) {
