@@ -33,13 +33,14 @@ class Distribution {
       for (std::size_t b = 0; b < bins_; ++b) shares_[kind].add(b, counts_[kind * bins_ + b], disks[kind]);
     std::fill(counts_.begin(), counts_.end(), 0.0);
   }
-  [[nodiscard]] Table table(const std::string& name, const std::string& unit, const ObservedRun& run) const {
+  [[nodiscard]] Table table(const std::string& name, const std::string& unit, const std::string& per_unit,
+                            const ObservedRun& run) const {
     Table table{.name = name};
     Column middles{"middle", unit, {}};
     for (std::size_t b = 0; b < bins_; ++b) middles.values.push_back((static_cast<double>(b) + 0.5) * width_);
     table.columns.push_back(std::move(middles));
     for (std::size_t kind = 0; kind < shares_.size(); ++kind)
-      shares_[kind].put(table, kind == 0 ? "density" : "density" + run.suffix(kind - 1), "1 / (" + unit + ")", 1.0 / width_);
+      shares_[kind].put(table, kind == 0 ? "density" : "density" + run.suffix(kind - 1), per_unit, 1.0 / width_);
     return table;
   }
 
@@ -91,8 +92,8 @@ class Speeds final : public SavedObservable<Speeds> {
     if (const double beyond = std::max(speeds_.share_beyond(), energies_.share_beyond()); beyond > 1e-3)
       found.note =
           fmt::format("{:.2g} % are beyond the histograms, which are scaled with the temperature of the start", 100.0 * beyond);
-    found.tables.push_back(speeds_.table("speeds", "length / time", run_));
-    found.tables.push_back(energies_.table("energies", "energy", run_));
+    found.tables.push_back(speeds_.table("speeds", "length / time", "time / length", run_));
+    found.tables.push_back(energies_.table("energies", "energy", "1 / energy", run_));
     return found;
   }
 

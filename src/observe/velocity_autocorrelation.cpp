@@ -107,8 +107,8 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
   void put_columns(Table& table, const std::string& suffix, const std::vector<MultipleTau::Row>& instants,
                    const std::vector<MultipleTau::Row>& means) const {
     Column lag{"lag", "time", {}}, window{"window", "time", {}}, until{"integral_to", "time", {}};
-    Column values{"correlation" + suffix, "(length / time)^2", {}},
-        errors{"correlation" + suffix + "_error", "(length / time)^2", {}};
+    Column values{"correlation" + suffix, "length^2 / time^2", {}},
+        errors{"correlation" + suffix + "_error", "length^2 / time^2", {}};
     Column diffusion{"diffusion" + suffix, "length^2 / time", {}},
         its_errors{"diffusion" + suffix + "_error", "length^2 / time", {}};
     for (std::size_t r = 0; r < means.size(); ++r) {

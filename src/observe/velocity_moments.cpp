@@ -54,10 +54,10 @@ class VelocityMoments final : public SavedObservable<VelocityMoments> {
     for (std::size_t s = 0; s < species_.size(); ++s) {
       const Series& series = species_[s];
       put(found, "speed" + run_.suffix(s), "length / time", series.speed);
-      put(found, "v2" + run_.suffix(s), "(length / time)^2", series.second);
-      put(found, "v4" + run_.suffix(s), "(length / time)^4", series.fourth);
-      put(found, "vx3" + run_.suffix(s), "(length / time)^3", series.x3);
-      put(found, "vy3" + run_.suffix(s), "(length / time)^3", series.y3);
+      put(found, "v2" + run_.suffix(s), "length^2 / time^2", series.second);
+      put(found, "v4" + run_.suffix(s), "length^4 / time^4", series.fourth);
+      put(found, "vx3" + run_.suffix(s), "length^3 / time^3", series.x3);
+      put(found, "vy3" + run_.suffix(s), "length^3 / time^3", series.y3);
       put_kurtosis(found, "kurtosis" + run_.suffix(s), series.kurtosis);
       put_kurtosis(found, "kurtosis_x" + run_.suffix(s), series.kurtosis_x);
       put_kurtosis(found, "kurtosis_y" + run_.suffix(s), series.kurtosis_y);

@@ -9,7 +9,7 @@ namespace carom {
 TextTable horizon_table(const Horizon& horizon, const std::string& which) {
   TextTable table{
       .title = "How far the exact trajectory can be trusted",
-      .columns = {"engine", "bits", "right until t", "collisions per disk", "price"},
+      .columns = {"engine", "bits", "right until t (scene units)", "collisions per disk", "price"},
       .caption = fmt::format(
           "Until the largest distance of a disk from where the next better precision has it reaches {:g} diameters{}{}. "
           "~: extrapolated with the Lyapunov exponent. Price: processor time over that of double precision "

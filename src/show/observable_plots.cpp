@@ -1,5 +1,7 @@
 #include "show/observable_plots.hpp"
 
+#include "show/unit_words.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -205,10 +207,6 @@ std::vector<const Column*> with_species(const Table& table, std::string_view bas
   return found;
 }
 
-std::string title_with_unit(const std::string& title, const Column& column) {
-  return column.unit.empty() ? title : fmt::format("{} ({})", title, column.unit);
-}
-
 Series series_of(const Table& table, const Column& x, const Column& y, std::string name, int group) {
   constexpr std::size_t most_points = 130;  // with error bars; more run into each other
   Series series{.name = std::move(name), .x = x.values, .y = y.values, .style = Style::points, .group = group};
@@ -242,8 +240,8 @@ Plot plot_of(const Frame& frame, const Table& table, const RunTheory& theory) {
       const Column* const x = *columns.x == '\0' ? &table.columns.front() : column_of(table, columns.x);
       if (x == nullptr) continue;
       if (plot.series.empty()) {
-        plot.x.title = title_with_unit(frame.x, *x);
-        plot.y.title = title_with_unit(frame.y, *column);
+        plot.x.title = with_unit(frame.x, x->unit);
+        plot.y.title = with_unit(frame.y, column->unit);
         plot.marks = theory.marks(table, column->name);
       }
       plot.series.push_back(series_of(table, *x, *column, name_of(columns, *column, found.size() == 1), group));
@@ -271,11 +269,11 @@ Plot plain_plot_of(const Table& table) {
   std::string id = table.name;
   std::replace_if(
       id.begin(), id.end(), [](char c) { return !((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')); }, '-');
-  Plot plot{.id = id, .title = table.name, .x = {.title = title_with_unit(table.columns.front().name, table.columns.front())}};
+  Plot plot{.id = id, .title = table.name, .x = {.title = with_unit(table.columns.front().name, table.columns.front().unit)}};
   int group = 0;
   for (std::size_t c = 1; c < table.columns.size(); ++c)
     if (const Column& column = table.columns[c]; !is_error(column))
-      plot.series.push_back(series_of(table, table.columns.front(), column, title_with_unit(column.name, column), group++));
+      plot.series.push_back(series_of(table, table.columns.front(), column, with_unit(column.name, column.unit), group++));
   return plot;
 }
 

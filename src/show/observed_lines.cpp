@@ -1,6 +1,7 @@
 #include "show/observed_lines.hpp"
 
 #include "show/number_words.hpp"
+#include "show/unit_words.hpp"
 
 #include <fmt/format.h>
 
@@ -35,7 +36,7 @@ std::string observed_lines(const std::vector<Measurement>& observables, const Sc
       if (!scalar.value) text += fmt::format("  {:<26}{}\n", scalar.name, scalar.note);
       if (scalar.value && scalar.unit.empty()) text += fmt::format("  {:<26}{}\n", scalar.name, number_words(scalar));
       if (scalar.value && !scalar.unit.empty())
-        text += fmt::format("  {:<26}{:<24}{}\n", scalar.name, number_words(scalar), scalar.unit);
+        text += fmt::format("  {:<26}{:<24}({})\n", scalar.name, number_words(scalar), unit_words(scalar.unit));
     }
     for (const Table& table : measured.tables) {
       const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();

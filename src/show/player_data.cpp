@@ -50,7 +50,7 @@ Json description_of(const RunReader& run) {
   json["keepsMomentum"] = Json::array({keeps_momentum(scene.box, effects, 0), keeps_momentum(scene.box, effects, 1)});
   json["whyNoZ"] = why_no_Z(effects);
   json["Z"] = run.Z() ? Json(*run.Z()) : Json(nullptr);
-  json["facts"] = Json::array();
+  json["facts"] = Json::array({{"Units", "those of the scene; kB = 1"}});
   for (const auto& [name, value] : run.facts()) json["facts"].push_back({name, value});
   return json;
 }

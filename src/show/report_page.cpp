@@ -9,6 +9,7 @@
 #include "show/run_theory.hpp"
 #include "show/scene_words.hpp"
 #include "show/summary_rows.hpp"
+#include "show/unit_words.hpp"
 #include "theory/equation_of_state.hpp"
 
 #include <fmt/format.h>
@@ -140,7 +141,8 @@ Section pressure(const RunReport& report, const RunTheory& theory) {
 
 TextTable table_of_numbers(const RunReport& report, const RunTheory& theory) {
   TextTable table{.title = "Numbers",
-                  .columns = {"observable", "number", "value ± standard error", "theory", "whose", "unit", "remark"},
+                  .columns = {"observable", "number", "value ± standard error", "theory", "whose", "unit (of the scene)",
+                              "remark"},
                   .caption = "Averages over time, or where it says so over collisions. Theory stands where it is of this scene."};
   for (const Measurement& measured : report.observables) {
     for (const Scalar& scalar : measured.scalars) {
@@ -149,7 +151,8 @@ TextTable table_of_numbers(const RunReport& report, const RunTheory& theory) {
       if (scalar.average == Average::collisions) remark = remark.empty() ? "over collisions" : "over collisions; " + remark;
       if (scalar.value && !scalar.error) remark += remark.empty() ? "no error known" : "; no error known";
       table.rows.push_back({measured.name, scalar.name, scalar.value ? value_text(*scalar.value, scalar.error) : "–",
-                            expected ? fmt::format("{:.5g}", expected->value) : "", expected ? expected->source : "", scalar.unit,
+                            expected ? fmt::format("{:.5g}", expected->value) : "", expected ? expected->source : "",
+                            unit_words(scalar.unit),
                             remark});
     }
   }
@@ -175,12 +178,12 @@ Page report_page(const RunRecord& record, const std::optional<PlayerData>& playe
   const RunTheory theory(record);
   Page page{.generator = "carom report",
             .title = report.title.empty() ? report.scene : report.title,
-            .subtitle = fmt::format("{}, packing fraction {:.4g}; {}; seed {}, {} {}",
+            .subtitle = fmt::format("{}, packing fraction {:.4g}; {}; seed {}, {} {}; numbers in scene units",
                                     counted(static_cast<std::uint64_t>(report.disks), "disk"), report.packing_fraction,
                                     fmt::join(report.effects, ", "), report.seed, report.time_step ? "method" : "engine",
                                     method_words(report.engine, report.time_step)),
-            .lead = fmt::format("Until time {:.6g}, {}; it took {}.", report.time, why_stopped(report, scene_of(record)),
-                                duration(report.wall_seconds)),
+            .lead = fmt::format("The run ended at time {:.6g}, {}. It took {}.", report.time,
+                                why_stopped(report, scene_of(record)), duration(report.wall_seconds)),
             .key_numbers = key_numbers(report)};
   if (!report.measured)
     page.lead += " The run ended before anything was measured; its clock and counts are of the equilibration.";

@@ -1,5 +1,7 @@
 #include "show/report_parts.hpp"
 
+#include "show/unit_words.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +27,7 @@ struct Sampled {
 };
 
 Plot plot_of(const RunRecord::Source& source, const char* id, const char* title, const char* y, const std::vector<Sampled>& all) {
-  Plot plot{.id = id, .title = title, .x = {.title = "time"}, .y = {.title = y}};
+  Plot plot{.id = id, .title = title, .x = {.title = with_unit("time", "time")}, .y = {.title = y}};
   bool any_changes = false;
   for (const Sampled& one : all) {
     const std::vector<double>* const values = sampled(source, one.dataset);
@@ -52,7 +54,7 @@ Plot energy_plot(const RunRecord::Source& source) {
   Plot plot{.id = "energy",
             .title = "Energy, as far as it changes",
             .caption = "(E(t) - E(0)) / E(0) at the samples: nothing but rounding.",
-            .x = {.title = "time"},
+            .x = {.title = with_unit("time", "time")},
             .y = {.title = "relative change"}};
   if (energy == nullptr || energy->size() < 2 || energy->front() == 0.0) return plot;
   Series series{.name = "energy", .x = source.times, .style = Style::line};
@@ -63,8 +65,9 @@ Plot energy_plot(const RunRecord::Source& source) {
 
 std::vector<Plot> plots_over_time(const RunRecord::Source& source) {
   std::vector<Plot> plots = {
-      plot_of(source, "temperature", "Temperature", "kT", {{"temperature", "of velocities"}, {"spin_temperature", "of spins"}}),
-      plot_of(source, "energies-over-time", "Energy, by kind", "energy",
+      plot_of(source, "temperature", "Temperature", "kT (energy in scene units)",
+              {{"temperature", "of velocities"}, {"spin_temperature", "of spins"}}),
+      plot_of(source, "energies-over-time", "Energy, by kind", "energy (scene units)",
               {{"kinetic_energy", "kinetic"},
                {"spin_energy", "of spins"},
                {"potential_energy", "potential"},

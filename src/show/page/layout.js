@@ -18,10 +18,16 @@ function markLabel(mark, plot, theme) {
   return { ...(mark.axis === "x" ? upright : level), ...look, text: plotText(mark.label) };
 }
 
-function axisLayout(axis, theme, isEmpty) {
+/// A long title of an upright axis in two lines, its unit in the second, so that nothing is cut off.
+function axisTitle(axis, isUpright) {
+  const text = plotText(axis.title);
+  return isUpright && axis.title.length > 36 ? text.replace(/ (?=\([^()]*\)$)/, "<br>") : text;
+}
+
+function axisLayout(axis, theme, isEmpty, isUpright = false) {
   return {
     type: axis.log ? "log" : "linear",
-    title: { text: plotText(axis.title), standoff: 10 },
+    title: { text: axisTitle(axis, isUpright), standoff: 10 },
     automargin: true,
     exponentformat: "power",
     tickfont: { size: axis.log ? 10.8 : 12 },  // plotly sets powers of ten a quarter larger
@@ -52,7 +58,7 @@ function plotFigure(plot, theme) {
       font: { family: theme.font, size: 13, color: theme.ink },
       margin: { l: 64, r: 12, t: 12, b: 52 },
       xaxis: axisLayout(plot.x, theme, isEmpty),
-      yaxis: axisLayout(plot.y, theme, isEmpty),
+      yaxis: axisLayout(plot.y, theme, isEmpty, true),
       showlegend: plot.series.length > 1,
       legend: { orientation: "h", x: 0, xanchor: "left", y: 1.02, yanchor: "bottom", bgcolor: "rgba(0,0,0,0)" },
       hovermode: "closest",

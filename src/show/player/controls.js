@@ -45,7 +45,7 @@ function showSettings() {
   control("palette").disabled = Boolean(colourings[settings.colourBy].isKind);
   control("theme").value = settings.theme;
   control("rate").value = positionOf(settings.rate);
-  control("rate-text").textContent = `${shortNumber(settings.rate)} per second`;
+  control("rate-text").textContent = `time ${shortNumber(settings.rate)} per second`;
   control("follow").value = settings.followed >= 0 ? settings.followed : "";
   showLegend();
   isStale = true;
