@@ -4,6 +4,7 @@
 #include "cli/arguments.hpp"
 
 #include "cli/manual.hpp"
+#include "scene/known_keys.hpp"
 #include "show/number_words.hpp"
 #include "study/hard_case.hpp"
 
@@ -403,7 +404,6 @@ void add_hardcases(CLI::App& program, Action& action, const Invocation& invocati
       [&action, options, invocation] { action = [options, invocation] { return hardcases(*options, invocation); }; });
 }
 
-/// The parser's own sentence for an unknown command says only that one is missing.
 /// Asked for when the program is installed, and not listed.
 void add_manual(CLI::App& program, Action& action) {
   const auto print = [&](const std::string& name, const std::string& what, auto text) {
@@ -419,6 +419,11 @@ void add_manual(CLI::App& program, Action& action) {
   print("completion", "Print what bash needs to complete words", [](const CLI::App& of) { return bash_completion(of); });
 }
 
+std::string nearest(const std::string& word, const std::vector<std::string>& words) {
+  return std::string(detail::nearest_word(word, std::vector<std::string_view>(words.begin(), words.end())));
+}
+
+/// The parser's own sentence for an unknown command says only that one is missing.
 void require_known_command(const CLI::App& program, const std::string& word) {
   if (word.starts_with('-')) return;
   std::vector<std::string> listed;
@@ -426,7 +431,34 @@ void require_known_command(const CLI::App& program, const std::string& word) {
     if (command->get_name() == word) return;
     if (!command->get_group().empty()) listed.push_back(command->get_name());
   }
-  throw UsageError(fmt::format("{}: there is no such command; choose one of: {}", word, fmt::join(listed, ", ")));
+  const std::string near = nearest(word, listed);
+  const std::string instead = word.ends_with(".toml")               ? fmt::format("carom run {} runs a scene", word)
+                              : word == "help" || word == "version" ? fmt::format("it is carom --{}", word)
+                              : !near.empty()                       ? fmt::format("did you mean carom {}?", near)
+                                                                    : fmt::format("choose one of: {}", fmt::join(listed, ", "));
+  throw UsageError(fmt::format("{}: there is no such command; {}", word, instead));
+}
+
+/// The same for its options: the parser says what was not expected, and not what is.
+void require_known_options(const CLI::App& program, int argc, char** argv) {
+  if (program.get_subcommands().empty()) return;
+  const CLI::App* command = program.get_subcommands().front();
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back(name);
+  const bool changes_scenes = std::find(known.begin(), known.end(), "set") != known.end();
+  for (int k = 2; k < argc; ++k) {
+    const std::string_view argument = argv[k];
+    if (argument == "--") return;
+    const std::string word(argument.substr(std::min<std::size_t>(2, argument.size()), argument.find('=') - 2));
+    if (!argument.starts_with("--") || std::find(known.begin(), known.end(), word) != known.end()) continue;
+    const std::string near = nearest(word, known);
+    const bool is_near = !near.empty() && 3 * detail::edit_distance(word, near) <= word.size();  // --out is not meant by --count
+    throw UsageError(fmt::format("--{}: carom {} has no such option; {}", word, argv[1],
+                                 is_near          ? fmt::format("did you mean --{}?", near)
+                                 : changes_scenes ? "what a scene says is changed with --set, such as --set run.time=5"
+                                                  : fmt::format("carom {} --help lists them", argv[1])));
+  }
 }
 
 }  // namespace
@@ -458,6 +490,9 @@ Action parse_arguments(int argc, char** argv) {
   add_manual(program, action);
   if (argc > 1) require_known_command(program, argv[1]);
   try {
+    if (argc == 1)
+      throw UsageError(
+          "A subcommand is required: carom run SCENE runs a scene, carom init writes one to start from, carom --help lists all");
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help or --version
     std::ostringstream text;
@@ -466,6 +501,9 @@ Action parse_arguments(int argc, char** argv) {
       fmt::print("{}", answer);
       return exit_done;
     };
+  } catch (const CLI::ExtrasError& error) {
+    require_known_options(program, argc, argv);
+    throw UsageError(fmt::format("{} (carom {} --help says what is possible)", error.what(), argv[1]));
   } catch (const CLI::ParseError& error) {
     const std::vector<CLI::App*> named = program.get_subcommands();
     throw UsageError(fmt::format("{} (carom{} --help says what is possible)", error.what(),

@@ -92,15 +92,15 @@ std::string absent(const Effects& effects) {
   const auto put = [&](bool present, const char* name) {
     if (!present) names.push_back(name);
   };
-  put(effects.collision.restitution.has_value(), "loss of energy");
+  put(effects.collision.restitution.has_value(), "loss of energy in collisions");
   put(effects.collision.roughness.has_value(), "friction and spin");
   put(effects.gravity.has_value(), "gravity");
-  put(any_wall(effects, [](const WallProperties& wall) { return wall.present(); }), "walls that move or heat");
+  put(any_wall(effects, [](const WallProperties& wall) { return wall.present(); }), "moving, thermal or inelastic walls");
   put(!effects.obstacles.empty(), "obstacles");
-  put(effects.growth.has_value(), "growing disks");
+  put(effects.growth.has_value(), "growth");
   put(effects.thermostat.has_value(), "a thermostat");
   put(effects.shear.has_value(), "shear");
-  put(effects.square_well.has_value(), "attraction");
+  put(effects.square_well.has_value(), "attraction at a distance");
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

@@ -74,8 +74,8 @@ RunTheory::RunTheory(const RunRecord& record)
     find_Z();
   else
     why_not_Z_ =
-        "The equation of state is that of equal elastic disks in a periodic box with nothing else acting, which this "
-        "scene is not.";
+        "No theory stands beside it: equations of state are of equal elastic disks in a periodic box on which nothing else "
+        "acts.";
 }
 
 void RunTheory::find_Z() {
@@ -84,7 +84,7 @@ void RunTheory::find_Z() {
   } else if (eta_ <= densest_fluid) {
     Z_ = {theory::kolafa_rottner(eta_), "Kolafa & Rottner, infinitely many disks"};
   } else {
-    why_not_Z_ = fmt::format("The equation of state is that of the fluid, which ends at a packing fraction of 0.70.");
+    why_not_Z_ = "No theory stands beside it: the equation of state of the fluid ends at a packing fraction of 0.70.";
   }
 }
 

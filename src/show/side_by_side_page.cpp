@@ -114,7 +114,8 @@ std::string growth_words(const SideBySide& shown, const std::optional<Lyapunov>&
 std::string energy_words(const SideBySide& shown) {
   const std::string changes = fmt::format("{:.1g} of it on the exact side and {:.1g} on the other", shown.energy_change_exact,
                                           shown.energy_change_stepped);
-  if (shown.energy_change_stepped < 1e-9) return "Energy is kept, to " + changes + ": it shows nothing of all this.";
+  if (shown.energy_change_stepped < 1e-9)
+    return "Energy is kept: the largest change is " + changes + ". It tells nothing of overlaps and distances.";
   return "Energy changes, by up to " + changes + ".";
 }
 
@@ -168,7 +169,8 @@ std::string side_by_side_page(const SideBySide& shown, const Scene& scene, const
   if (lyapunov && lyapunov->is_chaotic()) json["lyapunov"] = {{"perTime", lyapunov->per_time}};
   json["words"] = words_of(shown, scene, lyapunov);
   const BuildInfo& build = build_info();
-  json["facts"] = Json::array({{"Scene", scene.source},
+  json["facts"] = Json::array({{"Units", "those of the scene; distances in mean diameters"},
+                               {"Scene", scene.source},
                                {"Seed", std::to_string(scene.run.seed)},
                                {"Exact side", shown.engine + " engine"},
                                {"Command", command_line},

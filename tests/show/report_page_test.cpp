@@ -147,7 +147,7 @@ TEST_F(ReportPage, AMixtureHasItsSpeciesInEveryPlotEachWithItsLaw) {
   const Page page = report_page(recorded(mixture + all_that_can_be.substr(0, all_that_can_be.find("heat_cond"))), std::nullopt);
   for (const char* const name : {"all disks", "light", "law for 60 disks, light"})
     EXPECT_NE(series_of(page, "speeds", name), nullptr) << name;
-  EXPECT_THAT(words_of(page, "Pressure"), HasSubstr("which this scene is not"));
+  EXPECT_THAT(words_of(page, "Pressure"), HasSubstr("on which nothing else acts"));
 }
 
 /// Of a density that is given at even steps from the first of them on.
@@ -246,7 +246,7 @@ TEST_F(ReportPage, SaysHowFarTheTrajectoryCanBeTrustedWhereTheRunAsked) {
   read.report.horizon = horizon;
   EXPECT_THAT(
       words_of(report_page(read, std::nullopt), "How exact it is"),
-      AllOf(HasSubstr("In double precision this trajectory is right to 0.001 sigma until t = 12.25, 40 collisions per disk"),
+      AllOf(HasSubstr("In double precision this trajectory is right to 0.001 diameters until t = 12.25, 40 collisions per disk"),
             HasSubstr("24 | 3.5 | 7 | – |"), HasSubstr("53 | 12.25 | 40 | – |")));
 }
 
