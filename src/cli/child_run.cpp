@@ -100,6 +100,7 @@ class Child {
   /// where that is killed, and writes no more into directories that a next sweep may use.
   [[noreturn]] static void run(char** argv, int errors, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    signal(SIGUSR1, SIG_DFL);  // where the parent was started to ignore it, the child is not
     const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
     const bool ready = getppid() == parent && dup2(nothing, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0 &&
                        dup2(errors, STDERR_FILENO) >= 0;
@@ -149,7 +150,7 @@ RunEnd run_child(const Words& words, const StopRequest& stop, const std::functio
   while (child.listen(between_ticks)) {
     const bool go_on = tick();
     if (stopped || (go_on && !stop.made())) continue;
-    child.send(stop.for_children());
+    child.send(SIGUSR1);  // which asks to stop, and never ends a run at once, whatever else comes to the child
     stopped = true;
   }
   const int status = child.status();

@@ -1,32 +1,53 @@
-// SIGINT and SIGTERM as a flag.
-
 #include "cli/signals.hpp"
 
 #include <signal.h>  // sigaction is POSIX, not C++
+#include <time.h>    // clock_gettime too
 
 #include <array>
+#include <cerrno>
 
 namespace carom::cli {
 
 namespace {
 
-constexpr std::array stopping = {SIGINT, SIGTERM};
+constexpr std::array stopping = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1};
+constexpr double patience = 0.5;  // s
 
 volatile sig_atomic_t requested = 0;
+volatile sig_atomic_t insisted = 0;  ///< SIGINT or SIGTERM has come, at `first_insisted`
+timespec first_insisted;
 std::array<struct sigaction, stopping.size()> before;
 
-extern "C" void request_stop(int number) { requested = number; }
+/// Calls only what a signal handler may. No other stopping signal comes in between: all are blocked while it runs.
+extern "C" void request_stop(int number) {
+  requested = 1;
+  if (number != SIGINT && number != SIGTERM) return;
+  const int error = errno;
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (insisted == 0) {
+    first_insisted = now;
+    insisted = 1;
+  } else if (static_cast<double>(now.tv_sec - first_insisted.tv_sec) +
+                 1e-9 * static_cast<double>(now.tv_nsec - first_insisted.tv_nsec) >=
+             patience) {
+    signal(number, SIG_DFL);
+    raise(number);  // as soon as this handler has returned
+  }
+  errno = error;
+}
 
 }  // namespace
 
 StopRequest::StopRequest() {
   requested = 0;
+  insisted = 0;
+  struct sigaction action = {};
+  action.sa_handler = request_stop;
+  action.sa_flags = SA_RESTART;  // a write that the signal meets goes on
+  sigemptyset(&action.sa_mask);
+  for (const int number : stopping) sigaddset(&action.sa_mask, number);
   for (std::size_t i = 0; i < stopping.size(); ++i) {
-    struct sigaction action = {};
-    action.sa_handler = request_stop;
-    // The handler is gone after its first call, and a write that the signal meets goes on.
-    action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
-    sigemptyset(&action.sa_mask);
     sigaction(stopping[i], nullptr, &before[i]);
     if (before[i].sa_handler != SIG_IGN) sigaction(stopping[i], &action, nullptr);
   }
@@ -37,10 +58,5 @@ StopRequest::~StopRequest() {
 }
 
 bool StopRequest::made() const { return requested != 0; }
-
-int StopRequest::for_children() const {
-  const bool interrupt_ignored = before.front().sa_handler == SIG_IGN;
-  return requested == SIGTERM && !interrupt_ignored ? SIGINT : SIGTERM;
-}
 
 }  // namespace carom::cli

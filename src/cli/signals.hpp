@@ -1,10 +1,13 @@
 #pragma once
-// Ctrl-C and SIGTERM while a scene runs: a request to stop at the next occasion, with the files completed.
+// Signals that ask a run or a study to stop: it ends at the next occasion, with its files completed and its state saved.
 
 namespace carom::cli {
 
-/// From construction to destruction the first SIGINT or SIGTERM only sets a flag; the second ends the program at once. A
-/// signal that the program was started to ignore (as by nohup) stays ignored.
+/// While a StopRequest lives, SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is closed), SIGXCPU (the limit of processor time) and
+/// SIGUSR1 (the warning of a batch system) only set a flag, however often they come. A SIGINT or SIGTERM ends the program at once
+/// where one of the two came half a second or more before: a person who presses Ctrl-C again is obeyed, and GNU timeout, which sends
+/// its signal to the process and then to its group, loses nothing. A signal that the program was started to ignore (as by nohup)
+/// stays ignored.
 class StopRequest {
  public:
   StopRequest();
@@ -13,9 +16,6 @@ class StopRequest {
   StopRequest& operator=(const StopRequest&) = delete;
 
   [[nodiscard]] bool made() const;
-  /// The signal to send to child processes that are to stop too. Where SIGTERM came, to them as well perhaps, it is SIGINT: the
-  /// second of one kind would end them at once. But where SIGINT is ignored here, it is ignored there.
-  [[nodiscard]] int for_children() const;
 };
 
 }  // namespace carom::cli

@@ -149,8 +149,20 @@ TEST_P(Interrupted, RunSavesWhatItHasAndExits130) {
   for (const auto& entry : fs::directory_iterator(file("gas"))) EXPECT_THAT(entry.path().string(), Not(HasSubstr(".partial")));
 }
 
-INSTANTIATE_TEST_SUITE_P(By, Interrupted, ::testing::Values(SIGINT, SIGTERM),
-                         [](const auto& signal) { return std::string(signal.param == SIGINT ? "Sigint" : "Sigterm"); });
+INSTANTIATE_TEST_SUITE_P(By, Interrupted, ::testing::Values(SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1),
+                         [](const auto& signal) { return std::string("SIG") + sigabbrev_np(signal.param); });
+
+TEST_F(RunCommand, SignalsThatComeTogetherEndNoRunUnsaved) {
+  // GNU timeout sends two at once; a batch system that loses patience sends others.
+  const auto signal_once_it_runs = [&](pid_t child) {
+    EXPECT_TRUE(wait_until([&] { return fs::exists(file("gas/trajectory.h5md.partial")); }));
+    for (const int number : {SIGTERM, SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGTERM}) kill(child, number);
+  };
+  const Outcome outcome = carom({"run", "gas.toml", "--set", "run.time=1e9", "-q"}, signal_once_it_runs);
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_EQ(summary()["stopped"], "interrupted");
+  EXPECT_TRUE(fs::exists(file("gas/checkpoint.h5")));
+}
 
 }  // namespace
 }  // namespace carom::test
