@@ -12,3 +12,15 @@ add_test(NAME architecture.UpwardArrowIsFound COMMAND ${CMAKE_COMMAND} -D SOURCE
 set_tests_properties(architecture.UpwardArrowIsFound PROPERTIES PASS_REGULAR_EXPRESSION
   "open.hpp: includes engine/textbook.hpp.*old.cpp: no room.*core/upward.hpp: includes engine/textbook.hpp, but core may not use engine\n")
 set_tests_properties(architecture.IncludeArrowsPointDown architecture.UpwardArrowIsFound PROPERTIES LABELS quick)
+
+# What the documentation names: tests, hard cases, files. The check sees one of each that is not there, and a claim that nothing checks.
+set(check_claims ${CMAKE_CURRENT_SOURCE_DIR}/architecture/check_claims.cmake)
+add_test(NAME architecture.ClaimsNameWhatIsThere COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -P ${check_claims})
+set(idle_talk ${CMAKE_CURRENT_BINARY_DIR}/idle_talk)
+file(WRITE ${idle_talk}/tests/there_test.cpp "TEST(There, Is) {}\n")
+file(WRITE ${idle_talk}/docs/claims.md
+     "| claim | `There.Is`, `There.…`, `There.I` |\n| claim | `NotThere.…`, `tests/not_there.cpp` |\n| claim | hard case `not_there` |\n| claim |  |\n")
+add_test(NAME architecture.ClaimsOfNothingAreFound COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${idle_talk} -P ${check_claims})
+set_tests_properties(architecture.ClaimsOfNothingAreFound PROPERTIES PASS_REGULAR_EXPRESSION
+  "no test There.I\n.*no test NotThere.…\n.*no tests/not_there.cpp\n.*no hard case not_there\n.*nothing checks: . claim .  .\n")
+set_tests_properties(architecture.ClaimsNameWhatIsThere architecture.ClaimsOfNothingAreFound PROPERTIES LABELS quick)
