@@ -123,6 +123,10 @@ class Scene:
     def table(self, name):
         return self.tables.get(name, {})
 
+    def number(self, value):
+        """A number of a table as the scene file has it."""
+        return value.in_units(self.units) if isinstance(value, Quantity) else value
+
     def without(self, *names):
         other = self.copy()
         for name in names:
