@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <stdexcept>
 
 namespace carom {
@@ -85,8 +84,10 @@ Validation validate(const ValidateOptions& options, const ValidateHooks& hooks, 
     } catch (const validation::Interrupted&) {
       return validation;
     } catch (const std::exception& error) {
-      result.checks.push_back(
-          {.name = "the trial can be run", .theory = error.what(), .measured = {std::numeric_limits<double>::quiet_NaN(), 0.0}});
+      result.checks.push_back({.name = "trials that ran to their end",
+                               .theory = fmt::format("it ended with an error: {}", error.what()),
+                               .expected = 1.0,
+                               .measured = {0.0, 0.0}});
     }
     result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (hooks.done) hooks.done(result);
