@@ -621,6 +621,9 @@ class Engine {
   /// Time, velocities, scale and walls of state(); the rest is left as it is.
   void look_at_velocities(State& state) const;
 
+  /// Puts the clock back to an earlier time, since which nothing has happened.
+  void set_back(const Instant& time) { now_ = time.since<double>(epoch_); }
+
   /// Makes now the zero of time and forgets the totals.
   void reset_clock() {
     begin_epoch(now_);

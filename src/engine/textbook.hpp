@@ -463,6 +463,9 @@ class TextbookEngine {
   /// The state at now(), computed on the side: nothing in the engine changes.
   [[nodiscard]] State state() const;
 
+  /// Puts the clock back to an earlier time, since which nothing has happened.
+  void set_back(const Instant& time) { now_ = time.since<Real>(epoch_); }
+
   /// Makes now the zero of time and forgets the totals.
   void reset_clock() {
     begin_epoch(now_);

@@ -51,6 +51,8 @@ class AnyEngine {
   virtual double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) = 0;
   /// All velocities and spins become `factor` times what they are.
   virtual void scale_velocities(double factor) = 0;
+  /// Puts the clock back to an earlier time, since which nothing has happened: no event, no new epoch.
+  virtual void set_back(const Instant& time) = 0;
   virtual void reset_clock() = 0;
   virtual void record_events(bool on) = 0;
   [[nodiscard]] virtual std::vector<Event> take_events() = 0;
@@ -112,6 +114,7 @@ class EngineAdapter final : public AnyEngine {
     if constexpr (requires { engine_.scale_velocities(factor); }) return engine_.scale_velocities(factor);
     refuse_to_be_driven();
   }
+  void set_back(const Instant& time) override { engine_.set_back(time); }
   void reset_clock() override {
     engine_.reset_clock();
 #if CAROM_CHECK_INVARIANTS

@@ -40,6 +40,7 @@ class DrivenEngine final : public AnyEngine {
     return engine_->set_velocity(i, v, spin);
   }
   void scale_velocities(double factor) override { engine_->scale_velocities(factor); }
+  void set_back(const Instant& time) override { engine_->set_back(time); }
   void reset_clock() override;
   void record_events(bool on) override { engine_->record_events(on); }
   [[nodiscard]] std::vector<Event> take_events() override { return engine_->take_events(); }

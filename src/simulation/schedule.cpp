@@ -144,12 +144,18 @@ class Schedule {
     ends_by_time_ = run_.time.has_value();
     const Instant end = ends_by_time_ ? Instant{*run_.time, 0.0} : forever;
     const std::uint64_t collisions = run_.collisions.value_or(no_limit);
-    for (Instant when = next_sample(end); when < forever; when = next_sample(end)) {
+    for (Instant when = next_sample(); when < forever; when = next_sample()) {
+      const bool beyond = end < when;  // by the rounding of k * step, as 3 * 0.1 is beyond 0.3
+      if (beyond && !advance_and_count(end, collisions)) return;
+      const Instant before = engine_.now();
+      const std::uint64_t happened = happenings();
       const bool arrived = advance_and_count(when, collisions);
       const bool at_start = !(Instant{} < when);
       if (!arrived && !(at_start && collisions == 0)) return;  // the start is sampled even where nothing is to happen
-      take_samples(when, end);
+      take_samples(when);
       if (!arrived) return;
+      // The run ends at its end, whether it is sampled or not.
+      if (beyond && happenings() == happened) engine_.set_back(before);
       if (is_hopeless()) {
         stop(StopReason::no_collisions);
         return;
@@ -220,21 +226,26 @@ class Schedule {
     }
   }
 
-  /// The last product may lie beyond the end by its rounding: 3 * 0.1 > 0.3. The run ends at its end.
-  [[nodiscard]] static Instant time_of(const Grid& grid, const Instant& end) {
-    return grid.k > grid.last ? forever : std::min(grid.times.at(grid.k * grid.stride), end);
+  /// `forever` where no sample is left. That of the last sample does not depend on where the run ends.
+  [[nodiscard]] static Instant time_of(const Grid& grid) {
+    return grid.k > grid.last ? forever : grid.times.at(grid.k * grid.stride);
   }
 
   /// `forever` where no sample is left.
-  [[nodiscard]] Instant next_sample(const Instant& end) const {
+  [[nodiscard]] Instant next_sample() const {
     Instant next = forever;
-    for (const Grid& grid : grids_) next = std::min(next, time_of(grid, end));
+    for (const Grid& grid : grids_) next = std::min(next, time_of(grid));
     return next;
   }
 
+  /// Events so far, and new epochs.
+  [[nodiscard]] std::uint64_t happenings() const {
+    return detail::all_events(engine_.totals()) + engine_.totals().numerics.epochs;
+  }
+
   /// Of every grid that has one now; the state is that of all of them.
-  void take_samples(const Instant& when, const Instant& end) {
-    const auto due = [&](const Grid& grid) { return !(when < time_of(grid, end)); };
+  void take_samples(const Instant& when) {
+    const auto due = [&](const Grid& grid) { return !(when < time_of(grid)); };
     const auto looks = [&](const Grid& grid) {
       return due(grid) && (grid.hook == nullptr ? static_cast<bool>(hooks_.sample) : static_cast<bool>(grid.hook->sample));
     };

@@ -72,6 +72,9 @@ class Stepper {
     return state;
   }
 
+  /// Puts the clock back to an earlier time, since which no step was taken.
+  void set_back(const Instant& time) { now_ = time; }
+
   /// Makes now the zero of time and forgets the totals. A step that has just been taken is not taken again; one that is under way
   /// ends here, and the next is due at once.
   void reset_clock() {

@@ -172,30 +172,81 @@ TEST_P(ResumedSchedule, TheSameWithSamplesInBlocksAndCounted) {
 // The equilibration has about 9,000 collisions and as many other events; then there is a moment every few dozen of either.
 INSTANTIATE_TEST_SUITE_P(At, ResumedSchedule, testing::Values(1, 2, 3, 10, 40, 100));
 
-TEST(ResumedSchedule, EndsAtANewEnd) {
+/// A run with a sample and collisions that are written down as text, and its end as it is saved.
+struct Ended {
+  std::string log;
+  State state;
+  std::string simulation, schedule;
+};
+
+Ended run_to_its_end(const Scene& scene, const std::optional<FixedStep>& step, const Ended* from) {
+  std::istringstream simulation_in(from != nullptr ? from->simulation : ""), schedule_in(from != nullptr ? from->schedule : "");
+  Simulation simulation = from != nullptr ? restore_simulation(scene, simulation_in)
+                          : step          ? make_simulation(scene, *step)
+                                          : make_simulation(scene);
+  Ended ended;
+  RunHooks hooks;
+  if (from != nullptr) hooks.resume = &schedule_in;
+  const auto write_down = [&](const char* what, const State& state) {
+    append(ended.log, what, state.time);
+    for (Eigen::Index i = 0; i < state.positions.cols(); ++i) append(ended.log, "x", state.positions(0, i));
+  };
+  hooks.sample = [&](std::uint64_t, const State& state) { write_down("sample", state); };
+  for (const double grid : {0.05, 0.15})
+    hooks.grids.push_back({grid, [&](std::uint64_t, const State& state, const Totals&) { write_down("grid", state); }});
+  hooks.events = [&](std::span<const Event> events) {
+    for (const Event& event : events) append(ended.log, "event", event.time);
+  };
+  hooks.checkpoint = [&](const SavingMoment& moment) {
+    if (!moment.ended) return;
+    std::ostringstream simulation_out, schedule_out;
+    simulation.save(simulation_out);
+    moment.save(schedule_out);
+    ended.simulation = simulation_out.str();
+    ended.schedule = schedule_out.str();
+  };
+  const RunResult result = run_schedule(simulation, hooks);
+  EXPECT_EQ(result.stopped, StopReason::time);
+  EXPECT_EQ(result.samples, last_sample(scene.run) + 1);
+  if (!step) EXPECT_EQ(simulation.time(), *scene.run.time);  // a fixed step is taken at its own product
+  ended.state = simulation.state();
+  return ended;
+}
+
+TEST(ResumedSchedule, EndsAtANewEndAsIfItHadBeenTheFirst) {
   Scene scene = parse_scene(fluid);
   scene.observe.clear();
-  const auto state_at_end = [](const Scene& of, Saved* saved, const Saved* from) {
-    std::istringstream simulation_in(from != nullptr ? from->simulation : ""), schedule_in(from != nullptr ? from->schedule : "");
-    Simulation simulation = from != nullptr ? restore_simulation(of, simulation_in) : make_simulation(of);
-    RunHooks hooks;
-    if (from != nullptr) hooks.resume = &schedule_in;
-    hooks.checkpoint = [&](const SavingMoment& moment) {
-      if (saved == nullptr || !moment.ended) return;
-      std::ostringstream simulation_out, schedule_out;
-      simulation.save(simulation_out);
-      moment.save(schedule_out);
-      *saved = {simulation_out.str(), schedule_out.str(), ""};
-    };
-    const RunResult result = run_schedule(simulation, hooks);
-    EXPECT_EQ(result.stopped, StopReason::time);
-    EXPECT_EQ(result.samples, last_sample(of.run) + 1);
-    return simulation.state();
-  };
-  Saved end;
-  (void)state_at_end(scene, &end, nullptr);
-  scene.run.time = 100.0;
-  EXPECT_TRUE(same_bits(state_at_end(scene, nullptr, &end), state_at_end(scene, nullptr, nullptr)));
+  scene.run.equilibrate.reset();
+  // 0.3 and 0.7 lie before 3 * 0.1 and 7 * 0.1 as they are in binary, 2.0 and 0.45 beside none.
+  for (const double every : {0.1, 0.05, 0.07}) {
+    for (const std::optional<FixedStep>& step : {std::optional<FixedStep>{}, std::optional(FixedStep{"guarded", 0.01})}) {
+      scene.run.sample_every = every;
+      std::string log;
+      Ended end;
+      for (const double time : {0.3, 0.45, 0.7, 1.2, 2.0}) {
+        scene.run.time = time;
+        end = run_to_its_end(scene, step, log.empty() ? nullptr : &end);
+        log += end.log;
+        const Ended whole = run_to_its_end(scene, step, nullptr);
+        EXPECT_TRUE(log == whole.log) << every << " " << time;
+        EXPECT_TRUE(same_bits(end.state, whole.state)) << every << " " << time;
+      }
+    }
+  }
+}
+
+TEST(ResumedSchedule, EndsAtANewEndWithSamplesInBlocks) {
+  Scene scene = parse_scene(fluid);
+  scene.observe.clear();
+  scene.run.equilibrate.reset();
+  scene.run.sample_every.reset();
+  scene.run.sample_log = SampleLog{.base = 1.3, .per_block = 5, .block = 0.1};
+  scene.run.time = 0.3;
+  const Ended first = run_to_its_end(scene, {}, nullptr);
+  scene.run.time = 1.0;
+  const Ended second = run_to_its_end(scene, {}, &first), whole = run_to_its_end(scene, {}, nullptr);
+  EXPECT_TRUE(first.log + second.log == whole.log);
+  EXPECT_TRUE(same_bits(second.state, whole.state));
 }
 
 }  // namespace

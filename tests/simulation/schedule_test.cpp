@@ -88,7 +88,6 @@ TEST(Schedule, SamplesAreTheStatesAtTheProducts) {
   hooks.sample = [&](std::uint64_t k, const State& state) {
     EXPECT_EQ(k, next++);
     EXPECT_NEAR(state.time, 0.1 * static_cast<double>(k), 1e-15 * static_cast<double>(k));
-    if (k == 30) return;  // 30 * 0.1 > 3 by its rounding: the run ends at 3
     twin.run_until_sample(k, 0.1);
     EXPECT_TRUE(same_bits(state, twin.state())) << k;
   };
