@@ -101,7 +101,10 @@ std::string describe_directory(const fs::path& path) {
     for (const fs::path& file : {path / product, path / fmt::format("{}{}", product, partial_ending)}) {
       std::error_code error;
       const bool unfinished_checkpoint = file.extension() == partial_ending && product.starts_with("checkpoint");
-      if (!unfinished_checkpoint && fs::exists(file, error)) text += describe_file(file);
+      if (unfinished_checkpoint || !fs::exists(file, error)) continue;
+      const bool of_samples = product.ends_with(".xyz") || product.ends_with(".csv");
+      text += of_samples && fs::file_size(file, error) == 0 ? fmt::format("{}: no sample was written\n", file.string())
+                                                            : describe_file(file);
     }
   }
   if (text.empty()) {

@@ -85,6 +85,15 @@ TEST_F(Info, DescribesARunDirectoryFileByFile) {
                                          HasSubstr("samples.csv: "), HasSubstr("summary.json: ")));
 }
 
+TEST_F(Info, DescribesARunDirectoryWithoutASample) {
+  // A run that ends while it equilibrates, or that is killed at once, leaves a file of no frames.
+  write_text(out_ / "trajectory.xyz", "");
+  fs::rename(out_ / "samples.csv", out_ / "samples.csv.partial");
+  write_text(out_ / "samples.csv.partial", "");
+  EXPECT_THAT(describe_file(out_), AllOf(HasSubstr("trajectory.xyz: no sample was written"), HasSubstr("summary.json: "),
+                                         HasSubstr("samples.csv.partial: no sample was written")));
+}
+
 TEST_F(Info, DescribesAScene) {
   EXPECT_THAT(describe_file(fs::path(CAROM_SOURCE_DIR) / "docs/scenes/box.toml"),
               AllOf(HasSubstr("a scene for Carom, Disks in a square box"), HasSubstr("64 gas"), HasSubstr("reversal")));
