@@ -1,4 +1,4 @@
-// docs/python.md does what it says, where the packages are installed.
+// docs/python.md and the blocks of docs/output.md do what they say, where the packages are installed.
 
 #include "support/child_process.hpp"
 
@@ -6,26 +6,38 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
 
 namespace carom::test {
 namespace {
 
-TEST(ScenesPythonGuide, EveryBlockRunsOnTheFilesOfTheRunItNames) {
-  const TemporaryDirectory directory;
+/// Makes box/, which both pages read.
+void run_box(const TemporaryDirectory& directory) {
   const Outcome run = run_carom(directory.path(), {"run", CAROM_SOURCE_DIR "/docs/scenes/box.toml", "--set", "run.time=1",
                                                    "--set", "run.sample_every=0.01", "--xyz", "--csv", "--events"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
+}
+
+/// Runs the blocks of a page; exit code 77 where no Python has the packages.
+Outcome run_blocks(const TemporaryDirectory& directory, const std::string& page) {
+  Outcome outcome;
+  for (const char* python : {"/usr/bin/python3", "python3"}) {
+    outcome = run_program(directory.path(), {python, CAROM_SOURCE_DIR "/tests/io/run_guide.py", CAROM_SOURCE_DIR "/docs/" + page});
+    if (outcome.exit_code == 127) outcome.exit_code = 77;
+    if (outcome.exit_code != 77) break;
+  }
+  return outcome;
+}
+
+TEST(ScenesPythonGuide, EveryBlockRunsOnTheFilesOfTheRunItNames) {
+  const TemporaryDirectory directory;
+  run_box(directory);
   const Outcome gas = run_carom(
       directory.path(), {"run", CAROM_SOURCE_DIR "/docs/scenes/gas.toml", "--set", "run.sample_every=false", "--set",
                          "run.sample_log={ base = 1.3, per_block = 40, block = 100.0 }"});
   ASSERT_EQ(gas.exit_code, 0) << gas.err;
-  Outcome outcome;
-  for (const char* python : {"/usr/bin/python3", "python3"}) {
-    outcome =
-        run_program(directory.path(), {python, CAROM_SOURCE_DIR "/tests/io/run_guide.py", CAROM_SOURCE_DIR "/docs/python.md"});
-    if (outcome.exit_code != 77 && outcome.exit_code != 127) break;
-  }
-  if (outcome.exit_code == 77 || outcome.exit_code == 127) GTEST_SKIP() << "h5py, matplotlib or MDAnalysis is not installed";
+  const Outcome outcome = run_blocks(directory, "python.md");
+  if (outcome.exit_code == 77) GTEST_SKIP() << "h5py, matplotlib or MDAnalysis is not installed";
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   EXPECT_THAT(outcome.out, testing::HasSubstr("10 blocks"));
   // What numpy wrote is a start, as text and in its own format.
@@ -36,6 +48,18 @@ TEST(ScenesPythonGuide, EveryBlockRunsOnTheFilesOfTheRunItNames) {
   }
   for (const char* picture : {"speeds.png", "box.gif"})
     EXPECT_GT(std::filesystem::file_size(directory.file(picture)), 1000U) << picture;
+}
+
+TEST(ScenesOutputGuide, EveryBlockRunsOnTheFilesOfARun) {
+  const TemporaryDirectory directory;
+  run_box(directory);
+  const Outcome observe =
+      run_carom(directory.path(), {"run", CAROM_SOURCE_DIR "/docs/scenes/observe.toml", "--set", "run.time=20"});
+  ASSERT_EQ(observe.exit_code, 0) << observe.err;
+  const Outcome outcome = run_blocks(directory, "output.md");
+  if (outcome.exit_code == 77) GTEST_SKIP() << "h5py or MDAnalysis is not installed";
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, testing::HasSubstr("7 blocks"));
 }
 
 }  // namespace
