@@ -165,6 +165,8 @@ def draw(seed, number):
 class Gas:
     """What else is drawn to fit: sizes, rates and times in which length, speed and mass of a disk are some 1."""
 
+    overlaps = False
+
 
 def draw_disks(r, scene, walled):
     gas = Gas()
@@ -241,16 +243,18 @@ def list_places(r, scene, gas, walled, in_file):
     width = [gas.sides[0] / columns, gas.sides[1] / rows]
     room = 0.5 * min(width)
     tight = r.random() < 0.3
+    gas.overlaps = r.random() < 0.08
     aligned = r.random() < 0.3
     for one in scene.tables["disks"]:
         a = min(float(one["radius"]), room) if not tight else room * r.choice([1.0, 0.999999, 0.5, 0.25])
         if a == room and not any(walled) and 1 in (columns, rows):
             a = 0.9 * room  # else it would touch its own image
+        a *= r.uniform(0.8, 1.3) if gas.overlaps else 1.0
         one["radius"] = length(a)
         places = []
         for _ in range(one.pop("count")):
             field = fields.pop()
-            inside = [0.0 if aligned else 0.999 * (0.5 * w - a) * r.choice([r.uniform(-1.0, 1.0), 0.0]) for w in width]
+            inside = [0.0 if aligned else 0.999 * max(0.5 * w - a, 0.0) * r.choice([r.uniform(-1.0, 1.0), 0.0]) for w in width]
             places.append([length(low + w * (f + 0.5) + d) for low, w, f, d in zip(gas.lower, width, field, inside)])
         one["positions"] = places
     if in_file:
@@ -389,6 +393,8 @@ def draw_run(r, scene, gas):
         run["seed"] = r.choice([0, r.randrange(100), r.randrange(2**63)])
     if r.random() < 0.2:
         run["keep_momentum"] = True
+    if gas.overlaps:
+        run["accept_overlap"] = True
     tables["run"] = run
 
 
