@@ -119,9 +119,13 @@ Plot error_in_time(const Comparison& comparison) {
       {.axis = Mark::Across::x, .value = plan.in_free_times(plan.early_time()), .label = "methods are compared here"},
       {.axis = Mark::Across::y, .value = plan.horizon.tolerance, .label = fmt::format("{:g} diameters", plan.horizon.tolerance)}};
   const HorizonRow* row = plan.horizon.row(plan.horizon.engine);
-  if (row != nullptr && row->time)
-    plot.marks.push_back(
-        {.axis = Mark::Across::x, .value = plan.in_free_times(*row->time), .label = "horizon of double precision"});
+  if (row == nullptr || !row->time) return plot;
+  const double horizon = plan.in_free_times(*row->time);
+  if (*row->time <= plan.until()) {
+    plot.marks.push_back({.axis = Mark::Across::x, .value = horizon, .label = "horizon of double precision"});
+  } else {  // a line out there would leave the curves a corner of the plot
+    plot.caption += fmt::format(" The horizon of double precision lies beyond the end, at {:.3g} collisions per disk.", horizon);
+  }
   return plot;
 }
 

@@ -58,6 +58,24 @@ std::vector<CostPoint> some_costs(double packing_fraction) {
   return costs;
 }
 
+TEST(ComparePage, AHorizonBeyondTheDataIsToldAndStretchesNoAxis) {
+  Comparison comparison = KnownLaws{}.comparison();
+  HorizonRow row;
+  row.engine = "fast";
+  const auto is_drawn = [&](double time) {
+    row.time = time;
+    comparison.plan.horizon.rows = {row};
+    const Plot plot = error_in_time(comparison);
+    const bool told = plot.caption.find("lies beyond the end, at") != std::string::npos;
+    const auto is_horizon = [](const Mark& mark) { return mark.label.starts_with("horizon"); };
+    const bool drawn = std::any_of(plot.marks.begin(), plot.marks.end(), is_horizon);
+    EXPECT_NE(told, drawn);
+    return drawn;
+  };
+  EXPECT_TRUE(is_drawn(KnownLaws::end));
+  EXPECT_FALSE(is_drawn(1.01 * KnownLaws::end));
+}
+
 TEST(ComparePage, WorkPrecisionHasAPointForEveryMethodAndStep) {
   const KnownLaws laws;
   const Page page = compare_page(laws.comparison({"grid", "naive"}), dozen_scene(), "carom compare");
