@@ -6,7 +6,13 @@
 // length until blocks are longer than correlations, and stays from there on. The length that is taken is the shortest B with
 // B^3 > 2 n s^2, n samples, s = (variance told by these blocks) / (variance told by single samples): there what is left of the
 // correlations and the noise of few blocks are about equal (Lee, Conduit, Nemec, Lopez Rios & Drummond, Phys. Rev. E 83, 066706
-// (2011)).
+// (2011)). Where correlations lower the variance, as of what walls or energy keep within bounds, what short blocks tell too much is
+// (1 - s) / s times as large as the rest, so that 1 / s takes the place of s.
+//
+// What reaches from one block into the next is added as for correlations that fall exponentially: the variance is divided by
+// 1 - (s - 1) / 2 B.
+//
+// What is known of correlations beforehand, as that windows of one lag overlap, blocks need not find: docs/observables.md.
 //
 // A sample may carry a weight: the mean is then <x> / <w>, a ratio, and its error that of x - mean * w; or <x> / <w>^p likewise.
 
@@ -26,10 +32,13 @@ class Blocking {
 
   struct Estimate {
     double mean = 0.0;
-    std::optional<double> error;  ///< of the mean; absent with fewer than 16 samples
+    std::optional<double> error;  ///< of the mean; absent with fewer than 16 samples, or 8 that do not overlap
     /// Samples that count as one independent one, at least 1; absent where blocks never became long enough. `error` is then a
     /// lower bound.
     std::optional<double> inefficiency;
+    /// Where it is absent: whether the longest blocks tell more than twice the variance that the shortest tell, so that there are
+    /// correlations indeed.
+    bool lower_bound = false;
   };
   /// <x> / <w>^power. Nothing without samples, or where all weights are zero.
   [[nodiscard]] std::optional<Estimate> estimate(int power = 1) const { return estimate(levels_, power); }
@@ -43,8 +52,11 @@ class Blocking {
     void add(double x, double w);
     [[nodiscard]] double variance_of_mean(double ratio) const;
   };
-  /// The same from levels that were gathered elsewhere.
-  [[nodiscard]] static std::optional<Estimate> estimate(std::span<const Level> levels, int power = 1);
+  /// The same from levels that were gathered elsewhere. `known`: correlation of samples 1, 2, 3, ... apart, 0 beyond, that there is
+  /// whatever blocks tell. What blocks of B samples tell is then multiplied by (variance of the mean) / (what they tell of it on
+  /// average), both as they would be if that were all.
+  [[nodiscard]] static std::optional<Estimate> estimate(std::span<const Level> levels, int power = 1,
+                                                        std::span<const double> known = {});
 
   [[nodiscard]] std::uint64_t samples() const { return levels_.empty() ? 0 : levels_.front().blocks; }
 

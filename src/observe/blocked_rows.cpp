@@ -67,7 +67,7 @@ std::size_t BlockedRows::add(std::size_t level, double* x, std::size_t lines) {
   return joined;
 }
 
-std::optional<Blocking::Estimate> BlockedRows::estimate(std::size_t row) const {
+std::optional<Blocking::Estimate> BlockedRows::estimate(std::size_t row, std::span<const double> known) const {
   if (row >= steps()) return std::nullopt;
   std::vector<Blocking::Level> levels;
   for (std::size_t level = 0; level < levels_.size(); ++level) {
@@ -81,7 +81,7 @@ std::optional<Blocking::Estimate> BlockedRows::estimate(std::size_t row) const {
     found.mean_w = 1.0;
     found.xx = std::max(0.0, levels_[level].square[row] - sum * sum / n);
   }
-  return Blocking::estimate(levels);
+  return Blocking::estimate(levels, 1, known);
 }
 
 }  // namespace carom

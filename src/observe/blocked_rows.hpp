@@ -24,8 +24,8 @@ class BlockedRows {
   /// ...: what is there before means nothing. Blocks are the same steps for all rows, so that a row may leave its first sample
   /// out of the longer ones. How many steps come together changes no bit.
   void add(std::span<double> samples);
-  /// Nothing before the row has begun.
-  [[nodiscard]] std::optional<Blocking::Estimate> estimate(std::size_t row) const;
+  /// Nothing before the row has begun. `known`: see Blocking.
+  [[nodiscard]] std::optional<Blocking::Estimate> estimate(std::size_t row, std::span<const double> known = {}) const;
 
   template <class Archive>
   void serialize(Archive& archive) {

@@ -9,8 +9,28 @@
 namespace carom {
 
 namespace {
-/// Below this many blocks their scatter says little: the error has an error of 1 / sqrt(2 (n - 1)), a fifth at 16.
-constexpr std::uint64_t least_blocks = 16;
+constexpr std::uint64_t least_samples = 16;
+/// Below this many blocks their scatter says little: the error has an error of 1 / sqrt(2 (n - 1)), a quarter at 8.
+constexpr std::uint64_t least_blocks = 8;
+
+/// Of the mean of `count` samples, over that of one.
+double variance_of_mean_of(std::uint64_t count, std::span<const double> correlation) {
+  const double n = static_cast<double>(count);
+  double sum = 1.0;
+  for (std::size_t j = 1; j <= correlation.size() && j < count; ++j)
+    sum += 2.0 * (1.0 - static_cast<double>(j) / n) * correlation[j - 1];
+  return sum / n;
+}
+
+/// Correlations that fall exponentially and raise the variance by s make blocks of B tell 1 - (s - 1) / 2 B of it: what reaches from
+/// one block into the next is missing. `of_block` is 1 / B, or the like of samples whose correlations are known. At most twice.
+double left_across_blocks(double s, double of_block) { return 1.0 / (1.0 - std::clamp(0.5 * (s - 1.0) * of_block, 0.0, 0.5)); }
+
+/// Whether blocks of `length` among n samples are long enough for an inefficiency of s.
+bool long_enough(double length, double n, double s) {
+  const double slowness = std::max(s, 1.0 / s);
+  return length * length * length > 2.0 * n * slowness * slowness;
+}
 }  // namespace
 
 void Blocking::Level::add(double x, double w) {
@@ -44,7 +64,7 @@ void Blocking::add(double x, double weight) {
   }
 }
 
-std::optional<Blocking::Estimate> Blocking::estimate(std::span<const Level> levels, int power) {
+std::optional<Blocking::Estimate> Blocking::estimate(std::span<const Level> levels, int power, std::span<const double> known) {
   if (levels.empty()) return std::nullopt;
   const Level& single = levels.front();
   if (single.mean_w == 0.0) return std::nullopt;
@@ -52,17 +72,26 @@ std::optional<Blocking::Estimate> Blocking::estimate(std::span<const Level> leve
   const double slope = power * single.mean_x / single.mean_w;  // x - slope * w is what the mean errs by, times scale
   Estimate estimate{single.mean_x / scale, std::nullopt, std::nullopt};
   const double n = static_cast<double>(single.blocks);
-  if (single.blocks < least_blocks) return estimate;
-  const double naive = single.variance_of_mean(slope);
-  double largest = naive;
+  const double of_all = variance_of_mean_of(single.blocks, known);
+  if (single.blocks < least_samples || of_all * static_cast<double>(least_blocks) > 1.0) return estimate;
+  // The mean square of n blocks about their mean is as much too small as that is too large.
+  const auto variance_told_by = [&](std::size_t level) {
+    const double told = levels[level].variance_of_mean(slope);
+    if (known.empty()) return told;
+    const std::uint64_t blocks = levels[level].blocks, length = std::uint64_t{1} << level;
+    const double within = variance_of_mean_of(length, known) - variance_of_mean_of(blocks * length, known);
+    return within > 0.0 ? told * (static_cast<double>(blocks) - 1.0) * of_all / within : told;
+  };
+  const double first = variance_told_by(0), white = first / (n * of_all);
   for (std::size_t level = 0; level < levels.size() && levels[level].blocks >= least_blocks; ++level) {
-    const double variance = levels[level].variance_of_mean(slope);
-    const double s = naive > 0.0 ? variance / naive : 1.0;
-    largest = std::max(largest, variance);
-    estimate.error = std::sqrt(largest) / std::abs(scale);
-    if (std::pow(std::ldexp(1.0, static_cast<int>(level)), 3) <= 2.0 * n * s * s) continue;
+    const double told = variance_told_by(level), length = std::ldexp(1.0, static_cast<int>(level));
+    const double variance = told * left_across_blocks(first > 0.0 ? told / first : 1.0, variance_of_mean_of(1ULL << level, known));
+    const double s = white > 0.0 ? variance / white : 1.0;
     estimate.error = std::sqrt(variance) / std::abs(scale);
+    estimate.lower_bound = told > 2.0 * first;
+    if (!long_enough(length, n, s)) continue;
     estimate.inefficiency = std::max(1.0, s);
+    estimate.lower_bound = false;
     break;
   }
   return estimate;

@@ -35,9 +35,11 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
     Table table{.name = name()};
+    std::vector<MultipleTau::Row> all;
     for (std::size_t s = 0; s < ladders_.size(); ++s) {
       const std::vector<MultipleTau::Row> rows = ladders_[s].rows();
       if (rows.empty()) continue;
+      all.insert(all.end(), rows.begin(), rows.end());
       const std::string suffix = run_.suffix(s);
       Column lags{"lag", "time", {}}, square{"msd" + suffix, "length^2", {}}, error{"msd" + suffix + "_error", "length^2", {}};
       Column diffusion{"diffusion" + suffix, "length^2 / time", {}},
@@ -54,6 +56,7 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
       if (table.columns.empty()) table.columns.push_back(lags);
       for (Column* column : {&square, &error, &diffusion, &its_error}) table.columns.push_back(std::move(*column));
     }
+    found.note = MultipleTau::note_on_errors(all);
     if (table.columns.empty())
       found.note = "the run is too short";
     else

@@ -23,6 +23,66 @@ void integrate(std::span<const double> found, std::size_t lags, double* integral
   }
 }
 
+using Means = std::vector<std::optional<Blocking::Estimate>>;
+
+/// Correlation of (x(t) - x(0))^2 over k steps with the same 1, 2, ... steps later, x Gaussian with <(x(t) - x(0))^2> in proportion
+/// to t^power (Wick's theorem): the two windows share what x did where they overlap.
+std::vector<double> correlation_of_squares(std::size_t k, double power) {
+  std::vector<double> correlation;
+  for (std::size_t j = 1; j < 2 * k; ++j) {
+    const double u = static_cast<double>(j) / static_cast<double>(k);
+    const double shared = 0.5 * (std::pow(1.0 + u, power) + std::pow(std::abs(1.0 - u), power)) - std::pow(u, power);
+    correlation.push_back(shared * shared);
+  }
+  return correlation;
+}
+
+/// Row k of squares, with an error that knows of overlaps. They are those of diffusion, unless the squares grow more slowly by more
+/// than a standard error, as between walls or in a crystal; what moves straight on does so for less than the lag, which blocks see.
+Blocking::Estimate estimate_of_squares(const BlockedRows& squares, const Means& means, std::size_t k) {
+  const Blocking::Estimate diffusing = *squares.estimate(k, correlation_of_squares(k, 1.0));
+  const std::size_t half = k / 2;
+  if (half == 0 || !diffusing.error || !(means[half]->mean > 0.0)) return diffusing;
+  const double span = std::log(static_cast<double>(k) / static_cast<double>(half));
+  const double power = std::log(means[k]->mean / means[half]->mean) / span, error = *diffusing.error / means[k]->mean / span;
+  if (!(power < 1.0 - error)) return diffusing;
+  return *squares.estimate(k, correlation_of_squares(k, std::max(0.0, power)));
+}
+
+/// Correlation of x at 0, 1, 2, ... steps, as far as it stands out of its errors.
+std::vector<double> significant(const Means& products) {
+  std::vector<double> correlation;
+  for (const auto& found : products) {
+    if (!found || !found->error || !(std::abs(found->mean) > 3.0 * *found->error)) break;
+    correlation.push_back(found->mean / products.front()->mean);
+  }
+  return correlation;
+}
+
+/// Correlation of x(t) sum_i a_i x(t - i) with the same 1, 2, ... steps later, x Gaussian with the correlation `of_x` (Wick's theorem).
+std::vector<double> correlation_of_products(const std::vector<double>& a, const std::vector<double>& of_x) {
+  const auto c = [&](std::ptrdiff_t m) {
+    const auto apart = static_cast<std::size_t>(std::abs(m));
+    return apart < of_x.size() ? of_x[apart] : 0.0;
+  };
+  std::vector<double> correlation;
+  for (std::ptrdiff_t m = 0; m < static_cast<std::ptrdiff_t>(a.size() + of_x.size()); ++m) {
+    double both = 0.0, later = 0.0, earlier = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const auto at = static_cast<std::ptrdiff_t>(i);
+      later += a[i] * c(m - at);
+      earlier += a[i] * c(m + at);
+      for (std::size_t j = 0; j < a.size(); ++j) both += a[i] * a[j] * c(m + at - static_cast<std::ptrdiff_t>(j));
+    }
+    correlation.push_back(c(m) * both + later * earlier);
+  }
+  const double variance = correlation.front();
+  if (!(variance > 0.0)) return {};
+  correlation.erase(correlation.begin());
+  for (double& one : correlation) one /= variance;
+  return correlation;
+}
+
 }  // namespace
 
 MultipleTau::MultipleTau(std::size_t channels, Pairs pairs, std::size_t lags, std::size_t levels)
@@ -117,19 +177,36 @@ std::vector<MultipleTau::Row> MultipleTau::rows() {
     const Level& level = levels_[l];
     const double width = std::ldexp(1.0, static_cast<int>(l));
     const std::size_t first = l > 0 ? lags_ / 2 : kind_ == Pairs::products ? 0 : 1;
-    for (std::size_t k = first; k < lags_; ++k) {
-      const std::optional<Blocking::Estimate> found = level.pairs.estimate(k);
-      if (!found) continue;
-      Row row{width * static_cast<double>(k), width, *found, std::nullopt};
-      if (kind_ == Pairs::products) {
-        row.integral = level.integrals.estimate(k);
-        row.integral->mean *= width;
-        if (row.integral->error) *row.integral->error *= width;
+    Means means;
+    for (std::size_t k = 0; k < lags_; ++k) means.push_back(level.pairs.estimate(k));
+    const std::vector<double> of_x = kind_ == Pairs::products ? significant(means) : std::vector<double>();
+    for (std::size_t k = first; k < lags_ && means[k]; ++k) {
+      if (kind_ == Pairs::squared_differences) {
+        rows.push_back({width * static_cast<double>(k), width, estimate_of_squares(level.pairs, means, k), std::nullopt});
+        continue;
       }
+      std::vector<double> weights(k + 1);
+      weights[k] = 1.0;
+      Row row{width * static_cast<double>(k), width, *level.pairs.estimate(k, correlation_of_products(weights, of_x)), std::nullopt};
+      weights.assign(k + 1, 1.0);
+      weights[0] = 0.5;
+      row.integral = level.integrals.estimate(k, correlation_of_products(weights, of_x));
+      row.integral->mean *= width;
+      if (row.integral->error) *row.integral->error *= width;
       rows.push_back(row);
     }
   }
   return rows;
+}
+
+std::string MultipleTau::note_on_errors(const std::vector<Row>& rows) {
+  const auto is_bound = [](const Row& row) { return row.pairs.lower_bound || (row.integral && row.integral->lower_bound); };
+  const auto is_unknown = [](const Row& row) { return !row.pairs.error; };
+  std::string note;
+  if (std::ranges::any_of(rows, is_unknown)) note = "where a lag has no error the run holds too few independent windows of it";
+  if (std::ranges::any_of(rows, is_bound))
+    note += std::string(note.empty() ? "" : "; ") + "the run is too short for some correlations: errors there are lower bounds";
+  return note;
 }
 
 }  // namespace carom

@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace carom {
@@ -42,6 +43,8 @@ class MultipleTau {
   };
   /// In order of the lag, as far as there are pairs. Squared differences begin with lag 1.
   [[nodiscard]] std::vector<Row> rows();
+  /// What is to be said of their errors, as a sentence without its stop; empty where that is nothing.
+  [[nodiscard]] static std::string note_on_errors(const std::vector<Row>& rows);
 
   template <class Archive>
   void serialize(Archive& archive) {

@@ -12,11 +12,13 @@
 
 #include "core/all_equal.hpp"
 #include "observe/blocking.hpp"
+#include "observe/bounded_part.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/followers.hpp"
 #include "observe/geometry.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
+#include "observe/wall_momentum.hpp"
 
 #include <boost/math/special_functions/gamma.hpp>
 
@@ -46,11 +48,12 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     freedom_ =
         2.0 * static_cast<double>(run.disks.count()) - (run.keeps_momentum(0) ? 1.0 : 0.0) - (run.keeps_momentum(1) ? 1.0 : 0.0);
     why_no_Z_ = carom::why_no_Z(effects);
+    has_Z_walls_ = why_no_walls().empty();
   }
 
   [[nodiscard]] std::string name() const override { return "pressure"; }
   [[nodiscard]] double step() const override { return step_; }
-  [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
+  [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared() && !has_Z_walls_; }
   [[nodiscard]] bool follows_collisions() const override { return follows_; }
 
   void ask(FluxSums& sums) override { sums.transfer = &transfer_; }
@@ -96,7 +99,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
 
  private:
   struct Snapshot {
-    double time = 0.0, kT = 0.0, virial = 0.0, meetings = 0.0, area = 0.0;
+    double time = 0.0, kT = 0.0, virial = 0.0, meetings = 0.0, area = 0.0, action = 0.0;
     std::uint64_t pairs = 0;
     std::array<double, 4> flow{}, transfer{}, walls{};
   };
@@ -119,6 +122,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
       now.flow[3] += run_.disks.mass[i] * u.y() * u.y();
     }
     now.flow[2] = now.flow[1];
+    for (int axis = 0; axis < 2 && has_Z_walls_; ++axis) now.action += wall_momentum(run_, state, axis).action;
     now.kT = freedom_ > 0.0 ? (now.flow[0] + now.flow[3]) / freedom_ : 0.0;
     // N disks of which N - 1 move freely carry the momentum of N kT all the same: the trace is that of Z.
     const double count = static_cast<double>(run_.disks.count());
@@ -143,15 +147,18 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
       push += 0.5 * (now.walls[low] - before_.walls[low] + now.walls[low + 1] - before_.walls[low + 1]) *
               (run_.scene.box.lengths()[axis] - 2.0 * run_.disks.radius[0]);
     }
-    walls_.add(push, 2.0 * count * kT * dt);
+    walls_.add(push, 2.0 * count * kT * dt, before_.action, now.action);
     const double area = 0.5 * (now.area + before_.area);
     for (std::size_t c = 0; c < 4; ++c)
       tensor_[c].add((0.5 * (now.flow[c] + before_.flow[c]) + (now.transfer[c] - before_.transfer[c]) / dt) / area);
   }
 
-  void put_Z(Measurement& found, const char* name, const Blocking& series, double offset, const std::string& why_not) const {
+  void fill(const Blocking& series, Scalar& scalar, double offset) const { series.fill(scalar, step_, 1.0, offset); }
+  void fill(const RateWithBoundedPart& series, Scalar& scalar, double offset) const { series.fill(scalar, step_, offset); }
+  template <class Series>
+  void put_Z(Measurement& found, const char* name, const Series& series, double offset, const std::string& why_not) const {
     Scalar scalar{.name = name};
-    if (why_not.empty()) series.fill(scalar, step_, 1.0, offset);
+    if (why_not.empty()) fill(series, scalar, offset);
     if (!scalar.value) scalar.note = why_not.empty() ? "nothing was measured" : why_not;
     found.scalars.push_back(std::move(scalar));
   }
@@ -183,7 +190,9 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
   TransferSum transfer_;
   std::uint64_t samples_ = 0;
   Snapshot before_;
-  Blocking virial_, rate_, walls_;
+  bool has_Z_walls_ = false;
+  Blocking virial_, rate_;
+  RateWithBoundedPart walls_;
   std::array<Blocking, 4> tensor_;
 };
 

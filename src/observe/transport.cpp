@@ -43,7 +43,7 @@ Scalar coefficient(std::string name, const std::string& unit, double step, doubl
   scalar.error = factor * *found.error;
   if (found.inefficiency) scalar.decorrelation_time = step * row->width * *found.inefficiency;
   scalar.note = at_lag(step * lag);
-  if (!found.inefficiency) scalar.note += "; the run is too short for its correlations: the error is a lower bound";
+  if (found.lower_bound) scalar.note += "; the run is too short for its correlations: the error is a lower bound";
   return scalar;
 }
 
@@ -111,6 +111,7 @@ Measurement Transport::finish(double time, const Totals&) {
         "the flux has a mean that is not zero, as the stress of a strained crystal has: what grows with it is no coefficient";
     for (Scalar& scalar : found.scalars) scalar = {.name = scalar.name, .unit = unit, .note = found.note};
   }
+  if (found.note.empty()) found.note = MultipleTau::note_on_errors(growth);
   Table table{.name = name};
   Column lags{"lag", "time", {}}, flux{"correlation", unit_of_flux, {}}, flux_error{"correlation_error", unit_of_flux, {}};
   Column until{"integral_to", "time", {}}, integral{"green_kubo", unit, {}}, integral_error{"green_kubo_error", unit, {}};

@@ -72,6 +72,7 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
     Table table{.name = name()};
+    std::vector<MultipleTau::Row> all;
     for (std::size_t s = 0; s < tracked_.size(); ++s) {
       if (follows_) {
         Scalar slope{.name = "initial_slope" + run_.suffix(s), .unit = "1 / time"};
@@ -82,8 +83,11 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
         if (!slope.value && slope.note.empty()) slope.note = "nothing moves, or nothing was measured";
         found.scalars.push_back(std::move(slope));
       }
-      put_columns(table, run_.suffix(s), instants_[s].rows(), means_[s].rows());
+      const std::vector<MultipleTau::Row> means = means_[s].rows();
+      put_columns(table, run_.suffix(s), instants_[s].rows(), means);
+      all.insert(all.end(), means.begin(), means.end());
     }
+    found.note = MultipleTau::note_on_errors(all);
     if (table.columns.empty())
       found.note = "the run is too short";
     else

@@ -2,9 +2,11 @@
 // Averages over time.
 
 #include "observe/blocking.hpp"
+#include "observe/bounded_part.hpp"
 #include "observe/geometry.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
+#include "observe/wall_momentum.hpp"
 #include "scene/wall_names.hpp"
 
 #include <array>
@@ -23,14 +25,16 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
   void sample(const State& state, const Totals& totals) override {
     const Eigen::Vector2d lengths = box_of(run_.scene.box, state).lengths();
     const double dt = state.time - time_;
+    const std::array<double, 4> bounded = bounded_parts(state);
     for (std::size_t side = 0; side < 4; ++side) {
       const int along = side < 2 ? 1 : 0;
       const double length = 0.5 * (lengths[along] + lengths_[along]);
-      if (dt > 0.0) momentum_[side].add(totals.wall_impulse[side] - impulse_[side], length * dt);
+      if (dt > 0.0) momentum_[side].add(totals.wall_impulse[side] - impulse_[side], length * dt, bounded_[side], bounded[side]);
       if (dt > 0.0) energy_[side].add(totals.wall_energy[side] - energies_[side], length * dt);
     }
     time_ = state.time;
     lengths_ = lengths;
+    bounded_ = bounded;
     impulse_ = totals.wall_impulse;
     energies_ = totals.wall_energy;
   }
@@ -47,11 +51,25 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(time_, lengths_, impulse_, energies_, momentum_, energy_);
+    archive(time_, lengths_, impulse_, energies_, bounded_, momentum_, energy_);
   }
 
  private:
-  void put(Measurement& found, std::string name, const char* unit, const Blocking& series) const {
+  /// Of the momentum that each wall gets.
+  [[nodiscard]] std::array<double, 4> bounded_parts(const State& state) const {
+    std::array<double, 4> parts{};
+    for (int axis = 0; axis < 2; ++axis) {
+      const double reach = reach_between_walls(run_, axis);
+      if (run_.scene.box.periodic(axis) || reach == 0.0) continue;
+      const WallMomentum of_disks = wall_momentum(run_, state, axis);
+      const auto low = 2 * static_cast<std::size_t>(axis);
+      parts[low] = 0.5 * (of_disks.action / reach - of_disks.momentum);
+      parts[low + 1] = 0.5 * (of_disks.action / reach + of_disks.momentum);
+    }
+    return parts;
+  }
+  template <class Series>
+  void put(Measurement& found, std::string name, const char* unit, const Series& series) const {
     Scalar scalar{.name = std::move(name), .unit = unit};
     series.fill(scalar, step_);
     if (!scalar.value) scalar.note = "nothing was measured";
@@ -62,8 +80,9 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
   double step_;
   double time_ = 0.0;
   Eigen::Vector2d lengths_ = Eigen::Vector2d::Zero();
-  std::array<double, 4> impulse_{}, energies_{};
-  std::array<Blocking, 4> momentum_, energy_;
+  std::array<double, 4> impulse_{}, energies_{}, bounded_{};
+  std::array<RateWithBoundedPart, 4> momentum_;
+  std::array<Blocking, 4> energy_;
 };
 
 }  // namespace

@@ -1,11 +1,15 @@
-// Blocking finds the error of a mean whose exact error is known.
+// Errors of means whose exact error is known: by blocking, and by what else is known of the samples.
 
 #include "observe/blocking.hpp"
+#include "observe/bounded_part.hpp"
+#include "observe/multiple_tau.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <random>
+#include <vector>
 
 namespace carom::test {
 namespace {
@@ -58,6 +62,26 @@ TEST(Blocking, TellsTheErrorOfAnAutoregressiveSeries) {
 TEST(Blocking, TellsTheErrorOfIndependentSamples) {
   // Blocks of 32 of 16384: 512, each series to sqrt(2 / 511) = 0.063, 64 series to 0.008. Four standard errors.
   EXPECT_NEAR(mean_squared_error_told(0.0, 16384, 64) / exact_variance(0.0, 16384), 1.0, 4.0 * 0.008);
+}
+
+TEST(Blocking, TellsTheErrorWhereCorrelationsLowerIt) {
+  // x = 0.3 e(t) + u(t + 1) - u(t): what u adds cancels from sample to sample, so that a mean over n has variance 0.09 / n + 2 / n^2,
+  // and single samples tell 23 times as much. s = 0.043: blocks of 512 of 65536 are the first with B^3 > 2 n / s^2; they tell
+  // 2 / 512 / 0.09 = 0.043 too much, 128 blocks 16 series to 0.03. Five standard errors.
+  const int n = 65536;
+  double sum = 0.0;
+  for (std::uint64_t s = 0; s < 16; ++s) {
+    Noise noise(900 + s);
+    Blocking blocking;
+    double u = noise();
+    for (int t = 0; t < n; ++t) {
+      const double next = noise();
+      blocking.add(0.3 * noise() + next - u);
+      u = next;
+    }
+    sum += std::pow(blocking.estimate()->error.value(), 2) / 16.0;
+  }
+  EXPECT_NEAR(sum * n / (0.09 + 2.0 / n), 1.0, 0.043 + 5.0 * 0.03);
 }
 
 TEST(Blocking, TellsHowManySamplesAreOneIndependentOne) {
@@ -128,6 +152,101 @@ TEST(Blocking, SquaredDenominatorCountsTwice) {
   }
   // Blocks of 32 of 4096: 128 of them, sqrt(2 / 127) = 0.125, 64 series: 0.016.
   EXPECT_NEAR(sum * 4096.0 / (0.2 * 0.2), 1.0, 4.0 * 0.016);
+}
+
+/// Of a mean over n samples that are sums over k of white noise, each k - j of them the same j samples later: x^2 has correlation
+/// (1 - j / k)^2 there.
+double variance_of_overlapping_windows(int n, int k) {
+  double sum = 1.0;
+  for (int j = 1; j < k; ++j) sum += 2.0 * (1.0 - static_cast<double>(j) / n) * std::pow(1.0 - static_cast<double>(j) / k, 2);
+  return sum / n;
+}
+
+TEST(MultipleTauErrors, AreTheScatterOfADiffusingPathAtEveryLag) {
+  // Sixteen channels that diffuse, 512 steps: (x(t) - x(0))^2 of Gaussian x has variance 2 <x^2>^2, so that the variance of their mean
+  // is known. What one path tells of it has as much noise as chi squared of as many degrees of freedom as there are independent
+  // windows, 8 at least: sqrt(2 / 7) = 0.53 and 100 paths to 0.053. Four standard errors; and one path in six takes diffusion
+  // for something slower, where correlations are up to a quarter less: 0.04.
+  constexpr int steps = 512, channels = 16, paths = 100;
+  std::map<double, double> told, exact;
+  std::map<double, int> known;
+  for (int p = 0; p < paths; ++p) {
+    Noise noise(4000 + static_cast<std::uint64_t>(p));
+    MultipleTau squares(channels, MultipleTau::Pairs::squared_differences);
+    std::vector<double> x(channels, 0.0);
+    for (int t = 0; t <= steps; ++t) {
+      squares.add(x);
+      for (double& one : x) one += noise();
+    }
+    for (const MultipleTau::Row& row : squares.rows()) {
+      const int k = static_cast<int>(row.lag / row.width), windows = steps / static_cast<int>(row.width) + 1 - k;
+      exact[row.lag] = 2.0 * row.lag * row.lag / channels * variance_of_overlapping_windows(windows, k);
+      if (row.pairs.error) told[row.lag] += *row.pairs.error * *row.pairs.error / paths;
+      known[row.lag] += row.pairs.error ? 1 : 0;
+    }
+  }
+  for (const auto& [lag, variance] : exact) {
+    if (lag <= steps / 7) {
+      EXPECT_EQ(known[lag], paths) << lag;
+      EXPECT_NEAR(told[lag] / variance, 1.0, 4.0 * 0.053 + 0.04) << "lag " << lag;
+    }
+    if (lag > steps / 6) {
+      EXPECT_EQ(known[lag], 0) << "fewer than eight windows, lag " << lag;
+    }
+  }
+}
+
+TEST(MultipleTauErrors, OfMeanVelocitiesBetweenWallsKnowThatTheyAlternate) {
+  // Places at steps are independent, so that displacements of neighbouring steps have correlation -1/2, and products of two far
+  // apart 1/4 with their neighbours: the variance of a mean over n is 1.5 - 0.5 / n times that of independent ones. The longest lags
+  // have 17 to 24 products, of which 100 paths of 16 channels tell the variance to 4 %. Four standard errors, and as much for the
+  // noise of the correlation that is found.
+  constexpr int steps = 1024, channels = 16, paths = 100;
+  double told = 0.0;
+  for (int p = 0; p < paths; ++p) {
+    Noise noise(8000 + static_cast<std::uint64_t>(p));
+    MultipleTau products(channels, MultipleTau::Pairs::products);
+    std::vector<double> place(channels), step(channels);
+    for (double& one : place) one = noise();
+    for (int t = 0; t < steps; ++t) {
+      for (int c = 0; c < channels; ++c) {
+        const double next = noise();
+        step[static_cast<std::size_t>(c)] = next - place[static_cast<std::size_t>(c)];
+        place[static_cast<std::size_t>(c)] = next;
+      }
+      products.add(step);
+    }
+    for (const MultipleTau::Row& row : products.rows()) {
+      if (row.lag != 12.0 * 32.0) continue;
+      // Means over w steps have variance 2 / w^2, their products the square of that.
+      const double n = steps / 32.0 - 12.0, variance = 4.0 / std::pow(32.0, 4) / channels * (1.5 - 0.5 / n) / n;
+      told += std::pow(row.pairs.error.value(), 2) / variance / paths;
+    }
+  }
+  EXPECT_NEAR(told, 1.0, 8.0 * 0.04);
+}
+
+TEST(RateWithBoundedPart, TellsTheErrorOfWhatIsLeftAndOfTheEnds) {
+  // x = 1 + 0.3 e - (u(t + 1) - u(t)): what is left is noise of 0.3, and the ends add 2 of 256^2. Blocks of 8 of 256: 32 of them,
+  // sqrt(2 / 31) = 0.25, and 64 series to 0.032. Four standard errors.
+  const int n = 256;
+  double sum = 0.0;
+  for (std::uint64_t s = 0; s < 64; ++s) {
+    Noise noise(700 + s);
+    RateWithBoundedPart rate;
+    double u = noise(), total = 0.0;
+    for (int t = 0; t < n; ++t) {
+      const double next = noise(), x = 1.0 + 0.3 * noise() - (next - u);
+      rate.add(2.0 * x, 2.0, 2.0 * u, 2.0 * next);
+      total += x;
+      u = next;
+    }
+    Scalar scalar{.name = "x"};
+    rate.fill(scalar, 1.0, 5.0);
+    EXPECT_NEAR(scalar.value.value(), 5.0 + total / n, 1e-13);
+    sum += std::pow(scalar.error.value(), 2) / 64.0;
+  }
+  EXPECT_NEAR(sum / (0.09 / n + 2.0 / (n * n)), 1.0, 4.0 * 0.032 + 0.02);
 }
 
 }  // namespace

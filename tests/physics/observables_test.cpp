@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -150,6 +151,49 @@ TEST(PhysicsStructure, SmallestWavesTellTheCompressibility) {
   const double expected = 1.0 / (theory::kolafa_rottner(eta) + eta * slope);
   EXPECT_NEAR(o.column("structure_factor", 0, "S")[0], expected,
               0.02 * expected + within * o.column("structure_factor", 0, "S_error")[0]);
+}
+
+/// Scatter over reported error, both squared.
+double chi_squared_per_run(const std::vector<Value>& values) {
+  const double runs = static_cast<double>(values.size());
+  double mean = 0.0, scatter = 0.0, reported = 0.0;
+  for (const Value& one : values) mean += one.value / runs;
+  for (const Value& one : values) {
+    scatter += std::pow(one.value - mean, 2) / (runs - 1.0);
+    reported += one.error * one.error / runs;
+  }
+  return scatter / reported;
+}
+
+TEST(PhysicsErrors, OfWhatWallsGetAndOfDisplacementsAtLongLagsScatterAsTheySay) {
+  constexpr int runs = 48;
+  std::vector<Value> left, top, Z_walls, farthest;
+  for (int r = 0; r < runs; ++r) {
+    Scene scene = parse_scene(
+        "[box]\naspect = 1.0\nboundary = \"walls\"\n[[disks]]\ncount = 36\nradius = 0.5\nmass = 1.0\npacking_fraction = 0.3\n"
+        "positions = \"random\"\nvelocities = { temperature = 1.0 }\n[collision]\nrule = \"specular\"\n[run]\ntime = 120.0\n"
+        "equilibrate = { collisions_per_disk = 30 }\n[observe]\nwall_fluxes = true\npressure = true\n");
+    scene.run.seed = static_cast<std::uint64_t>(r + 1);
+    const Observed walls = observe(scene, 120.0);
+    left.push_back(of(walls, "wall_fluxes", "momentum_left"));
+    top.push_back(of(walls, "wall_fluxes", "momentum_top"));
+    Z_walls.push_back(of(walls, "pressure", "Z_walls"));
+    scene = parse_scene(small_fluid("mean_square_displacement = { every = 0.5 }", "specular", "128.0"));
+    scene.run.seed = static_cast<std::uint64_t>(r + 1);
+    const Observed fluid = observe(scene, 128.0);
+    // 0.5 * 2 * 15 steps: a run of 8.5 of it, the longest whose error is known throughout.
+    const auto &lag = fluid.column("mean_square_displacement", 0, "lag"), &msd = fluid.column("mean_square_displacement", 0, "msd"),
+               &error = fluid.column("mean_square_displacement", 0, "msd_error");
+    const auto row = static_cast<std::size_t>(std::ranges::find(lag, 15.0) - lag.begin());
+    ASSERT_LT(row, lag.size());
+    farthest.push_back({msd[row], error[row]});
+    EXPECT_TRUE(std::isnan(error.back()));
+  }
+  // Chi squared over 47: standard deviation sqrt(2 / 47) = 0.21; the mean of 48 squared errors is known to 0.08 and better.
+  for (const std::vector<Value>* values : {&left, &top, &Z_walls, &farthest}) {
+    EXPECT_GT(chi_squared_per_run(*values), 1.0 - 3.0 * 0.22);
+    EXPECT_LT(chi_squared_per_run(*values), 1.0 + 4.0 * 0.22);
+  }
 }
 
 /// Errors are neither too small nor too large: twenty runs, Z from each against the mean of all.
