@@ -51,6 +51,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   json["momentum"] = {{"initial", vector(report.momentum_initial)}, {"final", vector(report.momentum_final)}};
   json["temperature"] = {{"mean", number(report.temperature_mean)}};
   json["pressure"] = {{"Z", number(report.Z)}, {"Z_error", number(report.Z_error)}, {"reduced", number(report.reduced_pressure)}};
+  if (report.Z_error && !report.note_on_errors.empty()) json["pressure"]["note"] = report.note_on_errors;
   json["overlap"] = {{"max_relative", number(report.max_relative_overlap)}, {"checked", report.overlap_checked}};
   if (report.overlap_at_start) json["overlap"]["start"] = number(*report.overlap_at_start);
   json["stopped"] = to_string(report.stopped);

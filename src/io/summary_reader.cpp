@@ -168,6 +168,7 @@ RunReport run_report_of(const Json& json) {
   report.Z = number_in(pressure.at("Z"));
   report.Z_error = number_in(pressure.at("Z_error"));
   report.reduced_pressure = number_in(pressure.at("reduced"));
+  report.note_on_errors = pressure.value("note", "");
   const Json& overlap = json.at("overlap");
   report.max_relative_overlap = finite_in(overlap.at("max_relative"));
   report.overlap_checked = overlap.at("checked").get<std::uint64_t>();

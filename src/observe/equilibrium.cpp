@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 namespace carom {
@@ -43,6 +44,19 @@ bool temperature_fluctuates(const Effects& effects) {
   return effects.collision.roughness.value_or(-1.0) != -1.0 || (effects.thermostat && effects.thermostat->rate > 0.0) ||
          any_wall(effects, [](const WallProperties& wall) { return wall.temperature.has_value(); }) ||
          (effects.square_well && effects.square_well->depth != 0.0);
+}
+
+std::string_view why_errors_are_of_one_start(const Scene& scene) {
+  Effects others = scene.effects;
+  others.obstacles.clear();  // they turn velocities, and change no speed
+  if (others.collision.rule != CollisionRule::reversal || temperature_fluctuates(others) || !why_no_Z(others).empty()) return {};
+  std::optional<double> mass;
+  for (const Species& species : scene.species)
+    for (std::int64_t i = 0; i < (species.masses.empty() ? std::min<std::int64_t>(species.count, 1) : species.count); ++i) {
+      if (mass.value_or(species.mass_of(i)) != species.mass_of(i)) return {};
+      mass = species.mass_of(i);
+    }
+  return "disks of equal mass only exchange velocities under reversal: errors are those within this run, not those between starts";
 }
 
 }  // namespace carom

@@ -2,7 +2,7 @@
 // When a compressibility factor Z = P A / (N kT) is one number that a run can measure.
 
 #include <carom/box.hpp>
-#include <carom/effects.hpp>
+#include <carom/scene.hpp>
 
 #include <string_view>
 
@@ -14,5 +14,9 @@ namespace carom {
 /// Whether kinetic energy changes from moment to moment, because a heat bath, spins or wells take part in it: Z is then told with
 /// the mean of the temperature, and not with that of one state.
 [[nodiscard]] bool temperature_fluctuates(const Effects& effects);
+
+/// Why errors of one run do not tell how runs from other starts differ, as a sentence without its stop; empty where they do.
+/// Reversal of equal masses leaves the set of speeds what the start drew.
+[[nodiscard]] std::string_view why_errors_are_of_one_start(const Scene& scene);
 
 }  // namespace carom

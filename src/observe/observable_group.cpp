@@ -1,11 +1,13 @@
 #include "observe/observable_group.hpp"
 
 #include "core/archive.hpp"
+#include "observe/equilibrium.hpp"
 #include "observe/observables.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 namespace carom {
@@ -96,7 +98,11 @@ void ObservableGroup::hear(const CollisionNotes& told) {
 std::vector<Measurement> ObservableGroup::results(double time, const Totals& totals) {
   std::vector<Measurement> measured;
   if (!started_) return measured;
-  for (const auto& observable : observables_) measured.push_back(observable->finish(time, totals));
+  const std::string_view of_one_start = why_errors_are_of_one_start(run_.scene);
+  for (const auto& observable : observables_) {
+    std::string& note = measured.emplace_back(observable->finish(time, totals)).note;
+    if (!of_one_start.empty()) note += (note.empty() ? "" : "; ") + std::string(of_one_start);
+  }
   return measured;
 }
 

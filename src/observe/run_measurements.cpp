@@ -21,6 +21,7 @@ RunMeasurements::RunMeasurements(const Simulation& simulation) : simulation_(sim
   report_.effects = names_of(scene.effects, !scene.box.periodic(0) || !scene.box.periodic(1));
   report_.disks = scene.disk_count();
   report_.packing_fraction = scene.packing_fraction();
+  report_.note_on_errors = why_errors_are_of_one_start(scene);
 }
 
 void RunMeasurements::start(const State& state) {

@@ -58,6 +58,7 @@ struct RunReport {
   StopReason stopped = StopReason::time;
   std::vector<std::int32_t> stopped_disks;  ///< RunResult::stopped_disks
   EffectsReport of_effects;
+  std::string note_on_errors;                ///< what errors of Z and of observables do not tell; empty where that is nothing
   std::vector<Measurement> observables;      ///< what the scene's [observe] table asked for
   std::optional<Verification> verification;  ///< where it was asked for
   std::optional<Horizon> horizon;            ///< of the start of the measured run, where it was asked for

@@ -164,7 +164,9 @@ Section observed(const RunReport& report, const RunTheory& theory) {
   TextTable numbers = table_of_numbers(report, theory);
   if (!numbers.rows.empty()) section.blocks.emplace_back(std::move(numbers));
   for (const Measurement& measured : report.observables) {
-    if (!measured.note.empty()) section.blocks.emplace_back(Paragraph{fmt::format("`{}`: {}.", measured.name, measured.note)});
+    // What holds of all stands with the summary.
+    if (!measured.note.empty() && measured.note != report.note_on_errors)
+      section.blocks.emplace_back(Paragraph{fmt::format("`{}`: {}.", measured.name, measured.note)});
     for (const Table& table : measured.tables)
       for (Plot& plot : plots_of(table, theory)) section.blocks.emplace_back(std::move(plot));
   }

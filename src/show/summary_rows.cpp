@@ -128,16 +128,17 @@ SummaryRows rows_of_accuracy(const RunReport& report) {
 SummaryRows rows_of_results(const RunReport& report, const Scene* scene) {
   SummaryRows rows = {{"temperature kT", fmt::format("{:.5g}", report.temperature_mean), what_temperature_counts(scene)}};
   append(rows, rows_of_effects(report, scene));
-  if (!report.Z) {
-    rows.push_back({"Z = PA/(NkT)", "none", why_there_is_no_Z(report, scene)});
-    return rows;
+  if (!report.Z) rows.push_back({"Z = PA/(NkT)", "none", why_there_is_no_Z(report, scene)});
+  if (report.Z)
+    rows.push_back({"Z = PA/(NkT)", report.Z_error ? with_error(*report.Z, *report.Z_error) : fmt::format("{:.5g}", *report.Z),
+                    report.Z_error ? "from the momentum transfer" : "the run is too short to tell an error"});
+  if (report.reduced_pressure) {
+    const double reduced = *report.reduced_pressure;  // in proportion to Z, and so is its error
+    rows.push_back({"P sigma^2/kT", report.Z_error && *report.Z != 0.0 ? with_error(reduced, *report.Z_error * reduced / *report.Z)
+                                                                       : fmt::format("{:.5g}", reduced)});
   }
-  rows.push_back({"Z = PA/(NkT)", report.Z_error ? with_error(*report.Z, *report.Z_error) : fmt::format("{:.5g}", *report.Z),
-                  report.Z_error ? "from the momentum transfer" : "the run is too short to tell an error"});
-  if (!report.reduced_pressure) return rows;
-  const double reduced = *report.reduced_pressure;  // in proportion to Z, and so is its error
-  rows.push_back({"P sigma^2/kT", report.Z_error && *report.Z != 0.0 ? with_error(reduced, *report.Z_error * reduced / *report.Z)
-                                                                     : fmt::format("{:.5g}", reduced)});
+  if (!report.note_on_errors.empty() && (report.Z_error || !report.observables.empty()))
+    rows.push_back({"errors", "of this start", report.note_on_errors});
   return rows;
 }
 

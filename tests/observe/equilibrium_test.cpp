@@ -1,6 +1,7 @@
 // For which scenes Z is one number.
 
 #include "observe/equilibrium.hpp"
+#include "support/systems.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,6 +45,27 @@ TEST(Equilibrium, ABathSpinsAndWellsKeepZAndLetTheTemperatureFluctuate) {
     EXPECT_THAT(why_no_Z(effects), IsEmpty());
     EXPECT_TRUE(temperature_fluctuates(effects));
   }
+}
+
+TEST(Equilibrium, ErrorsAreOfOneStartWhereReversalExchangesVelocities) {
+  Scene scene = gas_scene(4, 0.1, Boundary::walls);
+  scene.effects.collision.rule = CollisionRule::reversal;
+  EXPECT_THAT(std::string(why_errors_are_of_one_start(scene)), HasSubstr("not those between starts"));
+  scene.effects.obstacles.emplace_back();
+  EXPECT_THAT(std::string(why_errors_are_of_one_start(scene)), HasSubstr("not those between starts"));
+  const auto is_silent = [&](const std::function<void(Scene&)>& change) {
+    Scene changed = scene;
+    change(changed);
+    return why_errors_are_of_one_start(changed).empty();
+  };
+  EXPECT_TRUE(is_silent([](Scene& s) { s.effects.collision.rule = CollisionRule::specular; }));
+  EXPECT_TRUE(is_silent([](Scene& s) { s.effects.walls[2].temperature = 1.0; }));
+  EXPECT_TRUE(is_silent([](Scene& s) { s.effects.thermostat = Thermostat{.temperature = 2.0, .rate = 1.0, .where = {}}; }));
+  EXPECT_TRUE(is_silent([](Scene& s) { s.effects.gravity = Gravity{.acceleration = {0.0, -1.0}, .where = {}}; }));
+  EXPECT_TRUE(is_silent([](Scene& s) { s.effects.walls[0].mass = 3.0; }));
+  EXPECT_TRUE(is_silent([](Scene& s) { s.species.push_back(s.species.front()), s.species.back().mass *= 2.0; }));
+  EXPECT_TRUE(is_silent([](Scene& s) { s.species.front().masses = {1.0, 1.0, 1.0, 1.5}; }));
+  EXPECT_FALSE(is_silent([](Scene& s) { s.species.front().masses = {1.5, 1.5, 1.5, 1.5}; }));
 }
 
 TEST(Equilibrium, OutOfItThereIsNoZ) {

@@ -160,6 +160,14 @@ TEST(Observation, TellsWhyANumberIsMissing) {
   EXPECT_THAT(o.scalar("pressure", "Z_walls").note, HasSubstr("no walls"));
 }
 
+TEST(Observation, SaysBesideTheNumbersThatErrorsAreOfOneStart) {
+  for (const char* rule : {"reversal", "specular"}) {
+    const Observed o = observe(parse_scene(small_fluid("pressure = true\nspeeds = true", rule)), 1.0);
+    for (const char* name : {"pressure", "speeds"})
+      EXPECT_EQ(o.of(name).note.find("not those between starts") != std::string::npos, rule == std::string("reversal")) << name;
+  }
+}
+
 TEST(Observation, NamesOfSpeciesBecomeNamesThatFilesCanHave) {
   std::string scene = small_mixture("temperature = true");
   scene.replace(scene.find("\"big\""), 5, "\"a/b, c\"");
