@@ -37,7 +37,9 @@ void RunMeasurements::start(const State& state) {
 void RunMeasurements::sample(const State& state) {
   const Scene& scene = simulation_.scene();
   const Disks& disks = simulation_.disks();
-  temperature_sum_ += kinetic_temperature(scene.box, scene.effects, disks, state);
+  const double temperature = kinetic_temperature(scene.box, scene.effects, disks, state);
+  temperature_sum_ += temperature;
+  look_at_heat(state.time, temperature);
   if (scene.effects.collision.roughness) spin_temperature_sum_ += spin_temperature(disks, state);
   if (scene.effects.shear) momentum_flow_sum_ += momentum_flow_xy(scene.box, scene.effects, disks, state);
   ++samples_;
@@ -53,15 +55,27 @@ void RunMeasurements::look_for_overlap(const State& state) {
   ++report_.overlap_checked;
 }
 
+/// kT that fluctuates carries the virial with it: Z is the ratio of both, with its error that of a ratio.
+void RunMeasurements::look_at_heat(double time, double temperature) {
+  if (!temperature_fluctuates(simulation_.scene().effects)) return;
+  heat_ += static_cast<double>(report_.disks) * (seen_temperature_ + temperature) * (time - seen_time_);
+  seen_temperature_ = temperature;
+  seen_time_ = time;
+  virial_over_heat_.add(heat_, simulation_.totals().virial);
+}
+
 void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
   virial_.add(report_.time, report_.totals.virial);
+  if (samples_ > 0) look_at_heat(report_.time, temperature);
   const Effects& effects = simulation_.scene().effects;
   if (!why_no_Z(effects).empty()) return;
-  if (temperature_fluctuates(effects)) temperature = samples_ > 0 ? report_.temperature_mean : 0.0;
-  if (result.measured && report_.totals.pair > 0 && virial_.rate() && temperature > 0.0) {
+  const bool fluctuates = temperature_fluctuates(effects);
+  const BlockedRate& series = fluctuates ? virial_over_heat_ : virial_;
+  if (result.measured && report_.totals.pair > 0 && series.rate() && temperature > 0.0) {
     const double disks = static_cast<double>(report_.disks);
-    report_.Z = compressibility(*virial_.rate(), disks, temperature);
-    if (virial_.standard_error()) report_.Z_error = *virial_.standard_error() / (2.0 * disks * temperature);
+    report_.Z = fluctuates ? 1.0 + *series.rate() : compressibility(*series.rate(), disks, temperature);
+    if (const std::optional<double> error = series.standard_error())
+      report_.Z_error = fluctuates ? *error : *error / (2.0 * disks * temperature);
     report_.reduced_pressure = 4.0 * report_.packing_fraction / std::numbers::pi * *report_.Z;
   }
 }

@@ -127,6 +127,38 @@ TEST(RunMeasurements, FewCollisionsGiveZWithoutAnError) {
   EXPECT_EQ(report.stopped, StopReason::collisions);
 }
 
+TEST(RunMeasurements, BesideAHeatBathTheErrorOfZIsThatOfARatio) {
+  // kT of sixteen disks in a bath fluctuates by a quarter, and the virial with it, so that the error of the virial alone is some three
+  // times that of Z. What the observable tells is known to be right. Both are known to sqrt(2 / 31) = 0.25 and about as much of one
+  // run, in their squares, and the ratio of ten runs' to 0.11. Four standard errors.
+  Scene scene = gas_scene(16, 0.1, Boundary::periodic);
+  scene.effects.collision.rule = CollisionRule::specular;
+  scene.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.5, .where = {}};
+  scene.run.time = 500.0;
+  scene.run.sample_every = 0.5;
+  scene.observe.emplace_back().name = "pressure";
+  double summary = 0.0, observable = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    scene.run.seed = seed;
+    Simulation simulation = make_simulation(scene);
+    RunMeasurements measurements(simulation);
+    Observation observation(simulation);
+    RunHooks hooks;
+    hooks.start = [&](const State& state) { measurements.start(state); };
+    hooks.sample = [&](std::uint64_t, const State& state) { measurements.sample(state); };
+    hooks.block = [&](const Progress& progress) { measurements.block(progress); };
+    observation.attach(hooks);
+    const RunResult result = run_schedule(simulation, hooks);
+    const RunReport report = measurements.report(result, 0.0);
+    const Scalar Z = observation.results().front().scalars.front();
+    summary += std::pow(report.Z_error.value(), 2);
+    observable += std::pow(Z.error.value(), 2);
+    // Temperatures are taken at other times: half of the observable's step or less apart.
+    EXPECT_NEAR(*report.Z, *Z.value, *Z.error);
+  }
+  EXPECT_NEAR(summary / observable, 1.0, 4.0 * 0.11);
+}
+
 TEST(RunMeasurements, ADeeplyOverlappingStateIsReported) {
   Scene scene = gas_scene(16, 0.3, Boundary::periodic);
   scene.run.time = 0.0;
