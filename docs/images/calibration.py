@@ -3,8 +3,8 @@
 
     docs/images/calibration.py PROGRAM [DIRECTORY [SEEDS]]
 
-Runs `PROGRAM validate --seed K --out DIRECTORY/K` for K = 1 to SEEDS (20), but for those that DIRECTORY (calibration) holds
-already, and goes on with one that was interrupted. Takes the checks that calibrate (see docs/output.md): z of these must be normal with
+Runs `PROGRAM validate --seed K --out DIRECTORY/K` for K = 1 to SEEDS (20; or a list, 1,2,5), but for those that DIRECTORY
+(calibration) holds already, and goes on with one that was interrupted. Takes the checks that calibrate (see docs/output.md): z of these must be normal with
 variance 1. Prints how well they are and writes calibration.svg beside this file. Needs python3-matplotlib.
 """
 import json
@@ -21,11 +21,13 @@ import matplotlib.pyplot as plt
 
 program = sys.argv[1]
 directory = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else "calibration")
-seeds = int(sys.argv[3]) if len(sys.argv) > 3 else 20
+wanted = sys.argv[3] if len(sys.argv) > 3 else "20"
+wanted = [int(seed) for seed in wanted.split(",")] if "," in wanted else range(1, int(wanted) + 1)
+seeds = len(wanted)
 
 directory.mkdir(exist_ok=True)
 validations = []
-for seed in range(1, seeds + 1):
+for seed in wanted:
     out = directory / str(seed)
     if not (out / "validation.json").exists():
         resume = ["--resume"] if (out / "trials.jsonl").exists() else []
