@@ -46,6 +46,9 @@ constexpr double passed_easily = 0.75;
 /// P* at which disks count as jammed: the packing fraction then is within 2e-4 of where all motion ends.
 constexpr double jammed_pressure = 1e4;
 
+/// So many events, and so many per disk, in which no two disks meet while they grow: nothing but walls and obstacles holds them.
+constexpr std::uint64_t wedged_after = 100'000, wedged_after_per_disk = 10'000;
+
 /// Numbers in the stream of velocities that no disk's start uses.
 constexpr std::uint64_t stirring = 1ull << 40;
 
@@ -95,7 +98,12 @@ class Growing {
     scene_.effects.growth = Growth{speed / diameter_, packing_fraction, jammed_pressure, {}};
     const auto engine = detail::make_engine(detail::choose_engine(scene_, disks_, "auto"), scene_, disks_, state);
     constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
-    engine->run_until(forever, no_limit, no_limit);
+    // A disk wedged between obstacles and walls, with nobody to press on, would fly to and fro ever faster.
+    const std::uint64_t stretch = wedged_after + wedged_after_per_disk * disks_.count();
+    for (std::uint64_t pairs = no_limit; pairs != engine->totals().pair && !engine->grown() && !engine->jammed();) {
+      pairs = engine->totals().pair;
+      engine->run_until(forever, no_limit, stretch);
+    }
     state = engine->state();
     state.time = 0.0;
     state.remainders.resize(2, 0);

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace carom::test {
 namespace {
@@ -97,6 +98,19 @@ TEST(Verify, AStartThatTouchesAWallToRoundingIsNoFault) {
     EXPECT_TRUE(result.faults.empty()) << engine << ": " << result.faults.front();
     EXPECT_FALSE(simulation.check_invariants().empty()) << engine << ": nothing has moved it";
   }
+}
+
+TEST(Verify, DisksThatWillHaveGrownIntoEachOtherAfterManyEpochsArePlannedThen) {
+  // All at rest: a row, and two that are several cells away from it and from each other, of which nobody leaves his own.
+  std::vector<Placed> disks;
+  for (int k = 0; k < 30; ++k) disks.push_back({{1.0 + 1.03125 * k, 2.0}, {0.0, 0.0}});
+  disks.push_back({{8.0, 16.0}, {0.0, 0.0}});
+  disks.push_back({{24.0, 16.0}, {0.0, 0.0}});
+  Scene scene = scene_of(box_of(32.0, 32.0, Boundary::periodic), disks);
+  scene.effects.growth.emplace().rate = 0x1p-10;
+  scene.run.time = 1.0;
+  const auto faults = make_simulation(scene, "textbook").check_invariants();
+  EXPECT_TRUE(faults.empty()) << faults.front();
 }
 
 TEST(Verify, OverlapsAreFaultsWhereTheyAreDeeperThanTolerated) {
