@@ -2,6 +2,8 @@
 // The effects that a scene may call for beyond straight flight between hard walls: plain data, one struct per table of the scene
 // format. What is absent is not simulated. Every effect has a neutral value, at which it leaves the same bits as without it.
 
+#include <carom/box.hpp>
+
 #include <Eigen/Core>
 
 #include <array>
@@ -109,6 +111,10 @@ struct Effects {
   /// Whether any contact takes energy away, so that time may come to a stand (inelastic collapse).
   [[nodiscard]] bool dissipate() const;
 };
+
+/// Whether the total momentum along an axis stays what it was: the axis is periodic, and nothing beside the other disks (a
+/// thermostat, an obstacle, a thermal wall) pushes a disk.
+[[nodiscard]] bool keeps_momentum(const Box& box, const Effects& effects, int axis);
 
 /// What acts, in the words of the scene format, in its order: "specular", "walls" (where an axis has them), "restitution", ...
 /// Whatever the scene names acts, at its neutral value too.

@@ -34,10 +34,12 @@ enum class StopReason {
   jammed,  ///< time has stopped: disks touch and have no room to move that numbers could tell (docs/hard-cases.md says after how
            ///< many events)
   collapsed,      ///< time has stopped: inelastic disks collide at ever shorter intervals (see elastic_below)
-  cooled,         ///< inelastic disks have become too slow to compute with: products of speed and diameter are below 1e-150
+  /// Inelastic disks have become too slow to compute with: products of speed and diameter are below 1e-150, in single precision
+  /// 1e-15. Or collisions alone were asked for, and disks move together 2^14 times as fast as against each other.
+  cooled,
   grown,          ///< the packing fraction or pressure at which growth is to end was reached
   no_collisions,  ///< only a number of collisions was asked for, and no pair will ever (or seems ever to) collide
-  invalid_state,  ///< check_invariants() found a fault: RunResult::faults says which
+  invalid_state,  ///< check_invariants() found a fault, or a number is not finite: RunResult::faults says which
 };
 
 /// "time", "collisions", "interrupted", "jammed", "collapsed", "cooled", "grown", "no_collisions", "invalid_state"
@@ -197,7 +199,9 @@ struct RunHooks {
   std::uint64_t verify_every = 0;                         ///< events from one check_invariants() to the next; 0 for no checks
   /// Every few thousand events, after all that has happened so far was handed on; and when the run ends.
   std::function<void(const SavingMoment& moment)> checkpoint;
-  std::istream* resume = nullptr;  ///< what SavingMoment::save() wrote: the schedule goes on from there, without `start`
+  /// What SavingMoment::save() wrote: the schedule goes on from there, without `start`. Requires the grids that were there then, in
+  /// their order; others may follow, or may have followed, and are taken up at the next of their times.
+  std::istream* resume = nullptr;
 };
 
 struct RunResult {
@@ -207,7 +211,7 @@ struct RunResult {
   double loop_seconds = 0.0;        ///< in the event loop of the measured run
   bool measured = true;             ///< false where the run ended while it was still equilibrating
   std::uint64_t verified = 0;       ///< checks of the invariants, the last of them at the end
-  std::vector<std::string> faults;  ///< of the last of them; the run has ended there
+  std::vector<std::string> faults;  ///< of the last of them, or what is not finite; the run has ended there
 };
 
 /// Runs the scene's whole schedule: equilibrate, reset the clock, then sample until time or collisions are reached.

@@ -95,9 +95,9 @@ struct Totals {
   /// sum over wall collisions of the energy that the wall took, for left, right, bottom, top: heat and work; this and the
   /// energies below in mass length^2 / time^2
   std::array<double, 4> wall_energy{};
-  double dissipated = 0.0;     ///< energy that collisions of pairs took away
+  double dissipated = 0.0;     ///< energy that collisions of pairs took away, as surfaces see it that grow
   double kick_energy = 0.0;    ///< energy that the thermostat gave
-  double growth_energy = 0.0;  ///< energy that growing disks gave, less what the rescaling of velocities took
+  double growth_energy = 0.0;  ///< energy that growing surfaces gave, less what the rescaling of velocities took
   double shear_energy = 0.0;   ///< energy that disks gained across the edges of a sheared box
   /// sum over pair collisions of r_y times the impulse along x, momentum along x that goes across y: mass length^2 / time; kept
   /// where there is shear

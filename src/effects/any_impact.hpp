@@ -42,20 +42,29 @@ class AnyImpact {
   };
 
   /// Disks i and j meet at separation r = r_i - r_j at time `now`, at their hard cores or at the edge of their well. `growth`: of
-  /// their contact distance. Changes velocities and keeps count.
-  void meet(const Vec2<Real>& r, Real growth, const Body& i, const Body& j, Real now, Totals& totals) {
+  /// their contact distance. Changes velocities and keeps count. Returns InelasticResult::smallness.
+  Real meet(const Vec2<Real>& r, Real growth, const Body& i, const Body& j, Real now, Totals& totals) {
     const Real before = i.v.x();
-    ImpactResult<Real> impact;
+    InelasticResult<Real> impact;
     if (wells_.present() && wells_.at_edge(r, i.radius + j.radius)) {
       ++totals.well;
-      impact = wells_.cross_edge(i.disk, j.disk, r, i.mass, i.v, j.mass, j.v);
+      impact = {wells_.cross_edge(i.disk, j.disk, r, i.mass, i.v, j.mass, j.v)};
     } else {
       ++totals.pair;
-      impact = by_rule_alone_ && growth == 0 ? collide(r, i, j) : collide(r, growth, i, j, now);
-      (growth > 0 ? totals.growth_energy : totals.dissipated) += (growth > 0 ? 1 : -1) * static_cast<double>(impact.energy);
+      if (owing_) settle(i, j);
+      impact = by_rule_alone_ && growth == 0 ? InelasticResult<Real>{collide(r, i, j)} : collide(r, growth, i, j, now);
+      totals.dissipated += static_cast<double>(impact.lost);
+      if (growth > 0) totals.growth_energy += static_cast<double>(impact.energy + impact.lost);
     }
     totals.virial += static_cast<double>(impact.virial);
     totals.virial_yx += static_cast<double>(r.y() * i.mass * (i.v.x() - before));
+    return impact.smallness;
+  }
+
+  /// The next two disks that meet get this momentum besides.
+  void owe(const Vec2<Real>& momentum) {
+    owed_ = momentum;
+    owing_ = owed_[0] != 0 || owed_[1] != 0;
   }
 
   /// TC model (Luding & McNamara 1998): a disk that collided less than `elastic_below` ago loses nothing.
@@ -82,7 +91,7 @@ class AnyImpact {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(spins_, last_, wells_);
+    archive(spins_, last_, wells_, owed_, owing_);
   }
 
  private:
@@ -90,17 +99,29 @@ class AnyImpact {
     return rule_ == CollisionRule::reversal ? carom::collide<Reversal, Real>(r, i.mass, i.v, j.mass, j.v)
                                             : carom::collide<Specular, Real>(r, i.mass, i.v, j.mass, j.v);
   }
-  ImpactResult<Real> collide(const Vec2<Real>& r, Real growth, const Body& i, const Body& j, Real now) {
+  InelasticResult<Real> collide(const Vec2<Real>& r, Real growth, const Body& i, const Body& j, Real now) {
     const bool elastic = rests(i.disk, now) || rests(j.disk, now);
     const Inelasticity<Real> how{elastic ? Real(1) : turn_, growth};
-    ImpactResult<Real> result = rule_ == CollisionRule::reversal
-                                    ? carom::collide<Reversal, Real>(r, i.mass, i.v, j.mass, j.v, how)
-                                    : carom::collide<Specular, Real>(r, i.mass, i.v, j.mass, j.v, how);
-    if (!spins_.empty() && roughness_ != -1 && (roughness_ == 1 || !elastic))
-      result.energy += roughen(r, roughness_, i.mass, i.radius, i.v, spin(i.disk), j.mass, j.radius, j.v, spin(j.disk));
+    InelasticResult<Real> result = rule_ == CollisionRule::reversal
+                                       ? carom::collide<Reversal, Real>(r, i.mass, i.v, j.mass, j.v, how)
+                                       : carom::collide<Specular, Real>(r, i.mass, i.v, j.mass, j.v, how);
+    if (!spins_.empty() && roughness_ != -1 && (roughness_ == 1 || !elastic)) {
+      const Real gained =
+          roughen(r, roughness_, i.mass, i.radius, i.v, spin(i.disk), j.mass, j.radius, j.v, spin(j.disk));
+      result.energy += gained;
+      result.lost -= gained;
+    }
     touched(i.disk, now);
     touched(j.disk, now);
     return result;
+  }
+
+  /// Both alike, so that nothing changes between them.
+  [[gnu::noinline, gnu::cold]] void settle(const Body& i, const Body& j) {
+    const Vec2<Real> each = owed_ / (i.mass + j.mass);
+    i.v += each;
+    j.v += each;
+    owe(Vec2<Real>::Zero());
   }
 
   CollisionRule rule_;
@@ -110,6 +131,8 @@ class AnyImpact {
   std::vector<Real> spins_;
   std::vector<Real> last_;  ///< collision of each disk, since the clock's zero
   SquareWells<Real> wells_;
+  Vec2<Real> owed_ = Vec2<Real>::Zero();  ///< momentum
+  bool owing_ = false;
   bool by_rule_alone_;  ///< at a hard core
 };
 

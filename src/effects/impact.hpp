@@ -9,7 +9,9 @@
 // 2 mu/m_i and 2 mu/m_j that are rounded one by one would heat or cool the gas by a fixed 1e-16 per collision.
 
 #include "core/vec2.hpp"
+#include "effects/vanishing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -19,6 +21,13 @@ template <class Real>
 struct ImpactResult {
   Real virial = 0;  ///< the momentum that passed between the disks, as r . dp_i: mass length^2 / time
   Real energy = 0;  ///< that the two disks gained: negative where the collision is inelastic
+};
+
+/// The same where disks may be inelastic, and grow.
+template <class Real>
+struct InelasticResult : ImpactResult<Real> {
+  Real lost = 0;                    ///< what the collision took; energy + lost is the work of surfaces that grow
+  Real smallness = infinity<Real>;  ///< of the speed of which it took a share (effects/vanishing.hpp); infinite where of none
 };
 
 /// How a collision differs from that of elastic disks of constant size.
@@ -37,9 +46,17 @@ template <class Real>
 [[gnu::noinline, gnu::cold]] void recede(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j,
                                          Real least = 0) {
   using std::sqrt;
-  const Real speed = sqrt(v_i.squaredNorm()) + sqrt(v_j.squaredNorm());
-  const Vec2<Real> n = (speed / sqrt(r.squaredNorm())) * r;
+  const Real distance = sqrt(r.squaredNorm());
+  // Squares of low speeds vanish: then the largest component will do, and where all is at rest the speed with which to part.
+  Real speed = std::max<Real>(
+      {sqrt(v_i.squaredNorm()) + sqrt(v_j.squaredNorm()), v_i.cwiseAbs().maxCoeff(), v_j.cwiseAbs().maxCoeff()});
+  if (!(speed > 0)) speed = least / distance;
+  const Vec2<Real> n = (speed / distance) * r;
   for (Real push = epsilon<Real>; r.dot(v_i - v_j) < least; push *= 2) {
+    if (push > 4) {  // more than any that is needed: n itself has vanished
+      v_j = v_i;
+      return;
+    }
     v_i += (push * m_j / (m_i + m_j)) * n;
     v_j -= (push * m_i / (m_i + m_j)) * n;
   }
@@ -94,22 +111,26 @@ ImpactResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real 
 /// The same for disks that lose energy or grow: the rule acts on the velocity v - a n with which their surfaces approach, a the
 /// growth of the contact distance. With turn 1 and growth 0 the bits are those of the function above.
 template <class Rule, class Real>
-ImpactResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j,
-                           const Inelasticity<Real>& how) {
-  if (how.turn == 1 && how.growth == 0) return collide<Rule, Real>(r, m_i, v_i, m_j, v_j);
+InelasticResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j,
+                              const Inelasticity<Real>& how) {
+  if (how.turn == 1 && how.growth == 0) return {collide<Rule, Real>(r, m_i, v_i, m_j, v_j)};
   using std::sqrt;
   const Vec2<Real> v = v_i - v_j;
-  const Real least = how.growth * sqrt(r.squaredNorm());  // of r . v, for surfaces that do not approach
+  const Real distance = sqrt(r.squaredNorm());
+  const Real least = how.growth * distance;  // of r . v, for surfaces that do not approach
   const Real b = r.dot(v) - least;
   if (!(b < 0)) return {};
 
-  const Vec2<Real> surfaces = v - (how.growth / sqrt(r.squaredNorm())) * r;
+  const Vec2<Real> surfaces = v - (how.growth / distance) * r;
   const Vec2<Real> d = how.turn * Rule::turned(r, surfaces, b);
   // mu / 2 (|v - 2 d|^2 - v^2) = 2 mu (d^2 - d . v)
   const Real gained = detail::twice_reduced<Real>(d.dot(d - v), m_i, m_j);
+  // The same as the surfaces see it, who do not see the work that they do.
+  const Real lost = how.turn == 1 ? Real(0) : detail::twice_reduced<Real>(d.dot(surfaces - d), m_i, m_j);
   detail::share_out<Real>(v, d, m_i, v_i, m_j, v_j);
   if (r.dot(v_i - v_j) < least) detail::recede(r, m_i, v_i, m_j, v_j, least);
-  return {detail::twice_reduced<Real>(-b * how.turn, m_i, m_j), gained};
+  return {{detail::twice_reduced<Real>(-b * how.turn, m_i, m_j), gained}, lost,
+          how.turn < 1 ? smallness<Real>(-b / distance, distance) : infinity<Real>};
 }
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 // Uniform disks, I = m r^2 / 2, so that the tangential reduced mass is mu / 3. Energy lost: mu (1 - beta^2) g_t^2 / 6.
 // beta = -1: smooth, nothing happens here; +1: perfectly rough, nothing is lost.
 
+#include "core/reduced_mass.hpp"
 #include "core/vec2.hpp"
 
 #include <cmath>
@@ -18,7 +19,7 @@ Real roughen(const Vec2<Real>& r, Real roughness, Real m_i, Real radius_i, Vec2<
   const Vec2<Real> n = r / sqrt(r.squaredNorm());
   const Vec2<Real> t(-n.y(), n.x());
   const Real g = t.dot(v_i - v_j) - (radius_i * w_i + radius_j * w_j);
-  const Real reduced = m_i * m_j / (m_i + m_j) / 3;
+  const Real reduced = reduced_mass_by_product(m_i, m_j) / 3;
   const Real impulse = -(1 + roughness) * reduced * g;
   v_i += (impulse / m_i) * t;
   v_j -= (impulse / m_j) * t;

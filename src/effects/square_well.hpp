@@ -6,6 +6,7 @@
 // Whether a pair is inside is remembered and not read from its distance, which at the edge is the edge to rounding.
 
 #include "core/contact_time.hpp"
+#include "core/reduced_mass.hpp"
 #include "core/vec2.hpp"
 #include "effects/impact.hpp"
 
@@ -85,7 +86,7 @@ class SquareWells {
     const Vec2<Real> n = r / distance;
     const Real u = n.dot(v_i - v_j);
     if (leaving ? !(u > 0) : !(u < 0)) return {};
-    const Real reduced = m_i * m_j / (m_i + m_j);
+    const Real reduced = reduced_mass_by_product(m_i, m_j);
     const Real gained = leaving ? -depth_ : depth_;  // kinetic energy, if it passes
     const Real square = u * u + 2 * gained / reduced;
     Real change;

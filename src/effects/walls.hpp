@@ -12,6 +12,7 @@
 #include "core/sides.hpp"
 #include "effects/maxwell.hpp"
 #include "effects/rebound.hpp"
+#include "effects/vanishing.hpp"
 
 #include <carom/effects.hpp>
 #include <carom/state.hpp>
@@ -61,6 +62,9 @@ class Walls {
   struct Hit {
     Real impulse = 0;  ///< that the side took, outward
     Real energy = 0;   ///< that the side took from the disk
+    /// Of the speed that it took its share of (effects/vanishing.hpp); infinite where it took none, and where the disk is pressed
+    /// against it, so that contacts never end.
+    Real smallness = infinity<Real>;
   };
 
   /// The disk hits the side at time t: changes its velocity, and a piston's. `g` is the acceleration of the disk, `elastic`
@@ -75,13 +79,16 @@ class Walls {
     using std::max;
     const Real closing = max<Real>((outward + growth) - surface, 0);
     Real after;
+    Real small = infinity<Real>;
     if (s.temperature > 0) {
       RandomStream random(seed_, Stream::thermal_walls, 4 * draws_++ + index_of(wall));
       const DiffuseVelocity drawn = diffuse_velocity(random, s.temperature, static_cast<double>(mass));
       after = (surface - growth) - Real(drawn.inward);
       v[1 - axis] = Real(drawn.along);
     } else {
-      const Real parting = rebound<Real>(closing, elastic ? Real(1) : s.restitution, sign * g[axis] - s.acceleration, radius);
+      const Real restitution = elastic ? Real(1) : s.restitution, pressing = sign * g[axis] - s.acceleration;
+      const Real parting = rebound<Real>(closing, restitution, pressing, radius);
+      if (restitution < 1 && closing > 0 && !(pressing > 0)) small = smallness<Real>(closing, radius);
       after = (surface - growth) - parting;
       if (s.mass > 0) {
         // Shares of the change of the relative velocity, by mass.
@@ -93,7 +100,7 @@ class Walls {
       }
     }
     v[axis] = sign * after;
-    return {mass * (outward - after), mass * (before - v.squaredNorm()) / 2};
+    return {mass * (outward - after), mass * (before - v.squaredNorm()) / 2, small};
   }
 
   /// Whether the side moves by itself after a contact, so that all predictions with it are void.

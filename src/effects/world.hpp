@@ -75,7 +75,8 @@ struct AnyWorld {
   /// Whether disks fly straight and keep their size, between walls that stay where the box has them.
   [[nodiscard]] bool still() const { return !falling.present() && growth_ == 0.0 && !walls.any_moves() && !walls.any_moved(); }
 
-  void meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double now, Totals& totals) {
+  /// A disk meets a wall or an obstacle: changes its velocity and keeps count. Returns Walls::Hit::smallness.
+  double meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double now, Totals& totals) {
     const double growth = growth_ * disk.radius / scale(now);
     if (what <= first_obstacle) {
       ++totals.obstacle;
@@ -83,13 +84,14 @@ struct AnyWorld {
       const auto bounce = bounce_off<double>(normal, v, falling.g, disk.mass, disk.radius, growth);
       totals.obstacle_impulse += bounce.impulse;
       totals.growth_energy += bounce.energy;
-      return;
+      return infinity<double>;
     }
     const Wall wall = static_cast<Wall>(what);
     ++totals.wall;
     const auto hit = walls.meet(wall, v, falling.g, disk.mass, disk.radius, growth, disk.elastic, now);
     totals.wall_impulse[index_of(wall)] += hit.impulse;
     totals.wall_energy[index_of(wall)] += hit.energy;
+    return hit.smallness;
   }
   /// A piston, whose motion a contact changes.
   [[nodiscard]] bool gives_way(std::int32_t what) const {

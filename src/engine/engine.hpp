@@ -29,7 +29,9 @@
 #include "effects/any_impact.hpp"
 #include "effects/elastic.hpp"
 #include "effects/world.hpp"
+#include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
+#include "engine/ending.hpp"
 #include "engine/epoch.hpp"
 #include "engine/image_counts.hpp"
 #include "engine/layout.hpp"
@@ -108,15 +110,19 @@ class Engine {
   /// Nothing will ever happen again: nothing moves, and nothing makes it move.
   [[nodiscard]] bool idle() const { return epoch_length_ == never; }
 
-  /// Time has stopped: millions of events at one instant, as of disks that touch on all sides and still are to move.
-  [[nodiscard]] bool jammed() const { return at_one_instant_ > patience_ + 100 * lines_.size() || cooled_; }
+  /// It can go no further (engine/ending.hpp): time has stopped, as for disks that touch on all sides and still are to move.
+  [[nodiscard]] bool jammed() const { return ending_.has_come(); }
+  /// Disks whose speeds have vanished so (engine/ending.hpp).
+  [[nodiscard]] std::vector<std::int32_t> slow() const { return ending_.slow(); }
   /// It is not time that has stopped but speeds that have become too small to compute with (engine/epoch.hpp).
-  [[nodiscard]] bool cooled() const { return cooled_; }
+  [[nodiscard]] bool cooled() const { return ending_.cooled(); }
+  /// Nor that: velocities would not be finite. It stands before what would have made them so. Empty where all is well.
+  [[nodiscard]] const std::string& fault() const { return ending_.fault(); }
 
  private:
   /// The next event of all.
   [[gnu::flatten]] void step(std::int32_t i, double time) {
-    at_one_instant_ = time > now_ ? 0 : at_one_instant_ + 1;
+    ending_.count(time > now_);
     now_ = std::max(now_, time);
     const Plan& mine = plan(i);
     if (edge_first(mine)) {
@@ -173,8 +179,14 @@ class Engine {
     const double growth = (radius_a + radius_b) * world_.growth();
     count_contact<double>(r, va - vb, (radius_a + radius_b) * scale, growth, totals_.numerics);
     last_collision_.count(now_, totals_.numerics);
-    impact_.meet(r, growth, {i, layout_.mass(a), radius_a * scale, va}, {j, layout_.mass(b), radius_b * scale, vb}, now_,
-                 totals_);
+    const auto meet = [&] {
+      return impact_.meet(r, growth, {i, layout_.mass(a), radius_a * scale, va}, {j, layout_.mass(b), radius_b * scale, vb}, now_,
+                          totals_);
+    };
+    if constexpr (Impact::plain)
+      meet();
+    else
+      ending_.note_loss(meet(), {id(i), id(j)});
   }
 
   /// A disk meets a wall or an obstacle.
@@ -183,8 +195,11 @@ class Engine {
       if (world_.sliding.present()) return cross_sliding_edge(i, is_upper(static_cast<Wall>(what)) ? 1 : -1);
     const Line& a = line(i);
     Vec2<double> v = velocity(a);
-    world_.meet(what, {place(a), layout_.mass(a), layout_.radius(a) * world_.scale(now_), impact_.rests(i, now_)}, v, now_,
-                totals_);
+    const Visitor visitor{place(a), layout_.mass(a), layout_.radius(a) * world_.scale(now_), impact_.rests(i, now_)};
+    if constexpr (World::plain)
+      world_.meet(what, visitor, v, now_, totals_);
+    else
+      ending_.note_loss(world_.meet(what, visitor, v, now_, totals_), {id(i)});
     impact_.touched(i, now_);
     if (recording_) log_hit(i, what, v);
     turn(i, v);
@@ -328,6 +343,9 @@ class Engine {
   /// are those of lines. The two may be one and the same disk.
   [[gnu::noinline, gnu::cold]] void begin_epoch_between(std::int32_t i, const Vec2<double>& va, std::int32_t j,
                                                         const Vec2<double>& vb);
+  /// The velocities of two disks, who may be one and the same, would not be finite: they keep those that they have, and the run
+  /// ends.
+  void fail_between(std::int32_t i, std::int32_t j);
   /// Lets every line start, and every plan and stamp count, at `now`: all have collided by stamp 1, plans found stale have 0.
   void rebase(double now);
   void start_queue();
@@ -358,6 +376,8 @@ class Engine {
   /// As long as the lines may become as the disks move now, rounded down to a power of two.
   void choose_epoch_length();
   [[nodiscard]] double longest_by_world() const;
+  /// What rounding has left of it is to be given back where disks lose energy.
+  void look_after_momentum();
   /// Chooses the width of cages by the work done since the last choice.
   void tune_cages(double elapsed);
   /// New cages round all disks, and new lists. The plans must be made anew as well.
@@ -368,9 +388,9 @@ class Engine {
 
   /// Whether the frame of the lines does.
   [[nodiscard]] bool falls() const { return world_.g()[0] != 0.0 || world_.g()[1] != 0.0; }
-  /// A disk so fast that its line could wrap before the epoch ends.
+  /// A disk so fast that its line could wrap before the epoch ends, or whose velocity is no number.
   [[nodiscard]] bool outruns_epoch(const Vec2<double>& v) const {
-    return std::abs(v[0]) > speed_limit_[0] || std::abs(v[1]) > speed_limit_[1];
+    return !(std::abs(v[0]) <= speed_limit_[0]) || !(std::abs(v[1]) <= speed_limit_[1]);
   }
 
   // ----------------------------------------------------------------------------------------------- disks in flight
@@ -403,6 +423,8 @@ class Engine {
     if constexpr (World::plain) return {a.v[0], a.v[1]};
     return {a.v[0] + world_.g()[0] * now_, a.v[1] + world_.g()[1] * now_};
   }
+  /// At the beginning of an epoch.
+  [[nodiscard]] Vec2<double> momentum(const Line& a) const { return layout_.mass(a) * Vec2<double>(a.v[0], a.v[1]); }
   /// From the edge of a disk to where a side of the box was at the start, the upper one of an axis (sign 1) or the lower (-1).
   [[nodiscard]] double room(const Line& a, int axis, int sign, double radius) const {
     const std::int64_t limit = half_[axis] - axes_[axis].steps_of(radius);
@@ -577,10 +599,8 @@ class Engine {
   std::uint64_t changed_ = 0;  ///< lists_.changes() at that time
   std::uint64_t looks_ = 0;    ///< since then: more_looks() of those who collided
 
-  std::uint64_t patience_;  ///< events at one instant after which time is taken to stand still
-  bool may_cool_;           ///< collisions take energy, and nothing brings it back by itself
-  std::uint64_t at_one_instant_ = 0;
-  bool cooled_ = false;
+  Ending ending_;
+  CommonMotion<double> common_motion_;
   Totals totals_;
   LastInstant last_collision_;
   bool recording_ = false;  ///< events

@@ -9,14 +9,17 @@ namespace carom {
 template <class Impact, class Layout, class World>
 template <class Archive>
 void Engine<Impact, Layout, World>::serialize(Archive& archive) {
-  archive(axes_[0], axes_[1], half_[0], half_[1], frame_, impact_, world_);
+  PredictionFrame frame = frame_;  // which knows where in memory things lie
+  frame.inside = nullptr;
+  frame.sliding.heights = nullptr;
+  archive(axes_[0], axes_[1], half_[0], half_[1], frame, impact_, world_);
   archive(lines_, plans_, ids_, images_, heights_, radius_, lists_, queue_);
-  archive(epoch_, now_, epoch_length_, stamp_, at_one_instant_, cooled_, last_collision_, totals_);
+  archive(epoch_, now_, epoch_length_, stamp_, ending_, common_motion_, last_collision_, totals_);
   archive(mean_speed_, reach_, area_, listed_scale_, way_, span_, begun_with_);
   for (int k = 0; k < 2; ++k) archive(travel_[k], clear_[k], speed_limit_[k]);
   archive(tuner_, widest_, settling_, travelled_, left_, changed_, looks_, busy_);
   if constexpr (Archive::is_loading::value) {
-    frame_.inside = nullptr;
+    frame_ = frame;
     if constexpr (!Impact::plain)
       if (impact_.wells().present()) frame_.inside = impact_.wells().table();
     frame_.sliding.heights = heights_.data();

@@ -112,8 +112,8 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       spacing_(detail::mean_spacing(box, disks.count())),
       walled_(!box.periodic(0) || !box.periodic(1)),
       bare_(!walled_ && effects.obstacles.empty() && !SlidingImages<double>::acts(effects.shear)),
-      patience_(effects.dissipate() ? 100'000 : 10'000'000),
-      may_cool_(effects.dissipate() && !effects.gravity) {
+      ending_(effects, disks.count()),
+      common_motion_(box, effects) {
   detail::OrderInSpace order = detail::order_in_space(axes_[0], axes_[1], start);
   ids_ = std::move(order.ids);
   radius_ = detail::in_order(disks.radius, ids_);
@@ -151,6 +151,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   double half_width = std::min(suitable_half_width(), widest_);
   for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sigma_; rebuild(half_width)) half_width *= 0.7;
   find_wells();
+  if (common_motion_.present()) common_motion_.begin(lines_, [this](const Line& a) { return momentum(a); });
   choose_epoch_length();
   predict_all();
   begin_epoch(0.0);

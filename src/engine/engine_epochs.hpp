@@ -5,6 +5,8 @@
 #include "engine/engine.hpp"
 #include "engine/engine_begin.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace carom {
@@ -12,6 +14,7 @@ namespace carom {
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::begin_epoch(double now) {
   rebase(now);
+  look_after_momentum();
   if constexpr (!World::plain) draw_up_frame(), widen();
   if (now > 0.0) tune_cages(now);
   choose_epoch_length();
@@ -31,6 +34,7 @@ void Engine<Impact, Layout, World>::begin_epoch(double now) {
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::begin_epoch_between(std::int32_t i, const Vec2<double>& va, std::int32_t j,
                                                         const Vec2<double>& vb) {
+  if (!va.allFinite() || !vb.allFinite()) return fail_between(i, j);
   const Vec2<double> fallen = world_.g() * now_;
   rebase(now_);
   ++totals_.numerics.outrun;
@@ -41,6 +45,21 @@ void Engine<Impact, Layout, World>::begin_epoch_between(std::int32_t i, const Ve
   if constexpr (!World::plain) slide_images();
   for (const std::int32_t k : {i, j}) plan_ahead(k, predicted(k, surroundings(k)));
   start_queue();
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::fail_between(std::int32_t i, std::int32_t j) {
+  // What has been written down of it is no event.
+  if (i != j && noting_) --noted_;
+  if (i == j && !log_.empty() && !log_.back().velocity.allFinite()) log_.pop_back();
+  ending_.fail(i == j ? fmt::format("disk {}: its velocity would not be finite after what it has met", id(i))
+                      : fmt::format("disks {} and {}: their velocities would not be finite after their collision", id(i), id(j)));
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::look_after_momentum() {
+  if constexpr (!Impact::plain)
+    if (common_motion_.present()) impact_.owe(common_motion_.owed(lines_, [this](const Line& a) { return momentum(a); }));
 }
 
 template <class Impact, class Layout, class World>
@@ -92,7 +111,8 @@ void Engine<Impact, Layout, World>::choose_epoch_length() {
       fastest[k] = std::max(fastest[k], std::abs(a.v[k]));
       sum += std::abs(a.v[k]);
     }
-  cooled_ = may_cool_ && is_too_slow(std::max(fastest[0], fastest[1]), sigma_);
+  ending_.note_speeds(is_too_slow<double>(std::max(fastest[0], fastest[1]), sigma_));
+  if (!(sum < never)) ending_.fail("a velocity is not finite");
   mean_speed_ = sum / static_cast<double>(std::max(count(), 1));
   // Rounding x + v t moves a disk by 2^-53 of the way since the epoch: some spacings for most, never more than the room
   // that coordinates have, were the fastest to become somewhat faster.

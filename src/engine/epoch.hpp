@@ -1,6 +1,8 @@
 #pragma once
 // How long an engine's short clock runs before it starts anew.
 
+#include "effects/vanishing.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -21,9 +23,12 @@ template <class Disks, class VelocityOf>
   return fastest * std::sqrt(squares / static_cast<double>(disks.size()));
 }
 
-/// Predictions square products of speed and length, which must neither vanish nor lose digits: scenes must begin above this
-/// bound, and a gas that dissipates comes below it in the end. 0 is slow enough to be exact.
-[[nodiscard]] inline bool is_too_slow(double speed, double diameter) { return speed > 0.0 && speed * diameter < 1e-150; }
+/// Predictions square products of speed and length: scenes must begin above the bound of squares_vanish(), and a gas that
+/// dissipates comes below it in the end. 0 is slow enough to be exact.
+template <class Real>
+[[nodiscard]] bool is_too_slow(double speed, double diameter) {
+  return speed > 0.0 && squares_vanish<Real>(Real(speed * diameter));
+}
 
 /// Time in which a disk of the root mean square speed passes 16 to 32 neighbours at the mean spacing, as a power of two.
 /// Long enough that a new epoch (all disks predicted anew) costs a few per cent; short enough that rounding a time moves

@@ -19,12 +19,16 @@
 #include "effects/obstacles.hpp"
 #include "effects/shear.hpp"
 #include "effects/walls.hpp"
+#include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
+#include "engine/ending.hpp"
 #include "engine/epoch.hpp"
 #include "neighbours/cell_grid.hpp"
 #include "queue/event_queue.hpp"
 
 #include <carom/state.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,16 +71,20 @@ class TextbookEngine {
   /// Nothing will ever happen again. (Images that slide may hit what is at rest, however late.)
   [[nodiscard]] bool idle() const { return queue_.empty() || (queue_.next().time == infinity<Real> && !sliding_.present()); }
 
-  /// Time has stopped: millions of events at one instant, as of disks that touch on all sides and still are to move.
-  [[nodiscard]] bool jammed() const { return at_one_instant_ > patience_ + 100 * records_.size() || cooled_; }
+  /// It can go no further (engine/ending.hpp): time has stopped, as for disks that touch on all sides and still are to move.
+  [[nodiscard]] bool jammed() const { return ending_.has_come(); }
+  /// Disks whose speeds have vanished so (engine/ending.hpp).
+  [[nodiscard]] std::vector<std::int32_t> slow() const { return ending_.slow(); }
   /// It is not time that has stopped but speeds that have become too small to compute with (engine/epoch.hpp).
-  [[nodiscard]] bool cooled() const { return cooled_; }
+  [[nodiscard]] bool cooled() const { return ending_.cooled(); }
+  /// Nor that: velocities would not be finite. It stands before what would have made them so. Empty where all is well.
+  [[nodiscard]] const std::string& fault() const { return ending_.fault(); }
 
  private:
   /// The next event of all.
   void step() {
     const QueuedEvent<Real> event = queue_.next();
-    at_one_instant_ = event.time > now_ ? 0 : at_one_instant_ + 1;
+    ending_.count(event.time > now_);
     now_ = std::max(now_, event.time);
     if (event.higher == cell_crossing) {
       cross_cell(event.disk);
@@ -105,16 +113,21 @@ class TextbookEngine {
     }
     Record& a = record(i);
     Record& b = record(j);
-    const Vec2<Real> r = separation(a, b, now_, shift);
+    const Vec2<Real> r = separation(a, b, now_, shift), before_a = a.v, before_b = b.v;
     const Real image_speed = Real(shift[1]) * sliding_.speed();
     b.v[0] += image_speed;  // as the image that i meets
     const Real image_before = b.v[0];
     count_contact<Real>(r, a.v - b.v, radius_at(a, now_) + radius_at(b, now_), (a.radius + b.radius) * growth_, totals_.numerics);
     last_collision_.count(now_, totals_.numerics);
-    impact_.meet(r, (a.radius + b.radius) * growth_, {i, a.mass, radius_at(a, now_), a.v}, {j, b.mass, radius_at(b, now_), b.v},
-                 now_, totals_);
+    ending_.note_loss(impact_.meet(r, (a.radius + b.radius) * growth_, {i, a.mass, radius_at(a, now_), a.v},
+                                   {j, b.mass, radius_at(b, now_), b.v}, now_, totals_),
+                      {i, j});
     if (image_speed != 0) totals_.shear_energy += static_cast<double>(b.mass * (image_before - b.v[0]) * image_speed);
     b.v[0] -= image_speed;
+    if (!a.v.allFinite() || !b.v.allFinite()) {
+      a.v = before_a, b.v = before_b;
+      return ending_.fail(fmt::format("disks {} and {}: their velocities would not be finite after their collision", i, j));
+    }
     if (recording_) log_event(i, j, a.v, b.v);
     if (outruns_epoch(a.v, now_, box_size_) || outruns_epoch(b.v, now_, box_size_)) return begin_epoch_early();
     predict(i);
@@ -125,10 +138,13 @@ class TextbookEngine {
   void hit_wall(std::int32_t i, Wall wall) {
     bring_to_now(i);
     Record& a = record(i);
+    const Vec2<Real> before = a.v;
     ++totals_.wall;
     const auto hit = walls_.meet(wall, a.v, falling_.g, a.mass, a.radius, a.radius * growth_, impact_.rests(i, now_), now_);
     totals_.wall_impulse[index_of(wall)] += static_cast<double>(hit.impulse);
     totals_.wall_energy[index_of(wall)] += static_cast<double>(hit.energy);
+    ending_.note_loss(hit.smallness, {i});
+    if (!a.v.allFinite()) return fail_after_hit(i, before);
     impact_.touched(i, now_);
     if (recording_) log_event(i, wall, a.v, Vec2<Real>(0, 0));
     if (outruns_epoch(a.v, now_, box_size_)) return begin_epoch_early();
@@ -158,15 +174,23 @@ class TextbookEngine {
   void hit_obstacle(std::int32_t i, std::int32_t obstacle) {
     bring_to_now(i);
     Record& a = record(i);
+    const Vec2<Real> before = a.v;
     ++totals_.obstacle;
     const Vec2<Real> normal = obstacles_.from_nearest_point(obstacle, a.r);
     const auto bounce = bounce_off<Real>(normal, a.v, falling_.g, a.mass, a.radius, a.radius * growth_);
     totals_.obstacle_impulse += bounce.impulse.template cast<double>();
     totals_.growth_energy += static_cast<double>(bounce.energy);
+    if (!a.v.allFinite()) return fail_after_hit(i, before);
     impact_.touched(i, now_);
     if (recording_) log_event(i, first_obstacle - obstacle, a.v, Vec2<Real>(0, 0));
     if (outruns_epoch(a.v, now_, box_size_)) return begin_epoch_early();
     predict(i);
+  }
+
+  /// The velocity of a disk would not be finite: it keeps the one that it had, and the run ends.
+  void fail_after_hit(std::int32_t i, const Vec2<Real>& before) {
+    record(i).v = before;
+    ending_.fail(fmt::format("disk {}: its velocity would not be finite after what it has met", i));
   }
 
   /// A disk enters the next cell and may meet those who come into reach. Its record stays as it is.
@@ -293,8 +317,10 @@ class TextbookEngine {
     sliding_.rebase(now_);
     scale_ += growth_ * now_;
     now_ = 0;
-    cooled_ = may_cool_ &&
-              is_too_slow(rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; }), 2.0 * largest_radius_);
+    const double speed = rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; });
+    ending_.note_speeds(is_too_slow<Real>(speed, 2.0 * largest_radius_));
+    if (!std::isfinite(speed)) ending_.fail("a velocity is not finite");
+    if (common_motion_.present()) impact_.owe(common_motion_.owed(records_, [](const Record& a) { return momentum(a); }));
     epoch_length_ = suitable_epoch_length();
     suit_grid();
     last_collision_.rebase();
@@ -356,6 +382,7 @@ class TextbookEngine {
   static constexpr std::int32_t nobody = -1;
   static constexpr std::int32_t cell_crossing = -100;  ///< in the place of a partner; below every wall: crossed before it is hit
 
+  [[nodiscard]] static Vec2<Real> momentum(const Record& a) { return a.mass * a.v; }
   [[nodiscard]] Vec2<Real> position(const Record& a, Real t) const { return falling_.position(a.r, a.v, t - a.t); }
   [[nodiscard]] Vec2<Real> velocity(const Record& a, Real t) const { return falling_.velocity(a.v, t - a.t); }
   [[nodiscard]] Real radius_at(const Record& a, Real t) const { return a.radius * (scale_ + growth_ * t); }
@@ -438,10 +465,8 @@ class TextbookEngine {
   Real epoch_length_ = 0;
   double box_size_;  ///< root of the area
   double largest_radius_;
-  std::uint64_t patience_;            ///< events at one instant after which time is taken to stand still
-  bool may_cool_;                     ///< collisions take energy, and nothing brings it back by itself
-  std::uint64_t at_one_instant_ = 0;  ///< events since time last advanced
-  bool cooled_ = false;
+  Ending ending_;
+  CommonMotion<Real> common_motion_;
   Totals totals_;
   LastInstant last_collision_;
   bool recording_ = false;
@@ -479,8 +504,10 @@ class TextbookEngine {
     bring_to_now(i);
     Record& a = record(i);
     const double before = kinetic_energy(i);
+    const Vec2<Real> as_it_was = a.v;
     a.v = v.cast<Real>();
     a.v[0] += sliding_.flow(a.r[1]);
+    if (!a.v.allFinite()) fail_after_hit(i, as_it_was);
     if (impact_.spinning()) impact_.spin(i) = Real(spin);
     const double gained = kinetic_energy(i) - before;
     if (outruns_epoch(a.v, now_, box_size_))

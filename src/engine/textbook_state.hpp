@@ -34,8 +34,8 @@ TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const S
       images_(Images::Zero(2, static_cast<Eigen::Index>(disks.count()))),
       box_size_(box.lengths()[0] * std::sqrt(box.lengths()[1] / box.lengths()[0])),
       largest_radius_(disks.count() == 0 ? 0.5 : *std::max_element(disks.radius.begin(), disks.radius.end())),
-      patience_(effects.dissipate() ? 100'000 : 10'000'000),
-      may_cool_(effects.dissipate() && !effects.gravity) {
+      ending_(effects, disks.count()),
+      common_motion_(box, effects) {
   for (std::int32_t i = 0; i < count(); ++i) {
     record(i).r = start.positions.col(i).template cast<Real>();
     record(i).v = start.velocities.col(i).template cast<Real>();
@@ -49,6 +49,7 @@ TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const S
   grid_.clear();
   for (std::int32_t i = 0; i < count(); ++i) grid_.insert(i, record(i).r);
   find_wells();
+  if (common_motion_.present()) common_motion_.begin(records_, [](const Record& a) { return momentum(a); });
   begin_epoch(Real(0));
 }
 
@@ -137,7 +138,7 @@ template <class Real>
 template <class Archive>
 void TextbookEngine<Real>::serialize(Archive& archive) {
   archive(walls_, sliding_, impact_, scale_, growth_, grid_, records_, plans_, images_, epoch_, now_, epoch_length_,
-          at_one_instant_, cooled_, totals_, last_collision_);
+          ending_, common_motion_, totals_, last_collision_);
   if constexpr (Archive::is_loading::value) fill_queue();
 }
 

@@ -56,6 +56,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   if (report.overlap_at_start) json["overlap"]["start"] = number(*report.overlap_at_start);
   json["stopped"] = to_string(report.stopped);
   if (!report.stopped_disks.empty()) json["stopped_disks"] = report.stopped_disks;
+  if (!report.faults.empty()) json["faults"] = report.faults;
   if (!report.measured) json["measured"] = false;
 
   json["title"] = report.title;

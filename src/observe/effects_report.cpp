@@ -23,7 +23,7 @@ WallReport wall_report(const Scene& scene, const Totals& totals, const State& en
     wall.force = wall.momentum / end.time;
     if (keeps_length) wall.pressure = *wall.force / scene.box.lengths()[side < 2 ? 1 : 0];
   }
-  if (moves(scene.effects.walls[side]) && end.walls.size() == 4) wall.end = end.walls[side];
+  if (may_move(scene.effects.walls[side]) && end.walls.size() == 4) wall.end = end.walls[side];
   return wall;
 }
 
@@ -50,8 +50,10 @@ ShearReport shear_report(const Scene& scene, const Totals& totals, const State& 
 
 bool gives_untold(const Effects& effects) {
   const bool growing = effects.growth && effects.growth->rate > 0.0;
-  return (growing && effects.collision.roughness) ||
-         any_wall(effects, [](const WallProperties& wall) { return wall.mass && (wall.restitution || wall.temperature); });
+  const auto takes_or_heats = [](const WallProperties& wall) {
+    return wall.mass && (wall.restitution.value_or(1.0) != 1.0 || wall.temperature);
+  };
+  return (growing && effects.collision.roughness.value_or(-1.0) != -1.0) || any_wall(effects, takes_or_heats);
 }
 
 EffectsReport effects_report(const Scene& scene, const Disks& disks, const Totals& totals, const State& end) {
@@ -59,7 +61,7 @@ EffectsReport effects_report(const Scene& scene, const Disks& disks, const Total
   EffectsReport report;
   for (std::size_t side = 0; side < 4; ++side)
     if (!scene.box.periodic(side < 2 ? 0 : 1)) report.walls.push_back(wall_report(scene, totals, end, side));
-  if (any_wall(effects, moves)) report.packing_fraction_end = packing_fraction(scene.box, disks, end);
+  if (any_wall(effects, may_move)) report.packing_fraction_end = packing_fraction(scene.box, disks, end);
   if (has_more_than_kinetic_energy(effects)) report.energies_end = energies_of(scene.box, effects, disks, end);
   if (effects.collision.restitution || effects.collision.roughness) report.dissipated = totals.dissipated;
   if (!effects.obstacles.empty()) report.obstacles = totals.obstacle_impulse;

@@ -47,12 +47,6 @@ double temperature_of(const std::array<bool, 2>& kept, const Disks& disks, const
 
 }  // namespace
 
-bool keeps_momentum(const Box& box, const Effects& effects, int axis) {
-  const bool pushed = (effects.thermostat && effects.thermostat->rate > 0.0) || !effects.obstacles.empty() ||
-                      any_wall(effects, [](const WallProperties& wall) { return wall.temperature.has_value(); });
-  return box.periodic(axis) && !pushed;
-}
-
 double kinetic_temperature(const Box& box, const Disks& disks, const State& state) {
   return temperature_of({box.periodic(0), box.periodic(1)}, disks, state);
 }

@@ -15,10 +15,6 @@ namespace carom {
 /// sum of m v
 [[nodiscard]] Eigen::Vector2d total_momentum(const Disks& disks, const State& state);
 
-/// Whether the total momentum along an axis stays what it was: the axis is periodic, and nothing beside the other disks (a
-/// thermostat, an obstacle, a thermal wall) pushes a disk.
-[[nodiscard]] bool keeps_momentum(const Box& box, const Effects& effects, int axis);
-
 /// kT = 2 K' / f: K' is the kinetic energy without that of the common motion along periodic axes, whose momentum no
 /// collision changes, and f = 2 N minus the number of such axes. 0 where no degree of freedom is left.
 [[nodiscard]] double kinetic_temperature(const Box& box, const Disks& disks, const State& state);

@@ -113,6 +113,7 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   report_.temperature_mean = samples_ > 0 ? temperature_sum_ / static_cast<double>(samples_) : temperature;
   report_.stopped = result.stopped;
   report_.stopped_disks = result.stopped_disks;
+  report_.faults = result.faults;
   report_.of_effects = effects_report(scene, disks, report_.totals, state);
   if (!result.measured) report_.of_effects.energy_given.reset();  // totals began before the initial energy did
   finish_samples(state);

@@ -57,6 +57,7 @@ struct RunReport {
   std::optional<double> overlap_at_start;  ///< the same of the start alone, where the scene accepts an overlap there
   StopReason stopped = StopReason::time;
   std::vector<std::int32_t> stopped_disks;  ///< RunResult::stopped_disks
+  std::vector<std::string> faults;          ///< RunResult::faults
   EffectsReport of_effects;
   std::string note_on_errors;                ///< what errors of Z and of observables do not tell; empty where that is nothing
   std::vector<Measurement> observables;      ///< what the scene's [observe] table asked for

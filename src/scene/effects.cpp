@@ -42,6 +42,12 @@ bool Effects::dissipate() const {
          any(walls, [](const WallProperties& wall) { return wall.restitution.value_or(1.0) < 1.0; });
 }
 
+bool keeps_momentum(const Box& box, const Effects& effects, int axis) {
+  const bool pushed = (effects.thermostat && effects.thermostat->rate > 0.0) || !effects.obstacles.empty() ||
+                      any(effects.walls, [](const WallProperties& wall) { return wall.temperature.has_value(); });
+  return box.periodic(axis) && !pushed;
+}
+
 std::vector<std::string> names_of(const Effects& effects, bool walled) {
   std::vector<std::string> names = {effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular"};
   const auto put = [&](bool present, const char* name) {

@@ -83,13 +83,14 @@ std::string why_stopped(const RunReport& report, const Scene* scene) {
           "1e-6 }}, to go on",
           named(report.stopped_disks, "inelastic disks"), report.stopped_disks.size() == 1 ? "s" : "");
     case StopReason::cooled:
-      return "cooled: inelastic disks have become too slow for numbers to tell; what they lose from here on cannot be computed";
+      return "cooled: inelastic disks move too slowly against each other to be followed any further; where they move on "
+             "together, leave that out of the start";
     case StopReason::grown:
       return report.of_effects.growth
                  ? fmt::format("grown as far as asked, to packing fraction {:.5g}", report.of_effects.growth->packing_fraction)
                  : "grown as far as asked";
     case StopReason::invalid_state:
-      return "stopped: an invariant of the engine is broken";
+      return report.faults.empty() ? "stopped: an invariant of the engine is broken" : "stopped: " + report.faults.front();
     case StopReason::no_collisions:
       return report.measured ? "stopped: no pair of disks collides any more"
                              : "stopped while equilibrating: no pair of disks collides";

@@ -36,8 +36,12 @@ class AnyEngine {
   virtual bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) = 0;
   [[nodiscard]] virtual bool idle() const = 0;
   [[nodiscard]] virtual bool jammed() const = 0;
+  /// Disks whose speeds have vanished where that is why it is jammed().
+  [[nodiscard]] virtual std::vector<std::int32_t> slow() const { return {}; }
   /// jammed() because speeds have become too small to compute with.
   [[nodiscard]] virtual bool cooled() const { return false; }
+  /// jammed() because velocities would not be finite: in half a sentence, empty where that is not so.
+  [[nodiscard]] virtual std::string fault() const { return {}; }
   /// Disks that grew have reached the packing fraction or pressure at which they were to end: run_until returns false from then
   /// on.
   [[nodiscard]] virtual bool grown() const { return false; }
@@ -95,10 +99,15 @@ class EngineAdapter final : public AnyEngine {
   }
   [[nodiscard]] bool idle() const override { return engine_.idle(); }
   [[nodiscard]] bool jammed() const override { return engine_.jammed(); }
+  [[nodiscard]] std::vector<std::int32_t> slow() const override {
+    if constexpr (requires { engine_.slow(); }) return engine_.slow();
+    return {};
+  }
   [[nodiscard]] bool cooled() const override {
     if constexpr (requires { engine_.cooled(); }) return engine_.cooled();
     return false;
   }
+  [[nodiscard]] std::string fault() const override { return engine_.fault(); }
   [[nodiscard]] Instant now() const override { return engine_.now(); }
   [[nodiscard]] const Totals& totals() const override { return engine_.totals(); }
   [[nodiscard]] State state() const override { return engine_.state(); }

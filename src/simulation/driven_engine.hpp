@@ -30,7 +30,9 @@ class DrivenEngine final : public AnyEngine {
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override;
   [[nodiscard]] bool idle() const override;
   [[nodiscard]] bool jammed() const override { return engine_->jammed(); }
+  [[nodiscard]] std::vector<std::int32_t> slow() const override { return engine_->slow(); }
   [[nodiscard]] bool cooled() const override { return engine_->cooled(); }
+  [[nodiscard]] std::string fault() const override { return engine_->fault(); }
   [[nodiscard]] bool grown() const override { return grown_; }
   [[nodiscard]] Instant now() const override { return engine_->now(); }
   [[nodiscard]] const Totals& totals() const override { return totals_; }

@@ -7,6 +7,8 @@
 #include "core/all_equal.hpp"
 #include "core/archive.hpp"
 #include "simulation/all_events.hpp"
+#include "simulation/finite_state.hpp"
+#include "simulation/moving_as_one.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/sampling_times.hpp"
 #include "simulation/standstill.hpp"
@@ -33,16 +35,10 @@ constexpr std::uint64_t stretch_events = 20'000, recorded_events = 2'000;
 /// each other for ever, as far as anyone can tell.
 constexpr std::uint64_t patience = 1'000'000'000;
 
-/// Whom events concern, by rising id.
-std::vector<std::int32_t> disks_of(std::span<const Event> events) {
-  std::vector<std::int32_t> disks;
-  for (const Event& event : events) {
-    disks.push_back(event.disk);
-    if (event.partner >= 0) disks.push_back(event.partner);
-  }
+/// Keeps each id once, by rising id.
+void sort_out(std::vector<std::int32_t>& disks) {
   std::sort(disks.begin(), disks.end());
   disks.erase(std::unique(disks.begin(), disks.end()), disks.end());
-  return disks;
 }
 
 /// Growth to a packing fraction comes to its end whether disks collide or not.
@@ -59,7 +55,8 @@ class Schedule {
         sample_collisions_(run_.sample_every_collisions.value_or(no_limit)),
         block_collisions_(std::max<std::uint64_t>(16, disks.count() / 2)),
         disks_(disks),
-        standstill_(disks) {}
+        standstill_(disks),
+        moving_as_one_(scene, disks) {}
   Schedule(const Schedule&) = delete;
   Schedule& operator=(const Schedule&) = delete;
   ~Schedule() { engine_.listen({}); }
@@ -78,8 +75,10 @@ class Schedule {
     if (measuring_) measure();
     engine_.record_events(false);
     hand_over_notes();
+    if (result_.stopped != StopReason::invalid_state) (void)is_finite(engine_.state());
     if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(true));
-    if (measuring_ && hooks_.verify_every > 0 && (since_verified_ > 0 || result_.verified == 0)) verify();
+    const bool unverified = since_verified_ > 0 || result_.verified == 0;
+    if (measuring_ && hooks_.verify_every > 0 && unverified && result_.stopped != StopReason::invalid_state) verify();
     return result_;
   }
 
@@ -89,12 +88,10 @@ class Schedule {
     archive(measuring_, equilibrating_, next_block_, without_collision_, since_verified_, tolerated_overlap_, standstill_,
             stands_, recording_);
     archive(standing_, result_.samples, result_.loop_seconds, result_.verified, counted_);
-    auto grids = static_cast<std::uint64_t>(grids_.size());
-    archive(grids);
-    for (std::size_t i = 0; i < grids; ++i) {
-      if (i == grids_.size()) throw std::invalid_argument("the run was saved with more sampling grids than it has now");
-      archive(grids_[i].k);
-    }
+    std::vector<std::uint64_t> next;
+    for (const Grid& grid : grids_) next.push_back(grid.k);
+    archive(next);
+    for (std::size_t i = 0; i < grids_.size(); ++i) grids_[i].k = i < next.size() ? next[i] : first_after_now(grids_[i]);
   }
 
  private:
@@ -152,8 +149,7 @@ class Schedule {
       const bool arrived = advance_and_count(when, collisions);
       const bool at_start = !(Instant{} < when);
       if (!arrived && !(at_start && collisions == 0)) return;  // the start is sampled even where nothing is to happen
-      take_samples(when);
-      if (!arrived) return;
+      if (!take_samples(when) || !arrived) return;
       // The run ends at its end, whether it is sampled or not.
       if (beyond && happenings() == happened) engine_.set_back(before);
       if (is_hopeless()) {
@@ -226,6 +222,11 @@ class Schedule {
     }
   }
 
+  /// Of a grid that was not there when the run was saved.
+  [[nodiscard]] std::uint64_t first_after_now(const Grid& grid) const {
+    return measuring_ ? grid.times.last(engine_.now().high) / grid.stride + 1 : 0;
+  }
+
   /// `forever` where no sample is left. That of the last sample does not depend on where the run ends.
   [[nodiscard]] static Instant time_of(const Grid& grid) {
     return grid.k > grid.last ? forever : grid.times.at(grid.k * grid.stride);
@@ -243,8 +244,8 @@ class Schedule {
     return detail::all_events(engine_.totals()) + engine_.totals().numerics.epochs;
   }
 
-  /// Of every grid that has one now; the state is that of all of them.
-  void take_samples(const Instant& when) {
+  /// Of every grid that has one now; the state is that of all of them. False where it is none: then the run ends.
+  bool take_samples(const Instant& when) {
     const auto due = [&](const Grid& grid) { return !(when < time_of(grid)); };
     const auto looks = [&](const Grid& grid) {
       return due(grid) && (grid.hook == nullptr ? static_cast<bool>(hooks_.sample) : static_cast<bool>(grid.hook->sample));
@@ -258,6 +259,7 @@ class Schedule {
       engine_.look_at_velocities(moving_);
     State& state = positions ? whole : moving_;
     state.time = when.high;  // the product itself, not what the engine's clock makes of it
+    if (!is_finite(state)) return false;
     for (Grid& grid : grids_) {
       if (!due(grid)) continue;
       const bool own = grid.hook == nullptr;
@@ -265,28 +267,34 @@ class Schedule {
       if (own) ++result_.samples;
       ++grid.k;
     }
+    return true;
   }
 
   /// Runs to `target` as advance() does, and on the way takes the samples that are counted in collisions.
   bool advance_and_count(const Instant& target, std::uint64_t collisions) {
     if (sample_collisions_ == no_limit) return advance(target, collisions);
-    if (counted_ == 0) take_counted_sample();
+    if (counted_ == 0 && !take_counted_sample()) return false;
     for (;;) {
       const std::uint64_t next = counted_ > collisions / sample_collisions_ ? collisions : counted_ * sample_collisions_;
       if (advance(target, next)) return true;
       if (result_.stopped != StopReason::collisions) return false;
-      if (engine_.totals().pair >= counted_ * sample_collisions_) take_counted_sample();
+      if (engine_.totals().pair >= counted_ * sample_collisions_ && !take_counted_sample()) return false;
       if (engine_.totals().pair >= collisions) return false;
       result_.stopped = StopReason::time;  // it goes on
     }
   }
 
-  /// A fixed step may have brought several collisions at once: its sample is that of the last of them.
-  void take_counted_sample() {
+  /// A fixed step may have brought several collisions at once: its sample is that of the last of them. False as take_samples().
+  bool take_counted_sample() {
     const std::uint64_t k = engine_.totals().pair / sample_collisions_;
-    if (hooks_.sample) hooks_.sample(k, engine_.state());
+    if (hooks_.sample) {
+      const State state = engine_.state();
+      if (!is_finite(state)) return false;
+      hooks_.sample(k, state);
+    }
     ++result_.samples;
     counted_ = k + 1;
+    return true;
   }
 
   /// Runs to `target`; false when something else ended the run first, as result_.stopped then says.
@@ -306,10 +314,12 @@ class Schedule {
         if (hooks_.block) hooks_.block(progress());
         next_block_ += block_collisions_;
       }
+      if (!engine_.fault().empty()) return stop(StopReason::invalid_state);
       if (engine_.totals().pair >= collisions) return stop(StopReason::collisions);
       if (arrived && target < forever) return true;
       if (const auto reason = detail::why_stopped(engine_, effects_)) return stop(*reason);
       if (standstill_.reached(engine_)) return stop_at_standstill(target, collisions);
+      if (!ends_by_time_ && moving_as_one_.reached(engine_)) return stop(StopReason::cooled);
       if (is_hopeless()) return stop(StopReason::no_collisions);
     }
   }
@@ -320,11 +330,13 @@ class Schedule {
     const std::uint64_t before = detail::all_events(engine_.totals());
     const Instant began = engine_.now();
     const auto started = Clock::now();
-    const bool arrived =
-        engine_.run_until(target, pair_limit, std::min(recording_ ? recorded_events : stretch_events, until_verified()));
+    const std::uint64_t limit = std::min(
+        {recording_ ? recorded_events : stretch_events, until_verified(), moving_as_one_.until_look(engine_.totals())});
+    const bool arrived = engine_.run_until(target, pair_limit, limit);
     result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
     const std::uint64_t events = detail::all_events(engine_.totals()) - before;
     stands_ = events > 0 && !(began < engine_.now());
+    if (!stands_) standing_.clear();
     since_verified_ += events;
     without_collision_ = engine_.totals().pair > pairs ? 0 : without_collision_ + events;
     return arrived;
@@ -351,10 +363,23 @@ class Schedule {
            (disks_.count() < 2 || engine_.idle() || without_collision_ > patience);
   }
 
+  /// Ends the run where a number of the state is none.
+  bool is_finite(const State& state) {
+    std::string fault = detail::not_finite(state);
+    if (fault.empty()) return true;
+    result_.faults = {std::move(fault)};
+    return stop(StopReason::invalid_state);
+  }
+
   void take_events() {
     engine_.take_events(events_);
     if (events_.empty()) return;
-    if (stands_) standing_ = disks_of(events_);
+    for (const Event& event : events_) {
+      if (!stands_) break;
+      standing_.push_back(event.disk);
+      if (event.partner >= 0) standing_.push_back(event.partner);
+    }
+    sort_out(standing_);
     if (hooks_.events && !equilibrating_) hooks_.events(events_);
   }
 
@@ -367,7 +392,12 @@ class Schedule {
 
   bool stop(StopReason reason) {
     result_.stopped = reason;
-    if (reason == StopReason::jammed || reason == StopReason::collapsed) result_.stopped_disks = standing_;
+    if (reason == StopReason::invalid_state && result_.faults.empty()) result_.faults = {engine_.fault()};
+    if (reason == StopReason::jammed || reason == StopReason::collapsed) {
+      for (const std::int32_t disk : engine_.slow()) standing_.push_back(disk);
+      sort_out(standing_);
+      result_.stopped_disks = standing_;
+    }
     return false;
   }
 
@@ -391,8 +421,9 @@ class Schedule {
   const std::uint64_t block_collisions_;
   const Disks& disks_;
   detail::Standstill standstill_;
+  detail::MovingAsOne moving_as_one_;
   bool stands_ = false;                 ///< the clock, over a whole stretch
-  std::vector<std::int32_t> standing_;  ///< who collided when it last did
+  std::vector<std::int32_t> standing_;  ///< who has collided since it does
   bool recording_ = false;              ///< events
   std::uint64_t next_block_ = no_limit;
   std::uint64_t counted_ = 0;  ///< the next of the samples that are counted in collisions

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace carom {
 
@@ -61,10 +62,14 @@ std::vector<Event> Simulation::take_events() { return parts_->engine->take_event
 void Simulation::take_events(std::vector<Event>& events) { parts_->engine->take_events(events); }
 bool Simulation::tells_collisions() const {
   const Effects& effects = parts_->scene.effects;
-  return parts_->engine->tells_collisions() && velocities_tell_contacts(effects) && !effects.gravity && !effects.shear;
+  const bool falls = effects.gravity && !effects.gravity->acceleration.isZero(0.0);
+  const bool sheared = effects.shear && effects.shear->rate != 0.0;
+  return parts_->engine->tells_collisions() && velocities_tell_contacts(effects) && !falls && !sheared;
 }
 std::vector<std::string> Simulation::check_invariants(double tolerated_overlap) const {
-  return parts_->engine->check_invariants(tolerated_overlap);
+  std::vector<std::string> faults = parts_->engine->check_invariants(tolerated_overlap);
+  if (std::string fault = parts_->engine->fault(); !fault.empty()) faults.insert(faults.begin(), std::move(fault));
+  return faults;
 }
 
 std::vector<std::string> engine_names() {

@@ -40,13 +40,16 @@ class Stepper {
         return true;
       }
       take_step(next);
+      if (!fault_.empty()) return false;
     }
     return false;
   }
 
   /// The time of the next step is always to come.
   [[nodiscard]] static bool idle() { return false; }
-  [[nodiscard]] static bool jammed() { return false; }
+  [[nodiscard]] bool jammed() const { return !fault_.empty(); }
+  /// What is not finite, so that steps lead nowhere any more; empty where all is well.
+  [[nodiscard]] const std::string& fault() const { return fault_; }
 
   [[nodiscard]] Instant now() const { return now_; }
   [[nodiscard]] const Totals& totals() const { return tally_.totals; }
@@ -104,7 +107,7 @@ class Stepper {
   /// All that decides how the run goes on, for core/archive.hpp. Requires all events to have been taken.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(bodies_, step_, steps_, now_, tally_.totals, tally_.time);
+    archive(bodies_, step_, steps_, now_, tally_.totals, tally_.time, fault_);
   }
 
  private:
@@ -118,6 +121,7 @@ class Stepper {
     now_ = when;
     tally_.time = when.high;
     step_.check(bodies_, tally_);
+    if (!bodies_.finite()) fault_ = "a position or velocity is not finite";
     ++steps_;
     ++tally_.totals.other;
   }
@@ -134,6 +138,7 @@ class Stepper {
   std::uint64_t steps_ = 0;  ///< taken since the clock's zero; the first is at 0
   Instant now_;
   Tally tally_;
+  std::string fault_;
 };
 
 }  // namespace carom

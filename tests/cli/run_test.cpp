@@ -120,6 +120,37 @@ TEST_F(RunCommand, ForceReplacesResults) {
   EXPECT_FALSE(fs::exists(file("gas/samples.csv"))) << "a table of the run before lies beside the new trajectory";
 }
 
+TEST_F(RunCommand, AStateThatIsNotFiniteExitsThreeWithASentence) {
+  // Centre all but upon centre: the square of their distance is 0, and no direction is left for an impulse.
+  write_text(file("upon.toml"), R"([box]
+x = [0.0, 16.0]
+y = [0.0, 16.0]
+boundary = "periodic"
+[[disks]]
+radius = 0.5
+mass = 1.0
+positions = [[0.0, 8.0], [1e-180, 8.0]]
+velocities = [[1.0, 0.0], [-1.0, 0.0]]
+[collision]
+rule = "specular"
+[run]
+time = 1.0
+sample_every = 0.25
+)");
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{"--engine", "textbook"}, std::vector<std::string>{"--method", "guarded"}}) {
+    std::vector<std::string> arguments = {"run", "upon.toml", "--accept-overlap", "--force"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    const Outcome outcome = carom(arguments);
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, AllOf(StartsWith("carom: upon.toml: 1 fault at time 0: "), HasSubstr("finite")));
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+    EXPECT_EQ(summary("upon")["stopped"], "invalid_state");
+    EXPECT_EQ(summary("upon")["faults"].size(), 1U);
+    EXPECT_TRUE(fs::exists(file("upon/trajectory.h5md")));
+  }
+}
+
 TEST_F(RunCommand, PlaceThatCannotHoldResultsExitsTwo) {
   for (const char* out : {"gas.toml/results", "gas.toml", "/proc/results"}) {
     const Outcome outcome = carom({"run", "gas.toml", "--out", out});

@@ -231,5 +231,43 @@ TEST(Impact, AGrazingPairIsLeftRecedingEvenWhereItsVelocitiesCannotResolveTheImp
   EXPECT_NEAR(v_i.norm(), 1.0, 4 * 0x1p-52);
 }
 
+template <class Real>
+void expect_receding_at_any_speed(std::initializer_list<int> powers) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  for (const int power : powers)
+    for (const double ratio : {1.0, 3.0, 1e12, 1e-12})
+      for (const double turn : {0.5, 0.75})
+        for (int k = 0; k < 200; ++k) {
+          using std::ldexp;
+          const auto draw = [&] { return Vec2<Real>(ldexp(Real(normal(random)), power), ldexp(Real(normal(random)), power)); };
+          const Vec2<Real> r(Real(normal(random)), Real(normal(random)));
+          Vec2<Real> v_i = draw(), v_j = draw();
+          const Real fastest = std::max(v_i.cwiseAbs().maxCoeff(), v_j.cwiseAbs().maxCoeff());
+          collide<Specular, Real>(r, Real(1), v_i, Real(ratio), v_j, {Real(turn), 0});
+          collide<Reversal, Real>(r, Real(1), v_i, Real(ratio), v_j, {Real(turn), 0});
+          ASSERT_GE(r.dot(v_i - v_j), Real(0)) << power << ", " << ratio;
+          // No collision makes a disk faster than by twice the closing speed, and pushes apart are of the last digits: of the
+          // smallest numbers the last digit is all.
+          ASSERT_LE(std::max(v_i.cwiseAbs().maxCoeff(), v_j.cwiseAbs().maxCoeff()), 16 * fastest) << power;
+        }
+}
+
+TEST(Impact, LeavesPairsRecedingAtTheLowestSpeedsThatThereAre) {
+  expect_receding_at_any_speed<double>({-550, -1000, -1060, -1070, -1073});
+  expect_receding_at_any_speed<float>({-80, -120, -140, -147});
+}
+
+TEST(Impact, BooksTheLossOfGrowingDisksApartFromTheWorkOfTheirSurfaces) {
+  // Head on along (0.6, 0.8): surfaces that grow towards each other by 1/4 close in at 5/4; at e = 1/2 they part at 5/8.
+  const V r(0.6, 0.8);
+  V v_i = -0.5 * r, v_j = 0.5 * r;
+  const InelasticResult<double> met = collide<Specular, double>(r, 1.0, v_i, 3.0, v_j, {0.75, 0.25});
+  constexpr double mu = 0.75, closing = 1.25, e = 0.5, growth = 0.25;
+  EXPECT_NEAR(r.dot(v_i - v_j), e * closing + growth, 8 * 0x1p-53);
+  EXPECT_NEAR(met.lost, mu * (1 - e * e) * closing * closing / 2, 8 * 0x1p-53);
+  EXPECT_NEAR(met.energy + met.lost, mu * growth * (1 + e) * closing, 8 * 0x1p-53) << "speed of the surfaces times impulse";
+}
+
 }  // namespace
 }  // namespace carom::test

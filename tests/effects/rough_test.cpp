@@ -94,6 +94,17 @@ TEST(RoughDisks, PartAsTheClosedFormSays) {
         }
 }
 
+TEST(RoughDisks, AreTheSameInAnyUnitOfMass) {
+  for (const char* engine : engines_with_effects)
+    for (const double unit : {1e-200, 1e120}) {
+      const Pair one{0.5, 1.0, 1.5, 7.0, -1.0, 0.5}, same{0.5, unit, 1.5, 7.0 * unit, -1.0, 0.5};
+      const State usual = met(rough(scene_of_pair(one), 0.5), one, engine).state();
+      const State scaled = met(rough(scene_of_pair(same), 0.5), same, engine).state();
+      EXPECT_LE((scaled.velocities - usual.velocities).cwiseAbs().maxCoeff(), rounding_on_the_rim) << engine << unit;
+      EXPECT_LE((scaled.spins - usual.spins).cwiseAbs().maxCoeff(), rounding_on_the_rim / 0.5) << engine << unit;
+    }
+}
+
 TEST(RoughDisks, AnIsolatedPairKeepsItsAngularMomentum) {
   for (const char* engine : engines_with_effects)
     for (const Pair& p : tried_pairs)

@@ -49,6 +49,16 @@ TEST(SquareWell, APairIsFasterInsideAndLeavesAsItCame) {
     }
 }
 
+TEST(SquareWell, IsTheSameInAnyUnitOfMass) {
+  for (const char* engine : engines_with_effects)
+    for (const double unit : {1e-200, 1e120}) {
+      Simulation inside = make_simulation(head_on(0.75 * unit, unit, unit), engine);  // mu = unit / 2: u' = 2
+      inside.run_until(1.25);
+      EXPECT_EQ(inside.state().bonds, 1U) << engine;
+      EXPECT_NEAR(inside.state().velocities(0, 0) - inside.state().velocities(0, 1), 2.0, rounding_of_four) << unit;
+    }
+}
+
 TEST(SquareWell, AShoulderLetsThroughWhoeverHasTheEnergyAndTurnsBackTheRest) {
   // mu u^2 / 2 = 1/4.
   for (const char* engine : engines_with_effects) {

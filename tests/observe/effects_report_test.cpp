@@ -111,6 +111,22 @@ TEST_F(EffectsOfARun, WhatAPistonTakesStaysInTheTotal) {
   EXPECT_EQ(report().energy_given, 10.0 + 20.0 + 30.0 - 0.5 + 1.0);
   scene_.effects.walls[2].restitution = 0.5;
   EXPECT_FALSE(report().energy_given) << "its loss and its work are one number";
+  scene_.effects.walls[2].restitution = 1.0;
+  EXPECT_EQ(report().energy_given, 10.0 + 20.0 + 30.0 - 0.5 + 1.0) << "it loses nothing";
+}
+
+TEST_F(EffectsOfARun, NeutralValuesTakeNothingFromTheReport) {
+  scene_.box.boundary[0] = Boundary::walls;
+  scene_.effects.growth = Growth{.rate = 0.1, .packing_fraction = {}, .reduced_pressure = {}, .where = {}};
+  const EffectsReport plain = report();
+  ASSERT_TRUE(plain.energy_given && plain.walls[0].pressure);
+  scene_.effects.collision.restitution = 1.0;
+  scene_.effects.collision.roughness = -1.0;
+  scene_.effects.walls[0].restitution = 1.0;
+  scene_.effects.walls[3].velocity = 0.0;
+  EXPECT_EQ(report().energy_given, plain.energy_given);
+  EXPECT_TRUE(report().packing_fraction_end) << "a key is there where the scene names its effect";
+  for (std::size_t side = 0; side < 4; ++side) EXPECT_EQ(report().walls[side].pressure, plain.walls[side].pressure) << side;
 }
 
 TEST_F(EffectsOfARun, AnEnergyChangeThatWasGivenIsExplained) {

@@ -121,6 +121,26 @@ TEST(Growth, KeepsTheEnergyOfTheStartAndAnHonestAccount) {
   }
 }
 
+TEST(Growth, TellsWhatCollisionsTakeFromWhatSurfacesGive) {
+  // Two disks that close in at u = 1, their surfaces at 1 + a, a = 1/4; four more, far away, so that nothing is rescaled yet.
+  const ListedPositions places{{{8, 8}, {12, 8}, {8, 48}, {24, 48}, {40, 48}, {56, 48}}};
+  const ListedVelocities velocities{{{0.5, 0}, {-0.5, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}}};
+  Scene scene = growing(scene_of(box_of(64.0, 64.0, Boundary::walls), {species_of(6, 0.5, 1.0, places, velocities)}), 0.25);
+  scene.effects.collision.restitution = 0.5;
+  constexpr double mu = 0.5, closing = 1.25, a = 0.25, e = 0.5;
+  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal})
+    for (const char* engine : {"general", "textbook"}) {
+      scene.effects.collision.rule = rule;
+      Simulation simulation = make_simulation(scene, engine);
+      ASSERT_EQ(simulation.run_until(10.0, 1), StopReason::collisions);
+      const Totals& totals = simulation.totals();
+      EXPECT_NEAR(totals.dissipated, mu * (1 - e * e) * closing * closing / 2, 1e-14) << engine;
+      EXPECT_NEAR(totals.growth_energy, mu * a * (1 + e) * closing, 1e-14) << engine;
+      const double kinetic = kinetic_energy(simulation.disks(), simulation.state());
+      EXPECT_NEAR(kinetic, 0.25 + totals.growth_energy - totals.dissipated, 1e-14);
+    }
+}
+
 TEST(Growth, LeavesTheTemperatureToAThermostatWhereThereIsOne) {
   Scene scene = growing(gas_scene(36, 0.3, Boundary::periodic), 0.005, 0.5);
   scene.effects.thermostat = Thermostat{1.0, 0.5, {}};

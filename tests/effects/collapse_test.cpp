@@ -1,0 +1,253 @@
+// Inelastic collapse at one instant: speeds that fall to nothing, and gases that cool until nothing is left to compute with.
+
+#include "observe/mechanics.hpp"
+#include "support/effect_scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+using V = Eigen::Vector2d;
+
+constexpr const char* all_engines[] = {"general", "textbook", "textbook-float", "textbook-long-double", "textbook-quad"};
+constexpr const char* engines_of_doubles[] = {"general", "textbook", "textbook-long-double", "textbook-quad"};
+
+/// Disks of radius 1/2 in a row, each touching the next, that fly to the left at `speed`. The wall there is 1 away.
+Scene row(int count, double restitution, double speed = 1.0) {
+  std::vector<Placed> disks;
+  for (int k = 0; k < count; ++k) disks.push_back({{1.5 + k, 8.0}, {-speed, 0.0}});
+  Scene scene = scene_of(box_of(64.0, 16.0, Boundary::walls), disks);
+  scene.effects.collision.restitution = restitution;
+  scene.run.time = 16.0 / speed;
+  return scene;
+}
+
+/// Each disk that comes to the wall comes back against the others, and all collide without end until all are at rest: momentum
+/// goes into the wall, and what is left of speeds after a round is a share of what it was before. Where places are rounded in
+/// steps, gaps of a step may put an end to that, when speeds are so low that nobody could tell.
+void expect_collapse(const Scene& scene, const std::string& engine, double when) {
+  SCOPED_TRACE(engine);
+  Simulation simulation = make_simulation(scene, engine);
+  const double before = kinetic_energy(simulation.disks(), simulation.state());
+  const RunResult result = run_schedule(simulation);
+  EXPECT_TRUE(result.faults.empty());
+  const State end = simulation.state();
+  const double left = kinetic_energy(simulation.disks(), end) / before;
+  if (engine == "general") {
+    EXPECT_LT(left, 1e-28);
+    EXPECT_TRUE(result.stopped == StopReason::collapsed || result.stopped == StopReason::time) << to_string(result.stopped);
+  } else {
+    EXPECT_EQ(result.stopped, StopReason::collapsed);
+    EXPECT_FALSE(result.stopped_disks.empty());
+    // Single precision rounds a place of 8 by 2^-21.
+    EXPECT_NEAR(simulation.time() / when, 1.0, 1e-6);
+  }
+  EXPECT_TRUE(end.positions.allFinite());
+  EXPECT_TRUE(end.velocities.allFinite());
+  double taken = simulation.totals().dissipated;
+  for (const double energy : simulation.totals().wall_energy) taken += energy;
+  EXPECT_NEAR(left + taken / before, 1.0, 1e-5);
+}
+
+TEST(Collapse, OfARowAtAWallEndsTheRunInEveryEngine) {
+  for (const char* engine : all_engines)
+    for (const int count : {3, 5}) expect_collapse(row(count, 0.0), engine, 1.0);
+}
+
+TEST(Collapse, NamesTheDisksOfTheRow) {
+  for (const char* engine : all_engines) {
+    // The partner gives half of what it has left to the one at the wall, and the wall half of that: quarters of powers of two.
+    Scene scene = scene_of(box_of(16.0, 16.0, Boundary::walls),
+                           {{{3.5, 8.0}, {-1.0, 0.0}, 0.75}, {{2.0, 8.0}, {-1.0, 0.0}, 0.75}, {{10.0, 10.0}, {0.0, 0.5}, 0.75}});
+    scene.effects.collision.restitution = 0.0;
+    scene.effects.walls[0].restitution = 0.5;
+    scene.run.time = 8.0;
+    Simulation simulation = make_simulation(scene, engine);
+    const RunResult result = run_schedule(simulation);
+    EXPECT_EQ(result.stopped, StopReason::collapsed) << engine;
+    EXPECT_EQ(result.stopped_disks, std::vector<std::int32_t>({0, 1})) << engine;
+    EXPECT_EQ(simulation.time(), 1.25) << engine;
+    EXPECT_EQ(simulation.state().velocities.col(2), V(0.0, 0.5));
+  }
+}
+
+TEST(Collapse, IsTheSameUnderReversal) {
+  for (const char* engine : all_engines) {
+    Scene scene = row(3, 0.0);
+    scene.effects.collision.rule = CollisionRule::reversal;
+    expect_collapse(scene, engine, 1.0);
+  }
+}
+
+TEST(Collapse, ComesAtAnyScaleOfSpeed) {
+  for (const char* engine : engines_of_doubles) {
+    const double speed = 0x1p-465;  // 1e-140
+    Scene scene = row(5, 0.0, speed);
+    Simulation simulation = make_simulation(scene, engine);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::collapsed) << engine;
+    if (std::string(engine) != "general") {
+      EXPECT_EQ(simulation.time(), 1.0 / speed);
+    }
+    EXPECT_TRUE(simulation.state().velocities.allFinite());
+  }
+}
+
+TEST(Collapse, ComesAtObstaclesToo) {
+  Obstacle disk, segment;
+  disk.shape = DiskObstacle{{0.5, 8.0}, 0.5};
+  segment.shape = SegmentObstacle{{1.0, 4.0}, {1.0, 12.0}};
+  for (const Obstacle& obstacle : {disk, segment})
+    for (const char* engine : all_engines) {
+      Scene scene = row(3, 0.0);
+      for (V& place : std::get<ListedPositions>(scene.species.front().positions).values) place.x() += 1.0;
+      scene.effects.obstacles = {obstacle};
+      expect_collapse(scene, engine, 1.0);
+    }
+}
+
+TEST(Collapse, ComesWhereTheWallAloneTakesEnergy) {
+  // Elastic disks of masses 1 and 3, and a wall that takes: the heavy one comes at the light one again and again.
+  for (const char* engine : all_engines) {
+    Scene scene = row(2, 1.0);
+    scene.species.front().masses = {1.0, 1e6};
+    scene.effects.walls[0].restitution = 0.0;
+    Simulation simulation = make_simulation(scene, engine);
+    const RunResult result = run_schedule(simulation);
+    EXPECT_EQ(result.stopped, StopReason::collapsed) << engine;
+    EXPECT_TRUE(simulation.state().velocities.allFinite());
+  }
+}
+
+TEST(Collapse, IsNotWhatALightDiskDoesToHeavyOnes) {
+  // A disk of 1e-300 of the mass gives its neighbours 1e-300 of its speed: that is slow, and no collapse.
+  for (const char* engine : engines_with_effects) {
+    const Scene scene = [] {
+      Scene heavy = scene_of(box_of(64.0, 16.0, Boundary::walls), {{{3.0, 8.0}, {0.0, 0.0}, 0.5, 1.0},
+                                                                   {{4.0, 8.0}, {0.0, 0.0}, 0.5, 1.0},
+                                                                   {{6.0, 8.0}, {-1.0, 0.0}, 0.5, 1e-300}});
+      heavy.effects.collision.restitution = 0.5;
+      heavy.run.time = 8.0;
+      return heavy;
+    }();
+    Simulation simulation = make_simulation(scene, engine);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::time) << engine;
+    const State end = simulation.state();
+    // -(1 + e) 1e-300 goes through the row: a quarter stays with the one that was hit.
+    EXPECT_NEAR(end.velocities(0, 2), 0.5, 1e-15);
+    EXPECT_NEAR(end.velocities(0, 1) / -0.375e-300, 1.0, 1e-14);
+    EXPECT_NEAR(end.velocities(0, 0) / -1.125e-300, 1.0, 1e-14);
+  }
+}
+
+TEST(Collapse, IsNotWhereDisksStickTogetherAtRest) {
+  // Two disks: the second collision already leaves both at rest, to the last bit.
+  for (const char* engine : all_engines) {
+    Simulation simulation = make_simulation(row(2, 0.0), engine);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::time) << engine;
+    EXPECT_EQ(simulation.state().velocities.cwiseAbs().maxCoeff(), 0.0);
+  }
+}
+
+TEST(Collapse, IsPutOffByTheTcModel) {
+  for (const char* engine : all_engines) {
+    Scene scene = row(5, 0.0);
+    scene.effects.collision.elastic_below = 1e-3;
+    Simulation simulation = make_simulation(scene, engine);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::time) << engine;
+  }
+}
+
+// ------------------------------------------------------------------------------------------------------- cooling
+
+Scene cooling_gas(int count, double restitution) {
+  Scene scene = gas_scene(count, 0.1, Boundary::periodic);
+  scene.effects.collision.restitution = restitution;
+  scene.run.time.reset();
+  scene.run.collisions = 100'000'000;
+  return scene;
+}
+
+/// Mean of |v_x| + |v_y|.
+double mean_speed(const State& state) { return state.velocities.cwiseAbs().sum() / static_cast<double>(state.velocities.cols()); }
+
+TEST(Cooling, OfAGasAtRestAsAWholeGoesOnUntilSquaresVanish) {
+  for (const char* engine : all_engines) {
+    SCOPED_TRACE(engine);
+    Simulation simulation = make_simulation(cooling_gas(16, 0.5), engine);
+    const RunResult result = run_schedule(simulation);
+    EXPECT_EQ(result.stopped, StopReason::cooled);
+    const State end = simulation.state();
+    const bool single = std::string(engine) == "textbook-float";
+    // The bound is crossed between two epochs.
+    EXPECT_LT(mean_speed(end), single ? 1e-14 : 1e-149);
+    EXPECT_GT(mean_speed(end), single ? 1e-20 : 1e-160);
+    // At the last epoch's beginning the common motion was below 2^13 roundings of the speeds, which have fallen since.
+    const double common = end.velocities.rowwise().mean().cwiseAbs().maxCoeff();
+    EXPECT_LT(common, (single ? 0x1p-7 : 0x1p-36) * mean_speed(end));
+    EXPECT_NEAR(simulation.totals().dissipated / 15.0, 1.0, single ? 1e-5 : 1e-12) << "(N - 1) kT";
+  }
+}
+
+TEST(Cooling, OfAGasThatMovesAsAWholeEndsWhereItWaitsForCollisions) {
+  for (const char* engine : engines_with_effects) {
+    SCOPED_TRACE(engine);
+    Scene scene = cooling_gas(4, 0.5);
+    State start = draw_start(scene).state;
+    start.velocities.colwise() += V(0.5, -0.25);
+    Simulation simulation = make_simulation(scene, start, engine);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::cooled);
+    const Eigen::Vector2d common = simulation.state().velocities.rowwise().mean();
+    EXPECT_NEAR(common.x(), 0.5, 1e-13);
+    EXPECT_NEAR(common.y(), -0.25, 1e-13);
+    State end = simulation.state();
+    end.velocities.colwise() -= common;
+    EXPECT_LT(mean_speed(end), 0x1p-14);
+    EXPECT_GT(mean_speed(end), 0x1p-24) << "it is told in time";
+  }
+}
+
+TEST(Cooling, LeavesARunItsTimeHoweverDisksMoveTogether) {
+  // At e = 0 the two go on side by side, for as long as was asked.
+  for (const char* engine : engines_with_effects) {
+    Scene scene = scene_of(box_of(8.0, 8.0, Boundary::periodic), {{{2.0, 4.0}, {1.0, 0.25}}, {{6.0, 4.0}, {0.0, 0.25}}});
+    scene.effects.collision.restitution = 0.0;
+    scene.run.time = 4e5;  // past a million events
+    Simulation simulation = make_simulation(scene, engine);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::time) << engine;
+    EXPECT_EQ(simulation.state().velocities.col(0), V(0.5, 0.25));
+    EXPECT_EQ(simulation.state().velocities.col(1), V(0.5, 0.25));
+  }
+}
+
+TEST(Cooling, HappensBesideGravityThatDoesNotPull) {
+  for (const char* engine : engines_with_effects) {
+    Scene scene = cooling_gas(4, 0.5);
+    scene.effects.gravity = Gravity{};
+    Simulation simulation = make_simulation(scene, engine);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::cooled) << engine;
+  }
+}
+
+TEST(Cooling, OfGrowingDisksLeavesTheEnergyInTheirMotionAgainstEachOther) {
+  // Rescaling gives them back what collisions take, and would give as much to what rounding leaves of their common motion: by a
+  // factor for each collision of theirs, until nothing else is left.
+  for (const char* engine : engines_with_effects) {
+    Scene scene = gas_scene(16, 0.1, Boundary::periodic);
+    scene.effects.collision.restitution = 0.5;
+    scene.effects.growth = Growth{1e-5, {}, {}, {}};
+    Simulation simulation = make_simulation(scene, engine);
+    ASSERT_EQ(simulation.run_until(1e4, 4000), StopReason::collisions);
+    const State end = simulation.state();
+    EXPECT_LT(end.velocities.rowwise().mean().cwiseAbs().maxCoeff(), 0x1p-36 * mean_speed(end)) << engine;
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
