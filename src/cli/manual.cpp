@@ -64,6 +64,9 @@ std::string manual_page(const CLI::App& program, const std::string& version) {
       "nothing was run\n.TP\n3\nthe state is invalid: disks overlap\n.TP\n4\na check of the physics failed, or two runs "
       "differ\n.TP\n130\ninterrupted; "
       "what was done until then is saved\n"
+      ".SH SIGNALS\nSIGINT (Ctrl\\-C), SIGTERM, SIGHUP, SIGXCPU and SIGUSR1 ask a run or a study to stop: it saves what was "
+      "done, and ends with exit status 130. A second SIGINT or SIGTERM, half a second or more after the first, ends it at once. "
+      "What is ignored when the program is started, as SIGHUP is by\n.BR nohup (1),\nstays ignored.\n"
       ".SH FILES\nExample scenes are in the directory share/carom/scenes of the installation; \\fBcarom init \\-\\-list\\fR "
       "names those that it can write.\n";
   return text;

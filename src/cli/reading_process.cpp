@@ -1,12 +1,15 @@
 #include "cli/reading_process.hpp"
 
+#include "cli/signals.hpp"
+
 #include <fmt/format.h>
-#include <signal.h>  // sigaction and kill are POSIX, not C++
 #include <sys/prctl.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -42,14 +45,12 @@ class HandOn {
     struct sigaction action = {};
     action.sa_handler = hand_on;
     sigemptyset(&action.sa_mask);
-    sigaction(SIGTERM, &action, &terminate_);
-    sigaction(SIGINT, &action, &interrupt_);
+    for (std::size_t i = 0; i < before_.size(); ++i) sigaction(stopping_signals[i], &action, &before_[i]);
     action.sa_handler = stop_both;
     sigaction(SIGTSTP, &action, &stop_);
   }
   ~HandOn() {
-    sigaction(SIGTERM, &terminate_, nullptr);
-    sigaction(SIGINT, &interrupt_, nullptr);
+    for (std::size_t i = 0; i < before_.size(); ++i) sigaction(stopping_signals[i], &before_[i], nullptr);
     sigaction(SIGTSTP, &stop_, nullptr);
     reader = 0;
   }
@@ -57,7 +58,8 @@ class HandOn {
   HandOn& operator=(const HandOn&) = delete;
 
  private:
-  struct sigaction terminate_ = {}, interrupt_ = {}, stop_ = {};
+  std::array<struct sigaction, stopping_signals.size()> before_ = {};
+  struct sigaction stop_ = {};
 };
 
 int status_of(pid_t child) {
@@ -97,14 +99,13 @@ ExitCode in_reading_process(const fs::path& file, const std::function<ExitCode()
   const HandOn hand_on_signals(child);
   const int status = status_of(child);
   if (WIFEXITED(status)) return static_cast<ExitCode>(WEXITSTATUS(status));
-  switch (const int number = WTERMSIG(status)) {
-    case SIGINT:
-    case SIGTERM:
-      return exit_interrupted;
+  const int number = WTERMSIG(status);
+  if (std::ranges::find(stopping_signals, number) != stopping_signals.end()) return exit_interrupted;
+  switch (number) {
     case SIGKILL:
       throw std::runtime_error(
           fmt::format("{}: the process that read it was killed; perhaps there is not enough memory", file.string()));
-    case SIGALRM:
+    case SIGPROF:
       throw UsageError(fmt::format("{}: reading it comes to no end, so it is damaged; run the scene again", file.string()));
     default:
       throw UsageError(fmt::format("{}: reading it ends in a crash ({}), so it is damaged; run the scene again", file.string(),
@@ -112,11 +113,21 @@ ExitCode in_reading_process(const fs::path& file, const std::function<ExitCode()
   }
 }
 
-ReadingLimit::ReadingLimit(const fs::path& file) {
-  constexpr std::uintmax_t base = 60, bytes_per_second = 1'000'000, longest = 1'000'000'000;
-  alarm(static_cast<unsigned>(std::min(base + bytes_of(file) / bytes_per_second, longest)));
+namespace {
+
+/// Of processor time, so that neither a busy machine nor a slow disk counts; none where `seconds` is 0.
+void end_after(std::uintmax_t seconds) {
+  const itimerval timer = {.it_interval = {}, .it_value = {.tv_sec = static_cast<time_t>(seconds), .tv_usec = 0}};
+  setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
-ReadingLimit::~ReadingLimit() { alarm(0); }
+}  // namespace
+
+ReadingLimit::ReadingLimit(const fs::path& file) {
+  constexpr std::uintmax_t base = 20, bytes_per_second = 1'000'000, longest = 1'000'000'000;
+  end_after(std::min(base + bytes_of(file) / bytes_per_second, longest));
+}
+
+ReadingLimit::~ReadingLimit() { end_after(0); }
 
 }  // namespace carom::cli

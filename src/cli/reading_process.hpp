@@ -14,8 +14,8 @@ namespace carom::cli {
 /// a process of one thread.
 ExitCode in_reading_process(const std::filesystem::path& file, const std::function<ExitCode()>& command);
 
-/// While one of these lives, the process may take a minute and what a megabyte per second needs for the file or directory; then
-/// SIGALRM ends it. There is one at a time.
+/// While one of these lives, the process may take 20 seconds of a processor and what a megabyte per second needs for the file or
+/// directory; then SIGPROF ends it. There is one at a time.
 class ReadingLimit {
  public:
   explicit ReadingLimit(const std::filesystem::path& file);

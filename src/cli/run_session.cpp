@@ -43,9 +43,9 @@ double tolerated_overlap(const std::string& engine) { return engine.find("float"
 /// Overlap is what fixed steps are known for; it is reported, and no failure.
 ExitCode exit_code_of(const RunReport& report) {
   if (report.stopped == StopReason::invalid_state) {
-    const std::vector<std::string>& faults = report.verification->faults;
-    fmt::print(stderr, "carom: {}: check {} found {} at time {}: {}\n", report.scene, grouped(report.verification->checks),
-               counted(faults.size(), "fault"), report.time, faults.front());
+    const std::string checks = report.verification ? "check " + grouped(report.verification->checks) + " found " : "";
+    fmt::print(stderr, "carom: {}: {}{} at time {}: {}\n", report.scene, checks, counted(report.faults.size(), "fault"),
+               report.time, report.faults.front());
     return exit_invalid_state;
   }
   const double tolerated = std::max(tolerated_overlap(report.engine), report.overlap_at_start.value_or(0.0));

@@ -28,7 +28,8 @@ std::string checked_seed(const std::string& text) {
   } catch (const SceneError&) {
     // not even TOML
   }
-  if (!seed || *seed < 0)
+  const bool decimal = text.find_first_not_of("0123456789.eE+-_") == std::string::npos;  // TOML knows hexadecimal numbers too
+  if (!decimal || !seed || *seed < 0)
     throw UsageError(
         fmt::format("--seed {}: a seed is a whole number from 0 to {}", text, std::numeric_limits<std::int64_t>::max()));
   return std::to_string(*seed);

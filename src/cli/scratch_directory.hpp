@@ -8,7 +8,7 @@ namespace carom::cli {
 /// Made below the system's directory for such things (TMPDIR says where), and removed with all that is in it.
 class ScratchDirectory {
  public:
-  /// Throws std::runtime_error where it cannot be made.
+  /// Throws UsageError where it cannot be made.
   ScratchDirectory();
   ~ScratchDirectory();
   ScratchDirectory(const ScratchDirectory&) = delete;

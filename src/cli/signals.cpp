@@ -1,22 +1,19 @@
 #include "cli/signals.hpp"
 
-#include <signal.h>  // sigaction is POSIX, not C++
-#include <time.h>    // clock_gettime too
+#include <time.h>  // clock_gettime is POSIX, not C++
 
-#include <array>
 #include <cerrno>
 
 namespace carom::cli {
 
 namespace {
 
-constexpr std::array stopping = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1};
 constexpr double patience = 0.5;  // s
 
 volatile sig_atomic_t requested = 0;
 volatile sig_atomic_t insisted = 0;  ///< SIGINT or SIGTERM has come, at `first_insisted`
 timespec first_insisted;
-std::array<struct sigaction, stopping.size()> before;
+std::array<struct sigaction, stopping_signals.size()> before;
 
 /// Calls only what a signal handler may. No other stopping signal comes in between: all are blocked while it runs.
 extern "C" void request_stop(int number) {
@@ -46,15 +43,15 @@ StopRequest::StopRequest() {
   action.sa_handler = request_stop;
   action.sa_flags = SA_RESTART;  // a write that the signal meets goes on
   sigemptyset(&action.sa_mask);
-  for (const int number : stopping) sigaddset(&action.sa_mask, number);
-  for (std::size_t i = 0; i < stopping.size(); ++i) {
-    sigaction(stopping[i], nullptr, &before[i]);
-    if (before[i].sa_handler != SIG_IGN) sigaction(stopping[i], &action, nullptr);
+  for (const int number : stopping_signals) sigaddset(&action.sa_mask, number);
+  for (std::size_t i = 0; i < stopping_signals.size(); ++i) {
+    sigaction(stopping_signals[i], nullptr, &before[i]);
+    if (before[i].sa_handler != SIG_IGN) sigaction(stopping_signals[i], &action, nullptr);
   }
 }
 
 StopRequest::~StopRequest() {
-  for (std::size_t i = 0; i < stopping.size(); ++i) sigaction(stopping[i], &before[i], nullptr);
+  for (std::size_t i = 0; i < stopping_signals.size(); ++i) sigaction(stopping_signals[i], &before[i], nullptr);
 }
 
 bool StopRequest::made() const { return requested != 0; }

@@ -1,7 +1,14 @@
 #pragma once
 // Signals that ask a run or a study to stop: it ends at the next occasion, with its files completed and its state saved.
 
+#include <signal.h>  // SIGHUP and the like are POSIX, not C++
+
+#include <array>
+
 namespace carom::cli {
+
+/// Those that ask to stop.
+inline constexpr std::array stopping_signals = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1};
 
 /// While a StopRequest lives, SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is closed), SIGXCPU (the limit of processor time) and
 /// SIGUSR1 (the warning of a batch system) only set a flag, however often they come. A SIGINT or SIGTERM ends the program at once

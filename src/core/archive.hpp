@@ -1,6 +1,7 @@
 #pragma once
-// State written down and read back to the last bit: what checkpoints are made of. The archives are cereal's; here is what it
-// does not know by itself: Eigen's matrices, and records of numbers, which are kept as they lie in memory.
+// State written down and read back to the last bit: what checkpoints are made of. Reading is left to cereal; here is what it
+// does not know by itself: Eigen's matrices, and records of numbers, which are kept as they lie in memory. The same state is the
+// same bytes: those of a record or a number that hold nothing are written as zeros.
 //
 // A class whose state is more than that has `template <class Archive> void serialize(Archive& archive)`, which lists its members
 // for both directions. What is kept can be read by a program with the same records only: io/checkpoint.hpp sees to that.
@@ -16,13 +17,77 @@
 #include <cereal/types/string.hpp>
 #include <cereal/types/vector.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
+#include <ostream>
 #include <type_traits>
 
 namespace carom {
 
-using SavingArchive = cereal::BinaryOutputArchive;
+/// A namespace by itself, so that what carom knows how to write is not looked for on behalf of the archive.
+namespace saving {
+
+/// Writes what LoadingArchive reads.
+class SavingArchive : public cereal::OutputArchive<SavingArchive, cereal::AllowEmptyClassElision> {
+ public:
+  explicit SavingArchive(std::ostream& out) : OutputArchive(this), out_(out) {}
+
+  void write(const void* data, std::uint64_t size) {
+    out_.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+    if (!out_) throw cereal::Exception("cannot write the state down");
+  }
+  template <class Number>
+  void write_number(const Number& number) {
+    constexpr bool is_x87 = std::is_same_v<Number, long double> && std::numeric_limits<Number>::digits == 64;
+    std::array<char, sizeof(Number)> bytes{};
+    std::memcpy(bytes.data(), &number, is_x87 ? 10 : sizeof(Number));
+    write(bytes.data(), bytes.size());
+  }
+  /// Whether the bytes between the members of a record are written as zeros. Clang has no word for them: with it they are written as
+  /// they happen to be.
+#if __has_builtin(__builtin_clear_padding)
+  static constexpr bool clears_padding = true;
+#else
+  static constexpr bool clears_padding = false;
+#endif
+  template <class T>
+  void write_record(const T& record) {
+    T written = record;
+#if __has_builtin(__builtin_clear_padding)
+    __builtin_clear_padding(&written);
+#endif
+    write(&written, sizeof(T));
+  }
+
+ private:
+  std::ostream& out_;
+};
+
+template <class Number>
+requires std::is_arithmetic_v<Number>
+void save(SavingArchive& archive, const Number& number) { archive.write_number(number); }
+/// Numbers side by side, or bytes.
+template <class Pointer>
+void save(SavingArchive& archive, const cereal::BinaryData<Pointer>& data) {
+  using Number = std::remove_cv_t<std::remove_pointer_t<std::remove_reference_t<Pointer>>>;
+  if constexpr (std::is_same_v<Number, long double>) {
+    const auto* numbers = static_cast<const Number*>(data.data);
+    for (std::uint64_t k = 0; k < data.size / sizeof(Number); ++k) archive.write_number(numbers[k]);
+  } else {
+    archive.write(data.data, data.size);
+  }
+}
+template <class Size>
+void save(SavingArchive& archive, const cereal::SizeTag<Size>& tag) { archive(tag.size); }
+template <class Value>
+void save(SavingArchive& archive, const cereal::NameValuePair<Value>& pair) { archive(pair.value); }
+
+}  // namespace saving
+
+using saving::SavingArchive;
 using LoadingArchive = cereal::BinaryInputArchive;
 
 namespace detail {
@@ -33,6 +98,8 @@ template <class T>
 inline constexpr bool is_of_cereal<std::optional<T>> = true;
 template <class T, std::size_t n>
 inline constexpr bool is_of_cereal<std::array<T, n>> = true;
+template <class T>
+inline constexpr bool is_of_cereal<cereal::NameValuePair<T>> = true;
 
 }  // namespace detail
 
@@ -46,7 +113,13 @@ concept Record = std::is_class_v<T> && std::is_trivially_destructible_v<T> && !d
 
 template <class Archive, class T>
 requires Record<T, Archive>
-void serialize(Archive& archive, T& record) { archive(cereal::binary_data(static_cast<void*>(&record), sizeof(T))); }
+void serialize(Archive& archive, T& record) {
+  if constexpr (Archive::is_loading::value) {
+    archive(cereal::binary_data(static_cast<void*>(&record), sizeof(T)));
+  } else {
+    archive.write_record(record);
+  }
+}
 
 namespace detail {
 using carom::serialize;  // records of this namespace are looked for here

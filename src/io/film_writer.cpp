@@ -157,7 +157,7 @@ FilmWriter::FilmWriter(const PartialFile& file, const FilmShape& shape, std::fun
     : path_(file.path()), keep_going_(std::move(keep_going)), complaints_(std::tmpfile()) {
   const auto program = find_program("ffmpeg");
   if (!program) throw OutputError("there is no program ffmpeg, which films are made with; install the package ffmpeg");
-  if (!complaints_) throw detail::system_error(std::filesystem::temp_directory_path(), "write a temporary file", errno);
+  if (!complaints_) throw detail::system_error(P_tmpdir, "write a temporary file", errno);
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) throw detail::system_error(path_, "write", errno);
   ::fcntl(ends[1], F_SETFL, O_NONBLOCK);

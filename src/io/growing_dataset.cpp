@@ -39,7 +39,7 @@ Hdf5Id create_growing(hid_t parent, const std::string& name, hid_t file_type, co
     chunk[1] = std::max<hsize_t>(1, largest_chunk_bytes / bytes_per_entry);
   }
 
-  const Hdf5Id properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const Hdf5Id properties = untimed(H5P_DATASET_CREATE);
   checked(H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()));
   if (layout.compressed && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
     checked(H5Pset_shuffle(properties.get()));

@@ -6,8 +6,6 @@
 #include "core/archive.hpp"
 #include "io/output_error.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -134,9 +132,7 @@ Hdf5Id Hdf5File::reopen(const std::filesystem::path& path, std::istream& saved) 
   archive(size, pages);
   open(path.c_str(), false);
   if (error_ != 0) throw system_error(path, "open it", error_);
-  if (size_ < size)
-    throw OutputError(fmt::format("{}: the file has {} bytes and must have {} for the run to go on; it was changed or cut",
-                                  path.string(), size_, size));
+  if (size_ < size) throw cut_short(path, size_, size);
   resize(size);
   for (; pages > 0; --pages) {
     std::uint64_t number = 0;
@@ -270,18 +266,27 @@ H5FD_class_t driver_class() {
   return driver;
 }
 
+/// HDF5 keeps it until the process ends: as it closes a file it frees the class of a driver that nobody else holds, and then
+/// calls that class once more. A program may close the library in between, which forgets all drivers.
+hid_t driver() {
+  static hid_t registered = H5I_INVALID_HID;
+  if (H5Iget_type(registered) != H5I_VFL) {
+    static const H5FD_class_t driver = driver_class();
+    registered = checked(H5FDregister(&driver));
+  }
+  return registered;
+}
+
 }  // namespace
 
 Hdf5Id Hdf5File::access(const std::filesystem::path& path, bool fresh, std::uint64_t user_bytes) {
-  static const H5FD_class_t driver = driver_class();
-  const Hdf5Id driver_id(H5FDregister(&driver), H5FDunregister);
   const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   Hdf5File* self = this;
-  checked(H5Pset_driver(access.get(), driver_id.get(), &self));
+  checked(H5Pset_driver(access.get(), driver(), &self));
   // The format of HDF5 1.8: compact, read by every library since 2008, and without the "open for writing" mark of later
   // formats, which would lock readers out of what a killed run leaves.
   checked(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18));
-  const Hdf5Id creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  const Hdf5Id creation = untimed(H5P_FILE_CREATE);
   checked(H5Pset_userblock(creation.get(), user_bytes));
   const hid_t file = fresh ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get())
                            : H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get());

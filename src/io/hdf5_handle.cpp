@@ -42,17 +42,17 @@ bool exists(hid_t file, const std::string& path) {
 }
 
 void write_fixed(hid_t parent, const std::string& name, hid_t file_type, hid_t memory_type, const Hdf5Id& space,
-                 const void* values, hid_t properties = H5P_DEFAULT) {
+                 const void* values) {
   if (exists(parent, name)) return;
-  const Hdf5Id dataset(H5Dcreate2(parent, name.c_str(), file_type, space.get(), H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose);
+  const Hdf5Id properties = untimed(H5P_DATASET_CREATE);
+  const Hdf5Id dataset(H5Dcreate2(parent, name.c_str(), file_type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+                       H5Dclose);
   checked(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
 }
 
 void write_column(hid_t parent, const std::string& name, hid_t file_type, hid_t memory_type, std::size_t count,
                   const void* values) {
-  const Hdf5Id properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  checked(H5Pset_obj_track_times(properties.get(), false));
-  write_fixed(parent, name, file_type, memory_type, list_space(count), values, properties.get());
+  write_fixed(parent, name, file_type, memory_type, list_space(count), values);
 }
 
 Hdf5Id open_attribute(hid_t file, const std::string& object, const std::string& name) {
@@ -87,9 +87,15 @@ SilentHdf5::SilentHdf5() {
 
 SilentHdf5::~SilentHdf5() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
 
+Hdf5Id untimed(hid_t object_class) {
+  Hdf5Id properties(H5Pcreate(object_class), H5Pclose);
+  checked(H5Pset_obj_track_times(properties.get(), false));
+  return properties;
+}
+
 Hdf5Id create_group(hid_t parent, const std::string& path) {
   if (exists(parent, path)) return {H5Gopen2(parent, path.c_str(), H5P_DEFAULT), H5Gclose};
-  return {H5Gcreate2(parent, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose};
+  return {H5Gcreate2(parent, path.c_str(), H5P_DEFAULT, untimed(H5P_GROUP_CREATE).get(), H5P_DEFAULT), H5Gclose};
 }
 
 void link_hard(hid_t parent, const std::string& existing, const std::string& name) {

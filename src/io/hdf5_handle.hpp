@@ -83,6 +83,9 @@ Result checked(Result result) {
 // Files of runs that are resumed are opened by the functions that create them: what is there already is taken as it is, but for
 // attributes, which are written anew.
 
+/// Properties of a file, group or dataset that is to be created, without the time of day: the same contents are the same bytes.
+[[nodiscard]] Hdf5Id untimed(hid_t object_class);
+
 [[nodiscard]] Hdf5Id create_group(hid_t parent, const std::string& path);
 void link_hard(hid_t parent, const std::string& existing, const std::string& name);
 
@@ -101,7 +104,7 @@ void write_fixed(hid_t parent, const std::string& name, std::span<const std::int
 /// [N][2], a column for each row.
 void write_fixed(hid_t parent, const std::string& name, const Eigen::Matrix2Xd& values);
 
-/// A column of a table. Unlike other datasets it does not hold the time of day: the same values are the same bytes.
+/// A column of a table.
 void write_column(hid_t parent, const std::string& name, std::span<const double> values);
 void write_column(hid_t parent, const std::string& name, std::span<const std::int64_t> values);
 void write_column(hid_t parent, const std::string& name, const std::vector<std::string>& values);

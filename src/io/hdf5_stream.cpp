@@ -54,7 +54,9 @@ void Hdf5OutputStream::close() {
 void Hdf5OutputStream::write_whole() {
   const auto count = static_cast<hsize_t>(pptr() - pbase());
   const Hdf5Id space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  Hdf5Id dataset(H5Dcreate2(parent_, name_.c_str(), H5T_STD_U8LE, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  const Hdf5Id properties = untimed(H5P_DATASET_CREATE);
+  Hdf5Id dataset(H5Dcreate2(parent_, name_.c_str(), H5T_STD_U8LE, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+                 H5Dclose);
   checked(H5Dwrite(dataset.get(), H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer_.data()));
   dataset.close();
 }

@@ -1,6 +1,7 @@
 #pragma once
 // What is thrown when a file cannot be written or read, and the sentences that every such error is made of.
 
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -20,6 +21,9 @@ namespace detail {
 /// `kept` says what can still be read, and stands before the advice where it is not empty.
 [[nodiscard]] OutputError system_error(const std::filesystem::path& path, std::string_view action, int error_number,
                                        std::string_view kept = {});
+
+/// Of a file that a run cannot go on with, since it has fewer bytes than it had.
+[[nodiscard]] OutputError cut_short(const std::filesystem::path& path, std::uint64_t bytes, std::uint64_t wanted);
 
 }  // namespace detail
 

@@ -38,7 +38,7 @@ bool grows(std::string_view product) {
 }  // namespace
 
 RunDirectory::RunDirectory(fs::path path, bool force, std::span<const std::string_view> products)
-    : path_(std::move(path)), products_(products) {
+    : path_(std::move(path)), products_(products), otherwise_(", or name another directory with --out") {
   if (path_.empty()) throw OutputError("the output directory has an empty name; name one with --out");
   try {
     create();
@@ -50,7 +50,7 @@ RunDirectory::RunDirectory(fs::path path, bool force, std::span<const std::strin
         for (const fs::path& old : {final_name(product), partial_name(product)}) {
           std::error_code error;
           fs::remove(old, error);
-          if (error) throw detail::system_error(old, "remove what an earlier run wrote", error.value());
+          if (error) throw refusal(old, "remove what an earlier run wrote", error.value());
         }
       }
     }
@@ -78,10 +78,14 @@ void RunDirectory::lock() {
   const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (taken) {
     ::close(descriptor);
-    throw OutputError(fmt::format(
-        "{}: another run is writing in this directory; wait for its end, or name another one with --out", path_.string()));
+    throw OutputError(
+        fmt::format("{}: another run is writing in this directory; wait for its end{}", path_.string(), otherwise_));
   }
   lock_ = {nullptr, [descriptor](const void*) { ::close(descriptor); }};
+}
+
+OutputError RunDirectory::refusal(const fs::path& path, std::string_view action, int error_number) const {
+  return OutputError(detail::system_error(path, action, error_number).what() + otherwise_);
 }
 
 fs::path RunDirectory::final_name(std::string_view product) const { return path_ / product; }
@@ -104,10 +108,10 @@ void RunDirectory::create() {
   }
   for (auto part = missing.rbegin(); part != missing.rend(); ++part) {
     if (fs::create_directory(*part, error)) created_.push_back(*part);
-    if (error) throw detail::system_error(path_, "create the output directory", error.value());
+    if (error) throw refusal(path_, "create the output directory", error.value());
   }
   if (!fs::is_directory(path_, error))
-    throw detail::system_error(path_, "create the output directory", error ? error.value() : ENOTDIR);
+    throw refusal(path_, "create the output directory", error ? error.value() : ENOTDIR);
 }
 
 void RunDirectory::check_for_results(bool force) const {
@@ -136,7 +140,7 @@ void RunDirectory::check_for_results(bool force) const {
 void RunDirectory::check_writable() const {
   std::string probe = (path_ / ".carom-XXXXXX").string();
   const int descriptor = ::mkostemp(probe.data(), O_CLOEXEC);
-  if (descriptor < 0) throw detail::system_error(path_, "write into the output directory", errno);
+  if (descriptor < 0) throw refusal(path_, "write into the output directory", errno);
   ::close(descriptor);
   ::unlink(probe.c_str());
 }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -73,6 +74,8 @@ class RunDirectory {
 
  private:
   explicit RunDirectory(std::filesystem::path path) : path_(std::move(path)), products_(run_products) {}
+  /// Of the place, when a run begins or goes on.
+  [[nodiscard]] OutputError refusal(const std::filesystem::path& path, std::string_view action, int error_number) const;
   void create();
   void lock();
   void check_for_results(bool force) const;
@@ -80,6 +83,7 @@ class RunDirectory {
 
   std::filesystem::path path_;
   std::span<const std::string_view> products_;
+  std::string otherwise_;                       ///< advice beside another's; empty for a run that goes on: it has no other place
   std::vector<std::filesystem::path> created_;  ///< the deepest last
   std::shared_ptr<const void> lock_;            ///< while it lives, nobody else can have this directory
 };

@@ -74,10 +74,6 @@ void RunReader::read_trajectory() {
   if (extents.size() != 3 || extents[2] != 3) throw Hdf5Error("there is no position/value of three dimensions");
   samples_ = std::min<std::uint64_t>(extents[0], detail::extents_of(file_.get(), particles + "/position/time").at(0));
   const std::uint64_t count = extents[1];
-  if (samples_ == 0)
-    throw OutputError(fmt::format(
-        "{}: this run kept no samples, so it is not known where its disks began; run it with run.sample_every and its trajectory",
-        path_.string()));
   disks_.radius = rows(particles + "/radius", 0, count, 1);
   disks_.mass = rows(particles + "/mass", 0, count, 1);
   for (const double species : rows(particles + "/species", 0, count, 1))
@@ -104,7 +100,15 @@ void RunReader::read_scene() {
                                  {"Carom", fmt::format("{} (commit {})", text("version"), text("commit"))}});
 }
 
+void RunReader::require_samples() const {
+  if (samples_ == 0)
+    throw OutputError(fmt::format(
+        "{}: this run kept no samples, so it is not known where its disks were; run it with run.sample_every and its trajectory",
+        path_.string()));
+}
+
 std::vector<double> RunReader::sample_times() const {
+  require_samples();
   return guarded([&] {
     std::vector<double> times = rows(particles + "/position/time", 0, samples_, 1);
     if (!std::is_sorted(times.begin(), times.end()) || !std::isfinite(times.front()) || !std::isfinite(times.back()))
@@ -114,6 +118,7 @@ std::vector<double> RunReader::sample_times() const {
 }
 
 State RunReader::sample(std::uint64_t k) const {
+  require_samples();
   return guarded([&] {
     const std::uint64_t count = disks_.count();
     State state;

@@ -32,7 +32,7 @@ class RunReader {
 
   [[nodiscard]] double end() const { return end_; }                 ///< the time that the run reached
   [[nodiscard]] std::optional<double> Z() const { return Z_; }      ///< of the whole run, where it has one
-  [[nodiscard]] std::uint64_t samples() const { return samples_; }  ///< at least one
+  [[nodiscard]] std::uint64_t samples() const { return samples_; }  ///< 0 where it kept events alone
   [[nodiscard]] std::uint64_t events() const { return events_; }    ///< 0 without a log
   [[nodiscard]] bool has_event_log() const { return has_event_log_; }
 
@@ -59,6 +59,7 @@ class RunReader {
   void read_summary(const std::filesystem::path& directory);
   void read_trajectory();
   void read_scene();
+  void require_samples() const;
   [[nodiscard]] std::vector<double> rows(const std::string& dataset, std::uint64_t first, std::uint64_t count,
                                          std::uint64_t row_size) const;
   /// Row k of /observables/NAME; empty where the file has none.

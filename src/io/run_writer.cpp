@@ -45,8 +45,7 @@ void require_file(const RunDirectory& directory, const char* name, std::uint64_t
     const std::uint64_t size = std::filesystem::file_size(path, error);
     if (error) continue;
     if (size >= bytes) return;
-    throw OutputError(fmt::format("{}: the file has {} bytes and must have {} for the run to go on; it was changed or cut",
-                                  path.string(), size, bytes));
+    throw detail::cut_short(path, size, bytes);
   }
   throw OutputError(fmt::format("{}: this file of the run is missing; put it back, and the run can go on",
                                 directory.final_name(name).string()));

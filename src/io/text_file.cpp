@@ -2,8 +2,6 @@
 
 #include "io/text_file.hpp"
 
-#include <fmt/format.h>
-
 #include <cerrno>
 #include <utility>
 
@@ -34,8 +32,7 @@ TextFile::TextFile(std::filesystem::path path, std::uint64_t kept)
   if (error == 0 && size >= end) return;
   ::close(std::exchange(descriptor_, -1));
   if (error != 0) throw system_error(path_, "cut it back to where the run is to go on", error);
-  throw OutputError(fmt::format("{}: the file has {} bytes and must have {} for the run to go on; it was changed or cut",
-                                path_.string(), size, kept));
+  throw cut_short(path_, static_cast<std::uint64_t>(size), kept);
 }
 
 TextFile::~TextFile() {

@@ -37,17 +37,17 @@ Scene scene_with(const RunReader& run, const std::vector<std::string>& observabl
 
 /// Says at which of the run's samples an observable is to look, where it looks at states, and that the run has kept what it
 /// needs.
-void choose_step(ObservableRequest& request, const ObservedRun& run) {
+void choose_step(ObservableRequest& request, const ObservedRun& run, std::uint64_t samples) {
   const MadeObservable wished = make_observable(request, run);
   if (wished->follows_collisions() && !run.collisions_known)
     refuse(request, "follows collisions, and the run kept none; run the scene with --events");
   if (!(wished->step() > 0.0)) return;
+  if (samples == 0) refuse(request, "needs states, and the run kept no samples; run the scene with run.sample_every");
   const std::optional<SamplingTimes> times = SamplingTimes::of(run.scene.run);
   if (!times)
-    refuse(request, run.scene.run.is_sampled()
-                        ? "is an average over time, and the run's samples are so many collisions apart; run the scene with "
-                          "run.sample_every = TIME"
-                        : "needs states, and the run kept no samples; run the scene with run.sample_every");
+    refuse(request,
+           "is an average over time, and the run's samples are so many collisions apart; run the scene with run.sample_every = "
+           "TIME");
   const double step = times->block();
   if (!request.every) request.every = step * std::max(1.0, std::nearbyint(wished->step() / step));
   if (!times->stride(*request.every))
@@ -122,7 +122,7 @@ Analysis analyse(const std::filesystem::path& run_directory, const std::vector<s
     throw std::invalid_argument("the run's scene has no [observe] table; name what to measure, such as pressure");
   ObservedRun observed = observed_run(scene, run.disks(), run.reference_temperature());
   observed.collisions_known = run.has_event_log();
-  for (ObservableRequest& request : scene.observe) choose_step(request, observed);
+  for (ObservableRequest& request : scene.observe) choose_step(request, observed, run.samples());
   ObservableGroup group(observed);
   feed(run, scene, group, progress);
   const Totals totals = run.samples() > 0 ? run.totals(run.samples() - 1) : Totals{};

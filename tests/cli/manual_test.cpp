@@ -34,6 +34,7 @@ TEST_F(Manual, HasEveryCommandAndItsOptions) {
   EXPECT_THAT(page, StartsWith(".TH CAROM 1"));
   for (const std::string command : commands) EXPECT_THAT(page, HasSubstr(".SS \\fBcarom " + command + "\\fR\n"));
   EXPECT_THAT(page, HasSubstr("\\fB\\-q\\fR, \\fB\\-\\-quiet\\fR"));
+  EXPECT_THAT(page, HasSubstr("SIGHUP, SIGXCPU and SIGUSR1 ask a run or a study to stop"));
   EXPECT_THAT(page, Not(HasSubstr("carom manual")));
 }
 

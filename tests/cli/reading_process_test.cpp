@@ -2,11 +2,12 @@
 
 #include "cli/reading_process.hpp"
 
+#include "cli/signals.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <signal.h>
-#include <unistd.h>
+#include <sys/time.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -50,21 +51,24 @@ TEST(ReadingProcessTest, ACrashIsOneSentence) {
 }
 
 TEST(ReadingProcessTest, ReadingWithoutEndIsOneSentence) {
-  EXPECT_EXIT(run([] { return raised(SIGALRM); }), ExitedWithCode(2), "^usage: some.h5md: reading it comes to no end.*\n$");
+  EXPECT_EXIT(run([] { return raised(SIGPROF); }), ExitedWithCode(2), "^usage: some.h5md: reading it comes to no end.*\n$");
 }
 
 TEST(ReadingProcessTest, AnInterruptIsAnInterrupt) {
-  EXPECT_EXIT(run([] { return raised(SIGINT); }), ExitedWithCode(130), "^$");
-  EXPECT_EXIT(run([] { return raised(SIGTERM); }), ExitedWithCode(130), "^$");
+  for (const int number : stopping_signals) EXPECT_EXIT(run([=] { return raised(number); }), ExitedWithCode(130), "^$") << number;
   EXPECT_EXIT(run([] { return raised(SIGKILL); }), ExitedWithCode(1), "^failed: some.h5md: .*memory\n$");
 }
 
-TEST(ReadingProcessTest, TheLimitIsAMinuteAtLeastAndEndsWithItsOwner) {
+TEST(ReadingProcessTest, TheLimitIsOfProcessorTimeAndEndsWithItsOwner) {
+  itimerval left{};
   {
     const ReadingLimit limit("/no/such/file");
-    EXPECT_GE(alarm(60), 30U);
+    getitimer(ITIMER_PROF, &left);
+    EXPECT_GE(left.it_value.tv_sec, 10);
   }
-  EXPECT_EQ(alarm(0), 0U);
+  getitimer(ITIMER_PROF, &left);
+  EXPECT_EQ(left.it_value.tv_sec, 0);
+  EXPECT_EQ(left.it_value.tv_usec, 0);
 }
 
 }  // namespace

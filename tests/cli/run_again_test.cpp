@@ -88,6 +88,14 @@ TEST_F(RunAgain, WhatCannotBeRunAgainIsRefused) {
   EXPECT_THAT(outcome.err, HasSubstr("damaged or cut short"));
 }
 
+TEST_F(RunAgain, ADirectoryForTemporaryFilesThatIsNotThereIsNamed) {
+  ASSERT_EQ(carom({"run", "gas.toml", "-q"}).exit_code, 0);
+  const Outcome outcome = run_program(directory_.path(), {"env", "TMPDIR=/no/such/place", CAROM_PROGRAM, "verify", "gas"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err,
+            "carom: TMPDIR=/no/such/place: there is no such directory for temporary files; set TMPDIR to one that is there\n");
+}
+
 TEST_F(RunAgain, OfADamagedTrajectoryHdf5HasNothingToSay) {
   ASSERT_EQ(carom({"run", "gas.toml", "-q"}).exit_code, 0);
   std::string bytes = text_of(file("gas/trajectory.h5md"));

@@ -160,8 +160,18 @@ TEST_F(RunReaderTest, RefusesARunThatStillGoesOn) {
   EXPECT_THAT(refusal(run), HasSubstr("this run still goes on"));
 }
 
-TEST_F(RunReaderTest, RefusesARunWithoutATrajectoryOrSamples) {
-  EXPECT_THAT(refusal(recorded({"output.trajectory=false"})), HasSubstr("kept no samples"));  // events alone
+TEST_F(RunReaderTest, HasTheEventsOfARunWithoutSamples) {
+  const RunReader run(recorded({"output.trajectory=false"}));
+  EXPECT_EQ(run.samples(), 0U);
+  EXPECT_EQ(run.event_log().size(), run.events());
+  EXPECT_GT(run.events(), 0U);
+  EXPECT_EQ(run.start().positions.cols(), static_cast<Eigen::Index>(run.disks().count()));
+  EXPECT_THROW((void)run.sample_times(), OutputError);
+  EXPECT_THROW((void)run.sample(0), OutputError);
+}
+
+TEST_F(RunReaderTest, RefusesARunWithoutATrajectory) {
+  (void)recorded();
   fs::remove(run_ / "trajectory.h5md");
   EXPECT_THAT(refusal(run_), HasSubstr("kept no trajectory.h5md"));
 }

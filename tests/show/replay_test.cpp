@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <carom/simulation.hpp>
 
+#include <ostream>
+
 namespace carom::test {
 namespace {
 
@@ -43,6 +45,7 @@ double distance(const Recorded& run, const std::vector<Event>& events) {
 struct Case {
   std::string name, scene;
 };
+void PrintTo(const Case& run, std::ostream* out) { *out << run.name; }
 class ReplayOf : public ::testing::TestWithParam<Case> {};
 
 // Per flight: the end rounds four times at places below 16, times below 8 are rounded to doubles at speeds below 16. A disk has

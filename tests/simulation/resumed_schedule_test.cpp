@@ -179,7 +179,8 @@ struct Ended {
   std::string simulation, schedule;
 };
 
-Ended run_to_its_end(const Scene& scene, const std::optional<FixedStep>& step, const Ended* from) {
+Ended run_to_its_end(const Scene& scene, const std::optional<FixedStep>& step, const Ended* from,
+                     std::vector<double>* watched = nullptr) {
   std::istringstream simulation_in(from != nullptr ? from->simulation : ""), schedule_in(from != nullptr ? from->schedule : "");
   Simulation simulation = from != nullptr ? restore_simulation(scene, simulation_in)
                           : step          ? make_simulation(scene, *step)
@@ -194,6 +195,8 @@ Ended run_to_its_end(const Scene& scene, const std::optional<FixedStep>& step, c
   hooks.sample = [&](std::uint64_t, const State& state) { write_down("sample", state); };
   for (const double grid : {0.05, 0.15})
     hooks.grids.push_back({grid, [&](std::uint64_t, const State& state, const Totals&) { write_down("grid", state); }});
+  if (watched != nullptr)
+    hooks.grids.push_back({0.013, [=](std::uint64_t, const State& state, const Totals&) { watched->push_back(state.time); }});
   hooks.events = [&](std::span<const Event> events) {
     for (const Event& event : events) append(ended.log, "event", event.time);
   };
@@ -232,6 +235,25 @@ TEST(ResumedSchedule, EndsAtANewEndAsIfItHadBeenTheFirst) {
         EXPECT_TRUE(same_bits(end.state, whole.state)) << every << " " << time;
       }
     }
+  }
+}
+
+/// A view of the run may be there for one of its parts.
+TEST(ResumedSchedule, AGridBehindTheOthersMayComeAndGo) {
+  Scene scene = parse_scene(fluid);
+  scene.observe.clear();
+  scene.run.equilibrate.reset();
+  scene.run.time = 2.0;
+  const Ended whole = run_to_its_end(scene, {}, nullptr);
+  for (const bool first_is_watched : {true, false}) {
+    std::vector<double> watched;
+    scene.run.time = 0.7;
+    const Ended first = run_to_its_end(scene, {}, nullptr, first_is_watched ? &watched : nullptr);
+    scene.run.time = 2.0;
+    const Ended second = run_to_its_end(scene, {}, &first, first_is_watched ? nullptr : &watched);
+    EXPECT_TRUE(first.log + second.log == whole.log);
+    EXPECT_EQ(watched.front(), first_is_watched ? 0.0 : 54 * 0.013);  // 53 * 0.013 = 0.689
+    EXPECT_EQ(watched.back(), first_is_watched ? 53 * 0.013 : 153 * 0.013);
   }
 }
 

@@ -93,6 +93,7 @@ std::vector<Kept> kept_runs() {
        fluid +
            observing("temperature = { every = 3.0 }\nradial_distribution = { every = 6.0, range = 2.0 }\nfree_flight = true\n"),
        "time = 60.0\nsample_log = { base = 1.7, per_block = 7, block = 3.0 }\n"},
+      {"events_alone", fluid + observing(of_collisions), "time = 12.0\n"},
       {"counted", fluid + observing(of_collisions), "time = 12.0\nsample_every = { collisions = 100 }\n"},
       {"reversal",
        fluid_of_one_kind + "[collision]\nrule = \"reversal\"\n" + observing(of_states + of_motion + "free_flight = true\n")},
@@ -190,6 +191,17 @@ TEST_F(Analysis, WithoutCollisionsGivesWhatNeedsNone) {
   EXPECT_EQ(pressure.back().note, "the run kept no collisions (--events)");
   EXPECT_TRUE(analysis.observables.at(1).scalars.empty());
   EXPECT_THAT(refusal<std::invalid_argument>({"viscosity"}), StartsWith("viscosity follows collisions, and the run kept none"));
+}
+
+TEST_F(Analysis, WithoutSamplesRefusesWhatLooksAtStates) {
+  for (const bool sampled : {false, true}) {
+    record(parse_scene(fluid_of_one_kind + "[collision]\nrule = \"specular\"\n[run]\ntime = 5.0\n" +
+                       (sampled ? "sample_every = 0.1\n" : "") + "[output]\nevents = true\ntrajectory = false\n"),
+           run_);
+    EXPECT_THAT(refusal<std::invalid_argument>({"temperature"}),
+                StartsWith("temperature needs states, and the run kept no samples"));
+    fs::remove_all(run_);
+  }
 }
 
 TEST_F(Analysis, RefusesWhatTheRunHasNot) {

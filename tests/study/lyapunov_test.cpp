@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,9 @@ struct Flow {
   bool mixture;
   Boundary boundary;
 };
+
+/// By its name: its bytes are not all set.
+void PrintTo(const Flow& flow, std::ostream* out) { *out << flow.name; }
 
 class TangentOf : public ::testing::TestWithParam<Flow> {};
 
@@ -168,6 +172,8 @@ struct Known {
   double density;  ///< N sigma^2 / A
   double per_collision;
 };
+
+void PrintTo(const Known& known, std::ostream* out) { *out << known.density; }
 
 class PhysicsLyapunov : public ::testing::TestWithParam<Known> {};
 

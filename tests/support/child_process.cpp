@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 Outcome run_carom(const fs::path& directory, const std::vector<std::string>& arguments,
                   const std::function<void(pid_t)>& meanwhile) {
-  std::vector<std::string> words = {CAROM_PROGRAM};
+  // Memory that is given back, or not yet written, is full of rubbish.
+  std::vector<std::string> words = {"env", "MALLOC_PERTURB_=165", "GLIBC_TUNABLES=glibc.malloc.tcache_count=0", CAROM_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return run_program(directory, std::move(words), meanwhile);
 }
