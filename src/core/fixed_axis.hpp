@@ -8,6 +8,35 @@
 
 namespace carom {
 
+/// What whole steps of a coordinate could not hold of lengths so far. It is added to the next of them, so that steps are never
+/// off by more than half of one, however many lengths they are made of.
+class StepRest {
+ public:
+  /// The length speed * time in steps, and what was left before. All digits count: products that are rounded to a double may be
+  /// whole numbers of some fraction of a step every time, and all are rounded to one side then. Requires |speed * time| < half
+  /// the range.
+  std::int64_t steps_of(double speed, double time, double per_length) {
+    const double length = speed * time;
+    return whole(length, per_length) + whole(std::fma(speed, time, -length), per_length);
+  }
+  /// Steps become twice as long: those so far, of which half go on.
+  std::int64_t coarsened(std::int64_t steps) {
+    rest_ = (rest_ + static_cast<double>(steps & 1)) / 2.0;
+    return steps >> 1;
+  }
+
+ private:
+  std::int64_t whole(double length, double per_length) {
+    const double nearest = std::rint(length * per_length);
+    rest_ += std::fma(length, per_length, -nearest);
+    const double carried = std::rint(rest_);
+    rest_ -= carried;
+    return static_cast<std::int64_t>(nearest) + static_cast<std::int64_t>(carried);
+  }
+
+  double rest_ = 0.0;  ///< in steps
+};
+
 /// One axis of the box as a range of integers.
 struct FixedAxis {
   double unit = 0.0;   ///< length of one step of a coordinate

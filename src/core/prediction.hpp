@@ -36,9 +36,10 @@ struct PredictionFrame {
   SlidingFrame sliding = {};
 };
 
-/// What a pair of disks comes to: hard cores, hard cores that grow, wells with hard cores, or hard cores in a box whose images
-/// slide.
-enum class Contact { hard, growing, wells, sheared };
+/// What a pair of disks comes to: hard cores, hard cores that fall, hard cores that grow, wells with hard cores (which may fall
+/// too), or hard cores in a box whose images slide. Falling is nothing that a pair notices, but height is energy: where others'
+/// new lines begin at the next step of a coordinate towards the old line, theirs are rounded to no side.
+enum class Contact { hard, falling, growing, wells, falling_wells, sheared };
 
 /// Where a disk is to be looked for: a square round `centre` (in steps of 2^32 of a coordinate), and the ids of the disks that it
 /// may meet there, padded with its own id, with which it never collides, to eight at least and to a multiple

@@ -49,6 +49,11 @@ CAROM_INLINE Longs to_longs(Doubles x) {
   return Longs{whole(0), whole(1), whole(2), whole(3)};
 #endif
 }
+
+/// Rounded to the nearest. Requires |x| < 2^63.
+CAROM_INLINE Longs nearest_longs(Doubles x) {
+  return to_longs(reinterpret_cast<Doubles>(_mm256_round_pd(reinterpret_cast<__m256d>(x), _MM_FROUND_TO_NEAREST_INT)));
+}
 #endif
 
 /// Exactly what four conversions would give. Without an instruction for it the two halves of an integer become doubles by
@@ -212,15 +217,20 @@ CAROM_INLINE void store(Line& line, Longs x, Doubles v, bool upper) {
       upper ? __builtin_shufflevector(x, bits, 2, 3, 6, 7) : __builtin_shufflevector(x, bits, 0, 1, 4, 5);
 }
 
-/// The coordinates of new lines, x and y of a, x and y of b, where from `now` on the velocities are v.
-template <class Line>
+/// The coordinates of new lines, x and y of a, x and y of b, where from `now` on the velocities are v; see Contact::falling for
+/// how they are rounded.
+template <bool falling, class Line>
 CAROM_INLINE Longs new_places(const Line& a, const Line& b, Doubles v, const PredictionFrame& frame, double now,
                               CollidedPair& pair) {
 #if defined(__AVX2__)
   const Longs old_a = load(a), old_b = load(b), old_x = __builtin_shufflevector(old_a, old_b, 0, 1, 4, 5);
   const Doubles old_v = reinterpret_cast<Doubles>(__builtin_shufflevector(old_a, old_b, 2, 3, 6, 7));
   const Doubles steps = {frame.steps[0], frame.steps[1], frame.steps[0], frame.steps[1]};
-  const Longs by = to_longs(((old_v - v) * all(now)) * steps);
+  Longs by;
+  if constexpr (falling)
+    by = nearest_longs((old_v * all(now)) * steps) - nearest_longs((v * all(now)) * steps);
+  else
+    by = to_longs(((old_v - v) * all(now)) * steps);
   const Longs x = reinterpret_cast<Longs>(reinterpret_cast<UnsignedLongs>(old_x) + reinterpret_cast<UnsignedLongs>(by));
   pair.wrapped = bits_of(((old_x ^ x) & (by ^ x)) < all(std::int64_t{0}));
   pair.downwards = bits_of(by < all(std::int64_t{0}));
@@ -228,7 +238,9 @@ CAROM_INLINE Longs new_places(const Line& a, const Line& b, Doubles v, const Pre
 #else
   unsigned wrapped = 0, downwards = 0;
   const auto place = [&](const Line& line, int axis, double speed, int k) -> long long {
-    const auto by = static_cast<long long>((line.v[axis] - speed) * now * frame.steps[axis]);
+    const auto nearest = [&](double rate) { return static_cast<long long>(std::rint(rate * now * frame.steps[axis])); };
+    const auto by = falling ? nearest(line.v[axis]) - nearest(speed)
+                            : static_cast<long long>((line.v[axis] - speed) * now * frame.steps[axis]);
     long long x;
     wrapped |= static_cast<unsigned>(__builtin_add_overflow(line.x[axis], by, &x)) << k;
     downwards |= static_cast<unsigned>(by < 0) << k;
@@ -241,14 +253,14 @@ CAROM_INLINE Longs new_places(const Line& a, const Line& b, Doubles v, const Pre
 #endif
 }
 
-template <bool growing, class Line>
+template <bool growing, bool falling, class Line>
 void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, double avx, double avy,
                       double bvx, double bvy) {
   Line& a = lines[pair.disk[0]];
   Line& b = lines[pair.disk[1]];
   const Surroundings &near_a = pair.around[0], &near_b = pair.around[1];
   const Doubles v = {avx, avy, bvx, bvy};
-  const Longs x = new_places(a, b, v, frame, now, pair);
+  const Longs x = new_places<falling>(a, b, v, frame, now, pair);
   store(a, x, v, false);
   store(b, x, v, true);
 
@@ -273,12 +285,14 @@ void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& p
 
 #define CAROM_TEXT_OF(name) #name
 #define CAROM_TEXT(name) CAROM_TEXT_OF(name)
-#define CAROM_KERNEL(name, growing, Line)                                                                \
-  extern const PredictionKernel<Line> name = {&predict<growing, Line>, &turn_and_predict<growing, Line>, \
+#define CAROM_KERNEL(name, growing, falling, Line)                                                                \
+  extern const PredictionKernel<Line> name = {&predict<growing, Line>, &turn_and_predict<growing, falling, Line>, \
                                               CAROM_TEXT(CAROM_INSTRUCTIONS)};
-CAROM_KERNEL(flight_kernel, false, Flight)
-CAROM_KERNEL(sized_flight_kernel, false, SizedFlight)
-CAROM_KERNEL(growing_flight_kernel, true, Flight)
-CAROM_KERNEL(growing_sized_flight_kernel, true, SizedFlight)
+CAROM_KERNEL(flight_kernel, false, false, Flight)
+CAROM_KERNEL(sized_flight_kernel, false, false, SizedFlight)
+CAROM_KERNEL(falling_flight_kernel, false, true, Flight)
+CAROM_KERNEL(falling_sized_flight_kernel, false, true, SizedFlight)
+CAROM_KERNEL(growing_flight_kernel, true, false, Flight)
+CAROM_KERNEL(growing_sized_flight_kernel, true, false, SizedFlight)
 
 }  // namespace carom::CAROM_INSTRUCTIONS

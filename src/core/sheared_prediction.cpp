@@ -43,7 +43,7 @@ void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& p
                       double bvx, double bvy) {
   if (is_inner(frame, pair.around[0]) && is_inner(frame, pair.around[1]))
     return plain.turn_and_predict(lines, frame, pair, now, avx, avy, bvx, bvy);
-  turn(lines, frame, pair, now, {avx, avy, bvx, bvy});
+  turn<false>(lines, frame, pair, now, {avx, avy, bvx, bvy});
   for (int k = 0; k < 2; ++k) predict<Line, plain>(lines, frame, pair.disk[k], pair.around[k], now, pair.ahead[k]);
 }
 

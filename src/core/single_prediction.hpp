@@ -53,13 +53,15 @@ void predict_singly(const Line* lines, const PredictionFrame& frame, std::int32_
 }
 
 /// Draws the new lines of a pair. `v`: x and y of the one, x and y of the other.
-template <class Line>
+template <bool falling, class Line>
 void turn(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, const double (&v)[4]) {
   pair.wrapped = pair.downwards = 0;
   for (int k = 0; k < 4; ++k) {
     Line& line = lines[pair.disk[k / 2]];
     const int axis = k % 2;
-    const auto by = static_cast<std::int64_t>((line.v[axis] - v[k]) * now * frame.steps[axis]);
+    const auto nearest = [&](double speed) { return static_cast<std::int64_t>(std::rint(speed * now * frame.steps[axis])); };
+    const auto by = falling ? nearest(line.v[axis]) - nearest(v[k])
+                            : static_cast<std::int64_t>((line.v[axis] - v[k]) * now * frame.steps[axis]);
     if (__builtin_add_overflow(line.x[axis], by, &line.x[axis])) pair.wrapped |= 1U << k;
     if (by < 0) pair.downwards |= 1U << k;
     line.v[axis] = v[k];

@@ -23,20 +23,23 @@ double meeting_time(const Line* lines, const PredictionFrame& frame, std::int32_
   return now + std::min(contact_time<double>(r, v, sigma), escape_time<double>(r, v, frame.well * sigma));
 }
 
-template <class Line>
+template <bool falling, class Line>
 void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, double avx, double avy,
                       double bvx, double bvy) {
-  turn(lines, frame, pair, now, {avx, avy, bvx, bvy});
+  turn<falling>(lines, frame, pair, now, {avx, avy, bvx, bvy});
   for (int k = 0; k < 2; ++k)
     predict_singly<Line, &meeting_time<Line>>(lines, frame, pair.disk[k], pair.around[k], now, pair.ahead[k]);
 }
 
-template <class Line>
-constexpr PredictionKernel<Line> kernel = {&predict_singly<Line, &meeting_time<Line>>, &turn_and_predict<Line>, "wells"};
+template <bool falling, class Line>
+constexpr PredictionKernel<Line> kernel = {&predict_singly<Line, &meeting_time<Line>>, &turn_and_predict<falling, Line>,
+                                           "wells"};
 
 }  // namespace
 
-extern const PredictionKernel<Flight> well_flight_kernel = kernel<Flight>;
-extern const PredictionKernel<SizedFlight> well_sized_flight_kernel = kernel<SizedFlight>;
+extern const PredictionKernel<Flight> well_flight_kernel = kernel<false, Flight>;
+extern const PredictionKernel<SizedFlight> well_sized_flight_kernel = kernel<false, SizedFlight>;
+extern const PredictionKernel<Flight> falling_well_flight_kernel = kernel<true, Flight>;
+extern const PredictionKernel<SizedFlight> falling_well_sized_flight_kernel = kernel<true, SizedFlight>;
 
 }  // namespace carom

@@ -24,7 +24,7 @@ struct Falling {
   /// From r and v, after a time t.
   [[nodiscard]] Vec2<Real> position(const Vec2<Real>& r, const Vec2<Real>& v, Real t) const {
     if (!present()) return r + v * t;
-    return (r + v * t) + (g * t) * (t / 2);
+    return r + t * (v + (t / 2) * g);
   }
   [[nodiscard]] Vec2<Real> velocity(const Vec2<Real>& v, Real t) const {
     if (!present()) return v;

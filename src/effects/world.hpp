@@ -33,6 +33,7 @@ struct PlainWorld {
 
   [[nodiscard]] static Vec2<double> g() { return Vec2<double>::Zero(); }
   [[nodiscard]] static double fallen(int /*axis*/, double /*t*/) { return 0.0; }
+  [[nodiscard]] static bool falls() { return false; }
   [[nodiscard]] static double scale(double /*t*/) { return 1.0; }
   [[nodiscard]] static double growth() { return 0.0; }
   [[nodiscard]] static bool still() { return true; }
@@ -64,11 +65,9 @@ struct AnyWorld {
   }
 
   [[nodiscard]] const Vec2<double>& g() const { return falling.g; }
-  /// How far the frame in which lines are straight has fallen at time t. At the zero of the clock it stands still, where it has
-  /// come to.
-  [[nodiscard]] double fallen(int axis, double t) const { return depth_[axis] + (falling.g[axis] * t) * (t / 2); }
-  /// The frame goes back to where it has come from.
-  void rise() { depth_.setZero(); }
+  /// How far the frame in which lines are straight has fallen at time t. At the zero of the clock it stands still.
+  [[nodiscard]] double fallen(int axis, double t) const { return (falling.g[axis] * t) * (t / 2); }
+  [[nodiscard]] bool falls() const { return falling.present(); }
   /// Of all radii, at time t.
   [[nodiscard]] double scale(double t) const { return scale_ + growth_ * t; }
   [[nodiscard]] double growth() const { return growth_; }
@@ -98,7 +97,6 @@ struct AnyWorld {
     return what > first_obstacle && walls.is_piston(static_cast<Wall>(what));
   }
   void rebase(double now) {
-    for (int axis = 0; axis < 2; ++axis) depth_[axis] = fallen(axis, now);
     walls.rebase(now);
     sliding.rebase(now);
     scale_ += growth_ * now;
@@ -107,7 +105,7 @@ struct AnyWorld {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(walls, sliding, depth_, scale_, growth_);
+    archive(walls, sliding, scale_, growth_);
   }
 
   Falling<double> falling;
@@ -116,7 +114,6 @@ struct AnyWorld {
   SlidingImages<double> sliding;
 
  private:
-  Vec2<double> depth_ = Vec2<double>::Zero();
   double scale_;
   double growth_;
 };

@@ -214,7 +214,7 @@ class Engine {
       return begin_epoch_between(i, along, i, along);
     Line& a = line(i);
     for (int k = 0; k < 2; ++k) {
-      a.x[k] = moved(i, k, (a.v[k] - along[k]) * now_);
+      a.x[k] = moved(i, k, along[k], now_, world_.falls() ? lift(a, k, now_, v[k], along[k], now_) : 0.0);
       a.v[k] = along[k];
     }
     predict(i);
@@ -371,6 +371,8 @@ class Engine {
   void leave_room_to_slide(const std::vector<CageCentre>& centres);
   /// Of cages, for disks of the size that lists are for.
   [[nodiscard]] double suitable_half_width() const { return CageTuner::first_half_width(sigma_ * listed_scale_, area_); }
+  /// A disk that begins in contact with a wall is so in steps too.
+  void touch_walls(Line& a, int axis) const;
   /// Who begins inside whose well.
   void find_wells();
   /// As long as the lines may become as the disks move now, rounded down to a power of two.
@@ -386,8 +388,6 @@ class Engine {
   /// A length for the first spans of the queue.
   [[nodiscard]] double first_span() const;
 
-  /// Whether the frame of the lines does.
-  [[nodiscard]] bool falls() const { return world_.g()[0] != 0.0 || world_.g()[1] != 0.0; }
   /// A disk so fast that its line could wrap before the epoch ends, or whose velocity is no number.
   [[nodiscard]] bool outruns_epoch(const Vec2<double>& v) const {
     return !(std::abs(v[0]) <= speed_limit_[0]) || !(std::abs(v[1]) <= speed_limit_[1]);
@@ -412,11 +412,16 @@ class Engine {
     return r;
   }
 
+  /// Where the line of a disk was at the epoch, from the middle of the box: the frame in which it is drawn had fallen by then.
+  [[nodiscard]] std::int64_t coordinate(const Line& a, int axis) const {
+    if constexpr (World::plain) return a.x[axis];
+    return a.x[axis] + depth_[axis];
+  }
   /// Where a disk is now, to double precision; along periodic axes it may lie beyond the edges.
   [[nodiscard]] Vec2<double> place(const Line& a) const {
     Vec2<double> r;
     for (int k = 0; k < 2; ++k)
-      r[k] = middle_[k] + (frame_.unit[k] * static_cast<double>(a.x[k]) + (a.v[k] * now_ + world_.fallen(k, now_)));
+      r[k] = middle_[k] + (frame_.unit[k] * static_cast<double>(coordinate(a, k)) + (a.v[k] * now_ + world_.fallen(k, now_)));
     return r;
   }
   [[nodiscard]] Vec2<double> velocity(const Line& a) const {
@@ -428,7 +433,8 @@ class Engine {
   /// From the edge of a disk to where a side of the box was at the start, the upper one of an axis (sign 1) or the lower (-1).
   [[nodiscard]] double room(const Line& a, int axis, int sign, double radius) const {
     const std::int64_t limit = half_[axis] - axes_[axis].steps_of(radius);
-    const double start = frame_.unit[axis] * static_cast<double>(sign > 0 ? limit - a.x[axis] : a.x[axis] + limit);
+    const std::int64_t x = coordinate(a, axis);
+    const double start = frame_.unit[axis] * static_cast<double>(sign > 0 ? limit - x : x + limit);
     return (start - sign * a.v[axis] * now_) - sign * world_.fallen(axis, now_);
   }
   /// Where the line of a disk is now along an axis, from the centre of its cage.
@@ -456,13 +462,39 @@ class Engine {
   [[nodiscard]] double beyond_walls(std::int32_t i, int axis) const;
   void check_pair(std::int32_t i, std::int32_t j, double tolerated_overlap, std::vector<std::string>& faults) const;
 
-  /// The coordinate of disk i moved by a length, with its image count where it wraps.
-  [[nodiscard]] std::int64_t moved(std::int32_t i, int axis, double by) {
+  /// The coordinate at the epoch from which disk i gets at a speed to where it is at a time, with its image count where it wraps;
+  /// lifted, where disks fall.
+  [[nodiscard]] std::int64_t moved(std::int32_t i, int axis, double speed, double time, double lift) {
     std::int64_t x;
-    const std::int64_t steps = axes_[axis].steps_of(by);
+    const double before = line(i).v[axis];
+    const std::int64_t steps = world_.falls() ? fallen_steps(i, axis, before, speed, time, lift)
+                                              : axes_[axis].steps_of((before - speed) * time);
     if (__builtin_add_overflow(line(i).x[axis], steps, &x)) [[unlikely]]
       images_.step(i, axis, steps < 0 ? -1 : 1);
     return x;
+  }
+  /// For moved(): height is energy there, so rounding must add up to nothing.
+  [[nodiscard]] std::int64_t fallen_steps(std::int32_t i, int axis, double before, double speed, double time, double lift) {
+    StepRest& rest = rests_[static_cast<std::size_t>(i)][static_cast<std::size_t>(axis)];
+    const double per_length = axes_[axis].steps;
+    return rest.steps_of(before, time, per_length) + rest.steps_of(-speed, time, per_length) +
+           rest.steps_of(lift, 1.0, per_length);
+  }
+  /// How far a disk is to be lifted where its line changes, so that the energy of height makes up for what rounding does to that
+  /// of speed. Its velocity was velocity(a) at `now`, and is to be v where its new line has the velocity `along` at time `then`.
+  [[nodiscard]] double lift(const Line& a, int axis, double now, double v, double along, double then) const {
+    const double g = world_.g()[axis], before = a.v[axis] + g * now;
+    if (g == 0.0) return 0.0;
+    const double lost = before * missing(a.v[axis], g, now, before), gained = v * missing(along, g, then, v);
+    const double height = (gained - lost) / g;
+    // Where weights are next to nothing, no height makes up for a digit of the speed; nor need it.
+    return std::abs(height) <= 0x1p-50 * (axes_[axis].upper - axes_[axis].lower) ? height : 0.0;
+  }
+  /// line + g t - v, which v is rounded from or that was rounded to `line`.
+  [[nodiscard]] static double missing(double line, double g, double t, double v) {
+    const double fall = g * t, sum = line + fall, share = sum - line;
+    const double rest = (line - (sum - share)) + (fall - share);  // sum + rest is line + fall (Knuth)
+    return ((sum - v) + rest) + std::fma(g, t, -fall);
   }
   /// The same of a pair whose coordinates have been moved.
   [[gnu::noinline, gnu::cold]] void count_images(const CollidedPair& pair) {
@@ -561,6 +593,9 @@ class Engine {
   LargeVector<Line> lines_;
   LargeVector<Plan> plans_;
   LargeVector<std::int32_t> ids_;  ///< what the world calls them: the engine keeps neighbours near each other in memory
+  std::int64_t depth_[2] = {};  ///< that the frame of the lines has fallen, at the epoch
+  StepRest depth_rest_[2];
+  std::vector<std::array<StepRest, 2>> rests_;  ///< of the coordinates of disks that fall
   ImageCounts images_;
   std::vector<std::int32_t> heights_;  ///< where images slide: of the cages' centres, which are in the boxes of their disks
   NeighbourLists lists_;

@@ -52,10 +52,12 @@ inline double largest_scale(const Box& box, const Disks& disks, const Effects& e
 
 template <class Line>
 const PredictionKernel<Line>& kernel_for(const Effects& effects) {
+  const bool falling = Falling<double>(effects.gravity).present();
   if (effects.growth && effects.growth->rate > 0.0) return prediction_kernel<Line>(Contact::growing);
-  if (effects.square_well && effects.square_well->depth != 0.0) return prediction_kernel<Line>(Contact::wells);
+  if (effects.square_well && effects.square_well->depth != 0.0)
+    return prediction_kernel<Line>(falling ? Contact::falling_wells : Contact::wells);
   if (SlidingImages<double>::acts(effects.shear)) return prediction_kernel<Line>(Contact::sheared);
-  return prediction_kernel<Line>(Contact::hard);
+  return prediction_kernel<Line>(falling ? Contact::falling : Contact::hard);
 }
 
 /// How many second-level caches so many bytes would fill.
@@ -128,6 +130,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       if (axes_[k].periodic && a.x[k] == INT64_MIN && place > axes_[k].lower) images_.step(i, k, 1);  // rounded to the upper edge
     }
     layout_.furnish(a, disks, static_cast<std::size_t>(column));
+    for (int k = 0; k < 2 && world_.falls(); ++k) touch_walls(a, k);
   }
 
   sigma_ = disks.mean_diameter();
@@ -146,6 +149,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   make_lists();
   if constexpr (!World::plain)
     if (world_.sliding.present()) note_heights(start), note_slide();
+  if (world_.falls()) rests_.resize(lines_.size());
   if (World::plain) radius_ = std::vector<double>();  // nothing will ask for them again; {} alone would keep the memory
   start = State{};                                    // makes room for what follows
   double half_width = std::min(suitable_half_width(), widest_);
@@ -160,6 +164,14 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   const double caches = detail::second_level_caches(bytes());
   fetching_ = caches > 3.0;
   fetching_neighbours_ = caches > 0.5;
+}
+
+/// Else the gap that rounding makes would be there at every bounce, since nothing is lost between them.
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::touch_walls(Line& a, int axis) const {
+  const std::int64_t contact = half_[axis] - axes_[axis].steps_of(layout_.radius(a) * world_.scale(0.0));
+  for (const std::int64_t x : {-contact, contact})
+    if (!axes_[axis].periodic && std::abs(a.x[axis] - x) <= 2) a.x[axis] = x;
 }
 
 template <class Impact, class Layout, class World>

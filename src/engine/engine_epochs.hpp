@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace carom {
 
@@ -21,7 +22,7 @@ void Engine<Impact, Layout, World>::begin_epoch(double now) {
   if constexpr (!World::plain) slide_images();
   if (outgrow_lists())
     list_larger();
-  else if (falls())
+  else if (world_.falls())
     predict_all();  // the frame starts from rest again, and disks leave their cages at other times
   // Too few events tell nothing: an epoch may have been cut short.
   const std::uint64_t pushed = queue_.pushed() - begun_with_;
@@ -39,7 +40,7 @@ void Engine<Impact, Layout, World>::begin_epoch_between(std::int32_t i, const Ve
   rebase(now_);
   ++totals_.numerics.outrun;
   for (int k = 0; k < 2; ++k) line(i).v[k] = va[k] + fallen[k], line(j).v[k] = vb[k] + fallen[k];
-  if (world_.growth() > 0.0 || falls()) return go_on();
+  if (world_.growth() > 0.0 || world_.falls()) return go_on();
   if constexpr (!World::plain) widen();
   choose_epoch_length();
   if constexpr (!World::plain) slide_images();
@@ -77,8 +78,9 @@ void Engine<Impact, Layout, World>::rebase(double now) {
   for (std::int32_t i = 0; i < count(); ++i) {
     Line& a = line(i);
     for (int k = 0; k < 2; ++k) {
-      a.x[k] = moved(i, k, a.v[k] * now);
-      if constexpr (!World::plain) a.v[k] += world_.g()[k] * now;
+      const double v = a.v[k] + world_.g()[k] * now;
+      a.x[k] = moved(i, k, 0.0, now, world_.falls() ? lift(a, k, now, v, v, 0.0) : 0.0);
+      if constexpr (!World::plain) a.v[k] = v;
     }
     if constexpr (!World::plain)
       if (world_.sliding.present()) {
@@ -96,6 +98,8 @@ void Engine<Impact, Layout, World>::rebase(double now) {
   impact_.rebase(now);
   last_collision_.rebase();
   ++totals_.numerics.epochs;
+  if constexpr (!World::plain)
+    for (int k = 0; k < 2; ++k) depth_[k] += depth_rest_[k].steps_of(world_.g()[k] * now, now / 2.0, axes_[k].steps);
   world_.rebase(now);
   frame_.scale = world_.scale(0.0);
   hand_over_notes();
@@ -140,11 +144,12 @@ double Engine<Impact, Layout, World>::longest_by_world() const {
 /// Everybody is to be predicted anew then.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::draw_up_frame() {
-  const double depth[2] = {world_.fallen(0, 0.0), world_.fallen(1, 0.0)};
-  if (std::max(std::abs(depth[0]), std::abs(depth[1])) < 4.0 * spacing_) return;
-  for (std::int32_t i = 0; i < count(); ++i)
-    for (int k = 0; k < 2; ++k) line(i).x[k] += axes_[k].steps_of(depth[k]);
-  world_.rise();
+  const auto far = [this](int k) { return axes_[k].unit * std::abs(static_cast<double>(depth_[k])) >= 4.0 * spacing_; };
+  if (!far(0) && !far(1)) return;
+  for (int k = 0; k < 2; ++k) {
+    const std::int64_t fallen = std::exchange(depth_[k], 0);
+    for (Line& a : lines_) a.x[k] += fallen;
+  }
   rebuild(frame_.half_width);
 }
 
@@ -166,6 +171,7 @@ void Engine<Impact, Layout, World>::widen() {
     frame_.unit[k] = axes_[k].unit;
     frame_.steps[k] = axes_[k].steps;
     for (Line& a : lines_) a.x[k] >>= 1;
+    depth_[k] = depth_rest_[k].coarsened(depth_[k]);
     wider = true;
   }
   if (!wider) return;

@@ -21,7 +21,7 @@ State Engine<Impact, Layout, World>::state() const {
       std::int64_t x;
       std::int64_t image = images_.of(i, k);
       const std::int64_t way = axes_[k].steps_of(a.v[k] * now_ + world_.fallen(k, now_));
-      if (__builtin_add_overflow(a.x[k], way, &x)) image += way < 0 ? -1 : 1;
+      if (__builtin_add_overflow(coordinate(a, k), way, &x)) image += way < 0 ? -1 : 1;
       bool inside = false;
       if constexpr (!World::plain)
         if (k == 1 && world_.sliding.present()) keep_in_box(i, x, image), inside = true;
@@ -60,7 +60,8 @@ template <class Impact, class Layout, class World>
 std::size_t Engine<Impact, Layout, World>::bytes() const {
   return lines_.capacity() * sizeof(Line) + plans_.capacity() * sizeof(Plan) + ids_.capacity() * sizeof(std::int32_t) +
          images_.bytes() + lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() +
-         radius_.capacity() * sizeof(double) + (places_.capacity() + heights_.capacity()) * sizeof(std::int32_t);
+         radius_.capacity() * sizeof(double) + rests_.capacity() * sizeof(rests_[0]) +
+         (places_.capacity() + heights_.capacity()) * sizeof(std::int32_t);
 }
 
 template <class Impact, class Layout, class World>

@@ -27,7 +27,7 @@ void Engine<Impact, Layout, World>::plan_world(std::int32_t i) {
   }
   if (!world_.obstacles.empty()) {
     // Disks may fall far while they stay in their cages, but where they fall all is planned anew with every epoch.
-    const double until = falls() ? std::min(mine.edge_time, epoch_length_) : mine.edge_time;
+    const double until = world_.falls() ? std::min(mine.edge_time, epoch_length_) : mine.edge_time;
     const auto meeting = world_.obstacles.next(place(a), velocity(a), world_.g(), radius, growth, until - now_);
     if (meeting.obstacle >= 0) consider(now_ + meeting.time, first_obstacle - meeting.obstacle);
   }

@@ -3,6 +3,7 @@
 #include "core/fixed_axis.hpp"
 #include "core/flight.hpp"
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -105,6 +106,34 @@ TEST(FixedAxis, StepsOfALengthAreRoundedTowardsZero) {
   EXPECT_EQ(axis.steps_of(-0.25), -(std::int64_t{1} << 62));
   EXPECT_EQ(axis.steps_of(1.5 * axis.unit), 1);
   EXPECT_EQ(axis.steps_of(-1.5 * axis.unit), -1);
+}
+
+TEST(StepRest, LeavesForTheNextLengthWhatAStepCannotHold) {
+  // Random lengths, and the same one again and again: a box of 800 has steps of 25 * 2^-52, where that would be rounded to one
+  // side.
+  const double per_length = axis_of(0.0, 800.0, false, 12800.0).steps;
+  using Quad = boost::multiprecision::cpp_bin_float_quad;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (const double spread : {0.0, 1e-13, 1.0}) {
+    StepRest rest;
+    Quad exact = 0, found = 0;
+    for (int k = 0; k < 10'000; ++k) {
+      const double speed = 0.7 + spread * unit(random), time = 32.0 * (0.6 + spread * unit(random));
+      exact += Quad(speed) * Quad(time) * Quad(per_length);
+      found += Quad(rest.steps_of(speed, time, per_length));
+      // Quad has 60 bits after those of a sum of 10^4 lengths.
+      ASSERT_LE(abs(exact - found), Quad(0.5 + 1e-6)) << spread << " " << k;
+    }
+  }
+}
+
+TEST(StepRest, KeepsTheLengthWhenStepsBecomeTwiceAsLong) {
+  StepRest rest;
+  std::int64_t steps = rest.steps_of(3.0, 1.0, 1.0);
+  steps = rest.coarsened(steps);  // a step and a half
+  for (int k = 0; k < 5; ++k) steps += rest.steps_of(1.0, 1.0, 0.5);
+  EXPECT_EQ(steps, 4);
 }
 
 /// a - b folded into [-2^63, 2^63), with all digits.

@@ -209,10 +209,13 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
     const double most = random() % 4 == 0 ? 0.0 : std::ldexp(0.49, -static_cast<int>(random() % 60));
     const double share = std::uniform_real_distribution<double>(-1.0, 1.0)(random);
     const double change = share * most * drawn.frame.unit[a] * 0x1p64 / std::max(drawn.now, 1e-3);
-    const double v = line.v[a] - change;
+    const double before = line.v[a], v = before - change;
     const double steps = (line.v[a] - v) * drawn.now * drawn.frame.steps[a];
     line.v[a] = std::abs(steps) < 0x1p62 ? v : line.v[a];  // fast disks have coarse velocities
-    const auto by = std::abs(steps) < 0x1p62 ? whole(steps) : std::int64_t{0};
+    const auto nearest = [&](double speed) { return whole(std::nearbyint(speed * drawn.now * drawn.frame.steps[a])); };
+    const std::int64_t by = std::abs(steps) >= 0x1p62     ? 0
+                            : contact == Contact::falling ? nearest(before) - nearest(line.v[a])
+                                                          : whole(steps);
     const long double exact = static_cast<long double>(line.x[a]) + static_cast<long double>(by);  // has 64 digits
     line.x[a] = static_cast<std::int64_t>(static_cast<std::uint64_t>(line.x[a]) + static_cast<std::uint64_t>(by));
     wrapped |= static_cast<unsigned>(exact < -0x1p63L || exact >= 0x1p63L) << k;
@@ -254,6 +257,47 @@ TEST_P(PredictionKernels, GiveTheBitsOfOneNeighbourAtATime) {
     const Drawn drawn = draw(random, count);
     ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.plain, random, GetParam())) << "equal disks, case " << k;
     ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.sized, random, GetParam())) << "sized disks, case " << k;
+  }
+}
+
+TEST_P(PredictionKernels, DrawNewLinesOfDisksThatFallFromTheNearestStep) {
+  std::mt19937_64 random(5);
+  for (int k = 0; k < 10'000; ++k) {
+    Drawn drawn = draw(random, 1 + random() % 12);
+    for (std::size_t n = 0; n < drawn.sized.size(); ++n)
+      for (int a = 0; a < 2; ++a) {  // no line may be longer than a quarter of the range
+        double& v = drawn.sized[n].v[a];
+        if (std::abs(v * drawn.now / drawn.frame.unit[a]) > 0x1p61) v = 0.0;
+        drawn.plain[n].v[a] = v;
+      }
+    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.plain, random, GetParam(), Contact::falling)) << "case " << k;
+    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.sized, random, GetParam(), Contact::falling)) << "case " << k;
+  }
+}
+
+TEST_P(PredictionKernels, DrawTheSameLinesInWells) {
+  std::mt19937_64 random(6);
+  for (const auto& [in_wells, as] :
+       {std::pair(Contact::falling_wells, Contact::falling), std::pair(Contact::wells, Contact::hard)}) {
+    for (int k = 0; k < 1'000; ++k) {
+      Drawn drawn = draw(random, 2);
+      const std::vector<std::vector<std::int32_t>> nobody(2);
+      drawn.frame.inside = nobody.data();
+      const List first(0, {1}), second(1, {0});
+      const auto turned = [&](Contact contact) {
+        std::vector<SizedFlight> lines = drawn.sized;
+        for (SizedFlight& line : lines)
+          for (int a = 0; a < 2; ++a)
+            if (std::abs(line.v[a] * drawn.now / drawn.frame.unit[a]) > 0x1p61) line.v[a] = 0.0;
+        CollidedPair pair{{0, 1}, {first.around(), second.around()}, {}, 0, 0};
+        kernel<SizedFlight>(GetParam(), contact)
+            .turn_and_predict(lines.data(), drawn.frame, pair, drawn.now, 0.9 * lines[0].v[0], 0.7 * lines[0].v[1], 0.0, 0.0);
+        return lines;
+      };
+      const auto lines = turned(in_wells), twins = turned(as);
+      for (std::size_t i = 0; i < 2; ++i)
+        for (int axis = 0; axis < 2; ++axis) ASSERT_EQ(lines[i].x[axis], twins[i].x[axis]) << k;
+    }
   }
 }
 

@@ -35,7 +35,7 @@ inline bool keeps_momentum(const Scene& scene, int axis) {
 
 /// How far the energy of weights may be off. Places are rounded, those of all at the start and the end and those of one or two
 /// disks at every event: r + v t + g t^2/2 by 8 roundings of the box's size. A disk that lands with next to no speed hops, by
-/// 2^-40 of its radius (effects/rebound.hpp).
+/// 2^-40 of its radius, whether it brings nothing or as much as four hops (effects/rebound.hpp).
 inline double height_error(const Scene& scene, const Disks& disks, const Totals& totals, double scale) {
   const Effects& effects = scene.effects;
   const double place = std::max(scene.box.lower.cwiseAbs().maxCoeff(), scene.box.upper.cwiseAbs().maxCoeff());
@@ -50,7 +50,7 @@ inline double height_error(const Scene& scene, const Disks& disks, const Totals&
   const auto bounces = static_cast<double>(totals.wall + totals.obstacle);
   const double events = bounces + static_cast<double>(totals.pair + totals.well);
   return 8.0 * epsilon<double> * place * (2.0 * (weight + loads) + 2.0 * events * (heaviest + loads)) +
-         bounces * 0x1p-40 * largest * (heaviest + loads);
+         bounces * 0x3p-40 * largest * (heaviest + loads);
 }
 
 /// Energy that growing disks gave each other, before velocities were rescaled.
