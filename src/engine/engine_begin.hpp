@@ -169,9 +169,10 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
 /// Else the gap that rounding makes would be there at every bounce, since nothing is lost between them.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::touch_walls(Line& a, int axis) const {
+  if (axes_[axis].periodic) return;
   const std::int64_t contact = half_[axis] - axes_[axis].steps_of(layout_.radius(a) * world_.scale(0.0));
   for (const std::int64_t x : {-contact, contact})
-    if (!axes_[axis].periodic && std::abs(a.x[axis] - x) <= 2) a.x[axis] = x;
+    if (std::abs(a.x[axis] - x) <= 2) a.x[axis] = x;
 }
 
 template <class Impact, class Layout, class World>
