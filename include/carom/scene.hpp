@@ -16,7 +16,8 @@
 
 namespace carom {
 
-/// The scene is wrong. what() is one sentence: "file:line:column: what is wrong; what would be right".
+/// The scene is wrong. what() is one sentence: "file:line:column: what is wrong; what would be right", or without a place where
+/// a program has put the scene together.
 class SceneError : public std::runtime_error {
  public:
   SceneError(const Location& where, const std::string& sentence);
@@ -156,6 +157,14 @@ struct Scene {
   /// sum of pi r^2 over the area of the box
   [[nodiscard]] double packing_fraction() const;
 };
+
+/// Checks that a scene makes sense: that every number is finite and in its range, that lists have one entry per disk, that disks
+/// fit in the box and given ones do not overlap, that effects can act together and in this box, that the run can come to its end,
+/// and that what is to be observed has a meaning. Throws SceneError with the sentence with which load_scene() refuses a file that
+/// says the same, without its place. load_scene(), parse_scene(), every make_simulation() and restore_simulation() check a scene
+/// by it. What only files must say is not asked for: a program may leave species without names, and a run without an end where it
+/// calls run_until() by itself. Whether lattices and random places have room for the disks is found where they are placed.
+void check(const Scene& scene);
 
 /// Reads, completes and checks a scene file. Each override is "dotted.key=value", its value in TOML syntax (a bare
 /// word stands for a string); "disks.0.radius" is the first species' radius.

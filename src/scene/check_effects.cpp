@@ -1,14 +1,22 @@
 // Which effects cannot act together, and which need a box of another kind.
 
 #include "scene/checks.hpp"
+#include "scene/number_keys.hpp"
 
 #include <fmt/format.h>
 
 namespace carom::detail {
 namespace {
 
-[[noreturn]] void refuse_together(const Location& where, const char* one, const char* other) {
-  throw SceneError(where, fmt::format("{} and {} cannot be combined; remove one of the two", one, other));
+[[noreturn]] void refuse_together(const char* table, const char* one, const char* other) {
+  throw Refusal(table, fmt::format("{} and {} cannot be combined; remove one of the two", one, other));
+}
+
+void check_collision(const Collision& collision) {
+  if (!collision.roughness || collision.rule == CollisionRule::specular) return;
+  throw Refusal("collision.roughness",
+                "collision.roughness acts across the line of centres, where rule = \"reversal\" leaves nothing to choose; take "
+                "rule = \"specular\", or remove roughness");
 }
 
 void check_gravity(const Scene& scene) {
@@ -16,8 +24,8 @@ void check_gravity(const Scene& scene) {
   const Gravity& gravity = *scene.effects.gravity;
   for (int axis = 0; axis < 2; ++axis) {
     if (!scene.box.periodic(axis) || gravity.acceleration[axis] == 0.0) continue;
-    throw SceneError(
-        gravity.where,
+    throw Refusal(
+        "gravity",
         fmt::format("gravity.acceleration is {} in {}, where the box is periodic, so the disks would fall for ever; make "
                     "it 0 there, or give that axis walls",
                     gravity.acceleration[axis], axis_names[axis]));
@@ -27,30 +35,34 @@ void check_gravity(const Scene& scene) {
 void check_shear(const Scene& scene) {
   const Effects& effects = scene.effects;
   if (!effects.shear) return;
-  const Location& where = effects.shear->where;
   for (int axis = 0; axis < 2; ++axis) {
     if (scene.box.periodic(axis)) continue;
-    throw SceneError(where, fmt::format("[shear] moves periodic images past each other, but {} has walls; take boundary = "
-                                        "\"periodic\", or remove [shear]",
-                                        axis_names[axis]));
+    throw Refusal("shear", fmt::format("[shear] moves periodic images past each other, but {} has walls; take boundary = "
+                                       "\"periodic\", or remove [shear]",
+                                       axis_names[axis]));
   }
-  if (effects.gravity) refuse_together(where, "[shear]", "[gravity]");
-  if (!effects.obstacles.empty()) refuse_together(where, "[shear]", "[[obstacles]]");
-  if (effects.growth) refuse_together(where, "[shear]", "[growth]");
-  if (effects.square_well) refuse_together(where, "[shear]", "[square_well]");
+  if (effects.gravity) refuse_together("shear", "[shear]", "[gravity]");
+  if (!effects.obstacles.empty()) refuse_together("shear", "[shear]", "[[obstacles]]");
+  if (effects.growth) refuse_together("shear", "[shear]", "[growth]");
+  if (effects.square_well) refuse_together("shear", "[shear]", "[square_well]");
 }
 
 /// Two disks must not feel each other across the box and through its edge at once.
 void check_square_well(const Scene& scene) {
   if (!scene.effects.square_well) return;
   const SquareWell& well = *scene.effects.square_well;
-  if (scene.effects.growth) refuse_together(well.where, "[square_well]", "[growth]");
+  if (!(well.width > 1.0))
+    throw Refusal("square_well.width",
+                  fmt::format("square_well.width is {}; it is the outer diameter in units of the diameter of a disk, so it must be "
+                              "above 1, such as {}",
+                              well.width, keys::well_width.example));
+  if (scene.effects.growth) refuse_together("square_well", "[square_well]", "[growth]");
   const double reach = well.width * 2.0 * radii_of(scene).largest;
   for (int axis = 0; axis < 2; ++axis) {
     const double half = 0.5 * scene.box.lengths()[axis];
     if (!scene.box.periodic(axis) || reach < half) continue;
-    throw SceneError(
-        well.where,
+    throw Refusal(
+        "square_well",
         fmt::format("square_well.width = {} reaches {:.6g} from disk to disk, but on a periodic axis it must stay below "
                     "half of the length, {:.6g} in {}; make it smaller, or the box larger",
                     well.width, reach, half, axis_names[axis]));
@@ -60,6 +72,7 @@ void check_square_well(const Scene& scene) {
 }  // namespace
 
 void check_effects(const Scene& scene) {
+  check_collision(scene.effects.collision);
   check_gravity(scene);
   check_shear(scene);
   check_square_well(scene);

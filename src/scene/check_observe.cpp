@@ -1,6 +1,9 @@
 // What cannot be measured in a scene, and why.
 
 #include "scene/checks.hpp"
+#include "scene/known_keys.hpp"
+#include "scene/number_keys.hpp"
+#include "scene/observables_known.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +15,7 @@ namespace carom::detail {
 namespace {
 
 [[noreturn]] void refuse_observable(const ObservableRequest& request, const std::string& why) {
-  throw SceneError(request.where, fmt::format("observe.{} {}", request.name, why));
+  throw Refusal("observe." + request.name, fmt::format("observe.{} {}", request.name, why));
 }
 
 bool one_of(std::string_view name, std::initializer_list<std::string_view> names) {
@@ -56,6 +59,26 @@ bool equal_masses(const Scene& scene) {
     }
   }
   return true;
+}
+
+void check_settings(const ObservableRequest& request) {
+  constexpr std::int64_t most_bins = 100'000;
+  const std::string path = "observe." + request.name;
+  const KnownObservable* known = find_observable(request.name);
+  if (known == nullptr) throw Refusal(path, unknown_key_sentence(request.name, "observe", names_of_observables()));
+  if (request.every && !keys::observe_every.holds(*request.every)) refuse_number(path + ".every", *request.every, keys::observe_every);
+  const auto require = [&](const char* setting, const std::optional<double>& value, double otherwise) {
+    const std::string example = example_of(setting, otherwise);
+    const NumberKey key{setting, example, Range::above_zero};
+    if (value && !key.holds(*value)) refuse_number(fmt::format("{}.{}", path, setting), *value, key);
+  };
+  require("range", request.range, known->range.value_or(1.0));
+  require("largest", request.largest, known->largest.value_or(1.0));
+  if (request.bins && !(*request.bins >= 2 && *request.bins <= most_bins))
+    throw Refusal(path + ".bins", fmt::format("{}.bins is {}; it must be a whole number from 2 to {}, such as bins = {}", path,
+                                              *request.bins, most_bins, known->bins.value_or(2)));
+  if (request.axis && *request.axis != 0 && *request.axis != 1)
+    throw Refusal(path + ".axis", fmt::format("{}.axis is {}; it must be 0 or 1", path, *request.axis));
 }
 
 void check_disks(const Scene& scene, const ObservableRequest& request) {
@@ -102,9 +125,11 @@ void check_structure(const Scene& scene, const ObservableRequest& request) {
 
 void check_observe(const Scene& scene) {
   for (const ObservableRequest& request : scene.observe) {
+    check_settings(request);
     check_disks(scene, request);
     check_collisions(scene, request);
     check_structure(scene, request);
+    if (request.every) check_step(scene, fmt::format("observe.{}.every", request.name), *request.every);
     if (request.name == "wall_fluxes" && scene.box.periodic(0) && scene.box.periodic(1))
       refuse_observable(request, "asks what goes through walls, and this box is periodic; remove it, or give an axis walls");
     if (one_of(request.name, {"mean_square_displacement", "velocity_autocorrelation"}) && acts(scene.effects.shear))

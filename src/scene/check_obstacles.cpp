@@ -1,6 +1,7 @@
 // Obstacles lie in the box, and disks whose positions are given lie clear of them.
 
 #include "scene/checks.hpp"
+#include "scene/number_keys.hpp"
 #include "scene/obstacle_overlap.hpp"
 
 #include <fmt/format.h>
@@ -10,48 +11,52 @@
 namespace carom::detail {
 namespace {
 
-void require_inside(const Box& box, const Eigen::Vector2d& point, const std::string& path, const Location& where) {
+void require_inside(const Box& box, const Eigen::Vector2d& point, const std::string& path, const std::string& what) {
   for (int axis = 0; axis < 2; ++axis) {
     if (point[axis] >= box.lower[axis] && point[axis] <= box.upper[axis]) continue;
-    throw SceneError(where, fmt::format("{} is outside the box: its {} = {} must lie from {} to {}", path, axis_names[axis],
-                                        point[axis], box.lower[axis], box.upper[axis]));
+    throw Refusal(path, fmt::format("{} is outside the box: its {} = {} must lie from {} to {}", path + what, axis_names[axis],
+                                    point[axis], box.lower[axis], box.upper[axis]));
   }
 }
 
 /// Through a periodic edge a disk may stick out, but not so far that it meets its own image.
-void check_disk(const Box& box, const DiskObstacle& disk, const std::string& path, const Location& where) {
-  require_inside(box, disk.centre, path + ".disk.centre", where);
+void check_disk(const Box& box, const DiskObstacle& disk, const std::string& path) {
+  require_inside(box, disk.centre, path, ".disk.centre");
   for (int axis = 0; axis < 2; ++axis) {
     const double length = box.lengths()[axis];
     if (box.periodic(axis) && 2.0 * disk.radius >= length) {
-      throw SceneError(where,
-                       fmt::format("{}.disk is {:.6g} across, so it touches its own image; it must be less than {:.6g}, the "
-                                   "length of the box in {}",
-                                   path, 2.0 * disk.radius, length, axis_names[axis]));
+      throw Refusal(path,
+                    fmt::format("{}.disk is {:.6g} across, so it touches its own image; it must be less than {:.6g}, the "
+                                "length of the box in {}",
+                                path, 2.0 * disk.radius, length, axis_names[axis]));
     }
     const double room = std::min(disk.centre[axis] - box.lower[axis], box.upper[axis] - disk.centre[axis]);
     if (box.periodic(axis) || room >= disk.radius * (1.0 - 2.0 * touching)) continue;
-    throw SceneError(where,
-                     fmt::format("{}.disk overlaps a wall by {:.6g} in {}; its centre must be at least its radius {} away from "
-                                 "each wall",
-                                 path, disk.radius - room, axis_names[axis], disk.radius));
+    throw Refusal(path, fmt::format("{}.disk overlaps a wall by {:.6g} in {}; its centre must be at least its radius {} away from "
+                                    "each wall",
+                                    path, disk.radius - room, axis_names[axis], disk.radius));
   }
 }
 
-void check_place(const Box& box, const Obstacle& obstacle, const std::string& path) {
-  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) return check_disk(box, *disk, path, obstacle.where);
-  const auto& segment = std::get<SegmentObstacle>(obstacle.shape);
-  require_inside(box, segment.from, path + ".segment.from", obstacle.where);
-  require_inside(box, segment.to, path + ".segment.to", obstacle.where);
+void check_segment(const Box& box, const SegmentObstacle& segment, const std::string& path) {
+  if (segment.from == segment.to)
+    throw Refusal(path + ".segment",
+                  fmt::format("{}.segment runs from ({}, {}) to the same place; give it two different ends, such as {}", path,
+                              segment.from.x(), segment.from.y(), keys::segment_example));
+  require_inside(box, segment.from, path, ".segment.from");
+  require_inside(box, segment.to, path, ".segment.to");
 }
 
 }  // namespace
 
-void check_obstacles(const SceneDraft& draft) {
-  const Scene& scene = draft.scene;
+void check_obstacles(const Scene& scene) {
   const std::vector<Obstacle>& obstacles = scene.effects.obstacles;
   if (obstacles.empty()) return;
-  for (std::size_t o = 0; o < obstacles.size(); ++o) check_place(scene.box, obstacles[o], fmt::format("obstacles.{}", o));
+  for (std::size_t o = 0; o < obstacles.size(); ++o) {
+    const std::string path = fmt::format("obstacles.{}", o);
+    if (const auto* disk = std::get_if<DiskObstacle>(&obstacles[o].shape)) check_disk(scene.box, *disk, path);
+    if (const auto* segment = std::get_if<SegmentObstacle>(&obstacles[o].shape)) check_segment(scene.box, *segment, path);
+  }
   std::int64_t first_id = 0;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
     const Species& species = scene.species[s];
@@ -61,8 +66,8 @@ void check_obstacles(const SceneDraft& draft) {
       const auto found = overlapped_obstacle(scene.box, obstacles, positions[i], species.radius_of(disk), touching);
       if (!found) continue;
       const bool round = std::holds_alternative<DiskObstacle>(obstacles[found->obstacle].shape);
-      throw SceneError(
-          place(draft.disks[s], i, species.positions_where),
+      throw Refusal(
+          fmt::format("disks.{}.positions.{}", s, i),
           fmt::format("disk {} overlaps obstacles.{} by {:.6g}; its centre must be at least {:.6g} from {}", first_id + disk,
                       found->obstacle, found->depth, found->contact, round ? "the centre of that disk" : "that segment"));
     }

@@ -1,6 +1,7 @@
 // Walls with properties stand where the box has walls, and moving ones leave room for the disks and stop short of obstacles.
 
 #include "scene/checks.hpp"
+#include "scene/number_keys.hpp"
 #include "scene/wall_names.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,22 @@
 
 namespace carom::detail {
 namespace {
+
+std::string path_of(std::size_t wall) { return fmt::format("walls.{}", wall_names[wall]); }
+
+/// A diffuse wall forgets how a disk came in; a piston finds its own velocity.
+void check_kind(const WallProperties& wall, const std::string& path) {
+  const auto refuse_both = [&](const char* one, const char* other, const char* reason) {
+    throw Refusal(path, fmt::format("{} has {} and {}, but {}; remove one of the two", path, one, other, reason));
+  };
+  if (wall.temperature && wall.restitution)
+    refuse_both("temperature", "restitution", "a wall that draws velocities anew has no restitution");
+  if (wall.temperature && wall.mass) refuse_both("temperature", "mass", "a wall that draws velocities anew cannot be a piston");
+  if (wall.velocity && wall.mass) refuse_both("velocity", "mass", "a piston moves as it is pushed");
+  if (wall.mass.has_value() == wall.load.has_value()) return;
+  throw Refusal(path, fmt::format("{} has {} but no {}; a piston needs both, such as {}", path, wall.mass ? "mass" : "load",
+                                  wall.mass ? "load" : "mass", keys::piston_mass.example));
+}
 
 double velocity_of(const WallProperties& wall) { return wall.velocity.value_or(0.0); }
 
@@ -33,8 +50,8 @@ void check_gap(const Scene& scene, int axis) {
   if (gap > 0.0 && gap >= diameter) return;
   const std::size_t wall = faster_inward(scene.effects, lower);
   const double room = (scene.box.lengths()[axis] - diameter) / closing;
-  throw SceneError(
-      scene.effects.walls[wall].where,
+  throw Refusal(
+      path_of(wall),
       fmt::format("by time {:.6g} the moving walls would leave {:.6g} between {} and {}, but the largest disk is {:.6g} "
                   "across; make walls.{} slower, or end before time {:.6g}",
                   time, gap, wall_names[lower], wall_names[lower + 1], diameter, wall_names[wall], room));
@@ -60,9 +77,8 @@ void check_sweep(const Scene& scene, std::size_t w) {
     const Eigen::Vector2d ends = extent(scene.effects.obstacles[o], axis);
     const double room = upper ? scene.box.upper[axis] - ends[1] : ends[0] - scene.box.lower[axis];
     if (travel <= room) continue;
-    throw SceneError(wall.where,
-                     fmt::format("walls.{} would run into obstacles.{} at time {:.6g}; make it slower, or end before that",
-                                 wall_names[w], o, room / inward));
+    throw Refusal(path_of(w), fmt::format("walls.{} would run into obstacles.{} at time {:.6g}; make it slower, or end before that",
+                                          wall_names[w], o, room / inward));
   }
 }
 
@@ -72,12 +88,13 @@ void check_walls(const Scene& scene) {
   for (std::size_t w = 0; w < scene.effects.walls.size(); ++w) {
     const WallProperties& wall = scene.effects.walls[w];
     const int axis = axis_of_wall(w);
+    check_kind(wall, path_of(w));
     if (!wall.present()) continue;
     if (scene.box.periodic(axis)) {
-      throw SceneError(wall.where,
-                       fmt::format("walls.{} is given, but the box is periodic in {} and has no wall there; remove it, or "
-                                   "take boundary.{} = \"walls\"",
-                                   wall_names[w], axis_names[axis], axis_names[axis]));
+      throw Refusal(path_of(w),
+                    fmt::format("walls.{} is given, but the box is periodic in {} and has no wall there; remove it, or "
+                                "take boundary.{} = \"walls\"",
+                                wall_names[w], axis_names[axis], axis_names[axis]));
     }
     check_sweep(scene, w);
   }

@@ -2,13 +2,11 @@
 
 #include "scene/checks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace carom::detail {
-
-Location place(const DisksDraft& disks, std::size_t i, const Location& otherwise) {
-  return i < disks.rows.places.size() ? disks.rows.of(i) : otherwise;
-}
 
 std::span<const Eigen::Vector2d> given_positions(const Species& species) {
   if (const auto* listed = std::get_if<ListedPositions>(&species.positions)) return listed->values;
@@ -35,6 +33,14 @@ double mean_diameter(const Scene& scene) {
     for (const double radius : species.radii) sum += radius;
   }
   return 2.0 * sum / static_cast<double>(scene.disk_count());
+}
+
+std::string unequal_counts(const std::string& path, std::int64_t count, std::size_t positions) {
+  return fmt::format("{} is {}, but positions has {}; make them agree, or leave count out", path, count, positions);
+}
+
+std::string ends_of_growth(const char* has) {
+  return fmt::format("growth.until has {}; give exactly one, {{ packing_fraction = 0.84 }} or {{ pressure = 1e6 }}", has);
 }
 
 }  // namespace carom::detail

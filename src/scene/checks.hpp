@@ -1,10 +1,15 @@
 #pragma once
-// The checks of a whole scene, one file each, and what they share.
+// The checks of a whole scene, one file each, and what they share. They look at a Scene alone, so that one from a file and one
+// that a program has put together are refused in the same words; whoever catches a Refusal says where the scene was written.
 
-#include "scene/draft.hpp"
+#include "scene/refusal.hpp"
 
+#include <carom/scene.hpp>
+
+#include <cstdint>
 #include <numbers>
 #include <span>
+#include <string>
 
 namespace carom::detail {
 
@@ -12,10 +17,9 @@ namespace carom::detail {
 inline constexpr double touching = 1e-9;
 /// pi / (2 sqrt 3): no arrangement of equal disks is denser, in a rectangle or on a torus.
 inline constexpr double closest_packing = std::numbers::pi / (2.0 * std::numbers::sqrt3);
+/// Numbers of samples, steps and kicks are exact in double precision below it.
+inline constexpr double most_countable = 9007199254740992.0;  // 2^53
 inline constexpr const char* axis_names[] = {"x", "y"};
-
-/// The place of disk i of a species: its row where it has one, else what the caller names.
-Location place(const DisksDraft& disks, std::size_t i, const Location& otherwise);
 
 /// The positions of a species that gives them one by one; else none.
 std::span<const Eigen::Vector2d> given_positions(const Species& species);
@@ -33,14 +37,37 @@ Radii radii_of(const Scene& scene);
 /// Over all disks. Requires one.
 double mean_diameter(const Scene& scene);
 
-/// Numbers of effects out of their ranges, which a file cannot hold.
-void check_numbers(const Effects& effects);
+/// Throws Refusal where the parts of a scene do not make sense, alone or together.
+void check_scene(const Scene& scene);
+
+// What check_scene() does, in its order. Each throws Refusal, and relies on those before it.
+
+/// Every number is in its range, and every list has one entry per disk.
+void check_numbers(const Scene& scene);
+/// `path` is that of the count.
+void check_count(std::int64_t count, const std::string& path);
+void check_box(const Box& box);
+/// Disks are grown together or not at all, and to what they are.
+void check_grown(const Scene& scene);
+/// Obstacles lie in the box, and given disks clear of them.
+void check_obstacles(const Scene& scene);
 /// Effects that cannot act together, or not in this box.
 void check_effects(const Scene& scene);
 void check_walls(const Scene& scene);
 void check_growth(const Scene& scene);
+/// Speeds, places and masses are such that the arithmetic of every engine keeps its digits, and runs come to their end.
+void check_scales(const Scene& scene);
+void check_run(const Scene& scene);
 void check_observe(const Scene& scene);
-/// Obstacles must lie in the box, and given disks clear of them.
-void check_obstacles(const SceneDraft& draft);
+/// The time from one sample to the next, at `path`: until the end of the run there can be fewer than 2^53 samples, of which there are
+/// `per_step` in each step; where that is not known, disks must move from one to the next.
+void check_step(const Scene& scene, const std::string& path, double step, double per_step = 1.0);
+
+// Sentences that the reader of files says too, of what no Scene can hold.
+
+inline constexpr const char* endless_run =
+    "[run] says neither how long nor how many collisions; give time = 5.0, collisions = 1_000_000, or both";
+std::string unequal_counts(const std::string& path, std::int64_t count, std::size_t positions);
+std::string ends_of_growth(const char* has);
 
 }  // namespace carom::detail

@@ -12,7 +12,7 @@
 
 namespace carom::detail {
 
-/// Where each disk of a list or of a start file was written, so that a check can name the row.
+/// Where each disk of a start file was written, so that a refusal can name the row.
 struct Rows {
   std::string source;
   std::vector<std::array<int, 2>> places;  ///< line and column, one per disk
@@ -24,26 +24,23 @@ struct Rows {
 struct BoxDraft {
   Box box;                       ///< limits valid only where `aspect` is empty
   std::optional<double> aspect;  ///< Lx / Ly
-  Location where;                ///< of the key that fixes the size, x or aspect
 };
 
 /// One [[disks]] table.
 struct DisksDraft {
   Species species;
   std::string path;  ///< "disks.0"
-  Rows rows;         ///< empty unless the positions are given one by one
+  Rows rows;         ///< empty unless the positions are in a start file
   std::optional<std::int64_t> count;
   std::optional<double> radius;
   bool radii_from_file = false;  ///< true also where the column is there and no row is
   bool masses_from_file = false;
   bool velocities_from_file = false;
   std::optional<double> packing_fraction;  ///< this species' share of the box: sum of pi r^2 / area
-  Location packing_fraction_where;
 };
 
 struct SceneDraft {
-  Scene scene;         ///< box and species only once the short forms are complete
-  Location run_where;  ///< of the [run] table
+  Scene scene;  ///< box and species only once the short forms are complete
   BoxDraft box;
   std::vector<DisksDraft> disks;
 };

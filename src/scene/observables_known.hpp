@@ -1,10 +1,14 @@
 #pragma once
 // The words of the [observe] table: which observables there are, and which settings each has.
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace carom::detail {
 
@@ -49,5 +53,14 @@ constexpr const KnownObservable* find_observable(std::string_view name) {
     if (known.name == name) return &known;
   return nullptr;
 }
+
+inline std::vector<std::string_view> names_of_observables() {
+  std::vector<std::string_view> names;
+  for (const KnownObservable& known : known_observables) names.push_back(known.name);
+  return names;
+}
+
+/// What a setting could look like: "range = 5.0".
+inline std::string example_of(const char* setting, double otherwise) { return fmt::format("{} = {:.1f}", setting, otherwise); }
 
 }  // namespace carom::detail

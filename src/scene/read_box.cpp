@@ -1,10 +1,11 @@
 // The [box] table: limits or aspect, and the boundary in its three spellings.
 
+#include "scene/checks.hpp"
 #include "scene/read_tables.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <string_view>
 
 namespace carom::detail {
 namespace {
@@ -30,22 +31,12 @@ std::array<Boundary, 2> read_boundaries(const toml::node& node) {
 }
 
 void read_limits(const TableReader& box, Box& limits) {
-  static constexpr const char* keys[] = {"x", "y"};
   for (int axis = 0; axis < 2; ++axis) {
-    const std::string key = keys[axis];
-    const std::string example = key + " = [-1.0, 1.0]";
-    const Eigen::Vector2d ends = read_pair(box.require(key, "give its limits, such as " + example), box.path(key), example);
-    if (!(ends[0] < ends[1])) {
-      throw SceneError(box.where(key), fmt::format("{} runs from {} to {}; the lower limit must come first, such as {}",
-                                                   box.path(key), ends[0], ends[1], example));
-    }
+    const std::string_view key = axis_names[axis], example = keys::limits_example[axis];
+    const Eigen::Vector2d ends =
+        read_pair(box.require(key, fmt::format("give its limits, such as {}", example)), box.path(key), example);
     limits.lower[axis] = ends[0];
     limits.upper[axis] = ends[1];
-  }
-  if (!std::isnormal(limits.area())) {
-    throw SceneError(box.where("x"), fmt::format("the area of the box is {}, which double precision cannot hold; choose units in "
-                                                 "which the box is neither so large nor so small",
-                                                 limits.area()));
   }
 }
 
@@ -54,18 +45,16 @@ void read_limits(const TableReader& box, Box& limits) {
 BoxDraft read_box(const toml::table& table) {
   const TableReader box(table, "box", {"x", "y", "boundary", "aspect"});
   BoxDraft draft;
-  draft.aspect = box.number("aspect", Range::above_zero, "aspect = 1.0");
+  draft.aspect = box.number(keys::aspect);
   if (draft.aspect) {
-    draft.where = box.where("aspect");
     for (const char* key : {"x", "y"}) {
       if (box.find(key) != nullptr) {
-        throw SceneError(draft.where, fmt::format("box.aspect and box.{} exclude each other; give the limits x and y, or aspect "
+        throw SceneError(box.where("aspect"), fmt::format("box.aspect and box.{} exclude each other; give the limits x and y, or aspect "
                                                   "and a packing_fraction in [[disks]]",
                                                   key));
       }
     }
   } else {
-    draft.where = box.where("x");
     read_limits(box, draft.box);
   }
   draft.box.boundary = read_boundaries(box.require("boundary", fmt::format("choose {}", boundary_kinds)));

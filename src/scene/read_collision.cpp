@@ -20,17 +20,11 @@ Collision read_collision(const toml::table& node) {
   const TableReader table(node, "collision", {"rule", "restitution", "roughness", "elastic_below"});
   Collision collision;
   collision.rule = read_rule(table);
-  collision.restitution = table.number_between("restitution", 0.0, 1.0, "restitution = 0.9");
-  collision.roughness = table.number_between("roughness", -1.0, 1.0, "roughness = 0.5");
-  if (collision.roughness && collision.rule == CollisionRule::reversal) {
-    throw SceneError(
-        table.where("roughness"),
-        "collision.roughness acts across the line of centres, where rule = \"reversal\" leaves nothing to choose; take "
-        "rule = \"specular\", or remove roughness");
-  }
+  collision.restitution = table.number(keys::restitution);
+  collision.roughness = table.number(keys::roughness);
   if (const toml::table* below = table.table("elastic_below", "{ time = 1e-6 }")) {
     collision.elastic_below =
-        TableReader(*below, "collision.elastic_below", {"time"}).required_number("time", Range::zero_or_more, "{ time = 1e-6 }");
+        TableReader(*below, "collision.elastic_below", {"time"}).required_number(keys::elastic_below);
   }
   return collision;
 }

@@ -1,10 +1,9 @@
 // A [[disks]] table: one species.
 
+#include "scene/checks.hpp"
 #include "scene/read_tables.hpp"
 
 #include <fmt/format.h>
-
-#include <limits>
 
 namespace carom::detail {
 namespace {
@@ -27,23 +26,18 @@ DisksDraft read_disks(const toml::table& node, const std::string& path, const st
   if (disks.species.name.empty()) {
     throw SceneError(table.where("name"), table.path("name") + " is empty; give a word or leave it out");
   }
-  disks.count = table.integer("count", "count = 64");
-  if (disks.count.value_or(0) > std::numeric_limits<std::int32_t>::max()) {
-    throw SceneError(table.where("count"), fmt::format("{} is {}; at most {} disks can be numbered", table.path("count"),
-                                                       *disks.count, std::numeric_limits<std::int32_t>::max()));
-  }
-  disks.radius = table.number("radius", Range::above_zero, "radius = 0.03");
-  disks.packing_fraction = table.number("packing_fraction", Range::above_zero, "packing_fraction = 0.5");
-  disks.packing_fraction_where = table.where("packing_fraction");
+  disks.count = table.integer("count", std::string(keys::count_example));
+  if (disks.count) check_count(*disks.count, table.path("count"));
+  disks.radius = table.number(keys::radius);
+  disks.packing_fraction = table.number(keys::packing_fraction);
 
   read_positions(table, directory, disks);
   refuse_twice(table, "radius", disks.radii_from_file, disks);
   refuse_twice(table, "mass", disks.masses_from_file, disks);
   refuse_twice(table, "velocities", disks.velocities_from_file, disks);
   if (!disks.masses_from_file) {
-    const std::string example = "mass = 1.0";
-    const toml::node& mass = table.require("mass", "every disk has one, such as " + example);
-    disks.species.mass = read_number(mass, table.path("mass"), Range::above_zero, example);
+    const toml::node& mass = table.require("mass", fmt::format("every disk has one, such as {}", keys::mass.example));
+    disks.species.mass = read_number(mass, table.path("mass"), keys::mass);
   }
   const bool grown = std::holds_alternative<GrownPositions>(disks.species.positions);
   if (!disks.radius && !disks.radii_from_file && !disks.packing_fraction && !grown) {

@@ -1,5 +1,6 @@
 // The tables of effects that are a number or two: [gravity], [growth], [thermostat], [shear] and [square_well].
 
+#include "scene/checks.hpp"
 #include "scene/read_tables.hpp"
 
 #include <fmt/format.h>
@@ -9,26 +10,23 @@ namespace {
 
 Gravity read_gravity(const toml::table& node) {
   const TableReader table(node, "gravity", {"acceleration"});
-  const std::string example = "acceleration = [0.0, -1.0]";
-  return {read_pair(table.require("acceleration", "give it, such as " + example), table.path("acceleration"), example),
+  const std::string_view example = keys::acceleration_example;
+  return {read_pair(table.require("acceleration", fmt::format("give it, such as {}", example)), table.path("acceleration"), example),
           table.where()};
 }
 
 void read_end(const toml::table& node, Growth& growth) {
   const TableReader table(node, "growth.until", {"packing_fraction", "pressure"});
-  growth.packing_fraction = table.number("packing_fraction", Range::above_zero, "{ packing_fraction = 0.84 }");
-  growth.reduced_pressure = table.number("pressure", Range::above_zero, "{ pressure = 1e6 }");
-  if (growth.packing_fraction.has_value() != growth.reduced_pressure.has_value()) return;
-  throw SceneError(table.where(),
-                   fmt::format("growth.until has {}; give exactly one, {{ packing_fraction = 0.84 }} or {{ pressure = 1e6 }}",
-                               growth.packing_fraction ? "both packing_fraction and pressure" : "neither of its keys"));
+  growth.packing_fraction = table.number(keys::until_fraction);
+  growth.reduced_pressure = table.number(keys::until_pressure);
+  if (!growth.packing_fraction && !growth.reduced_pressure) throw Refusal(table.path(), ends_of_growth("neither of its keys"));
 }
 
 Growth read_growth(const toml::table& node) {
   const TableReader table(node, "growth", {"rate", "until"});
   Growth growth;
   growth.where = table.where();
-  growth.rate = table.required_number("rate", Range::zero_or_more, "rate = 0.01");
+  growth.rate = table.required_number(keys::growth_rate);
   if (const toml::table* until = table.table("until", "{ packing_fraction = 0.84 }")) read_end(*until, growth);
   return growth;
 }
@@ -37,28 +35,23 @@ Thermostat read_thermostat(const toml::table& node) {
   const TableReader table(node, "thermostat", {"temperature", "rate"});
   Thermostat thermostat;
   thermostat.where = table.where();
-  thermostat.temperature = table.required_number("temperature", Range::above_zero, "temperature = 1.0");
-  thermostat.rate = table.required_number("rate", Range::zero_or_more, "rate = 0.1");
+  thermostat.temperature = table.required_number(keys::bath_temperature);
+  thermostat.rate = table.required_number(keys::bath_rate);
   return thermostat;
 }
 
 Shear read_shear(const toml::table& node) {
   const TableReader table(node, "shear", {"rate"});
-  return {table.required_number("rate", Range::any, "rate = 0.05"), table.where()};
+  return {table.required_number(keys::shear_rate), table.where()};
 }
 
 SquareWell read_square_well(const toml::table& node) {
   const TableReader table(node, "square_well", {"width", "depth"});
   SquareWell well;
   well.where = table.where();
-  well.width = table.required_number("width", Range::above_zero, "width = 1.5");
-  well.depth = table.required_number("depth", Range::any, "depth = 1.0");
-  if (well.width > 1.0) return well;
-  throw SceneError(
-      table.where("width"),
-      fmt::format("square_well.width is {}; it is the outer diameter in units of the diameter of a disk, so it must be "
-                  "above 1, such as width = 1.5",
-                  well.width));
+  well.width = table.required_number(keys::well_width);
+  well.depth = table.required_number(keys::well_depth);
+  return well;
 }
 
 }  // namespace

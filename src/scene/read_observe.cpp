@@ -12,15 +12,6 @@
 namespace carom::detail {
 namespace {
 
-constexpr std::int64_t most_bins = 100'000;
-
-std::int64_t read_bins(const TableReader& table, std::int64_t otherwise) {
-  const std::int64_t bins = table.integer("bins", fmt::format("bins = {}", otherwise)).value_or(otherwise);
-  if (bins >= 2 && bins <= most_bins) return bins;
-  throw SceneError(table.where("bins"), fmt::format("{} is {}; it must be a whole number from 2 to {}, such as bins = {}",
-                                                    table.path("bins"), bins, most_bins, otherwise));
-}
-
 int read_axis(const TableReader& table, int otherwise) {
   const std::string axis = table.string("axis", "axis = \"y\"").value_or(otherwise == 0 ? "x" : "y");
   if (axis == "x" || axis == "y") return axis == "x" ? 0 : 1;
@@ -34,20 +25,17 @@ void read_settings(const toml::table& node, const KnownObservable& known, Observ
   if (known.largest) keys.emplace_back("largest");
   if (known.axis) keys.emplace_back("axis");
   const TableReader table(node, fmt::format("observe.{}", known.name), keys);
-  request.every = table.number("every", Range::above_zero, "every = 0.05");
-  if (known.bins) request.bins = read_bins(table, *known.bins);
-  if (known.range) request.range = table.number("range", Range::above_zero, fmt::format("range = {:.1f}", *known.range));
-  if (known.largest)
-    request.largest = table.number("largest", Range::above_zero, fmt::format("largest = {:.1f}", *known.largest));
+  request.every = table.number(keys::observe_every);
+  if (known.bins) request.bins = table.integer("bins", fmt::format("bins = {}", *known.bins)).value_or(*known.bins);
+  if (known.range) request.range = table.number({"range", example_of("range", *known.range), Range::above_zero});
+  if (known.largest) request.largest = table.number({"largest", example_of("largest", *known.largest), Range::above_zero});
   if (known.axis) request.axis = read_axis(table, *known.axis);
 }
 
 }  // namespace
 
 std::vector<ObservableRequest> read_observe(const toml::table& node) {
-  std::vector<std::string_view> names;
-  for (const KnownObservable& known : known_observables) names.push_back(known.name);
-  const TableReader table(node, "observe", names);
+  const TableReader table(node, "observe", names_of_observables());
   std::vector<ObservableRequest> requests;
   for (const KnownObservable& known : known_observables) {
     const toml::node* value = table.find(known.name);

@@ -7,30 +7,27 @@
 namespace carom::detail {
 namespace {
 
-constexpr const char* disk_example = "{ centre = [0.0, 0.0], radius = 0.3 }";
-constexpr const char* segment_example = "{ from = [0.0, -1.0], to = [0.0, -0.1] }";
+using keys::disk_example;
+using keys::segment_example;
 
-Eigen::Vector2d read_point(const TableReader& table, const char* key, const char* example) {
+Eigen::Vector2d read_point(const TableReader& table, const char* key, std::string_view example) {
   return read_pair(table.require(key, fmt::format("give it, such as {}", example)), table.path(key), example);
 }
 
 DiskObstacle read_disk(const toml::table& node, const std::string& path) {
   const TableReader table(node, path, {"centre", "radius"});
-  return {read_point(table, "centre", disk_example), table.required_number("radius", Range::above_zero, disk_example)};
+  return {read_point(table, "centre", disk_example), table.required_number(keys::obstacle_radius)};
 }
 
 SegmentObstacle read_segment(const toml::table& node, const std::string& path) {
   const TableReader table(node, path, {"from", "to"});
-  const SegmentObstacle segment = {read_point(table, "from", segment_example), read_point(table, "to", segment_example)};
-  if (segment.from != segment.to) return segment;
-  throw SceneError(table.where(), fmt::format("{} runs from ({}, {}) to the same place; give it two different ends, such as {}",
-                                              path, segment.from.x(), segment.from.y(), segment_example));
+  return {read_point(table, "from", segment_example), read_point(table, "to", segment_example)};
 }
 
 Obstacle read_obstacle(const toml::table& node, const std::string& path) {
   const TableReader table(node, path, {"disk", "segment"});
-  const toml::table* disk = table.table("disk", disk_example);
-  const toml::table* segment = table.table("segment", segment_example);
+  const toml::table* disk = table.table("disk", std::string(disk_example));
+  const toml::table* segment = table.table("segment", std::string(segment_example));
   if ((disk == nullptr) == (segment == nullptr)) {
     throw SceneError(table.where(), fmt::format("{} has {}; give exactly one, disk = {} or segment = {}", path,
                                                 disk == nullptr ? "neither disk nor segment" : "both disk and segment",

@@ -1,5 +1,6 @@
 // The key `positions` of a [[disks]] table, in every spelling.
 
+#include "scene/checks.hpp"
 #include "scene/known_keys.hpp"
 #include "scene/read_tables.hpp"
 #include "scene/start_file.hpp"
@@ -53,7 +54,7 @@ FilePositions from_file(const TableReader& table, const std::string& directory, 
 
 Positions from_table(const toml::table& node, const std::string& path, const std::string& directory, DisksDraft& disks) {
   const TableReader table(node, path, {"file", "packing_fraction"});
-  const std::optional<double> fraction = table.number("packing_fraction", Range::above_zero, "{ packing_fraction = 0.7 }");
+  const std::optional<double> fraction = table.number(keys::grown_fraction);
   const bool file = table.find("file") != nullptr;
   if (file == fraction.has_value()) {
     throw SceneError(table.where(),
@@ -74,7 +75,7 @@ void read_positions(const TableReader& table, const std::string& directory, Disk
   if (const auto* name = node.as_string()) {
     disks.species.positions = named(node, name->get(), path);
   } else if (const auto* list = node.as_array()) {
-    ListedPositions positions{read_pairs(*list, path, "[0.5, 0.5]", &disks.rows)};
+    ListedPositions positions{read_pairs(*list, path, keys::position_example)};
     listed = positions.values.size();
     disks.species.positions = std::move(positions);
   } else if (const auto* table_of_one = node.as_table()) {
@@ -86,8 +87,7 @@ void read_positions(const TableReader& table, const std::string& directory, Disk
   if (!listed) return;
   const auto count = static_cast<std::int64_t>(*listed);
   if (disks.count.value_or(count) != count) {
-    throw SceneError(table.where("count"), fmt::format("{} is {}, but positions has {}; make them agree, or leave count out",
-                                                       table.path("count"), *disks.count, count));
+    throw Refusal(table.path("count"), unequal_counts(table.path("count"), *disks.count, *listed));
   }
   disks.count = count;
 }

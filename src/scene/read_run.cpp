@@ -1,10 +1,10 @@
 // The tables [run] and [output].
 
+#include "scene/checks.hpp"
 #include "scene/read_tables.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <string>
 
 namespace carom::detail {
@@ -13,24 +13,9 @@ namespace {
 Run::Equilibrate read_equilibrate(const toml::table& node) {
   const TableReader table(node, "run.equilibrate", {"collisions_per_disk", "time"});
   Run::Equilibrate equilibrate;
-  equilibrate.collisions_per_disk = table.number("collisions_per_disk", Range::zero_or_more, "{ collisions_per_disk = 50 }");
-  equilibrate.time = table.number("time", Range::zero_or_more, "{ time = 2.0 }");
-  if (equilibrate.collisions_per_disk.has_value() == equilibrate.time.has_value()) {
-    throw SceneError(table.where(),
-                     fmt::format("run.equilibrate has {}; give exactly one, {{ collisions_per_disk = 50 }} or {{ time = "
-                                 "2.0 }}",
-                                 equilibrate.time ? "both collisions_per_disk and time" : "neither of its keys"));
-  }
+  equilibrate.collisions_per_disk = table.number(keys::equilibrate_collisions);
+  equilibrate.time = table.number(keys::equilibrate_time);
   return equilibrate;
-}
-
-/// Sample numbers are exact in double precision only below 2^53; k * sample_every needs them exact.
-void check_sample_count(const TableReader& table, const char* key, double samples, double step, double time) {
-  constexpr double most = 9007199254740992.0;
-  if (samples < most) return;
-  throw SceneError(table.where(key), fmt::format("{} = {} asks for {:.3g} samples up to time {}; there can be "
-                                                 "at most 2^53, so make it larger",
-                                                 table.path(key), step, samples, time));
 }
 
 /// A time, or { collisions = 1000 }, or false.
@@ -43,51 +28,32 @@ void read_sample_every(const TableReader& table, Run& run) {
            "a time above zero, a number of collisions, or false, such as sample_every = 0.001 or "
            "sample_every = { collisions = 1000 }");
   if (!node->is_table()) {
-    run.sample_every = table.number("sample_every", Range::above_zero, "sample_every = 0.001");
+    run.sample_every = table.number(keys::sample_every);
     return;
   }
   const TableReader counted(*node->as_table(), "run.sample_every", {"collisions"});
-  const std::string example = "sample_every = { collisions = 1000 }";
-  const std::int64_t collisions =
-      read_integer(counted.require("collisions", "give " + example), "run.sample_every.collisions", example);
-  if (collisions == 0)
-    throw SceneError(counted.where("collisions"),
-                     "run.sample_every.collisions is 0; it must be a whole number above zero, such as " + example);
-  run.sample_every_collisions = static_cast<std::uint64_t>(collisions);
+  const std::string example(keys::counted_example);
+  run.sample_every_collisions = static_cast<std::uint64_t>(
+      read_integer(counted.require("collisions", "give " + example), "run.sample_every.collisions", example));
 }
 
 SampleLog read_sample_log(const toml::table& node, const Run& run) {
-  constexpr std::int64_t most_per_block = 100'000;
   constexpr double blocks = 10.0;  // of a run whose scene does not say how long they are
   const TableReader table(node, "run.sample_log", {"base", "per_block", "block"});
-  const std::string example = "sample_log = { base = 1.3, per_block = 50 }";
+  const std::string example(keys::log_example);
   SampleLog log;
-  (void)table.require("base", "give the ratio of one time in a block to the one before it, " + example);
-  log.base = *table.number_between("base", least_log_base, most_log_ratio, example);
+  log.base = read_number(table.require("base", "give the ratio of one time in a block to the one before it, " + example),
+                         table.path("base"), keys::log_base);
   log.per_block = read_integer(table.require("per_block", "give the number of samples in a block, " + example),
-                               "run.sample_log.per_block", example);
-  if (log.per_block < 2 || log.per_block > most_per_block)
-    throw SceneError(table.where("per_block"),
-                     fmt::format("run.sample_log.per_block is {}; it must be a whole number from 2 to {}, such as {}",
-                                 log.per_block, most_per_block, example));
-  const double ratio = std::pow(log.base, static_cast<double>(log.per_block - 1));
-  if (ratio > most_log_ratio)
-    throw SceneError(
-        table.where(),
-        fmt::format("run.sample_log divides a block by {}^{} = {:.3g}; more than {:.0e} cannot be told apart, so make "
-                    "base or per_block smaller",
-                    log.base, log.per_block - 1, ratio, most_log_ratio));
-  if (const auto block = table.number("block", Range::above_zero, "block = 100.0")) {
+                               table.path("per_block"), example);
+  if (const auto block = table.number(keys::log_block)) {
     log.block = *block;
   } else if (run.time && *run.time / blocks > 0.0) {
     log.block = *run.time / blocks;
   } else {
-    throw SceneError(table.where(),
-                     "run.sample_log needs the length of a block where the run has no time, such as block = 100.0");
+    throw SceneError(table.where(), fmt::format("run.sample_log needs the length of a block where the run has no time, such as {}",
+                                                keys::log_block.example));
   }
-  if (run.time)
-    check_sample_count(table, "block", std::floor(*run.time / log.block) * static_cast<double>(log.per_block), log.block,
-                       *run.time);
   return log;
 }
 
@@ -98,23 +64,14 @@ Run read_run(const toml::table& node) {
       node, "run",
       {"time", "collisions", "sample_every", "sample_log", "equilibrate", "seed", "keep_momentum", "accept_overlap"});
   Run run;
-  run.time = table.number("time", Range::zero_or_more, "time = 5.0");
+  run.time = table.number(keys::run_time);
   if (const auto collisions = table.integer("collisions", "collisions = 1_000_000")) {
     run.collisions = static_cast<std::uint64_t>(*collisions);
   }
-  if (!run.time && !run.collisions) {
-    throw SceneError(table.where(),
-                     "[run] says neither how long nor how many collisions; give time = 5.0, collisions = 1_000_000, or both");
-  }
+  if (!run.time && !run.collisions) throw Refusal("run", endless_run);
   read_sample_every(table, run);
-  if (run.time && run.sample_every)
-    check_sample_count(table, "sample_every", std::floor(*run.time / *run.sample_every), *run.sample_every, *run.time);
-  if (const toml::table* log = table.table("sample_log", "{ base = 1.3, per_block = 50 }")) {
-    if (run.sample_every || run.sample_every_collisions)
-      throw SceneError(table.where("sample_log"),
-                       "[run] has both sample_every and sample_log; give one of them, even steps or logarithmic blocks");
+  if (const toml::table* log = table.table("sample_log", "{ base = 1.3, per_block = 50 }"))
     run.sample_log = read_sample_log(*log, run);
-  }
   if (const toml::table* equilibrate = table.table("equilibrate", "{ collisions_per_disk = 50 }")) {
     run.equilibrate = read_equilibrate(*equilibrate);
   }

@@ -36,7 +36,4 @@ void complete_observe(Scene& scene);
 /// Throws where they do not suffice or disagree.
 void complete_short_forms(SceneDraft& draft);
 
-/// Throws where the parts of the scene do not fit each other.
-void check_scene(const SceneDraft& draft);
-
 }  // namespace carom::detail

@@ -16,9 +16,9 @@ Velocities drawn(const toml::table& node, const std::string& path) {
   if (node.size() != 1) {
     throw SceneError(table.where(), fmt::format("{} has {} keys; it must be one of {}", path, node.size(), velocity_kinds));
   }
-  if (const auto maximum = table.number("uniform", Range::zero_or_more, "{ uniform = 1.0 }")) return UniformVelocities{*maximum};
-  if (const auto kT = table.number("temperature", Range::zero_or_more, "{ temperature = 1.0 }")) return MaxwellVelocities{*kT};
-  return FixedSpeed{*table.number("speed", Range::zero_or_more, "{ speed = 1.0 }")};
+  if (const auto maximum = table.number(keys::uniform)) return UniformVelocities{*maximum};
+  if (const auto kT = table.number(keys::start_temperature)) return MaxwellVelocities{*kT};
+  return FixedSpeed{*table.number(keys::speed)};
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ void read_velocities(const TableReader& table, DisksDraft& disks) {
   if (const auto* name = node.as_string(); name != nullptr && name->get() == "rest") {
     disks.species.velocities = AtRest{};
   } else if (const auto* list = node.as_array()) {
-    disks.species.velocities = ListedVelocities{read_pairs(*list, path, "[1.0, 0.0]", nullptr)};
+    disks.species.velocities = ListedVelocities{read_pairs(*list, path, keys::velocity_example)};
   } else if (const auto* law = node.as_table()) {
     disks.species.velocities = drawn(*law, path);
   } else {

@@ -2,6 +2,7 @@
 
 #include <carom/scene.hpp>
 
+#include "scene/checks.hpp"
 #include "scene/overrides.hpp"
 #include "scene/read_tables.hpp"
 #include "scene/text_file.hpp"
@@ -11,12 +12,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <numbers>
+#include <string>
 #include <utility>
 
 namespace carom {
 namespace {
 
 std::string located(const Location& where, const std::string& sentence) {
+  if (where.source.empty()) return sentence;
   if (where.line == 0) return fmt::format("{}: {}", where.source, sentence);
   return fmt::format("{}:{}:{}: {}", where.source, where.line, where.column, sentence);
 }
@@ -49,27 +52,46 @@ std::vector<detail::DisksDraft> read_all_disks(const detail::TableReader& scene,
 const std::vector<std::string_view> tables = {"title",     "box",   "disks",      "collision",   "gravity", "walls",  "growth",
                                               "obstacles", "shear", "thermostat", "square_well", "run",     "output", "observe"};
 
-detail::SceneDraft read_document(const toml::table& document, const std::string& source, const std::string& directory) {
+void read_document(const toml::table& document, const std::string& directory, detail::SceneDraft& draft) {
+  const detail::TableReader reader(document, "", tables);
+  Scene& scene = draft.scene;
+  scene.title = reader.string("title", "title = \"Disks in a box\"").value_or("");
+  draft.box = detail::read_box(require_table(reader, "box", "give limits x and y, and the boundary"));
+  draft.disks = read_all_disks(reader, directory);
+  scene.effects.collision =
+      detail::read_collision(require_table(reader, "collision", "choose rule = \"reversal\" or rule = \"specular\""));
+  detail::read_effects(reader, scene.effects);
+  const toml::table& run = require_table(reader, "run", "give time = 5.0, collisions = 1_000_000, or both");
+  scene.run = detail::read_run(run);
+  scene.output = detail::read_output(reader.table("output", "[output]"), scene.run.is_sampled());
+  if (const toml::table* observe = reader.table("observe", "[observe]")) scene.observe = detail::read_observe(*observe);
+}
+
+/// Where a path was written. A row of a start file has its place there.
+Location place_of(const toml::table& document, const detail::SceneDraft& draft, const std::string& path) {
+  for (const detail::DisksDraft& disks : draft.disks) {
+    const std::string positions = disks.path + ".positions.";
+    if (!path.starts_with(positions) || disks.rows.places.empty()) continue;
+    return disks.rows.of(std::stoul(path.substr(positions.size())));
+  }
+  return detail::place_of(document, path);
+}
+
+/// The scene of a document. Throws SceneError, at the place of what is wrong.
+Scene scene_of(const toml::table& document, const std::string& source, const std::string& directory) {
+  detail::SceneDraft draft;
+  // Nodes of a document without any text carry no source name.
+  const auto in_source = [&](const Location& where) { return where.source.empty() ? Location{source, 1, 1} : where; };
   try {
-    const detail::TableReader reader(document, "", tables);
-    detail::SceneDraft draft;
-    Scene& scene = draft.scene;
-    scene.title = reader.string("title", "title = \"Disks in a box\"").value_or("");
-    draft.box = detail::read_box(require_table(reader, "box", "give limits x and y, and the boundary"));
-    draft.disks = read_all_disks(reader, directory);
-    scene.effects.collision =
-        detail::read_collision(require_table(reader, "collision", "choose rule = \"reversal\" or rule = \"specular\""));
-    detail::read_effects(reader, scene.effects);
-    const toml::table& run = require_table(reader, "run", "give time = 5.0, collisions = 1_000_000, or both");
-    draft.run_where = detail::location_of(run);
-    scene.run = detail::read_run(run);
-    scene.output = detail::read_output(reader.table("output", "[output]"), scene.run.is_sampled());
-    if (const toml::table* observe = reader.table("observe", "[observe]")) scene.observe = detail::read_observe(*observe);
-    return draft;
+    read_document(document, directory, draft);
+    detail::complete_short_forms(draft);
+    detail::complete_observe(draft.scene);
+    detail::check_scene(draft.scene);
+    return std::move(draft.scene);
+  } catch (const detail::Refusal& refusal) {
+    throw SceneError(in_source(place_of(document, draft, refusal.path())), refusal.what());
   } catch (const SceneError& error) {
-    // Nodes of a document without any text carry no source name.
-    if (!error.where().source.empty()) throw;
-    throw SceneError({source, 1, 1}, error.sentence());
+    throw SceneError(in_source(error.where()), error.sentence());
   }
 }
 
@@ -100,11 +122,7 @@ Scene parse_scene(const std::string& text, const std::string& source, const std:
                   const std::string& directory) {
   toml::table document = detail::parse_toml(text, source);
   for (const std::string& change : overrides) detail::apply_override(document, change);
-  detail::SceneDraft draft = read_document(document, source, directory);
-  detail::complete_short_forms(draft);
-  detail::complete_observe(draft.scene);
-  detail::check_scene(draft);
-  Scene scene = std::move(draft.scene);
+  Scene scene = scene_of(document, source, directory);
   scene.source = source;
   scene.text = text;
   scene.overrides = overrides;

@@ -2,6 +2,8 @@
 
 #include "scene/shares.hpp"
 
+#include "scene/checks.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,44 +15,13 @@ namespace {
 /// Redundant values must agree to this relative difference: the digits that an error message shows are enough.
 constexpr double agreement = 1e-6;
 
-/// The one radius that is left open follows from what the other species leave of the grown start's packing fraction.
-void radius_from_grown(std::vector<DisksDraft>& species, const Share& grown, double area) {
-  DisksDraft* open = nullptr;
-  double rest = grown.value;
-  for (DisksDraft& disks : species) {
-    if (const std::optional<double> covered = disk_area(disks)) {
-      rest -= *covered / area;
-    } else if (open == nullptr) {
-      open = &disks;
-    } else {
-      throw SceneError(disks.species.where,
-                       fmt::format("{} and {} both lack radius, and {} can stand for one alone; give one of them a radius or a "
-                                   "packing_fraction",
-                                   open->path, disks.path, grown.path));
-    }
-  }
-  if (open == nullptr) return;
-  if (!(rest > 0.0) || *open->count == 0) {
-    throw SceneError(grown.where, fmt::format("{} = {} leaves {:.6g} for the {} disks of {}; give {} a radius", grown.path,
-                                              grown.value, rest, *open->count, open->path, open->path));
-  }
-  open->radius = std::sqrt(rest * area / (std::numbers::pi * static_cast<double>(*open->count)));
-}
-
-void require_grown_share(const std::vector<DisksDraft>& species, const Share& grown, double area) {
-  const double fraction = *total_area(species) / area;
-  if (agree(fraction, grown.value)) return;
-  throw SceneError(grown.where, fmt::format("{} is {}, but the counts, radii and box make it {:.10g}; leave out one of them",
-                                            grown.path, grown.value, fraction));
-}
-
 }  // namespace
 
 bool agree(double a, double b) { return std::abs(a - b) <= agreement * std::abs(b); }
 
 void require_fraction(const Share& share) {
   if (share.value < 1.0) return;
-  throw SceneError(share.where, fmt::format("{} is {}; it must lie between 0 and 1, such as 0.5", share.path, share.value));
+  throw Refusal(share.key, fmt::format("{} is {}; it must lie between 0 and 1, such as 0.5", share.path, share.value));
 }
 
 std::optional<double> disk_area(const DisksDraft& disks) {
@@ -75,35 +46,62 @@ std::optional<double> total_area(const std::vector<DisksDraft>& species) {
   return sum;
 }
 
-std::optional<Share> grown_share(const std::vector<DisksDraft>& species) {
+std::optional<Share> grown_share(std::span<const Positions* const> species) {
   std::optional<Share> grown;
-  const DisksDraft* first = nullptr;
-  for (const DisksDraft& disks : species) {
-    const auto* positions = std::get_if<GrownPositions>(&disks.species.positions);
+  std::size_t first = 0;
+  for (std::size_t s = 0; s < species.size(); ++s) {
+    const auto* positions = species[s] == nullptr ? nullptr : std::get_if<GrownPositions>(species[s]);
     if (positions == nullptr) continue;
-    const Share share = {positions->packing_fraction, disks.path + ".positions.packing_fraction", disks.species.positions_where};
-    if (!grown) grown = share, first = &disks;
+    const std::string key = fmt::format("disks.{}.positions", s);
+    const Share share = {positions->packing_fraction, key + ".packing_fraction", key};
+    if (!grown) grown = share, first = s;
     if (share.value == grown->value) continue;
-    throw SceneError(share.where,
-                     fmt::format("{} is {}, but {} is {}; it is that of all disks together, so name the same number in "
-                                 "both",
-                                 share.path, share.value, grown->path, grown->value));
+    throw Refusal(share.key,
+                  fmt::format("{} is {}, but {} is {}; it is that of all disks together, so name the same number in both",
+                              share.path, share.value, grown->path, grown->value));
   }
   if (!grown) return grown;
   require_fraction(*grown);
-  for (const DisksDraft& disks : species) {
-    if (std::holds_alternative<GrownPositions>(disks.species.positions)) continue;
-    throw SceneError(disks.species.positions_where,
-                     fmt::format("{0}.positions are not grown, but those of {1} are; a start is grown with all disks or none, so "
-                                 "give {0} positions = {{ packing_fraction = {2} }} too",
-                                 disks.path, first->path, grown->value));
+  for (std::size_t s = 0; s < species.size(); ++s) {
+    if (species[s] == nullptr || std::holds_alternative<GrownPositions>(*species[s])) continue;
+    throw Refusal(fmt::format("disks.{}.positions", s),
+                  fmt::format("disks.{0}.positions are not grown, but those of disks.{1} are; a start is grown with all disks or "
+                              "none, so give disks.{0} positions = {{ packing_fraction = {2} }} too",
+                              s, first, grown->value));
   }
   return grown;
 }
 
-void complete_grown(std::vector<DisksDraft>& species, const Share& grown, double area) {
-  radius_from_grown(species, grown, area);
-  require_grown_share(species, grown, area);
+void radius_from_grown(std::vector<DisksDraft>& species, const Share& grown, double area) {
+  DisksDraft* open = nullptr;
+  double rest = grown.value;
+  for (DisksDraft& disks : species) {
+    if (const std::optional<double> covered = disk_area(disks)) {
+      rest -= *covered / area;
+    } else if (open == nullptr) {
+      open = &disks;
+    } else {
+      throw Refusal(disks.path, fmt::format("{} and {} both lack radius, and {} can stand for one alone; give one of them a radius "
+                                            "or a packing_fraction",
+                                            open->path, disks.path, grown.path));
+    }
+  }
+  if (open == nullptr) return;
+  if (!(rest > 0.0) || *open->count == 0) {
+    throw Refusal(grown.key, fmt::format("{} = {} leaves {:.6g} for the {} disks of {}; give {} a radius", grown.path, grown.value,
+                                         rest, *open->count, open->path, open->path));
+  }
+  open->radius = std::sqrt(rest * area / (std::numbers::pi * static_cast<double>(*open->count)));
+}
+
+void check_grown(const Scene& scene) {
+  std::vector<const Positions*> positions;
+  for (const Species& species : scene.species) positions.push_back(species.count > 0 ? &species.positions : nullptr);
+  const std::optional<Share> grown = grown_share(positions);
+  const double fraction = scene.packing_fraction();
+  if (!grown || agree(fraction, grown->value)) return;
+  throw Refusal(grown->key, fmt::format("{} is {}, but the counts, radii and box make it {:.10g}; leave out one of them",
+                                        grown->path, grown->value, fraction));
 }
 
 }  // namespace carom::detail

@@ -1,9 +1,11 @@
 #pragma once
 // Packing fractions as a scene writes them: the share of one species, and that of all disks together which a grown start names.
+// All that is wrong with them is thrown as a Refusal.
 
 #include "scene/draft.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,7 @@ namespace carom::detail {
 struct Share {
   double value = 0.0;
   std::string path;  ///< "disks.0.packing_fraction"
-  Location where;
+  std::string key;   ///< the path of what was written
 };
 
 /// Throws unless it is below 1.
@@ -27,11 +29,12 @@ std::optional<double> disk_area(const DisksDraft& disks);
 /// The area that all disks cover; empty where that of a species is still unknown.
 std::optional<double> total_area(const std::vector<DisksDraft>& species);
 
-/// What the grown start of a scene asks for; empty where nothing is grown. All species are grown together or none is.
-std::optional<Share> grown_share(const std::vector<DisksDraft>& species);
+/// What the grown start of a scene asks for; empty where nothing is grown. All species are grown together or none is. `species`:
+/// how each is placed, null for those without disks.
+std::optional<Share> grown_share(std::span<const Positions* const> species);
 
-/// Fills the one radius that may be left open, from what the other species leave of the grown share. Throws where two are open,
-/// or where count, radius and box make the share another. Requires every count.
-void complete_grown(std::vector<DisksDraft>& species, const Share& grown, double area);
+/// Fills the one radius that may be left open, from what the other species leave of the grown share. Throws where two are open.
+/// Requires every count.
+void radius_from_grown(std::vector<DisksDraft>& species, const Share& grown, double area);
 
 }  // namespace carom::detail

@@ -2,6 +2,7 @@
 // own share of the box, sum of pi r^2 over its disks / area, so that the shares of a mixture add up. That of a grown start is of
 // all disks together, and may stand for one radius or for the size of the box.
 
+#include "scene/checks.hpp"
 #include "scene/read_tables.hpp"
 #include "scene/shares.hpp"
 
@@ -16,7 +17,8 @@ namespace carom::detail {
 namespace {
 
 Share share_of(const DisksDraft& disks) {
-  return {*disks.packing_fraction, disks.path + ".packing_fraction", disks.packing_fraction_where};
+  const std::string path = disks.path + ".packing_fraction";
+  return {*disks.packing_fraction, path, path};
 }
 
 /// [0, Lx] x [0, Ly] with Lx / Ly = aspect, of which disks of area `covered` are the given share.
@@ -25,7 +27,7 @@ void set_size(Box& box, double aspect, double covered, const Share& share) {
   box.lower = {0.0, 0.0};
   box.upper = {std::sqrt(area * aspect), std::sqrt(area / aspect)};
   if (std::isnormal(box.area())) return;
-  throw SceneError(share.where, fmt::format("{} = {} and the disks' area {:.6g} give no box; give at least one disk of a radius "
+  throw Refusal(share.key, fmt::format("{} = {} and the disks' area {:.6g} give no box; give at least one disk of a radius "
                                             "that double precision can square",
                                             share.path, share.value, covered));
 }
@@ -40,8 +42,8 @@ void size_box(const BoxDraft& draft, const std::vector<DisksDraft>& species, con
   if (const std::optional<double> covered = grown ? total_area(species) : std::nullopt) {
     return set_size(box, *draft.aspect, *covered, *grown);
   }
-  throw SceneError(draft.where,
-                   "box.aspect leaves the size open; give packing_fraction beside count and radius in one [[disks]] "
+  throw Refusal("box.aspect",
+                "box.aspect leaves the size open; give packing_fraction beside count and radius in one [[disks]] "
                    "table, or the limits x and y in place of aspect");
 }
 
@@ -49,8 +51,8 @@ void count_from_share(DisksDraft& disks, double area) {
   const double exact = *disks.packing_fraction * area / (std::numbers::pi * *disks.radius * *disks.radius);
   const double nearest = std::round(exact);
   if (!(nearest >= 1.0) || nearest > std::numeric_limits<std::int32_t>::max()) {
-    throw SceneError(
-        disks.packing_fraction_where,
+    throw Refusal(
+        disks.path + ".packing_fraction",
         fmt::format("{}.packing_fraction = {} is the area of {:.3g} disks of radius {}; it must be that of 1 to {} disks",
                     disks.path, *disks.packing_fraction, exact, *disks.radius, std::numeric_limits<std::int32_t>::max()));
   }
@@ -59,7 +61,7 @@ void count_from_share(DisksDraft& disks, double area) {
 
 void radius_from_share(DisksDraft& disks, double area) {
   if (*disks.count == 0) {
-    throw SceneError(disks.packing_fraction_where,
+    throw Refusal(disks.path + ".packing_fraction",
                      fmt::format("{}.packing_fraction = {} cannot be met by count = 0 disks; give radius in its place",
                                  disks.path, *disks.packing_fraction));
   }
@@ -69,7 +71,8 @@ void radius_from_share(DisksDraft& disks, double area) {
 void complete(DisksDraft& disks, double area) {
   const bool has_radius = disks.radius || disks.radii_from_file;
   if (!disks.count && !(disks.packing_fraction && has_radius)) {
-    throw SceneError(disks.species.where, "[[disks]] lacks count; give it, such as count = 64, or list the positions one by one");
+    throw Refusal(disks.path, fmt::format("[[disks]] lacks count; give it, such as {}, or list the positions one by one",
+                                          keys::count_example));
   }
   if (!disks.packing_fraction) return;
   if (!disks.count) {
@@ -77,8 +80,8 @@ void complete(DisksDraft& disks, double area) {
   } else if (!has_radius) {
     radius_from_share(disks, area);
   } else if (const double share = *disk_area(disks) / area; !agree(share, *disks.packing_fraction)) {
-    throw SceneError(
-        disks.packing_fraction_where,
+    throw Refusal(
+        disks.path + ".packing_fraction",
         fmt::format("{}.packing_fraction is {}, but count, radius and box make it {:.10g}; leave out one of the four", disks.path,
                     *disks.packing_fraction, share));
   }
@@ -92,11 +95,14 @@ void complete_short_forms(SceneDraft& draft) {
   for (const DisksDraft& disks : draft.disks) {
     if (disks.packing_fraction) require_fraction(share_of(disks));
   }
-  const std::optional<Share> grown = grown_share(draft.disks);
+  std::vector<const Positions*> positions;
+  for (const DisksDraft& disks : draft.disks) positions.push_back(disks.count == 0 ? nullptr : &disks.species.positions);
+  const std::optional<Share> grown = grown_share(positions);
   if (draft.box.aspect) size_box(draft.box, draft.disks, grown, scene.box);
+  check_box(scene.box);
   const double area = scene.box.area();
   for (DisksDraft& disks : draft.disks) complete(disks, area);
-  if (grown) complete_grown(draft.disks, *grown, area);
+  if (grown) radius_from_grown(draft.disks, *grown, area);
   for (DisksDraft& disks : draft.disks) {
     disks.species.count = *disks.count;
     disks.species.radius = disks.radius.value_or(0.0);

@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <charconv>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 namespace carom::detail {
@@ -43,22 +45,28 @@ void refuse(const toml::node& node, const std::string& path, const std::string& 
   throw SceneError(location_of(node), fmt::format("{} is {}; it must be {}", path, describe(node), expected));
 }
 
-double read_number(const toml::node& node, const std::string& path, Range range, const std::string& example) {
-  static constexpr const char* kinds[] = {"a finite number", "a finite number, zero or more", "a finite number above zero"};
-  const std::string expected = fmt::format("{}, such as {}", kinds[static_cast<int>(range)], example);
-  if (!node.is_number()) refuse(node, path, expected);
-  const double value = node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
-  const bool in_range = range == Range::any || value > 0.0 || (range == Range::zero_or_more && value == 0.0);
-  if (!std::isfinite(value) || !in_range) refuse(node, path, expected);
-  return value;
+Location place_of(const toml::table& document, std::string_view path) {
+  const toml::node* node = &document;
+  while (!path.empty()) {
+    const std::string_view key = path.substr(0, path.find('.'));
+    const toml::node* next = nullptr;
+    if (const toml::table* table = node->as_table()) next = table->get(key);
+    if (const toml::array* list = node->as_array()) {
+      std::size_t index = 0;
+      const bool is_number = std::from_chars(key.data(), key.data() + key.size(), index).ec == std::errc();
+      next = is_number ? list->get(index) : nullptr;
+    }
+    if (next == nullptr) break;
+    node = next;
+    path.remove_prefix(std::min(key.size() + 1, path.size()));
+  }
+  return location_of(*node);
 }
 
-double read_number_between(const toml::node& node, const std::string& path, double least, double most,
-                           const std::string& example) {
-  const std::string expected = fmt::format("a number from {} to {}, such as {}", least, most, example);
-  if (!node.is_number()) refuse(node, path, expected);
+double read_number(const toml::node& node, const std::string& path, const NumberKey& key) {
+  if (!node.is_number()) refuse(node, path, key.expected());
   const double value = node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
-  if (!(value >= least && value <= most)) refuse(node, path, expected);
+  if (!key.holds(value)) refuse(node, path, key.expected());
   return value;
 }
 
@@ -86,24 +94,18 @@ std::string read_string(const toml::node& node, const std::string& path, const s
   return node.as_string()->get();
 }
 
-Eigen::Vector2d read_pair(const toml::node& node, const std::string& path, const std::string& example) {
+Eigen::Vector2d read_pair(const toml::node& node, const std::string& path, std::string_view example) {
   const toml::array* list = node.as_array();
-  if (list == nullptr || list->size() != 2) refuse(node, path, "two numbers in brackets, such as " + example);
-  const double first = read_number((*list)[0], path + ".0", Range::any, example);
-  const double second = read_number((*list)[1], path + ".1", Range::any, example);
+  if (list == nullptr || list->size() != 2) refuse(node, path, fmt::format("two numbers in brackets, such as {}", example));
+  const double first = read_number((*list)[0], path + ".0", {"", example});
+  const double second = read_number((*list)[1], path + ".1", {"", example});
   return {first, second};
 }
 
-std::vector<Eigen::Vector2d> read_pairs(const toml::array& list, const std::string& path, const std::string& example,
-                                        Rows* rows) {
+std::vector<Eigen::Vector2d> read_pairs(const toml::array& list, const std::string& path, std::string_view example) {
   std::vector<Eigen::Vector2d> pairs;
   pairs.reserve(list.size());
-  if (rows != nullptr) rows->source = location_of(list).source;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    pairs.push_back(read_pair(list[i], fmt::format("{}.{}", path, i), example));
-    const Location where = location_of(list[i]);
-    if (rows != nullptr) rows->places.push_back({where.line, where.column});
-  }
+  for (std::size_t i = 0; i < list.size(); ++i) pairs.push_back(read_pair(list[i], fmt::format("{}.{}", path, i), example));
   return pairs;
 }
 
@@ -140,19 +142,13 @@ const toml::node& TableReader::require(std::string_view key, const std::string& 
   return *node;
 }
 
-std::optional<double> TableReader::number(std::string_view key, Range range, const std::string& example) const {
-  const toml::node* node = find(key);
-  return node == nullptr ? std::nullopt : std::optional(read_number(*node, path(key), range, example));
+std::optional<double> TableReader::number(const NumberKey& key) const {
+  const toml::node* node = find(key.name);
+  return node == nullptr ? std::nullopt : std::optional(read_number(*node, path(key.name), key));
 }
 
-double TableReader::required_number(std::string_view key, Range range, const std::string& example) const {
-  return read_number(require(key, "give it, such as " + example), path(key), range, example);
-}
-
-std::optional<double> TableReader::number_between(std::string_view key, double least, double most,
-                                                  const std::string& example) const {
-  const toml::node* node = find(key);
-  return node == nullptr ? std::nullopt : std::optional(read_number_between(*node, path(key), least, most, example));
+double TableReader::required_number(const NumberKey& key) const {
+  return read_number(require(key.name, fmt::format("give it, such as {}", key.example)), path(key.name), key);
 }
 
 std::optional<std::int64_t> TableReader::integer(std::string_view key, const std::string& example) const {

@@ -5,6 +5,7 @@
 #include <carom/scene.hpp>
 
 #include "scene/draft.hpp"
+#include "scene/number_keys.hpp"
 
 #include <toml++/toml.h>
 
@@ -23,21 +24,19 @@ Location location_of(const toml::node& node);
 /// A value as an error names it: `a string ("wide")`, `an integer (3)`, `a table`.
 std::string describe(const toml::node& node);
 
-enum class Range { any, zero_or_more, above_zero };
+/// Where as much of a path was written as the document has: of "walls.top.mass" the table where it has no mass.
+Location place_of(const toml::table& document, std::string_view path);
 
-/// `example` is what the key could look like: "time = 5.0". `path` is the key's full name: "run.time".
-double read_number(const toml::node& node, const std::string& path, Range range, const std::string& example);
-/// A number from `least` to `most`, both included.
-double read_number_between(const toml::node& node, const std::string& path, double least, double most,
-                           const std::string& example);
+/// `path` is the key's full name: "run.time".
+double read_number(const toml::node& node, const std::string& path, const NumberKey& key);
 /// The whole number that a node is, also with a point or an exponent (1e5) where it is at most 2^53; empty where it is none.
 std::optional<std::int64_t> whole_number(const toml::node& node);
 std::int64_t read_integer(const toml::node& node, const std::string& path, const std::string& example);  ///< zero or more
 bool read_switch(const toml::node& node, const std::string& path, const std::string& example);
 std::string read_string(const toml::node& node, const std::string& path, const std::string& example);
-Eigen::Vector2d read_pair(const toml::node& node, const std::string& path, const std::string& example);
-/// [[a, b], ...]; appends to `rows` where each pair stands, where rows is not null.
-std::vector<Eigen::Vector2d> read_pairs(const toml::array& list, const std::string& path, const std::string& example, Rows* rows);
+Eigen::Vector2d read_pair(const toml::node& node, const std::string& path, std::string_view example);
+/// [[a, b], ...]
+std::vector<Eigen::Vector2d> read_pairs(const toml::array& list, const std::string& path, std::string_view example);
 
 /// Throws the error for a value of the wrong kind: "<path> is <what was found>; it must be <expected>".
 [[noreturn]] void refuse(const toml::node& node, const std::string& path, const std::string& expected);
@@ -56,10 +55,8 @@ class TableReader {
   /// Throws "<table> lacks <key>; <advice>" where absent.
   [[nodiscard]] const toml::node& require(std::string_view key, const std::string& advice) const;
 
-  [[nodiscard]] std::optional<double> number(std::string_view key, Range range, const std::string& example) const;
-  [[nodiscard]] double required_number(std::string_view key, Range range, const std::string& example) const;
-  [[nodiscard]] std::optional<double> number_between(std::string_view key, double least, double most,
-                                                     const std::string& example) const;
+  [[nodiscard]] std::optional<double> number(const NumberKey& key) const;
+  [[nodiscard]] double required_number(const NumberKey& key) const;
   [[nodiscard]] std::optional<std::int64_t> integer(std::string_view key, const std::string& example) const;
   [[nodiscard]] std::optional<bool> on_or_off(std::string_view key) const;
   [[nodiscard]] std::optional<std::string> string(std::string_view key, const std::string& example) const;

@@ -50,13 +50,22 @@ struct Entry {
 constexpr Entry entries[] = {
     {"naive", &make<Naive>}, {"naive-edge", &make<NaiveEdge>}, {"guarded", &make<Guarded>}, {"grid", &make<Grid>}};
 
-void require_sound_step(const FixedStep& step, const Start& start) {
+void require_sound_step(const FixedStep& step, const Scene& scene, const Start& start) {
   if (!(step.dt > 0.0 && std::isfinite(step.dt)))
     throw std::invalid_argument(fmt::format("a time step of {:g} leads nowhere; dt must be positive and finite", step.dt));
   const double fastest = start.disks.count() == 0 ? 0.0 : start.state.velocities.cwiseAbs().maxCoeff();
   if (!(fastest * step.dt < 1e150))
     throw std::invalid_argument(
         fmt::format("in a time step of {:g} a disk would move by {:g}; take a shorter one", step.dt, fastest * step.dt));
+  if (start.disks.count() > 0 && fastest > 0.0 &&
+      fastest * step.dt < 0x1p-50 * *std::min_element(start.disks.radius.begin(), start.disks.radius.end()))
+    throw std::invalid_argument(fmt::format("in a time step of {:g} the fastest disk would move by {:g}, less than coordinates can "
+                                            "tell; take a longer one",
+                                            step.dt, fastest * step.dt));
+  if (const double steps = scene.run.time.value_or(0.0) / step.dt; !(steps < 0x1p53))
+    throw std::invalid_argument(fmt::format("until time {:g} there would be {:.3g} time steps of {:g}, and there can be at most 2^53; "
+                                            "take longer ones",
+                                            *scene.run.time, steps, step.dt));
 }
 
 }  // namespace
@@ -73,7 +82,7 @@ Simulation Simulation::begin(const Scene& scene, Start start, const FixedStep& s
   if (entry == std::end(entries))
     throw std::invalid_argument(
         fmt::format("there is no fixed-step method \"{}\"; choose one of {}", step.method, fmt::join(fixed_step_names(), ", ")));
-  require_sound_step(step, start);
+  require_sound_step(step, scene, start);
   if (!scene.effects.neutral())
     throw std::invalid_argument(
         fmt::format("fixed-step methods know the collision rule and hard walls only; this scene asks for {} besides",

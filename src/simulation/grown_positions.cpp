@@ -60,7 +60,6 @@ class Growing {
     disks_.mass.assign(disks.count(), 1.0);  // equal masses share their energy soonest
     double squares = 0.0;
     for (const double radius : disks.radius) squares += 4.0 * radius * radius;
-    require_room();
     diameter_ = std::sqrt(squares / static_cast<double>(disks.count()));
   }
 
@@ -71,17 +70,6 @@ class Growing {
   }
 
  private:
-  /// Scenes that were read are right here; those that a program makes may not be.
-  void require_room() const {
-    const double diameter = 2.0 * *std::max_element(disks_.radius.begin(), disks_.radius.end());
-    for (int a = 0; a < 2; ++a) {
-      const double length = scene_.box.lengths()[a];
-      if (diameter < length || (diameter == length && !scene_.box.periodic(a))) continue;
-      throw SceneError(where(), fmt::format("the largest disk is {:g} across, but the box is {:g} long in {}; make it smaller",
-                                            diameter, length, a == 0 ? "x" : "y"));
-    }
-  }
-
   /// True where all stages are passed. Where not, `state` is the one from which to try again.
   bool grow(State& state, double slower) {
     State now = state;
@@ -183,19 +171,6 @@ class Growing {
 };
 
 }  // namespace
-
-bool are_grown(const Scene& scene) {
-  const Species* grown = nullptr;
-  const Species* other = nullptr;
-  for (const Species& species : scene.species) {
-    if (species.count == 0) continue;
-    (std::holds_alternative<GrownPositions>(species.positions) ? grown : other) = &species;
-  }
-  if (grown != nullptr && other != nullptr)
-    throw SceneError(other->positions_where,
-                     "a start is grown with all disks or none; give every species the same packing_fraction");
-  return grown != nullptr;
-}
 
 Eigen::Matrix2Xd grown_positions(const Scene& scene, const Disks& disks) { return Growing(scene, disks).run(); }
 

@@ -61,23 +61,6 @@ class Placement {
     in_place_.insert(static_cast<std::int32_t>(i), position);
   }
 
-  /// Scenes that were read are right here; those that a program makes may not be.
-  void require_inside(std::int64_t i, const Eigen::Vector2d& position) const {
-    const Box& box = scene_.box;
-    const double radius = disks_.radius[static_cast<std::size_t>(i)];
-    for (int a = 0; a < 2; ++a) {
-      const double margin = box.periodic(a) ? 0.0 : radius * (1.0 - 2.0 * accepted_overlap);
-      const bool fits = !box.periodic(a) || 2.0 * radius < box.lengths()[a];
-      if (fits && position[a] >= box.lower[a] + margin && position[a] <= box.upper[a] - margin) continue;
-      const auto species = static_cast<std::size_t>(disks_.species[static_cast<std::size_t>(i)]);
-      throw SceneError(
-          scene_.species[species].positions_where,
-          fmt::format("disk {} of radius {:g} at ({:g}, {:g}) sticks out of the box, which runs from {:g} to {:g} in {}; "
-                      "move it inside, or make it smaller",
-                      i, radius, position[0], position[1], box.lower[a], box.upper[a], a == 0 ? "x" : "y"));
-    }
-  }
-
   [[nodiscard]] std::optional<ObstacleOverlap> upon_obstacle(std::int64_t i, const Eigen::Vector2d& position,
                                                              double tolerance) const {
     return overlapped_obstacle(scene_.box, scene_.effects.obstacles, position, disks_.radius[static_cast<std::size_t>(i)],
@@ -85,28 +68,7 @@ class Placement {
   }
 
   void place_listed(std::size_t s, const std::vector<Eigen::Vector2d>& values) {
-    for (std::int64_t i = ids_[s].begin; i < ids_[s].end; ++i) {
-      const Eigen::Vector2d& position = values[static_cast<std::size_t>(i - ids_[s].begin)];
-      require_inside(i, position);
-      if (const auto obstacle = upon_obstacle(i, position, accepted_overlap)) {
-        throw SceneError(
-            scene_.species[s].positions_where,
-            fmt::format("disk {} overlaps obstacles.{} by {:.3g} of their contact distance {:g}; move it away or make it "
-                        "smaller",
-                        i, obstacle->obstacle, obstacle->depth / obstacle->contact, obstacle->contact));
-      }
-      const auto found = in_place_.deepest(position, disks_.radius[static_cast<std::size_t>(i)], static_cast<std::int32_t>(i));
-      if (!scene_.run.accept_overlap && found.relative_overlap > accepted_overlap) {
-        throw SceneError(
-            scene_.species[s].positions_where,
-            fmt::format(
-                "disks {} and {} overlap by {:.3g} of their contact distance {:g}; move them apart, make them smaller, or run "
-                "them as they are with accept_overlap = true in [run]",
-                found.disk, i, found.relative_overlap,
-                disks_.radius[static_cast<std::size_t>(i)] + disks_.radius[static_cast<std::size_t>(found.disk)]));
-      }
-      put(i, position);
-    }
+    for (std::int64_t i = ids_[s].begin; i < ids_[s].end; ++i) put(i, values[static_cast<std::size_t>(i - ids_[s].begin)]);
   }
 
   /// All species that ask for the same lattice share it: the sites are for all of them, dealt out at random.
@@ -135,7 +97,6 @@ class Placement {
     if (species.size() > 1) shuffle(ids);
     for (std::size_t k = 0; k < ids.size(); ++k) {
       const Eigen::Vector2d site = lattice.sites.col(static_cast<Eigen::Index>(k));
-      require_inside(ids[k], site);
       if (const auto obstacle = upon_obstacle(ids[k], site, accepted_overlap)) {
         throw SceneError(where,
                          fmt::format("the {} lattice puts disk {} upon obstacles.{}; give all positions one by one, or ask for "
@@ -184,7 +145,6 @@ class Placement {
   Eigen::Vector2d find_room(std::int64_t i, std::size_t species) const {
     const double radius = disks_.radius[static_cast<std::size_t>(i)];
     RandomStream random(scene_.run.seed, Stream::positions, static_cast<std::uint64_t>(i));
-    require_inside(i, 0.5 * (scene_.box.lower + scene_.box.upper));
     for (int tries = 0; tries < placement_tries; ++tries) {
       Eigen::Vector2d position;
       for (int a = 0; a < 2; ++a) {
@@ -213,7 +173,10 @@ class Placement {
 }  // namespace
 
 Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks) {
-  return are_grown(scene) ? grown_positions(scene, disks) : Placement(scene, disks).run();
+  const auto is_grown = [](const Species& species) {
+    return species.count > 0 && std::holds_alternative<GrownPositions>(species.positions);
+  };
+  return std::ranges::any_of(scene.species, is_grown) ? grown_positions(scene, disks) : Placement(scene, disks).run();
 }
 
 }  // namespace carom

@@ -1,7 +1,5 @@
 #include "simulation/start.hpp"
 
-#include "scene/checks.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,41 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
-#include <variant>
 #include <vector>
 
 namespace carom {
 
 namespace {
-
-template <class... Lists>
-std::size_t length_of(const std::variant<Lists...>& asked, std::size_t otherwise) {
-  return std::visit(
-      [&](const auto& kind) {
-        if constexpr (requires { kind.values; }) return kind.values.size();
-        return otherwise;
-      },
-      asked);
-}
-
-/// What a scene that was read always has, and one that a program makes may lack.
-void require_complete(const Species& species) {
-  const auto count = static_cast<std::size_t>(species.count);
-  const auto require = [&](std::size_t entries, const char* what) {
-    if (entries != count)
-      throw SceneError(species.where, fmt::format("{} {} are given for {} disks; give one per disk", entries, what, count));
-  };
-  if (species.count < 0) throw SceneError(species.where, fmt::format("count is {}; it must not be negative", species.count));
-  require(species.radii.empty() ? count : species.radii.size(), "radii");
-  require(species.masses.empty() ? count : species.masses.size(), "masses");
-  require(length_of(species.positions, count), "positions");
-  require(length_of(species.velocities, count), "velocities");
-}
-
-void require_positive(const Species& species, double value, const char* what) {
-  if (!(value > 0.0 && std::isfinite(value)))
-    throw SceneError(species.where, fmt::format("the {} of a disk is {:g}; it must be positive and finite", what, value));
-}
 
 /// Predictions multiply squares of lengths and of speeds, which must neither overflow nor vanish.
 void require_resolvable_scale(const Scene& scene, const Start& start) {
@@ -73,8 +41,6 @@ void require_room_to_move(const Scene& scene, const Start& start) {
   for (std::size_t i = 0; i < start.disks.count(); ++i) {
     const Species& species = scene.species[static_cast<std::size_t>(start.disks.species[i])];
     const Eigen::Vector2d velocity = start.state.velocities.col(static_cast<Eigen::Index>(i));
-    if (!velocity.allFinite())
-      throw SceneError(species.velocities_where, fmt::format("the velocity of disk {} is not finite; give a number", i));
     for (int a = 0; a < 2; ++a) {
       const double diameter = 2.0 * start.disks.radius[i];
       if (scene.box.periodic(a) || velocity[a] == 0.0 || scene.box.lengths()[a] > diameter * (1.0 + 1e-12)) continue;
@@ -86,14 +52,6 @@ void require_room_to_move(const Scene& scene, const Start& start) {
               i, diameter, a == 0 ? "x" : "y"));
     }
   }
-}
-
-/// Of a scene that a program has made; those from a file have been checked.
-void require_sound_box(const Box& box) {
-  if (box.lower.allFinite() && box.upper.allFinite() && (box.lower.array() < box.upper.array()).all()) return;
-  throw SceneError({"box", 0, 0},
-                   fmt::format("the limits are [{:g}, {:g}] x [{:g}, {:g}]; each must be finite, the lower below the upper",
-                               box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y()));
 }
 
 /// In a sheared box velocities are drawn relative to the flow; those given one by one are what they are.
@@ -137,15 +95,11 @@ void require_inside(const Scene& scene, const State& state, int axis, double low
 }  // namespace
 
 Disks all_disks(const Scene& scene) {
-  require_sound_box(scene.box);
-  detail::check_numbers(scene.effects);
+  check(scene);
   Disks disks;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
     const Species& species = scene.species[s];
-    require_complete(species);
     for (std::int64_t i = 0; i < species.count; ++i) {
-      require_positive(species, species.radius_of(i), "radius");
-      require_positive(species, species.mass_of(i), "mass");
       disks.radius.push_back(species.radius_of(i));
       disks.mass.push_back(species.mass_of(i));
       disks.species.push_back(static_cast<std::int32_t>(s));

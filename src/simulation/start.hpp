@@ -12,8 +12,7 @@ struct Start {
 };
 
 /// Draws positions and velocities; the same scene and seed give the same bits.
-/// Throws SceneError where disks cannot be placed, overlap by more than 1e-9 of their contact distance, stick out of the
-/// box by more than that, or move across a gap that they fill; and where a species that a program made is incomplete.
+/// Throws SceneError where check(scene) does, where disks cannot be placed, or move across a gap that they fill.
 Start draw_start(const Scene& scene);
 
 /// The scene's disks in a given state, at time 0. Throws std::invalid_argument where the state does not belong to the scene's
@@ -24,14 +23,11 @@ Start start_from(const Scene& scene, const State& state);
 /// Throws std::invalid_argument where a centre is beyond a wall: a fixed-step method gets there, exact events never do.
 void require_between_walls(const Scene& scene, const State& state);
 
-/// All disks of a scene, in the order of its species. Throws SceneError where a species that a program made is incomplete.
+/// All disks of a scene, in the order of its species. Throws SceneError where check(scene) does.
 Disks all_disks(const Scene& scene);
 
 /// Column i of `positions` for every disk of every species, in the order of ids. Throws as draw_start.
 Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks);
-
-/// Whether the scene asks for a dense start (`GrownPositions`). Throws SceneError where only some of its disks are to be grown.
-bool are_grown(const Scene& scene);
 
 /// The dense start. Throws SceneError where the disks jam before they have their size.
 Eigen::Matrix2Xd grown_positions(const Scene& scene, const Disks& disks);

@@ -119,7 +119,7 @@ Eigen::Matrix4Xd read_states(const toml::node& node) {
     if (row == nullptr || row->size() != 4) detail::refuse((*list)[i], "a row of expect.final", "[x, y, vx, vy]");
     for (std::size_t k = 0; k < 4; ++k)
       states(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
-          detail::read_number((*row)[k], "expect.final", Range::any, "[x, y, vx, vy]");
+          detail::read_number((*row)[k], "expect.final", {"", "[x, y, vx, vy]"});
   }
   return states;
 }
@@ -154,18 +154,18 @@ Expectations read_expectations(const toml::table& node) {
   expect.well = read_count(table, "well");
   expect.boundaries = read_count(table, "boundaries");
   if (const toml::node* events = table.find("events")) expect.events = read_events(*events);
-  expect.event_ulps = table.number("within_ulps", Range::zero_or_more, "within_ulps = 2").value_or(0.0);
+  expect.event_ulps = table.number({"within_ulps", "within_ulps = 2", Range::zero_or_more}).value_or(0.0);
   expect.same_events = read_count(table, "same_events").value_or(expect.same_events);
-  expect.overlap = table.number("overlap", Range::zero_or_more, "overlap = 1e-12").value_or(expect.overlap);
-  expect.energy = table.number("energy", Range::zero_or_more, "energy = 1e-12");
-  expect.momentum = table.number("momentum", Range::zero_or_more, "momentum = 1e-12");
+  expect.overlap = table.number({"overlap", "overlap = 1e-12", Range::zero_or_more}).value_or(expect.overlap);
+  expect.energy = table.number({"energy", "energy = 1e-12", Range::zero_or_more});
+  expect.momentum = table.number({"momentum", "momentum = 1e-12", Range::zero_or_more});
   if (const toml::node* states = table.find("final")) expect.final_state = read_states(*states);
-  expect.final_within = table.number("final_within", Range::zero_or_more, "final_within = 1e-14").value_or(0.0);
-  expect.returns = table.number("returns", Range::zero_or_more, "returns = 0.0");
-  expect.reversed = table.number("reversed", Range::zero_or_more, "reversed = 1e-9");
-  expect.relabelled = table.number("relabelled", Range::zero_or_more, "relabelled = 0.0");
+  expect.final_within = table.number({"final_within", "final_within = 1e-14", Range::zero_or_more}).value_or(0.0);
+  expect.returns = table.number({"returns", "returns = 0.0", Range::zero_or_more});
+  expect.reversed = table.number({"reversed", "reversed = 1e-9", Range::zero_or_more});
+  expect.relabelled = table.number({"relabelled", "relabelled = 0.0", Range::zero_or_more});
   expect.samples = read_count(table, "samples");
-  expect.last_sample = table.number("last_sample", Range::zero_or_more, "last_sample = 1.0");
+  expect.last_sample = table.number({"last_sample", "last_sample = 1.0", Range::zero_or_more});
   if (const auto late = read_expected(table, "late_sample"))
     expect.late_sample = LateSample{static_cast<std::uint64_t>(late->value), late->bound};
   expect.Z = read_expected(table, "Z");

@@ -18,8 +18,12 @@ inline double any_double() {
   const int exponent = *rc::gen::element(0, 0, -60, -30, 10, 900, -1000, -1130);
   return *rc::gen::element(1.0, -0.0, std::ldexp(static_cast<double>(mantissa), exponent));
 }
-inline double positive_double() {
-  const double value = std::abs(any_double());
+/// One that needs all its digits, of a size that every effect stands.
+inline double moderate_double() {
+  return std::ldexp(static_cast<double>(*rc::gen::arbitrary<std::int64_t>()), *rc::gen::element(-57, -63, -70, -120));
+}
+inline double moderate_positive_double() {
+  const double value = std::abs(moderate_double());
   return value > 0.0 ? value : 0.5;
 }
 inline double unit_interval() {

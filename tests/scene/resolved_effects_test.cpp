@@ -15,8 +15,9 @@ using detail::number_text;
 using testing_support::any_double;
 using testing_support::changed;
 using testing_support::first_difference;
+using testing_support::moderate_double;
+using testing_support::moderate_positive_double;
 using testing_support::pair_text;
-using testing_support::positive_double;
 using testing_support::unit_interval;
 
 TEST(ResolvedEffects, PrintsWhatIsThere) {
@@ -67,7 +68,7 @@ class EffectsMaker {
     std::string text = collision();
     const bool all_periodic = periodic_[0] && periodic_[1];
     if (all_periodic && maybe()) {
-      text += "[shear]\n" + entry("rate", any_double()) + "\n";
+      text += "[shear]\n" + entry("rate", moderate_double()) + "\n";
     } else {
       if (maybe()) text += gravity();
       text += walls();
@@ -76,11 +77,11 @@ class EffectsMaker {
       if (!moving_ && maybe()) {
         text += growth();
       } else if (maybe()) {
-        text += "[square_well]\n" + entry("width", 1.5 + unit_interval()) + "\n" + entry("depth", any_double()) + "\n";
+        text += "[square_well]\n" + entry("width", 1.5 + unit_interval()) + "\n" + entry("depth", moderate_double()) + "\n";
       }
     }
     if (maybe())
-      text += "[thermostat]\n" + entry("temperature", positive_double()) + "\n" + entry("rate", positive_double()) + "\n";
+      text += "[thermostat]\n" + entry("temperature", 0.5 + unit_interval()) + "\n" + entry("rate", moderate_positive_double()) + "\n";
     const auto boundary = [&](int axis) { return std::string(periodic_[axis] ? "\"periodic\"" : "\"walls\""); };
     return changed({{"boundary = \"walls\"", "boundary = { x = " + boundary(0) + ", y = " + boundary(1) + " }"},
                     {"[collision]\nrule = \"specular\"\n", text}});
@@ -97,8 +98,8 @@ class EffectsMaker {
   }
 
   std::string gravity() const {
-    const double x = periodic_[0] ? -0.0 : any_double();
-    return "[gravity]\nacceleration = " + pair_text(x, periodic_[1] ? 0.0 : any_double()) + "\n";
+    const double x = periodic_[0] ? -0.0 : moderate_double();
+    return "[gravity]\nacceleration = " + pair_text(x, periodic_[1] ? 0.0 : moderate_double()) + "\n";
   }
 
   /// Within the run's time of 5 no wall moves by more than 0.5, half of what keeps the obstacles from them.
@@ -110,10 +111,10 @@ class EffectsMaker {
       const int kind = *rc::gen::inRange(0, 4);
       std::string entries;
       const auto put = [&](const char* key, double value) { entries += (entries.empty() ? "" : ", ") + entry(key, value); };
-      if (kind == 0) put("temperature", positive_double());
+      if (kind == 0) put("temperature", moderate_positive_double());
       if (kind != 0 && (kind == 1 || maybe())) put("restitution", unit_interval());
       if (kind == 2 || (kind == 0 && maybe())) put("velocity", 0.2 * unit_interval() - 0.1), moving_ = true;
-      if (kind == 3) put("mass", positive_double()), put("load", std::abs(any_double())), moving_ = true;
+      if (kind == 3) put("mass", 0.5 + unit_interval()), put("load", std::abs(moderate_double())), moving_ = true;
       text += std::string(names[w]) + " = { " + entries + " }\n";
     }
     return text.empty() ? text : "[walls]\n" + text;
@@ -130,10 +131,10 @@ class EffectsMaker {
   }
 
   static std::string growth() {
-    std::string text = "[growth]\n" + entry("rate", std::abs(any_double())) + "\n";
+    std::string text = "[growth]\n" + entry("rate", 0.1 * unit_interval()) + "\n";
     const int end = *rc::gen::inRange(0, 3);
     if (end == 1) text += "until = { " + entry("packing_fraction", 0.1 + 0.7 * unit_interval()) + " }\n";
-    if (end == 2) text += "until = { " + entry("pressure", positive_double()) + " }\n";
+    if (end == 2) text += "until = { " + entry("pressure", moderate_positive_double()) + " }\n";
     return text;
   }
 

@@ -18,8 +18,8 @@ using detail::number_text;
 using testing_support::any_double;
 using testing_support::changed;
 using testing_support::first_difference;
+using testing_support::moderate_positive_double;
 using testing_support::pair_text;
-using testing_support::positive_double;
 using testing_support::unit_interval;
 
 TEST(Resolved, PrintsEveryDefault) {
@@ -118,7 +118,7 @@ class SceneMaker {
       const double y = lower_[1] + length_[1] * (0.1 + 0.15 * i) + 0.5 * unit_interval();
       list += (i == 0 ? "" : ", ") + pair_text(x, y);
       csv += in_file
-                 ? number_text(positive_double()) + "," + number_text(y) + "," + number_text(any_double()) + "," +
+                 ? number_text(moderate_positive_double()) + "," + number_text(y) + "," + number_text(any_double()) + "," +
                        number_text(x) + "," + number_text(any_double()) + "," + number_text(0.01 + 0.5 * unit_interval()) + "\n"
                  : number_text(x) + "," + number_text(y) + "\n";
     }
@@ -128,7 +128,7 @@ class SceneMaker {
     if (!in_file) {
       text += share ? "packing_fraction = " + number_text(1e-4 + 1e-3 * unit_interval()) + "\n"
                     : "radius = " + number_text(0.01 + 0.5 * unit_interval()) + "\n";
-      text += "mass = " + number_text(positive_double()) + "\n";
+      text += "mass = " + number_text(moderate_positive_double()) + "\n";
       text += "velocities = " + velocities(count) + "\n";
     }
     if (file) folder_.write("start" + std::to_string(s) + ".csv", csv);

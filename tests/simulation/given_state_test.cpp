@@ -95,10 +95,10 @@ TEST(GivenState, OfAnotherSceneBringsNoEffectAlong) {
   state.spins = Eigen::Vector2d(3.0, 4.0);
   state.walls = {{-1.0, -0.5}, {9.0, 0.5}, {-1.0, 0.0}, {5.0, 0.0}};
   state.shear_displacement = 1.0;
-  Scene rough = plain, neutral = plain;
+  Scene rough = plain, size_kept = plain, wall_at_rest = plain;
   rough.effects.collision.roughness = 0.0;
-  neutral.effects.growth = Growth{};
-  neutral.effects.walls[0].velocity = 0.0;
+  size_kept.effects.growth = Growth{};
+  wall_at_rest.effects.walls[0].velocity = 0.0;
   for (const char* engine : {"fast", "general", "textbook"}) {
     Simulation first = make_simulation(plain, state, engine);
     EXPECT_EQ(first.state().scale, 1.0);
@@ -112,11 +112,13 @@ TEST(GivenState, OfAnotherSceneBringsNoEffectAlong) {
   }
   for (const char* engine : engines_with_effects) {
     EXPECT_EQ(make_simulation(rough, state, engine).state().spins, state.spins);
-    EXPECT_EQ(make_simulation(neutral, state, engine).state().scale, 1.0);
-    Simulation at_rest = make_simulation(neutral, state, engine);
-    at_rest.record_events(true);
-    at_rest.run_until(4.0);
-    EXPECT_EQ(at_rest.take_events()[1].time, 3.5) << engine;
+    for (const Scene& neutral : {size_kept, wall_at_rest}) {
+      Simulation simulation = make_simulation(neutral, state, engine);
+      EXPECT_EQ(simulation.state().scale, 1.0);
+      simulation.record_events(true);
+      simulation.run_until(4.0);
+      EXPECT_EQ(simulation.take_events()[1].time, 3.5) << engine;
+    }
   }
 }
 

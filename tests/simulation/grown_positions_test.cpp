@@ -110,15 +110,18 @@ TEST(DenseStart, ThatWedgesADiskBetweenAWallAndAnObstacleIsRefused) {
 TEST(DenseStart, IsForAllDisksOrNone) {
   Scene scene = dense(20, 0.5, Boundary::periodic, Boundary::periodic, 1.4);
   scene.species[1].positions = RandomPositions{};
-  EXPECT_THAT(refusal([&] { (void)draw_start(scene); }), HasSubstr("with all disks or none"));
+  EXPECT_THAT(refusal([&] { (void)draw_start(scene); }), HasSubstr("disks.1.positions are not grown, but those of disks.0 are"));
   scene.species[1].count = 0;
+  scene.species[0].positions = GrownPositions{scene.packing_fraction()};
   EXPECT_EQ(refusal([&] { (void)draw_start(scene); }), "");
 }
 
 TEST(DenseStart, IsRefusedToADiskWiderThanTheBox) {
   Scene scene = dense(20, 0.5, Boundary::periodic, Boundary::periodic);
   scene.box.upper[1] = 0.9;
-  EXPECT_THAT(refusal([&] { (void)draw_start(scene); }), HasSubstr("1 across, but the box is 0.9 long in y"));
+  scene.species.front().count = 1;
+  scene.species.front().positions = GrownPositions{scene.packing_fraction()};
+  EXPECT_THAT(refusal([&] { (void)draw_start(scene); }), HasSubstr("its diameter 1 must be less than 0.9, the length of the box in y"));
 }
 
 TEST(DenseStart, KeepsClearOfObstacles) {

@@ -87,7 +87,8 @@ TEST(Growth, OfDisksAtRestOrOfOneAloneEndsToo) {
   for (const std::int64_t count : {1, 4}) {
     Scene scene = growing(gas_scene(count, 0.1, Boundary::periodic), 0.5, 0.2);
     scene.species.front().velocities = AtRest{};
-    scene.run.collisions = 10;
+    if (count > 1) scene.run.collisions = 10;
+    if (count == 1) scene.run.time = 1e3;  // one disk cannot be asked for collisions
     Simulation simulation = make_simulation(scene);
     EXPECT_EQ(run_schedule(simulation).stopped, StopReason::grown) << count;
     EXPECT_EQ(simulation.totals().pair, 0U);
@@ -182,8 +183,7 @@ TEST(Growth, IsNotEquilibrated) {
   Scene scene = growing(gas_scene(16, 0.3, Boundary::periodic), 0.05, 0.5);
   scene.run.collisions = 10;
   scene.run.equilibrate = Run::Equilibrate{{}, 1.0};
-  Simulation simulation = make_simulation(scene);
-  EXPECT_NE(refusal([&] { run_schedule(simulation); }), "");
+  EXPECT_NE(refusal([&] { (void)make_simulation(scene); }), "");
 }
 
 TEST(InelasticRun, ThatComesToAStandIsCollapsed) {

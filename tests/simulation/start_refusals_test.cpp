@@ -1,6 +1,5 @@
 // Starts and schedules that a program may put together and that no run could survive.
 
-#include "scene/checks.hpp"
 #include "support/systems.hpp"
 
 #include <gtest/gtest.h>
@@ -18,19 +17,6 @@ TEST(StartRefusals, SpeedsWhoseSquaresOverflowOrVanish) {
     Scene scene = gas_scene(4, 0.1, Boundary::walls);
     scene.species.front().velocities = FixedSpeed{speed};
     EXPECT_THROW(make_simulation(scene), SceneError) << speed;
-  }
-}
-
-TEST(StartRefusals, BoxesThatAreNone) {
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-  for (const double upper : {0.0, -1.0, nan, infinity}) {
-    for (const int axis : {0, 1}) {
-      Scene scene = gas_scene(4, 0.1, Boundary::periodic);
-      scene.box.upper[axis] = upper;
-      EXPECT_THROW(make_simulation(scene), SceneError) << upper;
-      scene.species.clear();
-      EXPECT_THROW(make_simulation(scene), SceneError) << upper;
-    }
   }
 }
 
@@ -80,23 +66,8 @@ TEST(StartRefusals, EffectsOfNumbersThatAreNoneOrOutOfRange) {
       Scene spoilt = scene;
       numbers[k].first(spoilt.effects) = value;
       EXPECT_THROW(make_simulation(spoilt), SceneError) << k << " " << value;
-      EXPECT_THROW(detail::check_numbers(spoilt.effects), SceneError) << k << " " << value;
     }
   }
-}
-
-TEST(StartRefusals, SchedulesWithoutAnEndOrAStep) {
-  Scene scene = gas_scene(4, 0.1, Boundary::walls);
-  Simulation endless = make_simulation(scene);
-  EXPECT_THROW(run_schedule(endless), SceneError);
-  scene.run.time = 1.0;
-  scene.run.sample_every = 0.0;
-  Simulation stepless = make_simulation(scene);
-  EXPECT_THROW(run_schedule(stepless), SceneError);
-  scene.run.sample_every.reset();
-  scene.run.equilibrate = Run::Equilibrate{};
-  Simulation aimless = make_simulation(scene);
-  EXPECT_THROW(run_schedule(aimless), SceneError);
 }
 
 TEST(JammedRun, TwoDisksThatFillTheWayFromWallToWallEndWithAWord) {

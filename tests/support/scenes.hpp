@@ -19,7 +19,6 @@ inline Box box_of(double x, double y, Boundary boundary) { return box_of(x, y, b
 
 inline Species species_of(std::int64_t count, double radius, double mass, Positions positions, Velocities velocities) {
   Species species;
-  species.name = "disks";
   species.count = count;
   species.radius = radius;
   species.mass = mass;

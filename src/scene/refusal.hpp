@@ -1,0 +1,22 @@
+#pragma once
+// A scene that is refused, before it is said where that was written: the reader of files knows, a program has no such place.
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace carom::detail {
+
+class Refusal : public std::runtime_error {
+ public:
+  /// `path`: the full name of a key, "walls.left.mass" or "disks.0.positions.3". It may name more than the scene has: what it
+  /// lacks is then the fault of the table that lacks it.
+  Refusal(std::string path, const std::string& sentence) : std::runtime_error(sentence), path_(std::move(path)) {}
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace carom::detail
