@@ -32,8 +32,9 @@ enum class StopReason {
   collisions,   ///< the number of pair collisions asked for was reached
   interrupted,  ///< the caller's `proceed` said stop
   jammed,  ///< time has stopped: disks touch and have no room to move that numbers could tell (docs/hard-cases.md says after how
-           ///< many events)
+           ///< many events), or have grown until one of them fills the box
   collapsed,      ///< time has stopped: inelastic disks collide at ever shorter intervals (see elastic_below)
+  overheated,     ///< time has all but stopped: disks become faster and faster, and nothing takes away the energy that they get
   /// Inelastic disks have become too slow to compute with: products of speed and diameter are below 1e-150, in single precision
   /// 1e-15. Or collisions alone were asked for, and disks move together 2^14 times as fast as against each other.
   cooled,
@@ -42,7 +43,8 @@ enum class StopReason {
   invalid_state,  ///< check_invariants() found a fault, or a number is not finite: RunResult::faults says which
 };
 
-/// "time", "collisions", "interrupted", "jammed", "collapsed", "cooled", "grown", "no_collisions", "invalid_state"
+/// "time", "collisions", "interrupted", "jammed", "collapsed", "overheated", "cooled", "grown", "no_collisions",
+/// "invalid_state"
 std::string to_string(StopReason reason);
 
 /// The method that exact events replace: move by v dt, look for contacts, move on.
@@ -120,14 +122,14 @@ class Simulation {
 };
 
 /// Draws the initial state and predicts the first events. `engine` is "auto" or a name of engine_names().
-/// Throws SceneError when the disks cannot be placed as the scene asks, or overlap, or lie outside the box;
-/// std::invalid_argument when there is no such engine.
+/// Throws SceneError where check(scene) does, and when the disks cannot be placed as the scene asks; std::invalid_argument when
+/// there is no such engine.
 Simulation make_simulation(const Scene& scene, const std::string& engine = "auto");
 
 /// The same from a given state in place of the scene's own start, at time 0: its positions, velocities and images, and what
 /// effects of this scene go on from: spins where there is roughness, the scale of radii where disks grow, places of moving walls
 /// and velocities of pistons, the displacement by shear. The rest is dropped, remainders too, so that every engine begins with
-/// the same numbers. Throws std::invalid_argument too where any of it is not finite, a position is outside the box, or there is
+/// the same numbers. The scene is checked as above. Throws std::invalid_argument too where any of it is not finite, a position is outside the box, or there is
 /// not one position and one velocity for each of the scene's disks.
 Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine = "auto");
 
@@ -139,8 +141,8 @@ Simulation make_simulation(const Scene& scene, const FixedStep& step);
 Simulation make_simulation(const Scene& scene, const State& start, const FixedStep& step);
 
 /// A simulation as it was when Simulation::save() wrote it: whatever happens from there on happens to the last bit as it would
-/// have happened there. Requires the scene with which that one was made, and what the same version of the library has written:
-/// neither is checked.
+/// have happened there. Throws SceneError where check(scene) does. Requires the scene with which that one was made, and what the
+/// same version of the library has written: neither is checked.
 Simulation restore_simulation(const Scene& scene, std::istream& in);
 
 /// "naive", "naive-edge", "guarded", "grid"
@@ -217,7 +219,7 @@ struct RunResult {
 /// Runs the scene's whole schedule: equilibrate, reset the clock, then sample until time or collisions are reached.
 /// Requires a simulation at time 0, as make_simulation returns it, or with hooks.resume one that was restored to the moment at
 /// which the schedule was saved; its scene may have another end by then. Ends with event recording off.
-/// Throws SceneError where scene().run has no end, or a step that is not positive.
+/// Throws SceneError where scene().run has no end.
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks = {});
 
 }  // namespace carom

@@ -130,7 +130,7 @@ ExpectedCost Trial::run() {
   cost.trial_seconds = result.loop_seconds;
   cost.trial_collisions = simulation_.totals().pair;
   cost.trial_time = simulation_.time();
-  if (result.stopped == StopReason::jammed || result.stopped == StopReason::collapsed)
+  if (result.stopped == StopReason::jammed || result.stopped == StopReason::collapsed || result.stopped == StopReason::overheated)
     cost.came_to_rest = to_string(result.stopped);
   cost.whole = result.stopped != StopReason::interrupted && cost.came_to_rest.empty() && cost.trial_time < latest;
 

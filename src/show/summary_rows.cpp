@@ -2,6 +2,8 @@
 
 #include "observe/equilibrium.hpp"
 #include "observe/mechanics.hpp"
+#include "scene/checks.hpp"
+#include "scene/growth_room.hpp"
 #include "show/effects_rows.hpp"
 #include "show/number_words.hpp"
 #include "show/scene_words.hpp"
@@ -56,6 +58,12 @@ void append(SummaryRows& rows, SummaryRows more) {
   for (SummaryRow& row : more) rows.push_back(std::move(row));
 }
 
+bool has_filled_the_box(const RunReport& report, const Scene& scene) {
+  if (!report.of_effects.growth) return false;
+  const double radius = detail::radii_of(scene).largest * report.of_effects.growth->scale;
+  return radius > 0.0 && detail::growth_room(scene.box, radius) < 1.0 + 1e-12;
+}
+
 std::string samples_remark(const RunReport& report, const Scene* scene) {
   if (scene == nullptr) return "";
   if (scene->run.is_sampled()) return sampling_words(scene->run);
@@ -74,6 +82,8 @@ std::string why_stopped(const RunReport& report, const Scene* scene) {
     case StopReason::interrupted:
       return report.measured ? "interrupted here; everything up to here is saved" : "interrupted while still equilibrating";
     case StopReason::jammed:
+      if (scene != nullptr && has_filled_the_box(report, *scene))
+        return "jammed: the largest disk has grown until it fills the box; end before that, or take a larger box";
       return fmt::format("jammed: {} touch on all sides and collide without end at this instant; give them more room",
                          named(report.stopped_disks, "disks that"));
     case StopReason::collapsed:
@@ -82,6 +92,9 @@ std::string why_stopped(const RunReport& report, const Scene* scene) {
           "time = "
           "1e-6 }}, to go on",
           named(report.stopped_disks, "inelastic disks"), report.stopped_disks.size() == 1 ? "s" : "");
+    case StopReason::overheated:
+      return "overheated: disks become faster and faster, and time all but stands still; take the energy away that they get, with "
+             "[thermostat] or restitution, or end before that";
     case StopReason::cooled:
       return "cooled: inelastic disks move too slowly against each other to be followed any further; where they move on "
              "together, leave that out of the start";

@@ -45,6 +45,8 @@ class AnyEngine {
   /// Disks that grew have reached the packing fraction or pressure at which they were to end: run_until returns false from then
   /// on.
   [[nodiscard]] virtual bool grown() const { return false; }
+  /// When grown() or jammed() will be true at the latest, as far as the rate of growth tells.
+  [[nodiscard]] virtual Instant grown_at() const { return forever; }
   [[nodiscard]] virtual Instant now() const = 0;
   [[nodiscard]] virtual const Totals& totals() const = 0;
   [[nodiscard]] virtual State state() const = 0;

@@ -1,5 +1,6 @@
 #include "simulation/driven_engine.hpp"
 
+#include "scene/growth_room.hpp"
 #include "simulation/all_events.hpp"
 
 #include <algorithm>
@@ -53,14 +54,15 @@ DrivenEngine::DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene
     const Growth& growth = *scene.effects.growth;
     if (growth.packing_fraction) end_scale_ = std::sqrt(*growth.packing_fraction / packing_fraction_);
     end_pressure_ = growth.reduced_pressure.value_or(0.0);
+    if (disks_.count() > 0) full_scale_ = growth_room(scene.box, *std::max_element(disks_.radius.begin(), disks_.radius.end()));
   }
   begin();
 }
 
 bool DrivenEngine::run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
   bool arrived = false;
-  while (!grown_ && event_limit > 0) {
-    const Instant stop = std::min({target, kick_time_, end_});
+  while (!grown_ && !filled_ && event_limit > 0) {
+    const Instant stop = std::min({target, kick_time_, end_, full_});
     const std::uint64_t before = detail::all_events(engine_->totals());
     arrived = engine_->run_until(stop, std::min(pair_limit, stock_at_), event_limit);
     event_limit -= std::min(event_limit, detail::all_events(engine_->totals()) - before);
@@ -68,10 +70,13 @@ bool DrivenEngine::run_until(const Instant& target, std::uint64_t pair_limit, st
       arrived = false;
       take_stock();
       if (engine_->totals().pair >= pair_limit) break;
-    } else if (!arrived || target < std::min(kick_time_, end_)) {
+    } else if (!arrived || target < std::min({kick_time_, end_, full_})) {
       break;
     } else if (!(stop < end_) && end_ < forever) {
       grown_ = at_end_scale_ = true;
+      arrived = false;
+    } else if (!(stop < full_) && full_ < forever) {
+      filled_ = true;
       arrived = false;
     } else if (!(stop < kick_time_) && kick_time_ < forever) {
       kick();
@@ -87,7 +92,7 @@ bool DrivenEngine::run_until(const Instant& target, std::uint64_t pair_limit, st
 
 /// Disks that nothing moves now may be kicked later, or grow until they touch.
 bool DrivenEngine::idle() const {
-  const bool grows = growth_rate_ > 0.0 && !grown_;
+  const bool grows = growth_rate_ > 0.0 && !grown_ && !filled_;
   return engine_->idle() && !(andersen_.acts() || grows);
 }
 
@@ -109,7 +114,7 @@ void DrivenEngine::look_at_velocities(State& state) const {
 template <class Self, class Archive>
 void DrivenEngine::archive_all(Self& self, Archive& archive) {
   archive(self.kicks_, self.next_, self.kick_time_, self.start_scale_, self.end_scale_, self.end_, self.grown_,
-          self.at_end_scale_);
+          self.at_end_scale_, self.full_, self.filled_);
   archive(self.stock_at_, self.window_, self.energy_at_start_, self.stretch_start_, self.stretch_pairs_, self.stretch_virial_,
           self.stretch_energy_);
   archive(self.totals_, self.counted_kicks_, self.kick_energy_, self.rescaling_energy_);
@@ -139,6 +144,7 @@ void DrivenEngine::begin() {
   if (growth_rate_ > 0.0) {
     start_scale_ = engine_->state().scale;
     if (end_scale_ > 0.0) end_ = ratio(std::max(0.0, end_scale_ - start_scale_), growth_rate_);
+    if (full_scale_ > 0.0) full_ = ratio(std::max(0.0, full_scale_ - start_scale_), growth_rate_);
     const Energy now = energy();
     energy_at_start_ = now.total();
     stock_at_ = between_stock_;

@@ -10,6 +10,7 @@
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -29,11 +30,13 @@ class DrivenEngine final : public AnyEngine {
 
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override;
   [[nodiscard]] bool idle() const override;
-  [[nodiscard]] bool jammed() const override { return engine_->jammed(); }
+  /// Or one of them fills the box.
+  [[nodiscard]] bool jammed() const override { return filled_ || engine_->jammed(); }
   [[nodiscard]] std::vector<std::int32_t> slow() const override { return engine_->slow(); }
   [[nodiscard]] bool cooled() const override { return engine_->cooled(); }
   [[nodiscard]] std::string fault() const override { return engine_->fault(); }
   [[nodiscard]] bool grown() const override { return grown_; }
+  [[nodiscard]] Instant grown_at() const override { return std::min(end_, full_); }
   [[nodiscard]] Instant now() const override { return engine_->now(); }
   [[nodiscard]] const Totals& totals() const override { return totals_; }
   [[nodiscard]] State state() const override;
@@ -93,6 +96,9 @@ class DrivenEngine final : public AnyEngine {
   double end_pressure_ = 0.0;       ///< the same for the reduced pressure
   double packing_fraction_;         ///< at scale 1
   Instant end_ = forever;           ///< when end_scale_ is reached
+  double full_scale_ = 0.0;         ///< at which the largest disk fills the box
+  Instant full_ = forever;          ///< when that is reached
+  bool filled_ = false;             ///< it is
   bool grown_ = false;              ///< the end is reached
   bool at_end_scale_ = false;       ///< it was the packing fraction's
   bool keeps_energy_;               ///< velocities are rescaled

@@ -6,6 +6,7 @@
 
 #include "core/all_equal.hpp"
 #include "core/archive.hpp"
+#include "scene/checks.hpp"
 #include "simulation/all_events.hpp"
 #include "simulation/finite_state.hpp"
 #include "simulation/moving_as_one.hpp"
@@ -55,7 +56,7 @@ class Schedule {
         sample_collisions_(run_.sample_every_collisions.value_or(no_limit)),
         block_collisions_(std::max<std::uint64_t>(16, disks.count() / 2)),
         disks_(disks),
-        standstill_(disks),
+        standstill_(disks, effects_),
         moving_as_one_(scene, disks) {}
   Schedule(const Schedule&) = delete;
   Schedule& operator=(const Schedule&) = delete;
@@ -111,6 +112,7 @@ class Schedule {
       const double asked = std::ceil(*run_.equilibrate->collisions_per_disk * static_cast<double>(disks_.count()) / 2.0);
       if (asked < 0x1p63) collisions = static_cast<std::uint64_t>(asked);
     }
+    end_ = {until, collisions};
     if (!advance(until, collisions) && result_.stopped != StopReason::collisions) return false;
     engine_.reset_clock();
     equilibrating_ = false;
@@ -141,6 +143,7 @@ class Schedule {
     ends_by_time_ = run_.time.has_value();
     const Instant end = ends_by_time_ ? Instant{*run_.time, 0.0} : forever;
     const std::uint64_t collisions = run_.collisions.value_or(no_limit);
+    end_ = {end, collisions};
     for (Instant when = next_sample(); when < forever; when = next_sample()) {
       const bool beyond = end < when;  // by the rounding of k * step, as 3 * 0.1 is beyond 0.3
       if (beyond && !advance_and_count(end, collisions)) return;
@@ -318,7 +321,7 @@ class Schedule {
       if (engine_.totals().pair >= collisions) return stop(StopReason::collisions);
       if (arrived && target < forever) return true;
       if (const auto reason = detail::why_stopped(engine_, effects_)) return stop(*reason);
-      if (standstill_.reached(engine_)) return stop_at_standstill(target, collisions);
+      if (const auto reason = standstill_.reached(engine_, end_)) return stop_at_standstill(*reason, target, collisions);
       if (!ends_by_time_ && moving_as_one_.reached(engine_)) return stop(StopReason::cooled);
       if (is_hopeless()) return stop(StopReason::no_collisions);
     }
@@ -327,7 +330,7 @@ class Schedule {
   /// True when the engine stands at the target.
   bool run_stretch(const Instant& target, std::uint64_t pair_limit) {
     const std::uint64_t pairs = engine_.totals().pair;
-    const std::uint64_t before = detail::all_events(engine_.totals());
+    const std::uint64_t before = detail::all_events(engine_.totals()), epochs = engine_.totals().numerics.epochs;
     const Instant began = engine_.now();
     const auto started = Clock::now();
     const std::uint64_t limit = std::min(
@@ -338,7 +341,8 @@ class Schedule {
     stands_ = events > 0 && !(began < engine_.now());
     if (!stands_) standing_.clear();
     since_verified_ += events;
-    without_collision_ = engine_.totals().pair > pairs ? 0 : without_collision_ + events;
+    const std::uint64_t begun = engine_.totals().numerics.epochs - epochs;  // walls may outrun all disks, and nothing else happens
+    without_collision_ = engine_.totals().pair > pairs ? 0 : without_collision_ + events + begun;
     return arrived;
   }
 
@@ -402,12 +406,12 @@ class Schedule {
   }
 
   /// The clock creeps: who is it that holds it up?
-  bool stop_at_standstill(const Instant& target, std::uint64_t collisions) {
+  bool stop_at_standstill(StopReason reason, const Instant& target, std::uint64_t collisions) {
     record_events(true);
     run_stretch(target, collisions);
     stands_ = true;
     take_events();
-    return stop(effects_.dissipate() ? StopReason::collapsed : StopReason::jammed);
+    return stop(reason);
   }
 
   [[nodiscard]] Progress progress() const { return {engine_.now().high, engine_.totals(), result_.loop_seconds, equilibrating_}; }
@@ -422,6 +426,7 @@ class Schedule {
   const Disks& disks_;
   detail::Standstill standstill_;
   detail::MovingAsOne moving_as_one_;
+  detail::RunEnd end_;                  ///< of equilibrating, or of the measured run
   bool stands_ = false;                 ///< the clock, over a whole stretch
   std::vector<std::int32_t> standing_;  ///< who has collided since it does
   bool recording_ = false;              ///< events
@@ -441,36 +446,6 @@ class Schedule {
   RunResult result_;
 };
 
-template <class Refuse>
-void require_sound_sampling(const Run& run, Refuse refuse) {
-  const auto positive = [](double number) { return number > 0.0 && std::isfinite(number); };
-  if (run.sample_every && !positive(*run.sample_every)) refuse("run.sample_every must be positive and finite");
-  if (run.sample_every_collisions == 0) refuse("run.sample_every must be one collision or more");
-  if (run.sample_every.has_value() + run.sample_every_collisions.has_value() + run.sample_log.has_value() > 1)
-    refuse("the run says twice when samples are taken; give one of sample_every and sample_log");
-  if (!run.sample_log) return;
-  const SampleLog& log = *run.sample_log;
-  if (!positive(log.block)) refuse("run.sample_log.block must be positive and finite");
-  if (log.per_block < 2 || !(log.base >= least_log_base) ||
-      !(std::pow(log.base, static_cast<double>(log.per_block - 1)) <= most_log_ratio))
-    refuse("run.sample_log needs a base of at least 1.01, at least two samples per block, and base^(per_block - 1) <= 1e12");
-}
-
-/// Scenes from a file have been checked; those that a program has put together have not.
-void require_sound_schedule(const Run& run, const Effects& effects) {
-  const auto refuse = [](const char* what) { throw SceneError({"run", 0, 0}, what); };
-  const auto negative = [](const std::optional<double>& number) { return number && !(*number >= 0.0 && std::isfinite(*number)); };
-  if (!run.time && !run.collisions) refuse("the run has neither time nor collisions and would never end; give one of them");
-  if (negative(run.time)) refuse("run.time must be finite and not negative");
-  require_sound_sampling(run, refuse);
-  if (!run.equilibrate) return;
-  if (effects.growth && effects.growth->rate > 0.0) refuse("growing disks cannot be equilibrated; leave out run.equilibrate");
-  if (run.equilibrate->time.has_value() == run.equilibrate->collisions_per_disk.has_value())
-    refuse("run.equilibrate needs either time or collisions_per_disk");
-  if (negative(run.equilibrate->time) || negative(run.equilibrate->collisions_per_disk))
-    refuse("run.equilibrate must be finite and not negative");
-}
-
 }  // namespace
 
 std::uint64_t last_sample(const Run& run) {
@@ -481,7 +456,7 @@ std::uint64_t last_sample(const Run& run) {
 
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   auto& parts = *simulation.parts_;
-  require_sound_schedule(parts.scene.run, parts.scene.effects);
+  if (!parts.scene.run.time && !parts.scene.run.collisions) throw SceneError({}, detail::endless_run);
   if (hooks.collisions && !simulation.tells_collisions())
     throw std::invalid_argument("this simulation does not tell of collisions; see Simulation::tells_collisions()");
   for (const SamplingGrid& grid : hooks.grids)

@@ -23,10 +23,10 @@ StopReason run_to(detail::AnyEngine& engine, const Disks& disks, const Effects& 
                   std::uint64_t collision_limit) {
   if (!std::isfinite(target.high) || !std::isfinite(target.low))
     throw std::invalid_argument("a simulation runs to a finite time only");
-  for (detail::Standstill standstill(disks); !engine.run_until(target, collision_limit, stretch_events);) {
+  for (detail::Standstill standstill(disks, effects); !engine.run_until(target, collision_limit, stretch_events);) {
     if (const auto reason = detail::why_stopped(engine, effects)) return *reason;
     if (engine.totals().pair >= collision_limit) return StopReason::collisions;
-    if (standstill.reached(engine)) return effects.dissipate() ? StopReason::collapsed : StopReason::jammed;
+    if (const auto reason = standstill.reached(engine, {target, collision_limit})) return *reason;
   }
   return StopReason::time;
 }
@@ -108,6 +108,8 @@ std::string to_string(StopReason reason) {
       return "jammed";
     case StopReason::collapsed:
       return "collapsed";
+    case StopReason::overheated:
+      return "overheated";
     case StopReason::cooled:
       return "cooled";
     case StopReason::grown:

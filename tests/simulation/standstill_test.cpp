@@ -46,6 +46,93 @@ TEST(EnginesStandstill, RunningToATimeEndsTooWhereTheClockCreeps) {
   EXPECT_EQ(simulation.run_until(100.0), StopReason::jammed);
 }
 
+/// Three disks of radius 0.3 in a channel of height 3: at five times their size one of them fills it, at time 80.
+Scene growing_in_a_channel(Boundary across) {
+  Scene scene;
+  scene.box = {{0.0, 0.0}, {16.0, 3.0}, {Boundary::periodic, across}};
+  scene.species = {species_of(3, 0.3, 1.0, ListedPositions{{{2.0, 1.0}, {7.0, 1.5}, {13.0, 2.0}}},
+                              ListedVelocities{{{0.5, 0.25}, {-0.25, 0.5}, {-0.25, -0.75}}})};
+  scene.effects.growth = Growth{.rate = 0.05, .packing_fraction = {}, .reduced_pressure = 1e9, .where = {}};
+  scene.run.collisions = 1'000'000'000;
+  return scene;
+}
+
+TEST(EnginesStandstill, ADiskThatGrowsUntilItMeetsItsOwnImageEndsTheRunThere) {
+  // The general engine does not cover boxes that narrow.
+  Simulation simulation = make_simulation(growing_in_a_channel(Boundary::periodic));
+  EXPECT_EQ(run_schedule(simulation).stopped, StopReason::jammed);
+  EXPECT_NEAR(simulation.time(), 80.0, 1e-13);
+  EXPECT_NEAR(simulation.state().scale, 5.0, 1e-12);
+  EXPECT_EQ(make_simulation(growing_in_a_channel(Boundary::periodic)).run_until(1e3), StopReason::jammed);
+}
+
+TEST(EnginesStandstill, ADiskThatGrowsFromWallToWallEndsTheRunThere) {
+  for (const char* engine : {"general", "textbook"}) {
+    Scene scene = growing_in_a_channel(Boundary::walls);
+    scene.box.boundary[0] = Boundary::walls;
+    Simulation simulation = make_simulation(scene, engine);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::jammed) << engine;
+    EXPECT_NEAR(simulation.state().scale, 5.0 * (1.0 - 0x1p-16), 1e-12) << engine;  // summed over epochs
+    EXPECT_THAT(simulation.check_invariants(), IsEmpty()) << engine;
+  }
+}
+
+TEST(EnginesStandstill, AStateOfDisksThatHaveFilledTheBoxIsAnEnd) {
+  const Scene scene = growing_in_a_channel(Boundary::periodic);
+  State start = make_simulation(scene).state();
+  start.scale = 5.5;
+  Simulation simulation = make_simulation(scene, start);
+  EXPECT_EQ(run_schedule(simulation).stopped, StopReason::jammed);
+  EXPECT_EQ(simulation.time(), 0.0);
+}
+
+/// From rest, or under a thermostat, nothing keeps their energy: their speed grows as the number of collisions, and the time to the
+/// next falls as its square, long before the last digits of coordinates end the run.
+TEST(EnginesStandstill, DisksThatGrowIntoAJamEndTheRunWhateverKeepsTheirEnergy) {
+  for (const bool from_rest : {true, false}) {
+    for (const char* engine : {"general", "textbook"}) {
+      Scene scene = growing_beyond_jamming();
+      if (from_rest) scene.species.front().velocities = AtRest{};
+      if (!from_rest) scene.effects.thermostat = Thermostat{1.0, 0.1, {}};
+      Simulation simulation = make_simulation(scene, engine);
+      EXPECT_EQ(run_schedule(simulation).stopped, StopReason::jammed) << engine << from_rest;
+      EXPECT_NEAR(simulation.time(), 48.0, 1e-2) << engine << from_rest;
+    }
+  }
+}
+
+TEST(EnginesStandstill, WallsThatCloseInUntilNothingFitsEndTheRun) {
+  for (const char* engine : {"general", "textbook"}) {
+    Scene scene = gas_scene(8, 0.2, Boundary::walls);
+    scene.effects.walls[3].velocity = -0.5;
+    scene.run.collisions = 1'000'000'000'000'000;
+    Simulation simulation = make_simulation(scene, engine);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::jammed) << engine;
+    EXPECT_LT(simulation.time(), 2.0 * (scene.box.lengths().y() - 1.0)) << engine;
+  }
+}
+
+TEST(EnginesStandstill, AGasThatShearHeatsWithoutEndEndsTheRun) {
+  for (const char* engine : {"general", "textbook"}) {
+    Scene scene = gas_scene(16, 0.4, Boundary::periodic);
+    scene.effects.collision.rule = CollisionRule::reversal;
+    scene.effects.shear = Shear{.rate = 1.0, .where = {}};
+    scene.run.time = 1e9;
+    Simulation simulation = make_simulation(scene, engine);
+    EXPECT_EQ(run_schedule(simulation).stopped, StopReason::overheated) << engine;
+  }
+}
+
+/// A specular gas heats up too, but the clock goes on: its speed grows as the time.
+TEST(EnginesStandstill, AGasThatShearHeatsSteadilyGoesOn) {
+  Scene scene = gas_scene(16, 0.4, Boundary::periodic);
+  scene.effects.shear = Shear{.rate = 1.0, .where = {}};
+  scene.run.time = 1e15;
+  scene.run.collisions = 500'000;  // five times twice as many as the first look at the pace
+  Simulation simulation = make_simulation(scene);
+  EXPECT_EQ(run_schedule(simulation).stopped, StopReason::collisions);
+}
+
 TEST(EnginesStandstill, DisksThatJamAtOneInstantAreNamedAndNoOthers) {
   Scene scene;
   scene.box = {{0.0, 0.0}, {2.0, 8.0}, {Boundary::walls, Boundary::walls}};
