@@ -19,7 +19,7 @@ void check_company(const Scene& scene) {
   }
   for (std::size_t w = 0; w < scene.effects.walls.size(); ++w) {
     const WallProperties& wall = scene.effects.walls[w];
-    const char* kind = wall.mass ? "piston" : wall.velocity ? "moving wall" : nullptr;
+    const char* kind = wall.mass ? "piston" : wall.velocity.value_or(0.0) != 0.0 ? "moving wall" : nullptr;
     if (kind == nullptr) continue;
     throw Refusal("growth", fmt::format("[growth] and the {} walls.{} cannot be combined; remove one of the two", kind, wall_names[w]));
   }
@@ -74,12 +74,13 @@ void check_growth(const Scene& scene) {
   const Growth& growth = *scene.effects.growth;
   if (growth.packing_fraction && growth.reduced_pressure)
     throw Refusal("growth.until", ends_of_growth("both packing_fraction and pressure"));
+  if (growth.packing_fraction && scene.disk_count() > 0) check_target(scene, growth);
+  if (!(growth.rate > 0.0)) return;
   check_company(scene);
   if (!growth.packing_fraction && !growth.reduced_pressure && !scene.run.time && scene.run.collisions) {
     throw Refusal("growth", "[growth] has no end; give until = { packing_fraction = 0.84 }, until = { pressure = 1e6 }, or time in [run]");
   }
-  if (growth.packing_fraction && scene.disk_count() > 0) check_target(scene, growth);
-  if (growth.rate > 0.0 && scene.disk_count() > 0) check_time(scene, growth);
+  if (scene.disk_count() > 0) check_time(scene, growth);
 }
 
 }  // namespace carom::detail

@@ -19,8 +19,9 @@
 namespace carom::detail {
 namespace {
 
-/// Of the products of speed and length, and of masses.
+/// Of the products of speed and length.
 constexpr double least = 1e-150, most = 1e150;
+constexpr double least_mass = 1e-300, most_mass = 1e300;
 /// Places must be known to this share of the smallest radius.
 constexpr double resolution = 1e-3;
 /// The distance of two doubles at x is at most this share of x.
@@ -158,9 +159,9 @@ void check_drive(const Drive& drive, const Sizes& sizes) {
 }
 
 void check_mass(const std::string& path, double mass) {
-  if (mass >= least && mass <= most) return;
-  throw Refusal(path, fmt::format("{} is {}; it must lie between {:.0e} and {:.0e}, or products of masses vanish or overflow", path,
-                                  mass, least, most));
+  if (mass >= least_mass && mass <= most_mass) return;
+  throw Refusal(path, fmt::format("{} is {}; it must lie between {:.0e} and {:.0e}, or its inverse would not be a number of all digits",
+                                  path, mass, least_mass, most_mass));
 }
 
 void check_masses(const Scene& scene, const Sizes& sizes) {
@@ -168,7 +169,7 @@ void check_masses(const Scene& scene, const Sizes& sizes) {
     const Species& species = scene.species[s];
     if (species.count > 0 && species.masses.empty()) check_mass(fmt::format("disks.{}.mass", s), species.mass);
     for (std::size_t i = 0; i < species.masses.size(); ++i)
-      if (!(species.masses[i] >= least && species.masses[i] <= most))
+      if (!(species.masses[i] >= least_mass && species.masses[i] <= most_mass))
         check_mass(fmt::format("disks.{}.masses.{}", s, i), species.masses[i]);
   }
   for (std::size_t w = 0; w < scene.effects.walls.size(); ++w) {
@@ -185,7 +186,7 @@ void check_masses(const Scene& scene, const Sizes& sizes) {
 
 void check_coordinates(const Scene& scene, const Sizes& sizes) {
   for (int axis = 0; axis < 2; ++axis) {
-    const double reach = std::max(std::abs(scene.box.lower[axis]), std::abs(scene.box.upper[axis]));
+    const double reach = largest_coordinate(scene.box, axis);
     if (reach <= most_radii * sizes.smallest) continue;
     throw Refusal(fmt::format("box.{}", axis_names[axis]),
                   fmt::format("box.{} reaches to {:.6g}, where doubles are {:.2g} apart, and places must be known to a thousandth of "

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace carom::detail {
 
@@ -25,6 +26,8 @@ Radii radii_of(const Scene& scene) {
   }
   return radii;
 }
+
+double largest_coordinate(const Box& box, int axis) { return std::max(std::abs(box.lower[axis]), std::abs(box.upper[axis])); }
 
 double mean_diameter(const Scene& scene) {
   double sum = 0.0;

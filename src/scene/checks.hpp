@@ -34,6 +34,8 @@ struct Radii {
   [[nodiscard]] double densest() const { return equal() ? closest_packing : 1.0; }
 };
 Radii radii_of(const Scene& scene);
+/// The distance of the origin to the farther limit of the box along an axis.
+double largest_coordinate(const Box& box, int axis);
 /// Over all disks. Requires one.
 double mean_diameter(const Scene& scene);
 

@@ -194,7 +194,8 @@ TEST_F(CompareCommand, WhatCannotBePlayedIsRefusedBeforeAnythingIsWritten) {
     expect_refused({"--play", std::string("guarded:") + dt},
                    std::string("--play guarded:") + dt + ": after the colon stands a time step, positive and finite");
   expect_refused({"--play", "grid:6"}, "--play grid:6: the scene's run ends at time 5, within the first step");
-  expect_refused({"--play", "grid:1e200", "--set", "run.time=1e300"}, "--play grid:1e200: in a time step of 1e+200");
+  expect_refused({"--play", "grid:1e160", "--dt", "1e149", "--set", "run.time=1e164", "--set", "run.sample_every=1e163"},
+                 "--play grid:1e160: in a time step of 1e+160");
   expect_refused({"--play", "--set", "disks.0.count=2001", "--set", "box.x=[0.0,100.0]", "--set", "box.y=[0.0,100.0]"},
                  "--play: 2001 disks are too many");
   expect_refused({"--play", "--set", "gravity.acceleration=[0.0,-1.0]"}, "");

@@ -39,7 +39,8 @@ TEST(PropertyDuel, EnginesStaySoundAndAgreeOnWhatFuzzingHasFound) {
   for (const auto& entry : std::filesystem::directory_iterator(CAROM_SOURCE_DIR "/tests/fuzz/findings/physics")) {
     std::ifstream file(entry.path(), std::ios::binary);
     const std::vector<std::uint8_t> bytes(std::istreambuf_iterator<char>(file), {});
-    EXPECT_EQ(duel(parse_scene(decoded_scene(bytes))), "") << entry.path().filename();
+    SCOPED_TRACE(entry.path().filename().string());
+    EXPECT_EQ(duel(parse_scene(decoded_scene(bytes))), "");
     ++scenes;
   }
   EXPECT_GT(scenes, 0);

@@ -31,7 +31,7 @@ TEST(SceneFiles, MissingDirectoryAndEmptyAreNamed) {
   const std::string empty = folder.write("empty.toml", "");
   EXPECT_EQ(refusal_of([&] { load_scene(empty); }),
             empty + ":1:1: the scene has no [box] table; give limits x and y, and the boundary");
-  EXPECT_EQ(refusal_of([&] { load_scene(""); }), ": there is no such file; check the path");
+  EXPECT_EQ(refusal_of([&] { load_scene(""); }), "there is no such file; check the path");
 }
 
 TEST(SceneFiles, UnreadableFilesAreNamed) {

@@ -48,7 +48,7 @@ ObservableRequest observable(const std::string& name) {
   return request;
 }
 
-const double not_a_number = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+const double not_a_number = std::numeric_limits<double>::quiet_NaN(), infinite_number = std::numeric_limits<double>::infinity();
 
 std::vector<Case> cases() {
   const std::string walls = "walls", periodic = "periodic";
@@ -59,7 +59,7 @@ std::vector<Case> cases() {
       // ------------------------------------------------------------------------------------------------------ the box
       {"BoxReversed", walls, {"box.x=[1.0, -1.0]"}, [](Scene& s) { std::swap(s.box.lower[0], s.box.upper[0]); }},
       {"BoxOfNaN", walls, {"box.y=[nan, 1.0]"}, [](Scene& s) { s.box.lower[1] = not_a_number; }},
-      {"BoxWithoutEnd", walls, {"box.y=[-1.0, inf]"}, [](Scene& s) { s.box.upper[1] = infinite; }},
+      {"BoxWithoutEnd", walls, {"box.y=[-1.0, inf]"}, [](Scene& s) { s.box.upper[1] = infinite_number; }},
       {"BoxTooLarge", walls, {"box.x=[-1.0, 1e200]", "box.y=[-1.0, 1e200]"}, [](Scene& s) { s.box.upper = {1e200, 1e200}; }},
       // ------------------------------------------------------------------------------------------------------ disks
       {"CountNegative", walls, {"disks.0.count=-3"}, [](Scene& s) { s.species[0].count = -3; }},
@@ -72,7 +72,7 @@ std::vector<Case> cases() {
       {"RadiusNegative", walls, {"disks.0.radius=-0.03"}, [](Scene& s) { s.species[0].radius = -0.03; }},
       {"RadiusZero", walls, {"disks.1.radius=0.0"}, [](Scene& s) { s.species[1].radius = 0.0; }},
       {"MassOfNaN", walls, {"disks.0.mass=nan"}, [](Scene& s) { s.species[0].mass = not_a_number; }},
-      {"MassInfinite", walls, {"disks.0.mass=inf"}, [](Scene& s) { s.species[0].mass = infinite; }},
+      {"MassInfinite", walls, {"disks.0.mass=inf"}, [](Scene& s) { s.species[0].mass = infinite_number; }},
       {"UniformNegative", walls, {"disks.0.velocities.uniform=-1.0"}, [](Scene& s) { s.species[0].velocities = UniformVelocities{-1.0}; }},
       {"TemperatureNegative",
        walls,
@@ -91,7 +91,7 @@ std::vector<Case> cases() {
       {"VelocityInfinite",
        walls,
        {"disks.1.velocities=[[1.0, 0.0], [inf, 0.0]]"},
-       [](Scene& s) { std::get<ListedVelocities>(s.species[1].velocities).values[1][0] = infinite; }},
+       [](Scene& s) { std::get<ListedVelocities>(s.species[1].velocities).values[1][0] = infinite_number; }},
       {"TooWideForTheWalls", walls, {"disks.0.radius=1.1"}, [](Scene& s) { s.species[0].radius = 1.1; }},
       {"TouchesItsOwnImage", periodic, {"disks.0.radius=1.0"}, [](Scene& s) { s.species[0].radius = 1.0; }},
       {"InTheWall",
@@ -153,7 +153,7 @@ std::vector<Case> cases() {
       {"WallOfAPeriodicBox", periodic, {"walls.left={ velocity = 0.1 }"}, [](Scene& s) { s.effects.walls[0].velocity = 0.1; }},
       {"WallRestitutionAboveOne", walls, {"walls.left={ restitution = 1.5 }"}, [](Scene& s) { s.effects.walls[0].restitution = 1.5; }},
       {"WallTemperatureZero", walls, {"walls.left={ temperature = 0.0 }"}, [](Scene& s) { s.effects.walls[0].temperature = 0.0; }},
-      {"WallVelocityInfinite", walls, {"walls.left={ velocity = inf }"}, [](Scene& s) { s.effects.walls[0].velocity = infinite; }},
+      {"WallVelocityInfinite", walls, {"walls.left={ velocity = inf }"}, [](Scene& s) { s.effects.walls[0].velocity = infinite_number; }},
       {"ThermalWallWithRestitution",
        walls,
        {"walls.right={ temperature = 1.0, restitution = 0.5 }"},
@@ -186,7 +186,7 @@ std::vector<Case> cases() {
       {"SegmentToInfinity",
        walls,
        {"obstacles=[{ segment = { from = [0.0, 0.0], to = [0.0, inf] } }]"},
-       obstacle(SegmentObstacle{{0.0, 0.0}, {0.0, infinite}})},
+       obstacle(SegmentObstacle{{0.0, 0.0}, {0.0, infinite_number}})},
       {"SegmentOfNoLength",
        walls,
        {"obstacles=[{ segment = { from = [0.1, 0.0], to = [0.1, 0.0] } }]"},
@@ -256,7 +256,7 @@ std::vector<Case> cases() {
        walls,
        {"growth={ rate = 10.0 }"},
        [](Scene& s) { s.effects.growth = Growth{10.0, {}, {}, {}}; }},
-      {"MassTooLarge", walls, {"disks.0.mass=1e200"}, [](Scene& s) { s.species[0].mass = 1e200; }},
+      {"MassTooLarge", walls, {"disks.0.mass=1e301"}, [](Scene& s) { s.species[0].mass = 1e301; }},
       {"WallRunsAway", walls, {"walls.top={ velocity = 1e100 }"}, [](Scene& s) { s.effects.walls[3].velocity = 1e100; }},
       {"LoadTooLarge",
        walls,
@@ -334,6 +334,10 @@ std::vector<Case> cases() {
        periodic,
        {"square_well={ width = 1.0, depth = 1.0 }"},
        [](Scene& s) { s.effects.square_well = SquareWell{1.0, 1.0, {}}; }},
+      {"WellOfOneUlp",
+       periodic,
+       {"square_well={ width = 1.0000000000000002, depth = 1.0 }"},
+       [](Scene& s) { s.effects.square_well = SquareWell{0x1.0000000000001p0, 1.0, {}}; }},
       {"WellDepthOfNaN",
        periodic,
        {"square_well={ width = 1.5, depth = nan }"},
@@ -348,7 +352,7 @@ std::vector<Case> cases() {
        [](Scene& s) { s.effects.square_well = SquareWell{1.5, 1.0, {}}, s.effects.growth = Growth{0.1, 0.5, {}, {}}; }},
       // ------------------------------------------------------------------------------------------------------ the run
       {"TimeNegative", walls, {"run.time=-1.0"}, [](Scene& s) { s.run.time = -1.0; }},
-      {"TimeInfinite", walls, {"run.time=inf"}, [](Scene& s) { s.run.time = infinite; }},
+      {"TimeInfinite", walls, {"run.time=inf"}, [](Scene& s) { s.run.time = infinite_number; }},
       {"SampleEveryZero", walls, {"run.sample_every=0.0"}, [](Scene& s) { s.run.sample_every = 0.0; }},
       {"TooManySamples", walls, {"run.sample_every=1e-300"}, [](Scene& s) { s.run.sample_every = 1e-300; }},
       {"SampleEveryNoCollisions", walls, {"run.sample_every={ collisions = 0 }"}, [](Scene& s) { s.run.sample_every_collisions = 0; }},

@@ -101,7 +101,7 @@ TEST(DenseStart, ThatJamsSaysHowFarItCame) {
 
 TEST(DenseStart, ThatWedgesADiskBetweenAWallAndAnObstacleIsRefused) {
   // Two disks of diameter 1, and a wall in the middle of a box 1.5 wide that leaves room for one of them beyond its ends.
-  Scene scene = dense(2, 0.3, Boundary::walls, Boundary::periodic);
+  Scene scene = dense(2, std::numbers::pi / 2.0 / (1.5 * 3.4), Boundary::walls, Boundary::periodic);
   scene.box = Box{{-0.75, -1.7}, {0.75, 1.7}, {Boundary::walls, Boundary::periodic}};
   scene.effects.obstacles = {{SegmentObstacle{{0.0, -1.5}, {0.0, 0.25}}, {}}};
   EXPECT_THAT(refusal([&] { (void)draw_start(scene); }), HasSubstr("the disks jam at a packing fraction of 0."));

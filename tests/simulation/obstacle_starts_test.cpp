@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+
 namespace carom::test {
 namespace {
 
@@ -51,7 +53,12 @@ RC_GTEST_PROP(PropertyObstacleStarts, RandomDisksKeepClearOfEveryImage, ()) {
   for (int o = 0; o < number; ++o) {
     const double x = 2.0 * share(), y = share();
     const double to_x = 2.0 * share(), to_y = share();
-    obstacles.push_back(*rc::gen::arbitrary<bool>() ? disk(x, y, 0.15) : segment(x, y, to_x, to_y));
+    RC_PRE(x != to_x || y != to_y);
+    const auto between_walls = [&](int axis, double value) {
+      return box.periodic(axis) ? value : std::clamp(value, 0.15, box.upper[axis] - 0.15);
+    };
+    obstacles.push_back(*rc::gen::arbitrary<bool>() ? disk(between_walls(0, x), between_walls(1, y), 0.15)
+                                                    : segment(x, y, to_x, to_y));
   }
   const Scene scene =
       among(box, obstacles, species_of(20, 0.02, 1.0, RandomPositions{}, AtRest{}), *rc::gen::arbitrary<std::uint64_t>());

@@ -96,8 +96,9 @@ RC_GTEST_PROP(PropertyGrid, IsTheSearchOfAllPairsForAnyDisks, ()) {
                       number(0.05, 0.9),
                       number(0.1, 9.0)};
     placed.push_back(disk);
-    scene.species.push_back(species_of(1, disk.radius, disk.mass, ListedPositions{{disk.r}}, ListedVelocities{{disk.v}}));
+    scene.species.push_back(species_of(1, disk.radius, disk.mass, RandomPositions{}, AtRest{}));
   }
+  RC_PRE(scene.packing_fraction() < 1.0);
   const double dt = std::pow(10.0, number(-3.0, 1.0));
   expect_same(scene, system_of(box, placed).state, dt, 50 * dt, "any");
 }

@@ -16,9 +16,7 @@ Simulation naive(const std::vector<Placed>& disks, double dt, CollisionRule rule
   Scene scene = scene_of({{-8.0, -8.0}, {8.0, 8.0}, {Boundary::walls, Boundary::walls}}, {});
   scene.effects.collision.rule = rule;
   const System system = system_of(scene.box, disks);
-  for (std::size_t i = 0; i < disks.size(); ++i)
-    scene.species.push_back(
-        species_of(1, disks[i].radius, disks[i].mass, ListedPositions{{disks[i].r}}, ListedVelocities{{disks[i].v}}));
+  for (const Placed& disk : disks) scene.species.push_back(species_of(1, disk.radius, disk.mass, RandomPositions{}, AtRest{}));
   return make_simulation(scene, system.state, FixedStep{method, dt});
 }
 

@@ -42,7 +42,6 @@ Scene placed_scene(const Box& box, const std::vector<Placed>& placed) {
   scene.box = box;
   for (const Placed& disk : placed) {
     Species species;
-    species.name = "disk";
     species.count = 1;
     species.radius = disk.radius;
     species.mass = disk.mass;

@@ -45,7 +45,8 @@ class Bytes {
 namespace decoding {
 
 /// Disks on the places of a lattice, each somewhere in its own square: as large as it fits, touching its neighbours at most.
-inline std::string decoded_disks(Bytes& bytes, const std::array<double, 4>& box) {
+/// `heaviest` becomes the largest mass.
+inline std::string decoded_disks(Bytes& bytes, const std::array<double, 4>& box, double& heaviest) {
   const int columns = 1 + bytes.below(4), rows = 1 + bytes.below(3);
   const double a = (box[1] - box[0]) / columns, b = (box[3] - box[2]) / rows;
   const double largest = 0.5 * std::fmin(a, b), speed = bytes.flag() ? 1.0 : bytes.positive();
@@ -66,20 +67,21 @@ inline std::string decoded_disks(Bytes& bytes, const std::array<double, 4>& box)
     };
     const double x = somewhere(box[0], a, i % columns), y = somewhere(box[2], b, i / columns);
     const double vx = speed * bytes.component(), vy = speed * bytes.component();
+    heaviest = std::fmax(heaviest, mass);
     text += fmt::format("[[disks]]\nradius = {}\nmass = {}\npositions = [[{}, {}]]\nvelocities = [[{}, {}]]\n", radius, mass, x,
                         y, vx, vy);
   }
   return text;
 }
 
-inline std::string decoded_wall(Bytes& bytes) {
+inline std::string decoded_wall(Bytes& bytes, double heaviest) {
   switch (bytes.below(6)) {
     case 0:
       return fmt::format("{{ temperature = {} }}", bytes.positive());
     case 1:
       return fmt::format("{{ velocity = {} }}", 0.1 * bytes.component());
     case 2:
-      return fmt::format("{{ mass = {}, load = {} }}", bytes.positive(), bytes.positive());
+      return fmt::format("{{ mass = {}, load = {} }}", std::fmax(bytes.positive(), 0x1p-52 * heaviest), bytes.positive());
     case 3:
       return fmt::format("{{ restitution = {} }}", bytes.unit());
     case 4:
@@ -89,7 +91,7 @@ inline std::string decoded_wall(Bytes& bytes) {
   }
 }
 
-inline std::string decoded_effects(Bytes& bytes, const std::array<double, 4>& box, bool walls_x, bool walls_y) {
+inline std::string decoded_effects(Bytes& bytes, const std::array<double, 4>& box, bool walls_x, bool walls_y, double heaviest) {
   const double side = std::fmin(box[1] - box[0], box[3] - box[2]);
   const int which = bytes.next();
   std::string text;
@@ -100,7 +102,7 @@ inline std::string decoded_effects(Bytes& bytes, const std::array<double, 4>& bo
     text += "[walls]\n";
     for (const char* wall : {"left", "right", "bottom", "top"}) {
       const bool along_x = wall[0] == 'l' || wall[0] == 'r';
-      if ((along_x ? walls_x : walls_y) && bytes.flag()) text += fmt::format("{} = {}\n", wall, decoded_wall(bytes));
+      if ((along_x ? walls_x : walls_y) && bytes.flag()) text += fmt::format("{} = {}\n", wall, decoded_wall(bytes, heaviest));
     }
   }
   if ((which & 4) != 0) text += fmt::format("[growth]\nrate = {}\n", 0.01 * bytes.positive());
@@ -131,14 +133,15 @@ inline std::string decoded_scene(std::span<const std::uint8_t> data) {
   const bool walls_x = (boundary & 1) != 0, walls_y = (boundary & 2) != 0;
   std::string text = fmt::format("[box]\nx = [{}, {}]\ny = [{}, {}]\nboundary = {{ x = \"{}\", y = \"{}\" }}\n", box[0], box[1],
                                  box[2], box[3], walls_x ? "walls" : "periodic", walls_y ? "walls" : "periodic");
-  text += decoding::decoded_disks(bytes, box);
+  double heaviest = 0.0;
+  text += decoding::decoded_disks(bytes, box, heaviest);
   const bool specular = bytes.flag();
   text += fmt::format("[collision]\nrule = \"{}\"\n", specular ? "specular" : "reversal");
   const int contact = bytes.next();
   if ((contact & 1) != 0) text += fmt::format("restitution = {}\n", bytes.unit());
   if ((contact & 2) != 0 && specular) text += fmt::format("roughness = {}\n", 2.0 * bytes.unit() - 1.0);
   if ((contact & 4) != 0) text += fmt::format("elastic_below = {{ time = {} }}\n", 1e-3 * bytes.positive());
-  if (bytes.flag()) text += decoding::decoded_effects(bytes, box, walls_x, walls_y);
+  if (bytes.flag()) text += decoding::decoded_effects(bytes, box, walls_x, walls_y, heaviest);
   return text + fmt::format("[run]\ntime = 1.0\nkeep_momentum = true\nseed = {}\n", 1 + bytes.below(4));
 }
 
