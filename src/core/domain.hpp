@@ -43,6 +43,14 @@ struct Domain {
     return winding;
   }
 
+  /// Whether no other image of a pair at separation r is nearer.
+  [[nodiscard]] bool nearest(const Vec2<Real>& r) const {
+    using std::abs;
+    for (int a = 0; a < 2; ++a)
+      if (periodic[a] && 2 * abs(r[a]) > length[a]) return false;
+    return true;
+  }
+
  private:
   [[nodiscard]] bool inside(const Vec2<Real>& position, int a) const { return position[a] >= lower[a] && position[a] < upper[a]; }
 };

@@ -39,11 +39,6 @@ class SquareWells {
     const std::vector<std::int32_t>& mine = of(i);
     return std::find(mine.begin(), mine.end(), j) != mine.end();
   }
-  /// The same of one image of the pair, at separation r: the image inside is the one that is near.
-  [[nodiscard]] bool holds(std::int32_t i, std::int32_t j, const Vec2<Real>& r, Real sigma) const {
-    const Real near = width_ * sigma * Real(1.0009765625);  // 1 + 2^-10: an edge, with more than all rounding
-    return r.squaredNorm() < near * near && inside(i, j);
-  }
   void enter(std::int32_t i, std::int32_t j) {
     partners(i).push_back(j);
     partners(j).push_back(i);

@@ -47,7 +47,13 @@ void check_shear(const Scene& scene) {
   if (effects.square_well) refuse_together("shear", "[shear]", "[square_well]");
 }
 
-/// Two disks must not feel each other across the box and through its edge at once.
+/// By this share of half the box a well must end before the middle between two images of a disk: more than separations are rounded
+/// by, in single precision too.
+constexpr double image_margin = 0x1p-20;
+/// Times the largest coordinate: thinner wells are lost in some thousand roundings of a separation.
+constexpr double least_thickness = 0x1p-40;
+
+/// Two disks must not feel each other across the box and through its edge at once, and a well must have a place to be in.
 void check_square_well(const Scene& scene) {
   if (!scene.effects.square_well) return;
   const SquareWell& well = *scene.effects.square_well;
@@ -56,16 +62,23 @@ void check_square_well(const Scene& scene) {
                   fmt::format("square_well.width is {}; it is the outer diameter in units of the diameter of a disk, so it must be "
                               "above 1, such as {}",
                               well.width, keys::well_width.example));
-  if (scene.effects.growth) refuse_together("square_well", "[square_well]", "[growth]");
-  const double reach = well.width * 2.0 * radii_of(scene).largest;
+  if (well.depth == 0.0) return;
+  if (scene.effects.growth && scene.effects.growth->rate > 0.0) refuse_together("square_well", "[square_well]", "[growth]");
+  const Radii radii = radii_of(scene);
+  const double reach = well.width * 2.0 * radii.largest;
   for (int axis = 0; axis < 2; ++axis) {
-    const double half = 0.5 * scene.box.lengths()[axis];
-    if (!scene.box.periodic(axis) || reach < half) continue;
-    throw Refusal(
-        "square_well",
-        fmt::format("square_well.width = {} reaches {:.6g} from disk to disk, but on a periodic axis it must stay below "
-                    "half of the length, {:.6g} in {}; make it smaller, or the box larger",
-                    well.width, reach, half, axis_names[axis]));
+    const double half = 0.5 * scene.box.lengths()[axis], coordinate = largest_coordinate(scene.box, axis);
+    if (scene.box.periodic(axis) && !(reach < half * (1.0 - image_margin)))
+      throw Refusal("square_well",
+                    fmt::format("square_well.width = {} reaches {:.6g} from disk to disk, but on a periodic axis it must stay a "
+                                "millionth below half of the length, {:.6g} in {}; make it smaller, or the box larger",
+                                well.width, reach, half, axis_names[axis]));
+    const double thickness = (well.width - 1.0) * 2.0 * radii.smallest, least = least_thickness * coordinate;
+    if (!(thickness > least))
+      throw Refusal("square_well.width",
+                    fmt::format("square_well.width is {}; it must be above 1 + {:.3g} here: the well of the smallest disks is {:.3g} "
+                                "wide, and coordinates up to {:.6g} do not tell its edge from the disk",
+                                well.width, least / (2.0 * radii.smallest), thickness, coordinate));
   }
 }
 
