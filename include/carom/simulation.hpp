@@ -151,6 +151,9 @@ std::vector<std::string> fixed_step_names();
 /// "fast", "general", "textbook", "textbook-float", ...: the engines, in the order in which "auto" prefers them.
 std::vector<std::string> engine_names();
 
+/// Those that can run a scene, in the same order. Draws the start of the scene. Throws as make_simulation() does.
+std::vector<std::string> engines_covering(const Scene& scene);
+
 /// How far a run has come, for progress lines and for the decision to go on.
 struct Progress {
   double time = 0.0;

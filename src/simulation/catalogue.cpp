@@ -24,6 +24,18 @@ namespace {
 
 std::string never(const Scene& /*scene*/, const Disks& /*disks*/) { return ""; }
 
+/// Squares of lengths, and masses, must be numbers of all digits in single precision, from 1.2e-38 to 3.4e38, with room for sums.
+std::string why_not_single(const Scene& scene, const Disks& disks) {
+  constexpr double shortest = 1e-17, longest = 1e18, lightest = 1e-36, heaviest = 1e36;
+  const double side = std::max(scene.box.lower.cwiseAbs().maxCoeff(), scene.box.upper.cwiseAbs().maxCoeff());
+  if (side > longest) return fmt::format("coordinates reach to {:.6g}, and their squares are too large for single precision", side);
+  for (const double radius : disks.radius)
+    if (radius < shortest) return fmt::format("a radius is {:.6g}, and its square is too small for single precision", radius);
+  for (const double mass : disks.mass)
+    if (mass < lightest || mass > heaviest) return fmt::format("a mass is {:.6g}, beyond the range of single precision", mass);
+  return "";
+}
+
 }  // namespace
 
 const std::vector<EngineEntry>& catalogue() {
@@ -31,7 +43,7 @@ const std::vector<EngineEntry>& catalogue() {
       {"fast", &why_not_fast, &make_fast},
       {"general", &why_not_general, &make_general},
       {"textbook", &never, &make_textbook<double>},
-      {"textbook-float", &never, &make_textbook<float>},
+      {"textbook-float", &why_not_single, &make_textbook<float>},
       {"textbook-long-double", &never, &make_textbook<long double>},
       {"textbook-quad", &never, &make_textbook<Quad>},
   };

@@ -78,6 +78,14 @@ std::vector<std::string> engine_names() {
   return names;
 }
 
+std::vector<std::string> engines_covering(const Scene& scene) {
+  const Start start = draw_start(scene);
+  std::vector<std::string> names;
+  for (const auto& entry : detail::catalogue())
+    if (entry.covers(scene, start.disks)) names.push_back(entry.name);
+  return names;
+}
+
 Simulation Simulation::begin(const Scene& scene, Start start, const std::string& engine) {
   const detail::EngineEntry& entry = detail::choose_engine(scene, start.disks, engine);
   std::string reason = detail::why_chosen(entry, scene, start.disks, engine);

@@ -268,7 +268,9 @@ class Study {
 }  // namespace
 
 std::vector<std::string> compared_engines(const Scene& scene, const std::string& engine) {
-  std::vector<std::string> names = {"textbook-float"};
+  std::vector<std::string> names;
+  const std::vector<std::string> covering = engines_covering(scene);
+  if (std::find(covering.begin(), covering.end(), "textbook-float") != covering.end()) names.emplace_back("textbook-float");
   const std::string runs_it = make_simulation(scene, engine).engine();
   names.emplace_back("textbook");
   if (runs_it == "fast") names.emplace_back("fast");

@@ -47,14 +47,16 @@ struct Precision {
   int bits;
 };
 
-/// From coarse to fine, each better than the one before.
-std::vector<Precision> ladder() {
+/// The engines that cover a scene from coarse to fine, each better than the one before.
+std::vector<Precision> ladder(const Scene& scene) {
   std::vector<Precision> all;
+  const std::vector<std::string> covering = engines_covering(scene);
   for (const Precision& one : {Precision{"textbook-float", std::numeric_limits<float>::digits},
                                Precision{"textbook", std::numeric_limits<double>::digits},
                                Precision{"textbook-long-double", std::numeric_limits<long double>::digits},
                                Precision{"textbook-quad", std::numeric_limits<Quad>::digits}})
-    if (all.empty() || one.bits > all.back().bits) all.push_back(one);
+    if (std::find(covering.begin(), covering.end(), one.engine) != covering.end() && (all.empty() || one.bits > all.back().bits))
+      all.push_back(one);
   return all;
 }
 
@@ -101,7 +103,7 @@ class HorizonSearch {
   void prepare() {
     result_.tolerance = options_.tolerance;
     result_.run_time = scene_.run.time;
-    const std::vector<Precision> precisions = ladder();
+    const std::vector<Precision> precisions = ladder(scene_);
     const bool fast = make_simulation(scene_, start_).engine() == "fast";
     const auto add = [&](const std::string& engine, int bits, std::size_t against) {
       const std::size_t own = runners_.size();

@@ -43,15 +43,6 @@ inline std::unique_ptr<AnyEngine> make_engine(const std::string& name, const Sce
   return detail::make_engine(detail::choose_engine(scene, start.disks, name), scene, start.disks, std::move(start.state));
 }
 
-/// The engines of the catalogue that cover a scene, in its order.
-inline std::vector<std::string> engines_covering(const Scene& scene) {
-  const Start start = draw_start(scene);
-  std::vector<std::string> names;
-  for (const auto& entry : detail::catalogue())
-    if (entry.covers(scene, start.disks)) names.push_back(entry.name);
-  return names;
-}
-
 /// The next `count` collisions, or all up to `until`. Goes in stretches of `stretch` events of any kind, after each of which
 /// look(engine) is called.
 template <class Look>
