@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace carom {
@@ -18,7 +19,7 @@ struct Disks {
   std::vector<std::int32_t> species;  ///< index into Scene::species
 
   [[nodiscard]] std::size_t count() const { return radius.size(); }
-  [[nodiscard]] double total_mass() const;     ///< to u + 2^-64 count() of it, u = 2^-53
+  [[nodiscard]] double total_mass() const;     ///< to u + 2^-104 count() of it, u = 2^-53
   [[nodiscard]] double mean_diameter() const;  ///< length; to u count() of it; 0 without disks
 };
 
@@ -47,6 +48,11 @@ struct State {
   std::uint64_t bonds = 0;          ///< pairs inside each other's square well
   double shear_displacement = 0.0;  ///< of the images above against those below, in [0, length along x)
 };
+
+/// The fingerprint of a state: 16 hexadecimal digits, FNV-1a of 64 bits over the time, and of each disk in turn its position, its
+/// velocity and, where there are spins, its spin, as IEEE doubles of 8 bytes, the least significant first. Two runs that end with
+/// the same digits have ended in the same bits; where one bit differs, the digits differ.
+[[nodiscard]] std::string state_hash(const State& state);
 
 /// What a disk hits where it does not hit another disk. The values stand in the place of a partner's id.
 enum Wall : std::int32_t { wall_left = -1, wall_right = -2, wall_bottom = -3, wall_top = -4 };

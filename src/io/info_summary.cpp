@@ -97,6 +97,7 @@ std::string described(const Json& json) {
       info_line("disks", fmt::format("{}, packing fraction {}", text_of(json.at("disks")), text_of(json.at("packing_fraction"))));
   text += info_line("time", fmt::format("{}, {} samples, stopped by {}", text_of(json.at("time")), text_of(json.at("samples")),
                                         text_of(json.at("stopped"))));
+  if (json.contains("state_hash")) text += info_line("state hash", text_of(json.at("state_hash")));
   text += info_line("events", events_line(json.at("events")));
   text += info_line("energy", fmt::format("{}, relative drift {}", text_of(json.at("energy").at("final")),
                                           text_of(json.at("energy").at("relative_drift"))));

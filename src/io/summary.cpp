@@ -41,6 +41,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   json["disks"] = report.disks;
   json["packing_fraction"] = number(report.packing_fraction);
   json["time"] = number(report.time);
+  json["state_hash"] = report.state_hash;
   json["samples"] = report.samples;
   json["events"] = events_json(report);
   json["wall_seconds"] = number(report.wall_seconds);

@@ -153,6 +153,7 @@ RunReport run_report_of(const Json& json) {
   report.disks = json.at("disks").get<std::int64_t>();
   report.packing_fraction = finite_in(json.at("packing_fraction"));
   report.time = finite_in(json.at("time"));
+  report.state_hash = json.value("state_hash", "");
   report.samples = json.at("samples").get<std::uint64_t>();
   report.totals = totals_in(json);
   report.wall_seconds = finite_in(json.at("wall_seconds"));

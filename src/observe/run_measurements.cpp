@@ -104,6 +104,7 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   const double temperature = kinetic_temperature(scene.box, scene.effects, disks, state);
 
   report_.time = simulation_.time();
+  report_.state_hash = state_hash(state);
   report_.samples = result.samples;
   report_.totals = simulation_.totals();
   report_.wall_seconds = wall_seconds;

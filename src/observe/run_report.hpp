@@ -35,7 +35,8 @@ struct RunReport {
   std::int64_t disks = 0;
   double packing_fraction = 0.0;
 
-  double time = 0.0;  ///< reached, since the clock's zero
+  double time = 0.0;       ///< reached, since the clock's zero
+  std::string state_hash;  ///< carom::state_hash() of the final state
   std::uint64_t samples = 0;
   Totals totals;
   double wall_seconds = 0.0;  ///< of the whole run, from scene to files

@@ -125,6 +125,7 @@ SummaryRows rows_of_what_happened(const RunReport& report, const Scene* scene) {
         {"mean free time", fmt::format("{:.4g}", report.time / per_disk), fmt::format("{:.4g} collisions per disk", per_disk)});
   }
   rows.push_back({"samples", grouped(report.samples), samples_remark(report, scene)});
+  if (!report.state_hash.empty()) rows.push_back({"state hash", report.state_hash, "the same for every run that ends in the same bits"});
   rows.push_back(
       {"took", duration(report.wall_seconds), fmt::format("{} of it in the event loop", duration(report.loop_seconds))});
   return rows;

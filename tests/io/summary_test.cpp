@@ -28,7 +28,7 @@ Json summary_of(const RunReport& report) { return Json::parse(summary_json(repor
 
 TEST(Summary, HasTheKeysOfTheSceneFormatInItsOrderAndThenItsOwn) {
   const Json json = summary_of(report_of(scene_of(2, 2)));
-  EXPECT_THAT(keys_of(json), ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time",
+  EXPECT_THAT(keys_of(json), ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time", "state_hash",
                                          "samples", "events", "wall_seconds", "collisions_per_second", "energy", "momentum",
                                          "temperature", "pressure", "overlap", "stopped", "title", "loop_seconds", "virial",
                                          "wall_impulse", "numerics", "command_line", "resolved_scene"));
@@ -110,7 +110,7 @@ RunReport report_with_effects() {
 
 TEST(Summary, EveryEffectHasItsKeyAfterThoseOfEveryRun) {
   const Json json = summary_of(report_with_effects());
-  EXPECT_THAT(keys_of(json), ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time",
+  EXPECT_THAT(keys_of(json), ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time", "state_hash",
                                          "samples", "events", "wall_seconds", "collisions_per_second", "energy", "momentum",
                                          "temperature", "pressure", "overlap", "stopped", "title", "loop_seconds", "virial",
                                          "wall_impulse", "numerics", "walls", "packing_fraction_end", "dissipated", "obstacles",

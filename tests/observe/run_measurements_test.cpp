@@ -68,6 +68,7 @@ TEST(RunMeasurements, ReportsAGasFromStartToEnd) {
   EXPECT_EQ(report.disks, 36);
   EXPECT_EQ(report.packing_fraction, scene.packing_fraction());
   EXPECT_EQ(report.time, 30.0);
+  EXPECT_EQ(report.state_hash.size(), 16U);
   EXPECT_EQ(report.samples, 61U);
   EXPECT_EQ(report.overlap_checked, 63U);  // start, samples, end
   EXPECT_LT(report.max_relative_overlap, 1e-13);
