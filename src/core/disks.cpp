@@ -1,3 +1,5 @@
+#include "core/two_doubles.hpp"
+
 #include <carom/state.hpp>
 
 #include <numeric>
@@ -5,9 +7,9 @@
 namespace carom {
 
 double Disks::total_mass() const {
-  long double sum = 0.0L;
-  for (const double m : mass) sum += static_cast<long double>(m);
-  return static_cast<double>(sum);
+  TwoDoubles sum;
+  for (const double m : mass) sum = sum.plus(m);
+  return sum.high;
 }
 
 double Disks::mean_diameter() const {

@@ -1,8 +1,11 @@
 #pragma once
 // Positions as 64-bit integers: see core/flight.hpp for why.
 
+#include "core/two_doubles.hpp"
+
 #include <carom/box.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -37,11 +40,12 @@ class StepRest {
   double rest_ = 0.0;  ///< in steps
 };
 
-/// One axis of the box as a range of integers.
+/// One axis of the box as a range of integers. Its arithmetic is that of doubles and pairs of doubles, which every machine rounds
+/// alike; long double has 53, 64 or 113 bits.
 struct FixedAxis {
   double unit = 0.0;   ///< length of one step of a coordinate
   double steps = 0.0;  ///< 1 / unit
-  long double middle = 0.0L;
+  TwoDoubles middle;
   double lower = 0.0, upper = 0.0;
   bool periodic = false;
 
@@ -50,37 +54,53 @@ struct FixedAxis {
   /// A periodic axis takes the whole range; a walled one leaves room for lines that start up to `reach` beyond the walls at
   /// the epoch. One step is the length over a power of two, so that what is dyadic for the one is so for the other.
   FixedAxis(const Box& box, int axis, double reach)
-      : middle((static_cast<long double>(box.lower[axis]) + static_cast<long double>(box.upper[axis])) / 2),
-        lower(box.lower[axis]),
-        upper(box.upper[axis]),
-        periodic(box.periodic(axis)) {
+      : lower(box.lower[axis]), upper(box.upper[axis]), periodic(box.periodic(axis)) {
+    const TwoDoubles sum = TwoDoubles::sum(lower, upper);
+    middle = {sum.high / 2.0, sum.low / 2.0};
     const double length = upper - lower;
     const int room = periodic ? 0 : std::ilogb(4.0 * (1.0 + reach / length)) + 1;
     unit = std::ldexp(length, room - 64);
     steps = 1.0 / unit;
   }
 
-  /// The coordinate of a position inside the box.
+  /// The coordinate of a position inside the box, to the nearest step. The upper edge of a periodic axis is its lower one.
   [[nodiscard]] std::int64_t at(double position) const {
-    const long double x = std::rint((static_cast<long double>(position) - middle) / static_cast<long double>(unit));
-    // The upper edge of a periodic axis is its lower one.
-    return x >= 0x1p63L ? INT64_MIN : x <= -0x1p63L ? INT64_MIN : static_cast<std::int64_t>(x);
+    const TwoDoubles apart = TwoDoubles::sum(position, -middle.high);
+    const double low = apart.low - middle.low;
+    // A double holds a coordinate to 2^10 steps; what that misses of the position is found from there.
+    const double near = std::clamp(std::rint(apart.high / unit), -0x1p63, 0x1p63 - 0x1p10);
+    const auto x = static_cast<std::int64_t>(near);
+    const TwoDoubles reached = from_middle(x);
+    const double rest = std::rint(((apart.high - reached.high) + (low - reached.low)) / unit);
+    std::int64_t found;
+    const bool beyond = !(std::abs(rest) < 0x1p62) || __builtin_add_overflow(x, static_cast<std::int64_t>(rest), &found);
+    return beyond ? INT64_MIN : found;
   }
 
-  /// In the digits of long double; a double has fewer than x.
-  [[nodiscard]] long double position(std::int64_t x) const {
-    return middle + static_cast<long double>(x) * static_cast<long double>(unit);
+  /// The position of a coordinate, rounded to a double; remainder() has what is missing of it.
+  [[nodiscard]] double position(std::int64_t x) const {
+    const TwoDoubles apart = from_middle(x);
+    const TwoDoubles sum = TwoDoubles::sum(middle.high, apart.high);
+    return sum.high + (sum.low + (apart.low + middle.low));
   }
 
-  /// What is missing of a position that was rounded. From the middle on: far from the origin a long double would not hold the
-  /// sum.
+  /// What is missing of a position that was rounded. From the middle on: far from the origin a double would not hold the sum.
   [[nodiscard]] double remainder(std::int64_t x, double position) const {
-    return static_cast<double>(static_cast<long double>(x) * static_cast<long double>(unit) -
-                               (static_cast<long double>(position) - middle));
+    const TwoDoubles exact = from_middle(x);
+    const TwoDoubles rounded = TwoDoubles::sum(position, -middle.high);
+    return (exact.high - rounded.high) + (exact.low - (rounded.low - middle.low));
   }
 
   /// A length in steps, rounded towards zero. Requires |length| < half the range.
   [[nodiscard]] std::int64_t steps_of(double length) const { return static_cast<std::int64_t>(length * steps); }
+
+ private:
+  /// x unit, to 2^-42 of a step: upper and lower bits of x apart, each of which a double holds.
+  [[nodiscard]] TwoDoubles from_middle(std::int64_t x) const {
+    const TwoDoubles upper_bits = TwoDoubles::product(static_cast<double>(x >> 11) * 0x1p11, unit);
+    const TwoDoubles s = TwoDoubles::sum(upper_bits.high, static_cast<double>(x & 0x7ff) * unit);
+    return TwoDoubles::sum(s.high, s.low + upper_bits.low);
+  }
 };
 
 }  // namespace carom

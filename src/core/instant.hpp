@@ -1,9 +1,9 @@
 #pragma once
 // A point in time as the unevaluated sum of two doubles: about 32 digits. Predictions work with short times since an
-// epoch; the epoch itself, and the sampling grid k * dt, must not lose digits however late it is. The error-free
-// transformations are Dekker's (1971) and Knuth's.
+// epoch; the epoch itself, and the sampling grid k * dt, must not lose digits however late it is.
 
-#include <cmath>
+#include "core/two_doubles.hpp"
+
 #include <cstdint>
 #include <limits>
 
@@ -15,16 +15,14 @@ struct Instant {
 
   /// k * dt without rounding. Requires k < 2^53.
   [[nodiscard]] static Instant product(std::uint64_t k, double dt) {
-    const double a = static_cast<double>(k);
-    const double p = a * dt;
-    return {p, std::fma(a, dt, -p)};
+    const TwoDoubles p = TwoDoubles::product(static_cast<double>(k), dt);
+    return {p.high, p.low};
   }
 
   /// a + b without rounding
   [[nodiscard]] static Instant sum(double a, double b) {
-    const double s = a + b;
-    const double z = s - a;
-    return {s, (a - (s - z)) + (b - z)};
+    const TwoDoubles s = TwoDoubles::sum(a, b);
+    return {s.high, s.low};
   }
 
   /// *this + t, to about 2^-104 relative

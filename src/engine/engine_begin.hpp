@@ -97,7 +97,7 @@ template <class Impact, class Layout, class World>
 Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State start, const Effects& effects, std::uint64_t seed)
     : axes_{detail::fixed_axis(box, 0, disks.count()), detail::fixed_axis(box, 1, disks.count())},
       half_{axes_[0].at(axes_[0].upper), axes_[1].at(axes_[1].upper)},
-      middle_{static_cast<double>(axes_[0].middle), static_cast<double>(axes_[1].middle)},
+      middle_{axes_[0].middle.high, axes_[1].middle.high},
       layout_(disks),
       frame_{{axes_[0].unit, axes_[1].unit},
              {axes_[0].steps, axes_[1].steps},

@@ -25,7 +25,7 @@ State Engine<Impact, Layout, World>::state() const {
       bool inside = false;
       if constexpr (!World::plain)
         if (k == 1 && world_.sliding.present()) keep_in_box(i, x, image), inside = true;
-      double position = static_cast<double>(axes_[k].position(x));
+      double position = axes_[k].position(x);
       if (axes_[k].periodic && position < axes_[k].lower) position = axes_[k].lower;  // rounded an ulp below
       if (inside && position >= axes_[k].upper) position = std::nextafter(axes_[k].upper, axes_[k].lower);
       state.remainders(k, column) = axes_[k].remainder(x, position);

@@ -30,10 +30,39 @@ RC_GTEST_PROP(PropertyFixedAxis, APositionComesBackWithinHalfAStepAndItsOwnRound
   for (int k = 0; k < 100; ++k) {
     const double place = axis.lower + (axis.upper - axis.lower) * unit(random);
     if (place >= axis.upper) continue;
-    const double back = static_cast<double>(axis.position(axis.at(place)));
-    // Half a step, one rounding of a long double in either direction at the size of the length, one of the result.
-    const double bound = 0.5 * axis.unit + 0x1p-63 * (axis.upper - axis.lower) + 0x1p-53 * std::abs(place);
+    const double back = axis.position(axis.at(place));
+    // Half a step, and one rounding of the result.
+    const double bound = 0.5 * axis.unit + 0x1p-53 * std::abs(place);
     RC_ASSERT(std::abs(back - place) <= bound);
+  }
+}
+
+using Quad = boost::multiprecision::cpp_bin_float_quad;
+
+Quad middle_of(const FixedAxis& axis) { return (Quad(axis.lower) + Quad(axis.upper)) / 2; }
+
+/// Against 113 bits: boxes of any size, far from the origin and at it.
+RC_GTEST_PROP(PropertyFixedAxis, ACoordinateIsTheNearestStepAndPositionAndRemainderHoldIt, ()) {
+  std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const double length = (1.0 + unit(random)) * std::pow(10.0, *rc::gen::element(-150, -149, -20, -1, 0, 3, 20, 148, 149));
+  const double lower = length * *rc::gen::element(0.0, -0.5, -1.0, 3.7, -1000.3, 1e6, 1e9, -1e12);
+  const FixedAxis axis = axis_of(lower, lower + length, *rc::gen::arbitrary<bool>(), length * *rc::gen::element(0.0, 1.0, 50.0));
+  for (int k = 0; k < 100; ++k) {
+    const double place = k == 0 ? axis.lower : k == 1 ? std::nextafter(axis.upper, axis.lower) : axis.lower + (axis.upper - axis.lower) * unit(random);
+    const std::int64_t x = axis.at(place);
+    const Quad exact = (Quad(place) - middle_of(axis)) / Quad(axis.unit);
+    // The length is rounded too, so that far from the origin both edges may be a step of `place` beyond the range.
+    if (axis.periodic && abs(exact) >= Quad(0x1p63) - 1) continue;
+    // The second half of the middle of the box is rounded as a double.
+    RC_ASSERT(abs(Quad(x) - exact) <= Quad(0.5 + 0x1p-40) + Quad(0x1p-104) * abs(Quad(place)) / Quad(axis.unit));
+    const double position = axis.position(x);
+    const Quad held = Quad(x) * Quad(axis.unit) + middle_of(axis);
+    RC_ASSERT(abs(Quad(position) - held) <= Quad(0x1p-53 * (1.0 + 0x1p-40)) * abs(held) + Quad(0x1p-40 * axis.unit));
+    // The remainder is rounded as a double, as is the second half of the middle of the box; and x unit is off by a little.
+    const Quad missing = held - Quad(position);
+    const Quad bound = Quad(0x1p-52) * abs(missing) + Quad(0x1p-104) * abs(Quad(position)) + Quad(0x1p-40 * axis.unit);
+    RC_ASSERT(abs(Quad(axis.remainder(x, position)) - missing) <= bound);
   }
 }
 
@@ -58,9 +87,9 @@ TEST(FixedAxis, APositionAndItsRemainderHoldEveryStepFarFromTheOriginToo) {
   for (const double lower : {0.0, 1e3, 1e9, -1e15}) {
     const FixedAxis axis = axis_of(lower, lower + 1.0, true);
     for (const std::int64_t x : {std::int64_t{0}, std::int64_t{1}, std::int64_t{0x123456789abcdef}, INT64_MAX, INT64_MIN}) {
-      const double position = static_cast<double>(axis.position(x));
+      const double position = axis.position(x);
       const double exact = static_cast<double>(x) * 0x1p-64;  // from the middle; position and middle are less than 1 apart
-      const double found = (position - static_cast<double>(axis.middle)) + axis.remainder(x, position);
+      const double found = (position - axis.middle.high) + axis.remainder(x, position);
       EXPECT_NEAR(found, exact, 0x1p-53) << lower << " " << x;
     }
   }
@@ -71,7 +100,7 @@ TEST(FixedAxis, DyadicPositionsAreExact) {
     const FixedAxis axis = axis_of(-2.0, 6.0, periodic, 5.0);
     for (int k = -2048; k < 6144; k += 7) {
       const double place = k / 1024.0;
-      EXPECT_EQ(static_cast<double>(axis.position(axis.at(place))), place);
+      EXPECT_EQ(axis.position(axis.at(place)), place);
       EXPECT_EQ(static_cast<double>(axis.at(place)) * axis.unit, place - 2.0);
     }
   }
@@ -81,15 +110,15 @@ TEST(FixedAxis, TheUpperEdgeOfAPeriodicAxisIsItsLowerOne) {
   const FixedAxis axis = axis_of(-1.0, 3.0, true);
   EXPECT_EQ(axis.at(-1.0), INT64_MIN);
   EXPECT_EQ(axis.at(3.0), INT64_MIN);
-  EXPECT_EQ(static_cast<double>(axis.position(axis.at(3.0))), -1.0);
-  EXPECT_EQ(static_cast<double>(axis.position(axis.at(std::nextafter(3.0, 0.0)))), std::nextafter(3.0, 0.0));
+  EXPECT_EQ(axis.position(axis.at(3.0)), -1.0);
+  EXPECT_EQ(axis.position(axis.at(std::nextafter(3.0, 0.0))), std::nextafter(3.0, 0.0));
 }
 
 TEST(FixedAxis, BothEdgesOfAWalledAxisAreThemselves) {
   for (const double reach : {0.0, 1.0, 100.0}) {
     const FixedAxis axis = axis_of(-1.0, 3.0, false, reach);
-    EXPECT_EQ(static_cast<double>(axis.position(axis.at(-1.0))), -1.0);
-    EXPECT_EQ(static_cast<double>(axis.position(axis.at(3.0))), 3.0);
+    EXPECT_EQ(axis.position(axis.at(-1.0)), -1.0);
+    EXPECT_EQ(axis.position(axis.at(3.0)), 3.0);
     EXPECT_EQ(axis.at(-1.0), -axis.at(3.0));
   }
 }
@@ -97,7 +126,7 @@ TEST(FixedAxis, BothEdgesOfAWalledAxisAreThemselves) {
 TEST(FixedAxis, PositionsNearAFarAwayOriginKeepTheirDigits) {
   const FixedAxis axis = axis_of(1e6, 1e6 + 1.0, true);
   for (const double place : {1e6, 1e6 + 0.1, 1e6 + 0.7, std::nextafter(1e6 + 1.0, 0.0)})
-    EXPECT_EQ(static_cast<double>(axis.position(axis.at(place))), place);
+    EXPECT_EQ(axis.position(axis.at(place)), place);
 }
 
 TEST(FixedAxis, StepsOfALengthAreRoundedTowardsZero) {
@@ -112,7 +141,6 @@ TEST(StepRest, LeavesForTheNextLengthWhatAStepCannotHold) {
   // Random lengths, and the same one again and again: a box of 800 has steps of 25 * 2^-52, where that would be rounded to one
   // side.
   const double per_length = axis_of(0.0, 800.0, false, 12800.0).steps;
-  using Quad = boost::multiprecision::cpp_bin_float_quad;
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (const double spread : {0.0, 1e-13, 1.0}) {

@@ -101,10 +101,15 @@ TEST(PhysicsRoughDisks, GiveSpinItsShare) {
 }
 
 TEST(PhysicsGranular, ADenseGasWithTheTcModelGoesOnWhereItWouldCollapse) {
-  Scene scene = gas_scene(100, 0.7, Boundary::periodic);
-  scene.effects.collision.restitution = 0.3;
-  Simulation without = make_simulation(scene);
-  EXPECT_EQ(without.run_until(200.0), StopReason::collapsed);
+  // About every second start collapses, by the last digits of its positions.
+  Scene scene;
+  StopReason without = StopReason::time;
+  for (std::uint64_t seed = 1; seed <= 10 && without != StopReason::collapsed; ++seed) {
+    scene = gas_scene(100, 0.7, Boundary::periodic, seed);
+    scene.effects.collision.restitution = 0.3;
+    without = make_simulation(scene).run_until(200.0);
+  }
+  ASSERT_EQ(without, StopReason::collapsed);
   scene.effects.collision.elastic_below = 1e-3;
   Simulation with = make_simulation(scene);
   EXPECT_EQ(with.run_until(200.0), StopReason::time);
