@@ -64,9 +64,11 @@ Scene trial_of(const Scene& scene) {
   for (const Part& part : parts_of(scene)) time += part.time, collisions += part.collisions;
   trial.run.equilibrate.reset();
   trial.run.take_no_samples();
-  trial.run.time = std::min(time, latest);
+  trial.observe.clear();
+  trial.run.time.reset();
   trial.run.collisions.reset();
   if (collisions < 1e18) trial.run.collisions = static_cast<std::uint64_t>(collisions);
+  if (time < latest || !trial.run.collisions) trial.run.time = std::min(time, latest);
   return trial;
 }
 
