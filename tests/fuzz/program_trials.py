@@ -399,12 +399,16 @@ def units(trial):
         raise Skipped("numbers at the edge of what is allowed")
     out = trial.run("other-units", "--events", scene=scene)
     with h5py.File(trial.main / "trajectory.h5md") as a, h5py.File(out / "trajectory.h5md") as b:
+        # Speeds that vanish end a run at the smallest numbers there are, and these know no units.
+        vanishing = trial.summary["stopped"] in ("collapsed", "cooled")
+        common = min(len(a["events/time"]), len(b["events/time"])) if vanishing else None
         for name in ("disk", "partner"):
-            expect(a["events"][name][()].tobytes() == b["events"][name][()].tobytes(), f"other units, other events/{name}")
+            expect(a["events"][name][:common].tobytes() == b["events"][name][:common].tobytes(), f"other units, other events/{name}")
         shift = [after - before for after, before in zip(scene.units, trial.scene.units)]
         for name, power in (("time", (0, 1)), ("velocity", (1, -1)), ("partner_velocity", (1, -1)), ("start/position", (1, 0))):
-            scaled = np.ldexp(a["events"][name][()], power[0] * shift[0] + power[1] * shift[1])
-            expect((scaled == b["events"][name][()]).all(), f"other units, other events/{name}")
+            part = common if name != "start/position" else None
+            scaled = np.ldexp(a["events"][name][:part], power[0] * shift[0] + power[1] * shift[1])
+            expect((scaled == b["events"][name][:part]).all(), f"other units, other events/{name}")
 
 
 def analyze(trial):
