@@ -70,7 +70,9 @@ class Simulation {
   [[nodiscard]] std::size_t bytes() const;
 
   [[nodiscard]] double time() const;
-  [[nodiscard]] const Totals& totals() const;
+  [[nodiscard]] Totals totals() const;
+  /// The same without its sums, at no cost.
+  [[nodiscard]] const Counts& counts() const;
 
   /// The exact state at time(), to rounding. Reading it never changes what follows.
   [[nodiscard]] State state() const;

@@ -84,17 +84,23 @@ struct Numerics {
   std::uint64_t longest_list = 0;  ///< of neighbours, of any disk at the last time that lists were made; 0 where there are none
 };
 
-/// Counts and sums over all events since the start of the measured run. Always kept, at no cost that can be measured.
-struct Totals {
-  std::uint64_t pair = 0;   ///< collisions of two disks
-  std::uint64_t wall = 0;   ///< collisions with a wall
-  std::uint64_t other = 0;  ///< bookkeeping, no physics: cell crossings of an engine, steps of a fixed-step method
-  std::uint64_t stale = 0;  ///< predictions that another collision had overtaken
-  /// sum over pair collisions of sigma_ij * (normal impulse): mass length^2 / time; the virial of the hard-disk force
-  double virial = 0.0;
+/// How often what has happened since the start of the measured run. Always kept, at no cost that can be measured.
+struct Counts {
+  std::uint64_t pair = 0;      ///< collisions of two disks
+  std::uint64_t wall = 0;      ///< collisions with a wall
+  std::uint64_t other = 0;     ///< bookkeeping, no physics: cell crossings of an engine, steps of a fixed-step method
+  std::uint64_t stale = 0;     ///< predictions that another collision had overtaken
   std::uint64_t obstacle = 0;  ///< collisions with an obstacle
   std::uint64_t well = 0;      ///< passages of the edge of a square well, or bounces there
   std::uint64_t kicks = 0;     ///< velocities redrawn by a thermostat
+  Numerics numerics;
+};
+
+/// Counts and sums over all events since the start of the measured run. The sums are those of their terms without any rounding on the
+/// way, rounded once: they do not depend on the order in which events are added.
+struct Totals : Counts {
+  /// sum over pair collisions of sigma_ij * (normal impulse): mass length^2 / time; the virial of the hard-disk force
+  double virial = 0.0;
   /// sum over wall collisions of the impulse that the wall took, outward positive, for left, right, bottom, top; mass length /
   /// time
   std::array<double, 4> wall_impulse{};
@@ -109,7 +115,6 @@ struct Totals {
   /// where there is shear
   double virial_yx = 0.0;
   Eigen::Vector2d obstacle_impulse = Eigen::Vector2d::Zero();  ///< that the obstacles took; mass length / time
-  Numerics numerics;
 };
 
 }  // namespace carom

@@ -28,7 +28,7 @@ class Contender {
   [[nodiscard]] std::string fault() const;
 
   [[nodiscard]] const std::string& engine() const { return simulation_.engine(); }
-  [[nodiscard]] const Totals& totals() const { return simulation_.totals(); }
+  [[nodiscard]] Totals totals() const { return simulation_.totals(); }
   [[nodiscard]] State state() const { return simulation_.state(); }
   [[nodiscard]] const std::vector<double>& rates() const { return rates_; }  ///< collisions per second, turn by turn
   [[nodiscard]] double median_rate() const;

@@ -3,6 +3,7 @@
 // the TC model, growing disks, wells. It holds what the loop's records do not: spins, when each disk last collided, and who is
 // inside whose well.
 
+#include "core/running_totals.hpp"
 #include "effects/impact.hpp"
 #include "effects/reversal.hpp"
 #include "effects/rough.hpp"
@@ -31,7 +32,8 @@ class AnyImpact {
         spins_(effects.collision.roughness ? disks : 0, Real(0)),
         last_(elastic_below_ > 0 && effects.dissipate() ? disks : 0, -infinity<Real>),
         wells_(effects.square_well, disks),
-        by_rule_alone_(turn_ == 1 && roughness_ == -1 && last_.empty()) {}
+        by_rule_alone_(turn_ == 1 && roughness_ == -1 && last_.empty()),
+        sheared_(effects.shear && effects.shear->rate != 0.0) {}
 
   /// A disk as it takes part in a collision.
   struct Body {
@@ -43,7 +45,7 @@ class AnyImpact {
 
   /// Disks i and j meet at separation r = r_i - r_j at time `now`, at their hard cores or at the edge of their well. `growth`: of
   /// their contact distance. Changes velocities and keeps count. Returns InelasticResult::smallness.
-  Real meet(const Vec2<Real>& r, Real growth, const Body& i, const Body& j, Real now, Totals& totals) {
+  Real meet(const Vec2<Real>& r, Real growth, const Body& i, const Body& j, Real now, RunningTotals& totals) {
     const Real before = i.v.x();
     InelasticResult<Real> impact;
     if (wells_.present() && wells_.at_edge(r, i.radius + j.radius)) {
@@ -53,11 +55,11 @@ class AnyImpact {
       ++totals.pair;
       if (owing_) settle(i, j);
       impact = by_rule_alone_ && growth == 0 ? InelasticResult<Real>{collide(r, i, j)} : collide(r, growth, i, j, now);
-      totals.dissipated += static_cast<double>(impact.lost);
-      if (growth > 0) totals.growth_energy += static_cast<double>(impact.energy + impact.lost);
+      if (impact.lost != 0) totals.dissipated.add(static_cast<double>(impact.lost));
+      if (growth > 0) totals.growth_energy.add(static_cast<double>(impact.energy + impact.lost));
     }
-    totals.virial += static_cast<double>(impact.virial);
-    totals.virial_yx += static_cast<double>(r.y() * i.mass * (i.v.x() - before));
+    totals.virial.add(static_cast<double>(impact.virial));
+    if (sheared_) totals.virial_yx.add(static_cast<double>(r.y() * i.mass * (i.v.x() - before)));
     return impact.smallness;
   }
 
@@ -134,6 +136,7 @@ class AnyImpact {
   Vec2<Real> owed_ = Vec2<Real>::Zero();  ///< momentum
   bool owing_ = false;
   bool by_rule_alone_;  ///< at a hard core
+  bool sheared_;
 };
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 #pragma once
 // What happens when two disks meet, where nothing but the collision rule acts: the lean answer in the place of any_impact.hpp.
 
+#include "core/running_totals.hpp"
 #include "effects/impact.hpp"
 
 #include <carom/effects.hpp>
@@ -26,10 +27,10 @@ class Elastic {
   };
 
   /// Disks i and j meet at separation r = r_i - r_j.
-  static void meet(const Vec2<double>& r, double /*growth*/, const Body& i, const Body& j, double /*now*/, Totals& totals) {
+  static void meet(const Vec2<double>& r, double /*growth*/, const Body& i, const Body& j, double /*now*/, RunningTotals& totals) {
     const ImpactResult<double> impact = collide<Rule, double>(r, i.mass, i.v, j.mass, j.v);
     ++totals.pair;
-    totals.virial += impact.virial;
+    totals.virial.add(impact.virial);
   }
 
   [[nodiscard]] static bool rests(std::int32_t /*i*/, double /*now*/) { return false; }

@@ -2,6 +2,7 @@
 // What is round the disks besides other disks: how they fall, the sides of the box, obstacles, images that slide; and how they
 // grow. Two answers: PlainWorld, where there are hard walls at rest or none, and AnyWorld.
 
+#include "core/running_totals.hpp"
 #include "core/sides.hpp"
 #include "effects/gravity.hpp"
 #include "effects/obstacles.hpp"
@@ -39,11 +40,11 @@ struct PlainWorld {
   [[nodiscard]] static bool still() { return true; }
 
   /// The component of the velocity across the wall is reversed.
-  static void meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double /*now*/, Totals& totals) {
+  static void meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double /*now*/, RunningTotals& totals) {
     const Wall wall = static_cast<Wall>(what);
     double& across = v[axis_of(wall)];
     ++totals.wall;
-    totals.wall_impulse[index_of(wall)] += 2.0 * disk.mass * std::abs(across);
+    totals.wall_impulse[index_of(wall)].add(2.0 * disk.mass * std::abs(across));
     across = -across;
   }
   [[nodiscard]] static bool gives_way(std::int32_t /*what*/) { return false; }
@@ -75,21 +76,21 @@ struct AnyWorld {
   [[nodiscard]] bool still() const { return !falling.present() && growth_ == 0.0 && !walls.any_moves() && !walls.any_moved(); }
 
   /// A disk meets a wall or an obstacle: changes its velocity and keeps count. Returns Walls::Hit::smallness.
-  double meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double now, Totals& totals) {
+  double meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double now, RunningTotals& totals) {
     const double growth = growth_ * disk.radius / scale(now);
     if (what <= first_obstacle) {
       ++totals.obstacle;
       const Vec2<double> normal = obstacles.from_nearest_point(first_obstacle - what, disk.r);
       const auto bounce = bounce_off<double>(normal, v, falling.g, disk.mass, disk.radius, growth);
-      totals.obstacle_impulse += bounce.impulse;
-      totals.growth_energy += bounce.energy;
+      for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(bounce.impulse[k]);
+      if (bounce.energy != 0.0) totals.growth_energy.add(bounce.energy);
       return infinity<double>;
     }
     const Wall wall = static_cast<Wall>(what);
     ++totals.wall;
     const auto hit = walls.meet(wall, v, falling.g, disk.mass, disk.radius, growth, disk.elastic, now);
-    totals.wall_impulse[index_of(wall)] += hit.impulse;
-    totals.wall_energy[index_of(wall)] += hit.energy;
+    totals.wall_impulse[index_of(wall)].add(hit.impulse);
+    totals.wall_energy[index_of(wall)].add(hit.energy);
     return hit.smallness;
   }
   /// A piston, whose motion a contact changes.

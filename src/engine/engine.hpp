@@ -636,7 +636,7 @@ class Engine {
 
   Ending ending_;
   CommonMotion<double> common_motion_;
-  Totals totals_;
+  RunningTotals totals_;
   LastInstant last_collision_;
   bool recording_ = false;  ///< events
   NoteListener listener_;   ///< to collisions
@@ -668,7 +668,8 @@ class Engine {
   // ------------------------------------------------------------------------------------- for those who look on
 
   [[nodiscard]] Instant now() const { return instant(now_); }
-  [[nodiscard]] const Totals& totals() const { return totals_; }
+  [[nodiscard]] Totals totals() const { return totals_.rounded(); }
+  [[nodiscard]] const Counts& counts() const { return totals_; }
   [[nodiscard]] std::size_t disk_count() const { return lines_.size(); }
 
   /// The state at now(), computed on the side: nothing in the engine changes.
@@ -685,7 +686,7 @@ class Engine {
     epoch_ = Instant{};
     left_ -= totals_.other;                                            // wraps, as the difference to it will
     const std::uint64_t longest_list = totals_.numerics.longest_list;  // of now, not of the time before
-    totals_ = Totals{};
+    totals_ = RunningTotals{};
     totals_.numerics.longest_list = longest_list;
   }
 

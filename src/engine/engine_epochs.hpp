@@ -109,13 +109,15 @@ void Engine<Impact, Layout, World>::rebase(double now) {
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::choose_epoch_length() {
-  double fastest[2] = {0.0, 0.0}, sum = 0.0;
+  double fastest[2] = {0.0, 0.0};
+  ExactSum speeds;
   for (const Line& a : lines_)
     for (int k = 0; k < 2; ++k) {
       fastest[k] = std::max(fastest[k], std::abs(a.v[k]));
-      sum += std::abs(a.v[k]);
+      speeds.add(std::abs(a.v[k]));
     }
   ending_.note_speeds(is_too_slow<double>(std::max(fastest[0], fastest[1]), sigma_));
+  const double sum = speeds.value();
   if (!(sum < never)) ending_.fail("a velocity is not finite");
   mean_speed_ = sum / static_cast<double>(std::max(count(), 1));
   // Rounding x + v t moves a disk by 2^-53 of the way since the epoch: some spacings for most, never more than the room

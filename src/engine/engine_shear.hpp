@@ -75,7 +75,7 @@ void Engine<Impact, Layout, World>::meet_across_edge(std::int32_t i, Vec2<double
   vb[0] += image_speed;
   const double before = vb[0];
   exchange(approach(frame_, a, b, above, now_).r, i, va, j, vb);
-  totals_.shear_energy += layout_.mass(b) * (before - vb[0]) * image_speed;
+  totals_.shear_energy.add(layout_.mass(b) * (before - vb[0]) * image_speed);
   vb[0] -= image_speed;
 }
 
@@ -90,7 +90,7 @@ void Engine<Impact, Layout, World>::cross_sliding_edge(std::int32_t i, std::int3
   // Coordinates are displaced by the nearest number of steps, disks to the left by what is left without whole box lengths.
   images_.set(i, 0, images_.of(i, 0) + up * (world_.sliding.whole_lengths(now_) - (displacement < 0 ? 1 : 0)));
   a.v[0] -= up * world_.sliding.speed();
-  totals_.shear_energy += layout_.mass(a) * (a.v[0] * a.v[0] - before * before) / 2.0;
+  totals_.shear_energy.add(layout_.mass(a) * (a.v[0] * a.v[0] - before * before) / 2.0);
   height(i) = up > 0 ? INT32_MIN : INT32_MAX;
   leave_cage(i);
   if (const Vec2<double> v(a.v[0], a.v[1]); outruns_epoch(v)) begin_epoch_between(i, v, i, v);

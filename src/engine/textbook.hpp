@@ -122,7 +122,7 @@ class TextbookEngine {
     ending_.note_loss(impact_.meet(r, (a.radius + b.radius) * growth_, {i, a.mass, radius_at(a, now_), a.v},
                                    {j, b.mass, radius_at(b, now_), b.v}, now_, totals_),
                       {i, j});
-    if (image_speed != 0) totals_.shear_energy += static_cast<double>(b.mass * (image_before - b.v[0]) * image_speed);
+    if (image_speed != 0) totals_.shear_energy.add(static_cast<double>(b.mass * (image_before - b.v[0]) * image_speed));
     b.v[0] -= image_speed;
     if (!a.v.allFinite() || !b.v.allFinite()) {
       a.v = before_a, b.v = before_b;
@@ -141,8 +141,8 @@ class TextbookEngine {
     const Vec2<Real> before = a.v;
     ++totals_.wall;
     const auto hit = walls_.meet(wall, a.v, falling_.g, a.mass, a.radius, a.radius * growth_, impact_.rests(i, now_), now_);
-    totals_.wall_impulse[index_of(wall)] += static_cast<double>(hit.impulse);
-    totals_.wall_energy[index_of(wall)] += static_cast<double>(hit.energy);
+    totals_.wall_impulse[index_of(wall)].add(static_cast<double>(hit.impulse));
+    totals_.wall_energy[index_of(wall)].add(static_cast<double>(hit.energy));
     ending_.note_loss(hit.smallness, {i});
     if (!a.v.allFinite()) return fail_after_hit(i, before);
     impact_.touched(i, now_);
@@ -162,7 +162,7 @@ class TextbookEngine {
     a.r.y() = is_upper(edge) ? domain_.lower.y() : domain_.upper.y();
     a.r.x() -= up * sliding_.displacement(now_);
     a.v.x() -= up * sliding_.speed();
-    totals_.shear_energy += static_cast<double>(a.mass * (a.v.squaredNorm() - before)) / 2;
+    totals_.shear_energy.add(static_cast<double>(a.mass * (a.v.squaredNorm() - before)) / 2);
     images_.col(i) += domain_.wrap(a.r);
     images_(0, i) += (is_upper(edge) ? 1 : -1) * sliding_.whole_lengths(now_);
     images_(1, i) += is_upper(edge) ? 1 : -1;
@@ -178,8 +178,8 @@ class TextbookEngine {
     ++totals_.obstacle;
     const Vec2<Real> normal = obstacles_.from_nearest_point(obstacle, a.r);
     const auto bounce = bounce_off<Real>(normal, a.v, falling_.g, a.mass, a.radius, a.radius * growth_);
-    totals_.obstacle_impulse += bounce.impulse.template cast<double>();
-    totals_.growth_energy += static_cast<double>(bounce.energy);
+    for (int k = 0; k < 2; ++k) totals_.obstacle_impulse[static_cast<std::size_t>(k)].add(static_cast<double>(bounce.impulse[k]));
+    totals_.growth_energy.add(static_cast<double>(bounce.energy));
     if (!a.v.allFinite()) return fail_after_hit(i, before);
     impact_.touched(i, now_);
     if (recording_) log_event(i, first_obstacle - obstacle, a.v, Vec2<Real>(0, 0));
@@ -468,7 +468,7 @@ class TextbookEngine {
   double largest_radius_;
   Ending ending_;
   CommonMotion<Real> common_motion_;
-  Totals totals_;
+  RunningTotals totals_;
   LastInstant last_collision_;
   bool recording_ = false;
   std::vector<Event> log_;
@@ -477,7 +477,8 @@ class TextbookEngine {
   // ------------------------------------------------------------------------------------- for those who look on
 
   [[nodiscard]] Instant now() const { return instant(now_); }
-  [[nodiscard]] const Totals& totals() const { return totals_; }
+  [[nodiscard]] Totals totals() const { return totals_.rounded(); }
+  [[nodiscard]] const Counts& counts() const { return totals_; }
   [[nodiscard]] std::size_t disk_count() const { return records_.size(); }
   /// Memory held, without the log.
   [[nodiscard]] std::size_t bytes() const {
@@ -496,7 +497,7 @@ class TextbookEngine {
   void reset_clock() {
     begin_epoch(now_);
     epoch_ = Instant{};
-    totals_ = Totals{};
+    totals_ = RunningTotals{};
   }
 
   /// Something from outside gives disk i a new velocity, in a sheared box relative to the flow, and, where disks spin, a new

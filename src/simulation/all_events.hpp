@@ -7,8 +7,8 @@
 
 namespace carom::detail {
 
-[[nodiscard]] inline std::uint64_t all_events(const Totals& totals) {
-  return totals.pair + totals.wall + totals.other + totals.stale + totals.obstacle + totals.well + totals.kicks;
+[[nodiscard]] inline std::uint64_t all_events(const Counts& counts) {
+  return counts.pair + counts.wall + counts.other + counts.stale + counts.obstacle + counts.well + counts.kicks;
 }
 
 }  // namespace carom::detail

@@ -48,7 +48,9 @@ class AnyEngine {
   /// When grown() or jammed() will be true at the latest, as far as the rate of growth tells.
   [[nodiscard]] virtual Instant grown_at() const { return forever; }
   [[nodiscard]] virtual Instant now() const = 0;
-  [[nodiscard]] virtual const Totals& totals() const = 0;
+  /// Rounds sums, which takes a microsecond; counts() does not.
+  [[nodiscard]] virtual Totals totals() const = 0;
+  [[nodiscard]] virtual const Counts& counts() const = 0;
   [[nodiscard]] virtual State state() const = 0;
   /// Time, velocities, scale and walls of state(), into memory that is used again; the rest may be missing.
   virtual void look_at_velocities(State& state) const { state = this->state(); }
@@ -111,7 +113,8 @@ class EngineAdapter final : public AnyEngine {
   }
   [[nodiscard]] std::string fault() const override { return engine_.fault(); }
   [[nodiscard]] Instant now() const override { return engine_.now(); }
-  [[nodiscard]] const Totals& totals() const override { return engine_.totals(); }
+  [[nodiscard]] Totals totals() const override { return engine_.totals(); }
+  [[nodiscard]] const Counts& counts() const override { return engine_.counts(); }
   [[nodiscard]] State state() const override { return engine_.state(); }
   void look_at_velocities(State& state) const override {
     if constexpr (requires { engine_.look_at_velocities(state); }) return engine_.look_at_velocities(state);
@@ -164,8 +167,8 @@ class EngineAdapter final : public AnyEngine {
 #if CAROM_CHECK_INVARIANTS
   /// Once per collision of every disk: ends the program with the first fault.
   void check_now_and_then() {
-    if (engine_.totals().pair < next_check_) return;
-    next_check_ = engine_.totals().pair + static_cast<std::uint64_t>(engine_.disk_count()) / 2 + 1;
+    if (engine_.counts().pair < next_check_) return;
+    next_check_ = engine_.counts().pair + static_cast<std::uint64_t>(engine_.disk_count()) / 2 + 1;
     const std::vector<std::string> faults = engine_.check_invariants(tolerated_overlap_);
     if (!faults.empty()) {
       std::fprintf(stderr, "carom: broken invariant: %s\n", faults.front().c_str());

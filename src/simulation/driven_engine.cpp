@@ -63,13 +63,13 @@ bool DrivenEngine::run_until(const Instant& target, std::uint64_t pair_limit, st
   bool arrived = false;
   while (!grown_ && !filled_ && event_limit > 0) {
     const Instant stop = std::min({target, kick_time_, end_, full_});
-    const std::uint64_t before = detail::all_events(engine_->totals());
+    const std::uint64_t before = detail::all_events(engine_->counts());
     arrived = engine_->run_until(stop, std::min(pair_limit, stock_at_), event_limit);
-    event_limit -= std::min(event_limit, detail::all_events(engine_->totals()) - before);
-    if (engine_->totals().pair >= stock_at_) {
+    event_limit -= std::min(event_limit, detail::all_events(engine_->counts()) - before);
+    if (engine_->counts().pair >= stock_at_) {
       arrived = false;
       take_stock();
-      if (engine_->totals().pair >= pair_limit) break;
+      if (engine_->counts().pair >= pair_limit) break;
     } else if (!arrived || target < std::min({kick_time_, end_, full_})) {
       break;
     } else if (!(stop < end_) && end_ < forever) {
@@ -117,7 +117,7 @@ void DrivenEngine::archive_all(Self& self, Archive& archive) {
           self.at_end_scale_, self.full_, self.filled_);
   archive(self.stock_at_, self.window_, self.energy_at_start_, self.stretch_start_, self.stretch_pairs_, self.stretch_virial_,
           self.stretch_energy_);
-  archive(self.totals_, self.counted_kicks_, self.kick_energy_, self.rescaling_energy_);
+  archive(self.counts_, self.counted_kicks_, self.kick_energy_, self.rescaling_energy_);
 }
 
 void DrivenEngine::save(SavingArchive& archive) const {
@@ -140,7 +140,7 @@ void DrivenEngine::reset_clock() {
 /// Whatever is counted from where the clock stands at 0.
 void DrivenEngine::begin() {
   counted_kicks_ = 0;
-  kick_energy_ = rescaling_energy_ = 0.0;
+  kick_energy_ = rescaling_energy_ = ExactSum{};
   if (growth_rate_ > 0.0) {
     start_scale_ = engine_->state().scale;
     if (end_scale_ > 0.0) end_ = ratio(std::max(0.0, end_scale_ - start_scale_), growth_rate_);
@@ -181,7 +181,7 @@ void DrivenEngine::kick() {
   const auto disk = static_cast<std::size_t>(next_.disk);
   const Eigen::Vector2d v = andersen_.velocity(next_, disks_.mass[disk]);
   const double spin = spinning_ ? andersen_.spin(next_, moment_of_inertia(disk)) : 0.0;
-  kick_energy_ += engine_->set_velocity(next_.disk, v, spin);
+  kick_energy_.add(engine_->set_velocity(next_.disk, v, spin));
   ++counted_kicks_;
   next_ = andersen_.kick(++kicks_);
   kick_time_ = kick_time_.plus(next_.wait);
@@ -196,7 +196,7 @@ void DrivenEngine::take_stock() {
 }
 
 void DrivenEngine::measure_pressure(const Energy& now) {
-  const Totals& totals = engine_->totals();
+  const Totals totals = engine_->totals();
   window_.add(engine_->now().since<double>(stretch_start_), totals.pair - stretch_pairs_, totals.virial - stretch_virial_,
               stretch_energy_, now.translation);
   stretch_start_ = engine_->now();
@@ -215,15 +215,21 @@ void DrivenEngine::rescale(const Energy& now) {
   const double factor = std::sqrt(energy_at_start_ / now.total());
   engine_->scale_velocities(factor);
   const double kept = factor * factor;
-  rescaling_energy_ += (kept - 1.0) * now.total();
+  rescaling_energy_.add((kept - 1.0) * now.total());
   stretch_energy_ = kept * now.translation;
 }
 
+Totals DrivenEngine::totals() const {
+  Totals totals = engine_->totals();
+  totals.kicks += counted_kicks_;
+  totals.kick_energy += kick_energy_.value();
+  totals.growth_energy += rescaling_energy_.value();
+  return totals;
+}
+
 void DrivenEngine::count() {
-  totals_ = engine_->totals();
-  totals_.kicks += counted_kicks_;
-  totals_.kick_energy += kick_energy_;
-  totals_.growth_energy += rescaling_energy_;
+  counts_ = engine_->counts();
+  counts_.kicks += counted_kicks_;
 }
 
 }  // namespace carom::detail

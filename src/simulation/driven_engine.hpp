@@ -3,6 +3,7 @@
 // grow (Lubachevsky & Stillinger 1990), which rescales velocities and says when to stop. Both are so rare that the loop need not
 // know of them: it runs to the time, or the number of collisions, at which the next of them is due.
 
+#include "core/exact_sum.hpp"
 #include "effects/andersen.hpp"
 #include "simulation/any_engine.hpp"
 #include "simulation/pressure_window.hpp"
@@ -38,7 +39,8 @@ class DrivenEngine final : public AnyEngine {
   [[nodiscard]] bool grown() const override { return grown_; }
   [[nodiscard]] Instant grown_at() const override { return std::min(end_, full_); }
   [[nodiscard]] Instant now() const override { return engine_->now(); }
-  [[nodiscard]] const Totals& totals() const override { return totals_; }
+  [[nodiscard]] Totals totals() const override;
+  [[nodiscard]] const Counts& counts() const override { return counts_; }
   [[nodiscard]] State state() const override;
   void look_at_velocities(State& state) const override;
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
@@ -113,10 +115,9 @@ class DrivenEngine final : public AnyEngine {
   double stretch_virial_ = 0.0;
   double stretch_energy_ = 0.0;  ///< of translation
 
-  Totals totals_;  ///< the engine's, with what came from outside
+  Counts counts_;  ///< the engine's, with what came from outside
   std::uint64_t counted_kicks_ = 0;
-  double kick_energy_ = 0.0;
-  double rescaling_energy_ = 0.0;
+  ExactSum kick_energy_, rescaling_energy_;
 };
 
 }  // namespace carom::detail

@@ -24,13 +24,13 @@ class MovingAsOne {
   }
 
   /// Events until reached() has something to say: it looks once in a million, and so at the same one whoever else looks on.
-  [[nodiscard]] std::uint64_t until_look(const Totals& totals) const {
-    return can_be() ? window - all_events(totals) % window : std::numeric_limits<std::uint64_t>::max();
+  [[nodiscard]] std::uint64_t until_look(const Counts& counts) const {
+    return can_be() ? window - all_events(counts) % window : std::numeric_limits<std::uint64_t>::max();
   }
 
   /// Whether disks move together more than 2^14 times as fast, in the mean, as they move otherwise.
   [[nodiscard]] bool reached(const AnyEngine& engine) const {
-    const std::uint64_t events = all_events(engine.totals());
+    const std::uint64_t events = all_events(engine.counts());
     if (!can_be() || events == 0 || events % window != 0) return false;
     State state;
     engine.look_at_velocities(state);

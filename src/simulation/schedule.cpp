@@ -244,7 +244,7 @@ class Schedule {
 
   /// Events so far, and new epochs.
   [[nodiscard]] std::uint64_t happenings() const {
-    return detail::all_events(engine_.totals()) + engine_.totals().numerics.epochs;
+    return detail::all_events(engine_.counts()) + engine_.counts().numerics.epochs;
   }
 
   /// Of every grid that has one now; the state is that of all of them. False where it is none: then the run ends.
@@ -281,15 +281,15 @@ class Schedule {
       const std::uint64_t next = counted_ > collisions / sample_collisions_ ? collisions : counted_ * sample_collisions_;
       if (advance(target, next)) return true;
       if (result_.stopped != StopReason::collisions) return false;
-      if (engine_.totals().pair >= counted_ * sample_collisions_ && !take_counted_sample()) return false;
-      if (engine_.totals().pair >= collisions) return false;
+      if (engine_.counts().pair >= counted_ * sample_collisions_ && !take_counted_sample()) return false;
+      if (engine_.counts().pair >= collisions) return false;
       result_.stopped = StopReason::time;  // it goes on
     }
   }
 
   /// A fixed step may have brought several collisions at once: its sample is that of the last of them. False as take_samples().
   bool take_counted_sample() {
-    const std::uint64_t k = engine_.totals().pair / sample_collisions_;
+    const std::uint64_t k = engine_.counts().pair / sample_collisions_;
     if (hooks_.sample) {
       const State state = engine_.state();
       if (!is_finite(state)) return false;
@@ -313,12 +313,12 @@ class Schedule {
       if (recording_) take_events();
       hand_over_notes();
       if (hooks_.verify_every > 0 && since_verified_ >= hooks_.verify_every && !verify()) return false;
-      if (engine_.totals().pair >= next_block_) {
+      if (engine_.counts().pair >= next_block_) {
         if (hooks_.block) hooks_.block(progress());
         next_block_ += block_collisions_;
       }
       if (!engine_.fault().empty()) return stop(StopReason::invalid_state);
-      if (engine_.totals().pair >= collisions) return stop(StopReason::collisions);
+      if (engine_.counts().pair >= collisions) return stop(StopReason::collisions);
       if (arrived && target < forever) return true;
       if (const auto reason = detail::why_stopped(engine_, effects_)) return stop(*reason);
       if (const auto reason = standstill_.reached(engine_, end_)) return stop_at_standstill(*reason, target, collisions);
@@ -329,20 +329,20 @@ class Schedule {
 
   /// True when the engine stands at the target.
   bool run_stretch(const Instant& target, std::uint64_t pair_limit) {
-    const std::uint64_t pairs = engine_.totals().pair;
-    const std::uint64_t before = detail::all_events(engine_.totals()), epochs = engine_.totals().numerics.epochs;
+    const std::uint64_t pairs = engine_.counts().pair;
+    const std::uint64_t before = detail::all_events(engine_.counts()), epochs = engine_.counts().numerics.epochs;
     const Instant began = engine_.now();
     const auto started = Clock::now();
     const std::uint64_t limit = std::min(
-        {recording_ ? recorded_events : stretch_events, until_verified(), moving_as_one_.until_look(engine_.totals())});
+        {recording_ ? recorded_events : stretch_events, until_verified(), moving_as_one_.until_look(engine_.counts())});
     const bool arrived = engine_.run_until(target, pair_limit, limit);
     result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
-    const std::uint64_t events = detail::all_events(engine_.totals()) - before;
+    const std::uint64_t events = detail::all_events(engine_.counts()) - before;
     stands_ = events > 0 && !(began < engine_.now());
     if (!stands_) standing_.clear();
     since_verified_ += events;
-    const std::uint64_t begun = engine_.totals().numerics.epochs - epochs;  // walls may outrun all disks, and nothing else happens
-    without_collision_ = engine_.totals().pair > pairs ? 0 : without_collision_ + events + begun;
+    const std::uint64_t begun = engine_.counts().numerics.epochs - epochs;  // walls may outrun all disks, and nothing else happens
+    without_collision_ = engine_.counts().pair > pairs ? 0 : without_collision_ + events + begun;
     return arrived;
   }
 

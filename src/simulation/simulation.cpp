@@ -25,7 +25,7 @@ StopReason run_to(detail::AnyEngine& engine, const Disks& disks, const Effects& 
     throw std::invalid_argument("a simulation runs to a finite time only");
   for (detail::Standstill standstill(disks, effects); !engine.run_until(target, collision_limit, stretch_events);) {
     if (const auto reason = detail::why_stopped(engine, effects)) return *reason;
-    if (engine.totals().pair >= collision_limit) return StopReason::collisions;
+    if (engine.counts().pair >= collision_limit) return StopReason::collisions;
     if (const auto reason = standstill.reached(engine, {target, collision_limit})) return *reason;
   }
   return StopReason::time;
@@ -45,7 +45,8 @@ std::optional<double> Simulation::time_step() const { return parts_->time_step; 
 const std::string& Simulation::engine_reason() const { return parts_->engine_reason; }
 std::size_t Simulation::bytes() const { return parts_->engine->bytes(); }
 double Simulation::time() const { return parts_->engine->now().high; }
-const Totals& Simulation::totals() const { return parts_->engine->totals(); }
+Totals Simulation::totals() const { return parts_->engine->totals(); }
+const Counts& Simulation::counts() const { return parts_->engine->counts(); }
 State Simulation::state() const { return parts_->engine->state(); }
 
 StopReason Simulation::run_until(double time, std::uint64_t collision_limit) {

@@ -35,7 +35,7 @@ class Standstill {
 
   /// Asked now and then: why the run will not come to its end, or nothing.
   [[nodiscard]] std::optional<StopReason> reached(const AnyEngine& engine, const RunEnd& end) {
-    const std::uint64_t events = all_events(engine.totals()) + engine.totals().numerics.epochs;
+    const std::uint64_t events = all_events(engine.counts()) + engine.counts().numerics.epochs;
     if (events < block_.events) start_anew(engine, events);  // the clock was reset
     if (creeps(engine, events)) return reason_;
     if (converges(engine, events, end)) return reason_;
@@ -74,7 +74,7 @@ class Standstill {
   }
 
   [[nodiscard]] static Point point(const AnyEngine& engine, std::uint64_t events) {
-    return {engine.now(), events, engine.totals().pair};
+    return {engine.now(), events, engine.counts().pair};
   }
   void start_anew(const AnyEngine& engine, std::uint64_t events) {
     block_ = mark_ = point(engine, events);

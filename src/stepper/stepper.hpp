@@ -52,7 +52,8 @@ class Stepper {
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
   [[nodiscard]] Instant now() const { return now_; }
-  [[nodiscard]] const Totals& totals() const { return tally_.totals; }
+  [[nodiscard]] Totals totals() const { return tally_.totals.rounded(); }
+  [[nodiscard]] const Counts& counts() const { return tally_.totals; }
   [[nodiscard]] std::size_t disk_count() const { return bodies_.count(); }
   /// Memory held, without the log.
   [[nodiscard]] std::size_t bytes() const { return bodies_.bytes() + step_.bytes(); }

@@ -2,6 +2,7 @@
 // What a step counts and logs: the same totals and the same event log as the engines keep, taken from what the method did,
 // whether or not it should have.
 
+#include "core/running_totals.hpp"
 #include "core/vec2.hpp"
 
 #include <carom/state.hpp>
@@ -18,7 +19,7 @@ class Tally {
   /// parting were sent back.
   void pair(std::size_t i, std::size_t j, double virial, const Vec2<double>& v_i, const Vec2<double>& v_j) {
     ++totals.pair;
-    totals.virial += virial;
+    totals.virial.add(virial);
     if (!recording) return;
     const bool in_order = i < j;
     log.push_back({time, 0.0, static_cast<std::int32_t>(in_order ? i : j), static_cast<std::int32_t>(in_order ? j : i),
@@ -28,11 +29,11 @@ class Tally {
   /// A velocity was turned round at a wall; `impulse` is what the wall took, outward positive.
   void wall(std::size_t i, Wall which, double impulse, const Vec2<double>& v) {
     ++totals.wall;
-    totals.wall_impulse[static_cast<std::size_t>(-1 - which)] += impulse;
+    totals.wall_impulse[static_cast<std::size_t>(-1 - which)].add(impulse);
     if (recording) log.push_back({time, 0.0, static_cast<std::int32_t>(i), which, v, Eigen::Vector2d::Zero()});
   }
 
-  Totals totals;
+  RunningTotals totals;
   bool recording = false;
   double time = 0.0;  ///< of the present step
   std::vector<Event> log;

@@ -1,0 +1,38 @@
+#pragma once
+// What an engine counts and adds up while it runs.
+
+#include "core/exact_sum.hpp"
+
+#include <carom/state.hpp>
+
+#include <array>
+#include <cstddef>
+
+namespace carom {
+
+/// Totals as they grow: sums without rounding.
+struct RunningTotals : Counts {
+  ExactSum virial, virial_yx;
+  std::array<ExactSum, 4> wall_impulse, wall_energy;
+  ExactSum dissipated, kick_energy, growth_energy, shear_energy;
+  std::array<ExactSum, 2> obstacle_impulse;
+
+  /// The totals so far. Takes a microsecond: not for every event.
+  [[nodiscard]] Totals rounded() const {
+    Totals totals{static_cast<const Counts&>(*this)};
+    totals.virial = virial.value();
+    totals.virial_yx = virial_yx.value();
+    for (std::size_t w = 0; w < wall_impulse.size(); ++w) {
+      totals.wall_impulse[w] = wall_impulse[w].value();
+      totals.wall_energy[w] = wall_energy[w].value();
+    }
+    totals.dissipated = dissipated.value();
+    totals.kick_energy = kick_energy.value();
+    totals.growth_energy = growth_energy.value();
+    totals.shear_energy = shear_energy.value();
+    for (std::size_t k = 0; k < obstacle_impulse.size(); ++k) totals.obstacle_impulse[static_cast<Eigen::Index>(k)] = obstacle_impulse[k].value();
+    return totals;
+  }
+};
+
+}  // namespace carom
