@@ -40,15 +40,18 @@ struct Sizes {
   std::optional<double> duration;  ///< of a run that ends by its time alone
 };
 
+double lightest_of(const Species& species) {
+  return species.masses.empty() ? species.mass : *std::min_element(species.masses.begin(), species.masses.end());
+}
+
 Sizes sizes_of(const Scene& scene) {
   Sizes sizes;
   sizes.smallest = radii_of(scene).smallest;
   sizes.lightest = std::numeric_limits<double>::infinity();
   for (const Species& species : scene.species) {
     if (species.count == 0) continue;
-    const auto [low, high] = std::minmax_element(species.masses.begin(), species.masses.end());
-    sizes.lightest = std::min(sizes.lightest, species.masses.empty() ? species.mass : *low);
-    sizes.heaviest = std::max(sizes.heaviest, species.masses.empty() ? species.mass : *high);
+    sizes.lightest = std::min(sizes.lightest, lightest_of(species));
+    sizes.heaviest = std::max(sizes.heaviest, species.masses.empty() ? species.mass : *std::max_element(species.masses.begin(), species.masses.end()));
   }
   sizes.longest = scene.box.lengths().maxCoeff();
   sizes.shortest = scene.box.lengths().minCoeff();
@@ -75,6 +78,11 @@ std::vector<Drive> drives_of(const Scene& scene, const Sizes& sizes) {
   const auto from_energy = [&](const std::string& path, double value, long double energy, double lightest, double heaviest) {
     put(path, value, std::sqrt(energy / heaviest), std::sqrt(energy / lightest), 2, true);
   };
+  // How slow disks may begin is asked of the velocities that are drawn.
+  for (std::size_t s = 0; s < scene.species.size(); ++s)
+    if (const auto* law = std::get_if<MaxwellVelocities>(&scene.species[s].velocities))
+      put(fmt::format("disks.{}.velocities.temperature", s), law->temperature, std::numeric_limits<long double>::infinity(),
+          std::sqrt(static_cast<long double>(law->temperature) / lightest_of(scene.species[s])), 2, false);
   for (std::size_t w = 0; w < effects.walls.size(); ++w) {
     const WallProperties& wall = effects.walls[w];
     const std::string path = fmt::format("walls.{}", wall_names[w]);
@@ -117,8 +125,7 @@ double start_speed(const Species& species) {
   if (const auto* law = std::get_if<ListedVelocities>(&species.velocities)) return largest(law->values);
   if (const auto* law = std::get_if<FileVelocities>(&species.velocities)) return largest(law->values);
   if (const auto* law = std::get_if<MaxwellVelocities>(&species.velocities))
-    return std::sqrt(law->temperature /
-                     (species.masses.empty() ? species.mass : *std::min_element(species.masses.begin(), species.masses.end())));
+    return std::sqrt(law->temperature / lightest_of(species));
   return 0.0;
 }
 

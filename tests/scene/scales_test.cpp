@@ -57,6 +57,7 @@ TEST(Scales, SpeedsThatEffectsGiveStayInRange) {
   expect_most("walls", by_collisions, "walls.top={{ mass = 2.0, load = {:e} }}", most * most / 8.0, fast);  // m v^2 / 2 = 4 load
   expect_most("walls", by_collisions, "walls.top={{ mass = 0.25, load = {:e} }}", most * most / 32.0, fast);
   expect_most("walls", by_collisions, "gravity.acceleration=[0.0, -{:e}]", most * most / 4.0, fast);  // v^2 = 2 g 2
+  expect_most("periodic", by_collisions, "disks.0.velocities={{ temperature = {:e} }}", most * most, fast);
   expect_most("periodic", by_collisions, "growth={{ rate = {:e}, until = {{ pressure = 10.0 }} }}", most / 2.0, fast);
   expect_most("periodic", by_collisions, "thermostat={{ temperature = {:e}, rate = 1.0 }}", most * most, fast);
   expect_least("periodic", by_collisions, "thermostat={{ temperature = {:e}, rate = 1e-150 }}", least * least, slow);
