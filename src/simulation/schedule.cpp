@@ -339,7 +339,7 @@ class Schedule {
     result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
     const std::uint64_t events = detail::all_events(engine_.counts()) - before;
     stands_ = events > 0 && !(began < engine_.now());
-    if (!stands_) standing_.clear();
+    if (began < engine_.now()) standing_.clear();
     since_verified_ += events;
     const std::uint64_t begun = engine_.counts().numerics.epochs - epochs;  // walls may outrun all disks, and nothing else happens
     without_collision_ = engine_.counts().pair > pairs ? 0 : without_collision_ + events + begun;

@@ -238,6 +238,30 @@ TEST(ResumedSchedule, EndsAtANewEndAsIfItHadBeenTheFirst) {
   }
 }
 
+/// It may be killed when the engine has jammed and the files of the end are not there yet.
+TEST(ResumedSchedule, NamesTheDisksThatHadJammedBefore) {
+  Scene scene = scene_of({{0.0, 0.0}, {2.0, 8.0}, {Boundary::walls, Boundary::walls}},
+                         {species_of(3, 0.5, 1.0, ListedPositions{{{1.0, 6.0}, {0.5, 1.0}, {1.5, 1.0}}},
+                                     ListedVelocities{{{0.0, 1.0}, {1.0, 0.0}, {0.0, 0.0}}})});
+  scene.run.time = 1.0;
+  Simulation whole = make_simulation(scene);
+  std::stringstream simulation, schedule;
+  RunHooks hooks;
+  hooks.checkpoint = [&](const SavingMoment& moment) {
+    if (!moment.ended) return;
+    whole.save(simulation);
+    moment.save(schedule);
+  };
+  const RunResult ended = run_schedule(whole, hooks);
+  ASSERT_EQ(ended.stopped_disks, (std::vector<std::int32_t>{1, 2}));
+  Simulation resumed = restore_simulation(scene, simulation);
+  RunHooks from;
+  from.resume = &schedule;
+  const RunResult again = run_schedule(resumed, from);
+  EXPECT_EQ(again.stopped, StopReason::jammed);
+  EXPECT_EQ(again.stopped_disks, ended.stopped_disks);
+}
+
 /// A view of the run may be there for one of its parts.
 TEST(ResumedSchedule, AGridBehindTheOthersMayComeAndGo) {
   Scene scene = parse_scene(fluid);
