@@ -68,7 +68,8 @@ Scene trial_of(const Scene& scene) {
   trial.run.time.reset();
   trial.run.collisions.reset();
   if (collisions < 1e18) trial.run.collisions = static_cast<std::uint64_t>(collisions);
-  if (time < latest || !trial.run.collisions) trial.run.time = std::min(time, latest);
+  if (time < unlimited) trial.run.time = time;
+  if (!trial.run.time && !trial.run.collisions) trial.run.time = latest;
   return trial;
 }
 
