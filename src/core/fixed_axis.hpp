@@ -19,8 +19,8 @@ class StepRest {
   /// whole numbers of some fraction of a step every time, and all are rounded to one side then. Requires |speed * time| < half
   /// the range.
   std::int64_t steps_of(double speed, double time, double per_length) {
-    const double length = speed * time;
-    return whole(length, per_length) + whole(std::fma(speed, time, -length), per_length);
+    const TwoDoubles length = TwoDoubles::product(speed, time);
+    return whole(length.high, per_length) + whole(length.low, per_length);
   }
   /// Steps become twice as long: those so far, of which half go on.
   std::int64_t coarsened(std::int64_t steps) {

@@ -14,7 +14,7 @@ namespace carom {
 struct RunningTotals : Counts {
   ExactSum virial, virial_yx;
   std::array<ExactSum, 4> wall_impulse, wall_energy;
-  ExactSum dissipated, kick_energy, growth_energy, shear_energy;
+  ExactSum dissipated, growth_energy, shear_energy;
   std::array<ExactSum, 2> obstacle_impulse;
 
   /// The totals so far. Takes a microsecond: not for every event.
@@ -27,7 +27,6 @@ struct RunningTotals : Counts {
       totals.wall_energy[w] = wall_energy[w].value();
     }
     totals.dissipated = dissipated.value();
-    totals.kick_energy = kick_energy.value();
     totals.growth_energy = growth_energy.value();
     totals.shear_energy = shear_energy.value();
     for (std::size_t k = 0; k < obstacle_impulse.size(); ++k) totals.obstacle_impulse[static_cast<Eigen::Index>(k)] = obstacle_impulse[k].value();

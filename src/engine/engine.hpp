@@ -25,6 +25,7 @@
 #include "core/prediction.hpp"
 #include "core/sides.hpp"
 #include "core/sliding_separation.hpp"
+#include "core/two_doubles.hpp"
 #include "core/vec2.hpp"
 #include "effects/any_impact.hpp"
 #include "effects/elastic.hpp"
@@ -492,9 +493,8 @@ class Engine {
   }
   /// line + g t - v, which v is rounded from or that was rounded to `line`.
   [[nodiscard]] static double missing(double line, double g, double t, double v) {
-    const double fall = g * t, sum = line + fall, share = sum - line;
-    const double rest = (line - (sum - share)) + (fall - share);  // sum + rest is line + fall (Knuth)
-    return ((sum - v) + rest) + std::fma(g, t, -fall);
+    const TwoDoubles fall = TwoDoubles::product(g, t), sum = TwoDoubles::sum(line, fall.high);
+    return ((sum.high - v) + sum.low) + fall.low;
   }
   /// The same of a pair whose coordinates have been moved.
   [[gnu::noinline, gnu::cold]] void count_images(const CollidedPair& pair) {
