@@ -64,7 +64,7 @@ double crowding(const Box& box, const State& state) {
 }
 
 std::string fault_of(const Change& change, const test::AnyEngine& engine) {
-  const Totals& totals = engine.totals();
+  const Totals totals = engine.totals();
   const double before = kinetic_energy(change.start.disks, change.start.state);
   const double after = kinetic_energy(change.start.disks, engine.state());
   const double drift = after - before + totals.dissipated - totals.growth_energy;

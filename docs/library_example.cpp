@@ -12,7 +12,7 @@ int main(int argc, char** argv) try {
   simulation.run_until(1.0);
 
   const carom::State state = simulation.state();
-  const carom::Totals& totals = simulation.totals();
+  const carom::Totals totals = simulation.totals();
   std::printf("%zu disks at time %g\n", simulation.disks().count(), state.time);
   std::printf("%llu collisions of pairs, %llu with walls\n", static_cast<unsigned long long>(totals.pair),
               static_cast<unsigned long long>(totals.wall));

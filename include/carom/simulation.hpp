@@ -70,8 +70,9 @@ class Simulation {
   [[nodiscard]] std::size_t bytes() const;
 
   [[nodiscard]] double time() const;
+  /// The counts and sums of all events since the start of the measured run. Rounding the sums takes about a microsecond.
   [[nodiscard]] Totals totals() const;
-  /// The same without its sums, at no cost.
+  /// The counts of totals() alone, at no cost.
   [[nodiscard]] const Counts& counts() const;
 
   /// The exact state at time(), to rounding. Reading it never changes what follows.
@@ -131,8 +132,8 @@ Simulation make_simulation(const Scene& scene, const std::string& engine = "auto
 /// The same from a given state in place of the scene's own start, at time 0: its positions, velocities and images, and what
 /// effects of this scene go on from: spins where there is roughness, the scale of radii where disks grow, places of moving walls
 /// and velocities of pistons, the displacement by shear. The rest is dropped, remainders too, so that every engine begins with
-/// the same numbers. The scene is checked as above. Throws std::invalid_argument too where any of it is not finite, a position is outside the box, or there is
-/// not one position and one velocity for each of the scene's disks.
+/// the same numbers. The scene is checked as above. Throws std::invalid_argument too where any of it is not finite, a position is
+/// outside the box, or there is not one position and one velocity for each of the scene's disks.
 Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine = "auto");
 
 /// The scene advanced by a fixed-step method in place of exact events, through the same door: states between two steps are those
@@ -153,7 +154,7 @@ std::vector<std::string> fixed_step_names();
 /// "fast", "general", "textbook", "textbook-float", ...: the engines, in the order in which "auto" prefers them.
 std::vector<std::string> engine_names();
 
-/// Those that can run a scene, in the same order. Draws the start of the scene. Throws as make_simulation() does.
+/// The names of the engines that can run a scene, in the order of engine_names(). Draws the start of the scene. Throws as make_simulation() does.
 std::vector<std::string> engines_covering(const Scene& scene);
 
 /// How far a run has come, for progress lines and for the decision to go on.

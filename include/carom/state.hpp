@@ -84,7 +84,7 @@ struct Numerics {
   std::uint64_t longest_list = 0;  ///< of neighbours, of any disk at the last time that lists were made; 0 where there are none
 };
 
-/// How often what has happened since the start of the measured run. Always kept, at no cost that can be measured.
+/// The numbers of events since the start of the measured run, by kind. Always kept, at no cost that can be measured.
 struct Counts {
   std::uint64_t pair = 0;      ///< collisions of two disks
   std::uint64_t wall = 0;      ///< collisions with a wall

@@ -56,7 +56,7 @@ std::vector<Contender> race(std::int64_t disks, double packing_fraction, std::ui
 }
 
 Json json_of(const Contender& contender) {
-  const Totals& totals = contender.totals();
+  const Totals totals = contender.totals();
   const auto pairs = static_cast<double>(totals.pair);
   const auto [slowest, fastest] = std::minmax_element(contender.rates().begin(), contender.rates().end());
   const std::optional<double> bytes = contender.bytes_per_disk();

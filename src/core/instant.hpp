@@ -27,8 +27,8 @@ struct Instant {
 
   /// *this + t, to about 2^-104 relative
   [[nodiscard]] Instant plus(double t) const {
-    const Instant s = sum(high, t);
-    return sum(s.high, s.low + low);
+    const TwoDoubles s = TwoDoubles{high, low}.plus(t);
+    return {s.high, s.low};
   }
 
   /// Time since `earlier`, rounded once to the number type asked for.

@@ -241,7 +241,7 @@ class Study {
     }
     // Exact engines have made lists and predictions before the clock runs, which would flatter a short stretch: the steady price.
     if (method.exact()) run.seconds_early = run.seconds * plan.early_time() / run.time;
-    const Totals& totals = simulation.totals();
+    const Totals totals = simulation.totals();
     const double count = static_cast<double>(disks.count());
     run.pair = totals.pair;
     run.Z = compressibility(totals.virial / run.time, count, kinetic_temperature(scene_.box, disks, start));
