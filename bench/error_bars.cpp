@@ -10,8 +10,8 @@
 
 #include "observe/run_measurements.hpp"
 
-#include <carom/carom.hpp>
 #include <fmt/format.h>
+#include <carom/carom.hpp>
 
 #include <algorithm>
 #include <array>
@@ -36,7 +36,8 @@ struct Case {
 constexpr std::string_view of_states =
     "pressure = true\ncollision_rate = true\ntemperature = true\nspeeds = true\nvelocity_moments = true\n"
     "mean_square_displacement = true\nvelocity_autocorrelation = true\n";
-constexpr std::string_view of_structure = "radial_distribution = { range = 3.0 }\nstructure_factor = { largest = 10.0 }\nhexatic = true\n";
+constexpr std::string_view of_structure =
+    "radial_distribution = { range = 3.0 }\nstructure_factor = { largest = 10.0 }\nhexatic = true\n";
 
 std::string box_of(std::string_view boundary, double aspect = 1.0) {
   return fmt::format("[box]\naspect = {}\nboundary = \"{}\"\n", aspect, boundary);
@@ -62,17 +63,21 @@ std::string run(double time, double equilibrate) {
 
 std::vector<Case> cases() {
   const std::string specular = rule("specular"), observe = fmt::format("[observe]\n{}", of_states);
-  const std::string structure(of_structure), transport = "viscosity = true\nheat_conductivity = true\n", flights = "free_flight = true\n";
+  const std::string structure(of_structure), transport = "viscosity = true\nheat_conductivity = true\n",
+                                             flights = "free_flight = true\n";
   const std::string thermal_walls =
-      "[walls]\nleft = { temperature = 1.0 }\nright = { temperature = 1.0 }\nbottom = { temperature = 1.0 }\ntop = { temperature = "
+      "[walls]\nleft = { temperature = 1.0 }\nright = { temperature = 1.0 }\nbottom = { temperature = 1.0 }\ntop = { temperature "
+      "= "
       "1.0 }\n";
   return {
       {"gas", box_of("periodic") + disks(64, 0.2) + specular + run(400.0, 50) + observe + structure + transport + flights},
-      {"dense", box_of("periodic") + disks(64, 0.62, "hexagonal") + specular + run(60.0, 200) + observe + structure + transport + flights},
-      {"crystal", box_of("periodic", 2.0 / std::sqrt(3.0)) + disks(64, 0.78, "hexagonal") + specular + run(30.0, 100) + observe + flights},
+      {"dense",
+       box_of("periodic") + disks(64, 0.62, "hexagonal") + specular + run(60.0, 200) + observe + structure + transport + flights},
+      {"crystal",
+       box_of("periodic", 2.0 / std::sqrt(3.0)) + disks(64, 0.78, "hexagonal") + specular + run(30.0, 100) + observe + flights},
       {"walls", box_of("walls") + disks(64, 0.3) + specular + run(200.0, 50) + observe + flights + "wall_fluxes = true\n"},
-      {"thermal_walls",
-       box_of("walls") + disks(64, 0.3) + specular + thermal_walls + run(600.0, 200) + observe + flights + "wall_fluxes = true\n"},
+      {"thermal_walls", box_of("walls") + disks(64, 0.3) + specular + thermal_walls + run(600.0, 200) + observe + flights +
+                            "wall_fluxes = true\n"},
       {"thermostat", box_of("periodic") + disks(64, 0.3) + specular + "[thermostat]\ntemperature = 1.0\nrate = 0.5\n" +
                          run(200.0, 100) + observe},
       {"mixture_10", box_of("periodic") + mixture(10.0) + specular + run(300.0, 200) + observe},
@@ -117,7 +122,8 @@ void note(Numbers& numbers, const Measurement& measured, double time) {
   }
 }
 
-/// Standard deviation of the values over the root mean square of their errors; NaN of what is conserved, and scatters by rounding.
+/// Standard deviation of the values over the root mean square of their errors; NaN of what is conserved, and scatters by
+/// rounding.
 double ratio(const Seen& seen) {
   const double n = static_cast<double>(seen.values.size());
   double mean = 0.0, scatter = 0.0, reported = 0.0;
@@ -176,7 +182,8 @@ void study(const Case& one, int seeds, bool all_rows) {
     if (report.Z) note(numbers["summary.Z"], 0, 0.0, *report.Z, report.Z_error.value_or(NAN));
     for (const Measurement& measured : observation.results()) note(numbers, measured, simulation.time());
   }
-  fmt::print("\n{}, {} seeds\n\n| number | scatter over reported | least | most | rows |\n|---|---|---|---|---|\n", one.name, seeds);
+  fmt::print("\n{}, {} seeds\n\n| number | scatter over reported | least | most | rows |\n|---|---|---|---|---|\n", one.name,
+             seeds);
   for (const auto& [name, rows] : numbers) {
     if (all_rows)
       for (const Seen& seen : rows) print(fmt::format("{} {:.5f}", name, seen.lag), {seen});

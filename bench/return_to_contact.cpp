@@ -6,14 +6,15 @@
 //
 // SCENE: a periodic box, equal disks, rule "specular". Trajectories are compared with one of 113 bits after COLLISIONS_PER_DISK.
 // STEP: in mean free times; 0.5 to 0.01 unless named. Eight starts: the scene's seed and the seven after it. A step that is not
-// right to rounding has no price of its trajectory, and one whose Z is off by more than three standard errors none of its pressure.
+// right to rounding has no price of its trajectory, and one whose Z is off by more than three standard errors none of its
+// pressure.
 
 #include "core/vec2.hpp"
 #include "effects/impact.hpp"
 #include "effects/specular.hpp"
+#include "stepper/bodies.hpp"
 #include "study/method.hpp"
 #include "study/reference.hpp"
-#include "stepper/bodies.hpp"
 
 #include <fmt/format.h>
 #include <carom/carom.hpp>
@@ -34,7 +35,7 @@ namespace {
 using namespace carom;
 
 constexpr std::uint64_t starts = 8;
-constexpr double right = 1e-12;             ///< diameters: errors below this are rounding
+constexpr double right = 1e-12;              ///< diameters: errors below this are rounding
 constexpr double collisions_for_Z = 4000.0;  ///< per disk
 
 /// The fixed-step method that returns to the moment of contact.
@@ -151,11 +152,11 @@ class Backtrack {
   Bodies bodies_;
   double dt_;
   double sigma_squared_;
-  std::vector<double> since_;                        ///< the moment of a disk's last collision in this step, or its begin
-  std::vector<std::uint32_t> turns_;                 ///< collisions of each disk
+  std::vector<double> since_;         ///< the moment of a disk's last collision in this step, or its begin
+  std::vector<std::uint32_t> turns_;  ///< collisions of each disk
   std::vector<std::vector<std::uint32_t>> neighbours_;
-  double margin_ = 0.0;                              ///< pairs with a gap below this are listed
-  std::vector<Meeting> meetings_;                    ///< a heap, the earliest first
+  double margin_ = 0.0;            ///< pairs with a gap below this are listed
+  std::vector<Meeting> meetings_;  ///< a heap, the earliest first
   double virial_ = 0.0;
 };
 
@@ -203,7 +204,8 @@ void study(const Scene& scene, double collisions_per_disk, const std::vector<dou
   const bool equal = std::all_of(disks.radius.begin(), disks.radius.end(), [&](double r) { return r == disks.radius[0]; });
   const bool walled = !scene.box.periodic(0) || !scene.box.periodic(1);
   if (names_of(scene.effects, walled) != std::vector<std::string>{"specular"} || !equal)
-    throw std::invalid_argument("the scene must have a periodic box, disks of one radius, the rule \"specular\" and no other effect");
+    throw std::invalid_argument(
+        "the scene must have a periodic box, disks of one radius, the rule \"specular\" and no other effect");
 
   gas.run_until(1e300, static_cast<std::uint64_t>(100.0 * count));
   const double began = gas.time();

@@ -6,8 +6,8 @@
 // length until blocks are longer than correlations, and stays from there on. The length that is taken is the shortest B with
 // B^3 > 2 n s^2, n samples, s = (variance told by these blocks) / (variance told by single samples): there what is left of the
 // correlations and the noise of few blocks are about equal (Lee, Conduit, Nemec, Lopez Rios & Drummond, Phys. Rev. E 83, 066706
-// (2011)). Where correlations lower the variance, as of what walls or energy keep within bounds, what short blocks tell too much is
-// (1 - s) / s times as large as the rest, so that 1 / s takes the place of s.
+// (2011)). Where correlations lower the variance, as of what walls or energy keep within bounds, what short blocks tell too much
+// is (1 - s) / s times as large as the rest, so that 1 / s takes the place of s.
 //
 // What reaches from one block into the next is added as for correlations that fall exponentially: the variance is divided by
 // 1 - (s - 1) / 2 B.
@@ -52,9 +52,9 @@ class Blocking {
     void add(double x, double w);
     [[nodiscard]] double variance_of_mean(double ratio) const;
   };
-  /// The same from levels that were gathered elsewhere. `known`: correlation of samples 1, 2, 3, ... apart, 0 beyond, that there is
-  /// whatever blocks tell. What blocks of B samples tell is then multiplied by (variance of the mean) / (what they tell of it on
-  /// average), both as they would be if that were all.
+  /// The same from levels that were gathered elsewhere. `known`: correlation of samples 1, 2, 3, ... apart, 0 beyond, that there
+  /// is whatever blocks tell. What blocks of B samples tell is then multiplied by (variance of the mean) / (what they tell of it
+  /// on average), both as they would be if that were all.
   [[nodiscard]] static std::optional<Estimate> estimate(std::span<const Level> levels, int power = 1,
                                                         std::span<const double> known = {});
 

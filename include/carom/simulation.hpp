@@ -33,8 +33,8 @@ enum class StopReason {
   interrupted,  ///< the caller's `proceed` said stop
   jammed,  ///< time has stopped: disks touch and have no room to move that numbers could tell (docs/hard-cases.md says after how
            ///< many events), or have grown until one of them fills the box
-  collapsed,      ///< time has stopped: inelastic disks collide at ever shorter intervals (see elastic_below)
-  overheated,     ///< time has all but stopped: disks become faster and faster, and nothing takes away the energy that they get
+  collapsed,   ///< time has stopped: inelastic disks collide at ever shorter intervals (see elastic_below)
+  overheated,  ///< time has all but stopped: disks become faster and faster, and nothing takes away the energy that they get
   /// Inelastic disks have become too slow to compute with: products of speed and diameter are below 1e-150, in single precision
   /// 1e-15. Or collisions alone were asked for, and disks move together 2^14 times as fast as against each other.
   cooled,
@@ -154,7 +154,8 @@ std::vector<std::string> fixed_step_names();
 /// "fast", "general", "textbook", "textbook-float", ...: the engines, in the order in which "auto" prefers them.
 std::vector<std::string> engine_names();
 
-/// The names of the engines that can run a scene, in the order of engine_names(). Draws the start of the scene. Throws as make_simulation() does.
+/// The names of the engines that can run a scene, in the order of engine_names(). Draws the start of the scene. Throws as
+/// make_simulation() does.
 std::vector<std::string> engines_covering(const Scene& scene);
 
 /// How far a run has come, for progress lines and for the decision to go on.
@@ -207,8 +208,8 @@ struct RunHooks {
   std::uint64_t verify_every = 0;                         ///< events from one check_invariants() to the next; 0 for no checks
   /// Every few thousand events, after all that has happened so far was handed on; and when the run ends.
   std::function<void(const SavingMoment& moment)> checkpoint;
-  /// What SavingMoment::save() wrote: the schedule goes on from there, without `start`. Requires the grids that were there then, in
-  /// their order; others may follow, or may have followed, and are taken up at the next of their times.
+  /// What SavingMoment::save() wrote: the schedule goes on from there, without `start`. Requires the grids that were there then,
+  /// in their order; others may follow, or may have followed, and are taken up at the next of their times.
   std::istream* resume = nullptr;
 };
 

@@ -96,8 +96,8 @@ struct Counts {
   Numerics numerics;
 };
 
-/// Counts and sums over all events since the start of the measured run. The sums are those of their terms without any rounding on the
-/// way, rounded once: they do not depend on the order in which events are added.
+/// Counts and sums over all events since the start of the measured run. The sums are those of their terms without any rounding on
+/// the way, rounded once: they do not depend on the order in which events are added.
 struct Totals : Counts {
   /// sum over pair collisions of sigma_ij * (normal impulse): mass length^2 / time; the virial of the hard-disk force
   double virial = 0.0;

@@ -220,9 +220,9 @@ void add_sweep(CLI::App& program, Action& action, const Invocation& invocation) 
                    "Runs at a time (default: one per processor; under mpirun one per process, of which each has so many)")
       ->type_name("N");
   command
-      ->add_option(
-          "--checkpoint-every", options->checkpoint_every,
-          "Save runs every so often, such as 10min or \"1e8 collisions\"; they are saved on Ctrl-C, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1 in any case")
+      ->add_option("--checkpoint-every", options->checkpoint_every,
+                   "Save runs every so often, such as 10min or \"1e8 collisions\"; they are saved on Ctrl-C, SIGTERM, SIGHUP, "
+                   "SIGXCPU and SIGUSR1 in any case")
       ->type_name("WHEN");
   command->add_flag("--force", options->force, "Replace runs that were made with another scene");
   command->add_flag("--list", options->list, "Print the commands of the runs that are still to do, and run nothing");

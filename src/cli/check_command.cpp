@@ -33,8 +33,7 @@ std::string start_and_engine(const Scene& scene, const Simulation& simulation) {
       "  start       {}: every disk has its place, {}; kT = {:.4g}\n"
       "  engine      {}: {}; {}, {:.0f} bytes per disk\n",
       start_is_drawn(scene) ? "drawn" : "given", scene.run.accept_overlap ? "overlaps are accepted" : "none overlap", kT,
-      simulation.engine(), simulation.engine_reason(),
-      size(bytes), bytes / disks);
+      simulation.engine(), simulation.engine_reason(), size(bytes), bytes / disks);
 }
 
 std::string files(const Scene& scene) {

@@ -30,9 +30,7 @@ std::string bias_in_percent(const Estimate& bias) {
 std::string row(const MethodSummary& s, const ComparePlan& plan, const MethodSummary* exact) {
   std::string Z;
   if (s.Z && exact != nullptr && exact->Z && exact->Z->value > 0.0)
-    Z = s.method.name == exact->method.name ? fmt::format("Z = {:.4g}", s.Z->value)
-        : s.Z_bias                          ? bias_in_percent(*s.Z_bias)
-                                            : "";
+    Z = s.method.name == exact->method.name ? fmt::format("Z = {:.4g}", s.Z->value) : s.Z_bias ? bias_in_percent(*s.Z_bias) : "";
   const bool counted = s.counts.has_value();
   return fmt::format("  {:<21}{:>10}  {:>11}  {:>9}  {:>15}  {:>8}  {:>9}\n", s.method.name,
                      s.method.exact() ? "" : fmt::format("{:.2g}", plan.in_free_times(s.method.dt)),
@@ -46,11 +44,10 @@ std::string table(const Comparison& comparison) {
   const MethodSummary* exact = nullptr;
   for (const MethodSummary& summary : summaries)
     if (summary.method.name == comparison.plan.horizon.engine) exact = &summary;
-  std::string text =
-      fmt::format("  {:<21}{:>10}  {:>11}  {:>9}  {:>15}  {:>8}  {:>9}\n", "", "dt / mean", "error /", "processor", "bias of Z",
-                  "missed", "repeated");
-  text += fmt::format("  {:<21}{:>10}  {:>11}  {:>9}  {:>15}  {:>8}  {:>9}\n", "method", "free time", "diameter",
-                      "time", "%", "%", "%");
+  std::string text = fmt::format("  {:<21}{:>10}  {:>11}  {:>9}  {:>15}  {:>8}  {:>9}\n", "", "dt / mean", "error /", "processor",
+                                 "bias of Z", "missed", "repeated");
+  text += fmt::format("  {:<21}{:>10}  {:>11}  {:>9}  {:>15}  {:>8}  {:>9}\n", "method", "free time", "diameter", "time", "%",
+                      "%", "%");
   for (const MethodSummary& summary : summaries)
     if (summary.method.exact()) text += row(summary, comparison.plan, exact);
   for (const std::string& method : fixed_step_names())

@@ -179,8 +179,8 @@ std::string words(const ExpectedCost& cost) {
   if (!cost.came_to_rest.empty())
     return fmt::format("unknown: {} by time {:.4g} ({})", cost.came_to_rest, cost.trial_time, trial);
   if (!cost.seconds) return fmt::format("unknown ({})", trial);
-  return fmt::format("{} {}{} and {}{} on this machine ({})", cost.at_least ? "at least" : "about", duration(*cost.seconds),
-                     with, number_of(*cost.collisions), cost.by_theory ? ", as kinetic theory has it," : "", trial);
+  return fmt::format("{} {}{} and {}{} on this machine ({})", cost.at_least ? "at least" : "about", duration(*cost.seconds), with,
+                     number_of(*cost.collisions), cost.by_theory ? ", as kinetic theory has it," : "", trial);
 }
 
 }  // namespace carom::cli

@@ -18,9 +18,9 @@ struct ExpectedCost {
   double trial_time = 0.0;             ///< of the scene's clock
   std::optional<double> collisions;    ///< of pairs, expected; empty where the trial tells nothing
   std::optional<double> seconds;       ///< the same
-  bool by_theory = false;    ///< collisions are what kinetic theory says of a uniform gas, and not as many as the trial had
-  bool at_least = false;     ///< disks grow: what comes later is denser than what was tried, or nobody knows when it ends
-  bool whole = false;        ///< the trial came to the end of the run
+  bool by_theory = false;       ///< collisions are what kinetic theory says of a uniform gas, and not as many as the trial had
+  bool at_least = false;        ///< disks grow: what comes later is denser than what was tried, or nobody knows when it ends
+  bool whole = false;           ///< the trial came to the end of the run
   std::size_t observables = 0;  ///< so many are in `seconds`
   std::string came_to_rest;     ///< why the trial ended early, "collapsed"; else empty
 };

@@ -49,11 +49,11 @@ Horizon horizon_with_progress(const Scene& scene, const State& start, HorizonOpt
 }
 
 std::string horizon_table(const Horizon& horizon, const Scene& scene) {
-  std::string text = fmt::format("{}\n{}, packing fraction {:.4g}; seed {}, run by {}; compared up to t = {:.4g} "
-                                 "(scene units)\n\n",
-                                 scene.title.empty() ? scene.source : scene.title,
-                                 counted(static_cast<std::uint64_t>(scene.disk_count()), "disk"), scene.packing_fraction(),
-                                 scene.run.seed, horizon.engine, horizon.time);
+  std::string text = fmt::format(
+      "{}\n{}, packing fraction {:.4g}; seed {}, run by {}; compared up to t = {:.4g} "
+      "(scene units)\n\n",
+      scene.title.empty() ? scene.source : scene.title, counted(static_cast<std::uint64_t>(scene.disk_count()), "disk"),
+      scene.packing_fraction(), scene.run.seed, horizon.engine, horizon.time);
   text += fmt::format("  {:<22}{:>4}  {:>24}  {:>21}  {:>17}\n", "", "",
                       fmt::format("right to {:g} diameters", horizon.tolerance), "first other event", "price");
   text += fmt::format("  {:<22}{:>4}  {:>10}  {:>10}  {:>12}  {:>9}  {:>9}  {:>6}\n", "engine", "bits", "until t", "coll./disk",

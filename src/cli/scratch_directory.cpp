@@ -23,8 +23,8 @@ fs::path place_for_temporary_files() {
   if (!error) return place;
   for (const char* name : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"})  // in the order in which the library looks
     if (const char* value = std::getenv(name))
-      throw UsageError(fmt::format("{}={}: there is no such directory for temporary files; set {} to one that is there", name,
-                                   value, name));
+      throw UsageError(
+          fmt::format("{}={}: there is no such directory for temporary files; set {} to one that is there", name, value, name));
   throw UsageError("there is no directory for temporary files; set TMPDIR to one that is there");
 }
 

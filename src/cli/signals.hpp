@@ -10,11 +10,11 @@ namespace carom::cli {
 /// Those that ask to stop.
 inline constexpr std::array stopping_signals = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1};
 
-/// While a StopRequest lives, SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is closed), SIGXCPU (the limit of processor time) and
-/// SIGUSR1 (the warning of a batch system) only set a flag, however often they come. A SIGINT or SIGTERM ends the program at once
-/// where one of the two came half a second or more before: a person who presses Ctrl-C again is obeyed, and GNU timeout, which sends
-/// its signal to the process and then to its group, loses nothing. A signal that the program was started to ignore (as by nohup)
-/// stays ignored.
+/// While a StopRequest lives, SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is closed), SIGXCPU (the limit of processor time)
+/// and SIGUSR1 (the warning of a batch system) only set a flag, however often they come. A SIGINT or SIGTERM ends the program at
+/// once where one of the two came half a second or more before: a person who presses Ctrl-C again is obeyed, and GNU timeout,
+/// which sends its signal to the process and then to its group, loses nothing. A signal that the program was started to ignore
+/// (as by nohup) stays ignored.
 class StopRequest {
  public:
   StopRequest();

@@ -46,8 +46,8 @@ class SavingArchive : public cereal::OutputArchive<SavingArchive, cereal::AllowE
     std::memcpy(bytes.data(), &number, is_x87 ? 10 : sizeof(Number));
     write(bytes.data(), bytes.size());
   }
-  /// Whether the bytes between the members of a record are written as zeros. Clang has no word for them: with it they are written as
-  /// they happen to be.
+  /// Whether the bytes between the members of a record are written as zeros. Clang has no word for them: with it they are written
+  /// as they happen to be.
 #if __has_builtin(__builtin_clear_padding)
   static constexpr bool clears_padding = true;
 #else
@@ -81,9 +81,13 @@ void save(SavingArchive& archive, const cereal::BinaryData<Pointer>& data) {
   }
 }
 template <class Size>
-void save(SavingArchive& archive, const cereal::SizeTag<Size>& tag) { archive(tag.size); }
+void save(SavingArchive& archive, const cereal::SizeTag<Size>& tag) {
+  archive(tag.size);
+}
 template <class Value>
-void save(SavingArchive& archive, const cereal::NameValuePair<Value>& pair) { archive(pair.value); }
+void save(SavingArchive& archive, const cereal::NameValuePair<Value>& pair) {
+  archive(pair.value);
+}
 
 }  // namespace saving
 

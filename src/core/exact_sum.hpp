@@ -61,11 +61,14 @@ class ExactSum {
     std::uint64_t rest = 0;
     for (std::size_t k = 0; k <= top; ++k) {
       const auto piece = static_cast<std::uint64_t>(sum.pieces_[k]);
-      if (k + 2 < top) rest |= piece;
-      else leading |= Wide{piece} << (bits_of_piece * (k + 2 - top));
+      if (k + 2 < top)
+        rest |= piece;
+      else
+        leading |= Wide{piece} << (bits_of_piece * (k + 2 - top));
     }
     if (rest != 0) leading |= 1;
-    const double size = std::ldexp(static_cast<double>(leading), static_cast<int>(bits_of_piece) * (static_cast<int>(top) - 2) - lowest_bit);
+    const double size =
+        std::ldexp(static_cast<double>(leading), static_cast<int>(bits_of_piece) * (static_cast<int>(top) - 2) - lowest_bit);
     return negative ? -size : size;
   }
 

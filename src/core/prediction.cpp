@@ -4,14 +4,14 @@
 
 namespace carom {
 
-#define CAROM_DECLARE_KERNELS                                           \
-  extern const PredictionKernel<Flight> flight_kernel;                  \
-  extern const PredictionKernel<SizedFlight> sized_flight_kernel;       \
-  extern const PredictionKernel<Flight> falling_flight_kernel;          \
+#define CAROM_DECLARE_KERNELS                                             \
+  extern const PredictionKernel<Flight> flight_kernel;                    \
+  extern const PredictionKernel<SizedFlight> sized_flight_kernel;         \
+  extern const PredictionKernel<Flight> falling_flight_kernel;            \
   extern const PredictionKernel<SizedFlight> falling_sized_flight_kernel; \
-  extern const PredictionKernel<Flight> growing_flight_kernel;          \
+  extern const PredictionKernel<Flight> growing_flight_kernel;            \
   extern const PredictionKernel<SizedFlight> growing_sized_flight_kernel; \
-  extern const PredictionKernel<Flight> sheared_flight_kernel;          \
+  extern const PredictionKernel<Flight> sheared_flight_kernel;            \
   extern const PredictionKernel<SizedFlight> sheared_sized_flight_kernel;
 
 namespace portable {
@@ -44,12 +44,18 @@ extern const PredictionKernel<SizedFlight> falling_well_sized_flight_kernel;
 template <>
 const PredictionKernel<Flight>& prediction_kernel(Contact contact) {
   switch (contact) {
-    case Contact::falling: return CAROM_CHOSEN(falling_flight_kernel);
-    case Contact::growing: return CAROM_CHOSEN(growing_flight_kernel);
-    case Contact::wells: return well_flight_kernel;
-    case Contact::falling_wells: return falling_well_flight_kernel;
-    case Contact::sheared: return CAROM_CHOSEN(sheared_flight_kernel);
-    case Contact::hard: break;
+    case Contact::falling:
+      return CAROM_CHOSEN(falling_flight_kernel);
+    case Contact::growing:
+      return CAROM_CHOSEN(growing_flight_kernel);
+    case Contact::wells:
+      return well_flight_kernel;
+    case Contact::falling_wells:
+      return falling_well_flight_kernel;
+    case Contact::sheared:
+      return CAROM_CHOSEN(sheared_flight_kernel);
+    case Contact::hard:
+      break;
   }
   return CAROM_CHOSEN(flight_kernel);
 }
@@ -57,12 +63,18 @@ const PredictionKernel<Flight>& prediction_kernel(Contact contact) {
 template <>
 const PredictionKernel<SizedFlight>& prediction_kernel(Contact contact) {
   switch (contact) {
-    case Contact::falling: return CAROM_CHOSEN(falling_sized_flight_kernel);
-    case Contact::growing: return CAROM_CHOSEN(growing_sized_flight_kernel);
-    case Contact::wells: return well_sized_flight_kernel;
-    case Contact::falling_wells: return falling_well_sized_flight_kernel;
-    case Contact::sheared: return CAROM_CHOSEN(sheared_sized_flight_kernel);
-    case Contact::hard: break;
+    case Contact::falling:
+      return CAROM_CHOSEN(falling_sized_flight_kernel);
+    case Contact::growing:
+      return CAROM_CHOSEN(growing_sized_flight_kernel);
+    case Contact::wells:
+      return well_sized_flight_kernel;
+    case Contact::falling_wells:
+      return falling_well_sized_flight_kernel;
+    case Contact::sheared:
+      return CAROM_CHOSEN(sheared_sized_flight_kernel);
+    case Contact::hard:
+      break;
   }
   return CAROM_CHOSEN(sized_flight_kernel);
 }

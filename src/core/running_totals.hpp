@@ -29,7 +29,8 @@ struct RunningTotals : Counts {
     totals.dissipated = dissipated.value();
     totals.growth_energy = growth_energy.value();
     totals.shear_energy = shear_energy.value();
-    for (std::size_t k = 0; k < obstacle_impulse.size(); ++k) totals.obstacle_impulse[static_cast<Eigen::Index>(k)] = obstacle_impulse[k].value();
+    for (std::size_t k = 0; k < obstacle_impulse.size(); ++k)
+      totals.obstacle_impulse[static_cast<Eigen::Index>(k)] = obstacle_impulse[k].value();
     return totals;
   }
 };

@@ -32,8 +32,7 @@ void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& p
 }
 
 template <bool falling, class Line>
-constexpr PredictionKernel<Line> kernel = {&predict_singly<Line, &meeting_time<Line>>, &turn_and_predict<falling, Line>,
-                                           "wells"};
+constexpr PredictionKernel<Line> kernel = {&predict_singly<Line, &meeting_time<Line>>, &turn_and_predict<falling, Line>, "wells"};
 
 }  // namespace
 

@@ -108,8 +108,7 @@ class AnyImpact {
                                        ? carom::collide<Reversal, Real>(r, i.mass, i.v, j.mass, j.v, how)
                                        : carom::collide<Specular, Real>(r, i.mass, i.v, j.mass, j.v, how);
     if (!spins_.empty() && roughness_ != -1 && (roughness_ == 1 || !elastic)) {
-      const Real gained =
-          roughen(r, roughness_, i.mass, i.radius, i.v, spin(i.disk), j.mass, j.radius, j.v, spin(j.disk));
+      const Real gained = roughen(r, roughness_, i.mass, i.radius, i.v, spin(i.disk), j.mass, j.radius, j.v, spin(j.disk));
       result.energy += gained;
       result.lost -= gained;
     }

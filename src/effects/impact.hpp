@@ -48,8 +48,8 @@ template <class Real>
   using std::sqrt;
   const Real distance = sqrt(r.squaredNorm());
   // Squares of low speeds vanish: then the largest component will do, and where all is at rest the speed with which to part.
-  Real speed = std::max<Real>(
-      {sqrt(v_i.squaredNorm()) + sqrt(v_j.squaredNorm()), v_i.cwiseAbs().maxCoeff(), v_j.cwiseAbs().maxCoeff()});
+  Real speed =
+      std::max<Real>({sqrt(v_i.squaredNorm()) + sqrt(v_j.squaredNorm()), v_i.cwiseAbs().maxCoeff(), v_j.cwiseAbs().maxCoeff()});
   if (!(speed > 0)) speed = least / distance;
   const Vec2<Real> n = (speed / distance) * r;
   for (Real push = epsilon<Real>; r.dot(v_i - v_j) < least; push *= 2) {
@@ -129,7 +129,8 @@ InelasticResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Re
   const Real lost = how.turn == 1 ? Real(0) : detail::twice_reduced<Real>(d.dot(surfaces - d), m_i, m_j);
   detail::share_out<Real>(v, d, m_i, v_i, m_j, v_j);
   if (r.dot(v_i - v_j) < least) detail::recede(r, m_i, v_i, m_j, v_j, least);
-  return {{detail::twice_reduced<Real>(-b * how.turn, m_i, m_j), gained}, lost,
+  return {{detail::twice_reduced<Real>(-b * how.turn, m_i, m_j), gained},
+          lost,
           how.turn < 1 ? smallness<Real>(-b / distance, distance) : infinity<Real>};
 }
 

@@ -89,7 +89,8 @@ class ObstacleShapes {
     DiskPath<Real> seen = path;
     seen.r -= shift(image);
     if (const auto* disk = std::get_if<Disk>(&shape(o))) {
-      return take(first, point_contact_time({seen.r - disk->centre, path.v, path.g, disk->radius + path.radius, path.growth}, until), o);
+      return take(first,
+                  point_contact_time({seen.r - disk->centre, path.v, path.g, disk->radius + path.radius, path.growth}, until), o);
     }
     const auto& segment = std::get<Segment<Real>>(shape(o));
     if (const Real t = face_contact_time(seen, segment); t <= until) take(first, t, o);
@@ -120,8 +121,8 @@ class ObstacleShapes {
     return Vec2<Real>(Real(image[0]), Real(image[1])).cwiseProduct(length_);
   }
 
-  /// When a disk on a path comes to a fixed point at the origin, by `until`; else infinity. A disk that would pass within rounding
-  /// of contact passes: between two obstacles whose gap is exactly as wide as the disk it would bounce without end.
+  /// When a disk on a path comes to a fixed point at the origin, by `until`; else infinity. A disk that would pass within
+  /// rounding of contact passes: between two obstacles whose gap is exactly as wide as the disk it would bounce without end.
   [[nodiscard]] static Real point_contact_time(DiskPath<Real> path, Real until) {
     Real start = 0;
     while (start <= until) {
@@ -137,9 +138,10 @@ class ObstacleShapes {
     return infinity<Real>;
   }
 
-  /// For how long a disk in contact with a fixed point at the origin needs no impulse to pass it: 0, unless its overlap on the way
-  /// would be less than what rounding makes of the distance, 32 epsilon of it. The overlap after time t is c t - b t^2/2, where c
-  /// is the speed of approach and b > 0 the acceleration away, centrifugal and by gravity; c^2 / 2b at most, and none from 2c / b on.
+  /// For how long a disk in contact with a fixed point at the origin needs no impulse to pass it: 0, unless its overlap on the
+  /// way would be less than what rounding makes of the distance, 32 epsilon of it. The overlap after time t is c t - b t^2/2,
+  /// where c is the speed of approach and b > 0 the acceleration away, centrifugal and by gravity; c^2 / 2b at most, and none
+  /// from 2c / b on.
   [[nodiscard]] static Real grazing_duration(const DiskPath<Real>& path) {
     using std::sqrt;
     const Real distance = sqrt(path.r.squaredNorm());

@@ -27,8 +27,8 @@ class Ending {
   /// Whether it is the end: so many events at one instant that time stands still, or what one of the functions below has said.
   [[nodiscard]] bool has_come() const { return at_one_instant_ > patience_; }
 
-  /// These disks, or a disk and a wall, have met at such a `smallness` (effects/vanishing.hpp), and lost a share of it. At the end
-  /// of a series of events at one instant that is a collapse: its speeds vanish, and no event follows, before patience ends.
+  /// These disks, or a disk and a wall, have met at such a `smallness` (effects/vanishing.hpp), and lost a share of it. At the
+  /// end of a series of events at one instant that is a collapse: its speeds vanish, and no event follows, before patience ends.
   template <class Real>
   void note_loss(Real smallness, std::initializer_list<std::int32_t> disks) {
     if (!squares_vanish(smallness)) return;

@@ -468,8 +468,8 @@ class Engine {
   [[nodiscard]] std::int64_t moved(std::int32_t i, int axis, double speed, double time, double lift) {
     std::int64_t x;
     const double before = line(i).v[axis];
-    const std::int64_t steps = world_.falls() ? fallen_steps(i, axis, before, speed, time, lift)
-                                              : axes_[axis].steps_of((before - speed) * time);
+    const std::int64_t steps =
+        world_.falls() ? fallen_steps(i, axis, before, speed, time, lift) : axes_[axis].steps_of((before - speed) * time);
     if (__builtin_add_overflow(line(i).x[axis], steps, &x)) [[unlikely]]
       images_.step(i, axis, steps < 0 ? -1 : 1);
     return x;
@@ -593,7 +593,7 @@ class Engine {
   LargeVector<Line> lines_;
   LargeVector<Plan> plans_;
   LargeVector<std::int32_t> ids_;  ///< what the world calls them: the engine keeps neighbours near each other in memory
-  std::int64_t depth_[2] = {};  ///< that the frame of the lines has fallen, at the epoch
+  std::int64_t depth_[2] = {};     ///< that the frame of the lines has fallen, at the epoch
   StepRest depth_rest_[2];
   std::vector<std::array<StepRest, 2>> rests_;  ///< of the coordinates of disks that fall
   ImageCounts images_;

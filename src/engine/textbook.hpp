@@ -409,7 +409,8 @@ class TextbookEngine {
     const Real sigma = a.radius + b.radius;
     if (impact_.wells().present()) {
       const SquareWells<Real>& wells = impact_.wells();
-      const bool bound = wells.inside(i, j) && domain_.nearest(r);  // a well reaches less than half the box: no other image is inside
+      const bool bound =
+          wells.inside(i, j) && domain_.nearest(r);  // a well reaches less than half the box: no other image is inside
       return t + wells.next_time(bound, r, v, sigma);
     }
     return t + contact_time<Real>(r, v, sigma * (scale_ + growth_ * t), sigma * growth_);

@@ -137,8 +137,8 @@ Real TextbookEngine<Real>::suitable_epoch_length() const {
 template <class Real>
 template <class Archive>
 void TextbookEngine<Real>::serialize(Archive& archive) {
-  archive(walls_, sliding_, impact_, scale_, growth_, grid_, records_, plans_, images_, epoch_, now_, epoch_length_,
-          ending_, common_motion_, totals_, last_collision_);
+  archive(walls_, sliding_, impact_, scale_, growth_, grid_, records_, plans_, images_, epoch_, now_, epoch_length_, ending_,
+          common_motion_, totals_, last_collision_);
   if constexpr (Archive::is_loading::value) fill_queue();
 }
 
@@ -194,11 +194,12 @@ template <class Real>
 std::vector<std::string> TextbookEngine<Real>::check_invariants(double tolerated_overlap) const {
   std::vector<std::string> faults;
   const Real tolerance = Real(1e-12) + 1000 * epsilon<Real>;
-  // Positions are rounded at their size, which far from the origin is not that of the box; where disks grow, by half an epsilon more
-  // at every epoch, which each rescaling of velocities begins: a disk that is too slow to move by that stays where it is and grows.
+  // Positions are rounded at their size, which far from the origin is not that of the box; where disks grow, by half an epsilon
+  // more at every epoch, which each rescaling of velocities begins: a disk that is too slow to move by that stays where it is and
+  // grows.
   const Real epochs = growth_ > 0 ? Real(static_cast<double>(totals_.numerics.epochs)) : Real(0);
-  const Real rounding = (16 + epochs / 2) * epsilon<Real> *
-                        std::max(domain_.lower.cwiseAbs().maxCoeff(), domain_.upper.cwiseAbs().maxCoeff());
+  const Real rounding =
+      (16 + epochs / 2) * epsilon<Real> * std::max(domain_.lower.cwiseAbs().maxCoeff(), domain_.upper.cwiseAbs().maxCoeff());
   for (std::int32_t i = 0; i < count(); ++i) {
     const Record& a = record(i);
     const Vec2<Real> r = position(a, now_);

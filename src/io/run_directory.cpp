@@ -110,8 +110,7 @@ void RunDirectory::create() {
     if (fs::create_directory(*part, error)) created_.push_back(*part);
     if (error) throw refusal(path_, "create the output directory", error.value());
   }
-  if (!fs::is_directory(path_, error))
-    throw refusal(path_, "create the output directory", error ? error.value() : ENOTDIR);
+  if (!fs::is_directory(path_, error)) throw refusal(path_, "create the output directory", error ? error.value() : ENOTDIR);
 }
 
 void RunDirectory::check_for_results(bool force) const {

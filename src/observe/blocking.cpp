@@ -22,8 +22,9 @@ double variance_of_mean_of(std::uint64_t count, std::span<const double> correlat
   return sum / n;
 }
 
-/// Correlations that fall exponentially and raise the variance by s make blocks of B tell 1 - (s - 1) / 2 B of it: what reaches from
-/// one block into the next is missing. `of_block` is 1 / B, or the like of samples whose correlations are known. At most twice.
+/// Correlations that fall exponentially and raise the variance by s make blocks of B tell 1 - (s - 1) / 2 B of it: what reaches
+/// from one block into the next is missing. `of_block` is 1 / B, or the like of samples whose correlations are known. At most
+/// twice.
 double left_across_blocks(double s, double of_block) { return 1.0 / (1.0 - std::clamp(0.5 * (s - 1.0) * of_block, 0.0, 0.5)); }
 
 /// Whether blocks of `length` among n samples are long enough for an inefficiency of s.
@@ -85,7 +86,8 @@ std::optional<Blocking::Estimate> Blocking::estimate(std::span<const Level> leve
   const double first = variance_told_by(0), white = first / (n * of_all);
   for (std::size_t level = 0; level < levels.size() && levels[level].blocks >= least_blocks; ++level) {
     const double told = variance_told_by(level), length = std::ldexp(1.0, static_cast<int>(level));
-    const double variance = told * left_across_blocks(first > 0.0 ? told / first : 1.0, variance_of_mean_of(1ULL << level, known));
+    const double variance =
+        told * left_across_blocks(first > 0.0 ? told / first : 1.0, variance_of_mean_of(1ULL << level, known));
     const double s = white > 0.0 ? variance / white : 1.0;
     estimate.error = std::sqrt(variance) / std::abs(scale);
     estimate.lower_bound = told > 2.0 * first;

@@ -56,7 +56,8 @@ std::string_view why_errors_are_of_one_start(const Scene& scene) {
       if (mass.value_or(species.mass_of(i)) != species.mass_of(i)) return {};
       mass = species.mass_of(i);
     }
-  return "disks of equal mass only exchange velocities under reversal: errors are those within this run, not those between starts";
+  return "disks of equal mass only exchange velocities under reversal: errors are those within this run, not those between "
+         "starts";
 }
 
 }  // namespace carom

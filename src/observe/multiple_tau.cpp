@@ -25,8 +25,8 @@ void integrate(std::span<const double> found, std::size_t lags, double* integral
 
 using Means = std::vector<std::optional<Blocking::Estimate>>;
 
-/// Correlation of (x(t) - x(0))^2 over k steps with the same 1, 2, ... steps later, x Gaussian with <(x(t) - x(0))^2> in proportion
-/// to t^power (Wick's theorem): the two windows share what x did where they overlap.
+/// Correlation of (x(t) - x(0))^2 over k steps with the same 1, 2, ... steps later, x Gaussian with <(x(t) - x(0))^2> in
+/// proportion to t^power (Wick's theorem): the two windows share what x did where they overlap.
 std::vector<double> correlation_of_squares(std::size_t k, double power) {
   std::vector<double> correlation;
   for (std::size_t j = 1; j < 2 * k; ++j) {
@@ -37,8 +37,9 @@ std::vector<double> correlation_of_squares(std::size_t k, double power) {
   return correlation;
 }
 
-/// Row k of squares, with an error that knows of overlaps. They are those of diffusion, unless the squares grow more slowly by more
-/// than a standard error, as between walls or in a crystal; what moves straight on does so for less than the lag, which blocks see.
+/// Row k of squares, with an error that knows of overlaps. They are those of diffusion, unless the squares grow more slowly by
+/// more than a standard error, as between walls or in a crystal; what moves straight on does so for less than the lag, which
+/// blocks see.
 Blocking::Estimate estimate_of_squares(const BlockedRows& squares, const Means& means, std::size_t k) {
   const Blocking::Estimate diffusing = *squares.estimate(k, correlation_of_squares(k, 1.0));
   const std::size_t half = k / 2;
@@ -59,7 +60,8 @@ std::vector<double> significant(const Means& products) {
   return correlation;
 }
 
-/// Correlation of x(t) sum_i a_i x(t - i) with the same 1, 2, ... steps later, x Gaussian with the correlation `of_x` (Wick's theorem).
+/// Correlation of x(t) sum_i a_i x(t - i) with the same 1, 2, ... steps later, x Gaussian with the correlation `of_x` (Wick's
+/// theorem).
 std::vector<double> correlation_of_products(const std::vector<double>& a, const std::vector<double>& of_x) {
   const auto c = [&](std::ptrdiff_t m) {
     const auto apart = static_cast<std::size_t>(std::abs(m));
@@ -187,7 +189,8 @@ std::vector<MultipleTau::Row> MultipleTau::rows() {
       }
       std::vector<double> weights(k + 1);
       weights[k] = 1.0;
-      Row row{width * static_cast<double>(k), width, *level.pairs.estimate(k, correlation_of_products(weights, of_x)), std::nullopt};
+      Row row{width * static_cast<double>(k), width, *level.pairs.estimate(k, correlation_of_products(weights, of_x)),
+              std::nullopt};
       weights.assign(k + 1, 1.0);
       weights[0] = 0.5;
       row.integral = level.integrals.estimate(k, correlation_of_products(weights, of_x));

@@ -4,9 +4,9 @@
 //
 //   dP = I_low - I_high,   dG = S dt - h (I_low + I_high),   S = sum of m v^2 + virial of collisions,
 //
-// where I is what each wall gets, outward positive. So I_low = S dt / 2h - d(G / h - P) / 2 and I_high = S dt / 2h - d(G / h + P) / 2:
-// sound and the disks' flight from wall to wall are in G and P, which stay bounded, and the pressure is in S. Disks of several sizes,
-// gravity and thermal walls leave a part of it in the rest, which does no harm.
+// where I is what each wall gets, outward positive. So I_low = S dt / 2h - d(G / h - P) / 2 and I_high = S dt / 2h - d(G / h + P)
+// / 2: sound and the disks' flight from wall to wall are in G and P, which stay bounded, and the pressure is in S. Disks of
+// several sizes, gravity and thermal walls leave a part of it in the rest, which does no harm.
 
 #include "observe/observed_run.hpp"
 

@@ -52,9 +52,9 @@ void check_fit(const Box& box, double radius, PathOf path) {
     const double length = box.lengths()[axis];
     const bool fits = box.periodic(axis) ? 2.0 * radius < length : 2.0 * radius <= length * (1.0 + touching);
     if (fits) continue;
-    throw Refusal(
-        path(), fmt::format("a disk of radius {} does not fit: its diameter {} must be {} {}, the length of the box in {}", radius,
-                           2.0 * radius, box.periodic(axis) ? "less than" : "at most", length, axis_names[axis]));
+    throw Refusal(path(),
+                  fmt::format("a disk of radius {} does not fit: its diameter {} must be {} {}, the length of the box in {}",
+                              radius, 2.0 * radius, box.periodic(axis) ? "less than" : "at most", length, axis_names[axis]));
   }
 }
 
@@ -71,7 +71,7 @@ void check_positions_inside(const Box& box, std::size_t s, const Species& specie
                                                                     box.lower[axis] + radius, box.upper[axis] - radius, radius);
       throw Refusal(path_of_position(s, i),
                     fmt::format("disk {} is outside the box: its {} = {} {}", first_id + static_cast<std::int64_t>(i),
-                                   axis_names[axis], value, sentence));
+                                axis_names[axis], value, sentence));
     }
   }
 }
@@ -92,8 +92,8 @@ void check_density(const Scene& scene) {
   if (fraction > limit) {
     throw Refusal(fmt::format("disks.{}", *first),
                   fmt::format("the packing fraction would be {:.6g}, but {} cannot exceed {:.4g}; take fewer or smaller "
-                                 "disks, or a larger box",
-                                 fraction, equal ? "that of equal disks" : "it", limit));
+                              "disks, or a larger box",
+                              fraction, equal ? "that of equal disks" : "it", limit));
   }
   const bool wide = scene.box.lengths().minCoeff() >= random_limit_diameters * 2.0 * radii.largest;
   if (all_random && equal && wide && fraction > random_limit) {

@@ -47,8 +47,8 @@ void check_shear(const Scene& scene) {
   if (effects.square_well) refuse_together("shear", "[shear]", "[square_well]");
 }
 
-/// By this share of half the box a well must end before the middle between two images of a disk: more than separations are rounded
-/// by, in single precision too.
+/// By this share of half the box a well must end before the middle between two images of a disk: more than separations are
+/// rounded by, in single precision too.
 constexpr double image_margin = 0x1p-20;
 /// Times the largest coordinate: thinner wells are lost in some thousand roundings of a separation.
 constexpr double least_thickness = 0x1p-40;
@@ -58,10 +58,11 @@ void check_square_well(const Scene& scene) {
   if (!scene.effects.square_well) return;
   const SquareWell& well = *scene.effects.square_well;
   if (!(well.width > 1.0))
-    throw Refusal("square_well.width",
-                  fmt::format("square_well.width is {}; it is the outer diameter in units of the diameter of a disk, so it must be "
-                              "above 1, such as {}",
-                              well.width, keys::well_width.example));
+    throw Refusal(
+        "square_well.width",
+        fmt::format("square_well.width is {}; it is the outer diameter in units of the diameter of a disk, so it must be "
+                    "above 1, such as {}",
+                    well.width, keys::well_width.example));
   if (well.depth == 0.0) return;
   if (scene.effects.growth && scene.effects.growth->rate > 0.0) refuse_together("square_well", "[square_well]", "[growth]");
   const Radii radii = radii_of(scene);
@@ -75,10 +76,11 @@ void check_square_well(const Scene& scene) {
                                 well.width, reach, half, axis_names[axis]));
     const double thickness = (well.width - 1.0) * 2.0 * radii.smallest, least = least_thickness * coordinate;
     if (!(thickness > least))
-      throw Refusal("square_well.width",
-                    fmt::format("square_well.width is {}; it must be above 1 + {:.3g} here: the well of the smallest disks is {:.3g} "
-                                "wide, and coordinates up to {:.6g} do not tell its edge from the disk",
-                                well.width, least / (2.0 * radii.smallest), thickness, coordinate));
+      throw Refusal(
+          "square_well.width",
+          fmt::format("square_well.width is {}; it must be above 1 + {:.3g} here: the well of the smallest disks is {:.3g} "
+                      "wide, and coordinates up to {:.6g} do not tell its edge from the disk",
+                      well.width, least / (2.0 * radii.smallest), thickness, coordinate));
   }
 }
 

@@ -14,14 +14,16 @@ namespace {
 
 void check_company(const Scene& scene) {
   if (scene.run.equilibrate) {
-    throw Refusal("growth", "[growth] and run.equilibrate cannot be combined; grow the disks in a run of their own, and equilibrate in one "
-        "that starts from what they have grown to");
+    throw Refusal("growth",
+                  "[growth] and run.equilibrate cannot be combined; grow the disks in a run of their own, and equilibrate in one "
+                  "that starts from what they have grown to");
   }
   for (std::size_t w = 0; w < scene.effects.walls.size(); ++w) {
     const WallProperties& wall = scene.effects.walls[w];
     const char* kind = wall.mass ? "piston" : wall.velocity.value_or(0.0) != 0.0 ? "moving wall" : nullptr;
     if (kind == nullptr) continue;
-    throw Refusal("growth", fmt::format("[growth] and the {} walls.{} cannot be combined; remove one of the two", kind, wall_names[w]));
+    throw Refusal("growth",
+                  fmt::format("[growth] and the {} walls.{} cannot be combined; remove one of the two", kind, wall_names[w]));
   }
 }
 
@@ -31,24 +33,24 @@ void check_target(const Scene& scene, const Growth& growth) {
   const Radii radii = radii_of(scene);
   if (target > closest_packing * (1.0 + touching) && radii.equal()) {
     throw Refusal("growth", fmt::format("growth.until.packing_fraction is {}, but that of equal disks cannot exceed {:.4g}; "
-                                 "disks of random order jam near 0.84",
-                                 target, closest_packing));
+                                        "disks of random order jam near 0.84",
+                                        target, closest_packing));
   }
   if (target >= 1.0) {
     throw Refusal("growth", fmt::format("growth.until.packing_fraction is {}; it must be below 1", target));
   }
   if (target <= present) {
     throw Refusal("growth", fmt::format("growth.until.packing_fraction is {}, but the disks start at {:.6g}; make it larger, or "
-                                 "the disks smaller",
-                                 target, present));
+                                        "the disks smaller",
+                                        target, present));
   }
   const double scale = std::sqrt(target / present), diameter = 2.0 * radii.largest * scale;
   for (int axis = 0; axis < 2; ++axis) {
     const double length = scene.box.lengths()[axis];
     if (scale < growth_room(scene.box, axis, radii.largest)) continue;
     throw Refusal("growth", fmt::format("at growth.until.packing_fraction = {} the largest disk would be {:.6g} across, but the "
-                                 "box is {:.6g} long in {}; end before that",
-                                 target, diameter, length, axis_names[axis]));
+                                        "box is {:.6g} long in {}; end before that",
+                                        target, diameter, length, axis_names[axis]));
   }
 }
 
@@ -60,10 +62,11 @@ void check_time(const Scene& scene, const Growth& growth) {
   const double radius = radii_of(scene).largest, scale = 1.0 + growth.rate * *run.time;
   for (int axis = 0; axis < 2; ++axis) {
     if (scale < growth_room(scene.box, axis, radius)) continue;
-    throw Refusal("growth", fmt::format("by run.time = {} the largest disk would be {:.6g} across, but it fills the box, {:.6g} long "
-                                        "in {}, at time {:.6g}; end before that, or make growth.rate smaller",
-                                        *run.time, 2.0 * radius * scale, scene.box.lengths()[axis], axis_names[axis],
-                                        std::max(0.0, scene.box.lengths()[axis] / (2.0 * radius) - 1.0) / growth.rate));
+    throw Refusal("growth",
+                  fmt::format("by run.time = {} the largest disk would be {:.6g} across, but it fills the box, {:.6g} long "
+                              "in {}, at time {:.6g}; end before that, or make growth.rate smaller",
+                              *run.time, 2.0 * radius * scale, scene.box.lengths()[axis], axis_names[axis],
+                              std::max(0.0, scene.box.lengths()[axis] / (2.0 * radius) - 1.0) / growth.rate));
   }
 }
 
@@ -78,7 +81,8 @@ void check_growth(const Scene& scene) {
   if (!(growth.rate > 0.0)) return;
   check_company(scene);
   if (!growth.packing_fraction && !growth.reduced_pressure && !scene.run.time && scene.run.collisions) {
-    throw Refusal("growth", "[growth] has no end; give until = { packing_fraction = 0.84 }, until = { pressure = 1e6 }, or time in [run]");
+    throw Refusal("growth",
+                  "[growth] has no end; give until = { packing_fraction = 0.84 }, until = { pressure = 1e6 }, or time in [run]");
   }
   if (scene.disk_count() > 0) check_time(scene, growth);
 }

@@ -66,7 +66,8 @@ void check_settings(const ObservableRequest& request) {
   const std::string path = "observe." + request.name;
   const KnownObservable* known = find_observable(request.name);
   if (known == nullptr) throw Refusal(path, unknown_key_sentence(request.name, "observe", names_of_observables()));
-  if (request.every && !keys::observe_every.holds(*request.every)) refuse_number(path + ".every", *request.every, keys::observe_every);
+  if (request.every && !keys::observe_every.holds(*request.every))
+    refuse_number(path + ".every", *request.every, keys::observe_every);
   const auto require = [&](const char* setting, const std::optional<double>& value, double otherwise) {
     const std::string example = example_of(setting, otherwise);
     const NumberKey key{setting, example, Range::above_zero};

@@ -25,16 +25,16 @@ void check_disk(const Box& box, const DiskObstacle& disk, const std::string& pat
   for (int axis = 0; axis < 2; ++axis) {
     const double length = box.lengths()[axis];
     if (box.periodic(axis) && 2.0 * disk.radius >= length) {
-      throw Refusal(path,
-                    fmt::format("{}.disk is {:.6g} across, so it touches its own image; it must be less than {:.6g}, the "
-                                "length of the box in {}",
-                                path, 2.0 * disk.radius, length, axis_names[axis]));
+      throw Refusal(path, fmt::format("{}.disk is {:.6g} across, so it touches its own image; it must be less than {:.6g}, the "
+                                      "length of the box in {}",
+                                      path, 2.0 * disk.radius, length, axis_names[axis]));
     }
     const double room = std::min(disk.centre[axis] - box.lower[axis], box.upper[axis] - disk.centre[axis]);
     if (box.periodic(axis) || room >= disk.radius * (1.0 - 2.0 * touching)) continue;
-    throw Refusal(path, fmt::format("{}.disk overlaps a wall by {:.6g} in {}; its centre must be at least its radius {} away from "
-                                    "each wall",
-                                    path, disk.radius - room, axis_names[axis], disk.radius));
+    throw Refusal(path,
+                  fmt::format("{}.disk overlaps a wall by {:.6g} in {}; its centre must be at least its radius {} away from "
+                              "each wall",
+                              path, disk.radius - room, axis_names[axis], disk.radius));
   }
 }
 

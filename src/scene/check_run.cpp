@@ -34,9 +34,9 @@ void check_samples(const Scene& scene) {
   if (run.sample_every && run.sample_every_collisions)
     throw Refusal("run.sample_every", "run.sample_every is both a time and a number of collisions; give one of them");
   if (run.sample_every_collisions == 0)
-    throw Refusal("run.sample_every.collisions",
-                  fmt::format("run.sample_every.collisions is 0; it must be a whole number above zero, such as {}",
-                              keys::counted_example));
+    throw Refusal(
+        "run.sample_every.collisions",
+        fmt::format("run.sample_every.collisions is 0; it must be a whole number above zero, such as {}", keys::counted_example));
   if (run.sample_log) check_sample_log(*run.sample_log);
   if (run.sample_every) check_step(scene, "run.sample_every", *run.sample_every);
   if (const auto& log = run.sample_log)
@@ -49,8 +49,8 @@ void check_end(const Scene& scene) {
   const bool equilibrates = scene.run.equilibrate && scene.run.equilibrate->collisions_per_disk.value_or(0.0) > 0.0;
   if (scene.disk_count() >= 2 || (!counts && !equilibrates)) return;
   const char* key = counts ? "collisions" : "equilibrate.collisions_per_disk";
-  throw Refusal("run", fmt::format("run.{} waits for collisions of two disks, but the scene has {}; give a time in its place", key,
-                                   scene.disk_count()));
+  throw Refusal("run", fmt::format("run.{} waits for collisions of two disks, but the scene has {}; give a time in its place",
+                                   key, scene.disk_count()));
 }
 
 }  // namespace
@@ -59,10 +59,9 @@ void check_run(const Scene& scene) {
   check_samples(scene);
   if (const auto& equilibrate = scene.run.equilibrate;
       equilibrate && equilibrate->time.has_value() == equilibrate->collisions_per_disk.has_value())
-    throw Refusal("run.equilibrate",
-                  fmt::format("run.equilibrate has {}; give exactly one, {} or {}",
-                              equilibrate->time ? "both collisions_per_disk and time" : "neither of its keys",
-                              keys::equilibrate_collisions.example, keys::equilibrate_time.example));
+    throw Refusal("run.equilibrate", fmt::format("run.equilibrate has {}; give exactly one, {} or {}",
+                                                 equilibrate->time ? "both collisions_per_disk and time" : "neither of its keys",
+                                                 keys::equilibrate_collisions.example, keys::equilibrate_time.example));
   check_end(scene);
 }
 

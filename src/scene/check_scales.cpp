@@ -51,7 +51,8 @@ Sizes sizes_of(const Scene& scene) {
   for (const Species& species : scene.species) {
     if (species.count == 0) continue;
     sizes.lightest = std::min(sizes.lightest, lightest_of(species));
-    sizes.heaviest = std::max(sizes.heaviest, species.masses.empty() ? species.mass : *std::max_element(species.masses.begin(), species.masses.end()));
+    sizes.heaviest = std::max(
+        sizes.heaviest, species.masses.empty() ? species.mass : *std::max_element(species.masses.begin(), species.masses.end()));
   }
   sizes.longest = scene.box.lengths().maxCoeff();
   sizes.shortest = scene.box.lengths().minCoeff();
@@ -87,7 +88,8 @@ std::vector<Drive> drives_of(const Scene& scene, const Sizes& sizes) {
     const WallProperties& wall = effects.walls[w];
     const std::string path = fmt::format("walls.{}", wall_names[w]);
     if (wall.velocity) put(path + ".velocity", *wall.velocity, std::abs(*wall.velocity), std::abs(*wall.velocity), 1, false);
-    if (wall.temperature) from_energy(path + ".temperature", *wall.temperature, *wall.temperature, sizes.lightest, sizes.heaviest);
+    if (wall.temperature)
+      from_energy(path + ".temperature", *wall.temperature, *wall.temperature, sizes.lightest, sizes.heaviest);
     if (wall.mass && wall.load)  // what it gives a disk that it pushes through the box
       from_energy(path + ".load", *wall.load, 2.0L * *wall.load * lengths.x() * lengths.y(), std::min(sizes.lightest, *wall.mass),
                   std::max(sizes.heaviest, *wall.mass));
@@ -99,8 +101,8 @@ std::vector<Drive> drives_of(const Scene& scene, const Sizes& sizes) {
       put(fmt::format("gravity.acceleration.{}", axis), g, fallen, fallen, 2, true);
     }
   if (const auto& growth = effects.growth)
-    put("growth.rate", growth->rate, 2.0L * growth->rate * sizes.smallest, static_cast<long double>(growth->rate) * sizes.shortest, 1,
-        false);
+    put("growth.rate", growth->rate, 2.0L * growth->rate * sizes.smallest,
+        static_cast<long double>(growth->rate) * sizes.shortest, 1, false);
   if (const auto& bath = effects.thermostat; bath && bath->rate > 0.0)
     from_energy("thermostat.temperature", bath->temperature, bath->temperature, sizes.lightest, sizes.heaviest);
   if (const auto& shear = effects.shear) {
@@ -160,15 +162,17 @@ void check_drive(const Drive& drive, const Sizes& sizes) {
   if (!drive.lasts || !sizes.duration) return;
   const long double passes = drive.fastest * *sizes.duration / sizes.shortest;
   if (passes > most_countable)
-    refuse(below, most_countable, passes,
-           fmt::format("until time {} disks would pass the box {:.3g} times, at {:.3g}, and more than 2^53 times cannot be computed",
-                       *sizes.duration, passes, drive.fastest));
+    refuse(
+        below, most_countable, passes,
+        fmt::format("until time {} disks would pass the box {:.3g} times, at {:.3g}, and more than 2^53 times cannot be computed",
+                    *sizes.duration, passes, drive.fastest));
 }
 
 void check_mass(const std::string& path, double mass) {
   if (mass >= least_mass && mass <= most_mass) return;
-  throw Refusal(path, fmt::format("{} is {}; it must lie between {:.0e} and {:.0e}, or its inverse would not be a number of all digits",
-                                  path, mass, least_mass, most_mass));
+  throw Refusal(path,
+                fmt::format("{} is {}; it must lie between {:.0e} and {:.0e}, or its inverse would not be a number of all digits",
+                            path, mass, least_mass, most_mass));
 }
 
 void check_masses(const Scene& scene, const Sizes& sizes) {
@@ -185,9 +189,10 @@ void check_masses(const Scene& scene, const Sizes& sizes) {
     const std::string path = fmt::format("walls.{}.mass", wall_names[w]);
     check_mass(path, *wall.mass);
     if (wall.load == 0.0 || *wall.mass * most_countable > sizes.heaviest) continue;
-    throw Refusal(path, fmt::format("{} is {}; it must be above {:.3g} here: the lighter a piston under load, the more often it must "
-                                    "hit a disk to turn it, and more than 2^53 times cannot be computed",
-                                    path, *wall.mass, sizes.heaviest / most_countable));
+    throw Refusal(path,
+                  fmt::format("{} is {}; it must be above {:.3g} here: the lighter a piston under load, the more often it must "
+                              "hit a disk to turn it, and more than 2^53 times cannot be computed",
+                              path, *wall.mass, sizes.heaviest / most_countable));
   }
 }
 
@@ -195,10 +200,11 @@ void check_coordinates(const Scene& scene, const Sizes& sizes) {
   for (int axis = 0; axis < 2; ++axis) {
     const double reach = largest_coordinate(scene.box, axis);
     if (reach <= most_radii * sizes.smallest) continue;
-    throw Refusal(fmt::format("box.{}", axis_names[axis]),
-                  fmt::format("box.{} reaches to {:.6g}, where doubles are {:.2g} apart, and places must be known to a thousandth of "
-                              "the smallest radius, {:.6g}; move the box to the origin, make it smaller, or disks larger",
-                              axis_names[axis], reach, spacing * reach, sizes.smallest));
+    throw Refusal(
+        fmt::format("box.{}", axis_names[axis]),
+        fmt::format("box.{} reaches to {:.6g}, where doubles are {:.2g} apart, and places must be known to a thousandth of "
+                    "the smallest radius, {:.6g}; move the box to the origin, make it smaller, or disks larger",
+                    axis_names[axis], reach, spacing * reach, sizes.smallest));
   }
 }
 
@@ -213,10 +219,11 @@ void check_runaways(const Scene& scene, const Sizes& sizes, double fastest) {
     const double time = scene.run.time ? before + *scene.run.time : fastest > 0.0 ? sizes.smallest / fastest : 0.0;
     if (!(outward > 0.0) || outward * time <= room) continue;
     const std::string path = fmt::format("walls.{}.velocity", wall_names[w]);
-    throw Refusal(path, fmt::format("{} is {}; it must be {} {:.3g} here: at time {:.6g} the wall would be where doubles are {:.2g} "
-                                    "apart, and places must be known to a thousandth of the smallest radius, {:.6g}",
-                                    path, upper ? outward : -outward, upper ? "below" : "above", (upper ? 1.0 : -1.0) * room / time,
-                                    time, spacing * outward * time, sizes.smallest));
+    throw Refusal(
+        path, fmt::format("{} is {}; it must be {} {:.3g} here: at time {:.6g} the wall would be where doubles are {:.2g} "
+                          "apart, and places must be known to a thousandth of the smallest radius, {:.6g}",
+                          path, upper ? outward : -outward, upper ? "below" : "above", (upper ? 1.0 : -1.0) * room / time, time,
+                          spacing * outward * time, sizes.smallest));
   }
 }
 
@@ -224,18 +231,21 @@ void check_thermostat(const Scene& scene, const Sizes& sizes) {
   if (!scene.effects.thermostat) return;
   const Thermostat& bath = *scene.effects.thermostat;
   const auto refuse = [&](double limit, const std::string& why) {
-    throw Refusal("thermostat.rate", fmt::format("thermostat.rate is {}; it must be below {:.3g} here: {}", bath.rate, limit, why));
+    throw Refusal("thermostat.rate",
+                  fmt::format("thermostat.rate is {}; it must be below {:.3g} here: {}", bath.rate, limit, why));
   };
   const double speed = std::sqrt(bath.temperature / sizes.heaviest), way = least_way * sizes.smallest;
   if (bath.rate * way > speed)
-    refuse(speed / way, fmt::format("at temperature {} the heaviest disk would move by {:.3g} from one kick to the next, less than "
-                                    "coordinates can tell",
-                                    bath.temperature, speed / bath.rate));
+    refuse(speed / way,
+           fmt::format("at temperature {} the heaviest disk would move by {:.3g} from one kick to the next, less than "
+                       "coordinates can tell",
+                       bath.temperature, speed / bath.rate));
   const auto disks = static_cast<double>(scene.disk_count());
   if (sizes.duration && bath.rate * disks * *sizes.duration > most_countable)
-    refuse(most_countable / disks / *sizes.duration, fmt::format("until time {} there would be {:.3g} kicks, and there can be at most "
-                                                                 "2^53",
-                                                                 *sizes.duration, bath.rate * disks * *sizes.duration));
+    refuse(most_countable / disks / *sizes.duration,
+           fmt::format("until time {} there would be {:.3g} kicks, and there can be at most "
+                       "2^53",
+                       *sizes.duration, bath.rate * disks * *sizes.duration));
 }
 
 }  // namespace
@@ -251,9 +261,10 @@ void check_step(const Scene& scene, const std::string& path, double step, double
   const Sizes sizes = sizes_of(scene);
   const double fastest = fastest_of(scene, drives_of(scene, sizes)), way = least_way * sizes.smallest;
   if (step * fastest >= way || fastest == 0.0) return;
-  throw Refusal(path, fmt::format("{} is {}; it must be above {:.3g} here: from one sample to the next the fastest disk would move by "
-                                  "{:.3g}, less than coordinates can tell",
-                                  path, step, way / fastest, step * fastest));
+  throw Refusal(path,
+                fmt::format("{} is {}; it must be above {:.3g} here: from one sample to the next the fastest disk would move by "
+                            "{:.3g}, less than coordinates can tell",
+                            path, step, way / fastest, step * fastest));
 }
 
 void check_scales(const Scene& scene) {

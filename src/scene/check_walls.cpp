@@ -77,8 +77,9 @@ void check_sweep(const Scene& scene, std::size_t w) {
     const Eigen::Vector2d ends = extent(scene.effects.obstacles[o], axis);
     const double room = upper ? scene.box.upper[axis] - ends[1] : ends[0] - scene.box.lower[axis];
     if (travel <= room) continue;
-    throw Refusal(path_of(w), fmt::format("walls.{} would run into obstacles.{} at time {:.6g}; make it slower, or end before that",
-                                          wall_names[w], o, room / inward));
+    throw Refusal(path_of(w),
+                  fmt::format("walls.{} would run into obstacles.{} at time {:.6g}; make it slower, or end before that",
+                              wall_names[w], o, room / inward));
   }
 }
 

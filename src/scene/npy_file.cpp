@@ -129,10 +129,14 @@ double number_at(const char* at, const NumberType& type) {
   if (type.kind == 'f') return type.size == 4 ? number_of<float>(at, type.swapped) : number_of<double>(at, type.swapped);
   const bool sign = type.kind == 'i';
   switch (type.size) {
-    case 1: return sign ? number_of<std::int8_t>(at, false) : number_of<std::uint8_t>(at, false);
-    case 2: return sign ? number_of<std::int16_t>(at, type.swapped) : number_of<std::uint16_t>(at, type.swapped);
-    case 4: return sign ? number_of<std::int32_t>(at, type.swapped) : number_of<std::uint32_t>(at, type.swapped);
-    default: return sign ? number_of<std::int64_t>(at, type.swapped) : number_of<std::uint64_t>(at, type.swapped);
+    case 1:
+      return sign ? number_of<std::int8_t>(at, false) : number_of<std::uint8_t>(at, false);
+    case 2:
+      return sign ? number_of<std::int16_t>(at, type.swapped) : number_of<std::uint16_t>(at, type.swapped);
+    case 4:
+      return sign ? number_of<std::int32_t>(at, type.swapped) : number_of<std::uint32_t>(at, type.swapped);
+    default:
+      return sign ? number_of<std::int64_t>(at, type.swapped) : number_of<std::uint64_t>(at, type.swapped);
   }
 }
 

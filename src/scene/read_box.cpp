@@ -49,9 +49,10 @@ BoxDraft read_box(const toml::table& table) {
   if (draft.aspect) {
     for (const char* key : {"x", "y"}) {
       if (box.find(key) != nullptr) {
-        throw SceneError(box.where("aspect"), fmt::format("box.aspect and box.{} exclude each other; give the limits x and y, or aspect "
-                                                  "and a packing_fraction in [[disks]]",
-                                                  key));
+        throw SceneError(box.where("aspect"),
+                         fmt::format("box.aspect and box.{} exclude each other; give the limits x and y, or aspect "
+                                     "and a packing_fraction in [[disks]]",
+                                     key));
       }
     }
   } else {

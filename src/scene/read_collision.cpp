@@ -23,8 +23,7 @@ Collision read_collision(const toml::table& node) {
   collision.restitution = table.number(keys::restitution);
   collision.roughness = table.number(keys::roughness);
   if (const toml::table* below = table.table("elastic_below", "{ time = 1e-6 }")) {
-    collision.elastic_below =
-        TableReader(*below, "collision.elastic_below", {"time"}).required_number(keys::elastic_below);
+    collision.elastic_below = TableReader(*below, "collision.elastic_below", {"time"}).required_number(keys::elastic_below);
   }
   return collision;
 }

@@ -51,8 +51,9 @@ SampleLog read_sample_log(const toml::table& node, const Run& run) {
   } else if (run.time && *run.time / blocks > 0.0) {
     log.block = *run.time / blocks;
   } else {
-    throw SceneError(table.where(), fmt::format("run.sample_log needs the length of a block where the run has no time, such as {}",
-                                                keys::log_block.example));
+    throw SceneError(
+        table.where(),
+        fmt::format("run.sample_log needs the length of a block where the run has no time, such as {}", keys::log_block.example));
   }
   return log;
 }

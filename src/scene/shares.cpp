@@ -81,15 +81,16 @@ void radius_from_grown(std::vector<DisksDraft>& species, const Share& grown, dou
     } else if (open == nullptr) {
       open = &disks;
     } else {
-      throw Refusal(disks.path, fmt::format("{} and {} both lack radius, and {} can stand for one alone; give one of them a radius "
-                                            "or a packing_fraction",
-                                            open->path, disks.path, grown.path));
+      throw Refusal(disks.path,
+                    fmt::format("{} and {} both lack radius, and {} can stand for one alone; give one of them a radius "
+                                "or a packing_fraction",
+                                open->path, disks.path, grown.path));
     }
   }
   if (open == nullptr) return;
   if (!(rest > 0.0) || *open->count == 0) {
-    throw Refusal(grown.key, fmt::format("{} = {} leaves {:.6g} for the {} disks of {}; give {} a radius", grown.path, grown.value,
-                                         rest, *open->count, open->path, open->path));
+    throw Refusal(grown.key, fmt::format("{} = {} leaves {:.6g} for the {} disks of {}; give {} a radius", grown.path,
+                                         grown.value, rest, *open->count, open->path, open->path));
   }
   open->radius = std::sqrt(rest * area / (std::numbers::pi * static_cast<double>(*open->count)));
 }

@@ -28,8 +28,8 @@ void set_size(Box& box, double aspect, double covered, const Share& share) {
   box.upper = {std::sqrt(area * aspect), std::sqrt(area / aspect)};
   if (std::isnormal(box.area())) return;
   throw Refusal(share.key, fmt::format("{} = {} and the disks' area {:.6g} give no box; give at least one disk of a radius "
-                                            "that double precision can square",
-                                            share.path, share.value, covered));
+                                       "that double precision can square",
+                                       share.path, share.value, covered));
 }
 
 /// The box of a scene with `aspect`, of the size that the first species with count, radius and packing fraction asks for, or
@@ -44,7 +44,7 @@ void size_box(const BoxDraft& draft, const std::vector<DisksDraft>& species, con
   }
   throw Refusal("box.aspect",
                 "box.aspect leaves the size open; give packing_fraction beside count and radius in one [[disks]] "
-                   "table, or the limits x and y in place of aspect");
+                "table, or the limits x and y in place of aspect");
 }
 
 void count_from_share(DisksDraft& disks, double area) {
@@ -62,8 +62,8 @@ void count_from_share(DisksDraft& disks, double area) {
 void radius_from_share(DisksDraft& disks, double area) {
   if (*disks.count == 0) {
     throw Refusal(disks.path + ".packing_fraction",
-                     fmt::format("{}.packing_fraction = {} cannot be met by count = 0 disks; give radius in its place",
-                                 disks.path, *disks.packing_fraction));
+                  fmt::format("{}.packing_fraction = {} cannot be met by count = 0 disks; give radius in its place", disks.path,
+                              *disks.packing_fraction));
   }
   disks.radius = std::sqrt(*disks.packing_fraction * area / (std::numbers::pi * static_cast<double>(*disks.count)));
 }
@@ -80,10 +80,9 @@ void complete(DisksDraft& disks, double area) {
   } else if (!has_radius) {
     radius_from_share(disks, area);
   } else if (const double share = *disk_area(disks) / area; !agree(share, *disks.packing_fraction)) {
-    throw Refusal(
-        disks.path + ".packing_fraction",
-        fmt::format("{}.packing_fraction is {}, but count, radius and box make it {:.10g}; leave out one of the four", disks.path,
-                    *disks.packing_fraction, share));
+    throw Refusal(disks.path + ".packing_fraction",
+                  fmt::format("{}.packing_fraction is {}, but count, radius and box make it {:.10g}; leave out one of the four",
+                              disks.path, *disks.packing_fraction, share));
   }
 }
 

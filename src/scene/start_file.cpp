@@ -62,9 +62,9 @@ void refuse_foreign(std::string_view bytes, const std::string& path) {
 class Reader {
  public:
   Reader(std::string_view text, const std::string& path)
-      : text_(text), path_(path), rows_(path, [this](std::size_t column, const std::string& sentence) {
-          fail(fields_[column].column, sentence);
-        }) {
+      : text_(text),
+        path_(path),
+        rows_(path, [this](std::size_t column, const std::string& sentence) { fail(fields_[column].column, sentence); }) {
     if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // the byte order mark that spreadsheets write
   }
 

@@ -52,8 +52,7 @@ TextTable table_of(const Comparison& comparison, const std::vector<MethodSummary
     };
     table.rows.push_back({name_of(s.method.name), s.method.exact() ? "–" : fmt::format("{:.3g}", s.method.dt),
                           s.method.exact() ? "–" : fmt::format("{:.2g}", comparison.plan.in_free_times(s.method.dt)),
-                          fmt::format("{:.2e}", s.error.median), seconds_text(s.seconds_early),
-                          Z_text(s.Z),
+                          fmt::format("{:.2e}", s.error.median), seconds_text(s.seconds_early), Z_text(s.Z),
                           counted(&StepCounts::missed_fraction, &StepCounts::collisions),
                           counted(&StepCounts::repeated_fraction, &StepCounts::reversals),
                           counted(&StepCounts::spurious_fraction, &StepCounts::reversals),

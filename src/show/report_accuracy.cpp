@@ -59,17 +59,19 @@ SummaryRow momentum_row(const RunRecord& record) {
 std::string what_rounding_allows(const RunReport& report) {
   const bool is_single = unit_of(report) > 1e-10;
   const std::string text = fmt::format(
-      "Each of n = {} collisions rounds the velocities of two of the N disks by some u = {}. At random that adds up to a relative "
+      "Each of n = {} collisions rounds the velocities of two of the N disks by some u = {}. At random that adds up to a "
+      "relative "
       "change of energy, and of momentum over √(2 M E), that of all disks flying one way, of the order of 4 u √n / N = {:.1e}",
       grouped(report.totals.pair + report.totals.wall + report.totals.obstacle), is_single ? "2⁻²⁴" : "2⁻⁵³",
       rounding_of(report));
   // What goes and comes is added up collision by collision, and each addition rounds a sum as large as the energy itself.
-  const std::string account = report.of_effects.energy_given
-                                  ? fmt::format(
-                                        "; the account of the energy that came and went is a sum of as many terms, right to some u √n = "
-                                        "{:.1e}",
-                                        unit_of(report) * std::sqrt(collisions_of(report)))
-                                  : "";
+  const std::string account =
+      report.of_effects.energy_given
+          ? fmt::format(
+                "; the account of the energy that came and went is a sum of as many terms, right to some u √n = "
+                "{:.1e}",
+                unit_of(report) * std::sqrt(collisions_of(report)))
+          : "";
   if (report.time_step)
     return text + account + ". Fixed steps keep energy as well as events do; overlap and pressure tell what they miss.";
   return text + account +

@@ -140,10 +140,10 @@ Section pressure(const RunReport& report, const RunTheory& theory) {
 }
 
 TextTable table_of_numbers(const RunReport& report, const RunTheory& theory) {
-  TextTable table{.title = "Numbers",
-                  .columns = {"observable", "number", "value ± standard error", "theory", "whose", "unit (of the scene)",
-                              "remark"},
-                  .caption = "Averages over time, or where it says so over collisions. Theory stands where it is of this scene."};
+  TextTable table{
+      .title = "Numbers",
+      .columns = {"observable", "number", "value ± standard error", "theory", "whose", "unit (of the scene)", "remark"},
+      .caption = "Averages over time, or where it says so over collisions. Theory stands where it is of this scene."};
   for (const Measurement& measured : report.observables) {
     for (const Scalar& scalar : measured.scalars) {
       const auto expected = theory.of(measured.name, scalar.name);
@@ -152,8 +152,7 @@ TextTable table_of_numbers(const RunReport& report, const RunTheory& theory) {
       if (scalar.value && !scalar.error) remark += remark.empty() ? "no error known" : "; no error known";
       table.rows.push_back({measured.name, scalar.name, scalar.value ? value_text(*scalar.value, scalar.error) : "–",
                             expected ? fmt::format("{:.5g}", expected->value) : "", expected ? expected->source : "",
-                            unit_words(scalar.unit),
-                            remark});
+                            unit_words(scalar.unit), remark});
     }
   }
   return table;

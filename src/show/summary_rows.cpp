@@ -93,7 +93,8 @@ std::string why_stopped(const RunReport& report, const Scene* scene) {
           "1e-6 }}, to go on",
           named(report.stopped_disks, "inelastic disks"), report.stopped_disks.size() == 1 ? "s" : "");
     case StopReason::overheated:
-      return "overheated: disks become faster and faster, and time all but stands still; take the energy away that they get, with "
+      return "overheated: disks become faster and faster, and time all but stands still; take the energy away that they get, "
+             "with "
              "[thermostat] or restitution, or end before that";
     case StopReason::cooled:
       return "cooled: inelastic disks move too slowly against each other to be followed any further; where they move on "
@@ -125,7 +126,8 @@ SummaryRows rows_of_what_happened(const RunReport& report, const Scene* scene) {
         {"mean free time", fmt::format("{:.4g}", report.time / per_disk), fmt::format("{:.4g} collisions per disk", per_disk)});
   }
   rows.push_back({"samples", grouped(report.samples), samples_remark(report, scene)});
-  if (!report.state_hash.empty()) rows.push_back({"state hash", report.state_hash, "the same for every run that ends in the same bits"});
+  if (!report.state_hash.empty())
+    rows.push_back({"state hash", report.state_hash, "the same for every run that ends in the same bits"});
   rows.push_back(
       {"took", duration(report.wall_seconds), fmt::format("{} of it in the event loop", duration(report.loop_seconds))});
   return rows;
@@ -149,8 +151,9 @@ SummaryRows rows_of_results(const RunReport& report, const Scene* scene) {
                     report.Z_error ? "from the momentum transfer" : "the run is too short to tell an error"});
   if (report.reduced_pressure) {
     const double reduced = *report.reduced_pressure;  // in proportion to Z, and so is its error
-    rows.push_back({"P sigma^2/kT", report.Z_error && *report.Z != 0.0 ? with_error(reduced, *report.Z_error * reduced / *report.Z)
-                                                                       : fmt::format("{:.5g}", reduced)});
+    rows.push_back({"P sigma^2/kT", report.Z_error && *report.Z != 0.0
+                                        ? with_error(reduced, *report.Z_error * reduced / *report.Z)
+                                        : fmt::format("{:.5g}", reduced)});
   }
   if (!report.note_on_errors.empty() && (report.Z_error || !report.observables.empty()))
     rows.push_back({"errors", "of this start", report.note_on_errors});

@@ -47,7 +47,7 @@ constexpr std::array<TrialPlot, 15> trial_plots = {{
     {"diffusion", "transport", "D(t) over Enskog", "t (mean free times)", "D(t) / Enskog",
      "In two dimensions D grows with the logarithm of time. Beyond the time that sound takes to the middle of the box it is that "
      "of the box."},
-    {"haff", "cooling, weight and walls", "Cooling", "time", "(T(0) / T)^1/2", 
+    {"haff", "cooling, weight and walls", "Cooling", "time", "(T(0) / T)^1/2",
      "Haff's law is a straight line. In the larger box shear waves grow, and the gas cools more slowly."},
     {"barometer", "cooling, weight and walls", "A gas with weight", "height", "disks in a layer", "Layers of height 5.", true},
     {"wall-pressure", "cooling, weight and walls", "Pressure on walls", "N^-1/2", "Z from walls",

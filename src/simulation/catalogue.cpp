@@ -28,7 +28,8 @@ std::string never(const Scene& /*scene*/, const Disks& /*disks*/) { return ""; }
 std::string why_not_single(const Scene& scene, const Disks& disks) {
   constexpr double shortest = 1e-17, longest = 1e18, lightest = 1e-36, heaviest = 1e36;
   const double side = std::max(scene.box.lower.cwiseAbs().maxCoeff(), scene.box.upper.cwiseAbs().maxCoeff());
-  if (side > longest) return fmt::format("coordinates reach to {:.6g}, and their squares are too large for single precision", side);
+  if (side > longest)
+    return fmt::format("coordinates reach to {:.6g}, and their squares are too large for single precision", side);
   for (const double radius : disks.radius)
     if (radius < shortest) return fmt::format("a radius is {:.6g}, and its square is too small for single precision", radius);
   for (const double mass : disks.mass)

@@ -19,9 +19,8 @@ std::string first_not_finite(const Columns& columns, const char* what) {
 }  // namespace
 
 std::string not_finite(const State& state) {
-  for (const std::string& found :
-       {first_not_finite(state.velocities, "velocity"), first_not_finite(state.positions, "position"),
-        first_not_finite(state.spins.transpose(), "spin")})
+  for (const std::string& found : {first_not_finite(state.velocities, "velocity"), first_not_finite(state.positions, "position"),
+                                   first_not_finite(state.spins.transpose(), "spin")})
     if (!found.empty()) return found;
   for (const WallState& wall : state.walls)
     if (!std::isfinite(wall.position) || !std::isfinite(wall.velocity)) return "the place or speed of a wall is not finite";

@@ -59,13 +59,15 @@ void require_sound_step(const FixedStep& step, const Scene& scene, const Start& 
         fmt::format("in a time step of {:g} a disk would move by {:g}; take a shorter one", step.dt, fastest * step.dt));
   if (start.disks.count() > 0 && fastest > 0.0 &&
       fastest * step.dt < 0x1p-50 * *std::min_element(start.disks.radius.begin(), start.disks.radius.end()))
-    throw std::invalid_argument(fmt::format("in a time step of {:g} the fastest disk would move by {:g}, less than coordinates can "
-                                            "tell; take a longer one",
-                                            step.dt, fastest * step.dt));
+    throw std::invalid_argument(
+        fmt::format("in a time step of {:g} the fastest disk would move by {:g}, less than coordinates can "
+                    "tell; take a longer one",
+                    step.dt, fastest * step.dt));
   if (const double steps = scene.run.time.value_or(0.0) / step.dt; !(steps < 0x1p53))
-    throw std::invalid_argument(fmt::format("until time {:g} there would be {:.3g} time steps of {:g}, and there can be at most 2^53; "
-                                            "take longer ones",
-                                            *scene.run.time, steps, step.dt));
+    throw std::invalid_argument(
+        fmt::format("until time {:g} there would be {:.3g} time steps of {:g}, and there can be at most 2^53; "
+                    "take longer ones",
+                    *scene.run.time, steps, step.dt));
 }
 
 }  // namespace

@@ -333,15 +333,16 @@ class Schedule {
     const std::uint64_t before = detail::all_events(engine_.counts()), epochs = engine_.counts().numerics.epochs;
     const Instant began = engine_.now();
     const auto started = Clock::now();
-    const std::uint64_t limit = std::min(
-        {recording_ ? recorded_events : stretch_events, until_verified(), moving_as_one_.until_look(engine_.counts())});
+    const std::uint64_t limit =
+        std::min({recording_ ? recorded_events : stretch_events, until_verified(), moving_as_one_.until_look(engine_.counts())});
     const bool arrived = engine_.run_until(target, pair_limit, limit);
     result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
     const std::uint64_t events = detail::all_events(engine_.counts()) - before;
     stands_ = events > 0 && !(began < engine_.now());
     if (began < engine_.now()) standing_.clear();
     since_verified_ += events;
-    const std::uint64_t begun = engine_.counts().numerics.epochs - epochs;  // walls may outrun all disks, and nothing else happens
+    const std::uint64_t begun =
+        engine_.counts().numerics.epochs - epochs;  // walls may outrun all disks, and nothing else happens
     without_collision_ = engine_.counts().pair > pairs ? 0 : without_collision_ + events + begun;
     return arrived;
   }

@@ -57,12 +57,12 @@ class Standstill {
 
   /// Events after which the pace is looked at for the first time; then after twice as many each time.
   [[nodiscard]] std::uint64_t first_mark() const { return 16'384 + 64 * disks_; }
-  /// By how much of the smallest radius even the fastest disk must get on from one of its events to the next: what coordinates can
-  /// tell. Disks that grow have jammed when they have less room than contact is known to, some hundred times as much.
+  /// By how much of the smallest radius even the fastest disk must get on from one of its events to the next: what coordinates
+  /// can tell. Disks that grow have jammed when they have less room than contact is known to, some hundred times as much.
   [[nodiscard]] double least_way() const { return grows() ? 0x1p-40 : 0x1p-50; }
   /// How many times more often than not the time per event must have fallen below this share of what it was before. Where disks
-  /// have ever less room it falls to a half or a quarter, if they do not find some; in a gas that shear heats up, whose speed grows
-  /// as the time, to 0.71.
+  /// have ever less room it falls to a half or a quarter, if they do not find some; in a gas that shear heats up, whose speed
+  /// grows as the time, to 0.71.
   static constexpr std::uint64_t quickened_marks = 6;
   static constexpr double quickened_pace = 2.0 / 3.0;
   /// A run that would come to its end with fewer events is left to do so: in a week or two.
@@ -115,7 +115,8 @@ class Standstill {
     constexpr double never = std::numeric_limits<double>::infinity();
     const double by_time = until < forever ? until.since<double>(now.time) / pace : never;
     const bool is_counted = end.collisions < RunEnd{}.collisions;
-    const double by_collisions = is_counted ? (static_cast<double>(end.collisions) - static_cast<double>(now.pairs)) / pairs : never;
+    const double by_collisions =
+        is_counted ? (static_cast<double>(end.collisions) - static_cast<double>(now.pairs)) / pairs : never;
     reason_ = effects_.dissipate()            ? StopReason::collapsed
               : grows() || has_moving_walls() ? StopReason::jammed
                                               : StopReason::overheated;

@@ -26,7 +26,7 @@ struct ComparePlan {
   std::vector<double> dts;  ///< of the fixed-step methods, falling
   std::vector<std::uint64_t> seeds;  ///< one per start
   bool drawn = true;                 ///< another seed gives another start; else there is one
-  double longest = 0.0;  ///< seconds of processor time that one run of a fixed-step method may be foreseen to take
+  double longest = 0.0;              ///< seconds of processor time that one run of a fixed-step method may be foreseen to take
 
   [[nodiscard]] double early_time() const { return static_cast<double>(early) * sample_step; }
   [[nodiscard]] double until() const { return static_cast<double>(samples) * sample_step; }

@@ -61,9 +61,7 @@ constexpr std::array<UnitOf, 23> of_keys = {{{"box.x", "", "length"},
                                              {"observe.", ".every", "time"}}};
 
 std::string unit_in(std::span<const UnitOf> units, std::string_view name) {
-  const auto fits = [&](const UnitOf& entry) {
-    return name.starts_with(entry.first) && name.ends_with(entry.last);
-  };
+  const auto fits = [&](const UnitOf& entry) { return name.starts_with(entry.first) && name.ends_with(entry.last); };
   const auto found = std::find_if(units.begin(), units.end(), fits);
   return found == units.end() ? std::string() : std::string(found->unit);
 }

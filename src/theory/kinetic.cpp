@@ -157,9 +157,7 @@ double diffusion_growth(double eta, std::int64_t disks, double from, double to) 
   return sum / (2.0 * N);
 }
 
-double cooling_sonine(double e) {
-  return 16.0 * (1.0 - e) * (1.0 - 2.0 * e * e) / (57.0 - 25.0 * e + 30.0 * e * e * (1.0 - e));
-}
+double cooling_sonine(double e) { return 16.0 * (1.0 - e) * (1.0 - 2.0 * e * e) / (57.0 - 25.0 * e + 30.0 * e * e * (1.0 - e)); }
 
 double haff_rate(double e, double eta, std::int64_t disks) {
   return (1.0 - e * e) / 4.0 * disk_collision_rate(kolafa_rottner_finite(eta, disks)) * (1.0 + 3.0 / 16.0 * cooling_sonine(e)) *

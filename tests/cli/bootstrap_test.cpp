@@ -25,7 +25,9 @@ class Bootstrap : public ::testing::Test {
     write_text(file("packages"), "");
     tool("dpkg-query", R"(for word; do if grep -qx -- "$word" "$home/packages"; then
       case $* in *Package*) echo "$word 1 installed" ;; *) printf installed ;; esac; fi; done)");
-    tool("apt-get", R"(case " $* " in *" install "*) for word; do case $word in -* | install) ;; *) echo "$word" >>"$home/packages" ;; esac; done ;; esac)");
+    tool(
+        "apt-get",
+        R"(case " $* " in *" install "*) for word; do case $word in -* | install) ;; *) echo "$word" >>"$home/packages" ;; esac; done ;; esac)");
     tool("cmake", R"(echo "cmake $*" >>"$home/called"
       case $1 in --fresh)
         mkdir -p build/release

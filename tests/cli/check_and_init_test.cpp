@@ -39,18 +39,18 @@ TEST(CheckCommand, ListsWhatWillBeMeasured) {
 TEST(CheckCommand, DescribesEachEffectAndNamesTheAbsent) {
   const TemporaryDirectory directory;
   const Outcome plain = run_carom(directory.path(), {"check", CAROM_SOURCE_DIR "/docs/scenes/box.toml"});
-  EXPECT_THAT(plain.out,
-              AllOf(HasSubstr("hard walls on all sides"),
-                    HasSubstr("without     loss of energy in collisions, friction and spin, gravity, ")));
+  EXPECT_THAT(plain.out, AllOf(HasSubstr("hard walls on all sides"),
+                               HasSubstr("without     loss of energy in collisions, friction and spin, gravity, ")));
   const Outcome outcome = run_carom(
       directory.path(), {"check", CAROM_SOURCE_DIR "/docs/scenes/box.toml", "--set", "gravity.acceleration=[0.0, -1.0]", "--set",
                          "walls={ left = { temperature = 2.0 }, top = { restitution = 0.8 } }", "--set",
                          "obstacles=[{ disk = { centre = [0.0, 0.0], radius = 0.1 } }]", "--set", "collision.restitution=0.9"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("; restitution 0.9\n"), HasSubstr("  gravity     acceleration (0, -1)\n"),
-                                 HasSubstr("  wall        left: velocities drawn anew at kT = 2\n"),
-                                 HasSubstr("  wall        top: restitution 0.8\n"), HasSubstr("  obstacles   1 fixed disk\n"),
-                                 HasSubstr("  without     friction and spin, growth, a thermostat, shear, attraction at a distance\n")));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("; restitution 0.9\n"), HasSubstr("  gravity     acceleration (0, -1)\n"),
+                    HasSubstr("  wall        left: velocities drawn anew at kT = 2\n"),
+                    HasSubstr("  wall        top: restitution 0.8\n"), HasSubstr("  obstacles   1 fixed disk\n"),
+                    HasSubstr("  without     friction and spin, growth, a thermostat, shear, attraction at a distance\n")));
 }
 
 TEST(CheckCommand, SaysWhichEngineRunsTheSceneAndWhyAndHowMuchMemoryItTakes) {

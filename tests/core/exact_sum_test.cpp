@@ -2,9 +2,9 @@
 
 #include "core/exact_sum.hpp"
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <boost/multiprecision/cpp_int.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -89,7 +89,7 @@ RC_GTEST_PROP(PropertyExactSum, IsRoundedOnceWhateverTheTermsAndTheirOrder, ()) 
 TEST(ExactSum, KeepsWhatDoublesLose) {
   EXPECT_EQ(found({1e308, 1.0, -1e308}), 1.0);
   EXPECT_EQ(found({largest, smallest, -largest}), smallest);
-  EXPECT_EQ(found({1.0, 0x1p-53}), 1.0);                        // a tie, to even
+  EXPECT_EQ(found({1.0, 0x1p-53}), 1.0);  // a tie, to even
   EXPECT_EQ(found({1.0, 0x1p-53, smallest}), std::nextafter(1.0, 2.0));
   EXPECT_EQ(found({-1.0, -0x1p-53, -smallest}), -std::nextafter(1.0, 2.0));
   EXPECT_EQ(found(std::vector<double>(1'000'000, 0.1)), exact(std::vector<double>(1'000'000, 0.1)));

@@ -3,9 +3,9 @@
 #include "core/fixed_axis.hpp"
 #include "core/flight.hpp"
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -49,7 +49,9 @@ RC_GTEST_PROP(PropertyFixedAxis, ACoordinateIsTheNearestStepAndPositionAndRemain
   const double lower = length * *rc::gen::element(0.0, -0.5, -1.0, 3.7, -1000.3, 1e6, 1e9, -1e12);
   const FixedAxis axis = axis_of(lower, lower + length, *rc::gen::arbitrary<bool>(), length * *rc::gen::element(0.0, 1.0, 50.0));
   for (int k = 0; k < 100; ++k) {
-    const double place = k == 0 ? axis.lower : k == 1 ? std::nextafter(axis.upper, axis.lower) : axis.lower + (axis.upper - axis.lower) * unit(random);
+    const double place = k == 0   ? axis.lower
+                         : k == 1 ? std::nextafter(axis.upper, axis.lower)
+                                  : axis.lower + (axis.upper - axis.lower) * unit(random);
     const std::int64_t x = axis.at(place);
     const Quad exact = (Quad(place) - middle_of(axis)) / Quad(axis.unit);
     // The length is rounded too, so that far from the origin both edges may be a step of `place` beyond the range.

@@ -129,9 +129,9 @@ TEST(Collapse, IsNotWhatALightDiskDoesToHeavyOnes) {
   // A disk of 1e-300 of the mass gives its neighbours 1e-300 of its speed: that is slow, and no collapse.
   for (const char* engine : engines_with_effects) {
     const Scene scene = [] {
-      Scene heavy = scene_of(box_of(64.0, 16.0, Boundary::walls), {{{3.0, 8.0}, {0.0, 0.0}, 0.5, 1.0},
-                                                                   {{4.0, 8.0}, {0.0, 0.0}, 0.5, 1.0},
-                                                                   {{6.0, 8.0}, {-1.0, 0.0}, 0.5, 1e-300}});
+      Scene heavy = scene_of(
+          box_of(64.0, 16.0, Boundary::walls),
+          {{{3.0, 8.0}, {0.0, 0.0}, 0.5, 1.0}, {{4.0, 8.0}, {0.0, 0.0}, 0.5, 1.0}, {{6.0, 8.0}, {-1.0, 0.0}, 0.5, 1e-300}});
       heavy.effects.collision.restitution = 0.5;
       heavy.run.time = 8.0;
       return heavy;

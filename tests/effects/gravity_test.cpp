@@ -172,8 +172,8 @@ std::vector<Rest> all_ways_to_rest() {
           {"in a corner", one({3.5, 0.5}, {1.2, -1.6}), 1.4},
           {"far from the origin", far, 1.0},
           {"on a segment", with(one({0.0, 1.5}, down), {segment({-3.0, 1.0}, {3.0, 1.0})}), 1.0},
-          {"in a groove",
-           with(one({0.0, half}, down), {segment({-3.0, 3.0}, {0.0, 0.0}), segment({0.0, 0.0}, {3.0, 3.0})}), 2 * half},
+          {"in a groove", with(one({0.0, half}, down), {segment({-3.0, 3.0}, {0.0, 0.0}), segment({0.0, 0.0}, {3.0, 3.0})}),
+           2 * half},
           {"between two fixed disks", with(one({0.0, 1.0 + half}, down), {disk({-half, 1.0}), disk({half, 1.0})}), 2 * half}};
 }
 
@@ -196,9 +196,9 @@ TEST(Gravity, DisksThatRestOnEachOtherGainTheEnergyOfSomeHopsAndNoMore) {
   // A stack of three masses, and a pile whose upper disk drives the lower ones apart. Hops of the lower disks are handed on, and
   // come back at any speed: the floor and the walls take more than they give of what is above a few hops.
   const double hop = 0.5 * 2.0 * 0x1p-40;
-  const Scene stack = scene_of(box_of(8.0, 8.0, Boundary::walls), {{{4.0, 0.5}, {0.0, 0.0}, 0.5, 1.0},
-                                                                   {{4.0, 1.5}, {0.0, 0.0}, 0.5, 3.0},
-                                                                   {{4.0, 2.5}, {0.0, 0.0}, 0.5, 0.4}});
+  const Scene stack =
+      scene_of(box_of(8.0, 8.0, Boundary::walls),
+               {{{4.0, 0.5}, {0.0, 0.0}, 0.5, 1.0}, {{4.0, 1.5}, {0.0, 0.0}, 0.5, 3.0}, {{4.0, 2.5}, {0.0, 0.0}, 0.5, 0.4}});
   const Scene pile = scene_of({{0.0, 0.0}, {2.2, 8.0}, {Boundary::walls, Boundary::walls}},
                               {{{0.5, 0.5}, {0.0, 0.0}}, {{1.7, 0.5}, {0.0, 0.0}}, {{1.1, 1.3}, {0.0, 0.0}}});
   for (const char* engine : engines_with_effects)
@@ -232,8 +232,7 @@ TEST(Gravity, BouncesKeepTheirEnergyToRounding) {
       const double contact = b.g < 0.0 ? b.floor + b.radius : b.floor + b.length - b.radius;
       const V start(middle, contact + (b.g < 0.0 ? b.height : -b.height));
       const Box box = {{b.floor, b.floor}, {b.floor + b.length, b.floor + b.length}, {Boundary::walls, Boundary::walls}};
-      Simulation simulation =
-          make_simulation(falling(scene_of(box, {{start, {0.0, 0.0}, b.radius}}), {0.0, b.g}), engine);
+      Simulation simulation = make_simulation(falling(scene_of(box, {{start, {0.0, 0.0}, b.radius}}), {0.0, b.g}), engine);
       const double energy = energy_of(simulation);
       simulation.run_until(static_cast<double>(bounces) * 2.0 * v / g);
       ASSERT_GT(simulation.totals().wall, bounces - 10);

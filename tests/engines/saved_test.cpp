@@ -1,5 +1,6 @@
 // A simulation that was written down and brought back goes on to the same bits, on every example scene and every engine: the same
-// events, states and totals, down to the counts of what is bookkeeping. What is written holds nothing that the state does not say.
+// events, states and totals, down to the counts of what is bookkeeping. What is written holds nothing that the state does not
+// say.
 
 #include "core/archive.hpp"
 #include "support/engines.hpp"

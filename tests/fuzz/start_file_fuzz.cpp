@@ -1,4 +1,5 @@
-// Bytes as a start file, CSV or .npy by how they begin: it is read or refused in a sentence, and every number that was read is finite.
+// Bytes as a start file, CSV or .npy by how they begin: it is read or refused in a sentence, and every number that was read is
+// finite.
 
 #include "scene/start_file.hpp"
 

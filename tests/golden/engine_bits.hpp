@@ -16,8 +16,8 @@
 
 namespace carom::test {
 
-/// 8 x 8 disks on a lattice in the box, of radius 0.3 in units of a cell, with velocities of the size of `speed`; every third one is
-/// smaller and lighter if they are to be mixed.
+/// 8 x 8 disks on a lattice in the box, of radius 0.3 in units of a cell, with velocities of the size of `speed`; every third one
+/// is smaller and lighter if they are to be mixed.
 inline std::pair<Disks, State> lattice_start(const Box& box, double speed, bool mixed) {
   constexpr int side = 8;
   const Eigen::Vector2d cell = box.lengths() / side;
@@ -42,7 +42,8 @@ inline std::string bits_of_run(bool fast, const Box& box, const Effects& effects
   scene.box = box;
   scene.effects = effects;
   auto [disks, state] = lattice_start(box, speed, mixed);
-  const auto engine = fast ? detail::make_fast(scene, disks, std::move(state)) : detail::make_general(scene, disks, std::move(state));
+  const auto engine =
+      fast ? detail::make_fast(scene, disks, std::move(state)) : detail::make_general(scene, disks, std::move(state));
   constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
   engine->run_until(Instant::sum(5.0 * box.lengths().minCoeff() / speed, 0.0), no_limit, no_limit);
   return state_hash(engine->state()) + " " + std::to_string(engine->totals().pair);

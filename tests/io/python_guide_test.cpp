@@ -22,7 +22,8 @@ void run_box(const TemporaryDirectory& directory) {
 Outcome run_blocks(const TemporaryDirectory& directory, const std::string& page) {
   Outcome outcome;
   for (const char* python : {"/usr/bin/python3", "python3"}) {
-    outcome = run_program(directory.path(), {python, CAROM_SOURCE_DIR "/tests/io/run_guide.py", CAROM_SOURCE_DIR "/docs/" + page});
+    outcome =
+        run_program(directory.path(), {python, CAROM_SOURCE_DIR "/tests/io/run_guide.py", CAROM_SOURCE_DIR "/docs/" + page});
     if (outcome.exit_code == 127) outcome.exit_code = 77;
     if (outcome.exit_code != 77) break;
   }
@@ -32,9 +33,9 @@ Outcome run_blocks(const TemporaryDirectory& directory, const std::string& page)
 TEST(ScenesPythonGuide, EveryBlockRunsOnTheFilesOfTheRunItNames) {
   const TemporaryDirectory directory;
   run_box(directory);
-  const Outcome gas = run_carom(
-      directory.path(), {"run", CAROM_SOURCE_DIR "/docs/scenes/gas.toml", "--set", "run.sample_every=false", "--set",
-                         "run.sample_log={ base = 1.3, per_block = 40, block = 100.0 }"});
+  const Outcome gas =
+      run_carom(directory.path(), {"run", CAROM_SOURCE_DIR "/docs/scenes/gas.toml", "--set", "run.sample_every=false", "--set",
+                                   "run.sample_log={ base = 1.3, per_block = 40, block = 100.0 }"});
   ASSERT_EQ(gas.exit_code, 0) << gas.err;
   const Outcome outcome = run_blocks(directory, "python.md");
   if (outcome.exit_code == 77) GTEST_SKIP() << "h5py, matplotlib or MDAnalysis is not installed";

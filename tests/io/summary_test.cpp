@@ -28,10 +28,10 @@ Json summary_of(const RunReport& report) { return Json::parse(summary_json(repor
 
 TEST(Summary, HasTheKeysOfTheSceneFormatInItsOrderAndThenItsOwn) {
   const Json json = summary_of(report_of(scene_of(2, 2)));
-  EXPECT_THAT(keys_of(json), ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time", "state_hash",
-                                         "samples", "events", "wall_seconds", "collisions_per_second", "energy", "momentum",
-                                         "temperature", "pressure", "overlap", "stopped", "title", "loop_seconds", "virial",
-                                         "wall_impulse", "numerics", "command_line", "resolved_scene"));
+  EXPECT_THAT(keys_of(json), ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time",
+                                         "state_hash", "samples", "events", "wall_seconds", "collisions_per_second", "energy",
+                                         "momentum", "temperature", "pressure", "overlap", "stopped", "title", "loop_seconds",
+                                         "virial", "wall_impulse", "numerics", "command_line", "resolved_scene"));
   EXPECT_THAT(keys_of(json["carom"]), ElementsAre("version", "commit", "compiler", "flags", "instructions"));
   EXPECT_THAT(keys_of(json["events"]), ElementsAre("pair", "wall", "other", "stale", "total"));
   EXPECT_THAT(keys_of(json["energy"]), ElementsAre("initial", "final", "relative_drift"));
@@ -110,11 +110,12 @@ RunReport report_with_effects() {
 
 TEST(Summary, EveryEffectHasItsKeyAfterThoseOfEveryRun) {
   const Json json = summary_of(report_with_effects());
-  EXPECT_THAT(keys_of(json), ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time", "state_hash",
-                                         "samples", "events", "wall_seconds", "collisions_per_second", "energy", "momentum",
-                                         "temperature", "pressure", "overlap", "stopped", "title", "loop_seconds", "virial",
-                                         "wall_impulse", "numerics", "walls", "packing_fraction_end", "dissipated", "obstacles",
-                                         "thermostat", "growth", "shear", "square_well", "command_line", "resolved_scene"));
+  EXPECT_THAT(
+      keys_of(json),
+      ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time", "state_hash", "samples",
+                  "events", "wall_seconds", "collisions_per_second", "energy", "momentum", "temperature", "pressure", "overlap",
+                  "stopped", "title", "loop_seconds", "virial", "wall_impulse", "numerics", "walls", "packing_fraction_end",
+                  "dissipated", "obstacles", "thermostat", "growth", "shear", "square_well", "command_line", "resolved_scene"));
   EXPECT_THAT(keys_of(json["events"]), ElementsAre("pair", "wall", "other", "stale", "obstacle", "well", "kicks", "total"));
   EXPECT_THAT(keys_of(json["energy"]), ElementsAre("initial", "final", "relative_drift", "given", "unexplained", "parts"));
   EXPECT_THAT(keys_of(json["temperature"]), ElementsAre("mean", "spin_mean"));

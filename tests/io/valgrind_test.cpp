@@ -39,8 +39,8 @@ class Valgrind : public ProgramTest {
 
   /// Valgrind knows no AVX-512.
   Outcome under_valgrind(const std::vector<std::string>& words) {
-    std::vector<std::string> all = {"env",       "CAROM_INSTRUCTIONS=avx2",           "valgrind",
-                                    "--quiet",   "--error-exitcode=99",               "--num-callers=30",
+    std::vector<std::string> all = {"env",       "CAROM_INSTRUCTIONS=avx2",  "valgrind",
+                                    "--quiet",   "--error-exitcode=99",      "--num-callers=30",
                                     "--vgdb=no", "--exit-on-first-error=yes"};
     all.insert(all.end(), words.begin(), words.end());
     return run_program(directory_.path(), all);

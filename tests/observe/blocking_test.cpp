@@ -65,9 +65,9 @@ TEST(Blocking, TellsTheErrorOfIndependentSamples) {
 }
 
 TEST(Blocking, TellsTheErrorWhereCorrelationsLowerIt) {
-  // x = 0.3 e(t) + u(t + 1) - u(t): what u adds cancels from sample to sample, so that a mean over n has variance 0.09 / n + 2 / n^2,
-  // and single samples tell 23 times as much. s = 0.043: blocks of 512 of 65536 are the first with B^3 > 2 n / s^2; they tell
-  // 2 / 512 / 0.09 = 0.043 too much, 128 blocks 16 series to 0.03. Five standard errors.
+  // x = 0.3 e(t) + u(t + 1) - u(t): what u adds cancels from sample to sample, so that a mean over n has variance 0.09 / n + 2 /
+  // n^2, and single samples tell 23 times as much. s = 0.043: blocks of 512 of 65536 are the first with B^3 > 2 n / s^2; they
+  // tell 2 / 512 / 0.09 = 0.043 too much, 128 blocks 16 series to 0.03. Five standard errors.
   const int n = 65536;
   double sum = 0.0;
   for (std::uint64_t s = 0; s < 16; ++s) {
@@ -163,10 +163,10 @@ double variance_of_overlapping_windows(int n, int k) {
 }
 
 TEST(MultipleTauErrors, AreTheScatterOfADiffusingPathAtEveryLag) {
-  // Sixteen channels that diffuse, 512 steps: (x(t) - x(0))^2 of Gaussian x has variance 2 <x^2>^2, so that the variance of their mean
-  // is known. What one path tells of it has as much noise as chi squared of as many degrees of freedom as there are independent
-  // windows, 8 at least: sqrt(2 / 7) = 0.53 and 100 paths to 0.053. Four standard errors; and one path in six takes diffusion
-  // for something slower, where correlations are up to a quarter less: 0.04.
+  // Sixteen channels that diffuse, 512 steps: (x(t) - x(0))^2 of Gaussian x has variance 2 <x^2>^2, so that the variance of their
+  // mean is known. What one path tells of it has as much noise as chi squared of as many degrees of freedom as there are
+  // independent windows, 8 at least: sqrt(2 / 7) = 0.53 and 100 paths to 0.053. Four standard errors; and one path in six takes
+  // diffusion for something slower, where correlations are up to a quarter less: 0.04.
   constexpr int steps = 512, channels = 16, paths = 100;
   std::map<double, double> told, exact;
   std::map<double, int> known;
@@ -198,9 +198,9 @@ TEST(MultipleTauErrors, AreTheScatterOfADiffusingPathAtEveryLag) {
 
 TEST(MultipleTauErrors, OfMeanVelocitiesBetweenWallsKnowThatTheyAlternate) {
   // Places at steps are independent, so that displacements of neighbouring steps have correlation -1/2, and products of two far
-  // apart 1/4 with their neighbours: the variance of a mean over n is 1.5 - 0.5 / n times that of independent ones. The longest lags
-  // have 17 to 24 products, of which 100 paths of 16 channels tell the variance to 4 %. Four standard errors, and as much for the
-  // noise of the correlation that is found.
+  // apart 1/4 with their neighbours: the variance of a mean over n is 1.5 - 0.5 / n times that of independent ones. The longest
+  // lags have 17 to 24 products, of which 100 paths of 16 channels tell the variance to 4 %. Four standard errors, and as much
+  // for the noise of the correlation that is found.
   constexpr int steps = 1024, channels = 16, paths = 100;
   double told = 0.0;
   for (int p = 0; p < paths; ++p) {

@@ -129,9 +129,9 @@ TEST(RunMeasurements, FewCollisionsGiveZWithoutAnError) {
 }
 
 TEST(RunMeasurements, BesideAHeatBathTheErrorOfZIsThatOfARatio) {
-  // kT of sixteen disks in a bath fluctuates by a quarter, and the virial with it, so that the error of the virial alone is some three
-  // times that of Z. What the observable tells is known to be right. Both are known to sqrt(2 / 31) = 0.25 and about as much of one
-  // run, in their squares, and the ratio of ten runs' to 0.11. Four standard errors.
+  // kT of sixteen disks in a bath fluctuates by a quarter, and the virial with it, so that the error of the virial alone is some
+  // three times that of Z. What the observable tells is known to be right. Both are known to sqrt(2 / 31) = 0.25 and about as
+  // much of one run, in their squares, and the ratio of ten runs' to 0.11. Four standard errors.
   Scene scene = gas_scene(16, 0.1, Boundary::periodic);
   scene.effects.collision.rule = CollisionRule::specular;
   scene.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.5, .where = {}};

@@ -182,7 +182,8 @@ TEST(PhysicsErrors, OfWhatWallsGetAndOfDisplacementsAtLongLagsScatterAsTheySay) 
     scene.run.seed = static_cast<std::uint64_t>(r + 1);
     const Observed fluid = observe(scene, 128.0);
     // 0.5 * 2 * 15 steps: a run of 8.5 of it, the longest whose error is known throughout.
-    const auto &lag = fluid.column("mean_square_displacement", 0, "lag"), &msd = fluid.column("mean_square_displacement", 0, "msd"),
+    const auto &lag = fluid.column("mean_square_displacement", 0, "lag"),
+               &msd = fluid.column("mean_square_displacement", 0, "msd"),
                &error = fluid.column("mean_square_displacement", 0, "msd_error");
     const auto row = static_cast<std::size_t>(std::ranges::find(lag, 15.0) - lag.begin());
     ASSERT_LT(row, lag.size());

@@ -81,7 +81,8 @@ class EffectsMaker {
       }
     }
     if (maybe())
-      text += "[thermostat]\n" + entry("temperature", 0.5 + unit_interval()) + "\n" + entry("rate", moderate_positive_double()) + "\n";
+      text += "[thermostat]\n" + entry("temperature", 0.5 + unit_interval()) + "\n" + entry("rate", moderate_positive_double()) +
+              "\n";
     const auto boundary = [&](int axis) { return std::string(periodic_[axis] ? "\"periodic\"" : "\"walls\""); };
     return changed({{"boundary = \"walls\"", "boundary = { x = " + boundary(0) + ", y = " + boundary(1) + " }"},
                     {"[collision]\nrule = \"specular\"\n", text}});

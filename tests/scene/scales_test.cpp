@@ -1,6 +1,6 @@
-// Numbers so large or small that arithmetic would not stand them are refused, and numbers within a hundredth of that are not. Where
-// the limits are is worked out here by hand, from what follows from each number: speeds times lengths between 1e-150 and 1e150, at
-// most 2^53 passes, kicks and samples, places to a thousandth of the smallest radius.
+// Numbers so large or small that arithmetic would not stand them are refused, and numbers within a hundredth of that are not.
+// Where the limits are is worked out here by hand, from what follows from each number: speeds times lengths between 1e-150 and
+// 1e150, at most 2^53 passes, kicks and samples, places to a thousandth of the smallest radius.
 
 #include <carom/scene.hpp>
 
@@ -20,10 +20,11 @@ using testing::IsEmpty;
 
 /// Five disks of radius 1/32 and mass 1 in [-1, 1] x [-1, 1]; they move at 1.
 std::string refusal_of(const std::string& boundary, const std::string& run, const std::vector<std::string>& overrides) {
-  const std::string text = "[box]\nx = [-1.0, 1.0]\ny = [-1.0, 1.0]\nboundary = \"" + boundary +
-                           "\"\n[[disks]]\ncount = 5\nradius = 0.03125\nmass = 1.0\npositions = \"random\"\nvelocities = { speed = 1.0 }\n"
-                           "[collision]\nrule = \"specular\"\n[run]\n" +
-                           run + "\n";
+  const std::string text =
+      "[box]\nx = [-1.0, 1.0]\ny = [-1.0, 1.0]\nboundary = \"" + boundary +
+      "\"\n[[disks]]\ncount = 5\nradius = 0.03125\nmass = 1.0\npositions = \"random\"\nvelocities = { speed = 1.0 }\n"
+      "[collision]\nrule = \"specular\"\n[run]\n" +
+      run + "\n";
   try {
     (void)parse_scene(text, "scene", overrides);
   } catch (const SceneError& error) {
@@ -35,12 +36,14 @@ std::string refusal_of(const std::string& boundary, const std::string& run, cons
 const std::string by_collisions = "collisions = 1000", for_a_while = "time = 4.0";
 
 /// `override` has {} where the number stands; numbers beyond `limit` (its size) are refused.
-void expect_most(const std::string& boundary, const std::string& run, const std::string& override, double limit, const char* why) {
+void expect_most(const std::string& boundary, const std::string& run, const std::string& override, double limit,
+                 const char* why) {
   const auto with = [&](double value) { return refusal_of(boundary, run, {fmt::format(fmt::runtime(override), value)}); };
   EXPECT_THAT(with(0.99 * limit), IsEmpty()) << override;
   EXPECT_THAT(with(1.01 * limit), HasSubstr(why)) << override;
 }
-void expect_least(const std::string& boundary, const std::string& run, const std::string& override, double limit, const char* why) {
+void expect_least(const std::string& boundary, const std::string& run, const std::string& override, double limit,
+                  const char* why) {
   const auto with = [&](double value) { return refusal_of(boundary, run, {fmt::format(fmt::runtime(override), value)}); };
   EXPECT_THAT(with(1.01 * limit), IsEmpty()) << override;
   EXPECT_THAT(with(0.99 * limit), HasSubstr(why)) << override;
@@ -62,7 +65,8 @@ TEST(Scales, SpeedsThatEffectsGiveStayInRange) {
   expect_most("periodic", by_collisions, "thermostat={{ temperature = {:e}, rate = 1.0 }}", most * most, fast);
   expect_least("periodic", by_collisions, "thermostat={{ temperature = {:e}, rate = 1e-150 }}", least * least, slow);
   expect_most("periodic", by_collisions, "shear.rate=-{:e}", most / 2.0, fast);
-  expect_most("periodic", by_collisions, "square_well={{ width = 1.5, depth = {:e} }}", most * most / 4.0, fast);  // v^2 = 2 d / (1/2)
+  expect_most("periodic", by_collisions, "square_well={{ width = 1.5, depth = {:e} }}", most * most / 4.0,
+              fast);  // v^2 = 2 d / (1/2)
   expect_most("periodic", by_collisions, "square_well={{ width = 1.5, depth = -{:e} }}", most * most / 4.0, fast);
 }
 
@@ -90,7 +94,8 @@ TEST(Scales, WallsThatRunAwayStayWhereDoublesTellTheDisks) {
   const double reach = 1e-3 * 0x1p52 / 32.0;
   expect_most("walls", for_a_while, "walls.top={{ velocity = {:e} }}", reach / 4.0, far);
   expect_most("walls", for_a_while, "walls.left={{ velocity = -{:e} }}", reach / 4.0, far);
-  expect_most("walls", by_collisions, "walls.top={{ velocity = {:e} }}", reach * 32.0, far);  // a disk moves by its radius in 1/32
+  expect_most("walls", by_collisions, "walls.top={{ velocity = {:e} }}", reach * 32.0,
+              far);  // a disk moves by its radius in 1/32
 }
 
 TEST(Scales, CoordinatesTellTheDisks) {
@@ -102,7 +107,8 @@ TEST(Scales, CoordinatesTellTheDisks) {
 }
 
 TEST(Scales, PistonsAreNotTooLightToTurnADisk) {
-  expect_least("walls", by_collisions, "walls.top={{ mass = {:e}, load = 1.0 }}", 0x1p-53, "and more than 2^53 times cannot be computed");
+  expect_least("walls", by_collisions, "walls.top={{ mass = {:e}, load = 1.0 }}", 0x1p-53,
+               "and more than 2^53 times cannot be computed");
   EXPECT_THAT(refusal_of("walls", by_collisions, {"walls.top={ mass = 1e-100, load = 0.0 }"}), IsEmpty());
 }
 
@@ -115,8 +121,10 @@ TEST(Scales, MassesHaveProducts) {
 
 TEST(Scales, ThermostatsLetDisksMove) {
   // A disk moves at 1 / 2 from kick to kick: 2^-50 of its radius.
-  expect_most("periodic", by_collisions, "thermostat={{ temperature = 0.25, rate = {:e} }}", 0.5 * 0x1p55, "less than coordinates can tell");
-  expect_most("periodic", for_a_while, "thermostat={{ temperature = 0.25, rate = {:e} }}", 0x1p53 / 20.0, "and there can be at most 2^53");
+  expect_most("periodic", by_collisions, "thermostat={{ temperature = 0.25, rate = {:e} }}", 0.5 * 0x1p55,
+              "less than coordinates can tell");
+  expect_most("periodic", for_a_while, "thermostat={{ temperature = 0.25, rate = {:e} }}", 0x1p53 / 20.0,
+              "and there can be at most 2^53");
 }
 
 TEST(Scales, SamplesCanBeCounted) {

@@ -90,9 +90,9 @@ TEST(Spellings, ListedVelocitiesMayHaveAnyFiniteSize) {
 }
 
 TEST(Spellings, WholeNumbersMayHaveAPointOrAnExponent) {
-  const Scene scene = parse_changed(
-      {{"count = 10", "count = 1.2e1"},
-       {"time = 5.0", "collisions = 1e7\nseed = 9007199254740992.0\nsample_every = { collisions = 1e3 }"}});
+  const Scene scene =
+      parse_changed({{"count = 10", "count = 1.2e1"},
+                     {"time = 5.0", "collisions = 1e7\nseed = 9007199254740992.0\nsample_every = { collisions = 1e3 }"}});
   EXPECT_EQ(scene.disk_count(), 12);
   EXPECT_EQ(scene.run.collisions, 10'000'000U);
   EXPECT_EQ(scene.run.seed, 9007199254740992U);

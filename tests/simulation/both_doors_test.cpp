@@ -60,7 +60,12 @@ std::vector<Case> cases() {
       {"BoxReversed", walls, {"box.x=[1.0, -1.0]"}, [](Scene& s) { std::swap(s.box.lower[0], s.box.upper[0]); }},
       {"BoxOfNaN", walls, {"box.y=[nan, 1.0]"}, [](Scene& s) { s.box.lower[1] = not_a_number; }},
       {"BoxWithoutEnd", walls, {"box.y=[-1.0, inf]"}, [](Scene& s) { s.box.upper[1] = infinite_number; }},
-      {"BoxTooLarge", walls, {"box.x=[-1.0, 1e200]", "box.y=[-1.0, 1e200]"}, [](Scene& s) { s.box.upper = {1e200, 1e200}; }},
+      {"BoxTooLarge",
+       walls,
+       {"box.x=[-1.0, 1e200]", "box.y=[-1.0, 1e200]"},
+       [](Scene& s) {
+         s.box.upper = {1e200, 1e200};
+       }},
       // ------------------------------------------------------------------------------------------------------ disks
       {"CountNegative", walls, {"disks.0.count=-3"}, [](Scene& s) { s.species[0].count = -3; }},
       {"CountTooLarge", walls, {"disks.0.count=2147483648"}, [](Scene& s) { s.species[0].count = 2147483648; }},
@@ -73,12 +78,18 @@ std::vector<Case> cases() {
       {"RadiusZero", walls, {"disks.1.radius=0.0"}, [](Scene& s) { s.species[1].radius = 0.0; }},
       {"MassOfNaN", walls, {"disks.0.mass=nan"}, [](Scene& s) { s.species[0].mass = not_a_number; }},
       {"MassInfinite", walls, {"disks.0.mass=inf"}, [](Scene& s) { s.species[0].mass = infinite_number; }},
-      {"UniformNegative", walls, {"disks.0.velocities.uniform=-1.0"}, [](Scene& s) { s.species[0].velocities = UniformVelocities{-1.0}; }},
+      {"UniformNegative",
+       walls,
+       {"disks.0.velocities.uniform=-1.0"},
+       [](Scene& s) { s.species[0].velocities = UniformVelocities{-1.0}; }},
       {"TemperatureNegative",
        walls,
        {"disks.0.velocities={ temperature = -1.0 }"},
        [](Scene& s) { s.species[0].velocities = MaxwellVelocities{-1.0}; }},
-      {"SpeedOfNaN", walls, {"disks.0.velocities={ speed = nan }"}, [](Scene& s) { s.species[0].velocities = FixedSpeed{not_a_number}; }},
+      {"SpeedOfNaN",
+       walls,
+       {"disks.0.velocities={ speed = nan }"},
+       [](Scene& s) { s.species[0].velocities = FixedSpeed{not_a_number}; }},
       {"PositionsTooFew", walls, {"disks.1.count=3"}, [](Scene& s) { s.species[1].count = 3; }},
       {"PositionOfNaN",
        walls,
@@ -97,11 +108,15 @@ std::vector<Case> cases() {
       {"InTheWall",
        walls,
        {"disks.1.positions=[[0.5, 0.5], [0.96, 0.0]]"},
-       [](Scene& s) { s.species[1].positions = ListedPositions{{{0.5, 0.5}, {0.96, 0.0}}}; }},
+       [](Scene& s) {
+         s.species[1].positions = ListedPositions{{{0.5, 0.5}, {0.96, 0.0}}};
+       }},
       {"OutsideAPeriodicBox",
        periodic,
        {"disks.1.positions=[[0.5, 0.5], [1.5, 0.0]]"},
-       [](Scene& s) { s.species[1].positions = ListedPositions{{{0.5, 0.5}, {1.5, 0.0}}}; }},
+       [](Scene& s) {
+         s.species[1].positions = ListedPositions{{{0.5, 0.5}, {1.5, 0.0}}};
+       }},
       {"DenserThanPossible", walls, {"disks.0.radius=0.7"}, [](Scene& s) { s.species[0].radius = 0.7; }},
       {"DenserThanRandom",
        walls,
@@ -113,11 +128,15 @@ std::vector<Case> cases() {
       {"Overlapping",
        walls,
        {"disks.1.positions=[[0.5, 0.5], [0.6, 0.5]]"},
-       [](Scene& s) { s.species[1].positions = ListedPositions{{{0.5, 0.5}, {0.6, 0.5}}}; }},
+       [](Scene& s) {
+         s.species[1].positions = ListedPositions{{{0.5, 0.5}, {0.6, 0.5}}};
+       }},
       {"OverlappingThroughTheEdge",
        periodic,
        {"disks.1.positions=[[-0.95, 0.5], [0.95, 0.5]]"},
-       [](Scene& s) { s.species[1].positions = ListedPositions{{{-0.95, 0.5}, {0.95, 0.5}}}; }},
+       [](Scene& s) {
+         s.species[1].positions = ListedPositions{{{-0.95, 0.5}, {0.95, 0.5}}};
+       }},
       {"GrownBesideListed",
        walls,
        {"disks.0.positions={ packing_fraction = 0.5 }"},
@@ -140,20 +159,38 @@ std::vector<Case> cases() {
       {"RoughnessWithReversal",
        walls,
        {"collision.rule=reversal", "collision.roughness=0.5"},
-       [](Scene& s) { s.effects.collision = {CollisionRule::reversal, {}, 0.5, {}}; }},
+       [](Scene& s) {
+         s.effects.collision = {CollisionRule::reversal, {}, 0.5, {}};
+       }},
       {"ElasticBelowNegative",
        walls,
        {"collision.elastic_below={ time = -1.0 }"},
        [](Scene& s) { s.effects.collision.elastic_below = -1.0; }},
-      {"GravityOfNaN", walls, {"gravity.acceleration=[0.0, nan]"}, [](Scene& s) { in(s.effects.gravity).acceleration = {0.0, not_a_number}; }},
+      {"GravityOfNaN",
+       walls,
+       {"gravity.acceleration=[0.0, nan]"},
+       [](Scene& s) {
+         in(s.effects.gravity).acceleration = {0.0, not_a_number};
+       }},
       {"GravityOnAPeriodicAxis",
        periodic,
        {"gravity.acceleration=[0.0, -1.0]"},
-       [](Scene& s) { in(s.effects.gravity).acceleration = {0.0, -1.0}; }},
+       [](Scene& s) {
+         in(s.effects.gravity).acceleration = {0.0, -1.0};
+       }},
       {"WallOfAPeriodicBox", periodic, {"walls.left={ velocity = 0.1 }"}, [](Scene& s) { s.effects.walls[0].velocity = 0.1; }},
-      {"WallRestitutionAboveOne", walls, {"walls.left={ restitution = 1.5 }"}, [](Scene& s) { s.effects.walls[0].restitution = 1.5; }},
-      {"WallTemperatureZero", walls, {"walls.left={ temperature = 0.0 }"}, [](Scene& s) { s.effects.walls[0].temperature = 0.0; }},
-      {"WallVelocityInfinite", walls, {"walls.left={ velocity = inf }"}, [](Scene& s) { s.effects.walls[0].velocity = infinite_number; }},
+      {"WallRestitutionAboveOne",
+       walls,
+       {"walls.left={ restitution = 1.5 }"},
+       [](Scene& s) { s.effects.walls[0].restitution = 1.5; }},
+      {"WallTemperatureZero",
+       walls,
+       {"walls.left={ temperature = 0.0 }"},
+       [](Scene& s) { s.effects.walls[0].temperature = 0.0; }},
+      {"WallVelocityInfinite",
+       walls,
+       {"walls.left={ velocity = inf }"},
+       [](Scene& s) { s.effects.walls[0].velocity = infinite_number; }},
       {"ThermalWallWithRestitution",
        walls,
        {"walls.right={ temperature = 1.0, restitution = 0.5 }"},
@@ -168,8 +205,14 @@ std::vector<Case> cases() {
        [](Scene& s) { s.effects.walls[3] = {{}, {}, 0.1, 1.0, 1.0, {}}; }},
       {"PistonWithoutLoad", walls, {"walls.top={ mass = 1.0 }"}, [](Scene& s) { s.effects.walls[3].mass = 1.0; }},
       {"LoadWithoutPiston", walls, {"walls.top={ load = 1.0 }"}, [](Scene& s) { s.effects.walls[3].load = 1.0; }},
-      {"PistonMassZero", walls, {"walls.top={ mass = 0.0, load = 1.0 }"}, [](Scene& s) { s.effects.walls[3] = {{}, {}, {}, 0.0, 1.0, {}}; }},
-      {"LoadNegative", walls, {"walls.top={ mass = 1.0, load = -1.0 }"}, [](Scene& s) { s.effects.walls[3] = {{}, {}, {}, 1.0, -1.0, {}}; }},
+      {"PistonMassZero",
+       walls,
+       {"walls.top={ mass = 0.0, load = 1.0 }"},
+       [](Scene& s) { s.effects.walls[3] = {{}, {}, {}, 0.0, 1.0, {}}; }},
+      {"LoadNegative",
+       walls,
+       {"walls.top={ mass = 1.0, load = -1.0 }"},
+       [](Scene& s) { s.effects.walls[3] = {{}, {}, {}, 1.0, -1.0, {}}; }},
       {"WallsThatMeet", walls, {"walls.top={ velocity = -0.4 }"}, [](Scene& s) { s.effects.walls[3].velocity = -0.4; }},
       {"WallIntoAnObstacle",
        walls,
@@ -182,7 +225,10 @@ std::vector<Case> cases() {
        walls,
        {"obstacles=[{ disk = { centre = [0.0, 0.0], radius = -0.1 } }]"},
        obstacle(DiskObstacle{{0.0, 0.0}, -0.1})},
-      {"ObstacleAtNaN", walls, {"obstacles=[{ disk = { centre = [nan, 0.0], radius = 0.1 } }]"}, obstacle(DiskObstacle{{not_a_number, 0.0}, 0.1})},
+      {"ObstacleAtNaN",
+       walls,
+       {"obstacles=[{ disk = { centre = [nan, 0.0], radius = 0.1 } }]"},
+       obstacle(DiskObstacle{{not_a_number, 0.0}, 0.1})},
       {"SegmentToInfinity",
        walls,
        {"obstacles=[{ segment = { from = [0.0, 0.0], to = [0.0, inf] } }]"},
@@ -218,31 +264,45 @@ std::vector<Case> cases() {
       {"GrowthRateNegative",
        periodic,
        {"growth={ rate = -1.0, until = { pressure = 10.0 } }"},
-       [](Scene& s) { s.effects.growth = Growth{-1.0, {}, 10.0, {}}; }},
+       [](Scene& s) {
+         s.effects.growth = Growth{-1.0, {}, 10.0, {}};
+       }},
       {"GrowthUntilTwo",
        periodic,
        {"growth={ rate = 0.1, until = { pressure = 10.0, packing_fraction = 0.5 } }"},
-       [](Scene& s) { s.effects.growth = Growth{0.1, 0.5, 10.0, {}}; }},
+       [](Scene& s) {
+         s.effects.growth = Growth{0.1, 0.5, 10.0, {}};
+       }},
       {"GrowthUntilPressureZero",
        periodic,
        {"growth={ rate = 0.1, until = { pressure = 0.0 } }"},
-       [](Scene& s) { s.effects.growth = Growth{0.1, {}, 0.0, {}}; }},
+       [](Scene& s) {
+         s.effects.growth = Growth{0.1, {}, 0.0, {}};
+       }},
       {"GrowthWithoutAnEnd",
        periodic,
        {"growth.rate=0.1", "run={ collisions = 1000 }"},
-       [](Scene& s) { s.effects.growth = Growth{0.1, {}, {}, {}}, s.run.time.reset(), s.run.collisions = 1000; }},
+       [](Scene& s) {
+         s.effects.growth = Growth{0.1, {}, {}, {}}, s.run.time.reset(), s.run.collisions = 1000;
+       }},
       {"GrowthPastOne",
        periodic,
        {"growth={ rate = 0.1, until = { packing_fraction = 1.5 } }"},
-       [](Scene& s) { s.effects.growth = Growth{0.1, 1.5, {}, {}}; }},
+       [](Scene& s) {
+         s.effects.growth = Growth{0.1, 1.5, {}, {}};
+       }},
       {"GrowthPastClosePacking",
        periodic,
        {"growth={ rate = 0.1, until = { packing_fraction = 0.95 } }", "disks.1.radius=0.05"},
-       [](Scene& s) { s.effects.growth = Growth{0.1, 0.95, {}, {}}, s.species[1].radius = 0.05; }},
+       [](Scene& s) {
+         s.effects.growth = Growth{0.1, 0.95, {}, {}}, s.species[1].radius = 0.05;
+       }},
       {"GrowthAlreadyThere",
        periodic,
        {"growth={ rate = 0.1, until = { packing_fraction = 0.01 } }"},
-       [](Scene& s) { s.effects.growth = Growth{0.1, 0.01, {}, {}}; }},
+       [](Scene& s) {
+         s.effects.growth = Growth{0.1, 0.01, {}, {}};
+       }},
       {"GrowthWiderThanTheBox",
        periodic,
        {"growth={ rate = 0.1, until = { packing_fraction = 0.95 } }", "disks.0.count=1", "disks.0.radius=1e-3",
@@ -255,7 +315,9 @@ std::vector<Case> cases() {
       {"GrowthFillsTheBoxInTime",
        walls,
        {"growth={ rate = 10.0 }"},
-       [](Scene& s) { s.effects.growth = Growth{10.0, {}, {}, {}}; }},
+       [](Scene& s) {
+         s.effects.growth = Growth{10.0, {}, {}, {}};
+       }},
       {"MassTooLarge", walls, {"disks.0.mass=1e301"}, [](Scene& s) { s.species[0].mass = 1e301; }},
       {"WallRunsAway", walls, {"walls.top={ velocity = 1e100 }"}, [](Scene& s) { s.effects.walls[3].velocity = 1e100; }},
       {"LoadTooLarge",
@@ -270,16 +332,22 @@ std::vector<Case> cases() {
       {"GravityTooStrong",
        walls,
        {"gravity.acceleration=[0.0, -1e305]"},
-       [](Scene& s) { in(s.effects.gravity).acceleration = {0.0, -1e305}; }},
+       [](Scene& s) {
+         in(s.effects.gravity).acceleration = {0.0, -1e305};
+       }},
       {"ShearTooFast", periodic, {"shear.rate=1e30"}, [](Scene& s) { in(s.effects.shear).rate = 1e30; }},
       {"ThermostatTooFast",
        periodic,
        {"thermostat={ temperature = 1.0, rate = 1e20 }"},
-       [](Scene& s) { s.effects.thermostat = Thermostat{1.0, 1e20, {}}; }},
+       [](Scene& s) {
+         s.effects.thermostat = Thermostat{1.0, 1e20, {}};
+       }},
       {"WellTooDeep",
        periodic,
        {"square_well={ width = 1.5, depth = 1e305 }"},
-       [](Scene& s) { s.effects.square_well = SquareWell{1.5, 1e305, {}}; }},
+       [](Scene& s) {
+         s.effects.square_well = SquareWell{1.5, 1e305, {}};
+       }},
       {"BoxFarAway",
        periodic,
        {"box.x=[1e15, 1000000000000002.0]", "disks.1.positions=random", "disks.1.count=2"},
@@ -295,23 +363,33 @@ std::vector<Case> cases() {
       {"GrowthAndEquilibrate",
        periodic,
        {"growth={ rate = 0.1, until = { packing_fraction = 0.5 } }", "run.equilibrate={ time = 1.0 }"},
-       [](Scene& s) { s.effects.growth = Growth{0.1, 0.5, {}, {}}, s.run.equilibrate = Run::Equilibrate{{}, 1.0}; }},
+       [](Scene& s) {
+         s.effects.growth = Growth{0.1, 0.5, {}, {}}, s.run.equilibrate = Run::Equilibrate{{}, 1.0};
+       }},
       {"GrowthAndAMovingWall",
        walls,
        {"growth={ rate = 0.1, until = { packing_fraction = 0.5 } }", "walls.top={ velocity = 0.1 }"},
-       [](Scene& s) { s.effects.growth = Growth{0.1, 0.5, {}, {}}, s.effects.walls[3].velocity = 0.1; }},
+       [](Scene& s) {
+         s.effects.growth = Growth{0.1, 0.5, {}, {}}, s.effects.walls[3].velocity = 0.1;
+       }},
       {"GrowthAndAPiston",
        walls,
        {"growth={ rate = 0.1, until = { packing_fraction = 0.5 } }", "walls.top={ mass = 1.0, load = 1.0 }"},
-       [](Scene& s) { s.effects.growth = Growth{0.1, 0.5, {}, {}}, s.effects.walls[3] = {{}, {}, {}, 1.0, 1.0, {}}; }},
+       [](Scene& s) {
+         s.effects.growth = Growth{0.1, 0.5, {}, {}}, s.effects.walls[3] = {{}, {}, {}, 1.0, 1.0, {}};
+       }},
       {"ThermostatTemperatureZero",
        periodic,
        {"thermostat={ temperature = 0.0, rate = 1.0 }"},
-       [](Scene& s) { s.effects.thermostat = Thermostat{0.0, 1.0, {}}; }},
+       [](Scene& s) {
+         s.effects.thermostat = Thermostat{0.0, 1.0, {}};
+       }},
       {"ThermostatRateNegative",
        periodic,
        {"thermostat={ temperature = 1.0, rate = -1.0 }"},
-       [](Scene& s) { s.effects.thermostat = Thermostat{1.0, -1.0, {}}; }},
+       [](Scene& s) {
+         s.effects.thermostat = Thermostat{1.0, -1.0, {}};
+       }},
       {"ShearOfNaN", periodic, {"shear.rate=nan"}, [](Scene& s) { in(s.effects.shear).rate = not_a_number; }},
       {"ShearBetweenWalls", walls, {"shear.rate=0.1"}, shear},
       {"ShearWithGravity",
@@ -321,74 +399,109 @@ std::vector<Case> cases() {
       {"ShearWithObstacles",
        periodic,
        {"shear.rate=0.1", "obstacles=[{ disk = { centre = [0.0, 0.0], radius = 0.1 } }]"},
-       [=](Scene& s) { shear(s), obstacle(DiskObstacle{{0.0, 0.0}, 0.1})(s); }},
+       [=](Scene& s) {
+         shear(s), obstacle(DiskObstacle{{0.0, 0.0}, 0.1})(s);
+       }},
       {"ShearWithGrowth",
        periodic,
        {"shear.rate=0.1", "growth={ rate = 0.1, until = { packing_fraction = 0.5 } }"},
-       [=](Scene& s) { shear(s), s.effects.growth = Growth{0.1, 0.5, {}, {}}; }},
+       [=](Scene& s) {
+         shear(s), s.effects.growth = Growth{0.1, 0.5, {}, {}};
+       }},
       {"ShearWithWells",
        periodic,
        {"shear.rate=0.1", "square_well={ width = 1.5, depth = 1.0 }"},
-       [=](Scene& s) { shear(s), s.effects.square_well = SquareWell{1.5, 1.0, {}}; }},
+       [=](Scene& s) {
+         shear(s), s.effects.square_well = SquareWell{1.5, 1.0, {}};
+       }},
       {"WellOfWidthOne",
        periodic,
        {"square_well={ width = 1.0, depth = 1.0 }"},
-       [](Scene& s) { s.effects.square_well = SquareWell{1.0, 1.0, {}}; }},
+       [](Scene& s) {
+         s.effects.square_well = SquareWell{1.0, 1.0, {}};
+       }},
       {"WellOfOneUlp",
        periodic,
        {"square_well={ width = 1.0000000000000002, depth = 1.0 }"},
-       [](Scene& s) { s.effects.square_well = SquareWell{0x1.0000000000001p0, 1.0, {}}; }},
+       [](Scene& s) {
+         s.effects.square_well = SquareWell{0x1.0000000000001p0, 1.0, {}};
+       }},
       {"WellDepthOfNaN",
        periodic,
        {"square_well={ width = 1.5, depth = nan }"},
-       [](Scene& s) { s.effects.square_well = SquareWell{1.5, not_a_number, {}}; }},
+       [](Scene& s) {
+         s.effects.square_well = SquareWell{1.5, not_a_number, {}};
+       }},
       {"WellTooWide",
        periodic,
        {"square_well={ width = 5.5, depth = 1.0 }"},
-       [](Scene& s) { s.effects.square_well = SquareWell{5.5, 1.0, {}}; }},
+       [](Scene& s) {
+         s.effects.square_well = SquareWell{5.5, 1.0, {}};
+       }},
       {"WellsWithGrowth",
        periodic,
        {"square_well={ width = 1.5, depth = 1.0 }", "growth={ rate = 0.1, until = { packing_fraction = 0.5 } }"},
-       [](Scene& s) { s.effects.square_well = SquareWell{1.5, 1.0, {}}, s.effects.growth = Growth{0.1, 0.5, {}, {}}; }},
+       [](Scene& s) {
+         s.effects.square_well = SquareWell{1.5, 1.0, {}}, s.effects.growth = Growth{0.1, 0.5, {}, {}};
+       }},
       // ------------------------------------------------------------------------------------------------------ the run
       {"TimeNegative", walls, {"run.time=-1.0"}, [](Scene& s) { s.run.time = -1.0; }},
       {"TimeInfinite", walls, {"run.time=inf"}, [](Scene& s) { s.run.time = infinite_number; }},
       {"SampleEveryZero", walls, {"run.sample_every=0.0"}, [](Scene& s) { s.run.sample_every = 0.0; }},
       {"TooManySamples", walls, {"run.sample_every=1e-300"}, [](Scene& s) { s.run.sample_every = 1e-300; }},
-      {"SampleEveryNoCollisions", walls, {"run.sample_every={ collisions = 0 }"}, [](Scene& s) { s.run.sample_every_collisions = 0; }},
+      {"SampleEveryNoCollisions",
+       walls,
+       {"run.sample_every={ collisions = 0 }"},
+       [](Scene& s) { s.run.sample_every_collisions = 0; }},
       {"SampleLogBaseOne",
        walls,
        {"run.sample_log={ base = 1.0, per_block = 5, block = 1.0 }"},
-       [](Scene& s) { s.run.sample_log = SampleLog{1.0, 5, 1.0}; }},
+       [](Scene& s) {
+         s.run.sample_log = SampleLog{1.0, 5, 1.0};
+       }},
       {"SampleLogOnePerBlock",
        walls,
        {"run.sample_log={ base = 2.0, per_block = 1, block = 1.0 }"},
-       [](Scene& s) { s.run.sample_log = SampleLog{2.0, 1, 1.0}; }},
+       [](Scene& s) {
+         s.run.sample_log = SampleLog{2.0, 1, 1.0};
+       }},
       {"SampleLogTooFine",
        walls,
        {"run.sample_log={ base = 2.0, per_block = 50, block = 1.0 }"},
-       [](Scene& s) { s.run.sample_log = SampleLog{2.0, 50, 1.0}; }},
+       [](Scene& s) {
+         s.run.sample_log = SampleLog{2.0, 50, 1.0};
+       }},
       {"SampleLogTooMany",
        walls,
        {"run.sample_log={ base = 2.0, per_block = 5, block = 1e-300 }"},
-       [](Scene& s) { s.run.sample_log = SampleLog{2.0, 5, 1e-300}; }},
+       [](Scene& s) {
+         s.run.sample_log = SampleLog{2.0, 5, 1e-300};
+       }},
       {"SampleLogBlockZero",
        walls,
        {"run.sample_log={ base = 2.0, per_block = 5, block = 0.0 }"},
-       [](Scene& s) { s.run.sample_log = SampleLog{2.0, 5, 0.0}; }},
+       [](Scene& s) {
+         s.run.sample_log = SampleLog{2.0, 5, 0.0};
+       }},
       {"SampleLogBesideSampleEvery",
        walls,
        {"run.sample_log={ base = 2.0, per_block = 5, block = 1.0 }", "run.sample_every=0.1"},
-       [](Scene& s) { s.run.sample_log = SampleLog{2.0, 5, 1.0}, s.run.sample_every = 0.1; }},
+       [](Scene& s) {
+         s.run.sample_log = SampleLog{2.0, 5, 1.0}, s.run.sample_every = 0.1;
+       }},
       {"EquilibrateTwice",
        walls,
        {"run.equilibrate={ time = 1.0, collisions_per_disk = 5.0 }"},
-       [](Scene& s) { s.run.equilibrate = Run::Equilibrate{5.0, 1.0}; }},
+       [](Scene& s) {
+         s.run.equilibrate = Run::Equilibrate{5.0, 1.0};
+       }},
       {"EquilibrateByNothing", walls, {"run.equilibrate={}"}, [](Scene& s) { s.run.equilibrate = Run::Equilibrate{}; }},
       {"EquilibrateNegative",
        walls,
        {"run.equilibrate={ time = -1.0 }"},
-       [](Scene& s) { s.run.equilibrate = Run::Equilibrate{{}, -1.0}; }},
+       [](Scene& s) {
+         s.run.equilibrate = Run::Equilibrate{{}, -1.0};
+       }},
       {"CollisionsOfOneDisk",
        walls,
        {"disks.0.count=1", "disks.1.positions=random", "disks.1.count=0", "disks.1.velocities=rest", "run={ collisions = 5 }"},
@@ -427,12 +540,16 @@ std::vector<Case> cases() {
       {"StructureAndGrowth",
        periodic,
        {"observe.hexatic=true", "growth={ rate = 0.1, until = { packing_fraction = 0.5 } }"},
-       [=](Scene& s) { observe("hexatic")(s), s.effects.growth = Growth{0.1, 0.5, {}, {}}; }},
+       [=](Scene& s) {
+         observe("hexatic")(s), s.effects.growth = Growth{0.1, 0.5, {}, {}};
+       }},
       {"WallFluxesOfAPeriodicBox", periodic, {"observe.wall_fluxes=true"}, observe("wall_fluxes")},
       {"FlightsAndThermostat",
        periodic,
        {"observe.free_flight=true", "thermostat={ temperature = 1.0, rate = 1.0 }"},
-       [=](Scene& s) { observe("free_flight")(s), s.effects.thermostat = Thermostat{1.0, 1.0, {}}; }},
+       [=](Scene& s) {
+         observe("free_flight")(s), s.effects.thermostat = Thermostat{1.0, 1.0, {}};
+       }},
       {"DisplacementAndShear",
        periodic,
        {"observe.mean_square_displacement=true", "shear.rate=0.1"},
@@ -499,17 +616,29 @@ TEST(OneDoor, RefusesListsOfTheWrongLengthAndNumbersThatAreNone) {
     EXPECT_EQ(what_is_refused([&] { (void)make_simulation(scene); }), sentence);
     return sentence;
   };
-  EXPECT_EQ(refused([](Scene& s) { s.species[0].radii = {0.05, 0.06}; }),
+  EXPECT_EQ(refused([](Scene& s) {
+              s.species[0].radii = {0.05, 0.06};
+            }),
             "disks.0.radii has length 2, but there are 8 disks; give one radius per disk, or none");
-  EXPECT_EQ(refused([](Scene& s) { s.species[1].masses = {1.0, 1.0, 1.0}; }),
+  EXPECT_EQ(refused([](Scene& s) {
+              s.species[1].masses = {1.0, 1.0, 1.0};
+            }),
             "disks.1.masses has length 3, but there are 2 disks; give one mass per disk, or none");
-  EXPECT_EQ(refused([](Scene& s) { s.species[1].radii = {0.1, -0.1}; }),
+  EXPECT_EQ(refused([](Scene& s) {
+              s.species[1].radii = {0.1, -0.1};
+            }),
             "disks.1.radii.1 is a floating-point number (-0.1); it must be a finite number above zero, such as radius = 0.03");
-  EXPECT_EQ(refused([](Scene& s) { s.species[1].masses = {not_a_number, 1.0}; }),
+  EXPECT_EQ(refused([](Scene& s) {
+              s.species[1].masses = {not_a_number, 1.0};
+            }),
             "disks.1.masses.0 is a floating-point number (nan); it must be a finite number above zero, such as mass = 1.0");
-  EXPECT_EQ(refused([](Scene& s) { s.species[1].positions = FilePositions{"start.csv", {{0.0, 0.0}}}; }),
+  EXPECT_EQ(refused([](Scene& s) {
+              s.species[1].positions = FilePositions{"start.csv", {{0.0, 0.0}}};
+            }),
             "disks.1.count is 2, but positions has 1; make them agree, or leave count out");
-  EXPECT_EQ(refused([](Scene& s) { s.species[1].velocities = FileVelocities{{{0.0, 0.0}}}; }),
+  EXPECT_EQ(refused([](Scene& s) {
+              s.species[1].velocities = FileVelocities{{{0.0, 0.0}}};
+            }),
             "disks.1.velocities has length 1, but there are 2 disks; give one [vx, vy] per disk");
   EXPECT_EQ(refused([](Scene& s) { s.run.sample_every = 0.1, s.run.sample_every_collisions = 10; }),
             "run.sample_every is both a time and a number of collisions; give one of them");

@@ -121,7 +121,8 @@ TEST(DenseStart, IsRefusedToADiskWiderThanTheBox) {
   scene.box.upper[1] = 0.9;
   scene.species.front().count = 1;
   scene.species.front().positions = GrownPositions{scene.packing_fraction()};
-  EXPECT_THAT(refusal([&] { (void)draw_start(scene); }), HasSubstr("its diameter 1 must be less than 0.9, the length of the box in y"));
+  EXPECT_THAT(refusal([&] { (void)draw_start(scene); }),
+              HasSubstr("its diameter 1 must be less than 0.9, the length of the box in y"));
 }
 
 TEST(DenseStart, KeepsClearOfObstacles) {

@@ -111,7 +111,8 @@ TEST(ObstacleStarts, AListedDiskUponAnObstacleIsRefused) {
   };
   EXPECT_EQ(at(4.0), "");
   EXPECT_EQ(at(4.0 + 0.9e-9), "");
-  EXPECT_THAT(at(4.25), HasSubstr("disk 0 overlaps obstacles.0 by 0.25; its centre must be at least 1 from the centre of that disk"));
+  EXPECT_THAT(at(4.25),
+              HasSubstr("disk 0 overlaps obstacles.0 by 0.25; its centre must be at least 1 from the centre of that disk"));
 }
 
 }  // namespace

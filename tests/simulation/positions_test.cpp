@@ -184,8 +184,10 @@ TEST(Positions, IncompleteSpeciesAreRefused) {
   Species few = listed(0.1, {{0.5, 0.5}});
   few.count = 2;
   EXPECT_THAT(start(few), HasSubstr("disks.0.count is 2, but positions has 1"));
-  EXPECT_THAT(start(species_of(1, 0.0, 1.0, RandomPositions{}, AtRest{})), HasSubstr("disks.0.radius is a floating-point number (0.0)"));
-  EXPECT_THAT(start(species_of(1, 0.1, -1.0, RandomPositions{}, AtRest{})), HasSubstr("disks.0.mass is a floating-point number (-1.0)"));
+  EXPECT_THAT(start(species_of(1, 0.0, 1.0, RandomPositions{}, AtRest{})),
+              HasSubstr("disks.0.radius is a floating-point number (0.0)"));
+  EXPECT_THAT(start(species_of(1, 0.1, -1.0, RandomPositions{}, AtRest{})),
+              HasSubstr("disks.0.mass is a floating-point number (-1.0)"));
   EXPECT_THAT(start(species_of(2, 0.1, 1.0, RandomPositions{}, ListedVelocities{{{1.0, 1.0}}})),
               HasSubstr("disks.0.velocities has length 1, but there are 2 disks"));
 }

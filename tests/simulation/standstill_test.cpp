@@ -86,8 +86,8 @@ TEST(EnginesStandstill, AStateOfDisksThatHaveFilledTheBoxIsAnEnd) {
   EXPECT_EQ(simulation.time(), 0.0);
 }
 
-/// From rest, or under a thermostat, nothing keeps their energy: their speed grows as the number of collisions, and the time to the
-/// next falls as its square, long before the last digits of coordinates end the run.
+/// From rest, or under a thermostat, nothing keeps their energy: their speed grows as the number of collisions, and the time to
+/// the next falls as its square, long before the last digits of coordinates end the run.
 TEST(EnginesStandstill, DisksThatGrowIntoAJamEndTheRunWhateverKeepsTheirEnergy) {
   for (const bool from_rest : {true, false}) {
     for (const char* engine : {"general", "textbook"}) {

@@ -108,8 +108,7 @@ TEST(ValidationCheck, SentencesSayWhatCanBeConcluded) {
   EXPECT_EQ(sentence_of(check(2.0, 2.2, 0.1, 0.15)),
             "a number: 2.20 ± 0.10, expected 2.00; z = +2.0 (+10 %), +0.5 beyond the allowance of 0.15");
   EXPECT_EQ(sentence_of(check(0.0, 0.0, 0.0)), "a number: 0, expected 0; exactly equal");
-  EXPECT_EQ(sentence_of(check(0.0, 0.25, 0.0, 1e-12)),
-            "a number: 0.25, expected 0; not equal, beyond the allowance of 1e-12");
+  EXPECT_EQ(sentence_of(check(0.0, 0.25, 0.0, 1e-12)), "a number: 0.25, expected 0; not equal, beyond the allowance of 1e-12");
   EXPECT_EQ(sentence_of(check(1.0, 1.0 + 1e-14, 0.0, 1e-12)),
             "a number: 1, expected 1; not equal (+1e-12 %), within the allowance of 1e-12");
   EXPECT_EQ(sentence_of(check(1.0, nan, 0.1)), "a number: no number, expected 1.00; z = unknown");

@@ -1,7 +1,7 @@
 #include "theory/single_file.hpp"
 
-#include <boost/math/quadrature/gauss.hpp>
 #include <gtest/gtest.h>
+#include <boost/math/quadrature/gauss.hpp>
 
 #include <cmath>
 #include <numbers>

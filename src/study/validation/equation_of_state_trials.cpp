@@ -48,7 +48,9 @@ constexpr std::array<Density, 12> densities = {{{0.01, 256, 1e6},
 class TwoPressures final : public Observable {
  public:
   TwoPressures(double step, std::int64_t disks, Blocking& difference)
-      : step_(step), disks_(static_cast<double>(disks)), speed_factor_(theory::Microcanonical(disks, true).speed_factor()),
+      : step_(step),
+        disks_(static_cast<double>(disks)),
+        speed_factor_(theory::Microcanonical(disks, true).speed_factor()),
         difference_(difference) {}
   [[nodiscard]] std::string name() const override { return "two_pressures"; }
   [[nodiscard]] double step() const override { return step_; }
@@ -187,13 +189,13 @@ TrialResult transition(const std::string& trial, const theory::ReferencePressure
                            .expected = from_lattice.value,
                            .measured = from_liquid,
                            .reference_error = from_lattice.error});
-  result.checks.push_back({.name = fmt::format("P sigma^2 / kT of {}, mean of both starts", what),
-                           .theory = "for this number of disks in a square box",
-                           .source = "Li et al., J. Chem. Phys. 157, 234111 (2022)",
-                           .expected = known.pressure,
-                           .measured = {0.5 * (from_lattice.value + from_liquid.value),
-                                        0.5 * std::hypot(from_lattice.error, from_liquid.error)},
-                           .reference_error = known.error});
+  result.checks.push_back(
+      {.name = fmt::format("P sigma^2 / kT of {}, mean of both starts", what),
+       .theory = "for this number of disks in a square box",
+       .source = "Li et al., J. Chem. Phys. 157, 234111 (2022)",
+       .expected = known.pressure,
+       .measured = {0.5 * (from_lattice.value + from_liquid.value), 0.5 * std::hypot(from_lattice.error, from_liquid.error)},
+       .reference_error = known.error});
   return result;
 }
 

@@ -49,7 +49,8 @@ TrialResult channel(const std::string& trial, double width, double length_per_di
   const std::string scene = fmt::format(
       "[box]\nx = [0.0, {:.17g}]\ny = [0.0, {:.17g}]\nboundary = {{ x = \"periodic\", y = \"walls\" }}\n\n[[disks]]\n"
       "radius = 0.5\nmass = 1.0\npositions = [{}]\nvelocities = {{ temperature = 1.0 }}\n\n[collision]\n"
-      "rule = \"specular\"\n\n[run]\ncollisions = {:.0f}\nequilibrate = {{ collisions_per_disk = 500 }}\nseed = {}\n\n[observe]\npressure = true\n",
+      "rule = \"specular\"\n\n[run]\ncollisions = {:.0f}\nequilibrate = {{ collisions_per_disk = 500 }}\nseed = "
+      "{}\n\n[observe]\npressure = true\n",
       length, width, places, effort.collisions(3e6), effort.seed_of(0));
   Blocking pressure;
   std::vector<std::unique_ptr<Observable>> own;
@@ -81,8 +82,7 @@ void add_single_file(std::vector<Trial>& trials) {
   };
   for (const auto& [width, length] : {Channel{1.8, 1.0}, Channel{1.8, 2.0}, Channel{1.5, 0.95}, Channel{1.2, 1.2}}) {
     const std::string name = fmt::format("single-file-{:g}-{:g}", width, length);
-    trials.push_back(
-        {name, "single file", false, [=](const Effort& effort) { return channel(name, width, length, effort); }});
+    trials.push_back({name, "single file", false, [=](const Effort& effort) { return channel(name, width, length, effort); }});
   }
 }
 

@@ -54,9 +54,8 @@ TrialResult instantaneous(const std::string& trial, double eta, const Effort& ef
   };
   held("viscosity", "viscosity", theory::instantaneous_viscosity(eta, disks), theory::enskog_viscosity(eta),
        density * std::pow(1.0 + carried, 2), "rho omega m sigma^2 / 8, for N disks");
-  held("heat conductivity", "heat_conductivity", theory::instantaneous_conductivity(eta, disks),
-       theory::enskog_conductivity(eta), 2.0 * density * std::pow(1.0 + 1.5 * carried, 2),
-       "rho omega k sigma^2 / 4, for N disks");
+  held("heat conductivity", "heat_conductivity", theory::instantaneous_conductivity(eta, disks), theory::enskog_conductivity(eta),
+       2.0 * density * std::pow(1.0 + 1.5 * carried, 2), "rho omega k sigma^2 / 4, for N disks");
   return result;
 }
 

@@ -187,9 +187,9 @@ std::string validation_markdown(const Validation& validation) {
     }
     for (const Check& check : result.checks) {
       const CheckRow row = row_of(check);
-      text += fmt::format("| {} | {}; {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(row.name), cell(row.theory),
-                          cell(row.source), row.expected, row.measured, row.z, row.per_cent, cell(row.allowance), row.beyond,
-                          row.verdict);
+      text +=
+          fmt::format("| {} | {}; {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(row.name), cell(row.theory), cell(row.source),
+                      row.expected, row.measured, row.z, row.per_cent, cell(row.allowance), row.beyond, row.verdict);
     }
   }
   return text + "\n" + summary_of(validation) + ".\n";
