@@ -13,8 +13,8 @@
 #include "effects/impact.hpp"
 #include "effects/specular.hpp"
 #include "stepper/bodies.hpp"
-#include "study/method.hpp"
-#include "study/reference.hpp"
+#include "studies/compare/reference.hpp"
+#include "studies/horizon/method.hpp"
 
 #include <fmt/format.h>
 #include <carom/carom.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-// How far a trajectory can be trusted, in numbers: what study/horizon.hpp finds and what JSON and terminal show.
+// How far a trajectory can be trusted, in numbers: what studies/horizon/horizon.hpp finds and what JSON and terminal show.
 
 #include <cstddef>
 #include <cstdint>

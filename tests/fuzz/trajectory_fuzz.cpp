@@ -1,7 +1,7 @@
 // Bytes as a text file that a run may have left behind, whole, cut short or damaged: it is described or refused in a sentence.
 // Not as an HDF5 file: HDF5 1.10 itself leaks memory over some damaged files, and over others it never comes to an end.
 
-#include "io/info.hpp"
+#include "app/info.hpp"
 
 #include <carom/scene.hpp>
 

@@ -1,6 +1,6 @@
 // Every case of the corpus in every engine that it asks for: what must hold, holds.
 
-#include "study/hard_case.hpp"
+#include "studies/hard_cases/hard_case.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // A box without disks is a scene like any other: its trajectory has frames and no disks.
 
-#include "io/info.hpp"
+#include "app/info.hpp"
 #include "io/run_directory.hpp"
 #include "io/run_writer.hpp"
 

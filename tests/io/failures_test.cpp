@@ -1,8 +1,8 @@
 // Full disks and killed runs, played in child processes: a limit on the size of files stands for the full disk.
 
+#include "app/info.hpp"
 #include "io/h5md_reader.hpp"
 #include "io/hand_made_run.hpp"
-#include "io/info.hpp"
 #include "io/run_writer.hpp"
 #include "support/temporary_directory.hpp"
 

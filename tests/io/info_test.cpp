@@ -1,6 +1,6 @@
 // carom info: what it says of every kind of file, and of files that are broken or foreign.
 
-#include "io/info.hpp"
+#include "app/info.hpp"
 
 #include "io/hand_made_run.hpp"
 #include "io/run_writer.hpp"

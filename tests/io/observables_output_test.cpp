@@ -1,8 +1,8 @@
 // What observables found, as JSON, as tables and in the H5MD file.
 
+#include "app/info.hpp"
 #include "io/h5md_reader.hpp"
 #include "io/hand_made_run.hpp"
-#include "io/info.hpp"
 #include "io/observable_tables.hpp"
 #include "io/observables_json.hpp"
 #include "io/run_directory.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Comparisons of methods for tests: of a gas so small that all of it takes moments, and one made up, whose answers are known.
 
-#include "study/compare.hpp"
+#include "studies/compare/compare.hpp"
 #include "support/scenes.hpp"
 
 #include <cmath>

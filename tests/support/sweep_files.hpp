@@ -3,7 +3,7 @@
 
 #include "support/program_test.hpp"
 
-#include "study/sweep_reader.hpp"
+#include "studies/sweep/reader.hpp"
 
 #include <string>
 

@@ -1,0 +1,523 @@
+// The command line, read as a whole before anything is done. With manual.cpp the only file that includes the parser, which takes
+// longer to compile than the rest of the program together.
+
+#include "app/arguments.hpp"
+
+#include "studies/analysis/command.hpp"
+#include "studies/benchmark/command.hpp"
+#include "studies/compare/command.hpp"
+#include "studies/hard_cases/command.hpp"
+#include "studies/horizon/command.hpp"
+#include "studies/sweep/command.hpp"
+#include "studies/validate/command.hpp"
+
+#include "app/manual.hpp"
+#include "scene/known_keys.hpp"
+#include "studies/hard_cases/hard_case.hpp"
+#include "text/numbers.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+#include <carom/simulation.hpp>
+#include <carom/version.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+namespace carom::cli {
+
+namespace {
+
+using Action = std::function<ExitCode()>;
+
+std::string version() {
+  const BuildInfo& build = build_info();
+  return fmt::format("carom {} (commit {}; {}; {})", build.version, build.commit, build.compiler, build.flags);
+}
+
+/// The program's name as the user typed it, or where that is a long path, its path from here.
+Invocation invocation_of(int argc, char** argv) {
+  Invocation invocation{.program = argc > 0 ? argv[0] : "carom", .command_line = ""};
+  for (int i = 0; i < argc; ++i) invocation.command_line += (i > 0 ? " " : "") + shell_quoted(argv[i]);
+  if (invocation.program.find('/') != std::string::npos) {
+    std::error_code error;
+    const std::string relative = std::filesystem::proximate(invocation.program, error).string();
+    if (!error && relative.size() < invocation.program.size()) {
+      invocation.program = relative.find('/') == std::string::npos ? "./" + relative : relative;
+    }
+  }
+  invocation.program = shell_quoted(invocation.program);
+  return invocation;
+}
+
+/// Of a count: the parser would take -1 for 2^64 - 1.
+CLI::Validator countable() { return CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description(""); }
+
+void add_scene_options(CLI::App& command, SceneOptions& scene) {
+  command.add_option("scene", scene.path, "The scene file (TOML)")->required()->type_name("SCENE");
+  command.add_option("--set", scene.overrides, "Override one key of the scene, e.g. --set run.time=2; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--seed", scene.seed, "Seed of the random numbers; the same as --set run.seed=N")->type_name("N");
+  command.add_flag("--accept-overlap", scene.accept_overlap, "Run disks given one by one even where they overlap");
+  command.add_option("--engine", scene.engine, fmt::format("Force an engine: {}", fmt::join(engine_names(), ", ")))
+      ->type_name("NAME");
+}
+
+void add_output_options(CLI::App& command, SceneOptions& scene) {
+  command.add_flag("--no-trajectory", scene.no_trajectory, "Do not write trajectory.h5md");
+  command.add_flag("--xyz", scene.xyz, "Write trajectory.xyz too");
+  command.add_flag("--csv", scene.csv, "Write samples.csv too");
+  command.add_flag("--events", scene.events, "Keep every collision, in trajectory.h5md");
+  command.add_flag("--unwrapped", scene.unwrapped, "Let positions continue past periodic edges");
+}
+
+void add_progress(CLI::App& command, std::string& when) {
+  command.add_option("--progress", when, "A progress line on stderr: auto (on a terminal), always or never")->type_name("WHEN");
+}
+
+void add_threads(CLI::App& command, RunOptions& options) {
+  command
+      .add_option("--threads", options.threads,
+                  "1, or 2 to measure observables beside the run (default: 2 where there is a second processor)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 2));
+}
+
+void add_saving(CLI::App& command, RunOptions& options) {
+  command
+      .add_option("--checkpoint-every", options.checkpoint_every,
+                  "Save the run so often that carom resume can go on from there: 10min, or \"1e8 collisions\"; and at its end")
+      ->type_name("HOW_OFTEN");
+  command.add_option("--walltime", options.walltime, "Stop and save the run after so long: 90s, 10min, 1h30min or 01:30:00")
+      ->type_name("DURATION");
+}
+
+void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("run", "Run a scene and write its results");
+  const auto options = std::make_shared<RunOptions>();
+  add_scene_options(*command, options->scene);
+  add_output_options(*command, options->scene);
+  command->add_option("--out", options->out, "Directory for the results (default: the scene's name without its ending)")
+      ->type_name("DIR");
+  command->add_flag("--force", options->force, "Replace the results that the directory holds");
+  command->add_flag("--json", options->json, "Print summary.json in place of the summary for people");
+  command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
+  command->add_flag("-v,--verbose", options->verbose, "Say on stderr what will be simulated");
+  command
+      ->add_option("--method", options->method,
+                   fmt::format("exact (from event to event), or a fixed-step method to compare with: {}",
+                               fmt::join(fixed_step_names(), ", ")))
+      ->type_name("NAME");
+  command->add_option("--dt", options->dt, "Time step of a fixed-step method (default: the scene's run.sample_every)")
+      ->type_name("DT");
+  command
+      ->add_option("--verify", options->verify,
+                   "Check the engine's invariants every K events, and end the run where one is broken")
+      ->type_name("K")
+      ->check(countable());
+  command->add_flag("--verify-horizon", options->verify_horizon,
+                    "Say too how far the trajectory can be trusted, by repeating its beginning in 24 to 113 bits");
+  command->add_flag("--report", options->report, "Make the page of the run too: report.html, as carom report does");
+  command->add_flag("--watch", options->watch, "Show the run live in the terminal; where stderr is none, the progress line");
+  command->add_option("--pace", options->pace, "With --watch: simulated time per second (default: as fast as the machine can)")
+      ->type_name("TIME");
+  add_threads(*command, *options);
+  add_saving(*command, *options);
+  add_progress(*command, options->progress);
+  command->callback([&action, options, invocation] { action = [options, invocation] { return run(*options, invocation); }; });
+}
+
+using Resumption = ExitCode (*)(const ResumeOptions&, const Invocation&);
+void add_resumption(CLI::App& program, Action& action, const Invocation& invocation, const char* name, const char* about,
+                    Resumption resumption) {
+  CLI::App* command = program.add_subcommand(name, about);
+  const auto options = std::make_shared<ResumeOptions>();
+  command->add_option("directory", options->directory, "The directory that carom run has written")
+      ->type_name("RUN_DIR")
+      ->required();
+  CLI::Option* time = command->add_option("--time", options->time, "Simulated time at which the run is to end")->type_name("T");
+  command->add_option("--collisions", options->collisions, "Collisions of pairs, since its beginning, with which it is to end")
+      ->type_name("N")
+      ->check(countable())
+      ->excludes(time);
+  RunOptions& how = options->run;
+  command->add_flag("--json", how.json, "Print summary.json in place of the summary for people");
+  command->add_flag("-q,--quiet", how.quiet, "Print no summary and no progress");
+  command->add_flag("--report", how.report, "Make the page of the run too: report.html, as carom report does");
+  command->add_flag("--watch", how.watch, "Show the run live in the terminal; where stderr is none, the progress line");
+  add_threads(*command, how);
+  add_saving(*command, how);
+  add_progress(*command, how.progress);
+  command->callback([&action, options, invocation, resumption] {
+    action = [options, invocation, resumption] { return resumption(*options, invocation); };
+  });
+}
+
+void add_check(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("check", "Validate a scene and say what it will simulate");
+  const auto options = std::make_shared<CheckOptions>();
+  add_scene_options(*command, options->scene);
+  add_output_options(*command, options->scene);
+  command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
+  command->callback([&action, options] { action = [options] { return check(*options); }; });
+}
+
+void add_horizon(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("horizon", "Say how far a scene's trajectory can be trusted, in 24 to 113 bits");
+  const auto options = std::make_shared<HorizonCommandOptions>();
+  add_scene_options(*command, options->scene);
+  command
+      ->add_option("--collisions", options->collisions,
+                   "Collisions that the Lyapunov exponent is measured over (default: 500000, or 100 per disk)")
+      ->type_name("N")
+      ->check(countable());
+  command->add_flag("--json", options->json, "Print JSON in place of the table");
+  command->add_flag("-q,--quiet", options->quiet, "Print the sentence alone, and no progress");
+  add_progress(*command, options->progress);
+  command->callback([&action, options] { action = [options] { return horizon(*options); }; });
+}
+
+void add_compare(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("compare", "Say what accuracy costs: exact events against fixed steps, on one page");
+  const auto options = std::make_shared<CompareCommandOptions>();
+  add_scene_options(*command, options->scene);
+  command->add_option("--out", options->out, "Directory for the results (default: the scene's name and -compare)")
+      ->type_name("DIR");
+  command->add_option("--dt", options->dts, "Time steps in place of three per decade about the mean free time; may be repeated")
+      ->type_name("DT")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--seeds", options->seeds, "How many starts: the scene's seed and those after it (default: 8)")
+      ->type_name("N");
+  command
+      ->add_option(
+          "--longest", options->longest,
+          "Seconds that one run of a fixed-step method may take (default: 0.5); a longer one is cut short, or left out and named")
+      ->type_name("SECONDS");
+  command
+      ->add_option("--play", options->play,
+                   fmt::format("Make side_by_side.html too, first of all: a fixed-step method ({}; default guarded) beside exact "
+                               "events, to watch; given after SCENE. DT is one of the study's where it is left out",
+                               fmt::join(fixed_step_names(), ", ")))
+      ->type_name("[METHOD[:DT]]")
+      ->expected(0, 1);
+  command->add_flag("--no-costs", options->no_costs, "Leave out cost against size and against packing fraction");
+  command->add_flag("--force", options->force, "Replace the results that the directory holds");
+  command->add_flag("--resume", options->resume, "Go on with an interrupted comparison, keeping its finished points");
+  command->add_flag("--json", options->json, "Print compare.json in place of the table");
+  command->add_flag("-q,--quiet", options->quiet, "Print the answer alone, and no progress");
+  add_progress(*command, options->progress);
+  command->callback([&action, options, invocation] { action = [options, invocation] { return compare(*options, invocation); }; });
+}
+
+void add_sweep(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("sweep", "Run a scene over a grid or list of changes and seeds, into one table");
+  const auto options = std::make_shared<SweepCommandOptions>();
+  command->add_option("sweep", options->path, "The sweep file (TOML)")->required()->type_name("SWEEP");
+  command->add_option("--out", options->out, "Directory for the results (default: the sweep file's name without its ending)")
+      ->type_name("DIR");
+  command
+      ->add_option("--threads", options->threads,
+                   "Runs at a time (default: one per processor; under mpirun one per process, of which each has so many)")
+      ->type_name("N");
+  command
+      ->add_option("--checkpoint-every", options->checkpoint_every,
+                   "Save runs every so often, such as 10min or \"1e8 collisions\"; they are saved on Ctrl-C, SIGTERM, SIGHUP, "
+                   "SIGXCPU and SIGUSR1 in any case")
+      ->type_name("WHEN");
+  command->add_flag("--force", options->force, "Replace runs that were made with another scene");
+  command->add_flag("--list", options->list, "Print the commands of the runs that are still to do, and run nothing");
+  command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
+  add_progress(*command, options->progress);
+  command->callback([&action, options, invocation] { action = [options, invocation] { return sweep(*options, invocation); }; });
+}
+
+void add_validate(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("validate", "Hold the engine against kinetic theory and the literature");
+  const auto options = std::make_shared<ValidateCommandOptions>();
+  command->add_flag("--quick", options->quick, "Under three minutes on one core; the default");
+  command->add_flag("--full", options->full,
+                    "Twenty times the collisions, and the transition from liquid to hexatic: up to two hours");
+  command->add_option("--seed", options->seed, "Seed of everything random (default: 1)")->type_name("N");
+  command->add_option("--only", options->only, "Run this trial alone; may be repeated")
+      ->type_name("TRIAL")
+      ->allow_extra_args(false);
+  command->add_option("--out", options->out, "Directory for the results (default: validation)")->type_name("DIR");
+  command->add_flag("--list", options->list, "Name the trials, and run none");
+  command->add_flag("--force", options->force, "Replace the results that the directory holds");
+  command->add_flag("--resume", options->resume, "Go on with an interrupted validation, keeping its finished trials");
+  command->add_flag("--json", options->json, "Print validation.json in place of the text");
+  command->add_flag("--markdown", options->markdown, "Print the tables of docs/validation.md in place of the text");
+  command->add_flag("-q,--quiet", options->quiet, "Print the verdict alone, and no progress");
+  add_progress(*command, options->progress);
+  command->callback(
+      [&action, options, invocation] { action = [options, invocation] { return validate(*options, invocation); }; });
+}
+
+void add_init(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("init", "Write a commented scene to start from");
+  const auto options = std::make_shared<InitOptions>();
+  command->add_option("preset", options->preset, "Which one (default: box)")->type_name("PRESET");
+  command->add_option("-o,--output", options->file, "The file to write (default: PRESET.toml; - for standard output)")
+      ->type_name("FILE");
+  command->add_flag("--force", options->force, "Replace the file if it exists");
+  command->add_flag("--list", options->list, "List the presets");
+  command->callback([&action, options, invocation] { action = [options, invocation] { return init(*options, invocation); }; });
+}
+
+void add_info(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("info", "Say what a file or a run directory holds");
+  const auto options = std::make_shared<InfoOptions>();
+  command->add_option("file", options->file, "A trajectory, table, summary, scene or run directory")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--reproduce", options->reproduce, "Of a run directory: print the commands that make the run again");
+  command->callback([&action, options, invocation] { action = [options, invocation] { return info(*options, invocation); }; });
+}
+
+void add_verify(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("verify", "Run a finished run's scene again and compare the two to the last bit");
+  const auto options = std::make_shared<VerifyOptions>();
+  command->add_option("directory", options->directory, "The directory that carom run has written")
+      ->required()
+      ->type_name("RUN_DIR");
+  add_progress(*command, options->progress);
+  command->callback([&action, options, invocation] { action = [options, invocation] { return verify(*options, invocation); }; });
+}
+
+void add_play(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("play", "Write a page that replays a run, exactly where it kept its events");
+  const auto options = std::make_shared<PlayOptions>();
+  command->add_option("directory", options->directory, "The directory that carom run has written")
+      ->required()
+      ->type_name("RUN_DIR");
+  command->add_option("-o,--output", options->output, "The file to write (default: player.html in that directory)")
+      ->type_name("FILE.html");
+  command->callback([&action, options] { action = [options] { return play(*options); }; });
+}
+
+void add_analyze(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("analyze", "Measure observables of a finished run from what it has kept");
+  const auto options = std::make_shared<AnalyzeOptions>();
+  command->add_option("directory", options->directory, "The directory that carom run has written")
+      ->required()
+      ->type_name("RUN_DIR");
+  command
+      ->add_option("observables", options->observables,
+                   "Keys of the table [observe], with settings as there (default: those of the run's scene)")
+      ->type_name("NAME[={ every = 0.1 }]");
+  command->add_option("--out", options->out, "Directory for the results (default: RUN_DIR-analysis)")->type_name("DIR");
+  command->add_flag("--force", options->force, "Replace results that are there");
+  command->add_flag("--json", options->json, "Print JSON in place of the table");
+  command->add_flag("-q,--quiet", options->quiet, "Print no table and no progress");
+  add_progress(*command, options->progress);
+  command->callback([&action, options, invocation] { action = [options, invocation] { return analyze(*options, invocation); }; });
+}
+
+void add_report(CLI::App& program, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("report", "Write the page of a run: what happened, what it measured, and the run to watch");
+  const auto options = std::make_shared<ReportOptions>();
+  command->add_option("directory", options->directory, "The directory that carom run has written")
+      ->required()
+      ->type_name("RUN_DIR");
+  command->add_option("-o,--output", options->output, "The file to write (default: report.html in that directory)")
+      ->type_name("FILE.html");
+  command->callback([&action, options] { action = [options] { return report(*options); }; });
+}
+
+void add_movie(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("movie", "Draw a run as a film (mp4, webm, gif) or a picture (png, svg, pdf)");
+  const auto options = std::make_shared<MovieOptions>();
+  command->add_option("directory", options->directory, "The directory that carom run has written")
+      ->required()
+      ->type_name("RUN_DIR");
+  command
+      ->add_option("-o,--output", options->output,
+                   "The file to write; its ending says what it is: mp4, webm, gif, png, svg or pdf")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--force", options->force, "Replace the file if it exists");
+  command->add_option("--size", options->size, "Pixels: the longer side, or width x height (default: 1080, of a GIF 480)")
+      ->type_name("N|WxH");
+  command->add_option("--fps", options->fps, "Frames per second of the film (default: 30)")->type_name("N");
+  command->add_option("--speed", options->speed, "Simulated time per second of the film (default: such that it lasts 10 s)")
+      ->type_name("TIME");
+  command->add_option("--from", options->from, "Simulated time at which the film begins (default: that of the run)")
+      ->type_name("TIME");
+  command->add_option("--to", options->to, "Simulated time at which the film ends (default: that of the run)")->type_name("TIME");
+  command->add_option("--at", options->at, "Simulated time of a picture (default: the last sample)")->type_name("TIME");
+  command
+      ->add_option(
+          "--colour,--color", options->colour,
+          "Colour disks by speed, species, collisions or id, or plain (default: species where there are several, else speed)")
+      ->type_name("WHAT");
+  command->add_option("--trails", options->trails, "Draw the paths of the last TIME of simulated time")->type_name("TIME");
+  command->add_option("--trails-of", options->trails_of, "Draw those of this species alone")->type_name("SPECIES");
+  command->add_flag("--velocities", options->velocities, "Draw velocities as arrows");
+  command->add_flag("--dark", options->dark, "Dark paper");
+  command->add_flag("--bare", options->bare, "No clock, and no key to the colours");
+  command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
+  add_progress(*command, options->progress);
+  command->callback([&action, options] { action = [options] { return movie(*options); }; });
+}
+
+void add_bench(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("bench", "Measure how fast this machine is, with both engines side by side");
+  const auto options = std::make_shared<BenchOptions>();
+  command->add_flag("--json", options->json, "Print JSON in place of the table");
+  command->add_flag("--effects", options->effects, "Measure what each effect costs, at its neutral value and where it acts");
+  command->add_flag("--large", options->large, "Measure a million disks too, which takes some minutes");
+  command->add_option("--disks", options->disks, "How many disks, in place of 1000, 10000 and 100000; may be repeated")
+      ->type_name("N")
+      ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--collisions", options->collisions,
+          "Collisions that the textbook engine does in a turn (default: 200000, or one per disk); the fast one does four "
+          "times as many")
+      ->type_name("N")
+      ->check(countable());
+  command->callback([&action, options] { action = [options] { return bench(*options); }; });
+}
+
+void add_hardcases(CLI::App& program, Action& action, const Invocation& invocation) {
+  CLI::App* command = program.add_subcommand("hardcases", "Run the corpus of hard cases and say of each whether it holds");
+  const auto options = std::make_shared<HardCasesOptions>();
+  command->add_option("cases", options->cases, "Cases by name, or files of your own (default: all that do not take long)")
+      ->type_name("CASE|FILE.toml");
+  command->add_option("--family", options->family, fmt::format("One family: {}", fmt::join(hard_case_families(), ", ")))
+      ->type_name("FAMILY");
+  command->add_option("--engine", options->engine, "One engine alone, in place of all that cover a case")->type_name("NAME");
+  command->add_flag("--long", options->takes_long, "Run those that take minutes too");
+  command->add_flag("--list", options->list, "List the cases");
+  command->add_option("--show", options->show, "Print the text of a case")->type_name("CASE");
+  command->add_flag("--json", options->json, "Print JSON in place of the table");
+  command->add_flag("--markdown", options->markdown, "Print Markdown in place of the table");
+  command->add_option("--page", options->page, "Write the result as one HTML page too")->type_name("FILE.html");
+  command
+      ->add_option("--method", options->method,
+                   fmt::format("Say what a fixed-step method makes of the cases: {}", fmt::join(fixed_step_names(), ", ")))
+      ->type_name("NAME");
+  command->add_option("--dt", options->dt, "Its time step (default: the fastest disk goes a twentieth of the smallest diameter)")
+      ->type_name("DT");
+  command->callback(
+      [&action, options, invocation] { action = [options, invocation] { return hardcases(*options, invocation); }; });
+}
+
+/// Asked for when the program is installed, and not listed.
+void add_manual(CLI::App& program, Action& action) {
+  const auto print = [&](const std::string& name, const std::string& what, auto text) {
+    CLI::App* command = program.add_subcommand(name, what)->group("");
+    command->callback([&program, &action, text] {
+      action = [answer = text(program)] {
+        fmt::print("{}", answer);
+        return exit_done;
+      };
+    });
+  };
+  print("manual", "Print the manual page", [](const CLI::App& of) { return manual_page(of, build_info().version); });
+  print("completion", "Print what bash needs to complete words", [](const CLI::App& of) { return bash_completion(of); });
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& words) {
+  return std::string(detail::nearest_word(word, std::vector<std::string_view>(words.begin(), words.end())));
+}
+
+/// The parser's own sentence for an unknown command says only that one is missing.
+void require_known_command(const CLI::App& program, const std::string& word) {
+  if (word.starts_with('-')) return;
+  std::vector<std::string> listed;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == word) return;
+    if (!command->get_group().empty()) listed.push_back(command->get_name());
+  }
+  const std::string near = nearest(word, listed);
+  const std::string instead = word.ends_with(".toml")               ? fmt::format("carom run {} runs a scene", word)
+                              : word == "help" || word == "version" ? fmt::format("it is carom --{}", word)
+                              : !near.empty()                       ? fmt::format("did you mean carom {}?", near)
+                                                                    : fmt::format("choose one of: {}", fmt::join(listed, ", "));
+  throw UsageError(fmt::format("{}: there is no such command; {}", word, instead));
+}
+
+/// The same for its options: the parser says what was not expected, and not what is.
+void require_known_options(const CLI::App& program, int argc, char** argv) {
+  if (program.get_subcommands().empty()) return;
+  const CLI::App* command = program.get_subcommands().front();
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back(name);
+  const bool changes_scenes = std::find(known.begin(), known.end(), "set") != known.end();
+  for (int k = 2; k < argc; ++k) {
+    const std::string_view argument = argv[k];
+    if (argument == "--") return;
+    const std::string word(argument.substr(std::min<std::size_t>(2, argument.size()), argument.find('=') - 2));
+    if (!argument.starts_with("--") || std::find(known.begin(), known.end(), word) != known.end()) continue;
+    const std::string near = nearest(word, known);
+    const bool is_near = !near.empty() && 3 * detail::edit_distance(word, near) <= word.size();  // --out is not meant by --count
+    throw UsageError(fmt::format("--{}: carom {} has no such option; {}", word, argv[1],
+                                 is_near          ? fmt::format("did you mean --{}?", near)
+                                 : changes_scenes ? "what a scene says is changed with --set, such as --set run.time=5"
+                                                  : fmt::format("carom {} --help lists them", argv[1])));
+  }
+}
+
+}  // namespace
+
+Action parse_arguments(int argc, char** argv) {
+  CLI::App program("Carom: event-driven molecular dynamics of hard disks", "carom");
+  const Invocation invocation = invocation_of(argc, argv);
+  Action action;
+  program.set_version_flag("--version", version());
+  program.require_subcommand(1);
+  add_run(program, action, invocation);
+  add_resumption(program, action, invocation, "resume", "Go on with a run that was interrupted or killed, to the same bits",
+                 &resume);
+  add_resumption(program, action, invocation, "extend", "Go on with a run that has come to its end, to a later one", &extend);
+  add_check(program, action);
+  add_horizon(program, action);
+  add_compare(program, action, invocation);
+  add_sweep(program, action, invocation);
+  add_init(program, action, invocation);
+  add_info(program, action, invocation);
+  add_verify(program, action, invocation);
+  add_analyze(program, action, invocation);
+  add_play(program, action);
+  add_report(program, action);
+  add_movie(program, action);
+  add_bench(program, action);
+  add_hardcases(program, action, invocation);
+  add_validate(program, action, invocation);
+  add_manual(program, action);
+  if (argc > 1) require_known_command(program, argv[1]);
+  try {
+    if (argc == 1)
+      throw UsageError(
+          "A subcommand is required: carom run SCENE runs a scene, carom init writes one to start from, carom --help lists all");
+    program.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help or --version
+    std::ostringstream text;
+    program.exit(asked, text, text);
+    return [answer = text.str()] {
+      fmt::print("{}", answer);
+      return exit_done;
+    };
+  } catch (const CLI::ExtrasError& error) {
+    require_known_options(program, argc, argv);
+    throw UsageError(fmt::format("{} (carom {} --help says what is possible)", error.what(), argv[1]));
+  } catch (const CLI::ParseError& error) {
+    const std::vector<CLI::App*> named = program.get_subcommands();
+    throw UsageError(fmt::format("{} (carom{} --help says what is possible)", error.what(),
+                                 named.empty() ? "" : " " + named.front()->get_name()));
+  }
+  return action;
+}
+
+}  // namespace carom::cli

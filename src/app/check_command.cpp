@@ -1,0 +1,80 @@
+// carom check SCENE: reads a scene, draws its initial state, and says what would be simulated, by which engine, and at what cost.
+
+#include "app/commands.hpp"
+#include "app/expected_cost.hpp"
+#include "app/scene_description.hpp"
+#include "observe/mechanics.hpp"
+#include "pages/effects_words.hpp"
+#include "scene/drawn.hpp"
+#include "text/numbers.hpp"
+
+#include <fmt/format.h>
+#include <carom/simulation.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+
+namespace carom::cli {
+
+namespace {
+
+// Beyond this the draw takes longer than one waits for a check.
+constexpr std::int64_t most_disks_drawn = 1'000'000;
+
+// Three coordinates of position and of velocity, and three image flags, for one disk in one frame.
+constexpr double bytes_per_disk_and_frame = 6 * sizeof(double) + 3 * sizeof(std::int32_t);
+
+std::string start_and_engine(const Scene& scene, const Simulation& simulation) {
+  const double kT = kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state());
+  const auto bytes = static_cast<double>(simulation.bytes());
+  const double disks = std::max(1.0, static_cast<double>(scene.disk_count()));
+  return fmt::format(
+      "  start       {}: every disk has its place, {}; kT = {:.4g}\n"
+      "  engine      {}: {}; {}, {:.0f} bytes per disk\n",
+      start_is_drawn(scene) ? "drawn" : "given", scene.run.accept_overlap ? "overlaps are accepted" : "none overlap", kT,
+      simulation.engine(), simulation.engine_reason(), size(bytes), bytes / disks);
+}
+
+std::string files(const Scene& scene) {
+  const std::optional<std::uint64_t> samples = expected_samples(scene);
+  std::string text = "  files       summary.json";
+  const bool sampled = scene.run.is_sampled();
+  if ((scene.output.trajectory && sampled) || scene.output.events || !scene.observe.empty()) {
+    text += ", trajectory.h5md";
+    if (sampled && samples && scene.output.trajectory) {
+      text +=
+          fmt::format(" ({}, up to {})", counted(*samples, "frame"),
+                      size(static_cast<double>(*samples) * static_cast<double>(scene.disk_count()) * bytes_per_disk_and_frame));
+    }
+  }
+  if (scene.output.xyz && sampled) text += ", trajectory.xyz";
+  if (scene.output.csv && sampled) text += ", samples.csv";
+  if (!scene.observe.empty()) text += ", tables of observables";
+  if (scene.output.events) text += "; every collision is kept";
+  return text + "\n";
+}
+
+}  // namespace
+
+ExitCode check(const CheckOptions& options) {
+  const std::string& engine = checked_engine(options.scene);
+  const Scene scene = load(options.scene);
+  std::optional<Trial> trial;
+  if (scene.disk_count() <= most_disks_drawn) trial.emplace(scene, engine);
+  if (options.resolved) {
+    fmt::print("{}", resolved_toml(scene));
+    return exit_done;
+  }
+  const std::string start =
+      trial ? start_and_engine(scene, trial->simulation())
+            : fmt::format("  start       not drawn: more than {} disks; `carom run` draws them\n", grouped(most_disks_drawn));
+  fmt::print("{}: this scene is right{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
+  fmt::print("{}{}", describe(scene), start);
+  if (trial) fmt::print("  cost        {}\n", words(trial->run()));
+  fmt::print("{}", files(scene));
+  if (const std::string missing = absent(scene.effects); !missing.empty()) fmt::print("  without     {}\n", missing);
+  return exit_done;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,186 @@
+#include "app/expected_cost.hpp"
+
+#include "observe/mechanics.hpp"
+#include "text/numbers.hpp"
+#include "theory/collision_rate.hpp"
+
+#include <carom/observe.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <variant>
+#include <vector>
+
+namespace carom::cli {
+
+namespace {
+
+/// After which it is to stop. It is asked every tenth of a second and so ends at 0.2 s: long enough for some hundred thousand
+/// collisions, short enough not to be noticed.
+constexpr double trial_seconds = 0.15;
+
+/// Up to here the disks are a fluid, and how often they collide is known.
+constexpr double densest_known = 0.69;
+
+constexpr double latest = 1e15;  // later than any run gets to
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// A part of the schedule: it ends at a time or at a number of collisions, whichever comes first.
+struct Part {
+  double time = unlimited;
+  double collisions = unlimited;
+
+  [[nodiscard]] double lasts(double collisions_per_time) const {
+    return collisions_per_time > 0.0 ? std::min(time, collisions / collisions_per_time) : time;
+  }
+};
+
+std::vector<Part> parts_of(const Scene& scene) {
+  std::vector<Part> parts;
+  const Run& run = scene.run;
+  if (run.equilibrate) {
+    const double disks = static_cast<double>(scene.disk_count());
+    parts.push_back(
+        {run.equilibrate->time.value_or(unlimited),
+         run.equilibrate->collisions_per_disk ? std::ceil(*run.equilibrate->collisions_per_disk * disks / 2.0) : unlimited});
+  }
+  Part measured{run.time.value_or(unlimited), run.collisions ? static_cast<double>(*run.collisions) : unlimited};
+  if (const auto& growth = scene.effects.growth; growth && growth->rate > 0.0 && growth->packing_fraction) {
+    const double grown = std::sqrt(*growth->packing_fraction / scene.packing_fraction()) - 1.0;
+    measured.time = std::min(measured.time, std::max(0.0, grown) / growth->rate);
+  }
+  parts.push_back(measured);
+  return parts;
+}
+
+/// The same scene with nothing but its motion: no samples are taken, and what would be equilibrated is run like the rest.
+Scene trial_of(const Scene& scene) {
+  Scene trial = scene;
+  double time = 0.0, collisions = 0.0;
+  for (const Part& part : parts_of(scene)) time += part.time, collisions += part.collisions;
+  trial.run.equilibrate.reset();
+  trial.run.take_no_samples();
+  trial.observe.clear();
+  trial.run.time.reset();
+  trial.run.collisions.reset();
+  if (collisions < 1e18) trial.run.collisions = static_cast<std::uint64_t>(collisions);
+  if (time < unlimited) trial.run.time = time;
+  if (!trial.run.time && !trial.run.collisions) trial.run.time = latest;
+  return trial;
+}
+
+bool fills_the_box(const Species& species) {
+  const bool spread =
+      std::holds_alternative<RandomPositions>(species.positions) || std::holds_alternative<SquareLattice>(species.positions) ||
+      std::holds_alternative<HexagonalLattice>(species.positions) || std::holds_alternative<GrownPositions>(species.positions);
+  return spread && species.radii.empty() && species.masses.empty();
+}
+
+/// Pair collisions per time of a gas of which theory knows: smooth hard disks and nothing else, spread over a periodic box. Empty
+/// for any other scene.
+std::optional<double> rate_by_theory(const Scene& scene, double kT) {
+  const bool smooth = scene.effects.collision.rule == CollisionRule::specular && scene.effects.neutral();
+  const bool periodic = scene.box.periodic(0) && scene.box.periodic(1);
+  const bool uniform = std::all_of(scene.species.begin(), scene.species.end(), fills_the_box);
+  // In a system of few disks the rate differs by about 1/N of itself.
+  if (!smooth || !periodic || !uniform || scene.disk_count() < 100 || !(kT > 0.0)) return std::nullopt;
+  if (scene.packing_fraction() > densest_known) return std::nullopt;
+  std::vector<theory::Component> gas;
+  for (const Species& species : scene.species)
+    gas.push_back({static_cast<double>(species.count) / scene.box.area(), species.radius, species.mass});
+  return theory::collision_rate(gas, kT) * scene.box.area();
+}
+
+}  // namespace
+
+Trial::Trial(const Scene& scene, const std::string& engine)
+    : scene_(scene), engine_(engine), simulation_(make_simulation(trial_of(scene), engine)) {}
+
+void Trial::observe(ExpectedCost& cost, const State& start, double equilibrated, double measured) const {
+  Scene scene = scene_;
+  scene.run.equilibrate.reset();
+  scene.run.take_no_samples();
+  if (scene.run.time) scene.run.time = std::min(*scene.run.time, latest);
+  Simulation simulation = make_simulation(scene, start, engine_);
+  Observation observation(simulation);
+  RunHooks hooks;
+  observation.attach_beside(hooks);
+  const auto began = std::chrono::steady_clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(); };
+  hooks.proceed = [&](const Progress&) { return seconds() < trial_seconds; };
+  const RunResult result = run_schedule(simulation, hooks);
+  (void)observation.results();  // which waits for what is still looked at
+  const double done = result.stopped == StopReason::interrupted ? simulation.time() / measured : 1.0;
+  if (!(done > 0.0)) return;
+  cost.observables = scene.observe.size();
+  const double all = equilibrated + measured;
+  const double before = all > 0.0 ? *cost.seconds * equilibrated / all : 0.0;
+  cost.seconds = before + seconds() / std::min(done, 1.0);
+}
+
+ExpectedCost Trial::run() {
+  const State start = scene_.observe.empty() ? State{} : simulation_.state();
+  const double kT = kinetic_temperature(scene_.box, scene_.effects, simulation_.disks(), simulation_.state());
+  RunHooks hooks;
+  hooks.proceed = [](const Progress& progress) { return progress.loop_seconds < trial_seconds; };
+  const RunResult result = run_schedule(simulation_, hooks);
+
+  ExpectedCost cost;
+  cost.trial_seconds = result.loop_seconds;
+  cost.trial_collisions = simulation_.totals().pair;
+  cost.trial_time = simulation_.time();
+  if (result.stopped == StopReason::jammed || result.stopped == StopReason::collapsed || result.stopped == StopReason::overheated)
+    cost.came_to_rest = to_string(result.stopped);
+  cost.whole = result.stopped != StopReason::interrupted && cost.came_to_rest.empty() && cost.trial_time < latest;
+
+  const auto tried = static_cast<double>(cost.trial_collisions);
+  const std::vector<Part> parts = parts_of(scene_);
+  if (cost.whole) {
+    cost.collisions = tried;
+    cost.seconds = cost.trial_seconds;
+    const double before = parts.size() > 1 ? std::min(parts.front().lasts(tried / cost.trial_time), cost.trial_time) : 0.0;
+    if (!scene_.observe.empty()) observe(cost, start, before, cost.trial_time - before);
+    return cost;
+  }
+  if (!cost.came_to_rest.empty() || !(cost.trial_time > 0.0)) return cost;
+  const std::optional<double> known = rate_by_theory(scene_, kT);
+  cost.by_theory = known.has_value();
+  cost.at_least = scene_.effects.growth && scene_.effects.growth->rate > 0.0;
+  const double per_time = known.value_or(tried / cost.trial_time);
+  double collisions = 0.0, time = 0.0;
+  for (const Part& part : parts) {
+    time += part.lasts(per_time);
+    collisions += part.lasts(per_time) * per_time;
+  }
+  if (!(time < latest)) return cost;
+  cost.collisions = collisions;
+  cost.seconds = tried > 0.0 ? collisions * cost.trial_seconds / tried : time * cost.trial_seconds / cost.trial_time;
+  if (!scene_.observe.empty()) observe(cost, start, time - parts.back().lasts(per_time), parts.back().lasts(per_time));
+  return cost;
+}
+
+std::string words(const ExpectedCost& cost) {
+  const auto number_of = [](double collisions) {
+    return collisions < 1e6 ? counted(static_cast<std::uint64_t>(std::llround(collisions)), "collision")
+                            : fmt::format("{:.3g} million collisions", collisions / 1e6);
+  };
+  const std::string with = cost.observables > 0 ? fmt::format(", with {},", counted(cost.observables, "observable")) : "";
+  if (cost.whole)
+    return fmt::format("{}{} and {} on this machine (a trial ran to the end)", duration(*cost.seconds), with,
+                       number_of(*cost.collisions));
+  const std::string trial = cost.trial_collisions > 0
+                                ? fmt::format("a trial of {}: {} collisions per second", duration(cost.trial_seconds),
+                                              rate(static_cast<double>(cost.trial_collisions) / cost.trial_seconds))
+                                : fmt::format("a trial of {} had no collision", duration(cost.trial_seconds));
+  if (!cost.came_to_rest.empty())
+    return fmt::format("unknown: {} by time {:.4g} ({})", cost.came_to_rest, cost.trial_time, trial);
+  if (!cost.seconds) return fmt::format("unknown ({})", trial);
+  return fmt::format("{} {}{} and {}{} on this machine ({})", cost.at_least ? "at least" : "about", duration(*cost.seconds), with,
+                     number_of(*cost.collisions), cost.by_theory ? ", as kinetic theory has it," : "", trial);
+}
+
+}  // namespace carom::cli

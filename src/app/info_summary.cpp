@@ -1,0 +1,147 @@
+// What a summary.json says, or the compare.json of a comparison.
+
+#include "app/info_parts.hpp"
+#include "io/output_error.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace carom::detail {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.is_null() ? "none" : value.dump();
+}
+
+/// "left 2.5, right 2.5", where walls are and have a pressure
+std::string wall_pressures(const Json& walls) {
+  std::string text;
+  for (const auto& [name, wall] : walls.items())
+    if (!wall.at("pressure").is_null())
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, text_of(wall.at("pressure")));
+  return text;
+}
+
+/// One line for each effect that has something to tell.
+std::string lines_of_effects(const Json& json) {
+  std::string text;
+  if (json.at("energy").contains("given"))
+    text += info_line("given", fmt::format("energy {}, unexplained {}", text_of(json.at("energy").at("given")),
+                                           text_of(json.at("energy").at("unexplained"))));
+  if (json.at("temperature").contains("spin_mean"))
+    text += info_line("spin", fmt::format("temperature {}", text_of(json.at("temperature").at("spin_mean"))));
+  if (json.contains("walls")) {
+    const std::string pressures = wall_pressures(json.at("walls"));
+    if (!pressures.empty()) text += info_line("pressure on", pressures);
+  }
+  if (json.contains("dissipated")) text += info_line("dissipated", fmt::format("energy {}", text_of(json.at("dissipated"))));
+  if (json.contains("thermostat"))
+    text += info_line("thermostat", fmt::format("{} kicks, energy {}", text_of(json.at("thermostat").at("kicks")),
+                                                text_of(json.at("thermostat").at("energy"))));
+  if (json.contains("growth"))
+    text += info_line("grown", fmt::format("radii to {} times, packing fraction {}", text_of(json.at("growth").at("scale")),
+                                           text_of(json.at("growth").at("packing_fraction"))));
+  if (json.contains("shear"))
+    text += info_line("shear", fmt::format("strain {}, viscosity {}", text_of(json.at("shear").at("strain")),
+                                           text_of(json.at("shear").at("viscosity"))));
+  if (json.contains("square_well")) text += info_line("bonds", text_of(json.at("square_well").at("bonds")));
+  return text;
+}
+
+/// "1000 pair, 20 wall", and what else happened
+std::string events_line(const Json& events) {
+  std::string text = fmt::format("{} pair, {} wall", text_of(events.at("pair")), text_of(events.at("wall")));
+  if (events.contains("obstacle")) text += fmt::format(", {} obstacle", text_of(events.at("obstacle")));
+  if (events.contains("well")) text += fmt::format(", {} at the edge of wells", text_of(events.at("well")));
+  if (events.contains("kicks")) text += fmt::format(", {} kicks", text_of(events.at("kicks")));
+  return text;
+}
+
+std::string effects_line(const Json& effects) {
+  std::string text;
+  for (const Json& effect : effects) text += (text.empty() ? "" : ", ") + text_of(effect);
+  return text;
+}
+
+/// One line per observable: its numbers with their errors, then its tables.
+std::string lines_of_observables(const Json& observables) {
+  std::string text;
+  for (const auto& [name, measured] : observables.items()) {
+    std::string line;
+    for (const auto& [key, entry] : measured.items()) {
+      if (!entry.is_object() || !entry.contains("value") || entry.at("value").is_null()) continue;
+      line += fmt::format("{}{} {}", line.empty() ? "" : ", ", key, text_of(entry.at("value")));
+      if (!entry.at("error").is_null()) line += fmt::format(" (error {})", text_of(entry.at("error")));
+    }
+    if (measured.contains("tables"))
+      for (const auto& [key, table] : measured.at("tables").items())
+        line += fmt::format("{}{}", line.empty() ? "" : ", ", text_of(table.at("file")));
+    text += info_line("observed", fmt::format("{}: {}", name, line));
+  }
+  return text;
+}
+
+std::string described(const Json& json) {
+  std::string text = info_line("written by", fmt::format("carom {} ({})", text_of(json.at("carom").at("version")),
+                                                         text_of(json.at("carom").at("commit"))));
+  text += info_line("scene", text_of(json.at("scene")));
+  text += info_line("seed", text_of(json.at("seed")));
+  text += info_line("engine", text_of(json.at("engine")));
+  text += info_line("effects", effects_line(json.at("effects")));
+  text +=
+      info_line("disks", fmt::format("{}, packing fraction {}", text_of(json.at("disks")), text_of(json.at("packing_fraction"))));
+  text += info_line("time", fmt::format("{}, {} samples, stopped by {}", text_of(json.at("time")), text_of(json.at("samples")),
+                                        text_of(json.at("stopped"))));
+  if (json.contains("state_hash")) text += info_line("state hash", text_of(json.at("state_hash")));
+  text += info_line("events", events_line(json.at("events")));
+  text += info_line("energy", fmt::format("{}, relative drift {}", text_of(json.at("energy").at("final")),
+                                          text_of(json.at("energy").at("relative_drift"))));
+  text += lines_of_effects(json);
+  if (json.contains("observables")) text += lines_of_observables(json.at("observables"));
+  const Json& pressure = json.at("pressure");
+  text += info_line("Z", fmt::format("{}, standard error {}", text_of(pressure.at("Z")), text_of(pressure.at("Z_error"))));
+  return text +
+         info_line("overlap", fmt::format("at most {} of a contact distance", text_of(json.at("overlap").at("max_relative"))));
+}
+
+std::string described_comparison(const Json& json) {
+  std::string text = info_line("written by", fmt::format("carom {} ({})", text_of(json.at("carom").at("version")),
+                                                         text_of(json.at("carom").at("commit"))));
+  text += info_line("scene", text_of(json.at("scene")));
+  text +=
+      info_line("disks", fmt::format("{}, packing fraction {}", text_of(json.at("disks")), text_of(json.at("packing_fraction"))));
+  text += info_line("runs", fmt::format("{}, {} starts, {} time steps", json.at("runs").size(),
+                                        json.at("plan").at("seeds").size(), json.at("plan").at("dt").size()));
+  for (const Json& sentence : json.at("sentences")) text += info_line("answer", text_of(sentence));
+  return text;
+}
+
+}  // namespace
+
+std::string describe_summary(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  Json json;
+  try {
+    json = Json::parse(file);
+  } catch (const Json::parse_error& error) {
+    throw OutputError(
+        fmt::format("{}: this is not whole JSON (it breaks at byte {}); it is damaged or cut short", path.string(), error.byte));
+  } catch (const Json::out_of_range&) {
+    throw OutputError(fmt::format("{}: this JSON holds a number beyond the range of doubles; it is damaged", path.string()));
+  }
+  try {
+    if (json.contains("sentences"))
+      return fmt::format("{}: comparison of methods\n{}", path.string(), described_comparison(json));
+    return fmt::format("{}: summary of a run\n{}", path.string(), described(json));
+  } catch (const Json::exception&) {
+    throw OutputError(fmt::format("{}: this JSON is not the summary of a run: keys that every summary of Carom has are missing",
+                                  path.string()));
+  }
+}
+
+}  // namespace carom::detail

@@ -1,0 +1,34 @@
+#pragma once
+// What carom movie is to draw, read from its options before the run is opened.
+
+#include "app/commands.hpp"
+#include "pages/film_writer.hpp"
+#include "pages/painter.hpp"
+
+#include <filesystem>
+#include <variant>
+
+namespace carom::cli {
+
+struct MoviePlan {
+  std::filesystem::path path;
+  std::variant<FilmFormat, PictureFormat> format;
+  double fps = 30.0;
+  std::variant<int, PictureSize> size;  ///< the longer side, or both
+  std::optional<Colouring> colouring = {};
+
+  [[nodiscard]] bool is_film() const { return std::holds_alternative<FilmFormat>(format); }
+};
+
+/// Throws UsageError where the options are wrong by themselves, or a file is in the way.
+[[nodiscard]] MoviePlan movie_plan(const MovieOptions& options);
+
+/// The size in pixels for a box of this extent.
+[[nodiscard]] PictureSize size_for(const MoviePlan& plan, const std::array<double, 4>& extent, bool caption);
+
+/// The times of the pictures: one, or those of all frames. Throws UsageError where they are not in the run, which goes from
+/// `begin` to `end`, or are too many.
+[[nodiscard]] std::vector<double> picture_times(const MovieOptions& options, const MoviePlan& plan, double begin, double end,
+                                                double last_sample);
+
+}  // namespace carom::cli

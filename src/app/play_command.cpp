@@ -1,0 +1,40 @@
+// carom play RUN_DIR: one HTML file that replays a run.
+
+#include "app/commands.hpp"
+#include "app/info_parts.hpp"
+#include "pages/player_page.hpp"
+#include "terminal/page_file.hpp"
+#include "terminal/reading_process.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace carom::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+PlayerData read_player(const std::string& directory) {
+  const ReadingLimit limit(directory);
+  return as_usage_error([&] { return player_data(RunReader(directory)); });
+}
+
+ExitCode write_player(const PlayOptions& options) {
+  const PlayerData data = read_player(options.directory);
+  const fs::path path = place_for_page(options.output, fs::path(options.directory) / "player.html", {"player", player_mark});
+  write_page(path, player_page(data));
+  fmt::print("{}  {}, {}\n", path.string(), detail::size_text(fs::file_size(path)),
+             data.exact ? "an exact replay, from collision to collision"
+                        : fmt::format("interpolated between samples: {}", data.why_not));
+  return exit_done;
+}
+
+}  // namespace
+
+ExitCode play(const PlayOptions& options) {
+  return in_reading_process(options.directory, [&] { return write_player(options); });
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,99 @@
+// What a run has shown, for the person who started it: what was simulated, what happened, how exact it was, what it
+// measured, where the files are, and what to try next.
+
+#include "app/terminal_summary.hpp"
+
+#include "pages/horizon_sentence.hpp"
+#include "pages/summary_rows.hpp"
+#include "scene/drawn.hpp"
+#include "terminal/observed_lines.hpp"
+#include "text/numbers.hpp"
+#include "text/units.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::cli {
+
+namespace {
+
+std::string lines_of(const SummaryRows& rows) {
+  std::string text;
+  for (const SummaryRow& row : rows)
+    text += row.remark.empty() ? fmt::format("  {:<18}{}\n", row.quantity, row.value)
+                               : fmt::format("  {:<18}{:<19} {}\n", row.quantity, row.value, row.remark);
+  return text;
+}
+
+std::string heading(const RunReport& report, const Scene& scene) {
+  return fmt::format("{}\n{}, packing fraction {:.4g}; {}; seed {}, {}; numbers in scene units\n\n",
+                     report.title.empty() ? report.scene : report.title,
+                     counted(static_cast<std::uint64_t>(report.disks), "disk"), report.packing_fraction,
+                     fmt::join(report.effects, ", "), scene.run.seed,
+                     (report.time_step ? "method " : "engine ") + method_words(report.engine, report.time_step));
+}
+
+/// One line per observable: its first number.
+std::string what_was_observed(const RunReport& report) {
+  std::string text;
+  for (const Measurement& measured : report.observables) {
+    const auto known = std::find_if(measured.scalars.begin(), measured.scalars.end(),
+                                    [](const Scalar& scalar) { return scalar.value.has_value(); });
+    std::string words = measured.tables.empty() ? measured.note : "in a table of its own";
+    if (known != measured.scalars.end()) {
+      words = known->name + " " + number_words(*known);
+      if (!known->unit.empty()) words += fmt::format(" ({})", unit_words(known->unit));
+    }
+    text += fmt::format("  {:<26}{}\n", measured.name, words);
+  }
+  if (text.empty()) return text;
+  return "Observed, averages with their standard errors, in scene units (all of them in summary.json)\n" + text + "\n";
+}
+
+std::string how_far_to_trust(const RunReport& report) { return report.horizon ? sentence_of(*report.horizon) + "\n\n" : ""; }
+
+std::string where_the_files_are(const Results& results) {
+  std::vector<std::string> names;
+  for (const std::string& file : results.files) names.push_back(std::filesystem::path(file).filename().string());
+  return fmt::format("Files in {}: {}\n", results.directory.string(), fmt::join(names, ", "));
+}
+
+std::string what_to_try_next(const RunReport& report, const Scene& scene, const Results& results) {
+  std::string rerun = fmt::format("{} run {}", results.program, shell_quoted(report.scene));
+  for (const std::string& change : scene.overrides)
+    if (!change.starts_with("run.seed=")) rerun += " --set " + shell_quoted(change);
+  const std::filesystem::path here = std::filesystem::absolute(results.directory / "").lexically_normal().parent_path();
+  const std::string elsewhere = std::filesystem::proximate(here).string();
+  std::string text = "\nTry next\n";
+  if (report.time_step) text += fmt::format("  {} --out {}   # the same, exactly\n", rerun, shell_quoted(elsewhere + "-exact"));
+  for (const std::string& file : results.files) {
+    const std::string name = std::filesystem::path(file).filename().string();
+    if (name != "trajectory.h5md") continue;
+    const std::filesystem::path path = results.directory / name;
+    text += fmt::format("  {} info {}\n", results.program, shell_quoted(path.string()));
+    if (report.samples == 0 || !scene.output.trajectory) continue;  // MDAnalysis opens no file without frames
+    text += fmt::format("  python3 -c {}\n",
+                        shell_quoted(fmt::format("import MDAnalysis as m; print(m.Universe(\"{}\").trajectory)", path.string())));
+  }
+  if (scene.effects.collision.rule == CollisionRule::reversal) {
+    text += fmt::format("  {} --set collision.rule=specular --out {}   # smooth hard disks\n", rerun,
+                        shell_quoted(elsewhere + "-specular"));
+  } else if (run_is_drawn(scene)) {
+    text += fmt::format("  {} --seed {} --out {}   # another start\n", rerun, scene.run.seed == 1 ? 2 : 1,
+                        shell_quoted(elsewhere + "-again"));
+  }
+  return text + fmt::format("  {} init --list   # other scenes to start from\n", results.program);
+}
+
+}  // namespace
+
+std::string terminal_summary(const RunReport& report, const Scene& scene, const Results& results) {
+  return heading(report, scene) + lines_of(rows_of_what_happened(report, &scene)) + "\n" + lines_of(rows_of_accuracy(report)) +
+         "\n" + lines_of(rows_of_results(report, &scene)) + "\n" + what_was_observed(report) + how_far_to_trust(report) +
+         where_the_files_are(results) + what_to_try_next(report, scene, results);
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,112 @@
+// carom verify RUN_DIR: runs the scene of a finished run again and compares the two to the last bit. And the commands that make
+// such a run again, for carom info --reproduce.
+
+#include "app/commands.hpp"
+#include "app/scratch_directory.hpp"
+#include "io/finished_run.hpp"
+#include "io/hdf5_handle.hpp"
+#include "io/same_results.hpp"
+#include "terminal/named_after.hpp"
+#include "terminal/reading_process.hpp"
+#include "text/numbers.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <carom/version.hpp>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+namespace carom::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What a run's summary says of how it was made.
+struct Recorded {
+  std::string resolved_scene, engine, commit;
+  std::optional<double> dt = {};
+  bool interrupted = false;
+};
+
+Recorded recorded(const fs::path& directory) {
+  const fs::path path = directory / "summary.json";
+  std::error_code error;
+  if (!fs::exists(path, error))
+    throw UsageError(fmt::format(
+        "{}: this is no directory of a finished run (no summary.json); name one that carom run has written", directory.string()));
+  try {
+    const auto json = as_usage_error([&] { return detail::summary_in(directory); });
+    if (!json.contains("resolved_scene"))
+      throw UsageError(fmt::format(
+          "{}: this run's scene is not in its summary: an earlier version wrote it, or it is no run's; run the scene again",
+          path.string()));
+    Recorded run{
+        .resolved_scene = json.at("resolved_scene"), .engine = json.at("engine"), .commit = json.at("carom").at("commit")};
+    if (json.contains("dt")) run.dt = json.at("dt").get<double>();
+    run.interrupted = json.at("stopped") == "interrupted";
+    return run;
+  } catch (const nlohmann::json::exception&) {
+    throw UsageError(detail::no_summary(directory).what());
+  }
+}
+
+std::string engine_options(const Recorded& run) {
+  return run.dt ? fmt::format("--method {} --dt {}", run.engine, *run.dt) : fmt::format("--engine {}", run.engine);
+}
+
+ExitCode run_again(const Recorded& run, const fs::path& scratch, const VerifyOptions& options, const Invocation& invocation) {
+  const fs::path scene = scratch / "scene.toml";
+  std::ofstream(scene, std::ios::binary) << run.resolved_scene;
+  RunOptions again;
+  again.scene.path = scene.string();
+  again.out = (scratch / "again").string();
+  again.quiet = true;
+  again.progress = options.progress;
+  if (run.dt) {
+    again.method = run.engine;
+    again.dt = run.dt;
+  } else {
+    again.scene.engine = run.engine;
+  }
+  return cli::run(again, invocation);
+}
+
+}  // namespace
+
+std::string reproduction(const std::string& directory, const Invocation& invocation) {
+  const Recorded run = recorded(directory);
+  const std::string again = named_after(directory, "-again").filename().string();
+  return fmt::format("cat > {0}.toml <<'END_OF_SCENE'\n{1}END_OF_SCENE\n{2} run {0}.toml {3}\n", shell_quoted(again),
+                     run.resolved_scene, invocation.program, engine_options(run));
+}
+
+ExitCode verify(const VerifyOptions& options, const Invocation& invocation) {
+  detail::close_nothing_at_exit();
+  const Recorded run = recorded(options.directory);
+  if (run.interrupted)
+    throw UsageError(
+        fmt::format("{}: this run was interrupted, and another one would not end there; verify a run that came to its end",
+                    options.directory));
+  const ScratchDirectory scratch;
+  if (const ExitCode code = run_again(run, scratch.path(), options, invocation); code != exit_done) return code;
+  return in_reading_process(options.directory, [&] {
+    const ReadingLimit limit(options.directory);
+    const SameResults found = as_usage_error([&] { return compare_results(options.directory, scratch.path() / "again"); });
+    const std::string commits = run.commit == build_info().commit
+                                    ? ""
+                                    : fmt::format(" by another commit ({}; this is {})", run.commit, build_info().commit);
+    if (found.differences.empty()) {
+      fmt::print("{}: run again, the same to the last bit{}: {}\n", options.directory, commits, fmt::join(found.files, ", "));
+      return exit_done;
+    }
+    fmt::print("{}: run again, not the same{}\n", options.directory, commits);
+    for (const std::string& difference : found.differences) fmt::print("  {}\n", difference);
+    return exit_check_failed;
+  });
+}
+
+}  // namespace carom::cli

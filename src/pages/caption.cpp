@@ -1,0 +1,101 @@
+// The line below the box.
+
+#include "pages/drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace carom::detail {
+
+namespace {
+
+double width_of(cairo_t* context, const std::string& text) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(context, text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+void write(cairo_t* context, const std::string& text, double x, double y) {
+  cairo_move_to(context, x, y);
+  cairo_show_text(context, text.c_str());
+}
+
+/// What stands at the ends of the scale of colours: its name, where it begins and where it ends.
+struct Scale {
+  std::string name, low, high;
+};
+
+Scale scale_of(const Subject& subject) {
+  switch (subject.look.colouring) {
+    case Colouring::speed:
+      return {"speed", "0", fmt::format("{:.3g}", subject.ranges.fastest)};
+    case Colouring::collisions:
+      return {"collisions", "0", fmt::format("{:.0f}", subject.ranges.most_collisions)};
+    case Colouring::id:
+      return {"id", "0", fmt::format("{}", std::max<std::size_t>(1, subject.disks.count()) - 1)};
+    default:
+      return {};
+  }
+}
+
+void draw_scale(cairo_t* context, const Subject& subject, double from, double right, double baseline) {
+  const Scale scale = scale_of(subject);
+  const double letters = subject.layout.letters, gap = 0.4 * letters, bar = 6.0 * letters;
+  const std::string before = scale.name + "  " + scale.low;
+  const double high = width_of(context, scale.high), low = width_of(context, before);
+  const double begin = right - high - gap - bar;
+  if (begin - gap - low < from) return;  // no room
+  set_colour(context, theme(subject.look.dark).muted);
+  write(context, scale.high, right - high, baseline);
+  write(context, before, begin - gap - low, baseline);
+  constexpr int steps = 64;
+  cairo_pattern_t* shades = cairo_pattern_create_linear(begin, 0.0, begin + bar, 0.0);
+  for (int k = 0; k <= steps; ++k) {
+    const double share = static_cast<double>(k) / steps;
+    const Colour colour = scale_colour(share);
+    cairo_pattern_add_color_stop_rgb(shades, share, colour.red, colour.green, colour.blue);
+  }
+  cairo_rectangle(context, begin, baseline - 0.7 * letters, bar, 0.7 * letters);
+  cairo_set_source(context, shades);
+  cairo_fill(context);
+  cairo_pattern_destroy(shades);
+}
+
+void draw_kinds(cairo_t* context, const Subject& subject, double from, double right, double baseline) {
+  const double letters = subject.layout.letters, gap = 0.4 * letters, spot = 0.35 * letters;
+  double x = right;
+  for (std::size_t k = subject.species_names.size(); k-- > 0;) {
+    x -= width_of(context, subject.species_names[k]);
+    if (x - gap - 2.0 * spot < from) return;  // no room
+    set_colour(context, theme(subject.look.dark).muted);
+    write(context, subject.species_names[k], x, baseline);
+    x -= gap + spot;
+    cairo_new_path(context);
+    cairo_arc(context, x, baseline - spot, spot, 0.0, 2.0 * std::numbers::pi);
+    set_colour(context, kind_colour(k));
+    cairo_fill(context);
+    x -= spot + 2.0 * gap;
+  }
+}
+
+}  // namespace
+
+void draw_caption(cairo_t* context, const Subject& subject, const Moment& moment) {
+  const Layout& at = subject.layout;
+  cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(context, at.letters);
+  const double baseline = at.caption_top + 1.1 * at.letters, left = at.size.width - at.caption_right;
+  const std::string clock = fmt::format("t = {:.{}f}", moment.time, subject.ranges.decimals);
+  set_colour(context, theme(subject.look.dark).ink);
+  write(context, clock, left, baseline);
+  const double from = left + width_of(context, clock) + at.letters;
+  if (subject.look.colouring == Colouring::species) {
+    draw_kinds(context, subject, from, at.caption_right, baseline);
+  } else if (subject.look.colouring != Colouring::plain) {
+    draw_scale(context, subject, from, at.caption_right, baseline);
+  }
+}
+
+}  // namespace carom::detail

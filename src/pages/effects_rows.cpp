@@ -1,0 +1,88 @@
+#include "pages/effects_rows.hpp"
+
+#include "text/numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+std::string digits(double value) { return fmt::format("{:.5g}", value); }
+
+/// What the disks got: "gave energy 3.2", "took energy 0.1".
+std::string gain(double energy) {
+  if (energy == 0.0) return "gave no energy";
+  return fmt::format("{} energy {:.5g}", energy > 0.0 ? "gave" : "took", std::abs(energy));
+}
+
+SummaryRow row_of_wall(const WallReport& wall) {
+  std::string remark = wall.energy == 0.0 ? "" : gain(-wall.energy);
+  if (wall.end)
+    remark += fmt::format("{}now at {:.6g}, velocity {:.4g}", remark.empty() ? "" : "; ", wall.end->position, wall.end->velocity);
+  const std::string value = wall.pressure ? "pressure " + digits(*wall.pressure)
+                            : wall.force  ? "force " + digits(*wall.force)
+                                          : "no time has passed";
+  return {wall.name + " wall", value, remark};
+}
+
+void put_walls(SummaryRows& rows, const RunReport& report, const Scene& scene) {
+  constexpr std::array<const char*, 4> names = {"left", "right", "bottom", "top"};
+  for (const WallReport& wall : report.of_effects.walls)
+    for (std::size_t side = 0; side < 4; ++side)
+      if (wall.name == names[side] && scene.effects.walls[side].present()) rows.push_back(row_of_wall(wall));
+}
+
+void put_shear(SummaryRows& rows, const ShearReport& shear) {
+  rows.push_back({"strain", digits(shear.strain), gain(shear.energy)});
+  if (shear.viscosity) rows.push_back({"viscosity", digits(*shear.viscosity), "- P_xy / rate, mean over the run"});
+}
+
+}  // namespace
+
+SummaryRows rows_of_events(const RunReport& report) {
+  SummaryRows rows;
+  if (report.of_effects.obstacles) rows.push_back({"obstacles hit", grouped(report.totals.obstacle)});
+  if (report.of_effects.thermostat) rows.push_back({"thermostat kicks", grouped(report.totals.kicks)});
+  return rows;
+}
+
+SummaryRow row_of_energy(const RunReport& report) {
+  const std::string energy = fmt::format("{:.6g}", report.energy_final);
+  const auto unexplained = report.unexplained_energy_drift();
+  if (!unexplained)
+    return {"energy", energy,
+            report.relative_energy_drift() == 0.0 ? "no drift in any digit"
+                                                  : fmt::format("relative drift {:.1e}", report.relative_energy_drift())};
+  const std::string left = *unexplained == 0.0 ? "" : fmt::format(" to within {:.1e} of it", std::abs(*unexplained));
+  return {"energy", energy,
+          fmt::format("{:.6g} at the start; what came and went accounts for the change{}", report.energy_initial, left)};
+}
+
+SummaryRows rows_of_effects(const RunReport& report, const Scene* scene) {
+  const EffectsReport& effects = report.of_effects;
+  SummaryRows rows;
+  const auto put = [&](const char* quantity, std::string value, std::string remark = "") {
+    rows.push_back({quantity, std::move(value), std::move(remark)});
+  };
+  if (effects.spin_temperature) put("spin temperature", digits(*effects.spin_temperature), "kT of rotation");
+  if (effects.dissipated) put("dissipated", digits(*effects.dissipated), "energy, by collisions of disks");
+  if (scene != nullptr) put_walls(rows, report, *scene);
+  if (effects.packing_fraction_end) put("packing fraction", digits(*effects.packing_fraction_end), "at the end");
+  if (effects.obstacles)
+    put("obstacles took", fmt::format("({:.5g}, {:.5g})", effects.obstacles->x(), effects.obstacles->y()), "momentum");
+  if (effects.thermostat) put("thermostat", gain(effects.thermostat->energy));
+  if (effects.growth)
+    put("grown to", fmt::format("packing {:.5g}", effects.growth->packing_fraction),
+        fmt::format("radii {:.5g} times those at the start; {}", effects.growth->scale, gain(effects.growth->energy)));
+  if (effects.shear) put_shear(rows, *effects.shear);
+  if (effects.bonds) put("bonds", grouped(*effects.bonds), "pairs inside each other's well, at the end");
+  return rows;
+}
+
+}  // namespace carom

@@ -1,0 +1,13 @@
+#pragma once
+// How pages show an engine or a fixed-step method.
+
+#include <string>
+
+namespace carom {
+
+/// The method's colour in every plot.
+[[nodiscard]] int group_of(const std::string& method);
+/// Its name for people: "double", "113 bits", "grid, fixed step".
+[[nodiscard]] std::string name_of(const std::string& method);
+
+}  // namespace carom

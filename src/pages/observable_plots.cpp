@@ -1,0 +1,291 @@
+#include "pages/observable_plots.hpp"
+
+#include "text/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace carom {
+
+namespace {
+
+/// The columns of a plot: all that begin with `values`, one for each species where there are several.
+struct Columns {
+  const char* values = nullptr;
+  const char* x = "";     ///< empty: the first of the table
+  const char* name = "";  ///< in the legend, where the plot shows more than one quantity
+};
+
+struct Frame {
+  const char* table;
+  const char* id;
+  const char* title;
+  const char* x;
+  const char* y;
+  std::array<Columns, 2> columns;  ///< the second may be empty
+  bool log_x = false, log_y = false;
+  const char* caption = "";
+};
+
+constexpr std::array<Frame, 17> frames = {{
+    {"speeds",
+     "speeds",
+     "Speeds",
+     "speed",
+     "density",
+     {{{"density"}}},
+     false,
+     false,
+     "Share of the disks per unit of speed, mean over the run."},
+    {"energies",
+     "energies",
+     "Kinetic energies",
+     "kinetic energy of a disk",
+     "density",
+     {{{"density"}}},
+     false,
+     true,
+     "Share of the disks per unit of energy, mean over the run."},
+    {"free_times",
+     "free-times",
+     "Free times",
+     "time from collision to collision",
+     "density",
+     {{{"density"}}},
+     false,
+     true,
+     "Over flights that began and ended within the run. Fast disks collide more often, so that the law is no single exponential; "
+     "it is that of a dilute gas with this run's rate of collisions."},
+    {"free_paths",
+     "free-paths",
+     "Free paths",
+     "way from collision to collision",
+     "density",
+     {{{"density"}}},
+     false,
+     true,
+     "Over flights that began and ended within the run."},
+    {"radial_distribution",
+     "radial-distribution",
+     "Radial distribution",
+     "r",
+     "g(r)",
+     {{{"g"}}},
+     false,
+     false,
+     "Pairs at a distance r, over as many as there were if disks lay anywhere."},
+    {"structure_factor",
+     "structure-factor",
+     "Structure factor",
+     "k",
+     "S(k)",
+     {{{"S"}}},
+     false,
+     false,
+     "Over the wave vectors that fit the box, of this length."},
+    {"hexatic_correlation",
+     "hexatic-correlation",
+     "Hexatic order over distance",
+     "r",
+     "g6(r)",
+     {{{"g6"}}},
+     false,
+     false,
+     "How far the directions to the six neighbours of two disks agree."},
+    {"density_profile",
+     "density-profile",
+     "Density along the box",
+     "place",
+     "disks per area",
+     {{{"density"}}},
+     false,
+     false,
+     "Mean over the run."},
+    {"mean_square_displacement",
+     "mean-square-displacement",
+     "Mean square displacement",
+     "time lag",
+     "mean square displacement",
+     {{{"msd"}}},
+     true,
+     true,
+     "Disks fly at first, with the square of time, and diffuse later, with time."},
+    {"mean_square_displacement",
+     "diffusion-from-displacement",
+     "Diffusion, from displacements",
+     "time lag",
+     "mean square displacement / 4 t",
+     {{{"diffusion"}}},
+     true,
+     false,
+     "In two dimensions it grows with the logarithm of time: no limit is reached."},
+    {"velocity_autocorrelation",
+     "velocity-autocorrelation",
+     "Autocorrelation of velocity",
+     "time lag",
+     "mean of v(0) v(t)",
+     {{{"correlation"}}},
+     true,
+     false,
+     "How long a disk remembers how it flew; beyond the first lags of mean velocities over windows."},
+    {"velocity_autocorrelation",
+     "diffusion-from-velocity",
+     "Diffusion, from velocities",
+     "time integrated to",
+     "D(t)",
+     {{{"diffusion", "integral_to"}}},
+     true,
+     false,
+     "The integral of the autocorrelation, up to this time."},
+    {"viscosity",
+     "viscosity",
+     "Viscosity",
+     "time lag",
+     "viscosity",
+     {{{"green_kubo", "integral_to", "Green-Kubo"}, {"einstein_helfand", "lag", "Einstein-Helfand"}}},
+     true,
+     false,
+     "Two ways to the same value, which is reached before the time that sound takes through the box."},
+    {"viscosity",
+     "viscosity-correlation",
+     "Correlation of the flux of momentum",
+     "time lag",
+     "mean of J(0) J(t)",
+     {{{"correlation"}}},
+     true,
+     false,
+     "Its integral is the viscosity."},
+    {"heat_conductivity",
+     "heat-conductivity",
+     "Heat conductivity",
+     "time lag",
+     "heat conductivity",
+     {{{"green_kubo", "integral_to", "Green-Kubo"}, {"einstein_helfand", "lag", "Einstein-Helfand"}}},
+     true,
+     false,
+     "Two ways to the same value, which is reached before the time that sound takes through the box."},
+    {"heat_conductivity",
+     "heat-correlation",
+     "Correlation of the flux of heat",
+     "time lag",
+     "mean of J(0) J(t)",
+     {{{"correlation"}}},
+     true,
+     false,
+     "Its integral is the heat conductivity."},
+    {"h_function",
+     "h-function",
+     "Boltzmann's H",
+     "time",
+     "H",
+     {{{"H"}}},
+     false,
+     false,
+     "Of the velocities at each instant; it falls towards that of Maxwell's distribution and stays."},
+}};
+
+const Column* column_of(const Table& table, std::string_view name) {
+  for (const Column& column : table.columns)
+    if (column.name == name) return &column;
+  return nullptr;
+}
+
+bool is_error(const Column& column) { return column.name.ends_with("_error"); }
+
+/// "density", "density_small", but not "density_error".
+std::vector<const Column*> with_species(const Table& table, std::string_view base) {
+  std::vector<const Column*> found;
+  for (const Column& column : table.columns) {
+    const std::string_view name = column.name;
+    const bool belongs = name == base || (name.starts_with(base) && name.size() > base.size() && name[base.size()] == '_');
+    if (belongs && !is_error(column)) found.push_back(&column);
+  }
+  return found;
+}
+
+Series series_of(const Table& table, const Column& x, const Column& y, std::string name, int group) {
+  constexpr std::size_t most_points = 130;  // with error bars; more run into each other
+  Series series{.name = std::move(name), .x = x.values, .y = y.values, .style = Style::points, .group = group};
+  const Column* const error = column_of(table, y.name + "_error");
+  if (error != nullptr)
+    for (std::size_t k = 0; k < y.values.size(); ++k) {
+      series.y_low.push_back(y.values[k] - error->values[k]);
+      series.y_high.push_back(y.values[k] + error->values[k]);
+    }
+  if (y.values.size() > most_points) series.style = error != nullptr ? Style::band : Style::line;
+  return series;
+}
+
+std::string name_of(const Columns& columns, const Column& column, bool alone) {
+  const std::string suffix = column.name.substr(std::string_view(columns.values).size());
+  if (*columns.name != '\0') return columns.name + suffix;
+  if (suffix.empty()) return alone ? "measured" : "all disks";
+  std::string words = suffix.substr(1);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+Plot plot_of(const Frame& frame, const Table& table, const RunTheory& theory) {
+  Plot plot{.id = frame.id, .title = frame.title, .caption = frame.caption, .x = {.log = frame.log_x}, .y = {.log = frame.log_y}};
+  std::vector<Series> lines;
+  int group = 0;
+  for (const Columns& columns : frame.columns) {
+    if (columns.values == nullptr) continue;
+    const std::vector<const Column*> found = with_species(table, columns.values);
+    for (const Column* const column : found) {
+      const Column* const x = *columns.x == '\0' ? &table.columns.front() : column_of(table, columns.x);
+      if (x == nullptr) continue;
+      if (plot.series.empty()) {
+        plot.x.title = with_unit(frame.x, x->unit);
+        plot.y.title = with_unit(frame.y, column->unit);
+        plot.marks = theory.marks(table, column->name);
+      }
+      plot.series.push_back(series_of(table, *x, *column, name_of(columns, *column, found.size() == 1), group));
+      for (Series& law : theory.curves(table, column->name)) {
+        if (found.size() > 1) {
+          law.group = group;
+          law.name += ", " + plot.series.back().name;
+          law.style = Style::dashed;
+        }
+        lines.push_back(std::move(law));
+      }
+      ++group;
+    }
+  }
+  const bool lacks_errors = std::any_of(plot.series.begin(), plot.series.end(), [](const Series& series) {
+    return std::any_of(series.y_low.begin(), series.y_low.end(), [](double low) { return !std::isfinite(low); });
+  });
+  if (lacks_errors) plot.caption += " Where there is no bar, the run is too short to tell an error.";
+  for (Series& law : lines) plot.series.push_back(std::move(law));
+  return plot;
+}
+
+/// Whatever it is, against its first column.
+Plot plain_plot_of(const Table& table) {
+  std::string id = table.name;
+  std::replace_if(
+      id.begin(), id.end(), [](char c) { return !((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')); }, '-');
+  Plot plot{.id = id, .title = table.name, .x = {.title = with_unit(table.columns.front().name, table.columns.front().unit)}};
+  int group = 0;
+  for (std::size_t c = 1; c < table.columns.size(); ++c)
+    if (const Column& column = table.columns[c]; !is_error(column))
+      plot.series.push_back(series_of(table, table.columns.front(), column, with_unit(column.name, column.unit), group++));
+  return plot;
+}
+
+}  // namespace
+
+std::vector<Plot> plots_of(const Table& table, const RunTheory& theory) {
+  std::vector<Plot> plots;
+  if (table.columns.size() < 2 || table.columns.front().values.empty()) return plots;
+  for (const Frame& frame : frames)
+    if (table.name == frame.table) plots.push_back(plot_of(frame, table, theory));
+  if (plots.empty()) plots.push_back(plain_plot_of(table));
+  return plots;
+}
+
+}  // namespace carom

@@ -1,0 +1,15 @@
+#pragma once
+// The tables of [observe] as plots, with error bars and what theory says of them.
+
+#include "pages/page.hpp"
+#include "pages/run_theory.hpp"
+
+#include <vector>
+
+namespace carom {
+
+/// One plot, or two where a table holds things that have no axis in common. A table that is not known here is plotted column by
+/// column against its first one.
+[[nodiscard]] std::vector<Plot> plots_of(const Table& table, const RunTheory& theory);
+
+}  // namespace carom

@@ -1,0 +1,65 @@
+#pragma once
+// Draws moments of a run, true to scale: as the pixels of a frame, or as a PNG, SVG or PDF file.
+
+#include "pages/layout.hpp"
+#include "pages/moment.hpp"
+#include "pages/palette.hpp"
+
+#include <carom/scene.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace carom {
+
+class Playback;
+
+enum class Colouring { speed, species, collisions, id, plain };
+
+struct Look {
+  Colouring colouring = Colouring::speed;
+  bool dark = false;
+  bool velocities = false;  ///< arrows
+  bool caption = true;      ///< the clock, and what the colours mean
+};
+
+/// What all pictures of a film have in common.
+struct Ranges {
+  std::array<double, 4> extent{};  ///< of the box, as large as it ever is: left, right, bottom, top
+  double typical_speed = 1.0;      ///< the largest root mean square speed
+  double fastest = 1.0;            ///< where the colours of speeds end
+  double most_collisions = 1.0;    ///< of any disk
+  int decimals = 2;                ///< of the clock
+};
+/// Looks at a few moments between two times.
+[[nodiscard]] Ranges ranges_of(Playback& playback, double from, double to);
+
+enum class PictureFormat { png, svg, pdf };
+
+class Painter {
+ public:
+  /// `scene` and `disks` must live as long as this. `species_names` has a name for each species of the disks.
+  Painter(const Scene& scene, const Disks& disks, std::vector<std::string> species_names, const Look& look, const Ranges& ranges,
+          const PictureSize& size);
+
+  [[nodiscard]] const PictureSize& size() const { return layout_.size; }
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+
+  /// Rows from the top, in each pixel 0xRRGGBB.
+  [[nodiscard]] std::vector<std::uint32_t> frame(const Moment& moment) const;
+  /// The bytes of a file; a pixel is a point of SVG and PDF.
+  [[nodiscard]] std::string picture(const Moment& moment, PictureFormat format) const;
+
+ private:
+  const Scene& scene_;
+  const Disks& disks_;
+  std::vector<std::string> species_names_;
+  Look look_;
+  Ranges ranges_;
+  Layout layout_;
+};
+
+}  // namespace carom

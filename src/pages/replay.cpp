@@ -1,0 +1,125 @@
+// From event to event.
+
+#include "pages/replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t axis_of(std::size_t side) { return side / 2; }
+constexpr double sign_of(std::size_t side) { return side % 2 == 1 ? 1.0 : -1.0; }
+
+}  // namespace
+
+std::string why_no_replay(const Scene& scene) {
+  const Effects& effects = scene.effects;
+  if (effects.thermostat && effects.thermostat->rate > 0.0)
+    return "the thermostat changes velocities between collisions, which the event log does not hold";
+  if (effects.shear && effects.shear->rate != 0.0)
+    return "under shear disks change their velocity at the edges of the box, which the event log does not hold";
+  if (effects.growth && effects.growth->rate > 0.0 && effects.collision.roughness)
+    return "velocities of growing disks are rescaled by an energy that spins are part of, which the event log does not hold";
+  return {};
+}
+
+Replay::Replay(const Scene& scene, const Disks& disks, const State& start, VelocityDigits digits)
+    : disks_(&disks), digits_(digits) {
+  if (scene.effects.gravity) gravity_ = scene.effects.gravity->acceleration;
+  for (Eigen::Index i = 0; i < start.positions.cols(); ++i)
+    flights_.push_back({start.positions.col(i), start.velocities.col(i), start.time});
+  const Box& box = scene.box;
+  const std::array<double, 4> edges = {box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y()};
+  for (std::size_t side = 0; side < 4; ++side) {
+    const WallProperties& wall = scene.effects.walls[side];
+    sides_[side].position = start.walls.size() == 4 ? start.walls[side].position : edges[side];
+    sides_[side].velocity = wall.velocity.value_or(0.0);
+    piston_mass_[side] = wall.mass.value_or(0.0);
+    if (wall.mass)
+      sides_[side].acceleration =
+          -sign_of(side) * wall.load.value_or(0.0) * box.lengths()[static_cast<int>(1 - axis_of(side))] / *wall.mass;
+  }
+  if (scene.effects.growth && scene.effects.growth->rate > 0.0) {
+    rescale_every_ = std::max<std::uint64_t>(1, disks.count() / 2);  // as src/simulation/driven_engine.cpp does
+    energy_at_start_ = kinetic_energy(start.time);
+  }
+}
+
+double Replay::rounded(double value) const {
+  if (digits_ == VelocityDigits::twice) return value;
+  // GCC 12 leaves the rounding out where it does two of them at once.
+  const volatile float narrow = static_cast<float>(value);
+  return static_cast<double>(narrow);
+}
+
+Eigen::Vector2d Replay::position(std::size_t disk, double time) const {
+  const Flight& flight = flights_[disk];
+  const double dt = time - flight.time;
+  return flight.position + (flight.velocity + gravity_ * (0.5 * dt)) * dt;
+}
+
+Eigen::Vector2d Replay::velocity(std::size_t disk, double time) const {
+  return flights_[disk].velocity + gravity_ * (time - flights_[disk].time);
+}
+
+double Replay::kinetic_energy(double time) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < flights_.size(); ++i) sum += 0.5 * disks_->mass[i] * velocity(i, time).squaredNorm();
+  return sum;
+}
+
+void Replay::turn(std::size_t disk, double time, const Eigen::Vector2d& velocity) {
+  flights_[disk] = {position(disk, time), {rounded(velocity.x()), rounded(velocity.y())}, time};
+}
+
+/// The momentum that the disk is about to lose across the side goes to the piston.
+void Replay::push(std::size_t side, std::size_t disk, double time, const Eigen::Vector2d& velocity) {
+  const auto axis = static_cast<int>(axis_of(side));
+  const double given = disks_->mass[disk] * (this->velocity(disk, time)[axis] - velocity[axis]);
+  Side& piston = sides_[side];
+  const double dt = time - piston.time;
+  piston.position += (piston.velocity + 0.5 * piston.acceleration * dt) * dt;
+  piston.velocity += piston.acceleration * dt + given / piston_mass_[side];
+  piston.time = time;
+}
+
+std::optional<double> Replay::apply(const Event& event) {
+  const auto disk = static_cast<std::size_t>(event.disk);
+  if (event.partner < 0 && event.partner > first_obstacle) {
+    const auto side = static_cast<std::size_t>(-1 - event.partner);
+    if (piston_mass_[side] > 0.0) push(side, disk, event.time, event.velocity);
+  }
+  turn(disk, event.time, event.velocity);
+  if (event.partner < 0) return {};
+  turn(static_cast<std::size_t>(event.partner), event.time, event.partner_velocity);
+  if (rescale_every_ == 0 || ++pairs_ % rescale_every_ != 0 || !(energy_at_start_ > 0.0)) return {};
+  const double factor = rounded(std::sqrt(energy_at_start_ / kinetic_energy(event.time)));
+  for (std::size_t i = 0; i < flights_.size(); ++i)
+    flights_[i] = {position(i, event.time), velocity(i, event.time) * factor, event.time};
+  return factor;
+}
+
+double distance_from_samples(const Scene& scene, Replay replay, const std::vector<Event>& events, std::uint64_t samples,
+                             const std::function<State(std::uint64_t)>& sample) {
+  constexpr std::uint64_t most_samples = 50;  // each is read and compared whole
+  const std::uint64_t step = std::max<std::uint64_t>(1, samples / most_samples);
+  const Eigen::Vector2d lengths = scene.box.lengths();
+  double farthest = 0.0;
+  std::size_t next = 0;
+  for (std::uint64_t k = 0; k < samples; k += step) {
+    if (k + step >= samples) k = samples - 1;  // the last one, which every slip before has reached
+    const State state = sample(k);
+    for (; next < events.size() && events[next].time <= state.time; ++next) replay.apply(events[next]);
+    for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
+      Eigen::Vector2d apart = replay.position(static_cast<std::size_t>(i), state.time) - state.positions.col(i);
+      for (int axis = 0; axis < 2; ++axis)
+        if (scene.box.periodic(axis)) apart[axis] -= std::round(apart[axis] / lengths[axis]) * lengths[axis];
+      farthest = std::max(farthest, apart.norm());
+    }
+  }
+  return farthest;
+}
+
+}  // namespace carom

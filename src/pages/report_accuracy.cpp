@@ -1,0 +1,121 @@
+#include "pages/report_accuracy.hpp"
+
+#include "observe/observed_run.hpp"
+#include "pages/horizon_sentence.hpp"
+#include "pages/horizon_table.hpp"
+#include "pages/report_parts.hpp"
+#include "pages/summary_rows.hpp"
+#include "text/numbers.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+/// Unit of rounding of the numbers that an engine computes with. What is reported are doubles, whatever it is.
+double unit_of(const RunReport& report) {
+  return report.engine.find("float") != std::string::npos ? std::ldexp(1.0, -24) : std::ldexp(1.0, -53);
+}
+
+double collisions_of(const RunReport& report) {
+  return static_cast<double>(report.totals.pair + report.totals.wall + report.totals.obstacle);
+}
+
+/// Each of n collisions rounds what two of N disks have by some u. At random that adds up to some u sqrt(n) of one disk; the sum
+/// over all disks, by which it is told, is itself rounded by some u sqrt(N) of one.
+double rounding_of(const RunReport& report) {
+  const auto disks = static_cast<double>(std::max<std::int64_t>(1, report.disks));
+  return 4.0 * unit_of(report) * std::sqrt(collisions_of(report) + disks) / disks;
+}
+
+SummaryRow momentum_row(const RunRecord& record) {
+  const RunReport& report = record.report;
+  const Eigen::Vector2d change = report.momentum_final - report.momentum_initial;
+  const std::string now = fmt::format("({:.3g}, {:.3g})", report.momentum_final.x(), report.momentum_final.y());
+  if (!record.source || record.source->disks.count() == 0)
+    return {"momentum", now, fmt::format("changed by ({:.1e}, {:.1e})", change.x(), change.y())};
+  const Scene& scene = record.source->scene;
+  const ObservedRun run{scene, record.source->disks};
+  const bool driven = is_driven(scene.effects);
+  const double scale = std::sqrt(2.0 * run.disks.total_mass() * std::max(report.energy_initial, report.energy_final));
+  std::vector<std::string> parts;
+  for (int axis = 0; axis < 2; ++axis) {
+    const char* const name = axis == 0 ? "x" : "y";
+    const bool is_kept = run.keeps_momentum(axis) && !driven;
+    parts.push_back(is_kept
+                        ? fmt::format("relative change along {} {:.1e}", name, scale > 0.0 ? std::abs(change[axis]) / scale : 0.0)
+                        : fmt::format("not kept along {}", name));
+  }
+  return {"momentum", now, fmt::format("{}", fmt::join(parts, ", "))};
+}
+
+std::string what_rounding_allows(const RunReport& report) {
+  const bool is_single = unit_of(report) > 1e-10;
+  const std::string text = fmt::format(
+      "Each of n = {} collisions rounds the velocities of two of the N disks by some u = {}. At random that adds up to a "
+      "relative "
+      "change of energy, and of momentum over √(2 M E), that of all disks flying one way, of the order of 4 u √n / N = {:.1e}",
+      grouped(report.totals.pair + report.totals.wall + report.totals.obstacle), is_single ? "2⁻²⁴" : "2⁻⁵³",
+      rounding_of(report));
+  // What goes and comes is added up collision by collision, and each addition rounds a sum as large as the energy itself.
+  const std::string account =
+      report.of_effects.energy_given
+          ? fmt::format(
+                "; the account of the energy that came and went is a sum of as many terms, right to some u √n = "
+                "{:.1e}",
+                unit_of(report) * std::sqrt(collisions_of(report)))
+          : "";
+  if (report.time_step)
+    return text + account + ". Fixed steps keep energy as well as events do; overlap and pressure tell what they miss.";
+  return text + account +
+         (is_single ? ". In single precision, rounding makes disks overlap by up to some 1e-3 of their contact distance."
+                    : ". Rounding makes disks overlap by up to some 1e-12 of their contact distance.");
+}
+
+TextTable numerics_table(const Numerics& numerics) {
+  const auto count = [](std::uint64_t value) { return grouped(value); };
+  TextTable table{.title = "Near misses", .columns = {"what", "times", "meaning"}};
+  table.rows = {
+      {"ties", count(numerics.at_once), "collisions at the very instant of the one before"},
+      {"overlapping", count(numerics.overlapping),
+       numerics.overlapping == 0
+           ? "pairs that overlapped by more than rounding when they met"
+           : fmt::format("pairs that overlapped by more than rounding when they met, by up to {:.1e}", numerics.deepest_overlap)},
+      {"grazing", count(numerics.grazing), "pairs that met and might as well have missed, as far as rounding tells"},
+      {"receding", count(numerics.receding), "pairs that met and receded already, by rounding: nothing was exchanged"},
+      {"outrun", count(numerics.outrun), "times that a disk was suddenly too fast for the clock's epoch"},
+      {"epochs", count(numerics.epochs), "new zeros of the engine's clock"},
+      {"lists made", count(numerics.lists_made), "times that all lists of neighbours, or all cells, were made anew"}};
+  table.caption = "None of them is an error; where the first four are many, it was a hard run for the arithmetic.";
+  return table;
+}
+
+}  // namespace
+
+Section accuracy_section(const RunRecord& record) {
+  const RunReport& report = record.report;
+  SummaryRows rows = rows_of_accuracy(report);
+  rows.insert(rows.begin() + 1, momentum_row(record));
+  Section section{.heading = "How exact it is", .blocks = {table_of_rows(rows, {}), Paragraph{what_rounding_allows(report)}}};
+  if (report.verification)
+    for (const std::string& fault : report.verification->faults) section.blocks.emplace_back(Paragraph{fault});
+  if (report.horizon) {
+    section.blocks.emplace_back(Paragraph{sentence_of(*report.horizon)});
+    section.blocks.emplace_back(horizon_table(*report.horizon));
+  }
+  if (!report.of_effects.energy_given && record.source) {
+    Plot plot = energy_plot(*record.source);
+    if (!plot.series.empty()) section.blocks.emplace_back(std::move(plot));
+  }
+  if (!report.time_step) section.blocks.emplace_back(numerics_table(report.totals.numerics));
+  return section;
+}
+
+}  // namespace carom

@@ -1,0 +1,32 @@
+#pragma once
+// The page of one run: what was simulated, what happened, how exact it was, what it measured and what theory says of it, and the
+// run itself to watch. Made from the files of the run alone.
+
+#include "io/run_record.hpp"
+#include "pages/page.hpp"
+#include "pages/player_data.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace carom {
+
+/// Every report of a run contains it, near its beginning: what tells one from another file.
+inline constexpr std::string_view report_mark = "<meta name=\"generator\" content=\"carom report\">";
+
+/// `player` is empty where the run kept no samples.
+[[nodiscard]] Page report_page(const RunRecord& record, const std::optional<PlayerData>& player);
+
+/// What a report has room for: its player holds every event, or fewer samples than one of its own.
+inline constexpr PlayerLimits report_limits = {.events = 1'000'000, .sample_bytes = 8'000'000};
+
+struct ReportFile {
+  std::string html;
+  std::string player;  ///< what is said of the replay in it, half a sentence
+};
+/// The page of the run in a directory. Throws OutputError: one sentence about a directory that is no finished run, or a file of
+/// it that cannot be read.
+[[nodiscard]] ReportFile report_of(const std::filesystem::path& directory);
+
+}  // namespace carom

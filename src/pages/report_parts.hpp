@@ -1,0 +1,21 @@
+#pragma once
+// Blocks that several sections of a report are made of.
+
+#include "io/run_record.hpp"
+#include "pages/page.hpp"
+#include "pages/summary_row.hpp"
+
+#include <string>
+#include <vector>
+
+namespace carom {
+
+[[nodiscard]] TextTable table_of_rows(const SummaryRows& rows, const std::string& title);
+
+/// Change of the energy from sample to sample, over its first value; no series where there are no samples.
+[[nodiscard]] Plot energy_plot(const RunRecord::Source& source);
+
+/// What changes from sample to sample beside that: temperature, packing fraction, kinds of energy, bonds.
+[[nodiscard]] std::vector<Plot> plots_over_time(const RunRecord::Source& source);
+
+}  // namespace carom

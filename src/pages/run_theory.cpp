@@ -1,0 +1,287 @@
+#include "pages/run_theory.hpp"
+
+#include "observe/equilibrium.hpp"
+#include "observe/observed_run.hpp"
+#include "theory/barometer.hpp"
+#include "theory/equation_of_state.hpp"
+#include "theory/kinetic.hpp"
+#include "theory/microcanonical.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace carom {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+// Kolafa and Rottner's equation is of the fluid; its first term in 1/N is known up to where it bends.
+constexpr double densest_fluid = 0.69;
+constexpr double densest_finite = 0.63;
+constexpr int line_points = 200;
+constexpr int line_group = 6;
+
+bool all_equal(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
+}
+
+/// Even steps over the first column of a table, beginning above zero.
+std::vector<double> steps_over(const Table& table) {
+  const std::vector<double>& x = table.columns.front().values;
+  std::vector<double> steps;
+  if (x.empty()) return steps;
+  for (int k = 1; k <= line_points; ++k) steps.push_back(x.back() * k / line_points);
+  return steps;
+}
+
+Series line(std::string name, Style style = Style::line) {
+  return {.name = std::move(name), .style = style, .group = line_group};
+}
+
+}  // namespace
+
+RunTheory::RunTheory(const RunRecord& record)
+    : report_(record.report),
+      source_(record.source ? &*record.source : nullptr),
+      kT_(record.report.temperature_mean),
+      eta_(record.report.packing_fraction) {
+  if (source_ != nullptr && source_->disks.count() != static_cast<std::size_t>(report_.disks)) source_ = nullptr;
+  if (source_ == nullptr) {
+    why_not_Z_ = "Whether the equation of state is of this scene is not known: its disks are in no file of the run.";
+    return;
+  }
+  const Scene& scene = source_->scene;
+  const Disks& disks = source_->disks;
+  const bool is_moving = report_.measured && kT_ > 0.0 && std::isfinite(kT_);
+  const bool is_equal = disks.count() > 2 && all_equal(disks.radius) && all_equal(disks.mass);
+  const bool is_periodic = scene.box.periodic(0) && scene.box.periodic(1);
+  is_plain_ = is_moving && is_equal && is_periodic && scene.effects.neutral();
+  is_smooth_ = is_plain_ && scene.effects.collision.rule == CollisionRule::specular;
+  if (disks.count() > 0) {
+    mass_ = disks.mass.front();  // of all, wherever they are used
+    sigma_ = 2.0 * disks.radius.front();
+  }
+  if (is_moving) {
+    unit_of_time_ = sigma_ * std::sqrt(mass_ / kT_);
+    find_velocities();
+  }
+  if (is_plain_)
+    find_Z();
+  else
+    why_not_Z_ =
+        "No theory stands beside it: equations of state are of equal elastic disks in a periodic box on which nothing else "
+        "acts.";
+}
+
+void RunTheory::find_Z() {
+  if (eta_ <= densest_finite) {
+    Z_ = {theory::kolafa_rottner_finite(eta_, report_.disks), fmt::format("Kolafa & Rottner, N = {}", report_.disks)};
+  } else if (eta_ <= densest_fluid) {
+    Z_ = {theory::kolafa_rottner(eta_), "Kolafa & Rottner, infinitely many disks"};
+  } else {
+    why_not_Z_ = "No theory stands beside it: the equation of state of the fluid ends at a packing fraction of 0.70.";
+  }
+}
+
+void RunTheory::find_velocities() {
+  const Effects& effects = source_->scene.effects;
+  Effects level = effects;
+  level.gravity.reset();  // weight changes the density, and no velocity
+  if (effects.collision.rule != CollisionRule::specular || source_->disks.count() < 3 || !why_no_Z(level).empty()) return;
+  const ObservedRun run{source_->scene, source_->disks};
+  const bool x = run.keeps_momentum(0), y = run.keeps_momentum(1);
+  keeps_momentum_ = x && y;
+  const bool is_fixed = effects.neutral() && x == y;
+  velocities_ = is_fixed ? Velocities::fixed_energy : Velocities::maxwell;
+  if (effects.thermostat && effects.thermostat->rate > 0.0) kT_ = effects.thermostat->temperature;
+}
+
+std::vector<RunTheory::Kind> RunTheory::kinds(const std::string& suffix) const {
+  const ObservedRun run{source_->scene, source_->disks};
+  std::map<double, double> counts;
+  for (std::size_t i = 0; i < source_->disks.count(); ++i) {
+    const auto species = static_cast<std::size_t>(source_->disks.species[i]);
+    const bool counted = suffix.empty() || (species < run.species_count() && run.suffix(species) == suffix);
+    if (counted) counts[source_->disks.mass[i]] += 1.0;
+  }
+  std::vector<Kind> found;
+  for (const auto& [mass, count] : counts) found.push_back({mass, count});
+  return found;
+}
+
+double RunTheory::velocity_density(const Kind& kind, double x, bool of_energy) const {
+  const double all_mass = source_->disks.total_mass();
+  const bool is_fixed = velocities_ == Velocities::fixed_energy;
+  // Where momentum is kept, a disk has less than kT the heavier it is.
+  const double mean = kT_ * (is_fixed && keeps_momentum_ ? 1.0 - kind.mass / all_mass : 1.0);
+  if (!is_fixed) {
+    const double energy = of_energy ? x : 0.5 * kind.mass * x * x;
+    return std::exp(-energy / mean) / mean * (of_energy ? 1.0 : kind.mass * x);
+  }
+  const theory::Microcanonical law(report_.disks, keeps_momentum_);
+  return of_energy ? law.energy_density(x, mean) : law.speed_density(x, 2.0 * mean / kind.mass);
+}
+
+std::vector<Series> RunTheory::velocity_curves(const Table& table, const std::string& column) const {
+  if (velocities_ == Velocities::unknown) return {};
+  constexpr std::size_t most_kinds = 50;  // of masses; each is a term of every point
+  const std::vector<Kind> all = kinds(column.substr(std::string("density").size()));
+  if (all.empty() || all.size() > most_kinds) return {};
+  double disks = 0.0;
+  for (const Kind& kind : all) disks += kind.count;
+  Series law =
+      line(velocities_ == Velocities::fixed_energy ? fmt::format("law for {} disks", report_.disks) : "Maxwell and Boltzmann");
+  for (const double x : steps_over(table)) {
+    double density = 0.0;
+    for (const Kind& kind : all) density += kind.count / disks * velocity_density(kind, x, table.name == "energies");
+    law.x.push_back(x);
+    law.y.push_back(density);
+  }
+  return {law};
+}
+
+std::vector<Series> RunTheory::flight_curves(const Table& table) const {
+  if (!is_smooth_ || eta_ > densest_finite) return {};
+  const double free_time = unit_of_time_ / theory::disk_collision_rate(eta_, report_.disks);
+  const double free_path = free_time * std::sqrt(kT_ / mass_);  // thermal velocities times mean free times
+  const bool of_times = table.name == "free_times";
+  const double scale = of_times ? free_time : free_path;
+  const double mean = of_times ? 1.0 : std::sqrt(0.5 * pi);
+  Series law = line("dilute gas, speeds told apart"), plain = line("exponential", Style::dashed);
+  for (const double x : steps_over(table)) {
+    const double s = x / scale;
+    law.x.push_back(x);
+    law.y.push_back((of_times ? theory::flight_time_density(s) : theory::flight_length_density(s)) / scale);
+    plain.x.push_back(x);
+    plain.y.push_back(std::exp(-s / mean) / (mean * scale));
+  }
+  return {law, plain};
+}
+
+std::vector<Series> RunTheory::density_curves(const Table& table) const {
+  const Scene& scene = source_->scene;
+  const int axis = table.columns.front().name == "x" ? 0 : 1;
+  const int across = 1 - axis;
+  const std::vector<double>& x = table.columns.front().values;
+  if (x.empty()) return {};
+  const bool periodic = scene.box.periodic(axis),
+             falls = scene.effects.gravity && scene.effects.gravity->acceleration[axis] != 0.0;
+  if (periodic && scene.effects.obstacles.empty()) {
+    const double density = static_cast<double>(report_.disks) / scene.box.area();
+    Series uniform = line("uniform");
+    uniform.x = {scene.box.lower[axis], scene.box.upper[axis]};
+    uniform.y = {density, density};
+    return {uniform};
+  }
+  const Disks& disks = source_->disks;
+  const bool is_equal = disks.count() > 0 && all_equal(disks.radius) && all_equal(disks.mass);
+  if (!falls || !is_equal || velocities_ == Velocities::unknown) return {};
+  const double g = scene.effects.gravity->acceleration[axis], radius = disks.radius.front();
+  const double height = scene.box.lengths()[axis] - 2.0 * radius;
+  const double width = scene.box.lengths()[across] - (scene.box.periodic(across) ? 0.0 : 2.0 * radius);
+  constexpr std::size_t steps = 400;
+  const std::vector<double> density = theory::barometer(disks.mass.front() * std::abs(g) / kT_,
+                                                        static_cast<double>(report_.disks) / width, radius, height, steps);
+  const double area = pi * radius * radius;
+  if (!(density.front() * area <= densest_fluid)) return {};  // no fluid at the floor
+  Series law = line("hydrostatics");
+  for (std::size_t k = 0; k < steps; ++k) {
+    const double above = radius + height * (static_cast<double>(k) + 0.5) / static_cast<double>(steps);
+    law.x.push_back(g < 0.0 ? scene.box.lower[axis] + above : scene.box.upper[axis] - above);
+    law.y.push_back(density[k]);
+  }
+  return {law};
+}
+
+std::vector<Series> RunTheory::curves(const Table& table, const std::string& column) const {
+  if (source_ == nullptr || table.columns.empty()) return {};
+  if (table.name == "speeds" || table.name == "energies") return velocity_curves(table, column);
+  if (table.name == "free_times" || table.name == "free_paths") return flight_curves(table);
+  if (table.name == "density_profile" && column == "density") return density_curves(table);
+  if (!is_smooth_ || eta_ > densest_fluid) return {};
+  const double D = theory::enskog_diffusion(eta_) * sigma_ * sigma_ / unit_of_time_;
+  Series law = line("Enskog", Style::dashed);
+  if (table.name == "velocity_autocorrelation" && column == "correlation") {
+    const double square = 2.0 * kT_ / mass_ * (1.0 - 1.0 / static_cast<double>(report_.disks));
+    const double rate = kT_ / (mass_ * D);
+    for (int k = 0; k <= line_points; ++k) {  // over three decades of a logarithmic axis
+      law.x.push_back(8.0 / rate * std::pow(10.0, -3.0 + 3.0 * k / line_points));
+      law.y.push_back(square * std::exp(-rate * law.x.back()));
+    }
+    return {law};
+  }
+  if (table.name == "mean_square_displacement" && column == "msd") {
+    const std::vector<double>& x = table.columns.front().values;
+    for (const double t : x)
+      if (t > 0.0) {
+        law.x.push_back(t);
+        law.y.push_back(4.0 * D * t);
+      }
+    return {law};
+  }
+  return {};
+}
+
+std::vector<Mark> RunTheory::marks(const Table& table, const std::string& column) const {
+  if (source_ == nullptr) return {};
+  if (table.name == "h_function") {
+    for (const Measurement& measured : report_.observables)
+      for (const Scalar& scalar : measured.scalars)
+        if (measured.name == "h_function" && scalar.name == "maxwell" && scalar.value)
+          return {{.value = *scalar.value, .label = "Maxwell"}};
+    return {};
+  }
+  if (table.name == "radial_distribution" && is_plain_) return {{.axis = Mark::Across::x, .value = sigma_, .label = "contact"}};
+  if (table.name == "structure_factor" && is_plain_ && eta_ <= densest_fluid)
+    return {{.value = theory::structure_factor_at_zero(eta_), .label = "S(0), equation of state"}};
+  if (!is_smooth_ || eta_ > densest_fluid) return {};
+  if (column == "diffusion")
+    return {{.value = theory::enskog_diffusion(eta_) * sigma_ * sigma_ / unit_of_time_, .label = "Enskog"}};
+  if (column == "green_kubo")
+    if (const auto expected = of(table.name, "green_kubo")) return {{.value = expected->value, .label = "Enskog"}};
+  return {};
+}
+
+std::optional<Expected> RunTheory::of(const std::string& observable, const std::string& scalar) const {
+  const std::string name = observable + "." + scalar;
+  if (velocities_ == Velocities::fixed_energy && observable == "velocity_moments" && source_->species.size() == 1 &&
+      all_equal(source_->disks.mass)) {
+    const theory::Microcanonical law(report_.disks, keeps_momentum_);
+    const double square = 2.0 * kT_ / mass_ * (keeps_momentum_ ? 1.0 - 1.0 / static_cast<double>(report_.disks) : 1.0);
+    const std::string source = fmt::format("law for {} disks", report_.disks);
+    if (scalar == "speed") return Expected{0.5 * std::sqrt(pi * square) * law.speed_factor(), source};
+    if (scalar == "v2") return Expected{square, source};
+    if (scalar == "v4") return Expected{law.kurtosis() * square * square, source};
+    if (scalar == "vx3" || scalar == "vy3") return Expected{0.0, "symmetry"};
+    if (scalar == "kurtosis") return Expected{law.kurtosis(), source};
+    if (scalar == "kurtosis_x" || scalar == "kurtosis_y") return Expected{law.axis_kurtosis(), source};
+  }
+  if (!Z_) return {};
+  if (name == "pressure.Z") return Z_;
+  if (name == "pressure.reduced") return Expected{4.0 * eta_ / pi * Z_->value, Z_->source};
+  const double disks = static_cast<double>(report_.disks);
+  if (name == "radial_distribution.contact")
+    return Expected{(Z_->value - 1.0) * disks / (2.0 * eta_ * (disks - 1.0)), Z_->source};
+  if (!is_smooth_) return {};
+  if (name == "pressure.Z_rate") return Z_;
+  if (observable == "viscosity")
+    return Expected{theory::enskog_viscosity(eta_) * std::sqrt(mass_ * kT_) / sigma_, "Enskog, without correlations"};
+  if (observable == "heat_conductivity")
+    return Expected{theory::enskog_conductivity(eta_) * std::sqrt(kT_ / mass_) / sigma_, "Enskog, without correlations"};
+  if (eta_ > densest_finite) return {};
+  const double rate = theory::disk_collision_rate(eta_, report_.disks) / unit_of_time_;
+  if (name == "collision_rate.rate") return Expected{rate, Z_->source};
+  if (name == "free_flight.mean_free_time") return Expected{1.0 / rate, Z_->source};
+  if (name == "free_flight.mean_free_path")
+    return Expected{sigma_ * theory::mean_free_path(eta_) * (theory::kolafa_rottner(eta_) - 1.0) / (Z_->value - 1.0) *
+                        std::sqrt(1.0 - 1.0 / disks),
+                    Z_->source};
+  return {};
+}
+
+}  // namespace carom

@@ -1,0 +1,61 @@
+#pragma once
+// What theory says of a run: of numbers that it measured and of the curves in its tables. Only where the theory is of this scene:
+// equal elastic disks in equilibrium, and nothing else that acts. Nothing here judges; `carom validate` does.
+
+#include "io/run_record.hpp"
+#include "pages/page.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+struct Expected {
+  double value = 0.0;
+  std::string source;  ///< a few words: who says so
+};
+
+class RunTheory {
+ public:
+  explicit RunTheory(const RunRecord& record);
+
+  /// Of a number of [observe].
+  [[nodiscard]] std::optional<Expected> of(const std::string& observable, const std::string& scalar) const;
+  /// Z after Kolafa and Rottner, for so many disks where its first term in 1/N is known; why_not_Z() says why there is none.
+  [[nodiscard]] std::optional<Expected> Z() const { return Z_; }
+  [[nodiscard]] const std::string& why_not_Z() const { return why_not_Z_; }  ///< a sentence
+
+  /// Lines that belong to a column of a table ("density", "density_small", "diffusion", ...).
+  [[nodiscard]] std::vector<Series> curves(const Table& table, const std::string& column) const;
+  /// Values that it comes to.
+  [[nodiscard]] std::vector<Mark> marks(const Table& table, const std::string& column) const;
+
+ private:
+  /// Disks of one mass.
+  struct Kind {
+    double mass = 0.0, count = 0.0;
+  };
+  enum class Velocities { unknown, fixed_energy, maxwell };
+
+  void find_velocities();
+  void find_Z();
+  [[nodiscard]] std::vector<Kind> kinds(const std::string& suffix) const;
+  [[nodiscard]] double velocity_density(const Kind& kind, double x, bool of_energy) const;
+  [[nodiscard]] std::vector<Series> velocity_curves(const Table& table, const std::string& column) const;
+  [[nodiscard]] std::vector<Series> flight_curves(const Table& table) const;
+  [[nodiscard]] std::vector<Series> density_curves(const Table& table) const;
+
+  const RunReport& report_;
+  const RunRecord::Source* source_;
+  bool is_plain_ = false;   ///< equal disks, periodic, nothing acts but the rule
+  bool is_smooth_ = false;  ///< and the rule is specular
+  Velocities velocities_ = Velocities::unknown;
+  bool keeps_momentum_ = false;
+  double kT_ = 0.0, eta_ = 0.0, mass_ = 1.0, sigma_ = 1.0;
+  double unit_of_time_ = 1.0;  ///< sigma sqrt(m / kT)
+  std::optional<Expected> Z_;
+  std::string why_not_Z_;
+};
+
+}  // namespace carom

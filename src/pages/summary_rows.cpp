@@ -1,0 +1,163 @@
+#include "pages/summary_rows.hpp"
+
+#include "observe/equilibrium.hpp"
+#include "observe/mechanics.hpp"
+#include "pages/effects_rows.hpp"
+#include "pages/scene_words.hpp"
+#include "scene/checks.hpp"
+#include "scene/growth_room.hpp"
+#include "text/numbers.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+/// "disk 3", "disks 0, 1 and 2", "disks 0, 1, 2, 3 and 12 more"
+std::string named(const std::vector<std::int32_t>& disks, const char* otherwise) {
+  constexpr std::size_t most = 5;
+  if (disks.empty()) return otherwise;
+  if (disks.size() == 1) return fmt::format("disk {}", disks.front());
+  const std::size_t shown = disks.size() > most ? most - 1 : disks.size() - 1;
+  const std::string last = disks.size() > most ? fmt::format("{} more", disks.size() - shown) : fmt::format("{}", disks.back());
+  return fmt::format("disks {} and {}", fmt::join(disks.begin(), disks.begin() + static_cast<std::ptrdiff_t>(shown), ", "), last);
+}
+
+SummaryRow row_of_overlap(const RunReport& report) {
+  const std::string checked = "in " + counted(report.overlap_checked, "state") + " checked";
+  if (report.overlap_checked == 0) return {"worst overlap", "not checked"};
+  if (report.max_relative_overlap == 0.0) return {"worst overlap", "none", checked};
+  const std::string deepest = fmt::format("{:.1e} diameters", report.max_relative_overlap);
+  if (report.overlap_at_start)
+    return {"worst overlap", deepest, fmt::format("{}; {:.1e} accepted at the start", checked, *report.overlap_at_start)};
+  return {"worst overlap", deepest, checked};
+}
+
+std::string why_there_is_no_Z(const RunReport& report, const Scene* scene) {
+  if (scene != nullptr)
+    if (const std::string_view reason = why_no_Z(scene->effects); !reason.empty()) return std::string(reason);
+  if (report.totals.pair == 0) return "no pair of disks has collided";
+  return report.measured && scene != nullptr && temperature_fluctuates(scene->effects) ? "no samples tell the mean temperature"
+                                                                                       : "nothing was measured";
+}
+
+/// Common motion is no heat along axes that keep it.
+std::string what_temperature_counts(const Scene* scene) {
+  if (scene == nullptr) return "kinetic";
+  const bool x = keeps_momentum(scene->box, scene->effects, 0), y = keeps_momentum(scene->box, scene->effects, 1);
+  if (x && y) return "kinetic, without common motion";
+  if (x || y) return x ? "kinetic, without common motion along x" : "kinetic, without common motion along y";
+  return "kinetic";
+}
+
+void append(SummaryRows& rows, SummaryRows more) {
+  for (SummaryRow& row : more) rows.push_back(std::move(row));
+}
+
+bool has_filled_the_box(const RunReport& report, const Scene& scene) {
+  if (!report.of_effects.growth) return false;
+  const double radius = detail::radii_of(scene).largest * report.of_effects.growth->scale;
+  return radius > 0.0 && detail::growth_room(scene.box, radius) < 1.0 + 1e-12;
+}
+
+std::string samples_remark(const RunReport& report, const Scene* scene) {
+  if (scene == nullptr) return "";
+  if (scene->run.is_sampled()) return sampling_words(scene->run);
+  return report.samples == 0 ? "none asked for" : "";
+}
+
+}  // namespace
+
+std::string why_stopped(const RunReport& report, const Scene* scene) {
+  switch (report.stopped) {
+    case StopReason::time:
+      return "as asked";
+    case StopReason::collisions:
+      return fmt::format("after the {} collisions asked for",
+                         grouped(scene != nullptr ? scene->run.collisions.value_or(report.totals.pair) : report.totals.pair));
+    case StopReason::interrupted:
+      return report.measured ? "interrupted here; everything up to here is saved" : "interrupted while still equilibrating";
+    case StopReason::jammed:
+      if (scene != nullptr && has_filled_the_box(report, *scene))
+        return "jammed: the largest disk has grown until it fills the box; end before that, or take a larger box";
+      return fmt::format("jammed: {} touch on all sides and collide without end at this instant; give them more room",
+                         named(report.stopped_disks, "disks that"));
+    case StopReason::collapsed:
+      return fmt::format(
+          "collapsed: {} collide{} at ever shorter intervals and time stands still; give collision.elastic_below, such as {{ "
+          "time = "
+          "1e-6 }}, to go on",
+          named(report.stopped_disks, "inelastic disks"), report.stopped_disks.size() == 1 ? "s" : "");
+    case StopReason::overheated:
+      return "overheated: disks become faster and faster, and time all but stands still; take the energy away that they get, "
+             "with "
+             "[thermostat] or restitution, or end before that";
+    case StopReason::cooled:
+      return "cooled: inelastic disks move too slowly against each other to be followed any further; where they move on "
+             "together, leave that out of the start";
+    case StopReason::grown:
+      return report.of_effects.growth
+                 ? fmt::format("grown as far as asked, to packing fraction {:.5g}", report.of_effects.growth->packing_fraction)
+                 : "grown as far as asked";
+    case StopReason::invalid_state:
+      return report.faults.empty() ? "stopped: an invariant of the engine is broken" : "stopped: " + report.faults.front();
+    case StopReason::no_collisions:
+      return report.measured ? "stopped: no pair of disks collides any more"
+                             : "stopped while equilibrating: no pair of disks collides";
+  }
+  return "";
+}
+
+SummaryRows rows_of_what_happened(const RunReport& report, const Scene* scene) {
+  const Totals& totals = report.totals;
+  SummaryRows rows = {
+      {"time", fmt::format("{:.6g}", report.time), why_stopped(report, scene)},
+      {"pair collisions", grouped(totals.pair),
+       report.collisions_per_second() > 0.0 ? fmt::format("{} per second", rate(report.collisions_per_second())) : ""},
+      {"wall collisions", grouped(totals.wall)}};
+  append(rows, rows_of_events(report));
+  if (totals.pair > 0 && report.disks > 0) {
+    const double per_disk = 2.0 * static_cast<double>(totals.pair) / static_cast<double>(report.disks);
+    rows.push_back(
+        {"mean free time", fmt::format("{:.4g}", report.time / per_disk), fmt::format("{:.4g} collisions per disk", per_disk)});
+  }
+  rows.push_back({"samples", grouped(report.samples), samples_remark(report, scene)});
+  if (!report.state_hash.empty())
+    rows.push_back({"state hash", report.state_hash, "the same for every run that ends in the same bits"});
+  rows.push_back(
+      {"took", duration(report.wall_seconds), fmt::format("{} of it in the event loop", duration(report.loop_seconds))});
+  return rows;
+}
+
+SummaryRows rows_of_accuracy(const RunReport& report) {
+  SummaryRows rows = {row_of_energy(report), row_of_overlap(report)};
+  if (!report.verification) return rows;
+  const auto& [every, checks, faults] = *report.verification;
+  rows.push_back({"invariants", faults.empty() ? "hold" : counted(faults.size(), "fault"),
+                  fmt::format("checked {}, every {} events", checks == 1 ? "once" : grouped(checks) + " times", grouped(every))});
+  return rows;
+}
+
+SummaryRows rows_of_results(const RunReport& report, const Scene* scene) {
+  SummaryRows rows = {{"temperature kT", fmt::format("{:.5g}", report.temperature_mean), what_temperature_counts(scene)}};
+  append(rows, rows_of_effects(report, scene));
+  if (!report.Z) rows.push_back({"Z = PA/(NkT)", "none", why_there_is_no_Z(report, scene)});
+  if (report.Z)
+    rows.push_back({"Z = PA/(NkT)", report.Z_error ? with_error(*report.Z, *report.Z_error) : fmt::format("{:.5g}", *report.Z),
+                    report.Z_error ? "from the momentum transfer" : "the run is too short to tell an error"});
+  if (report.reduced_pressure) {
+    const double reduced = *report.reduced_pressure;  // in proportion to Z, and so is its error
+    rows.push_back({"P sigma^2/kT", report.Z_error && *report.Z != 0.0
+                                        ? with_error(reduced, *report.Z_error * reduced / *report.Z)
+                                        : fmt::format("{:.5g}", reduced)});
+  }
+  if (!report.note_on_errors.empty() && (report.Z_error || !report.observables.empty()))
+    rows.push_back({"errors", "of this start", report.note_on_errors});
+  return rows;
+}
+
+}  // namespace carom

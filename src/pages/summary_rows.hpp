@@ -1,0 +1,22 @@
+#pragma once
+// What happened in a run, how exact it was and what it measured, in rows: on the terminal and on the page of a run alike.
+//
+// `scene` may be null where only the summary of a run is left; what it would tell is then left out.
+
+#include "observe/run_report.hpp"
+#include "pages/summary_row.hpp"
+
+#include <carom/scene.hpp>
+
+namespace carom {
+
+/// "as asked", "interrupted here; ..."
+[[nodiscard]] std::string why_stopped(const RunReport& report, const Scene* scene);
+
+[[nodiscard]] SummaryRows rows_of_what_happened(const RunReport& report, const Scene* scene);
+/// Energy, overlap, and the invariants where they were checked.
+[[nodiscard]] SummaryRows rows_of_accuracy(const RunReport& report);
+/// Temperature, what effects gave and took, pressure.
+[[nodiscard]] SummaryRows rows_of_results(const RunReport& report, const Scene* scene);
+
+}  // namespace carom

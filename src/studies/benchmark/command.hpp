@@ -1,0 +1,24 @@
+#pragma once
+// carom bench: how fast the engines are, or with --effects the price of each effect.
+
+#include "terminal/command.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace carom::cli {
+
+struct BenchOptions {
+  bool json = false;
+  bool effects = false;                     ///< the price of each effect, in place of how fast the engines are
+  bool large = false;                       ///< a million disks too
+  std::vector<std::int64_t> disks;          ///< empty: 1000, 10000, 100000
+  std::optional<std::uint64_t> collisions;  ///< in a turn of the textbook engine; absent: 200000, or one per disk
+};
+ExitCode bench(const BenchOptions& options);
+
+/// The time of a collision with each effect, as a ratio to that of the lean engine on the same gas.
+ExitCode bench_effects(const BenchOptions& options);
+
+}  // namespace carom::cli

@@ -1,0 +1,30 @@
+#pragma once
+// carom compare SCENE: what accuracy costs, by exact events and in fixed steps.
+
+#include "terminal/command.hpp"
+#include "terminal/scene_options.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom::cli {
+
+struct CompareCommandOptions {
+  SceneOptions scene;
+  std::string out;          ///< empty: the scene's name without its ending, and "-compare"
+  std::vector<double> dts;  ///< empty: the usual ladder
+  std::int64_t seeds = 8;
+  double longest = 0.5;             ///< seconds
+  std::optional<std::string> play;  ///< METHOD[:DT], or empty: make the page on which that flies beside exact events
+  bool no_costs = false;
+  bool force = false;
+  bool resume = false;
+  bool json = false;
+  bool quiet = false;
+  std::string progress = "auto";
+};
+ExitCode compare(const CompareCommandOptions& options, const Invocation& invocation);
+
+}  // namespace carom::cli

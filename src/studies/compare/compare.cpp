@@ -1,0 +1,285 @@
+// The study from its plan to its last point. Every point is finished before the next begins, so that what is there can be kept.
+
+#include "studies/compare/compare.hpp"
+
+#include "neighbours/disks_at_rest.hpp"
+#include "observe/mechanics.hpp"
+#include "observe/pressure.hpp"
+#include "scene/drawn.hpp"
+#include "studies/compare/costs.hpp"
+#include "studies/compare/reference.hpp"
+#include "studies/horizon/horizon.hpp"
+#include "studies/horizon/pace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+/// Errors are compared until a quarter beyond the horizon, so that its coming is seen, and costs at a sixteenth of it, where
+/// errors have grown by two e-foldings or so and are still those of the method.
+constexpr double beyond_horizon = 1.25;
+constexpr double early_fraction = 1.0 / 16.0;
+
+constexpr std::uint64_t most_samples = 100;
+
+/// Pairs that an audit may look at: a quarter of a second.
+constexpr double audited_pairs = 2e8;
+
+/// Three per decade, from 2 mean free times down to 4e-7: as far as a method can go in the time that it is given.
+std::vector<double> usual_ladder(double mean_free_time) {
+  std::vector<double> dts;
+  for (int k = 1; k >= -19; --k) dts.push_back(mean_free_time * std::pow(10.0, k / 3.0));
+  return dts;
+}
+
+class Study {
+ public:
+  Study(const Scene& scene, const CompareOptions& options, const CompareHooks& hooks, Comparison before)
+      : scene_(scene), options_(options), hooks_(hooks), result_(std::move(before)) {}
+
+  Comparison operator()() {
+    if (result_.plan.samples == 0 && !make_plan()) return result_;
+    for (const std::uint64_t seed : result_.plan.seeds) {
+      if (!compare_from(seed)) return result_;
+    }
+    if (options_.costs) {
+      const auto proceed = [&](const std::string& doing, double fraction) { return going_on(doing, 0.85 + 0.15 * fraction); };
+      if (!measure_costs(scene_, result_, proceed, hooks_.cost_done)) return result_;
+    }
+    result_.complete = true;
+    return result_;
+  }
+
+ private:
+  bool make_plan() {
+    ComparePlan& plan = result_.plan;
+    const std::optional<State> start = start_with(scene_.run.seed);
+    if (!start) return false;
+    const Pace pace = measure_pace(scene_, *start);
+    if (!(pace.collision_rate > 0.0))
+      throw std::invalid_argument("no two disks of this scene collide; there is nothing to compare");
+    HorizonOptions options;
+    options.engine = options_.engine;
+    options.lyapunov_collisions = options_.lyapunov_collisions;
+    options.proceed = [&](const HorizonProgress& progress) {
+      return going_on("measuring how far the trajectory can be trusted", 0.05 * progress.fraction);
+    };
+    plan.horizon = measure_horizon(scene_, *start, options);
+    if (plan.horizon.ended == HorizonEnd::interrupted) return false;
+    plan.sigma = plan.horizon.sigma;
+    plan.mean_free_time = 1.0 / (plan.horizon.lyapunov ? plan.horizon.lyapunov->collision_rate : pace.collision_rate);
+    const Disks disks = make_simulation(scene_, *start).disks();
+    plan.temperature = kinetic_temperature(scene_.box, disks, *start);
+    const auto all_the_same = [](const std::vector<double>& values) {
+      return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
+    };
+    if (all_the_same(disks.mass) && all_the_same(disks.radius))
+      plan.thermal_speed = std::sqrt(plan.temperature / disks.mass.front());
+    choose_samples(plan);
+    plan.dts = options_.dts.empty() ? usual_ladder(plan.mean_free_time) : options_.dts;
+    std::sort(plan.dts.rbegin(), plan.dts.rend());
+    plan.drawn = start_is_drawn(scene_);
+    for (std::uint64_t k = 0; k < (plan.drawn ? options_.seeds : 1); ++k) plan.seeds.push_back(scene_.run.seed + k);
+    plan.longest = options_.longest;
+    if (hooks_.planned) hooks_.planned(plan, *start);
+    return true;
+  }
+
+  /// On the scene's own sampling grid, thinned where that is finer than a plot shows.
+  void choose_samples(ComparePlan& plan) const {
+    const HorizonRow* row = plan.horizon.row(plan.horizon.engine);
+    const double horizon = row != nullptr && row->time ? *row->time : std::max(plan.horizon.time, 20.0 * plan.mean_free_time);
+    const double wanted = beyond_horizon * horizon;
+    const double until = scene_.run.time && *scene_.run.time > 0.0 ? std::min(wanted, *scene_.run.time) : wanted;
+    plan.sample_step = until / static_cast<double>(most_samples);
+    if (scene_.run.sample_every && *scene_.run.sample_every <= until / 8.0)
+      plan.sample_step =
+          *scene_.run.sample_every * std::max(1.0, std::ceil(plan.sample_step / *scene_.run.sample_every * (1.0 - 1e-12)));
+    plan.samples = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(until / plan.sample_step * (1.0 + 1e-12)));
+    const double early = std::min(early_fraction * horizon, until) / plan.sample_step;
+    plan.early = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(std::nearbyint(early)), 1, plan.samples);
+  }
+
+  [[nodiscard]] std::optional<State> start_with(std::uint64_t seed) {
+    scene_.run.seed = seed;
+    std::optional<State> start =
+        measured_start(scene_, options_.engine, [&](const Progress&) { return going_on("equilibrating", 0.0); });
+    if (!start && !stopped_)
+      throw std::invalid_argument("the scene stops while it equilibrates: no two disks collide, or they have no room to move");
+    if (start && scene_.run.equilibrate && scene_.run.equilibrate->collisions_per_disk) fly_on_between_events(*start);
+    return start;
+  }
+
+  /// A number of collisions is reached at a collision, and a pair in contact to rounding is no fair start for those who look for
+  /// contacts. A tenth of the time in which a disk goes a spacing over N lies well before the next event or beyond it.
+  void fly_on_between_events(State& start) const {
+    const auto disks = static_cast<double>(start.positions.cols());
+    const double speed = std::sqrt(start.velocities.squaredNorm() / std::max(disks, 1.0));
+    if (!(speed > 0.0)) return;
+    Simulation simulation = make_simulation(scene_, start, options_.engine);
+    simulation.run_until(0.1 * std::sqrt(scene_.box.area() / disks) / (speed * disks));
+    start = simulation.state();
+  }
+
+  [[nodiscard]] std::vector<Method> methods() const {
+    std::vector<Method> all;
+    for (const std::string& engine : compared_engines(scene_, options_.engine)) all.push_back({engine});
+    const bool walls = !scene_.box.periodic(0) || !scene_.box.periodic(1);
+    for (const double dt : result_.plan.dts) {
+      for (const std::string& name : fixed_step_names())
+        if (walls || name != "naive-edge") all.push_back({name, dt});  // they differ at walls alone
+    }
+    return all;
+  }
+
+  [[nodiscard]] bool has(const Method& method, std::uint64_t seed) const {
+    const auto same = [&](const Method& m) { return m.name == method.name && m.dt == method.dt; };
+    return std::any_of(result_.runs.begin(), result_.runs.end(),
+                       [&](const MethodRun& run) { return same(run.method) && run.seed == seed; }) ||
+           std::any_of(result_.left_out.begin(), result_.left_out.end(), [&](const LeftOut& one) { return same(one.method); });
+  }
+
+  /// All methods from one start. False where the study was stopped.
+  bool compare_from(std::uint64_t seed) {
+    const std::vector<Method> all = methods();
+    std::optional<State> start;
+    std::optional<Reference> reference;
+    std::optional<Disks> disks;
+    const bool first = seed == result_.plan.seeds.front();
+    const double seeds = static_cast<double>(result_.plan.seeds.size());
+    const double before = static_cast<double>(seed - result_.plan.seeds.front()) / seeds;
+    double done = 0.0;
+    for (const Method& method : all) {
+      fraction_ = 0.05 + 0.8 * (before + done / static_cast<double>(all.size()) / seeds);
+      done += 1.0;
+      if (has(method, seed)) continue;
+      if (!start) {
+        start = start_with(seed);
+        if (!start) return false;
+        reference.emplace(scene_, *start, result_.plan.sample_step, result_.plan.samples,
+                          [&] { return going_on(fmt::format("seed {}: 113 bits", seed), fraction_); });
+        if (!reference->complete()) return false;
+        disks = make_simulation(scene_, *start).disks();
+      }
+      doing_ = method.exact() ? fmt::format("seed {}: {}", seed, method.name)
+                              : fmt::format("seed {}: {}, dt = {:.3g}", seed, method.name, method.dt);
+      const std::uint64_t samples = samples_for(method, *start);
+      if (samples == 0) continue;
+      std::optional<MethodRun> run = run_method(method, *start, *reference, *disks, samples);
+      if (!run) return false;
+      run->seed = seed;
+      if (first && !method.exact()) {
+        const double time = result_.plan.sample_step * static_cast<double>(samples);
+        run->counts =
+            audit(scene_, *start, {method.name, method.dt}, time, audited_pairs, [&] { return going_on(doing_, fraction_); });
+        if (stopped_) return false;
+      }
+      result_.runs.push_back(*run);
+      if (hooks_.run_done) hooks_.run_done(*run);
+    }
+    return true;
+  }
+
+  /// How far a method is run: to the end, to the early sample, or not at all; for every seed as for the first, so that means are
+  /// over the same starts for all.
+  std::uint64_t samples_for(const Method& method, const State& start) {
+    const ComparePlan& plan = result_.plan;
+    if (method.exact()) return plan.samples;
+    for (const MethodRun& run : result_.runs)
+      if (run.method.name == method.name && run.method.dt == method.dt) return run.error.size();
+    const double per_time = seconds_per_time(method, start);
+    if (per_time * plan.until() <= plan.longest) return plan.samples;
+    if (per_time * plan.early_time() <= plan.longest) return plan.early;
+    result_.left_out.push_back({method, per_time * plan.early_time()});
+    return 0;
+  }
+
+  /// Foreseen, from a few steps.
+  [[nodiscard]] double seconds_per_time(const Method& method, const State& start) const {
+    Simulation pilot = begin(scene_, start, method);
+    const double began = thread_seconds();
+    std::uint64_t steps = 0;
+    for (std::uint64_t more = 1; thread_seconds() - began < 0.005 && steps < 10'000; more *= 2) {
+      steps += more;
+      pilot.run_until_sample(steps, method.dt);
+    }
+    return (thread_seconds() - began) / (static_cast<double>(steps) * method.dt);
+  }
+
+  std::optional<MethodRun> run_method(const Method& method, const State& start, const Reference& reference, const Disks& disks,
+                                      std::uint64_t samples) {
+    const ComparePlan& plan = result_.plan;
+    MethodRun run;
+    run.method = method;
+    Simulation simulation = begin(scene_, start, method);
+    double speeds = 0.0;
+    for (std::uint64_t k = 1; k <= samples; ++k) {
+      if (!going_on(doing_, fraction_)) return std::nullopt;
+      const double began = thread_seconds();
+      simulation.run_until_sample(k, plan.sample_step);
+      run.seconds += thread_seconds() - began;
+      if (k == plan.early) run.seconds_early = run.seconds;
+      const State state = simulation.state();
+      run.error.push_back(reference.rms_distance(k, state) / plan.sigma);
+      speeds += state.velocities.colwise().norm().mean();
+      run.worst_overlap =
+          std::max(run.worst_overlap, deepest_overlap(scene_.box, disks.radius, state.positions, state.remainders).relative);
+    }
+    run.time = simulation.time();
+    if (run.seconds < 0.05) {  // too short for a clock: again, undisturbed
+      const std::vector<double> least = seconds_in_loop(scene_, start, method, {plan.early_time(), run.time});
+      run.seconds_early = least[0];
+      run.seconds = least[1];
+    }
+    // Exact engines have made lists and predictions before the clock runs, which would flatter a short stretch: the steady price.
+    if (method.exact()) run.seconds_early = run.seconds * plan.early_time() / run.time;
+    const Totals totals = simulation.totals();
+    const double count = static_cast<double>(disks.count());
+    run.pair = totals.pair;
+    run.Z = compressibility(totals.virial / run.time, count, kinetic_temperature(scene_.box, disks, start));
+    run.collision_rate = 2.0 * static_cast<double>(totals.pair) / (count * run.time);
+    run.mean_free_path = totals.pair == 0 ? 0.0 : speeds / static_cast<double>(samples) / run.collision_rate;
+    run.energy_drift = kinetic_energy(disks, simulation.state()) / kinetic_energy(disks, start) - 1.0;
+    return run;
+  }
+
+  bool going_on(const std::string& doing, double fraction) {
+    stopped_ = stopped_ || (hooks_.proceed && !hooks_.proceed(doing, fraction));
+    return !stopped_;
+  }
+
+  Scene scene_;
+  const CompareOptions& options_;
+  const CompareHooks& hooks_;
+  Comparison result_;
+  std::string doing_;
+  double fraction_ = 0.0;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+std::vector<std::string> compared_engines(const Scene& scene, const std::string& engine) {
+  std::vector<std::string> names;
+  const std::vector<std::string> covering = engines_covering(scene);
+  if (std::find(covering.begin(), covering.end(), "textbook-float") != covering.end()) names.emplace_back("textbook-float");
+  const std::string runs_it = make_simulation(scene, engine).engine();
+  names.emplace_back("textbook");
+  if (runs_it == "fast") names.emplace_back("fast");
+  names.emplace_back("textbook-long-double");
+  return names;
+}
+
+Comparison compare(const Scene& scene, const CompareOptions& options, const CompareHooks& hooks, Comparison before) {
+  return Study(scene, options, hooks, std::move(before))();
+}
+
+}  // namespace carom

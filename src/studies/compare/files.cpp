@@ -1,0 +1,244 @@
+#include "studies/compare/files.hpp"
+
+#include "io/build_json.hpp"
+#include "io/horizon_json.hpp"
+#include "studies/compare/answers.hpp"
+
+#include <carom/version.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+double number(const Json& json) { return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>(); }
+
+Json json_of(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(number(value));
+  return list;
+}
+
+Json json_of(const StepCounts& counts) {
+  return {{"steps", counts.steps},         {"time", counts.time},         {"found", counts.found},
+          {"missed", counts.missed},       {"repeated", counts.repeated}, {"spurious", counts.spurious},
+          {"depth_sum", counts.depth_sum}, {"deepest", counts.deepest}};
+}
+
+Json json_of(const MethodRun& run) {
+  Json json = {{"method", run.method.name},
+               {"dt", run.method.dt},
+               {"seed", run.seed},
+               {"time", run.time},
+               {"seconds_early", run.seconds_early},
+               {"seconds", run.seconds},
+               {"pair", run.pair},
+               {"Z", number(run.Z)},
+               {"collision_rate", number(run.collision_rate)},
+               {"mean_free_path", number(run.mean_free_path)},
+               {"energy_drift", number(run.energy_drift)},
+               {"worst_overlap", number(run.worst_overlap)},
+               {"error", json_of(run.error)}};
+  if (run.counts) json["counts"] = json_of(*run.counts);
+  return json;
+}
+
+MethodRun run_of(const Json& json) {
+  MethodRun run;
+  run.method = {json.at("method"), json.at("dt")};
+  run.seed = json.at("seed");
+  run.time = json.at("time");
+  run.seconds_early = json.at("seconds_early");
+  run.seconds = json.at("seconds");
+  run.pair = json.at("pair");
+  run.Z = number(json.at("Z"));
+  run.collision_rate = number(json.at("collision_rate"));
+  run.mean_free_path = number(json.at("mean_free_path"));
+  run.energy_drift = number(json.at("energy_drift"));
+  run.worst_overlap = number(json.at("worst_overlap"));
+  for (const Json& error : json.at("error")) run.error.push_back(number(error));
+  if (!json.contains("counts")) return run;
+  const Json& counts = json["counts"];
+  run.counts = StepCounts{.steps = counts.at("steps"),
+                          .time = counts.at("time"),
+                          .found = counts.at("found"),
+                          .spurious = counts.at("spurious"),
+                          .repeated = counts.at("repeated"),
+                          .missed = counts.at("missed"),
+                          .depth_sum = counts.at("depth_sum"),
+                          .deepest = counts.at("deepest")};
+  return run;
+}
+
+Json json_of(const CostPoint& point) {
+  return {{"disks", point.disks},
+          {"packing_fraction", point.packing_fraction},
+          {"method", point.method},
+          {"dt", point.dt},
+          {"free_time", point.free_time},
+          {"seconds_per_disk_and_free_time", point.seconds},
+          {"Z", point.Z},
+          {"bias_slope", point.bias_slope}};
+}
+
+CostPoint cost_of(const Json& json) {
+  return {json.at("disks"), json.at("packing_fraction"), json.at("method"),
+          json.at("dt"),    json.at("free_time"),        json.at("seconds_per_disk_and_free_time"),
+          json.at("Z"),     json.at("bias_slope")};
+}
+
+Json json_of(const ComparePlan& plan) {
+  return {{"sigma", plan.sigma},
+          {"mean_free_time", plan.mean_free_time},
+          {"temperature", plan.temperature},
+          {"sample_step", plan.sample_step},
+          {"samples", plan.samples},
+          {"early_time", plan.early_time()},
+          {"until", plan.until()},
+          {"dt", plan.dts},
+          {"seeds", plan.seeds},
+          {"drawn", plan.drawn},
+          {"longest", plan.longest}};
+}
+
+Json json_of(const MethodSummary& s) {
+  Json json = {{"method", s.method.name},
+               {"dt", s.method.dt},
+               {"runs", s.runs},
+               {"error_early",
+                {{"median", number(s.error.median)},
+                 {"lower_quartile", number(s.error.lower)},
+                 {"upper_quartile", number(s.error.upper)}}},
+               {"seconds_early", number(s.seconds_early)},
+               {"seconds_per_time", number(s.seconds_per_time)}};
+  const auto with_error = [](const std::optional<Estimate>& e) {
+    return e ? Json{{"value", number(e->value)}, {"error", number(e->error)}} : Json(nullptr);
+  };
+  json["Z"] = with_error(s.Z);
+  json["collision_rate"] = with_error(s.collision_rate);
+  json["mean_free_path"] = with_error(s.mean_free_path);
+  json["bias"] = {
+      {"Z", with_error(s.Z_bias)}, {"collision_rate", with_error(s.rate_bias)}, {"mean_free_path", with_error(s.path_bias)}};
+  json["worst_overlap"] = number(s.worst_overlap);
+  json["energy_drift"] = number(s.energy_drift);
+  return json;
+}
+
+}  // namespace
+
+std::string study_key(const Scene& scene, const CompareOptions& options) {
+  const Json key = {{"scene", resolved_toml(scene)},   {"dt", options.dts},
+                    {"seeds", options.seeds},          {"longest", options.longest},
+                    {"engine", options.engine},        {"costs", options.costs},
+                    {"version", build_info().version}, {"commit", build_info().commit}};
+  return key.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+namespace {
+
+const detail::PartWords words = {"point", "scene"};
+
+std::string line_of(const MethodRun& run) { return Json{{"run", json_of(run)}}.dump(); }
+std::string line_of(const CostPoint& point) { return Json{{"cost", json_of(point)}}.dump(); }
+
+std::vector<std::string> lines_of(const Comparison& comparison) {
+  std::vector<std::string> lines;
+  for (const MethodRun& run : comparison.runs) lines.push_back(line_of(run));
+  for (const CostPoint& point : comparison.costs) lines.push_back(line_of(point));
+  return lines;
+}
+
+}  // namespace
+
+PointsFile::PointsFile(std::filesystem::path path, const std::string& key, const Comparison& before)
+    : parts_(std::move(path), words, key, lines_of(before)) {}
+
+void PointsFile::add(const MethodRun& run) { parts_.add(line_of(run)); }
+void PointsFile::add(const CostPoint& point) { parts_.add(line_of(point)); }
+
+Comparison load_points(const std::filesystem::path& path, const std::string& key) {
+  Comparison comparison;
+  detail::read_finished_parts(path, words, key, [&](const Json& point) {
+    if (point.contains("run")) comparison.runs.push_back(run_of(point["run"]));
+    if (point.contains("cost")) comparison.costs.push_back(cost_of(point["cost"]));
+  });
+  return comparison;
+}
+
+std::string compare_json(const Comparison& comparison, const Scene& scene, const std::string& command_line) {
+  const Answers answers = answers_of(comparison);
+  Json json;
+  json["carom"] = detail::build_json();
+  json["scene"] = scene.source;
+  json["title"] = scene.title;
+  json["disks"] = scene.disk_count();
+  json["packing_fraction"] = scene.packing_fraction();
+  json["command_line"] = command_line;
+  json["complete"] = comparison.complete;
+  json["sentences"] = answers.sentences;
+  json["answers"] = {
+      {"exact", answers.exact},
+      {"exact_seconds", number(answers.exact_seconds)},
+      {"exact_error", number(answers.exact_error)},
+      {"order", answers.order ? Json{{"value", answers.order->value}, {"error", answers.order->error}} : Json(nullptr)},
+      {"to_millionth", answers.to_millionth ? Json{{"dt", answers.to_millionth->dt},
+                                                   {"seconds", answers.to_millionth->seconds},
+                                                   {"extrapolated", answers.to_millionth->extrapolated}}
+                                            : Json(nullptr)},
+      {"crossover",
+       answers.crossover_error ? Json{{"error", *answers.crossover_error}, {"dt", *answers.crossover_dt}} : Json(nullptr)}};
+  json["plan"] = json_of(comparison.plan);
+  json["horizon"] = horizon_json(comparison.plan.horizon);
+  json["summary"] = Json::array();
+  for (const MethodSummary& summary : summaries_of(comparison)) json["summary"].push_back(json_of(summary));
+  json["time_to_Z"] = Json::array();
+  for (const TimeToZ& row : answers.time_to_Z)
+    json["time_to_Z"].push_back({{"method", row.method},
+                                 {"relative_error", row.accuracy},
+                                 {"dt", row.dt ? number(*row.dt) : Json(nullptr)},
+                                 {"seconds", row.seconds ? number(*row.seconds) : Json(nullptr)},
+                                 {"remark", row.remark}});
+  json["runs"] = Json::array();
+  for (const MethodRun& run : comparison.runs) json["runs"].push_back(json_of(run));
+  json["left_out"] = Json::array();
+  for (const LeftOut& one : comparison.left_out)
+    json["left_out"].push_back({{"method", one.method.name}, {"dt", one.method.dt}, {"seconds_foreseen", one.seconds}});
+  json["costs"] = Json::array();
+  for (const CostPoint& point : comparison.costs) json["costs"].push_back(json_of(point));
+  // A path or a command line need not be UTF-8, and JSON must be.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string compare_csv(const Comparison& comparison) {
+  std::string text =
+      "method,dt,seed,time,seconds_early,error_early,seconds,error_end,pair,Z,collision_rate,mean_free_path,energy_drift,worst_"
+      "overlap,"
+      "found,missed,repeated,spurious,mean_depth,deepest\n";
+  for (const MethodRun& run : comparison.runs) {
+    const std::size_t early = comparison.plan.early;
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", run.method.name, run.method.dt, run.seed, run.time,
+                        run.seconds_early, early >= 1 && run.error.size() >= early ? run.error[early - 1] : NAN, run.seconds,
+                        run.error.empty() ? NAN : run.error.back(), run.pair, run.Z, run.collision_rate, run.mean_free_path,
+                        run.energy_drift, run.worst_overlap);
+    if (run.counts) {
+      const StepCounts& c = *run.counts;
+      text += fmt::format(",{},{},{},{},{},{}\n", c.found, c.missed, c.repeated, c.spurious, c.mean_depth(), c.deepest);
+    } else {
+      text += ",,,,,,\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace carom

@@ -1,0 +1,165 @@
+#include "studies/compare/page.hpp"
+
+#include "pages/horizon_sentence.hpp"
+#include "pages/horizon_table.hpp"
+#include "studies/compare/answers.hpp"
+#include "studies/compare/plots.hpp"
+#include "studies/compare/sentences.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <carom/version.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+std::string seconds_text(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.{}f} µs", 1e6 * seconds, seconds < 1e-5 ? 1 : 0);
+  if (seconds < 1.0) return fmt::format("{:.3g} ms", 1e3 * seconds);
+  return seconds < 120.0 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.3g} min", seconds / 60.0);
+}
+
+/// Of so many events; a fraction of a handful says nothing.
+std::string percent_of(double fraction, std::uint64_t events) {
+  return events < 20 ? "–" : fmt::format("{:.2f} %", 100.0 * fraction);
+}
+
+/// Of a single start no error is known.
+std::string Z_text(const std::optional<Estimate>& Z) {
+  if (!Z) return "–";
+  return std::isfinite(Z->error) ? fmt::format("{:.4g} ± {:.1g}", Z->value, Z->error) : fmt::format("{:.4g}", Z->value);
+}
+
+TextTable table_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
+  TextTable table{
+      .title = "Every method and step",
+      .columns = {"method", "dt (scene units)", "dt / mean free time", "error / diameter", "processor time", "Z", "missed",
+                  "repeated", "spurious", "deepest overlap / diameter"},
+      .caption =
+          "Error in mean diameters, root mean square over the disks, and processor time until then, when methods are compared: "
+          "medians over the starts. Z = PA/(NkT), with its standard error where there are several starts. Missed: of all "
+          "collisions that there were; repeated and spurious: of all reversals. A dash: not measured, because the run was cut "
+          "short or the method is exact."};
+  for (const MethodSummary& s : summaries) {
+    const auto counted = [&](double (StepCounts::*fraction)() const, std::uint64_t (StepCounts::*of)() const) {
+      return s.counts ? percent_of((*s.counts.*fraction)(), (*s.counts.*of)()) : "–";
+    };
+    table.rows.push_back({name_of(s.method.name), s.method.exact() ? "–" : fmt::format("{:.3g}", s.method.dt),
+                          s.method.exact() ? "–" : fmt::format("{:.2g}", comparison.plan.in_free_times(s.method.dt)),
+                          fmt::format("{:.2e}", s.error.median), seconds_text(s.seconds_early), Z_text(s.Z),
+                          counted(&StepCounts::missed_fraction, &StepCounts::collisions),
+                          counted(&StepCounts::repeated_fraction, &StepCounts::reversals),
+                          counted(&StepCounts::spurious_fraction, &StepCounts::reversals),
+                          s.counts ? fmt::format("{:.2g}", s.counts->deepest) : "–"});
+  }
+  return table;
+}
+
+TextTable time_to_Z_table(const Answers& answers) {
+  TextTable table{
+      .title = "Time to know Z",
+      .columns = {"method", "to 1 %", "to 0.1 %"},
+      .caption = "Processor time until bias and chance together are that small; fixed steps at the dt for which it is shortest."};
+  for (const TimeToZ& row : answers.time_to_Z) {
+    const std::string cell =
+        row.seconds ? seconds_text(*row.seconds) + (row.dt ? fmt::format(" (dt = {:.2g})", *row.dt) : "") : row.remark;
+    if (row.accuracy == answers.time_to_Z.front().accuracy) {
+      table.rows.push_back({name_of(row.method), cell, "–"});
+    } else {
+      for (auto& cells : table.rows)
+        if (cells.front() == name_of(row.method)) cells.back() = cell;
+    }
+  }
+  return table;
+}
+
+std::vector<KeyNumber> key_numbers(const Comparison& comparison, const Answers& answers) {
+  std::vector<KeyNumber> numbers;
+  if (answers.to_millionth)
+    numbers.push_back({two_digits(answers.to_millionth->seconds / answers.exact_seconds) + " ×",
+                       "the time of the exact engine, for fixed steps right to 10⁻⁶ diameters"});
+  numbers.push_back(
+      {fmt::format("{:.1e}", answers.exact_error),
+       fmt::format("diameters: error of the exact engine after {:.2g} collisions per disk, in {}",
+                   comparison.plan.in_free_times(comparison.plan.early_time()), seconds_text(answers.exact_seconds))});
+  if (answers.order)
+    numbers.push_back(
+        {fmt::format("{:.2f} ± {:.2f}", answers.order->value, answers.order->error), "order of the fixed step, fitted"});
+  const HorizonRow* row = comparison.plan.horizon.row(comparison.plan.horizon.engine);
+  if (row != nullptr && row->collisions_per_disk)
+    numbers.push_back(
+        {fmt::format("{:.0f}", *row->collisions_per_disk), "collisions per disk, then chaos has outgrown double precision"});
+  return numbers;
+}
+
+std::vector<Block> costs(const Comparison& comparison, const Answers& answers, const Scene& scene) {
+  std::vector<Block> blocks;
+  if (!answers.time_to_Z.empty()) blocks.emplace_back(time_to_Z_table(answers));
+  if (comparison.costs.empty()) return blocks;
+  blocks.emplace_back(Paragraph{"The scene at other sizes and densities: the same species in the same shares, in equilibrium."});
+  blocks.emplace_back(cost_against_size(comparison, scene.packing_fraction()));
+  blocks.emplace_back(cost_against_density(comparison));
+  return blocks;
+}
+
+Block energy_block(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
+  const bool changed = std::any_of(summaries.begin(), summaries.end(),
+                                   [](const MethodSummary& s) { return !s.method.exact() && s.energy_drift > 0.0; });
+  if (changed) return energy_of_steps(comparison, summaries);
+  return Paragraph{"Energy tells nothing of these faults: no method has changed it in any digit, whatever its step."};
+}
+
+std::string left_out(const Comparison& comparison) {
+  std::vector<std::string> names;
+  for (const LeftOut& one : comparison.left_out)
+    names.push_back(fmt::format("{} with dt = {:.2g} (about {})", one.method.name, one.method.dt, seconds_text(one.seconds)));
+  return fmt::format("Not run, as longer than {}: {}.", seconds_text(comparison.plan.longest), fmt::join(names, ", "));
+}
+
+}  // namespace
+
+Page compare_page(const Comparison& comparison, const Scene& scene, const std::string& command_line) {
+  const ComparePlan& plan = comparison.plan;
+  const Answers answers = answers_of(comparison);
+  const std::vector<MethodSummary> summaries = summaries_of(comparison);
+  Page page{.title = "What accuracy costs: " + (scene.title.empty() ? scene.source : scene.title),
+            .subtitle = fmt::format("{} disks, packing fraction {:.4g}, {} rule; {}; mean free time {:.4g} (scene units)",
+                                    scene.disk_count(), scene.packing_fraction(),
+                                    scene.effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular",
+                                    starts_words(plan), plan.mean_free_time),
+            .lead = fmt::format("{}", fmt::join(answers.sentences, " ")),
+            .key_numbers = key_numbers(comparison, answers)};
+  page.sections = {
+      {"Work and precision",
+       {Paragraph{"The same start, advanced by exact events and by fixed steps. Until chaos has made every error large, an error "
+                  "tells of the method: methods are compared there."},
+        work_precision(comparison, summaries), Paragraph{answers.sentences.empty() ? "" : answers.sentences.front()}}},
+      {"How errors grow",
+       {error_in_time(comparison), horizon_table(plan.horizon, "for the first seed"), Paragraph{sentence_of(plan.horizon)}}},
+      {"What fixed steps do to collisions", {faults_of_steps(comparison, summaries), overlap_of_steps(comparison, summaries)}},
+      {"What they do to averages",
+       {bias_of(comparison, summaries, "bias-z", "Z", &MethodSummary::Z_bias),
+        bias_of(comparison, summaries, "bias-rate", "the collision rate", &MethodSummary::rate_bias),
+        bias_of(comparison, summaries, "bias-path", "the mean free path", &MethodSummary::path_bias),
+        energy_block(comparison, summaries)}}};
+  if (std::vector<Block> blocks = costs(comparison, answers, scene); !blocks.empty())
+    page.sections.push_back({"What an average costs", std::move(blocks)});
+  page.sections.push_back({"All numbers", {table_of(comparison, summaries), Listing{"The scene", resolved_toml(scene)}}});
+  if (!comparison.left_out.empty())
+    page.sections.back().blocks.insert(page.sections.back().blocks.begin() + 1, Paragraph{left_out(comparison)});
+  page.facts = {{"Scene", scene.source},
+                {"Command", command_line},
+                {"Program", fmt::format("carom {} (commit {}; {}; {})", build_info().version, build_info().commit,
+                                        build_info().compiler, build_info().flags)},
+                {"Seeds", plan.seeds.size() == 1 ? fmt::format("{}", plan.seeds.front())
+                                                 : fmt::format("{} to {}", plan.seeds.front(), plan.seeds.back())}};
+  return page;
+}
+
+}  // namespace carom

@@ -1,0 +1,15 @@
+#pragma once
+// What accuracy costs, as a page.
+
+#include "pages/page.hpp"
+#include "studies/compare/comparison.hpp"
+
+#include <carom/scene.hpp>
+
+#include <string>
+
+namespace carom {
+
+[[nodiscard]] Page compare_page(const Comparison& comparison, const Scene& scene, const std::string& command_line);
+
+}  // namespace carom

@@ -1,0 +1,304 @@
+#include "studies/compare/plots.hpp"
+
+#include "theory/fixed_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+constexpr const char* in_free_times = "dt (mean free times)";
+
+std::vector<Method> methods_of(const Comparison& comparison) {
+  std::vector<Method> methods;
+  for (const MethodRun& run : comparison.runs) {
+    const auto same = [&](const Method& m) { return m.name == run.method.name && m.dt == run.method.dt; };
+    if (std::none_of(methods.begin(), methods.end(), same)) methods.push_back(run.method);
+  }
+  return methods;
+}
+
+/// A curve for every dt of every method would hide all: of the grid method one step per decade, of the naive one a coarse and a
+/// fine one.
+bool speaks_for_others(const ComparePlan& plan, const Method& method) {
+  if (method.exact()) return true;
+  const auto rung = std::find(plan.dts.begin(), plan.dts.end(), method.dt) - plan.dts.begin();
+  if (plan.dts.size() <= 6) return method.name == "grid" || method.name == "naive";
+  return (method.name == "grid" && rung % 3 == 1) || (method.name == "naive" && (rung == 4 || rung == 10));
+}
+
+/// A series per fixed-step method over dt, of what `value` says; points for which it says nothing are left out.
+template <class Value>
+std::vector<Series> over_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries, Value value) {
+  std::vector<Series> all;
+  for (const std::string& method : fixed_step_names()) {
+    Series series{.name = name_of(method), .group = group_of(method)};
+    for (const MethodSummary& summary : summaries) {
+      if (summary.method.name != method) continue;
+      const std::optional<Estimate> y = value(summary);
+      if (!y) continue;
+      series.x.push_back(comparison.plan.in_free_times(summary.method.dt));
+      series.y.push_back(y->value);
+      if (y->error > 0.0) series.y_low.push_back(y->value - y->error), series.y_high.push_back(y->value + y->error);
+      series.labels.push_back(fmt::format("dt = {:.3g}", summary.method.dt));
+    }
+    if (series.y_low.size() != series.x.size()) series.y_low.clear(), series.y_high.clear();
+    if (!series.x.empty()) all.push_back(std::move(series));
+  }
+  return all;
+}
+
+/// A function of dt in scene units, as a dashed line over the ladder.
+template <class Function>
+Series dashed_line(const Comparison& comparison, const std::string& name, Function function) {
+  Series line{.name = name, .style = Style::dashed, .group = 6};
+  for (const double dt : comparison.plan.dts) {
+    const double y = function(dt);
+    if (y < 1e-6) continue;  // below anything that was counted or seen
+    line.x.push_back(comparison.plan.in_free_times(dt));
+    line.y.push_back(y);
+  }
+  return line;
+}
+
+}  // namespace
+
+Plot error_in_time(const Comparison& comparison) {
+  const ComparePlan& plan = comparison.plan;
+  Plot plot{.id = "error-in-time",
+            .title = "Error against time",
+            .caption =
+                "Root mean square distance of the disks from where 113 bits have them, in mean diameters: median over the starts "
+                "and, shaded, the middle half of them.",
+            .x = {.title = "time (mean free times = collisions per disk)"},
+            .y = {.title = "rms error of position (diameters)", .log = true}};
+  for (const Method& method : methods_of(comparison)) {
+    if (!speaks_for_others(plan, method)) continue;
+    Series series{.name = method.exact() ? name_of(method.name) : fmt::format("{}, dt = {:.2g}", method.name, method.dt),
+                  .style = Style::band,
+                  .group = group_of(method.name)};
+    for (std::size_t k = 0; k < plan.samples; ++k) {
+      std::vector<double> errors;
+      for (const MethodRun& run : comparison.runs)
+        if (run.method.name == method.name && run.method.dt == method.dt && run.error.size() > k) errors.push_back(run.error[k]);
+      if (errors.empty()) break;
+      const Spread spread = spread_of(errors);
+      series.x.push_back(plan.in_free_times(static_cast<double>(k + 1) * plan.sample_step));
+      series.y.push_back(spread.median);
+      series.y_low.push_back(spread.lower);
+      series.y_high.push_back(spread.upper);
+    }
+    plot.series.push_back(std::move(series));
+  }
+  plot.marks = {
+      {.axis = Mark::Across::x, .value = plan.in_free_times(plan.early_time()), .label = "methods are compared here"},
+      {.axis = Mark::Across::y, .value = plan.horizon.tolerance, .label = fmt::format("{:g} diameters", plan.horizon.tolerance)}};
+  const HorizonRow* row = plan.horizon.row(plan.horizon.engine);
+  if (row == nullptr || !row->time) return plot;
+  const double horizon = plan.in_free_times(*row->time);
+  if (*row->time <= plan.until()) {
+    plot.marks.push_back({.axis = Mark::Across::x, .value = horizon, .label = "horizon of double precision"});
+  } else {  // a line out there would leave the curves a corner of the plot
+    plot.caption += fmt::format(" The horizon of double precision lies beyond the end, at {:.3g} collisions per disk.", horizon);
+  }
+  return plot;
+}
+
+Plot work_precision(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
+  const ComparePlan& plan = comparison.plan;
+  Plot plot{
+      .id = "work-precision",
+      .title = "Work and precision",
+      .caption = fmt::format(
+          "Error after {:.2g} collisions per disk against the processor time it took, medians over the starts; bars span the "
+          "middle half of them. Down is better, left is better. Every point of a fixed-step method is one dt.",
+          plan.in_free_times(plan.early_time())),
+      .x = {.title = "processor time (s)", .log = true},
+      .y = {.title = "rms error of position (diameters)", .log = true}};
+  std::vector<std::string> names;
+  for (const MethodSummary& summary : summaries)
+    if (std::find(names.begin(), names.end(), summary.method.name) == names.end()) names.push_back(summary.method.name);
+  for (const std::string& name : names) {
+    Series series{.name = name_of(name), .group = group_of(name)};
+    for (const MethodSummary& summary : summaries) {
+      if (summary.method.name != name || std::isnan(summary.error.median)) continue;
+      series.x.push_back(summary.seconds_early);
+      series.y.push_back(summary.error.median);
+      series.y_low.push_back(summary.error.lower);
+      series.y_high.push_back(summary.error.upper);
+      series.labels.push_back(summary.method.exact() ? "no time step" : fmt::format("dt = {:.3g}", summary.method.dt));
+    }
+    if (series.x.size() == 1) series.style = Style::points;
+    plot.series.push_back(std::move(series));
+  }
+  // 113 bits have nothing better to be held against: their error is that of 64 bits times the ratio of the units in the last
+  // place.
+  const HorizonRow* quad = plan.horizon.row("textbook-quad");
+  const HorizonRow* wide = plan.horizon.row("textbook-long-double");
+  for (const MethodSummary& summary : summaries) {
+    if (quad == nullptr || wide == nullptr || summary.method.name != "textbook-long-double" || !(wide->seconds > 0.0)) continue;
+    plot.series.push_back({.name = "exact: 113 bits (error estimated)",
+                           .x = {summary.seconds_early * quad->seconds / wide->seconds},
+                           .y = {summary.error.median * std::exp2(wide->bits - quad->bits)},
+                           .labels = {"no time step"},
+                           .style = Style::points,
+                           .group = group_of("textbook-quad")});
+  }
+  return plot;
+}
+
+Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
+  Plot plot{.id = "faults",
+            .title = "Missed, repeated and spurious collisions",
+            .caption =
+                "Missed: pairs that came into contact and left it without a reversal, of all collisions that there were. "
+                "Repeated: reversals "
+                "within an encounter that was already reversed; spurious: encounters that began with a pair already parting; "
+                "both of all "
+                "reversals. None is not drawn. Guarded and grid are one trajectory.",
+            .x = {.title = in_free_times, .log = true},
+            .y = {.title = "fraction of collisions or reversals", .log = true}};
+  const auto add = [&](const std::string& what, double (StepCounts::*fraction)() const, Style style) {
+    for (Series& series : over_steps(comparison, summaries, [&](const MethodSummary& s) -> std::optional<Estimate> {
+           if (!s.counts || (*s.counts.*fraction)() == 0.0) return std::nullopt;
+           return Estimate{(*s.counts.*fraction)(), 0.0};
+         })) {
+      series.visible = style != Style::points || series.name == name_of("naive");
+      series.name = what + ": " + series.name;
+      series.style = style;
+      plot.series.push_back(std::move(series));
+    }
+  };
+  add("missed", &StepCounts::missed_fraction, Style::line_and_points);
+  add("repeated", &StepCounts::repeated_fraction, Style::dashed);
+  add("spurious", &StepCounts::spurious_fraction, Style::points);
+  if (comparison.plan.thermal_speed == 0.0) return plot;
+  plot.caption += " The black dashed line is the isolated pair of a dilute gas.";
+  const double speed = comparison.plan.thermal_speed / comparison.plan.sigma;
+  plot.series.push_back(dashed_line(comparison, "missed by guarded steps, isolated pair", [&](double dt) {
+    return theory::missed_fraction(speed * dt, theory::Notices::approaching);
+  }));
+  return plot;
+}
+
+Plot overlap_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
+  Plot plot{
+      .id = "overlap",
+      .title = "How deep disks are in each other",
+      .caption = "Mean depth at the moment a collision is found, and the deepest overlap of any pair at any step, in diameters.",
+      .x = {.title = in_free_times, .log = true},
+      .y = {.title = "overlap (diameters)", .log = true}};
+  const auto add = [&](const std::string& what, auto depth, Style style) {
+    for (Series& series : over_steps(comparison, summaries, [&](const MethodSummary& s) -> std::optional<Estimate> {
+           if (!s.counts || s.counts->found == 0) return std::nullopt;
+           return Estimate{depth(*s.counts), 0.0};
+         })) {
+      series.name = what + ": " + series.name;
+      series.style = style;
+      plot.series.push_back(std::move(series));
+    }
+  };
+  add(
+      "mean", [](const StepCounts& counts) { return counts.mean_depth(); }, Style::line_and_points);
+  add(
+      "deepest", [](const StepCounts& counts) { return counts.deepest; }, Style::points);
+  if (comparison.plan.thermal_speed == 0.0) return plot;
+  plot.caption += " The dashed line is the mean of an isolated pair.";
+  const double speed = comparison.plan.thermal_speed / comparison.plan.sigma;
+  plot.series.push_back(
+      dashed_line(comparison, "mean, isolated pair", [&](double dt) { return theory::mean_depth(speed * dt); }));
+  return plot;
+}
+
+Plot bias_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries, const std::string& id,
+             const std::string& what, std::optional<Estimate> MethodSummary::*bias) {
+  Plot plot{.id = id,
+            .title = fmt::format("Bias of {}", what),
+            .caption = comparison.plan.seeds.size() > 1
+                           ? "Relative difference from the exact engine, start by start, with standard errors over the starts."
+                           : "Relative difference from the exact engine from this one start, which tells no error.",
+            .x = {.title = in_free_times, .log = true},
+            .y = {.title = fmt::format("relative bias of {}", what)}};
+  plot.series = over_steps(comparison, summaries, [&](const MethodSummary& s) { return s.*bias; });
+  plot.marks = {{.axis = Mark::Across::y, .value = 0.0, .label = "exact"}};
+  return plot;
+}
+
+Plot energy_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
+  Plot plot{.id = "energy",
+            .title = "Energy tells nothing of these faults",
+            .caption =
+                "Largest relative change of the energy over the starts. A collision rule conserves energy whether or not there "
+                "was a collision, so this stays at rounding while everything else is wrong. No change at all is not drawn.",
+            .x = {.title = in_free_times, .log = true},
+            .y = {.title = "relative change of energy", .log = true}};
+  plot.series = over_steps(comparison, summaries, [](const MethodSummary& s) {
+    return std::optional(Estimate{s.energy_drift, 0.0});
+  });
+  return plot;
+}
+
+namespace {
+
+template <class Where, class X>
+std::vector<Series> costs_over(const Comparison& comparison, Where where, X x) {
+  std::vector<Series> all;
+  for (const CostPoint& point : comparison.costs) {
+    if (!where(point)) continue;
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Series& s) { return s.name == name_of(point.method); });
+    Series& series =
+        found != all.end() ? *found : all.emplace_back(Series{.name = name_of(point.method), .group = group_of(point.method)});
+    series.x.push_back(x(point));
+    series.y.push_back(point.seconds);
+    series.labels.push_back(point.dt > 0.0 ? fmt::format("dt = {:.2g} mean free times", point.dt / point.free_time)
+                                           : "no time step");
+  }
+  return all;
+}
+
+}  // namespace
+
+Plot cost_against_size(const Comparison& comparison, double packing_fraction) {
+  Plot plot{.id = "cost-size",
+            .title = "Cost against the number of disks",
+            .caption = "Processor time per disk and mean free time; fixed steps with the dt for which the bias of Z is 1 %.",
+            .x = {.title = "number of disks", .log = true},
+            .y = {.title = "processor time per disk and mean free time (s)", .log = true}};
+  plot.series = costs_over(
+      comparison, [&](const CostPoint& p) { return p.packing_fraction == packing_fraction; },
+      [](const CostPoint& p) { return static_cast<double>(p.disks); });
+  return plot;
+}
+
+Plot cost_against_density(const Comparison& comparison) {
+  Plot plot{.id = "cost-density",
+            .title = "Cost against the packing fraction",
+            .caption =
+                "1024 disks; processor time per disk and mean free time; fixed steps with the dt for which the bias of Z is 1 %.",
+            .x = {.title = "packing fraction"},
+            .y = {.title = "processor time per disk and mean free time (s)", .log = true}};
+  plot.series = costs_over(
+      comparison, [](const CostPoint& p) { return p.disks == 1024; }, [](const CostPoint& p) { return p.packing_fraction; });
+  for (Series& series : plot.series) {  // the scene's own density may lie anywhere among the others
+    std::vector<std::size_t> order(series.x.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return series.x[a] < series.x[b]; });
+    Series sorted = series;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      sorted.x[k] = series.x[order[k]];
+      sorted.y[k] = series.y[order[k]];
+      sorted.labels[k] = series.labels[order[k]];
+    }
+    series = std::move(sorted);
+  }
+  return plot;
+}
+
+}  // namespace carom

@@ -1,0 +1,30 @@
+#include "studies/compare/reference.hpp"
+
+#include "studies/horizon/difference.hpp"
+
+#include <carom/simulation.hpp>
+
+#include <utility>
+
+namespace carom {
+
+Reference::Reference(const Scene& scene, const State& start, double step, std::uint64_t samples,
+                     const std::function<bool()>& proceed)
+    : box_(scene.box) {
+  Simulation exact = make_simulation(scene, start, "textbook-quad");
+  for (std::uint64_t k = 1; k <= samples; ++k) {
+    if (!proceed()) return;
+    exact.run_until_sample(k, step);
+    State state = exact.state();
+    state.velocities.resize(2, 0);  // not asked for, and half of the memory
+    state.images.resize(2, 0);
+    samples_.push_back(std::move(state));
+  }
+  complete_ = true;
+}
+
+double Reference::rms_distance(std::uint64_t k, const State& state) const {
+  return carom::rms_distance(box_, state, samples_[k - 1]);
+}
+
+}  // namespace carom

@@ -1,0 +1,21 @@
+#pragma once
+// The answer in words, every number from the data.
+
+#include "studies/compare/answers.hpp"
+
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// What accuracy costs; where the fixed step is the cheaper way to a crude answer; what it does to collisions and to Z.
+[[nodiscard]] std::vector<std::string> compare_sentences(const Comparison& comparison,
+                                                         const std::vector<MethodSummary>& summaries, const Answers& answers);
+
+/// "8 starts", or that there is one, and why.
+[[nodiscard]] std::string starts_words(const ComparePlan& plan);
+
+/// Two digits and no more: "1.3", "420", "23,000", "2.1e+09". Requires a positive value.
+[[nodiscard]] std::string two_digits(double value);
+
+}  // namespace carom

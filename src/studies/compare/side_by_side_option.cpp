@@ -1,0 +1,72 @@
+#include "studies/compare/side_by_side_option.hpp"
+
+#include "studies/compare/side_by_side.hpp"
+#include "studies/compare/side_by_side_page.hpp"
+#include "terminal/command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace carom::cli {
+
+namespace {
+
+double step_in(const std::string& text, const std::string& number) {
+  double dt = 0.0;
+  const char* const end = number.data() + number.size();
+  const auto read = std::from_chars(number.data(), end, dt);
+  if (read.ec != std::errc() || read.ptr != end || !(dt > 0.0 && std::isfinite(dt)))
+    throw UsageError(fmt::format("--play {}: after the colon stands a time step, positive and finite, as in guarded:0.01", text));
+  return dt;
+}
+
+}  // namespace
+
+PlayChoice checked_play(const std::string& text, const Scene& scene) {
+  PlayChoice choice;
+  const std::size_t colon = text.find(':');
+  if (!text.empty()) choice.method = text.substr(0, colon);
+  if (colon != std::string::npos) choice.dt = step_in(text, text.substr(colon + 1));
+  const std::vector<std::string> names = fixed_step_names();
+  if (std::find(names.begin(), names.end(), choice.method) == names.end())
+    throw UsageError(fmt::format("--play {}: there is no fixed-step method \"{}\"; choose one of {}", text, choice.method,
+                                 fmt::join(names, ", ")));
+  if (scene.disk_count() > most_disks_side_by_side)
+    throw UsageError(
+        fmt::format("--play: {} disks are too many to be told apart side by side; {} can be shown, so take fewer, or "
+                    "leave --play out",
+                    scene.disk_count(), most_disks_side_by_side));
+  if (choice.dt) {
+    if (scene.run.time && *choice.dt > *scene.run.time)
+      throw UsageError(fmt::format("--play {}: the scene's run ends at time {:g}, within the first step", text, *scene.run.time));
+    try {
+      (void)make_simulation(scene, FixedStep{choice.method, *choice.dt});
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(fmt::format("--play {}: {}", text, error.what()));
+    }
+  }
+  return choice;
+}
+
+std::optional<SideBySidePage> make_side_by_side(const PlayChoice& choice, const Scene& scene, const std::string& engine,
+                                                const ComparePlan& plan, const State& start, const std::string& command_line,
+                                                const std::function<bool(double fraction)>& proceed) {
+  SideBySideOptions options;
+  options.step = {choice.method, choice.dt.value_or(visible_step(plan, start))};
+  options.engine = engine;
+  options.until = scene.run.time && *scene.run.time > 0.0 ? *scene.run.time : plan.until();
+  options.free_time = plan.mean_free_time;
+  options.sigma = plan.sigma;
+  options.proceed = proceed;
+  const SideBySide shown = fly_side_by_side(scene, start, options);
+  if (shown.because == ShownUntil::stopped) return {};
+  return SideBySidePage{side_by_side_page(shown, scene, plan.horizon.lyapunov, command_line), why_no_longer(shown, scene)};
+}
+
+}  // namespace carom::cli

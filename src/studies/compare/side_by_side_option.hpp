@@ -1,0 +1,38 @@
+#pragma once
+// What --play of carom compare asks for, and the page that it makes.
+
+#include "studies/compare/comparison.hpp"
+
+#include <carom/scene.hpp>
+#include <carom/simulation.hpp>
+#include <carom/state.hpp>
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace carom::cli {
+
+inline constexpr std::string_view side_by_side_file = "side_by_side.html";
+
+/// METHOD[:DT]; "" for the guarded method.
+struct PlayChoice {
+  std::string method = "guarded";
+  std::optional<double> dt;  ///< empty: one of the study's
+};
+
+/// Throws UsageError where the text names no method, or no step that can be taken with this scene, or its disks are too many.
+[[nodiscard]] PlayChoice checked_play(const std::string& text, const Scene& scene);
+
+struct SideBySidePage {
+  std::string html;
+  std::string shorter;  ///< words where less than the scene's run is shown
+};
+
+/// Flies both from `start`. Empty where `proceed` said stop.
+[[nodiscard]] std::optional<SideBySidePage> make_side_by_side(const PlayChoice& choice, const Scene& scene,
+                                                              const std::string& engine, const ComparePlan& plan,
+                                                              const State& start, const std::string& command_line,
+                                                              const std::function<bool(double fraction)>& proceed);
+
+}  // namespace carom::cli

@@ -1,0 +1,185 @@
+// Packs both sides for src/pages/side_by_side/*.js, and says in words what is seen there.
+
+#include "studies/compare/side_by_side_page.hpp"
+
+#include "io/json_number.hpp"
+#include "pages/event_columns.hpp"
+#include "pages/number_columns.hpp"
+#include "pages/playing_page.hpp"
+#include "text/numbers.hpp"
+
+#include <carom/version.hpp>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using detail::NumberColumns;
+
+constexpr std::array<std::string_view, 2> side_by_side_styles = {"player/player.css", "side_by_side/side_by_side.css"};
+constexpr std::array<std::string_view, 22> side_by_side_scripts = {"player/recording.js",    "player/flights.js",
+                                                                   "side_by_side/sides.js",  "player/measures.js",
+                                                                   "player/hexatic.js",      "player/palettes.js",
+                                                                   "player/settings.js",     "player/view.js",
+                                                                   "player/trails.js",       "player/raster.js",
+                                                                   "player/drawing.js",      "player/readings.js",
+                                                                   "player/legend.js",       "player/clock.js",
+                                                                   "player/controls.js",     "player/keyboard.js",
+                                                                   "player/pointer.js",      "player/frames.js",
+                                                                   "side_by_side/twins.js",  "side_by_side/overlaps.js",
+                                                                   "side_by_side/curves.js", "side_by_side/side_by_side.js"};
+
+/// What every page that plays needs to know of a scene without effects.
+Json description_of(const SideBySide& shown, const Scene& scene) {
+  const Box& box = scene.box;
+  Json json{{"title", scene.title}, {"disks", shown.disks.count()}, {"exact", true}, {"duration", shown.until}};
+  json["box"] = {{"lower", detail::vector(box.lower)},
+                 {"upper", detail::vector(box.upper)},
+                 {"periodic", Json::array({box.periodic(0), box.periodic(1)})}};
+  json["species"] = Json::array();
+  for (const Species& species : scene.species) json["species"].push_back(species.name);
+  json["gravity"] = detail::vector(Eigen::Vector2d::Zero());
+  json["growth"] = 0.0;
+  json["scale"] = 1.0;
+  json["accelerations"] = Json::array({0.0, 0.0, 0.0, 0.0});
+  json["obstacles"] = Json::array();
+  json["keepsMomentum"] = Json::array({box.periodic(0), box.periodic(1)});
+  json["whyNoZ"] = "";
+  return json;
+}
+
+void put_exact(const SideBySide& shown, const Scene& scene, NumberColumns& columns) {
+  columns.add("radius", shown.disks.radius);
+  columns.add("mass", shown.disks.mass);
+  columns.add("species", std::vector<std::uint16_t>(shown.disks.species.begin(), shown.disks.species.end()));
+  columns.add("start", detail::start_column(shown.start));
+  detail::EventColumns<std::uint16_t> events;
+  for (const Event& event : shown.events) events.add(event, shown.disks.count());
+  events.put<double>(columns);
+  const Box& box = scene.box;
+  const std::array<double, 4> sides = {box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y()};
+  for (std::size_t side = 0; side < 4; ++side)
+    columns.add(fmt::format("wall{}", side), std::vector<double>{0.0, sides[side], 0.0});
+}
+
+void put_steps(const SideBySide& shown, NumberColumns& columns) {
+  std::vector<std::uint32_t> step;
+  std::vector<std::uint16_t> disk, first, second;
+  std::vector<double> velocity, begin, end;
+  std::vector<float> depth;
+  for (const Turn& turn : shown.turns) {
+    step.push_back(turn.step);
+    disk.push_back(static_cast<std::uint16_t>(turn.disk));
+    velocity.insert(velocity.end(), {turn.velocity.x(), turn.velocity.y()});
+  }
+  for (const Overlap& overlap : shown.overlaps) {
+    first.push_back(static_cast<std::uint16_t>(overlap.first));
+    second.push_back(static_cast<std::uint16_t>(overlap.second));
+    begin.push_back(overlap.begin);
+    end.push_back(overlap.end);
+    depth.push_back(static_cast<float>(overlap.depth));
+  }
+  columns.add("turnStep", step);
+  columns.add("turnDisk", disk);
+  columns.add("turnVelocity", velocity);
+  columns.add("overlapFirst", first);
+  columns.add("overlapSecond", second);
+  columns.add("overlapBegin", begin);
+  columns.add("overlapEnd", end);
+  columns.add("overlapDepth", depth);
+  columns.add("distanceTime", shown.times);
+  columns.add("distance", shown.distance);
+}
+
+std::string growth_words(const SideBySide& shown, const std::optional<Lyapunov>& lyapunov) {
+  const std::string what = "Disks are convex mirrors: every collision turns a small distance into a larger one";
+  if (!lyapunov || !lyapunov->is_chaotic()) return what + ".";
+  const double time = 1.0 / lyapunov->per_time;
+  return fmt::format(
+             "{}, on average by a factor e in every Lyapunov time, here {:.3g} or {:.2g} collisions of a disk. So the curve "
+             "rises as a "
+             "straight line until disks have lost each other, and a step ten times shorter gains {:.3g} of time and no more.",
+             what, time, time * lyapunov->collision_rate, std::log(10.0) * time) +
+         (shown.parted_at() ? "" : " Here the two are still near each other at the end.");
+}
+
+std::string energy_words(const SideBySide& shown) {
+  const std::string changes = fmt::format("{:.1g} of it on the exact side and {:.1g} on the other", shown.energy_change_exact,
+                                          shown.energy_change_stepped);
+  if (shown.energy_change_stepped < 1e-9)
+    return "Energy is kept: the largest change is " + changes + ". It tells nothing of overlaps and distances.";
+  return "Energy changes, by up to " + changes + ".";
+}
+
+Json words_of(const SideBySide& shown, const Scene& scene, const std::optional<Lyapunov>& lyapunov) {
+  const std::string no_longer = why_no_longer(shown, scene);
+  const std::string step = shown.free_time > 0.0 ? fmt::format(" ({:.2g} mean free times)", shown.step.dt / shown.free_time) : "";
+  return {{"what",
+           fmt::format("{} from one start: left from collision to collision, each at its instant; right in steps of {:.3g}{}, "
+                       "with a look for contacts after each ({}).",
+                       counted(shown.disks.count(), "disk"), shown.step.dt, step, shown.step.method)},
+          {"growth", growth_words(shown, lyapunov)},
+          {"window", no_longer.empty() ? "" : "S" + no_longer.substr(1) + "."},
+          {"energy", energy_words(shown)}};
+}
+
+}  // namespace
+
+std::string why_no_longer(const SideBySide& shown, const Scene& scene) {
+  if (shown.because == ShownUntil::end) return {};
+  const std::string until = scene.run.time ? fmt::format("shown until time {:.4g} of {:.4g}", shown.until, *scene.run.time)
+                                           : fmt::format("shown until time {:.4g}", shown.until);
+  switch (shown.because) {
+    case ShownUntil::end:
+      break;
+    case ShownUntil::parted:
+      return fmt::format("{}: the two are half a diameter apart at {:.3g}, and go their own ways from there", until,
+                         shown.parted_at().value_or(0.0));
+    case ShownUntil::numbers:
+      return until + ": a page holds no more collisions and turns";
+    case ShownUntil::work:
+      return until + ": more steps of this length would take too long";
+    case ShownUntil::stuck:
+      return until + ": time stands still in the exact run, where disks have no room to move";
+    case ShownUntil::stopped:
+      return until + ": it was interrupted";
+  }
+  return until;
+}
+
+std::string side_by_side_page(const SideBySide& shown, const Scene& scene, const std::optional<Lyapunov>& lyapunov,
+                              const std::string& command_line) {
+  NumberColumns columns;
+  Json json = description_of(shown, scene);
+  put_exact(shown, scene, columns);
+  put_steps(shown, columns);
+  json["sigma"] = shown.sigma;
+  json["steps"] = {{"method", shown.step.method},
+                   {"dt", shown.step.dt},
+                   {"count", static_cast<std::uint64_t>(shown.until / shown.step.dt * (1.0 + 1e-12))}};
+  json["lyapunov"] = nullptr;
+  if (lyapunov && lyapunov->is_chaotic()) json["lyapunov"] = {{"perTime", lyapunov->per_time}};
+  json["words"] = words_of(shown, scene, lyapunov);
+  const BuildInfo& build = build_info();
+  json["facts"] = Json::array({{"Units", "those of the scene; distances in mean diameters"},
+                               {"Scene", scene.source},
+                               {"Seed", std::to_string(scene.run.seed)},
+                               {"Exact side", shown.engine + " engine"},
+                               {"Command", command_line},
+                               {"Program", fmt::format("carom {} (commit {})", build.version, build.commit)},
+                               {"Compiler", fmt::format("{}; {}", build.compiler, build.flags)}});
+  json["columns"] = columns.list();
+  return playing_page({side_by_side_mark, "side_by_side/side_by_side.html", side_by_side_styles, side_by_side_scripts,
+                       "Exact events and fixed steps"},
+                      json.dump(-1, ' ', false, Json::error_handler_t::replace), columns.take_bytes());
+}
+
+}  // namespace carom

@@ -1,0 +1,106 @@
+#include "studies/compare/text.hpp"
+
+#include "studies/compare/answers.hpp"
+#include "studies/compare/sentences.hpp"
+#include "text/numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+namespace carom::cli {
+
+namespace {
+
+/// In per cent, as the heading says.
+std::string percent(double fraction) {
+  return fraction < 0.0995 ? fmt::format("{:.2g}", 100.0 * fraction) : fmt::format("{:.0f}", 100.0 * fraction);
+}
+
+/// Of so many events; a fraction of a handful says nothing.
+std::string percent_of(double fraction, std::uint64_t events) { return events < 20 ? "" : percent(fraction); }
+
+/// Of a single start no error is known.
+std::string bias_in_percent(const Estimate& bias) {
+  const std::string value = fmt::format("{:+.2f}", 100.0 * bias.value);
+  return std::isfinite(bias.error) ? fmt::format("{} ± {:.2f}", value, 100.0 * bias.error) : value;
+}
+
+std::string row(const MethodSummary& s, const ComparePlan& plan, const MethodSummary* exact) {
+  std::string Z;
+  if (s.Z && exact != nullptr && exact->Z && exact->Z->value > 0.0)
+    Z = s.method.name == exact->method.name ? fmt::format("Z = {:.4g}", s.Z->value) : s.Z_bias ? bias_in_percent(*s.Z_bias) : "";
+  const bool counted = s.counts.has_value();
+  return fmt::format("  {:<21}{:>10}  {:>11}  {:>9}  {:>15}  {:>8}  {:>9}\n", s.method.name,
+                     s.method.exact() ? "" : fmt::format("{:.2g}", plan.in_free_times(s.method.dt)),
+                     fmt::format("{:.1e}", s.error.median), duration(s.seconds_early), Z,
+                     counted ? percent_of(s.counts->missed_fraction(), s.counts->collisions()) : "",
+                     counted ? percent_of(s.counts->repeated_fraction(), s.counts->reversals()) : "");
+}
+
+std::string table(const Comparison& comparison) {
+  const std::vector<MethodSummary> summaries = summaries_of(comparison);
+  const MethodSummary* exact = nullptr;
+  for (const MethodSummary& summary : summaries)
+    if (summary.method.name == comparison.plan.horizon.engine) exact = &summary;
+  std::string text = fmt::format("  {:<21}{:>10}  {:>11}  {:>9}  {:>15}  {:>8}  {:>9}\n", "", "dt / mean", "error /", "processor",
+                                 "bias of Z", "missed", "repeated");
+  text += fmt::format("  {:<21}{:>10}  {:>11}  {:>9}  {:>15}  {:>8}  {:>9}\n", "method", "free time", "diameter", "time", "%",
+                      "%", "%");
+  for (const MethodSummary& summary : summaries)
+    if (summary.method.exact()) text += row(summary, comparison.plan, exact);
+  for (const std::string& method : fixed_step_names())
+    for (const MethodSummary& summary : summaries)
+      if (summary.method.name == method) text += row(summary, comparison.plan, exact);
+  return text;
+}
+
+/// What stands in the columns of the table.
+std::string legend(const ComparePlan& plan) {
+  const std::string bars =
+      plan.seeds.size() > 1 ? fmt::format(", ± its standard error over the {} starts", plan.seeds.size()) : "";
+  return fmt::format(
+      "  error: distance of the disks from where 113 bits have them at t = {:.4g}, root mean square, in mean diameters ({:.4g})\n"
+      "  processor time: until then\n"
+      "  bias of Z: difference from the exact engine{}{}\n"
+      "  missed: pairs that came into contact and left it without a collision, of all collisions that there were\n"
+      "  repeated: reversals of a pair that was reversed already in the same encounter, of all reversals\n",
+      plan.early_time(), plan.sigma, plan.seeds.size() > 1 ? ", start by start" : "", bars);
+}
+
+std::string time_to_Z(const Answers& answers) {
+  if (answers.time_to_Z.empty()) return "";
+  std::string text = "\n  processor time to know Z = PA/(NkT) to\n";
+  for (const TimeToZ& one : answers.time_to_Z) {
+    text +=
+        fmt::format("  {:>5} %  {:<22}{}\n", 100.0 * one.accuracy, one.method,
+                    one.seconds ? duration(*one.seconds) + (one.dt ? fmt::format(", dt = {:.2g}", *one.dt) : "") : one.remark);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string compare_text(const Comparison& comparison, const Scene& scene, bool brief) {
+  const ComparePlan& plan = comparison.plan;
+  const Answers answers = answers_of(comparison);
+  std::string text;
+  if (!brief) {
+    text = fmt::format(
+        "{}\n{}, packing fraction {:.4g}; {}; errors at t = {:.4g}, after {:.2g} collisions per disk; mean free time {:.4g} "
+        "(scene units)\n\n",
+        scene.title.empty() ? scene.source : scene.title, counted(static_cast<std::uint64_t>(scene.disk_count()), "disk"),
+        scene.packing_fraction(), starts_words(plan), plan.early_time(), plan.in_free_times(plan.early_time()),
+        plan.mean_free_time);
+    text += table(comparison) + "\n" + legend(plan);
+    if (!comparison.left_out.empty())
+      text += fmt::format("  left out, as longer than {}: {} (--longest allows more)\n", duration(plan.longest),
+                          counted(comparison.left_out.size(), "slow run"));
+    text += time_to_Z(answers) + "\n";
+  }
+  for (const std::string& sentence : answers.sentences) text += sentence + "\n";
+  return text;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,29 @@
+#pragma once
+// What a hard case expects, held against what an engine did: one small function per expectation.
+
+#include "studies/hard_cases/hard_case.hpp"
+#include "studies/hard_cases/run.hpp"
+
+#include <carom/scene.hpp>
+
+#include <vector>
+
+namespace carom {
+
+/// Everything that one run shows by itself.
+[[nodiscard]] std::vector<CaseCheck> checks_of_run(const HardCase& hard_case, const Scene& scene, const EngineRun& run);
+
+/// That all engines have the same events in the same order, as far as the case asks: one check for each but the one that the
+/// others are compared with.
+[[nodiscard]] std::vector<CaseCheck> checks_of_order(const HardCase& hard_case, const std::vector<EngineRun>& runs);
+
+/// Those that take runs of their own: velocities reversed, disks in another order.
+[[nodiscard]] std::vector<CaseCheck> checks_of_twins(const HardCase& hard_case, const Scene& scene, const EngineRun& run);
+
+/// A number against a bound; not a number is beyond every bound.
+[[nodiscard]] CaseCheck within(std::string what, const EngineRun& run, double value, double bound);
+
+/// A bound of double precision for the engine of the run: in single precision it is 2^29 times as wide.
+[[nodiscard]] double widened(double bound, const EngineRun& run);
+
+}  // namespace carom

@@ -1,0 +1,117 @@
+// carom hardcases: runs the corpus of hard cases, or those that are named, and says of each whether what must hold does.
+
+#include "studies/hard_cases/command.hpp"
+#include "studies/hard_cases/hard_case.hpp"
+#include "studies/hard_cases/page.hpp"
+#include "studies/hard_cases/steps.hpp"
+#include "studies/hard_cases/table.hpp"
+#include "studies/hard_cases/text.hpp"
+#include "terminal/signals.hpp"
+#include "text/numbers.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <carom/simulation.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace carom::cli {
+
+namespace {
+
+const HardCase& case_named(const std::string& name) {
+  const auto& corpus = hard_case_corpus();
+  const auto found = std::find_if(corpus.begin(), corpus.end(), [&](const HardCase& one) { return one.name == name; });
+  if (found == corpus.end())
+    throw UsageError(fmt::format(
+        "{}: there is no such case; carom hardcases --list names them all, and a file of your own ends in .toml", name));
+  return *found;
+}
+
+void require_known(const HardCasesOptions& options) {
+  const std::vector<std::string> engines = engine_names();
+  if (options.engine != "auto" && std::find(engines.begin(), engines.end(), options.engine) == engines.end())
+    throw UsageError(
+        fmt::format("--engine {}: there is no such engine; choose one of: {}", options.engine, fmt::join(engines, ", ")));
+  const std::vector<std::string> methods = fixed_step_names();
+  if (!options.method.empty() && std::find(methods.begin(), methods.end(), options.method) == methods.end())
+    throw UsageError(
+        fmt::format("--method {}: there is no such method; choose one of: {}", options.method, fmt::join(methods, ", ")));
+  if (options.dt && options.method.empty())
+    throw UsageError("--dt is the step of a fixed-step method; give --method, or leave it out");
+  if (options.dt && !(*options.dt > 0.0)) throw UsageError(fmt::format("--dt {:g}: a time step must be above zero", *options.dt));
+  const auto& families = hard_case_families();
+  if (!options.family.empty() && std::find(families.begin(), families.end(), options.family) == families.end())
+    throw UsageError(
+        fmt::format("--family {}: there is no such family; choose one of: {}", options.family, fmt::join(families, ", ")));
+}
+
+/// Those that are named, however long they take; else the corpus.
+std::vector<HardCase> chosen(const HardCasesOptions& options) {
+  std::vector<HardCase> cases;
+  for (const std::string& name : options.cases)
+    cases.push_back(name.ends_with(".toml") ? load_hard_case(name) : case_named(name));
+  if (!options.cases.empty()) return cases;
+  for (const HardCase& one : hard_case_corpus())
+    if ((options.family.empty() || one.family == options.family) && (options.takes_long || options.list || !one.takes_long))
+      cases.push_back(one);
+  return cases;
+}
+
+/// What a fixed-step method does to the cases is no failure of the program.
+ExitCode in_steps(const HardCasesOptions& options, const std::vector<HardCase>& cases) {
+  std::vector<StepTrial> trials;
+  for (const HardCase& one : cases) trials.push_back(run_in_steps(one, options.method, options.dt));
+  fmt::print("{}", options.markdown ? steps_markdown(trials, options.method) : steps_table(trials));
+  return exit_done;
+}
+
+void write_cases_page(const std::string& path, const Page& page) {
+  std::ofstream file(path);
+  file << html_page(page);
+  if (!file.flush()) throw std::runtime_error(fmt::format("{}: cannot be written", path));
+}
+
+ExitCode exit_code_of(const std::vector<CaseVerdict>& verdicts) {
+  const auto all = [&](auto&& holds) { return std::all_of(verdicts.begin(), verdicts.end(), holds); };
+  if (!all([](const CaseVerdict& one) { return one.keeps_invariants(); })) return exit_invalid_state;
+  return all([](const CaseVerdict& one) { return one.holds(); }) ? exit_done : exit_check_failed;
+}
+
+}  // namespace
+
+ExitCode hardcases(const HardCasesOptions& options, const Invocation& invocation) {
+  require_known(options);
+  if (!options.show.empty()) {
+    fmt::print("{}", case_named(options.show).text);
+    return exit_done;
+  }
+  const std::vector<HardCase> cases = chosen(options);
+  if (options.list) {
+    fmt::print("{}", hardcases_list(cases));
+    return exit_done;
+  }
+  if (!options.method.empty()) return in_steps(options, cases);
+  const bool as_it_goes = !options.json && !options.markdown;
+  const StopRequest stop;
+  std::vector<CaseVerdict> verdicts;
+  if (as_it_goes) fmt::print("{}", hardcases_header());
+  for (const HardCase& one : cases) {
+    verdicts.push_back(run_hard_case(one, options.engine, [&stop] { return !stop.made(); }));
+    if (as_it_goes) fmt::print("{}", hardcases_row(verdicts.back()));
+    if (as_it_goes) std::fflush(stdout);
+    if (stop.made()) return exit_interrupted;
+  }
+  if (as_it_goes) fmt::print("{}", hardcases_footer(verdicts));
+  if (options.json) fmt::print("{}\n", hard_cases_json(verdicts));
+  if (options.markdown) fmt::print("{}", hard_cases_markdown(verdicts));
+  if (!options.page.empty()) write_cases_page(options.page, hard_case_page(cases, verdicts, invocation.command_line));
+  return exit_code_of(verdicts);
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,34 @@
+#pragma once
+// Verdicts of hard cases as people and programs read them: rows of a table, Markdown, JSON.
+
+#include "studies/hard_cases/hard_case.hpp"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// One case in words.
+struct HardCaseRow {
+  std::string name;
+  std::string engines;  ///< "fast, general, textbook"; "-" where none ran, as for a scene that is refused
+  std::string checked;  ///< what beyond the things that are checked always
+  std::string worst;    ///< "overlap 2.2e-16 of 1e-12 (fast)"; where something fails, what was found
+  std::string verdict;  ///< "holds", "FAILS" or "not run"
+};
+[[nodiscard]] HardCaseRow row_of(const CaseVerdict& verdict);
+
+/// "96 cases, 530 runs, 6200 checks: all hold; 12 s"
+[[nodiscard]] std::string summary_of(std::span<const CaseVerdict> verdicts);
+
+/// What is checked in every run, in one sentence.
+[[nodiscard]] std::string always_checked();
+
+/// For docs/hard-cases.md: a table for each family.
+[[nodiscard]] std::string hard_cases_markdown(std::span<const CaseVerdict> verdicts);
+
+[[nodiscard]] std::string hard_cases_json(std::span<const CaseVerdict> verdicts);
+
+}  // namespace carom

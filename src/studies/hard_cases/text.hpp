@@ -1,0 +1,19 @@
+#pragma once
+// The table of carom hardcases on a terminal.
+
+#include "studies/hard_cases/hard_case.hpp"
+
+#include <span>
+#include <string>
+
+namespace carom::cli {
+
+/// Every case with what it states, by family.
+std::string hardcases_list(std::span<const HardCase> cases);
+
+std::string hardcases_header();
+std::string hardcases_row(const CaseVerdict& verdict);
+/// What was checked, how many cases hold, and one line for every check that does not.
+std::string hardcases_footer(std::span<const CaseVerdict> verdicts);
+
+}  // namespace carom::cli

@@ -1,0 +1,77 @@
+// carom horizon SCENE: how far the scene's trajectory can be trusted, in a table and one sentence. Writes no files.
+
+#include "studies/horizon/command.hpp"
+#include "io/build_json.hpp"
+#include "io/horizon_json.hpp"
+#include "pages/horizon_sentence.hpp"
+#include "studies/horizon/method.hpp"
+#include "studies/horizon/text.hpp"
+
+#include <fmt/format.h>
+#include <carom/simulation.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <new>
+#include <optional>
+#include <utility>
+
+namespace carom::cli {
+
+namespace {
+
+std::string json_text(const Horizon& horizon, const Scene& scene) {
+  nlohmann::ordered_json json;
+  json["carom"] = detail::build_json();
+  json["scene"] = scene.source;
+  json["seed"] = scene.run.seed;
+  json["disks"] = scene.disk_count();
+  json["packing_fraction"] = scene.packing_fraction();
+  json["horizon"] = horizon_json(horizon);
+  json["sentence"] = sentence_of(horizon);
+  // A path need not be UTF-8, and JSON must be.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+ExitCode measure(const HorizonCommandOptions& options) {
+  if (options.collisions == 0) throw UsageError("--collisions 0: an exponent needs some collisions");
+  const ProgressMode mode = progress_mode(options.progress, options.quiet);
+  const std::string& engine = checked_engine(options.scene);
+  const Scene scene = load(options.scene);
+  require_no_effects(scene, "carom horizon");
+  const StopRequest stop;
+  const std::optional<State> start = [&] {
+    ProgressLine line(mode, scene);
+    return measured_start(scene, engine, [&](const Progress& progress) {
+      line.update(progress);
+      return !stop.made();
+    });
+  }();
+  if (!start) {
+    fmt::print(stderr, "carom: {}: {} while equilibrating, before anything was compared\n", scene.source,
+               stop.made() ? "interrupted" : "the scene stopped");
+    return stop.made() ? exit_interrupted : exit_failed;
+  }
+  const Horizon horizon =
+      horizon_with_progress(scene, *start, {.engine = engine, .lyapunov_collisions = options.collisions.value_or(0)}, mode, stop);
+  if (options.json) {
+    fmt::print("{}\n", json_text(horizon, scene));
+  } else {
+    fmt::print("{}{}\n", options.quiet ? "" : horizon_table(horizon, scene) + "\n", sentence_of(horizon));
+  }
+  return horizon.ended == HorizonEnd::interrupted ? exit_interrupted : exit_done;
+}
+
+}  // namespace
+
+ExitCode horizon(const HorizonCommandOptions& options) {
+  try {
+    return measure(options);
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(
+        fmt::format("{}: there is not enough memory to run this scene in every precision at once; fewer disks need less",
+                    options.scene.path));
+  }
+}
+
+}  // namespace carom::cli

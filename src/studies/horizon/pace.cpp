@@ -1,0 +1,36 @@
+#include "studies/horizon/pace.hpp"
+
+#include "simulation/all_events.hpp"
+
+#include <carom/simulation.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace carom {
+
+std::uint64_t stalled(std::uint64_t disks) { return 200'000 + 20 * disks; }
+
+Pace measure_pace(const Scene& scene, const State& start) {
+  if (start.velocities.cols() == 0) return {};
+  const double fastest = start.velocities.colwise().norm().maxCoeff();
+  if (!(fastest > 0.0)) return {};
+  const auto disks = static_cast<double>(start.velocities.cols());
+  const double passage = std::sqrt(scene.box.area() / disks) / fastest;
+  const double enough = std::max(4000.0, 4.0 * disks);
+  Simulation simulation = make_simulation(scene, start);
+  const auto events = [&] { return static_cast<double>(detail::all_events(simulation.totals())); };
+  bool stuck = false;
+  for (double time = passage; time <= 4096.0 * passage * std::sqrt(disks) && events() < enough && !stuck; time *= 2.0)
+    stuck = simulation.run_until(time) != StopReason::time;
+  Pace pace;
+  pace.stuck = stuck;
+  if (!(simulation.time() > 0.0)) return pace;
+  pace.time = simulation.time();
+  pace.collision_rate = 2.0 * static_cast<double>(simulation.totals().pair) / disks / pace.time;
+  pace.events_per_time = events() / pace.time;
+  return pace;
+}
+
+}  // namespace carom

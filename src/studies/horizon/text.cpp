@@ -1,0 +1,65 @@
+#include "studies/horizon/text.hpp"
+
+#include "text/numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+namespace carom::cli {
+
+namespace {
+
+/// with_error(), and powers of ten where a number in units far from 1 would be all zeros.
+std::string in_any_unit(double value, std::optional<double> error) {
+  if (error && (std::abs(value) >= 1e6 || std::abs(value) < 1e-4)) return fmt::format("{:.3e} ± {:.1e}", value, *error);
+  return with_error(value, error.value_or(0.0));
+}
+
+std::string exponent(const Horizon& horizon) {
+  if (!horizon.lyapunov) return "Lyapunov exponent: none, disks collide too rarely to tell\n";
+  const Lyapunov& lambda = *horizon.lyapunov;
+  return fmt::format("Lyapunov exponent: {} per time, {} per collision of a disk, over {} collisions\n",
+                     in_any_unit(lambda.per_time, lambda.per_time_error),
+                     in_any_unit(lambda.per_collision, lambda.per_collision_error), grouped(lambda.collisions));
+}
+
+std::string row(const HorizonRow& one) {
+  const std::string about = one.estimated ? "~" : "";
+  const std::string never = one.against.empty() ? "?" : "to the end";
+  return fmt::format("  {:<22}{:>4}  {:>10}  {:>10}  {:>12}  {:>9}  {:>9}  {:>6}\n", one.engine, one.bits,
+                     one.time ? about + fmt::format("{:.4g}", *one.time) : never,
+                     one.collisions_per_disk.value_or(0.0) > 0.0 ? about + fmt::format("{:.1f}", *one.collisions_per_disk) : "",
+                     one.first_difference ? grouped(one.first_difference->index + 1) : "",
+                     one.first_difference ? fmt::format("{:.4g}", one.first_difference->time) : "",
+                     one.seconds > 0.0 ? duration(one.seconds) : "", one.price > 0.0 ? fmt::format("{:.2g}", one.price) : "");
+}
+
+}  // namespace
+
+Horizon horizon_with_progress(const Scene& scene, const State& start, HorizonOptions options, ProgressMode mode,
+                              const StopRequest& stop) {
+  ProgressLine line(mode, scene);
+  options.proceed = [&](const HorizonProgress& progress) {
+    line.update("horizon: " + progress.doing, progress.fraction);
+    return !stop.made();
+  };
+  return measure_horizon(scene, start, options);
+}
+
+std::string horizon_table(const Horizon& horizon, const Scene& scene) {
+  std::string text = fmt::format(
+      "{}\n{}, packing fraction {:.4g}; seed {}, run by {}; compared up to t = {:.4g} "
+      "(scene units)\n\n",
+      scene.title.empty() ? scene.source : scene.title, counted(static_cast<std::uint64_t>(scene.disk_count()), "disk"),
+      scene.packing_fraction(), scene.run.seed, horizon.engine, horizon.time);
+  text += fmt::format("  {:<22}{:>4}  {:>24}  {:>21}  {:>17}\n", "", "",
+                      fmt::format("right to {:g} diameters", horizon.tolerance), "first other event", "price");
+  text += fmt::format("  {:<22}{:>4}  {:>10}  {:>10}  {:>12}  {:>9}  {:>9}  {:>6}\n", "engine", "bits", "until t", "coll./disk",
+                      "event", "at t", "time", "ratio");
+  for (const HorizonRow& one : horizon.rows) text += row(one);
+  return text + "\n" + exponent(horizon);
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,185 @@
+#include "studies/sweep/child_run.hpp"
+
+#include "io/output_error.hpp"
+#include "io/partial_file.hpp"
+#include "io/run_directory.hpp"
+#include "studies/sweep/state.hpp"
+#include "terminal/command.hpp"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>  // kill is POSIX, not C++
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+namespace carom::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words words_to_run(const RunOrder& order) {
+  const std::string scene = (order.directory / scene_file).string();
+  Words words = {"carom",      "run",   scene,       "--out", order.directory.string(), "--force", "--quiet",
+                 "--progress", "never", "--threads", "1"};  // other runs have the other processors
+  if (!order.checkpoint_every.empty()) words.insert(words.end(), {"--checkpoint-every", order.checkpoint_every});
+  return words;
+}
+
+Words words_to_resume(const RunOrder& order) {
+  return {"carom", "resume", order.directory.string(), "--quiet", "--progress", "never", "--threads", "1"};
+}
+
+class Child {
+ public:
+  explicit Child(Words words) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const pid_t parent = getpid();
+    id_ = fork();
+    if (id_ == 0) run(argv.data(), ends[1], parent);
+    close(ends[1]);
+    errors_ = ends[0];
+    if (id_ > 0) return;
+    const int error = errno;
+    close(errors_);
+    throw std::system_error(error, std::generic_category(), "cannot start a process");
+  }
+  ~Child() { close(errors_); }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  /// Reads what the child says on stderr, if it comes within the time. False at its end.
+  bool listen(int milliseconds) {
+    pollfd wanted{.fd = errors_, .events = POLLIN, .revents = 0};
+    if (poll(&wanted, 1, milliseconds) <= 0) return true;
+    std::array<char, 4096> bytes{};
+    const ssize_t count = read(errors_, bytes.data(), bytes.size());
+    if (count > 0) said_.append(bytes.data(), static_cast<std::size_t>(count));
+    constexpr std::size_t most = 65536;
+    if (said_.size() > most) said_.erase(0, said_.size() - most);
+    return count > 0 || (count < 0 && errno == EINTR);
+  }
+  void send(int number) const { kill(id_, number); }
+  [[nodiscard]] int status() const {
+    int status = 0;
+    while (waitpid(id_, &status, 0) < 0)
+      if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "cannot wait for a process");
+    return status;
+  }
+  /// The last line, without the program's name.
+  [[nodiscard]] std::string last_sentence() const {
+    const std::size_t end = said_.find_last_not_of('\n');
+    if (end == std::string::npos) return "";
+    const std::size_t before = said_.rfind('\n', end);
+    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+    const std::string line = said_.substr(begin, end + 1 - begin);
+    constexpr std::string_view name = "carom: ";
+    return line.starts_with(name) ? line.substr(name.size()) : line;
+  }
+
+ private:
+  /// In the child, where other threads of the parent may have held any lock: system calls alone. It dies with the parent, even
+  /// where that is killed, and writes no more into directories that a next sweep may use.
+  [[noreturn]] static void run(char** argv, int errors, pid_t parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    signal(SIGUSR1, SIG_DFL);  // where the parent was started to ignore it, the child is not
+    const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+    const bool ready = getppid() == parent && dup2(nothing, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0 &&
+                       dup2(errors, STDERR_FILENO) >= 0;
+    if (ready) execv("/proc/self/exe", argv);
+    _exit(exit_code_without_program);
+  }
+
+  static constexpr int exit_code_without_program = 127;
+  pid_t id_ = -1;
+  int errors_ = -1;
+  std::string said_;
+};
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// Puts the scene into the directory. True where there is a checkpoint of this very scene to go on from.
+bool prepare(const RunOrder& order) {
+  fs::create_directories(order.directory);
+  fs::remove(order.directory / failure_file);
+  const fs::path checkpoint = order.directory / checkpoint_name, previous = order.directory / previous_checkpoint_name;
+  if (text_of(order.directory / scene_file) == order.scene) return fs::exists(checkpoint) || fs::exists(previous);
+  fs::remove(checkpoint);  // before the scene: else they would be taken for its own after a kill in between
+  fs::remove(previous);
+  PartialFile scene(order.directory / scene_file);
+  scene.write(order.scene);
+  scene.publish();
+  return false;
+}
+
+std::string failure_of(int status, const Child& child) {
+  if (WIFSIGNALED(status)) {
+    const int number = WTERMSIG(status);
+    return fmt::format("the run was ended by signal {} ({}){}", number, strsignal(number),
+                       number == SIGKILL ? "; perhaps there is not enough memory" : "");
+  }
+  const std::string said = child.last_sentence();
+  return said.empty() ? fmt::format("the run ended with exit code {}", WEXITSTATUS(status)) : said;
+}
+
+RunEnd run_child(const Words& words, const StopRequest& stop, const std::function<bool()>& tick) {
+  Child child(words);
+  bool stopped = false;
+  constexpr int between_ticks = 100;  // ms
+  while (child.listen(between_ticks)) {
+    const bool go_on = tick();
+    if (stopped || (go_on && !stop.made())) continue;
+    child.send(SIGUSR1);  // which asks to stop, and never ends a run at once, whatever else comes to the child
+    stopped = true;
+  }
+  const int status = child.status();
+  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_done) return {.finished = true};
+  if (stopped || stop.made()) return {};  // Ctrl-C comes to the child too, perhaps sooner
+  return {.failure = failure_of(status, child)};
+}
+
+}  // namespace
+
+RunEnd carry_out(const RunOrder& order, const StopRequest& stop, const std::function<bool()>& tick) {
+  RunEnd end;
+  try {
+    if (prepare(order)) end = run_child(words_to_resume(order), stop, tick);
+    // A checkpoint of another program, or a damaged one, is no reason to do without the run.
+    const bool to_run = !end.finished && !stop.made() && tick();
+    if (to_run) end = run_child(words_to_run(order), stop, tick);
+  } catch (const std::exception& error) {
+    end.failure = error.what();
+  }
+  if (end.failure.empty()) return end;
+  try {
+    PartialFile file(order.directory / failure_file);
+    file.write(end.failure + "\n");
+    file.publish();
+  } catch (const OutputError&) {
+    // Without the file the run counts as not finished, and its sentence is told once, by whoever has started it.
+  }
+  return end;
+}
+
+}  // namespace carom::cli

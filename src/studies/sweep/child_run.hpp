@@ -1,0 +1,31 @@
+#pragma once
+// One run of a sweep as a child process, this very program: a crash, or a lack of memory, ends that run alone.
+
+#include "terminal/signals.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace carom::cli {
+
+/// What is to be run, and where. Goes to other machines as it is.
+struct RunOrder {
+  std::size_t run = 0;              ///< its number in the sweep
+  std::filesystem::path directory;  ///< of its results
+  std::string scene;                ///< with every default
+  std::string checkpoint_every;     ///< as carom run takes it; empty: only when it is stopped
+};
+
+struct RunEnd {
+  bool finished = false;
+  std::string failure = {};  ///< a sentence; empty too where the run was stopped
+};
+
+/// Writes the scene into the directory, runs it there or goes on from the checkpoint that is there, and leaves the sentence of a
+/// failure there too. Calls `tick` some times a second; stops the run, which then completes its files, where `stop` says so or
+/// `tick` returns false. Never throws: whatever goes wrong is the failure of this run.
+[[nodiscard]] RunEnd carry_out(const RunOrder& order, const StopRequest& stop, const std::function<bool()>& tick);
+
+}  // namespace carom::cli

@@ -1,0 +1,201 @@
+// carom sweep SWEEP: many runs of one scene, each in a process and a directory of its own, on the threads of one machine or under
+// mpirun on many; then one table of all that is finished. The same command goes on where an earlier one was interrupted or
+// killed: what is there is all that it knows.
+
+#include "studies/sweep/command.hpp"
+#include "pages/page.hpp"
+#include "studies/study_directory.hpp"
+#include "studies/sweep/directory_lock.hpp"
+#include "studies/sweep/hdf5.hpp"
+#include "studies/sweep/mpi.hpp"
+#include "studies/sweep/page.hpp"
+#include "studies/sweep/progress.hpp"
+#include "studies/sweep/ranks.hpp"
+#include "studies/sweep/reader.hpp"
+#include "studies/sweep/results.hpp"
+#include "studies/sweep/tables.hpp"
+#include "studies/sweep/text.hpp"
+#include "studies/sweep/threads.hpp"
+#include "terminal/durations.hpp"
+#include "text/numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <oneapi/tbb/info.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace carom::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+int threads_for(const SweepCommandOptions& options, bool of_several) {
+  constexpr int most = 4096;
+  if (options.threads && (*options.threads < 1 || *options.threads > most))
+    throw UsageError(fmt::format("--threads {}: it can be 1 to {}", *options.threads, most));
+  return options.threads.value_or(of_several ? 1 : tbb::info::default_concurrency());
+}
+
+fs::path directory_for(const SweepCommandOptions& options) {
+  const fs::path directory = options.out.empty() ? fs::path(options.path).stem() : fs::path(options.out);
+  std::error_code error;
+  if (fs::exists(directory / "summary.json", error))
+    throw UsageError(fmt::format("{}: this directory holds the results of a run, not of a sweep; name another one with --out",
+                                 directory.string()));
+  return directory;
+}
+
+/// The runs that are not finished. Throws UsageError where results of something else are in the way.
+std::vector<std::size_t> runs_to_do(const Sweep& sweep, const fs::path& directory, bool force) {
+  std::vector<std::size_t> runs;
+  for (std::size_t run = 0; run < sweep.run_count(); ++run) {
+    const fs::path place = directory / sweep.directory_of(run);
+    const RunState state = find_run(place, [&] { return resolved_toml(sweep.scene_of(run)); }).state;
+    if (state == RunState::other && !force)
+      throw UsageError(fmt::format(
+          "{}: this directory holds a run of another scene than {} now asks for; replace such runs with --force, or name another "
+          "directory with --out",
+          place.string(), sweep.source));
+    if (state != RunState::finished) runs.push_back(run);
+  }
+  return runs;
+}
+
+/// Hands out runs, in the order of the sweep, until there are no more or it is to stop. Any thread may ask.
+class Desk {
+ public:
+  Desk(const Sweep& sweep, const fs::path& directory, const std::vector<std::size_t>& runs, const StopRequest& stop,
+       SweepProgress& progress, std::string checkpoint_every)
+      : sweep_(sweep),
+        directory_(directory),
+        runs_(runs),
+        stop_(stop),
+        progress_(progress),
+        checkpoint_every_(std::move(checkpoint_every)) {}
+
+  [[nodiscard]] RunDesk open() {
+    return {.next = [this] { return next(); }, .done = [this](const RunOrder&, const RunEnd& end) { progress_.ended(end); }};
+  }
+
+ private:
+  std::optional<RunOrder> next() {
+    const std::scoped_lock lock(mutex_);
+    if (stop_.made() || at_ == runs_.size()) return {};
+    const std::size_t run = runs_[at_++];
+    progress_.begun();
+    return RunOrder{.run = run,
+                    .directory = directory_ / sweep_.directory_of(run),
+                    .scene = resolved_toml(sweep_.scene_of(run)),
+                    .checkpoint_every = checkpoint_every_};
+  }
+
+  std::mutex mutex_;
+  const Sweep& sweep_;
+  const fs::path& directory_;
+  const std::vector<std::size_t>& runs_;
+  const StopRequest& stop_;
+  SweepProgress& progress_;
+  std::string checkpoint_every_;
+  std::size_t at_ = 0;
+};
+
+void run_all(Desk& desk, int threads, SweepServer* server, const StopRequest& stop, SweepProgress& progress) {
+  const RunDesk open = desk.open();
+  const auto work = [&](const RunOrder& order) {
+    return carry_out(order, stop, [&] {
+      progress.tick();
+      return true;
+    });
+  };
+  if (server == nullptr) {
+    run_in_threads(threads, open, work);
+    return;
+  }
+  auto here = std::async(std::launch::async, [&] { run_in_threads(threads, open, work); });
+  const auto done_here = [&] { return here.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
+  server->serve(open, done_here, [&] { return stop.made(); });
+  here.get();
+}
+
+/// A number asked for that no run has is a slip that nobody should have to look for.
+void warn_of_absent_numbers(const Sweep& sweep, const SweepResults& results) {
+  if (results.count(RunState::finished) == 0) return;
+  for (std::size_t k = 0; k < sweep.table.size(); ++k) {
+    bool there = false;
+    for (const auto& averages : results.averages) there = there || averages[k].mean.has_value();
+    if (!there) fmt::print(stderr, "carom: {}: no run has the number \"{}\" of the table\n", sweep.source, sweep.table[k]);
+  }
+}
+
+ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invocation, SweepServer* server) {
+  const ProgressMode mode = progress_mode(options.progress, options.quiet);
+  const int threads = threads_for(options, server != nullptr);
+  if (!options.checkpoint_every.empty()) (void)saving_plan(options.checkpoint_every);
+  const Sweep sweep = load_sweep(options.path);
+  const fs::path path = directory_for(options);
+  if (options.list) {
+    fmt::print("{}", commands_of(sweep, runs_to_do(sweep, path, options.force), path, invocation));
+    return exit_done;
+  }
+  (void)runs_to_do(sweep, path, options.force);  // whatever is in the way is said before anything is written
+  const StopRequest stop;
+  std::error_code said_below;
+  fs::create_directories(path, said_below);
+  std::optional<DirectoryLock> lock;
+  if (fs::is_directory(path, said_below)) lock.emplace(path);
+  const RunDirectory directory = open_study(path, false, true, {});
+  const std::vector<std::size_t> runs = runs_to_do(sweep, path, options.force);
+  {
+    SweepProgress progress(mode, sweep.run_count(), sweep.run_count() - runs.size());
+    Desk desk(sweep, path, runs, stop, progress, options.checkpoint_every);
+    run_all(desk, threads, server, stop, progress);
+  }
+  const SweepResults results = collect(sweep, path);
+  write_product(directory, "runs.csv", runs_csv(sweep, results));
+  write_product(directory, "sweep.h5", sweep_hdf5(sweep, results));
+  write_product(directory, "report.html", html_page(sweep_page(sweep, results)));
+  write_product(directory, "sweep.csv", points_csv(sweep, results));
+  if (!options.quiet) fmt::print("{}", sweep_text(sweep, results, path));
+  warn_of_absent_numbers(sweep, results);
+  if (results.versions.size() > 1)
+    fmt::print(stderr, "carom: {}: these runs were made by {} versions of carom; report.html names them\n", sweep.source,
+               results.versions.size());
+  const std::size_t finished = results.count(RunState::finished), failed = results.count(RunState::failed);
+  if (finished + failed < sweep.run_count()) {
+    fmt::print(stderr, "carom: {}: interrupted; {} of {} runs are finished, and the same command goes on from there\n",
+               sweep.source, finished, sweep.run_count());
+    return stop.made() || failed == 0 ? exit_interrupted : exit_failed;
+  }
+  if (failed == 0) return exit_done;
+  fmt::print(stderr, "carom: {}: {} of {} runs failed, as runs.csv says; the same command tries them again\n", sweep.source,
+             failed, sweep.run_count());
+  return exit_failed;
+}
+
+}  // namespace
+
+ExitCode sweep(const SweepCommandOptions& options, const Invocation& invocation) {
+  const Launch started = launch();
+  std::unique_ptr<Ranks> ranks;
+  try {
+    ranks = join_ranks(started);
+  } catch (const UsageError&) {
+    if (started.rank > 0) return exit_done;  // the first one says it
+    throw;
+  }
+  if (ranks == nullptr) return sweep_scene(options, invocation, nullptr);
+  if (ranks->rank() > 0) return work_for_first_rank(*ranks, std::max(1, options.threads.value_or(1)));
+  SweepServer server(*ranks);
+  return sweep_scene(options, invocation, &server);
+}
+
+}  // namespace carom::cli

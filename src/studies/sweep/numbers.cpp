@@ -1,0 +1,131 @@
+#include "studies/sweep/numbers.hpp"
+
+#include "io/summary.hpp"
+#include "observe/effects_report.hpp"
+#include "observe/observable_group.hpp"
+#include "scene/excerpt.hpp"
+#include "scene/known_keys.hpp"
+#include "scene/observables_known.hpp"
+#include "simulation/start.hpp"
+#include "studies/sweep/units.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace carom {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Which program and what a clock measured, which differ from machine to machine; the seed, which is a parameter; and what is no
+/// result of the scene alone.
+constexpr std::array<std::string_view, 9> no_results = {
+    "carom", "seed", "dt", "wall_seconds", "loop_seconds", "collisions_per_second", "stopped_disks", "verified", "horizon"};
+
+constexpr std::array<std::string_view, 7> usual = {"packing_fraction", "time",       "events.pair",     "energy.final",
+                                                   "temperature.mean", "pressure.Z", "pressure.reduced"};
+
+constexpr std::string_view observables = "observables.";
+
+std::optional<double> value_of(const Json& json) { return json.is_null() ? std::nullopt : std::optional(json.get<double>()); }
+
+void collect(const Json& json, const std::string& name, std::vector<SummaryNumber>& numbers) {
+  if (json.is_number() || json.is_null()) {
+    numbers.push_back({name, value_of(json), unit_of_number(name)});
+  } else if (json.is_structured()) {
+    for (const auto& [key, entry] : json.items()) collect(entry, fmt::format("{}.{}", name, key), numbers);
+  }
+}
+
+void collect_observables(const Json& all, std::vector<SummaryNumber>& numbers) {
+  for (const auto& [observable, scalars] : all.items())
+    for (const auto& [key, scalar] : scalars.items()) {
+      if (!scalar.is_object() || !scalar.contains("value")) continue;  // a note, or names of tables
+      const std::string name = fmt::format("{}{}.{}", observables, observable, key);
+      const std::string unit = scalar.value("unit", "");
+      numbers.push_back({name, value_of(scalar.at("value")), unit});
+      numbers.push_back({name + "_error", value_of(scalar.at("error")), unit});
+    }
+}
+
+/// Disks at rest in the middle of the box: a state that reports can be made of, whatever acts.
+State state_of_nothing(const Scene& scene, Eigen::Index disks) {
+  State state;
+  state.positions = (0.5 * (scene.box.lower + scene.box.upper)).replicate(1, disks);
+  state.velocities = Eigen::Matrix2Xd::Zero(2, disks);
+  state.images = Images::Zero(2, disks);
+  state.spins = Eigen::VectorXd::Zero(disks);
+  state.walls.resize(4);
+  return state;
+}
+
+/// "pressure" of "observables.pressure.Z"
+std::string observable_of(std::string_view name) {
+  const std::string_view rest = name.substr(observables.size());
+  return std::string(rest.substr(0, rest.find('.')));
+}
+
+std::string fault_of_observable(const std::string& name, const std::vector<std::string>& numbers) {
+  const std::string observable = observable_of(name);
+  std::vector<std::string> own, all;
+  for (const std::string& number : numbers) {
+    if (!number.starts_with(observables) || number.ends_with("_error")) continue;
+    all.push_back(number);
+    if (observable_of(number) == observable) own.push_back(number);
+  }
+  if (!own.empty()) return fmt::format("no run has that number; of {} there are {}", observable, fmt::join(own, ", "));
+  if (detail::find_observable(observable) == nullptr)
+    return fmt::format("there is no observable \"{}\"; {}", detail::excerpt(observable, 40),
+                       all.empty() ? "the scene's [observe] asks for none" : fmt::format("there are {}", fmt::join(all, ", ")));
+  return fmt::format("no run has that number: the scene's [observe] does not ask for {}, or it makes tables alone{}", observable,
+                     all.empty() ? "" : fmt::format("; there are {}", fmt::join(all, ", ")));
+}
+
+}  // namespace
+
+std::vector<SummaryNumber> numbers_of(const Json& summary) {
+  std::vector<SummaryNumber> numbers;
+  for (const auto& [key, entry] : summary.items()) {
+    if (key == "observables") {
+      collect_observables(entry, numbers);
+    } else if (std::find(no_results.begin(), no_results.end(), key) == no_results.end()) {
+      collect(entry, key, numbers);
+    }
+  }
+  return numbers;
+}
+
+bool is_usual_number(std::string_view name) {
+  if (name.starts_with(observables)) return !name.ends_with("_error");
+  return std::find(usual.begin(), usual.end(), name) != usual.end();
+}
+
+std::vector<std::string> number_names(const Scene& scene) {
+  const Disks disks = all_disks(scene);
+  const State state = state_of_nothing(scene, static_cast<Eigen::Index>(disks.count()));
+  RunReport report;
+  report.of_effects = effects_report(scene, disks, Totals{}, state);
+  if (scene.effects.collision.roughness) report.of_effects.spin_temperature = 0.0;
+  if (scene.run.accept_overlap) report.overlap_at_start = 0.0;
+  ObservableGroup group(observed_run(scene, disks, 1.0));
+  group.start(state);
+  report.observables = group.results(0.0, Totals{});
+  std::vector<std::string> names;
+  for (const SummaryNumber& number : numbers_of(Json::parse(summary_json(report, {})))) names.push_back(number.name);
+  return names;
+}
+
+std::string fault_of_number_name(const std::string& name, const std::vector<std::string>& numbers) {
+  const std::vector<std::string_view> words(numbers.begin(), numbers.end());
+  const std::string_view near = detail::nearest_word(name, words);
+  if (!near.empty()) return fmt::format("no run has that number; did you mean \"{}\"?", near);
+  if (name.starts_with(observables)) return fault_of_observable(name, numbers);
+  return "no run has that number; docs/output.md lists them, such as \"pressure.Z\", and a scene's observables add theirs";
+}
+
+}  // namespace carom

@@ -1,0 +1,11 @@
+#pragma once
+// A sweep's results as a page: every number against every swept key, with error bars; tables; what has failed.
+
+#include "pages/page.hpp"
+#include "studies/sweep/results.hpp"
+
+namespace carom {
+
+[[nodiscard]] Page sweep_page(const Sweep& sweep, const SweepResults& results);
+
+}  // namespace carom

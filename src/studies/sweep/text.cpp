@@ -1,0 +1,101 @@
+#include "studies/sweep/text.hpp"
+
+#include "studies/sweep/words.hpp"
+#include "text/numbers.hpp"
+#include "text/units.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace carom::cli {
+
+namespace {
+
+constexpr std::size_t most_columns = 4, most_points = 40, most_failures = 20;
+
+/// Those asked for, or the ones that most people look at first.
+std::vector<std::size_t> shown_columns(const Sweep& sweep, const SweepResults& results) {
+  std::vector<std::size_t> columns;
+  if (sweep.table.empty())
+    for (const char* name : {"pressure.Z", "temperature.mean", "packing_fraction"}) {
+      const auto found = std::find(results.numbers.begin(), results.numbers.end(), name);
+      if (found != results.numbers.end()) columns.push_back(static_cast<std::size_t>(found - results.numbers.begin()));
+    }
+  for (std::size_t k = 0; columns.size() < most_columns && k < results.numbers.size(); ++k) {
+    const bool wanted = !sweep.table.empty() || results.numbers[k].starts_with("observables.");
+    if (wanted) columns.push_back(k);
+  }
+  return columns;
+}
+
+/// The first column to the left, the others to the right, as wide as they need.
+std::string aligned(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  const auto width = [](const std::string& text) {
+    return fmt::formatted_size("{}", text) -
+           static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) == 0x80; }));
+  };
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width(row[k]));
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line = "  " + row.front() + std::string(widths.front() - width(row.front()), ' ');
+    for (std::size_t k = 1; k < row.size(); ++k) line += "   " + std::string(widths[k] - width(row[k]), ' ') + row[k];
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string table_of(const Sweep& sweep, const SweepResults& results) {
+  const std::vector<std::size_t> columns = shown_columns(sweep, results);
+  std::vector<std::vector<std::string>> rows = {{"point"}};
+  for (const std::size_t k : columns) rows.front().push_back(results.numbers[k]);
+  const bool has_units = std::any_of(columns.begin(), columns.end(), [&](std::size_t k) { return !results.units[k].empty(); });
+  if (has_units) rows.push_back({"in scene units"});
+  for (const std::size_t k : columns)
+    if (has_units) rows.back().push_back(unit_words(results.units[k]));
+  for (std::size_t point = 0; point < std::min(most_points, sweep.points.size()); ++point) {
+    rows.push_back({sweep.points[point].name});
+    for (const std::size_t k : columns) rows.back().push_back(average_words(results.averages[point][k]));
+  }
+  std::string text = aligned(rows);
+  if (sweep.points.size() > most_points) text += fmt::format("  and {} more in sweep.csv\n", sweep.points.size() - most_points);
+  return text;
+}
+
+std::string failures_of(const Sweep& sweep, const SweepResults& results) {
+  std::string text;
+  std::size_t told = 0;
+  for (std::size_t run = 0; run < results.runs.size(); ++run) {
+    if (results.runs[run].state != RunState::failed) continue;
+    if (++told <= most_failures) text += fmt::format("  {}: {}\n", sweep.directory_of(run).string(), results.runs[run].failure);
+  }
+  if (told > most_failures) text += fmt::format("  and {} more in runs.csv\n", told - most_failures);
+  return told == 0 ? "" : fmt::format("\n{} failed:\n{}", counted(told, "run"), text);
+}
+
+}  // namespace
+
+std::string sweep_text(const Sweep& sweep, const SweepResults& results, const std::filesystem::path& directory) {
+  const char* over = sweep.seeds.size() == 1 ? ""
+                     : sweep.drawn           ? "; means and standard errors over seeds"
+                                             : "; nothing of them is drawn, so that every seed gives the same run";
+  return fmt::format("{}: {} with {} each{}\n{}{}\nFiles in {}: {}\n", sweep.scene_path, counted(sweep.points.size(), "point"),
+                     counted(sweep.seeds.size(), "seed"), over, table_of(sweep, results), failures_of(sweep, results),
+                     directory.string(), fmt::join(sweep_products, ", "));
+}
+
+std::string commands_of(const Sweep& sweep, const std::vector<std::size_t>& runs, const std::filesystem::path& directory,
+                        const Invocation& invocation) {
+  std::string text;
+  for (const std::size_t run : runs) {
+    text += fmt::format("{} run {}", invocation.program, shell_quoted(sweep.scene_path));
+    for (const std::string& change : sweep.overrides_of(run)) text += fmt::format(" --set {}", shell_quoted(change));
+    text += fmt::format(" --out {} --force --quiet\n", shell_quoted((directory / sweep.directory_of(run)).string()));
+  }
+  return text;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,75 @@
+#include "studies/sweep/units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace carom {
+
+namespace {
+
+/// Names that begin with `first` and end with `last` have this unit.
+struct UnitOf {
+  std::string_view first, last, unit;
+};
+
+/// The first that fits.
+constexpr std::array<UnitOf, 21> of_numbers = {{{"time", "time", "time"},
+                                                {"energy.", "drift", ""},
+                                                {"energy.", "unexplained", ""},
+                                                {"energy.", "", "energy"},
+                                                {"momentum.", "", "mass length / time"},
+                                                {"temperature.", "", "energy"},
+                                                {"wall_impulse.", "", "mass length / time"},
+                                                {"virial", "virial", "mass length^2 / time"},
+                                                {"walls.", ".momentum", "mass length / time"},
+                                                {"walls.", ".energy", "energy"},
+                                                {"walls.", ".force", "energy / length"},
+                                                {"walls.", ".pressure", "energy / area"},
+                                                {"walls.", ".position", "length"},
+                                                {"walls.", ".velocity", "length / time"},
+                                                {"dissipated", "dissipated", "energy"},
+                                                {"obstacles.", "", "mass length / time"},
+                                                {"thermostat.", ".energy", "energy"},
+                                                {"growth.", ".energy", "energy"},
+                                                {"shear.", ".energy", "energy"},
+                                                {"shear.pressure_xy", "", "energy / area"},
+                                                {"shear.", ".viscosity", "mass / time"}}};
+
+constexpr std::array<UnitOf, 23> of_keys = {{{"box.x", "", "length"},
+                                             {"box.y", "", "length"},
+                                             {"disks.", ".radius", "length"},
+                                             {"disks.", ".mass", "mass"},
+                                             {"disks.", ".temperature", "energy"},
+                                             {"disks.", ".uniform", "length / time"},
+                                             {"disks.", ".speed", "length / time"},
+                                             {"collision.", ".time", "time"},
+                                             {"gravity.", "", "length / time^2"},
+                                             {"walls.", ".temperature", "energy"},
+                                             {"walls.", ".velocity", "length / time"},
+                                             {"walls.", ".mass", "mass"},
+                                             {"walls.", ".load", "energy / area"},
+                                             {"obstacles.", "", "length"},
+                                             {"growth.", ".rate", "1 / time"},
+                                             {"thermostat.", ".temperature", "energy"},
+                                             {"thermostat.", ".rate", "1 / time"},
+                                             {"shear.", ".rate", "1 / time"},
+                                             {"square_well.", ".depth", "energy"},
+                                             {"run.sample_every", "sample_every", "time"},
+                                             {"run.sample_log", ".block", "time"},
+                                             {"run.", "time", "time"},
+                                             {"observe.", ".every", "time"}}};
+
+std::string unit_in(std::span<const UnitOf> units, std::string_view name) {
+  const auto fits = [&](const UnitOf& entry) { return name.starts_with(entry.first) && name.ends_with(entry.last); };
+  const auto found = std::find_if(units.begin(), units.end(), fits);
+  return found == units.end() ? std::string() : std::string(found->unit);
+}
+
+}  // namespace
+
+std::string unit_of_number(std::string_view name) { return unit_in(of_numbers, name); }
+
+std::string unit_of_key(std::string_view key) { return unit_in(of_keys, key); }
+
+}  // namespace carom

@@ -1,0 +1,40 @@
+#include "studies/validate/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+
+namespace {
+
+/// `difference` in standard errors. Without an error any difference is infinitely many of them; what is no number never agrees.
+double in_errors(double difference, double error) {
+  if (std::isnan(difference) || std::isnan(error)) return std::numeric_limits<double>::infinity();
+  if (difference == 0.0) return 0.0;
+  return error > 0.0 ? difference / error : std::copysign(std::numeric_limits<double>::infinity(), difference);
+}
+
+}  // namespace
+
+double Check::error() const { return std::hypot(measured.error, reference_error); }
+
+double Check::z() const { return equivalent ? *equivalent : in_errors(measured.value - expected, error()); }
+
+double Check::deviation() const {
+  if (equivalent) return *equivalent;
+  const double difference = measured.value - expected;
+  if (std::isnan(difference)) return in_errors(difference, error());
+  return in_errors(std::copysign(std::max(0.0, std::abs(difference) - allowance), difference), error());
+}
+
+bool Check::fits() const { return std::abs(deviation()) <= 5.0; }
+
+bool Check::calibrates() const {
+  const bool normal = !equivalent && !error_is_bound && measured.error > 0.0;
+  return judged == Judged::agrees && normal && allowance + reference_error < 0.2 * measured.error;
+}
+
+bool Check::holds() const { return judged == Judged::shown || fits() == (judged == Judged::agrees); }
+
+}  // namespace carom

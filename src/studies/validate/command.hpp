@@ -1,0 +1,28 @@
+#pragma once
+// carom validate: measurements held against known results.
+
+#include "terminal/command.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace carom::cli {
+
+struct ValidateCommandOptions {
+  bool quick = false;  ///< what it is without --full
+  bool full = false;
+  std::int64_t seed = 1;
+  std::vector<std::string> only;  ///< names of trials; empty: all
+  std::string out;                ///< empty: validation
+  bool list = false;
+  bool force = false;
+  bool resume = false;
+  bool json = false;
+  bool markdown = false;
+  bool quiet = false;
+  std::string progress = "auto";
+};
+ExitCode validate(const ValidateCommandOptions& options, const Invocation& invocation);
+
+}  // namespace carom::cli

@@ -1,0 +1,224 @@
+// Pressure: the fluid at twelve densities, small systems without any correction, the virial series, the transition from liquid to
+// hexatic, the solid near close packing.
+
+#include "studies/validate/gas.hpp"
+#include "theory/clisby_mccoy_2006.hpp"
+#include "theory/equation_of_state.hpp"
+#include "theory/kinetic.hpp"
+#include "theory/li_2022.hpp"
+#include "theory/microcanonical.hpp"
+
+#include <carom/blocking.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace carom::validation {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// One density of the fluid: as many disks as correlations ask for, and collisions.
+struct Density {
+  double eta;
+  std::int64_t disks;
+  double collisions;  ///< in a quick validation
+};
+// Beyond 0.63 the first term in 1/N does not hold any more; there systems are large enough for what it would be to be small.
+constexpr std::array<Density, 12> densities = {{{0.01, 256, 1e6},
+                                                {0.05, 256, 1e6},
+                                                {0.10, 256, 2e6},
+                                                {0.20, 256, 2e6},
+                                                {0.30, 256, 3e6},
+                                                {0.40, 256, 3e6},
+                                                {0.50, 256, 3e6},
+                                                {0.55, 256, 4e6},
+                                                {0.60, 576, 8e6},
+                                                {0.63, 1024, 1e7},
+                                                {0.66, 4096, 1.2e7},
+                                                {0.69, 4096, 1.6e7}}};
+
+/// Z from the rate of collisions less Z from momentum, of a gas of kT = 1: both come from the same collisions, so that the error
+/// of their difference is not that of two independent numbers.
+class TwoPressures final : public Observable {
+ public:
+  TwoPressures(double step, std::int64_t disks, Blocking& difference)
+      : step_(step),
+        disks_(static_cast<double>(disks)),
+        speed_factor_(theory::Microcanonical(disks, true).speed_factor()),
+        difference_(difference) {}
+  [[nodiscard]] std::string name() const override { return "two_pressures"; }
+  [[nodiscard]] double step() const override { return step_; }
+  void sample(const State&, const Totals& totals) override {
+    const double from_rate = 0.5 * std::sqrt(pi) / speed_factor_ * static_cast<double>(totals.pair) / disks_;
+    const double now = from_rate - totals.virial / (2.0 * disks_);
+    if (begun_) difference_.add((now - before_) / step_);
+    begun_ = true;
+    before_ = now;
+  }
+  [[nodiscard]] Measurement finish(double, const Totals&) override { return {.name = name()}; }
+
+ private:
+  double step_, disks_, speed_factor_, before_ = 0.0;
+  Blocking& difference_;
+  bool begun_ = false;
+};
+
+TrialResult fluid(const std::string& trial, const Density& at, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  const Gas gas{.disks = at.disks,
+                .packing_fraction = at.eta,
+                .collisions = effort.collisions(at.collisions),
+                .observe = "pressure = true\n",
+                .positions = at.eta > 0.64 ? fmt::format("{{ packing_fraction = {} }}", at.eta) : "\"hexagonal\"",
+                .equilibrate = at.eta > 0.64 ? 3000.0 : 100.0};
+  Blocking difference;
+  std::vector<std::unique_ptr<Observable>> own;
+  const double rate = theory::disk_collision_rate(theory::kolafa_rottner(at.eta));
+  own.push_back(std::make_unique<TwoPressures>(16.0 / rate, at.disks, difference));
+  const Found found = run(scene_text(gas, effort.seed_of(0)), effort, result, std::move(own));
+  const Measured Z = found.measured("pressure", "Z");
+  const bool corrected = at.eta <= 0.63;
+  const double infinite = theory::kolafa_rottner(at.eta), finite = theory::kolafa_rottner_finite(at.eta, at.disks);
+  // Nearer to the transition terms of higher order in 1/N are as large as the first for small systems; for these large ones the
+  // first is given, and itself as its error.
+  const double reference_error = std::hypot(theory::kolafa_rottner_error(at.eta), corrected ? 0.0 : finite - infinite);
+  result.checks.push_back(
+      {.name = fmt::format("Z at packing fraction {:.2f}, {} disks", at.eta, at.disks),
+       .theory = "the fluid's equation of state with the first term in 1/N",
+       .source = "Kolafa & Rottner, Mol. Phys. 104, 3435 (2006); 1/N: Lebowitz & Percus, Phys. Rev. 122, 1675 (1961)",
+       .expected = finite,
+       .measured = Z,
+       .reference_error = reference_error});
+  result.checks.push_back(
+      {.name = fmt::format("Z from how often disks collide, packing fraction {:.2f}, {} disks", at.eta, at.disks),
+       .theory = "that from the momentum they transfer",
+       .source = "exact: velocities at collisions are those of equilibrium",
+       .expected = Z.value,
+       .measured = {found.measured("pressure", "Z_rate").value, difference.estimate()->error.value_or(NAN)}});
+  if (at.eta <= 0.2) {
+    const double series = theory::virial_series(at.eta), last = 12.0 * std::pow(at.eta, 10);
+    result.checks.push_back(
+        {.name = fmt::format("Z against the virial series at packing fraction {:.2f}, {} disks", at.eta, at.disks),
+         .theory = "1 + b_2 eta + ... + b_10 eta^9, with the first term in 1/N",
+         .source = "Clisby & McCoy, J. Stat. Phys. 122, 15 (2006)",
+         .expected = series + finite - infinite,
+         .measured = Z,
+         .allowance = last,
+         .allowance_for = "the first term left out"});
+  }
+  result.curves.push_back({.plot = "equation-of-state", .name = "measured", .x = {at.eta}, .y = {Z.value}, .error = {Z.error}});
+  result.curves.push_back({.plot = "equation-of-state-residual",
+                           .name = "measured",
+                           .x = {at.eta},
+                           .y = {1e3 * (Z.value / finite - 1.0)},
+                           .error = {1e3 * Z.error / finite}});
+  return result;
+}
+
+TrialResult small(const std::string& trial, const theory::ReferencePressure& known, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  const Gas gas{.disks = known.disks,
+                .packing_fraction = known.packing_fraction,
+                .collisions = effort.collisions(8e6),
+                .observe = "pressure = true\n",
+                .equilibrate = 2000.0};
+  const Found found = run(scene_text(gas, effort.seed_of(0)), effort, result);
+  result.checks.push_back(
+      {.name = fmt::format("P sigma^2 / kT of {} disks at packing fraction {:.2f}", known.disks, known.packing_fraction),
+       .theory = "for this number of disks in a square box",
+       .source = "Li et al., J. Chem. Phys. 157, 234111 (2022)",
+       .expected = known.pressure,
+       .measured = found.measured("pressure", "reduced"),
+       .reference_error = known.error});
+  return result;
+}
+
+/// A crystal of 16 x 18 disks in a box that fits it.
+TrialResult solid(const std::string& trial, double alpha, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  constexpr int columns = 16, rows = 18, disks = columns * rows;
+  // Close packing has eta_cp = pi / 2 sqrt3; lengths are 1 + alpha times as large in area.
+  const double spacing = std::sqrt(1.0 + alpha);
+  const std::string scene = fmt::format(
+      "[box]\nx = [0.0, {:.17g}]\ny = [0.0, {:.17g}]\nboundary = \"periodic\"\n\n[[disks]]\ncount = {}\nradius = 0.5\nmass = "
+      "1.0\n"
+      "positions = \"hexagonal\"\nvelocities = {{ temperature = 1.0 }}\n\n[collision]\nrule = \"specular\"\n\n[run]\n"
+      "collisions = {:.0f}\nequilibrate = {{ collisions_per_disk = 500 }}\nseed = {}\n\n[observe]\npressure = true\n",
+      columns * spacing, rows * spacing * 0.5 * std::numbers::sqrt3, disks, effort.collisions(4e6), effort.seed_of(0));
+  const Found found = run(scene, effort, result);
+  const double eta = 0.25 * pi * disks / (columns * spacing * rows * spacing * 0.5 * std::numbers::sqrt3);
+  result.checks.push_back({.name = fmt::format("Z of a crystal of {} disks at packing fraction {:.6f}", disks, eta),
+                           .theory = "2 (1 - 1/N) / alpha + 1.90(1) + 0.67(7) alpha, alpha = eta_cp / eta - 1",
+                           .source = "2 / alpha: Salsburg & Wood, J. Chem. Phys. 37, 798 (1962); the rest: Alder, Hoover & "
+                                     "Young, J. Chem. Phys. 49, 3688 (1968)",
+                           .expected = 2.0 * (1.0 - 1.0 / disks) / alpha + 1.90 + 0.67 * alpha,
+                           .measured = found.measured("pressure", "Z"),
+                           .reference_error = std::hypot(0.01, 0.07 * alpha)});
+  return result;
+}
+
+/// Where liquid turns to hexatic domains take long to form and to dissolve. Only what an ordered and a disordered start agree on
+/// is the pressure of equilibrium.
+TrialResult transition(const std::string& trial, const theory::ReferencePressure& known, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  const auto pressure = [&](double equilibrate, std::uint64_t k, const Change& change) {
+    const Gas gas{.disks = known.disks,
+                  .packing_fraction = known.packing_fraction,
+                  .collisions = 6e8,
+                  .observe = "pressure = true\n",
+                  .equilibrate = equilibrate};
+    return run(scene_text(gas, effort.seed_of(k)), effort, result, {}, change).measured("pressure", "reduced");
+  };
+  const std::string what = fmt::format("{} disks at packing fraction {:.3f}", known.disks, known.packing_fraction);
+  const Measured from_lattice = pressure(20'000.0, 0, {});
+  const Measured from_liquid = pressure(60'000.0, 1, [&](State& start) {
+    const State liquid = compressed_liquid(known.disks, known.packing_fraction, effort, effort.seed_of(2));
+    start.positions = liquid.positions;
+    start.velocities = liquid.velocities;
+    start.remainders.resize(2, 0);
+  });
+  result.checks.push_back({.name = fmt::format("P sigma^2 / kT of {}, from a compressed liquid", what),
+                           .theory = "that from a perfect lattice",
+                           .source = "equilibrium knows no start",
+                           .expected = from_lattice.value,
+                           .measured = from_liquid,
+                           .reference_error = from_lattice.error});
+  result.checks.push_back(
+      {.name = fmt::format("P sigma^2 / kT of {}, mean of both starts", what),
+       .theory = "for this number of disks in a square box",
+       .source = "Li et al., J. Chem. Phys. 157, 234111 (2022)",
+       .expected = known.pressure,
+       .measured = {0.5 * (from_lattice.value + from_liquid.value), 0.5 * std::hypot(from_lattice.error, from_liquid.error)},
+       .reference_error = known.error});
+  return result;
+}
+
+}  // namespace
+
+void add_equation_of_state(std::vector<Trial>& trials) {
+  const std::string group = "equation of state";
+  for (const Density& at : densities) {
+    const std::string name = fmt::format("pressure-{:.2f}", at.eta);
+    trials.push_back({name, group, false, [=](const Effort& effort) { return fluid(name, at, effort); }});
+  }
+  for (const theory::ReferencePressure& known : theory::li_2022) {
+    const std::string name = fmt::format("pressure-{}-disks-{:.2f}", known.disks, known.packing_fraction);
+    trials.push_back({name, group, false, [=](const Effort& effort) { return small(name, known, effort); }});
+  }
+  for (const double alpha : {1e-2, 1e-3}) {
+    const std::string name = fmt::format("crystal-{:g}", alpha);
+    trials.push_back({name, group, false, [=](const Effort& effort) { return solid(name, alpha, effort); }});
+  }
+  for (const theory::ReferencePressure& known : theory::li_2022_transition) {
+    const std::string name = fmt::format("transition-{:.3f}", known.packing_fraction);
+    trials.push_back({name, group, true, [=](const Effort& effort) { return transition(name, known, effort); }});
+  }
+}
+
+}  // namespace carom::validation

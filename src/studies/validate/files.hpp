@@ -1,0 +1,33 @@
+#pragma once
+// A validation in files: trials.jsonl, which grows by a line with every trial that is finished and from which an interrupted
+// validation goes on; validation.json with everything.
+
+#include "studies/finished_parts.hpp"
+#include "studies/validate/validation.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace carom {
+
+/// What two validations must share for one to go on from the other: how much work, the seed, the program.
+[[nodiscard]] std::string validation_key(const ValidateOptions& options);
+
+/// The finished trials, one JSON object a line.
+class TrialsFile {
+ public:
+  /// Begins a new file with the trials of `before`. Throws OutputError.
+  TrialsFile(std::filesystem::path path, const std::string& key, const Validation& before);
+  void add(const TrialResult& result);
+
+ private:
+  detail::FinishedParts parts_;
+};
+
+/// The trials that an earlier validation has finished. A last line that was not finished is left out. Throws OutputError where
+/// the file cannot be read, or belongs to another validation than `key`.
+[[nodiscard]] Validation load_trials(const std::filesystem::path& path, const std::string& key);
+
+[[nodiscard]] std::string validation_json(const Validation& validation, const std::string& command_line);
+
+}  // namespace carom

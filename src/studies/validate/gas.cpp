@@ -1,0 +1,102 @@
+#include "studies/validate/gas.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace carom::validation {
+
+std::string scene_text(const Gas& gas, std::uint64_t seed) {
+  return fmt::format(
+      "[box]\naspect = 1.0\nboundary = \"{}\"\n\n[[disks]]\ncount = {}\nradius = 0.5\npacking_fraction = {}\nmass = 1.0\n"
+      "positions = {}\nvelocities = {}\n\n[collision]\nrule = \"{}\"\n\n[run]\ncollisions = {:.0f}\n"
+      "equilibrate = {{ collisions_per_disk = {:g} }}\nseed = {}\n\n[observe]\n{}",
+      gas.boundary, gas.disks, gas.packing_fraction, gas.positions, gas.velocities, gas.rule, gas.collisions, gas.equilibrate,
+      seed, gas.observe);
+}
+
+const Scalar& Found::scalar(const std::string& observable, const std::string& name) const {
+  for (const Measurement& one : measurements)
+    if (one.name == observable)
+      for (const Scalar& scalar : one.scalars)
+        if (scalar.name == name) return scalar;
+  throw std::logic_error(fmt::format("{} has no number {}", observable, name));
+}
+
+Measured Found::measured(const std::string& observable, const std::string& name) const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const Scalar& found = scalar(observable, name);
+  return {found.value.value_or(none), found.error.value_or(none)};
+}
+
+const std::vector<double>& Found::column(const std::string& observable, const std::string& name) const {
+  for (const Measurement& one : measurements)
+    if (one.name == observable)
+      for (const Table& table : one.tables)
+        for (const Column& column : table.columns)
+          if (column.name == name) return column.values;
+  throw std::logic_error(fmt::format("{} has no column {}", observable, name));
+}
+
+Found run(const std::string& text, const Effort& effort, TrialResult& result, std::vector<std::unique_ptr<Observable>> own,
+          const Change& change) {
+  const Scene scene = parse_scene(text, result.trial);
+  result.scenes.push_back(text);
+  Simulation simulation = make_simulation(scene);
+  if (change) {
+    State start = simulation.state();
+    change(start);
+    simulation = make_simulation(scene, start);
+  }
+  RunHooks hooks;
+  hooks.proceed = [&](const Progress&) { return !effort.proceed || effort.proceed(); };
+  Observation observation(simulation);
+  for (std::unique_ptr<Observable>& one : own) observation.add(std::move(one));
+  observation.attach(hooks);
+  const RunResult ended = run_schedule(simulation, hooks);
+  if (ended.stopped == StopReason::interrupted) throw Interrupted{};
+  if (ended.stopped != StopReason::time && ended.stopped != StopReason::collisions && ended.stopped != StopReason::grown)
+    throw std::runtime_error(fmt::format("{}: the run ended early: {}", result.trial, to_string(ended.stopped)));
+  std::vector<Measurement> measurements = observation.results();
+  return {std::move(simulation), std::move(measurements)};
+}
+
+State compressed_liquid(std::int64_t disks, double eta, const Effort& effort, std::uint64_t seed) {
+  TrialResult not_kept;
+  const double liquid = std::min(0.69, 0.97 * eta), radius = 0.5 * std::sqrt(liquid / eta);
+  const Gas gas{.disks = disks,
+                .packing_fraction = liquid,
+                .collisions = 1.0,
+                .positions = fmt::format("{{ packing_fraction = {:.17g} }}", liquid),
+                .equilibrate = 3000.0};
+  State state = run(scene_text(gas, seed), effort, not_kept).simulation.state();
+  // The same in the smaller box of the final density, with disks that grow to a diameter of 1 while they collide some 3000 times.
+  const double side = std::sqrt(0.25 * std::numbers::pi * static_cast<double>(disks) / eta), shorter = 2.0 * radius;
+  const std::string growing = fmt::format(
+      "[box]\nx = [0.0, {0:.17g}]\ny = [0.0, {0:.17g}]\nboundary = \"periodic\"\n\n[[disks]]\ncount = {1}\n"
+      "radius = {2:.17g}\nmass = 1.0\npositions = \"hexagonal\"\nvelocities = {{ temperature = 1.0 }}\n\n[collision]\n"
+      "rule = \"specular\"\n\n[growth]\nrate = {3:.6g}\nuntil = {{ packing_fraction = {4:.17g} }}\n\n[run]\ntime = 1000.0\n",
+      side, disks, radius, 0.01 * (1.0 / shorter - 1.0), eta);
+  const Found grown = run(growing, effort, not_kept, {}, [&](State& start) {
+    start.positions = shorter * state.positions;
+    start.velocities = state.velocities;
+    start.remainders.resize(2, 0);
+  });
+  state.positions = grown.simulation.state().positions;
+  state.velocities = grown.simulation.state().velocities;
+  return state;
+}
+
+Measured mean_of(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  double mean = 0.0, squares = 0.0;
+  for (const double value : values) mean += value / n;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {mean, std::sqrt(squares / (n * (n - 1.0)))};
+}
+
+}  // namespace carom::validation

@@ -1,0 +1,55 @@
+#pragma once
+// The systems that trials run, and how they are run. Disks have diameter 1 and mass 1; kT is 1 where the scene says so.
+
+#include "studies/validate/trial.hpp"
+
+#include <carom/observe.hpp>
+#include <carom/scene.hpp>
+#include <carom/simulation.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace carom::validation {
+
+/// A gas of one species in a square box.
+struct Gas {
+  std::int64_t disks = 0;
+  double packing_fraction = 0.0;
+  double collisions = 0.0;   ///< of all disks together
+  std::string observe = {};  ///< lines of the [observe] table
+  std::string rule = "specular";
+  std::string boundary = "periodic";
+  std::string positions = "\"hexagonal\"";  ///< in TOML, like velocities
+  std::string velocities = "{ temperature = 1.0 }";
+  double equilibrate = 100.0;  ///< collisions per disk
+};
+[[nodiscard]] std::string scene_text(const Gas& gas, std::uint64_t seed);
+
+/// What a run has found.
+struct Found {
+  Simulation simulation;
+  std::vector<Measurement> measurements;
+
+  [[nodiscard]] const Scalar& scalar(const std::string& observable, const std::string& name) const;
+  /// A number with its error. NaN where there is none, with which nothing agrees.
+  [[nodiscard]] Measured measured(const std::string& observable, const std::string& name) const;
+  [[nodiscard]] const std::vector<double>& column(const std::string& observable, const std::string& name) const;
+};
+
+/// Something in place of what a scene begins with.
+using Change = std::function<void(State& start)>;
+
+/// Runs a scene's schedule, which is added to `result`. Throws Interrupted.
+[[nodiscard]] Found run(const std::string& scene, const Effort& effort, TrialResult& result,
+                        std::vector<std::unique_ptr<Observable>> own = {}, const Change& change = {});
+
+/// A start without order for a dense system: disks of diameter 1 in a square periodic box, a liquid that has been compressed
+/// slowly to packing fraction `eta`. Requires a density that a liquid can be compressed to, some 0.72. Throws Interrupted.
+[[nodiscard]] State compressed_liquid(std::int64_t disks, double eta, const Effort& effort, std::uint64_t seed);
+
+/// The mean of independent values, and its error from their scatter.
+[[nodiscard]] Measured mean_of(const std::vector<double>& values);
+
+}  // namespace carom::validation

@@ -1,0 +1,159 @@
+#include "studies/validate/page.hpp"
+
+#include "theory/equation_of_state.hpp"
+
+#include <fmt/format.h>
+#include <carom/version.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+/// What a plot of the page shows, whichever trials give it numbers.
+struct TrialPlot {
+  const char* id;
+  const char* group;
+  const char* title;
+  const char* x;
+  const char* y;
+  const char* caption;
+  bool log = false;  ///< the axis of y
+};
+constexpr std::array<TrialPlot, 15> trial_plots = {{
+    {"speeds-periodic", "Maxwell and Boltzmann", "Speeds in a periodic box", "speed (v_T)", "density",
+     "Two gases that started far from equilibrium, after fifty collisions per disk, and the law for 64 disks."},
+    {"speeds-walls", "Maxwell and Boltzmann", "Speeds between walls", "speed (v_T)", "density",
+     "The same between walls, which do not keep momentum."},
+    {"h-theorem", "Maxwell and Boltzmann", "Boltzmann's H", "time", "H",
+     "Mean over runs that began with all disks equally fast; the line is H of Maxwell's distribution in the same bins."},
+    {"speeds-reversal", "the reversal rule", "Speeds under reversal", "speed (v_T)", "density",
+     "Equal masses exchange velocities: the distribution stays as it was, whatever the law of equilibrium says."},
+    {"equation-of-state", "equation of state", "Z against packing fraction", "packing fraction", "Z",
+     "Errors are smaller than the points; the line is Kolafa and Rottner's, for infinitely many disks.", true},
+    {"equation-of-state-residual", "equation of state", "What is left", "packing fraction", "difference (parts in a thousand)",
+     "Measured less expected, with the first term in 1/N up to 0.63."},
+    {"rate-by-speed", "collisions", "Collisions by speed", "speed (v_T)", "rate / mean rate",
+     "Fast disks collide more often; the line is kinetic theory's."},
+    {"impact-parameter", "collisions", "Impact parameter", "b / sigma", "density", "As likely anywhere."},
+    {"free-times", "collisions", "Flights that last longer than t", "t (mean free times)", "share",
+     "A mixture of exponentials, one for each speed.", true},
+    {"transport", "transport", "Transport over Enskog", "packing fraction", "measured / Enskog",
+     "Enskog's theory leaves correlations out; by how much it is off is physics, and not judged."},
+    {"diffusion", "transport", "D(t) over Enskog", "t (mean free times)", "D(t) / Enskog",
+     "In two dimensions D grows with the logarithm of time. Beyond the time that sound takes to the middle of the box it is that "
+     "of the box."},
+    {"haff", "cooling, weight and walls", "Cooling", "time", "(T(0) / T)^1/2",
+     "Haff's law is a straight line. In the larger box shear waves grow, and the gas cools more slowly."},
+    {"barometer", "cooling, weight and walls", "A gas with weight", "height", "disks in a layer", "Layers of height 5.", true},
+    {"wall-pressure", "cooling, weight and walls", "Pressure on walls", "N^-1/2", "Z from walls",
+     "Walls add terms of 1 / sqrt N; the fit comes to the fluid's Z."},
+    {"speeds-fixed-steps", "fixed steps", "Speeds under fixed steps", "speed (v_T)", "density",
+     "The same start, advanced in steps."},
+}};
+
+std::string group_of(const TrialResult& result) {
+  for (const validation::Trial& trial : validation::all_trials())
+    if (trial.name == result.trial) return trial.group;
+  return {};
+}
+
+Series theory_of_equation_of_state() {
+  Series line{.name = "Kolafa and Rottner", .style = Style::line, .group = 7};
+  for (int k = 0; k <= 69; ++k) {
+    line.x.push_back(0.01 * k);
+    line.y.push_back(theory::kolafa_rottner(0.01 * k));
+  }
+  return line;
+}
+
+/// Points of one name become one series, from whatever trials they come.
+Plot plot_of(const TrialPlot& frame, const Validation& validation) {
+  Plot plot{.id = frame.id,
+            .title = frame.title,
+            .caption = frame.caption,
+            .x = {.title = frame.x},
+            .y = {.title = frame.y, .log = frame.log}};
+  std::map<std::pair<std::string, bool>, std::size_t> places;
+  int colours = 0;
+  for (const TrialResult& result : validation.results)
+    for (const Curve& curve : result.curves) {
+      if (curve.plot != frame.id) continue;
+      const auto [place, added] = places.try_emplace({curve.name, curve.theory}, plot.series.size());
+      if (added)
+        plot.series.push_back(
+            {.name = curve.name, .style = curve.theory ? Style::line : Style::points, .group = curve.theory ? 7 : colours++});
+      else if (curve.theory)
+        continue;
+      Series& series = plot.series[place->second];
+      for (std::size_t k = 0; k < curve.x.size(); ++k) {
+        series.x.push_back(curve.x[k]);
+        series.y.push_back(curve.y[k]);
+        if (curve.error.empty()) continue;
+        series.y_low.push_back(curve.y[k] - curve.error[k]);
+        series.y_high.push_back(curve.y[k] + curve.error[k]);
+      }
+    }
+  if (!plot.series.empty() && plot.id == "equation-of-state") plot.series.push_back(theory_of_equation_of_state());
+  if (plot.id == "equation-of-state-residual") plot.marks = {{.value = 0.0, .label = "theory"}};
+  if (plot.id == "transport" || plot.id == "impact-parameter" || plot.id == "diffusion")
+    plot.marks = {{.value = 1.0, .label = "theory"}};
+  return plot;
+}
+
+TextTable table_of(const TrialResult& result) {
+  TextTable table{.title = result.trial,
+                  .columns = {"what", "expected", "measured", "z", "per cent", "z beyond the allowance", "verdict", "theory"}};
+  for (const Check& check : result.checks) {
+    const CheckRow row = row_of(check);
+    std::string theory = row.theory;
+    if (!row.source.empty()) theory += "; " + row.source;
+    if (!row.allowance.empty()) theory += "; allowance " + row.allowance;
+    table.rows.push_back({row.name, row.expected, row.measured, row.z, row.per_cent, row.beyond, row.verdict, theory});
+  }
+  return table;
+}
+
+}  // namespace
+
+Page validation_page(const Validation& validation, const std::string& command_line) {
+  const std::size_t failed = validation.failed();
+  Page page{.title = "Validation",
+            .subtitle = summary_of(validation),
+            .lead =
+                "Every check holds a number that this program has measured against theory or the literature. It holds where the "
+                "two are within five standard errors of each other, and an allowance where the theory itself has a small error, "
+                "which is named. z is the whole difference in standard errors, without any allowance. Negative controls "
+                "must fail: they show that the check could tell. Approximate theories, and what fixed steps make of the same "
+                "questions, are shown and not judged.",
+            .key_numbers = {{fmt::format("{} of {}", validation.checks() - failed, validation.checks()), "checks hold"}}};
+  std::vector<std::string> groups;
+  for (const TrialResult& result : validation.results)
+    if (groups.empty() || groups.back() != group_of(result)) groups.push_back(group_of(result));
+  for (const std::string& group : groups) {
+    Section section{.heading = group};
+    for (const TrialPlot& frame : trial_plots) {
+      if (group != frame.group) continue;
+      Plot plot = plot_of(frame, validation);
+      if (!plot.series.empty()) section.blocks.emplace_back(std::move(plot));
+    }
+    for (const TrialResult& result : validation.results) {
+      if (group_of(result) != group) continue;
+      section.blocks.emplace_back(table_of(result));
+      for (const std::string& scene : result.scenes) section.blocks.emplace_back(Listing{"scene of " + result.trial, scene});
+    }
+    page.sections.push_back(std::move(section));
+  }
+  const BuildInfo& build = build_info();
+  page.facts = {
+      {"Command", command_line},
+      {"Seed", std::to_string(validation.options.seed)},
+      {"Program", fmt::format("carom {} (commit {}; {}; {})", build.version, build.commit, build.compiler, build.flags)}};
+  return page;
+}
+
+}  // namespace carom

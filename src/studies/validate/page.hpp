@@ -1,0 +1,13 @@
+#pragma once
+// The page of a validation: every check, plots of theory against measurement, the scenes that were run.
+
+#include "pages/page.hpp"
+#include "studies/validate/validation.hpp"
+
+#include <string>
+
+namespace carom {
+
+Page validation_page(const Validation& validation, const std::string& command_line);
+
+}  // namespace carom

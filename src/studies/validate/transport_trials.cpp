@@ -1,0 +1,169 @@
+// Transport: viscosity and heat conductivity at once, exactly; the growth of the diffusion coefficient that slow modes of the
+// fluid bring about; and how far from simulation Enskog's theory is, which leaves out that collisions are correlated.
+
+#include "studies/validate/gas.hpp"
+#include "theory/equation_of_state.hpp"
+#include "theory/kinetic.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace carom::validation {
+
+namespace {
+
+/// The first row of a table of lags that is not shorter than `time`.
+std::size_t row_at(const std::vector<double>& lags, double time) {
+  std::size_t row = 0;
+  while (row + 1 < lags.size() && lags[row] < time) ++row;
+  return row;
+}
+
+/// With moments G that grow by a in one step h and by b in the next, <a^2> / 2h is their growth at lag h, <(a + b)^2> / 4h that
+/// at 2h, and twice the first less the second is what a straight line through both comes to at lag 0: <a^2> / 2h - <a b> / 2h.
+/// What flows between collisions has the correlation c exp(-nu t), which bends the line: by c nu h^2 / 3 at lag 0, less than
+/// 0.1 % of the limit, taken with Enskog's nu.
+TrialResult instantaneous(const std::string& trial, double eta, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  constexpr std::int64_t disks = 256;
+  const double step = 0.02 / theory::disk_collision_rate(theory::kolafa_rottner(eta));
+  const Gas gas{.disks = disks,
+                .packing_fraction = eta,
+                .collisions = effort.collisions(4e6),
+                .observe = fmt::format("viscosity = {{ every = {0:.6g} }}\nheat_conductivity = {{ every = {0:.6g} }}\n", step)};
+  const Found found = run(scene_text(gas, effort.seed_of(0)), effort, result);
+  const double density = 4.0 * eta / std::numbers::pi, carried = eta * theory::contact_value(eta);
+  const auto held = [&](const std::string& name, const char* observable, double limit, double enskog, double flux,
+                        const char* formula) {
+    const double expected = limit + flux * flux / (enskog - limit) * step * step / 3.0;  // nu = c / (enskog - limit)
+    // The running integral begins with half of the mean square, the correlation at lag 0: <a^2> / 2h.
+    const double square = found.column(observable, "green_kubo").at(0);
+    const double square_error = found.column(observable, "green_kubo_error").at(0);
+    const double scale = square / found.column(observable, "correlation").at(0);
+    const double product = scale * found.column(observable, "correlation").at(1);
+    const double product_error = scale * found.column(observable, "correlation_error").at(1);
+    result.checks.push_back({.name = fmt::format("{} at once, packing fraction {:.1f}, {} disks", name, eta, disks),
+                             .theory = formula,
+                             .source = "docs/validation.md, from the pressure of Kolafa & Rottner, Mol. Phys. 104, 3435 (2006)",
+                             .expected = expected,
+                             .measured = {square - product, std::hypot(square_error, product_error)},
+                             .reference_error = expected * 1e-5});
+  };
+  held("viscosity", "viscosity", theory::instantaneous_viscosity(eta, disks), theory::enskog_viscosity(eta),
+       density * std::pow(1.0 + carried, 2), "rho omega m sigma^2 / 8, for N disks");
+  held("heat conductivity", "heat_conductivity", theory::instantaneous_conductivity(eta, disks), theory::enskog_conductivity(eta),
+       2.0 * density * std::pow(1.0 + 1.5 * carried, 2), "rho omega k sigma^2 / 4, for N disks");
+  return result;
+}
+
+TrialResult transport(const std::string& trial, double eta, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  constexpr std::int64_t disks = 256;
+  const double rate = theory::disk_collision_rate(theory::kolafa_rottner(eta));
+  const Gas gas{
+      .disks = disks,
+      .packing_fraction = eta,
+      .collisions = effort.collisions(2e6),
+      .observe = fmt::format("viscosity = true\nheat_conductivity = true\nvelocity_autocorrelation = {{ every = {:.6g} }}\n",
+                             0.25 / rate)};
+  const Found found = run(scene_text(gas, effort.seed_of(0)), effort, result);
+  const auto shown = [&](const std::string& name, const char* plot, double expected, const Measured& measured,
+                         const std::string& source) {
+    result.checks.push_back({.name = fmt::format("{} at packing fraction {:.1f}", name, eta),
+                             .theory = "Enskog, who leaves correlations of collisions and the size of the box out",
+                             .source = source,
+                             .expected = expected,
+                             .measured = measured,
+                             .judged = Judged::shown});
+    result.curves.push_back(
+        {.plot = "transport", .name = plot, .x = {eta}, .y = {measured.value / expected}, .error = {measured.error / expected}});
+  };
+  shown("viscosity (Green-Kubo)", "viscosity", theory::enskog_viscosity(eta), found.measured("viscosity", "green_kubo"),
+        "Gass, J. Chem. Phys. 54, 1898 (1971)");
+  shown("heat conductivity (Green-Kubo)", "heat conductivity", theory::enskog_conductivity(eta),
+        found.measured("heat_conductivity", "green_kubo"), "Gass, J. Chem. Phys. 54, 1898 (1971)");
+
+  const std::vector<double>& until = found.column("velocity_autocorrelation", "integral_to");
+  const std::vector<double>& D = found.column("velocity_autocorrelation", "diffusion");
+  const std::vector<double>& error = found.column("velocity_autocorrelation", "diffusion_error");
+  const double enskog = theory::enskog_diffusion(eta);
+  Curve growing{.plot = "diffusion", .name = fmt::format("packing fraction {:.1f}", eta)};
+  // Sound comes round the box after about this time; then periodic images are felt.
+  const double side = std::sqrt(disks * std::numbers::pi / (4.0 * eta));
+  const double longest = 0.5 * side / (1.4 * theory::kolafa_rottner(eta));
+  for (std::size_t row = 0; row < until.size() && until[row] < 3.0 * longest; ++row) {
+    growing.x.push_back(until[row] * rate);
+    growing.y.push_back(D[row] / enskog);
+    growing.error.push_back(error[row] / enskog);
+  }
+  result.curves.push_back(std::move(growing));
+  const std::size_t row = row_at(until, 3.0 / rate);
+  shown("D(t) at three mean free times", "diffusion at 3 mean free times", enskog * (1.0 - std::exp(-until[row] * rate)),
+        {D[row], error[row]}, "Chapman-Enskog; the velocity has not quite forgotten itself");
+  return result;
+}
+
+/// The law of long times where it holds: beyond 20 mean free times, and by the modes that the box has room for.
+TrialResult long_time_tail(const std::string& trial, const Effort& effort) {
+  TrialResult result{.trial = trial};
+  constexpr double eta = 0.3, from = 20.0, to = 60.0;
+  constexpr std::int64_t disks = 2304;
+  const double rate = theory::disk_collision_rate(theory::kolafa_rottner(eta));
+  const std::size_t replicas = effort.full ? 320 : 16;
+  std::vector<double> growths, starts, ends;
+  for (std::size_t r = 0; r < replicas; ++r) {
+    const Gas gas{.disks = disks,
+                  .packing_fraction = eta,
+                  .collisions = 5e5,
+                  .observe = fmt::format("velocity_autocorrelation = {{ every = {:.6g} }}\n", 0.5 / rate),
+                  .equilibrate = 50.0};
+    const Found found = run(scene_text(gas, effort.seed_of(r)), effort, result);
+    const std::vector<double>& until = found.column("velocity_autocorrelation", "integral_to");
+    const std::vector<double>& D = found.column("velocity_autocorrelation", "diffusion");
+    const std::size_t early = row_at(until, from / rate), late = row_at(until, to / rate);
+    growths.push_back(D[late] - D[early]);
+    starts.push_back(until[early]), ends.push_back(until[late]);
+  }
+  result.scenes.resize(1);  // the others differ in the seed
+  const Measured growth = mean_of(growths);
+  const double expected = theory::diffusion_growth(eta, disks, starts.front(), ends.front());
+  const std::string window = fmt::format("from {:.1f} to {:.1f} mean free times at packing fraction {:.1f}, {} disks",
+                                         starts.front() * rate, ends.front() * rate, eta, disks);
+  result.checks.push_back({.name = "growth of D " + window,
+                           .theory = "integral of the sum over the shear and sound waves of the box of exp(-(D + nu) k^2 t) and "
+                                     "cos(c k t) exp(-(D + Gamma) k^2 t), / 2 N",
+                           .source = "Ernst, Hauge & van Leeuwen, Phys. Rev. Lett. 25, 1254 (1970), summed as by Erpenbeck & "
+                                     "Wood, Phys. Rev. A 26, 1648 (1982)",
+                           .expected = expected,
+                           .measured = growth,
+                           .allowance = 0.03 * expected,
+                           .allowance_for = "D + nu after Enskog, which differ from those measured by up to 3 % here"});
+  result.checks.push_back({.name = "growth of D against none (must not fit), " + window,
+                           .theory = "0: a diffusion coefficient that exists",
+                           .source = "Boltzmann, Enskog",
+                           .expected = 0.0,
+                           .measured = growth,
+                           .judged = Judged::disagrees});
+  return result;
+}
+
+}  // namespace
+
+void add_transport(std::vector<Trial>& trials) {
+  const std::string group = "transport";
+  for (const double eta : {0.2, 0.4}) {
+    const std::string name = fmt::format("instantaneous-{:.1f}", eta);
+    trials.push_back({name, group, false, [=](const Effort& effort) { return instantaneous(name, eta, effort); }});
+  }
+  for (const double eta : {0.1, 0.2, 0.3, 0.4}) {
+    const std::string name = fmt::format("transport-{:.1f}", eta);
+    trials.push_back({name, group, false, [=](const Effort& effort) { return transport(name, eta, effort); }});
+  }
+  trials.push_back(
+      {"long-time-tail", group, false, [](const Effort& effort) { return long_time_tail("long-time-tail", effort); }});
+}
+
+}  // namespace carom::validation

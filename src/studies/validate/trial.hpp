@@ -1,0 +1,48 @@
+#pragma once
+// The trials of `carom validate`: each runs a few systems and holds what it measures against theory.
+
+#include "studies/validate/check.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace carom::validation {
+
+/// How much work a trial may do, and from where it draws its chance.
+struct Effort {
+  bool full = false;
+  std::uint64_t seed = 1;
+  std::function<bool()> proceed = {};  ///< false: stop
+
+  /// As many collisions in a quick validation, twenty times as many in a full one.
+  [[nodiscard]] double collisions(double quick) const { return full ? 20.0 * quick : quick; }
+  /// A seed for the k-th run of a trial. No two trials run the same system.
+  [[nodiscard]] std::uint64_t seed_of(std::uint64_t k) const { return 1'000'003 * seed + k; }
+};
+
+/// Effort::proceed has said no.
+struct Interrupted {};
+
+struct Trial {
+  std::string name;   ///< "pressure-0.30"
+  std::string group;  ///< "equation of state"
+  bool only_full = false;
+  std::function<TrialResult(const Effort&)> run;
+};
+
+// One file each.
+void add_maxwell_boltzmann(std::vector<Trial>& trials);
+void add_reversal(std::vector<Trial>& trials);
+void add_equation_of_state(std::vector<Trial>& trials);
+void add_single_file(std::vector<Trial>& trials);
+void add_collisions(std::vector<Trial>& trials);
+void add_transport(std::vector<Trial>& trials);
+void add_cooling_fields_walls(std::vector<Trial>& trials);
+void add_fixed_steps(std::vector<Trial>& trials);
+
+/// All, in the order in which they run.
+[[nodiscard]] const std::vector<Trial>& all_trials();
+
+}  // namespace carom::validation

@@ -1,0 +1,198 @@
+#include "studies/validate/validation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <stdexcept>
+
+namespace carom {
+
+namespace validation {
+
+const std::vector<Trial>& all_trials() {
+  static const std::vector<Trial> trials = [] {
+    std::vector<Trial> list;
+    add_maxwell_boltzmann(list);
+    add_reversal(list);
+    add_equation_of_state(list);
+    add_single_file(list);
+    add_collisions(list);
+    add_transport(list);
+    add_cooling_fields_walls(list);
+    add_fixed_steps(list);
+    return list;
+  }();
+  return trials;
+}
+
+}  // namespace validation
+
+std::size_t Validation::checks() const {
+  std::size_t sum = 0;
+  for (const TrialResult& result : results)
+    sum += static_cast<std::size_t>(std::count_if(result.checks.begin(), result.checks.end(),
+                                                  [](const Check& check) { return check.judged != Judged::shown; }));
+  return sum;
+}
+
+std::size_t Validation::failed() const {
+  std::size_t sum = 0;
+  for (const TrialResult& result : results)
+    sum += static_cast<std::size_t>(
+        std::count_if(result.checks.begin(), result.checks.end(), [](const Check& check) { return !check.holds(); }));
+  return sum;
+}
+
+std::vector<validation::Trial> chosen_trials(const ValidateOptions& options) {
+  std::vector<validation::Trial> trials;
+  for (const std::string& name : options.only) {
+    const auto& all = validation::all_trials();
+    if (std::none_of(all.begin(), all.end(), [&](const validation::Trial& trial) { return trial.name == name; }))
+      throw std::invalid_argument(name);
+  }
+  for (const validation::Trial& trial : validation::all_trials()) {
+    const bool named = std::find(options.only.begin(), options.only.end(), trial.name) != options.only.end();
+    if (options.only.empty() ? options.full || !trial.only_full : named) trials.push_back(trial);
+  }
+  return trials;
+}
+
+Validation validate(const ValidateOptions& options, const ValidateHooks& hooks, const Validation& before) {
+  using Clock = std::chrono::steady_clock;
+  Validation validation{.options = options};
+  const std::vector<validation::Trial> trials = chosen_trials(options);
+  for (std::size_t k = 0; k < trials.size(); ++k) {
+    const validation::Trial& trial = trials[k];
+    const auto known = std::find_if(before.results.begin(), before.results.end(),
+                                    [&](const TrialResult& result) { return result.trial == trial.name; });
+    if (known != before.results.end()) {
+      validation.results.push_back(*known);
+      continue;
+    }
+    const double fraction = static_cast<double>(k) / static_cast<double>(trials.size());
+    const validation::Effort effort{.full = options.full, .seed = options.seed, .proceed = [&] {
+                                      return !hooks.proceed || hooks.proceed(trial.name, fraction);
+                                    }};
+    const auto start = Clock::now();
+    TrialResult result{.trial = trial.name};
+    try {
+      if (!effort.proceed()) return validation;
+      result = trial.run(effort);
+    } catch (const validation::Interrupted&) {
+      return validation;
+    } catch (const std::exception& error) {
+      result.checks.push_back({.name = "trials that ran to their end",
+                               .theory = fmt::format("it ended with an error: {}", error.what()),
+                               .expected = 1.0,
+                               .measured = {0.0, 0.0}});
+    }
+    result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (hooks.done) hooks.done(result);
+    validation.results.push_back(std::move(result));
+  }
+  validation.complete = true;
+  return validation;
+}
+
+namespace {
+
+/// With as many decimals as the second digit of the error has.
+std::string number(double value, double error) {
+  if (!std::isfinite(value)) return "no number";
+  if (!(error > 0.0) || !std::isfinite(error)) return fmt::format("{:.6g}", value);
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string verdict_of(const Check& check) {
+  switch (check.judged) {
+    case Judged::agrees:
+      return check.fits() ? "agrees" : "FAILS";
+    case Judged::disagrees:
+      return check.fits() ? "FITS, and must not" : "fails, as it must";
+    case Judged::shown:
+      return check.fits() ? "consistent (not judged)" : "differs (not judged)";
+  }
+  return {};
+}
+
+std::string cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+  return escaped;
+}
+
+}  // namespace
+
+CheckRow row_of(const Check& check) {
+  CheckRow row{.name = check.name, .theory = check.theory, .source = check.source};
+  const auto [value, error] = check.measured;
+  row.measured = error > 0.0 && std::isfinite(value) ? number(value, error) + " ± " + number(error, error) : number(value, 0.0);
+  row.expected = check.equivalent ? "see theory" : number(check.expected, error);
+  if (!check.equivalent && check.reference_error > 0.05 * error)
+    row.expected = number(check.expected, check.error()) + " ± " + number(check.reference_error, check.reference_error);
+  const auto in_errors = [&](double deviation) {
+    if (std::isfinite(deviation)) return check.error() > 0.0 || check.equivalent ? fmt::format("{:+.1f}", deviation) : "equal";
+    return std::string(std::isfinite(value) && std::isfinite(error) ? "not equal" : "unknown");
+  };
+  row.z = in_errors(check.z());
+  if (!check.equivalent && check.expected != 0.0 && std::isfinite(value))
+    row.per_cent = fmt::format("{:+.2g} %", 100.0 * (value / check.expected - 1.0));
+  if (check.allowance > 0.0) {
+    row.allowance = fmt::format("{:.2g}: {}", check.allowance, check.allowance_for);
+    row.beyond = std::isfinite(check.deviation()) ? fmt::format("{:+.1f}", check.deviation()) : in_errors(check.deviation());
+  }
+  row.verdict = verdict_of(check);
+  return row;
+}
+
+std::string sentence_of(const Check& check) {
+  const CheckRow row = row_of(check);
+  const bool statistic = check.equivalent.has_value(), counted = check.error() > 0.0 || statistic;
+  std::string text = fmt::format("{}: {}, ", row.name, row.measured);
+  text += statistic ? "theory: " + row.theory : "expected " + row.expected;
+  text += counted ? "; z = " + row.z : "; " + (row.z == "equal" ? "exactly equal" : row.z);
+  if (!row.per_cent.empty() && row.z != "equal") text += fmt::format(" ({})", row.per_cent);
+  if (check.allowance > 0.0)
+    text += counted ? fmt::format(", {} beyond the allowance of {:.2g}", row.beyond, check.allowance)
+                    : fmt::format(", {} the allowance of {:.2g}", check.fits() ? "within" : "beyond", check.allowance);
+  return text;
+}
+
+std::string summary_of(const Validation& validation) {
+  const std::size_t failed = validation.failed();
+  double seconds = 0.0;
+  for (const TrialResult& result : validation.results) seconds += result.seconds;
+  const auto counted = [](std::size_t number, const char* thing) {
+    return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
+  };
+  return fmt::format("{} in {}, seed {}: {}; {:.0f} s", counted(validation.checks(), "check"),
+                     counted(validation.results.size(), "trial"), validation.options.seed,
+                     failed == 0 ? "all hold" : fmt::format("{} FAIL", failed), seconds);
+}
+
+std::string validation_markdown(const Validation& validation) {
+  std::string text, group;
+  for (const TrialResult& result : validation.results) {
+    for (const validation::Trial& trial : validation::all_trials()) {
+      if (trial.name != result.trial || trial.group == group) continue;
+      group = trial.group;
+      text += fmt::format(
+          "\n### {}\n\n| what | theory | expected | measured | z | per cent | allowance | z beyond it | verdict |\n"
+          "|---|---|---|---|---|---|---|---|---|\n",
+          group);
+    }
+    for (const Check& check : result.checks) {
+      const CheckRow row = row_of(check);
+      text +=
+          fmt::format("| {} | {}; {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(row.name), cell(row.theory), cell(row.source),
+                      row.expected, row.measured, row.z, row.per_cent, cell(row.allowance), row.beyond, row.verdict);
+    }
+  }
+  return text + "\n" + summary_of(validation) + ".\n";
+}
+
+}  // namespace carom

@@ -1,0 +1,65 @@
+#pragma once
+// carom validate: all trials, one after the other; what they found in words and in JSON.
+
+#include "studies/validate/check.hpp"
+#include "studies/validate/trial.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+struct ValidateOptions {
+  bool full = false;  ///< twenty times the collisions of a quick validation, and trials of its own
+  std::uint64_t seed = 1;
+  std::vector<std::string> only = {};  ///< names of trials; empty: all
+};
+
+struct Validation {
+  ValidateOptions options = {};
+  std::vector<TrialResult> results = {};  ///< in the order of the trials
+  bool complete = false;
+
+  [[nodiscard]] std::size_t checks() const;
+  [[nodiscard]] std::size_t failed() const;
+};
+
+struct ValidateHooks {
+  /// What is being done, and how many of the trials are done (0 to 1). False stops.
+  std::function<bool(const std::string& doing, double fraction)> proceed = {};
+  std::function<void(const TrialResult& result)> done = {};
+};
+
+/// The trials that `options` name. Throws std::invalid_argument where there is no such trial.
+[[nodiscard]] std::vector<validation::Trial> chosen_trials(const ValidateOptions& options);
+
+/// Runs the trials that `before` does not hold already. A trial that cannot be run is one that fails.
+[[nodiscard]] Validation validate(const ValidateOptions& options, const ValidateHooks& hooks, const Validation& before = {});
+
+/// One check as people read it.
+struct CheckRow {
+  std::string name = {}, theory = {}, source = {};
+  std::string expected = {};   ///< "2.0602"
+  std::string measured = {};   ///< "2.0599 +- 0.0010", with the sign of plus or minus
+  std::string z = {};          ///< "-0.3": the whole difference in standard errors; "exact", "not equal" where there is no error
+  std::string per_cent = {};   ///< "-0.01 %" of what is expected; empty where that is 0 or no number
+  std::string beyond = {};     ///< "-2.1": standard errors beyond the allowance; empty where there is no allowance
+  std::string allowance = {};  ///< "0.02: why"; empty where there is none
+  /// "agrees", "FAILS", "fails, as it must", "FITS, and must not", "consistent (not judged)", "differs (not judged)"
+  std::string verdict = {};
+};
+[[nodiscard]] CheckRow row_of(const Check& check);
+
+/// One check as a sentence: "Z of 256 disks: 2.0599 +- 0.0010, expected 2.0602; z = -0.3 (-0.01 %)"
+[[nodiscard]] std::string sentence_of(const Check& check);
+
+/// "98 checks in 40 trials: all hold"
+[[nodiscard]] std::string summary_of(const Validation& validation);
+
+/// A table for each group.
+[[nodiscard]] std::string validation_markdown(const Validation& validation);
+
+}  // namespace carom

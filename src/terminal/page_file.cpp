@@ -1,0 +1,47 @@
+#include "terminal/page_file.hpp"
+
+#include "io/partial_file.hpp"
+#include "terminal/command.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <system_error>
+
+namespace carom::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_page(const fs::path& path, std::string_view mark) {
+  std::array<char, 512> begin{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), begin.size());
+  return std::string_view(begin.data(), static_cast<std::size_t>(file.gcount())).find(mark) != std::string_view::npos;
+}
+
+}  // namespace
+
+fs::path place_for_page(const std::string& output, const fs::path& otherwise, const PageKind& kind) {
+  const fs::path path = output.empty() ? otherwise : fs::path(output);
+  if (path.extension() != ".html" && path.extension() != ".htm")
+    throw UsageError(fmt::format("-o {}: the {} is an HTML page and nothing else; give it a name that ends in .html",
+                                 path.string(), kind.name));
+  std::error_code error;
+  if (fs::is_directory(path, error))
+    throw UsageError(fmt::format("-o {}: this is a directory; name a file in it", path.string()));
+  if (fs::exists(path, error) && !is_page(path, kind.mark))
+    throw UsageError(fmt::format("{}: this file is there already, and is no {}; name another one with -o, or remove it",
+                                 path.string(), kind.name));
+  return path;
+}
+
+void write_page(const fs::path& path, const std::string& text) {
+  PartialFile file = as_usage_error([&] { return PartialFile(path); });
+  file.write(text);
+  file.publish();
+}
+
+}  // namespace carom::cli

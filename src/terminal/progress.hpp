@@ -1,0 +1,46 @@
+#pragma once
+// One line on stderr that says how far a run has come.
+
+#include "terminal/run_estimate.hpp"
+
+#include <carom/scene.hpp>
+#include <carom/simulation.hpp>
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace carom::cli {
+
+enum class ProgressMode { automatic, always, never };  ///< automatic: only where stderr is a terminal
+
+/// What --progress and --quiet ask for. Throws UsageError where `when` is not auto, always or never.
+ProgressMode progress_mode(const std::string& when, bool quiet);
+
+class ProgressLine {
+ public:
+  ProgressLine(ProgressMode mode, const Scene& scene);
+  ~ProgressLine();  ///< leaves an empty line where the progress stood
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// Cheap when called more often than the line changes.
+  void update(const Progress& progress);
+
+  /// The same for work that is not a run: what is being done, and how much of it is done (0 to 1).
+  void update(const std::string& doing, double fraction);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] bool is_due(Clock::time_point now) const;
+  void show(const std::string& text, Clock::time_point now);
+  [[nodiscard]] std::string line(const Progress& progress, Clock::time_point now);
+
+  bool shown_;
+  bool terminal_;
+  RunEstimate estimate_;
+  std::optional<Clock::time_point> last_;
+};
+
+}  // namespace carom::cli

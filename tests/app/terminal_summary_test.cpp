@@ -1,0 +1,155 @@
+// What the terminal says of a run whose effects gave and took.
+
+#include "app/terminal_summary.hpp"
+
+#include "io/hand_made_run.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace carom::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class TerminalSummary : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::string text() const { return cli::terminal_summary(report_, scene_, {"out", {}, "carom"}); }
+
+  Scene scene_ = scene_of(2, 2);
+  RunReport report_ = report_of(scene_);
+};
+
+TEST_F(TerminalSummary, SaysNothingOfEffectsThatASceneDoesNotName) {
+  report_.of_effects.walls.push_back({.name = "top", .momentum = 40.0, .energy = 0.0, .force = 8.0, .pressure = 2.0, .end = {}});
+  EXPECT_THAT(text(), AllOf(HasSubstr("relative drift 1.6e-02"), HasSubstr("Z = PA/(NkT)      2.5")));
+  EXPECT_THAT(text(), Not(AnyOf(HasSubstr("top wall"), HasSubstr("dissipated"), HasSubstr("spin"), HasSubstr("thermostat"),
+                                HasSubstr("obstacles"), HasSubstr("bonds"), HasSubstr("grown"))));
+}
+
+TEST_F(TerminalSummary, WallsThatTheSceneNamesTellPressureAndHeat) {
+  scene_.effects.walls[2].temperature = 2.0;
+  scene_.effects.walls[3].velocity = 0.5;
+  report_.of_effects.walls.push_back(
+      {.name = "bottom", .momentum = 40.0, .energy = -3.0, .force = 8.0, .pressure = 2.0, .end = {}});
+  report_.of_effects.walls.push_back(
+      {.name = "top", .momentum = 60.0, .energy = 1.0, .force = 12.0, .pressure = {}, .end = WallState{15.0, 0.5}});
+  report_.of_effects.packing_fraction_end = 0.125;
+  report_.Z.reset();
+  EXPECT_THAT(text(), AllOf(ContainsRegex("bottom wall +pressure 2 +gave energy 3\n"),
+                            ContainsRegex("top wall +force 12 +took energy 1; now at 15, velocity 0.5\n"),
+                            ContainsRegex("packing fraction +0.125 +at the end"),
+                            ContainsRegex("Z = PA/\\(NkT\\) +none +the area changes")));
+}
+
+TEST_F(TerminalSummary, TemperatureIsWithoutCommonMotionWhereDisksKeepIt) {
+  scene_.box.boundary = {Boundary::periodic, Boundary::periodic};
+  EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic, without common motion\n"));
+  scene_.box.boundary[1] = Boundary::walls;
+  EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic, without common motion along x\n"));
+  scene_.effects.walls[2].temperature = 2.0;  // it gives and takes momentum along itself too
+  EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic\n"));
+}
+
+TEST_F(TerminalSummary, EveryEffectHasARow) {
+  EffectsReport& effects = report_.of_effects;
+  report_.totals.obstacle = 1234;
+  report_.totals.kicks = 4321;
+  effects.spin_temperature = 1.25;
+  effects.dissipated = 0.5;
+  effects.obstacles = Eigen::Vector2d(1.5, -2.0);
+  effects.thermostat = {.kicks = 4321, .energy = -10.0};
+  effects.growth = {.scale = 1.5, .packing_fraction = 0.75, .energy = 20.0};
+  effects.shear = {
+      .strain = 2.5, .energy = 30.0, .pressure_xy_of_collisions = -0.5, .pressure_xy_of_flight = -0.25, .viscosity = 1.5};
+  effects.bonds = 31;
+  EXPECT_THAT(text(), AllOf(ContainsRegex("obstacles hit +1,234"), ContainsRegex("thermostat kicks +4,321"),
+                            ContainsRegex("spin temperature +1.25"), ContainsRegex("dissipated +0.5"),
+                            ContainsRegex("obstacles took +\\(1.5, -2\\)"), ContainsRegex("thermostat +took energy 10\n")));
+  EXPECT_THAT(text(),
+              AllOf(ContainsRegex("grown to +packing 0.75 +radii 1.5 times those at the start; gave energy 20"),
+                    ContainsRegex("strain +2.5 +gave energy 30"), ContainsRegex("viscosity +1.5"), ContainsRegex("bonds +31")));
+}
+
+TEST_F(TerminalSummary, EnergyThatWasGivenIsToldFromEnergyThatWasLost) {
+  report_.of_effects.energy_given = 0.5;  // from 32 to 32.5
+  EXPECT_THAT(text(), HasSubstr("32 at the start; what came and went accounts for the change\n"));
+}
+
+TEST_F(TerminalSummary, ReasonsToStopAreSentences) {
+  report_.stopped = StopReason::collapsed;
+  EXPECT_THAT(text(), HasSubstr("elastic_below"));
+  report_.stopped = StopReason::grown;
+  report_.of_effects.growth = {.scale = 1.5, .packing_fraction = 0.75, .energy = 20.0};
+  EXPECT_THAT(text(), HasSubstr("grown as far as asked, to packing fraction 0.75"));
+}
+
+TEST_F(TerminalSummary, WithoutZItSaysWhy) {
+  report_.Z.reset();
+  scene_.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0, .where = {}};
+  EXPECT_THAT(text(), HasSubstr("no samples tell the mean temperature"));
+  report_.totals.pair = 0;
+  EXPECT_THAT(text(), HasSubstr("no pair of disks has collided"));
+  scene_.effects.gravity = Gravity{.acceleration = {0.0, -1.0}, .where = {}};
+  EXPECT_THAT(text(), HasSubstr("pressure and density change with height"));
+}
+
+TEST_F(TerminalSummary, PressureHasTheErrorOfZInProportion) {
+  report_.Z = 2.0;
+  report_.Z_error = 0.1;
+  report_.reduced_pressure = 1.0;
+  EXPECT_THAT(text(), ContainsRegex("P sigma\\^2/kT +1\\.000 ± 0\\.050\n"));
+  report_.Z_error.reset();
+  EXPECT_THAT(text(), ContainsRegex("P sigma\\^2/kT +1\n"));
+}
+
+TEST_F(TerminalSummary, WhatToTryNextIsWhatWorks) {
+  const auto next = [&] {
+    const std::string all = cli::terminal_summary(report_, scene_, {"out", {"out/trajectory.h5md"}, "carom"});
+    return all.substr(all.find("Try next"));
+  };
+  scene_.output.trajectory = true;
+  report_.samples = 3;
+  EXPECT_THAT(next(), AllOf(HasSubstr("carom info out/trajectory.h5md"), HasSubstr("MDAnalysis")));
+  report_.samples = 0;  // events or observables alone
+  EXPECT_THAT(next(), AllOf(HasSubstr("carom info out/trajectory.h5md"), Not(HasSubstr("MDAnalysis"))));
+  report_.samples = 3;
+  scene_.output.trajectory = false;
+  EXPECT_THAT(next(), Not(HasSubstr("MDAnalysis")));
+  // The same changes, and no other seed where none is asked for.
+  scene_.overrides = {"run.time=2", "run.seed=7", "disks.0.velocities={ speed = 1.0 }"};
+  scene_.effects.collision.rule = CollisionRule::specular;
+  scene_.species.front().positions = RandomPositions{};
+  EXPECT_THAT(next(), ContainsRegex("carom run .* --set run.time=2 --set 'disks.0.velocities=\\{ speed = 1.0 \\}' --seed"));
+  EXPECT_THAT(next(), Not(HasSubstr("run.seed=7")));
+  for (Species& species : scene_.species) {
+    species.positions = ListedPositions{};
+    species.velocities = AtRest{};
+  }
+  EXPECT_THAT(next(), Not(HasSubstr("another start")));
+}
+
+TEST_F(TerminalSummary, ARunThatTimeStopsNamesTheDisks) {
+  report_.stopped = StopReason::jammed;
+  EXPECT_THAT(text(), HasSubstr("jammed: disks that touch on all sides"));
+  report_.stopped_disks = {3, 5};
+  EXPECT_THAT(text(), HasSubstr("jammed: disks 3 and 5 touch on all sides"));
+  report_.stopped_disks = {0, 1, 2, 3, 5, 8, 13};
+  EXPECT_THAT(text(), HasSubstr("jammed: disks 0, 1, 2, 3 and 3 more touch"));
+  report_.stopped = StopReason::collapsed;
+  report_.stopped_disks = {7};
+  EXPECT_THAT(text(), HasSubstr("collapsed: disk 7 collides at ever shorter intervals"));
+}
+
+TEST_F(TerminalSummary, AnOverlapThatWasAcceptedIsTold) {
+  report_.max_relative_overlap = 0.25;
+  report_.overlap_at_start = 0.125;
+  EXPECT_THAT(text(), ContainsRegex("worst overlap +2.5e-01 diameters .*; 1.2e-01 accepted at the start"));
+}
+
+}  // namespace
+}  // namespace carom::test

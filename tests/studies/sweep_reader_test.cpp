@@ -1,0 +1,228 @@
+// Sweep files: which points and seeds they mean, and what is refused with which sentence.
+
+#include "io/summary.hpp"
+#include "scene/observables_known.hpp"
+#include "studies/sweep/numbers.hpp"
+#include "support/recorded_run.hpp"
+#include "support/sweep_files.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::string scene_line = "scene = \"gas.toml\"\n";
+
+class SweepReader : public ::testing::Test {
+ protected:
+  SweepFiles files_;
+};
+
+std::vector<std::string> names_of(const Sweep& sweep) {
+  std::vector<std::string> names;
+  for (const SweepPoint& point : sweep.points) names.push_back(point.name);
+  return names;
+}
+
+TEST_F(SweepReader, AGridHasEveryCombinationAndItsFirstKeyChangesLast) {
+  const Sweep sweep = files_.load(scene_line + "seeds = 2\n[grid]\n\"run.time\" = [1.0, 2]\ndisks.0.count = [10, 20, 30]\n");
+  EXPECT_THAT(sweep.keys, ElementsAre("run.time", "disks.0.count"));
+  EXPECT_THAT(names_of(sweep), ElementsAre("time=1.0_count=10", "time=1.0_count=20", "time=1.0_count=30", "time=2_count=10",
+                                           "time=2_count=20", "time=2_count=30"));
+  EXPECT_THAT(sweep.seeds, ElementsAre(1, 2));
+  EXPECT_EQ(sweep.run_count(), 12U);
+  EXPECT_THAT(sweep.overrides_of(11), ElementsAre("run.time=2", "disks.0.count=30", "run.seed=2"));
+  EXPECT_EQ(sweep.directory_of(11), "time=2_count=30/seed=2");
+}
+
+TEST_F(SweepReader, ListedPointsFollowTheGridAndMayHaveNames) {
+  const Sweep sweep = files_.load(scene_line +
+                                  "[grid]\n\"run.time\" = [1.0]\n"
+                                  "[[points]]\nname = \"walls\"\n\"box.boundary\" = \"walls\"\n"
+                                  "[[points]]\nrun.time = 3.0\n\"disks.0.velocities\" = { speed = 2.0 }\n");
+  EXPECT_THAT(names_of(sweep), ElementsAre("time=1.0", "walls", "time=3.0_velocities=speed-2.0"));
+  EXPECT_THAT(sweep.overrides_of(1), ElementsAre("box.boundary=\"walls\"", "run.seed=1"));
+  EXPECT_DOUBLE_EQ(std::get<FixedSpeed>(sweep.scene_of(2).species[0].velocities).speed, 2.0);
+}
+
+TEST_F(SweepReader, WithoutPointsTheSceneItselfIsOne) {
+  const Sweep sweep = files_.load(scene_line + "seeds = [5, 3]\n");
+  EXPECT_THAT(names_of(sweep), ElementsAre("scene"));
+  EXPECT_EQ(sweep.directory_of(1), "scene/seed=3");
+  EXPECT_EQ(sweep.scene_of(1).run.seed, 3U);
+}
+
+TEST_F(SweepReader, ANumberOfSeedsBeginsWithTheScenesOwn) {
+  EXPECT_THAT(files_.load(scene_line + "seeds = 3\n[set]\nrun.time = 4.0\n").seeds, ElementsAre(1, 2, 3));
+  write_text(files_.directory().file("gas.toml"), fifty_disks + "seed = 7\n");
+  EXPECT_THAT(files_.load(scene_line + "seeds = 3\n").seeds, ElementsAre(7, 8, 9));
+}
+
+TEST_F(SweepReader, SharedChangesAreAtEveryPointAndAPointsOwnComeAfterThem) {
+  const Sweep sweep = files_.load(scene_line + "[set]\nrun.time = 4.0\ndisks.0.count = 9\n[[points]]\nrun.time = 5.0\n");
+  EXPECT_EQ(sweep.scene_of(0).run.time, 5.0);
+  EXPECT_EQ(sweep.scene_of(0).disk_count(), 9);
+  EXPECT_THAT(names_of(sweep), ElementsAre("time=5.0"));
+}
+
+TEST_F(SweepReader, AResolvedSceneReadsBackAsItself) {
+  const Sweep sweep = files_.load(scene_line +
+                                  "[grid]\ndisks.0.packing_fraction = [0.1]\n\"observe.speeds\" = [{ bins = 20 }]\n"
+                                  "[set]\ndisks.0.radius = 0.3\n\"title\" = \"a \\\"name\\\"\"\nbox = { aspect = 2.0, "
+                                  "boundary = \"periodic\" }\n");
+  const std::string resolved = resolved_toml(sweep.scene_of(0));
+  EXPECT_EQ(resolved_toml(parse_scene(resolved)), resolved);
+}
+
+TEST_F(SweepReader, WhatIsWrongWithTheFileIsSaidWithItsPlace) {
+  const auto refusal = [&](const std::string& text) { return files_.refusal(text); };
+  EXPECT_EQ(refusal("seeds = 2\n"), "sweep.toml:1:1: the sweep names no scene; give it, such as scene = \"gas.toml\"");
+  EXPECT_THAT(refusal("scene = 3\n"), StartsWith("sweep.toml:1:9: scene is an integer (3); it must be a string"));
+  EXPECT_THAT(refusal("scene = \"gone.toml\"\n"),
+              AllOf(StartsWith("sweep.toml:1:9: "), HasSubstr("gone.toml: there is no such")));
+  EXPECT_EQ(refusal(scene_line + "sedes = 2\n"), "sweep.toml:2:1: a sweep has no key \"sedes\"; did you mean \"seeds\"?");
+  EXPECT_THAT(refusal(scene_line + "seeds = 0\n"),
+              StartsWith("sweep.toml:2:9: seeds is an integer (0); it must be how many, from 1"));
+  EXPECT_THAT(refusal(scene_line + "seeds = []\n"), StartsWith("sweep.toml:2:9: seeds is an empty list"));
+  EXPECT_THAT(refusal(scene_line + "seeds = [1, -2]\n"), StartsWith("sweep.toml:2:13: seeds.1 is an integer (-2)"));
+  EXPECT_EQ(refusal(scene_line + "seeds = [1, 2, 1]\n"),
+            "sweep.toml:2:16: seed 1 is there twice; a seed gives one run, so name it once");
+  EXPECT_THAT(refusal(scene_line + "grid = 3\n"), StartsWith("sweep.toml:2:8: grid is an integer (3)"));
+  EXPECT_THAT(refusal(scene_line + "[grid]\n"), StartsWith("sweep.toml:2:1: [grid] is empty"));
+  EXPECT_THAT(refusal(scene_line + "[grid]\nrun.time = 3.0\n"),
+              StartsWith("sweep.toml:3:12: grid.run.time is a floating-point number (3.0); it must be a list of values"));
+  EXPECT_THAT(refusal(scene_line + "[grid]\n\"run.seed\" = [1, 2]\n"), StartsWith("sweep.toml:3:1: run.seed cannot be swept"));
+  EXPECT_EQ(refusal(scene_line + "[grid]\n\"run.time\" = [1.0]\nrun.time = [2.0]\n"),
+            "sweep.toml:4:5: run.time is there twice; give it once");
+  EXPECT_THAT(refusal(scene_line + "points = 3\n"),
+              StartsWith("sweep.toml:2:10: points is an integer (3); it must be a list of tables"));
+  EXPECT_THAT(refusal(scene_line + "[[points]]\nname = \"../up\"\n"),
+              StartsWith("sweep.toml:3:8: points.0.name is a string (\"../up\")"));
+  EXPECT_THAT(refusal(scene_line + "[[points]]\nname = \"sweep.csv\"\n"), HasSubstr("no file of the sweep"));
+  EXPECT_THAT(refusal(scene_line + "[[points]]\nrun.time = 1979-05-27\n"),
+              HasSubstr("is a date or time; it must be a value that a scene"));
+  EXPECT_THAT(refusal("scene = \n"), StartsWith("sweep.toml:1:"));
+}
+
+TEST_F(SweepReader, TwoPointsOfOneNameAreRefused) {
+  EXPECT_EQ(files_.refusal(scene_line + "[grid]\nrun.time = [1.0, 1.0]\n"),
+            "sweep.toml:3:18: two points are called time=1.0, the other one in line 3; they are the same: leave one out");
+  EXPECT_EQ(files_.refusal(scene_line + "[[points]]\nname = \"a\"\nrun.time = 1.0\n[[points]]\nname = \"a\"\nrun.time = 2.0\n"),
+            "sweep.toml:5:1: two points are called a, the other one in line 2; give one of them a name of its own");
+}
+
+TEST_F(SweepReader, WhatASceneRefusesIsSaidOfThePointThatAsksForIt) {
+  EXPECT_THAT(files_.refusal(scene_line + "[grid]\ndisks.0.radius = [0.1, -0.2]\n"),
+              AllOf(StartsWith("sweep.toml:3:24: the scene of the point radius=-0.2 is refused: --set disks.0.radius=-0.2: "),
+                    HasSubstr("above zero")));
+  EXPECT_THAT(
+      files_.refusal(scene_line + "[grid]\nrun.time = [1.0]\ndisks.1.radius = [0.1]\n"),
+      StartsWith("sweep.toml:4:19: the scene of the point time=1.0_radius=0.1 is refused: --set disks.1.radius=0.1: disks has 1 "
+                 "entry"));
+  EXPECT_THAT(files_.refusal(scene_line + "[set]\nrun.tim = 2.0\n"),
+              StartsWith("sweep.toml:3:5: the scene of the point scene is refused: "));
+  EXPECT_THAT(files_.refusal(scene_line + "[grid]\n\"disks.0.a b\" = [1]\n"), HasSubstr("is not a dotted key"));
+}
+
+TEST_F(SweepReader, TooManyRunsAreRefused) {
+  EXPECT_THAT(files_.refusal(scene_line + "seeds = 1000000\n[grid]\nrun.time = [1.0, 2.0]\n"),
+              StartsWith("sweep.toml:1:1: these are 2 points with 1000000 seeds each"));
+}
+
+TEST_F(SweepReader, ATableHasNumbersThatSummariesHave) {
+  const std::string observed = scene_line + "table = [\"pressure.Z\", \"observables.temperature.kT\"]\n[set]\n";
+  EXPECT_THAT(files_.load(observed + "observe.temperature = true\n").table,
+              ElementsAre("pressure.Z", "observables.temperature.kT"));
+  EXPECT_EQ(files_.refusal(scene_line + "table = [\"presure.Z\"]\n"),
+            "sweep.toml:2:10: table.0 is \"presure.Z\", and no run has that number; did you mean \"pressure.Z\"?");
+  EXPECT_THAT(files_.refusal(scene_line + "table = [\"wall_seconds\"]\n"), HasSubstr("no run has that number; docs/output.md"));
+  EXPECT_THAT(files_.refusal(scene_line + "table = [\"time\", \"time\"]\n"), HasSubstr("in the list already"));
+  EXPECT_THAT(files_.refusal(scene_line + "table = []\n"), StartsWith("sweep.toml:2:9: table is an empty list"));
+}
+
+TEST_F(SweepReader, ATableHasNumbersThatSomePointOfThisVerySweepHas) {
+  // Walls and thermostats are known, and this gas has neither.
+  for (const char* name : {"walls.left.force", "thermostat.kicks", "events.kicks", "growth.scale", "overlap.start"})
+    EXPECT_THAT(files_.refusal(scene_line + "table = [\"time\", \"" + name + "\"]\n"),
+                StartsWith(std::string("sweep.toml:2:18: table.1 is \"") + name + "\", and no run has that number"))
+        << name;
+  const std::string kicks = scene_line + "table = [\"thermostat.kicks\"]\n";
+  EXPECT_EQ(files_.refusal(kicks + "[set]\nthermostat = { temperature = 1.0, rate = 0.0 }\n"), "");
+  EXPECT_EQ(files_.refusal(kicks + "[[points]]\nname = \"a\"\n[[points]]\nname = \"b\"\n"
+                                   "thermostat = { temperature = 1.0, rate = 0.1 }\n"),
+            "");
+  const auto observed = [&](const std::string& name) {
+    return files_.refusal(scene_line + "table = [\"observables." + name +
+                          "\"]\n[set]\nobserve = { pressure = true, mean_square_displacement = true }\n");
+  };
+  EXPECT_EQ(observed("pressure.Z_error"), "");
+  EXPECT_THAT(observed("pressure.Zet"), HasSubstr("did you mean \"observables.pressure.Z\"?"));
+  EXPECT_THAT(observed("pressure.something_else"), HasSubstr("of pressure there are observables.pressure.Z"));
+  EXPECT_THAT(observed("mean_square_displacement.diffusion"),
+              AllOf(HasSubstr("does not ask for mean_square_displacement, or it makes tables alone; there are"),
+                    HasSubstr("observables.pressure.Z")));
+  EXPECT_THAT(observed("msd.D"), HasSubstr("there is no observable \"msd\"; there are observables.pressure.Z"));
+}
+
+TEST_F(SweepReader, ASceneIsToldFromASweep) {
+  EXPECT_THAT(files_.refusal(fifty_disks), HasSubstr("this is a scene: carom run runs it"));
+}
+
+/// The names of a run that has been made.
+std::vector<std::string> names_in_summary(const Scene& scene) {
+  const TemporaryDirectory directory;
+  const RunReport report = record(scene, directory.path() / "run");
+  std::vector<std::string> names;
+  const auto summary = nlohmann::ordered_json::parse(summary_json(report, {}));
+  for (const SummaryNumber& number : numbers_of(summary)) names.push_back(number.name);
+  return names;
+}
+
+TEST(ScenesSweepNumbers, AreForetoldForEveryEffectAndObservable) {
+  const std::vector<std::vector<std::string>> bases = {
+      {},
+      {"box.boundary=walls", "gravity.acceleration=[0.0,-0.1]", "walls.left.temperature=1.0"},
+      {"box.boundary=walls", "walls.top.mass=10.0", "walls.top.load=1.0", "walls.right.restitution=0.9"},
+      {"collision.restitution=0.9", "collision.roughness=0.1", "run.accept_overlap=true"},
+      {"collision.rule=reversal", "obstacles=[{ segment = { from = [0.0, 0.0], to = [0.1, 0.0] } }]", "disks.0.positions=random"},
+      {"growth.rate=0.001"},
+      {"thermostat.temperature=1.0", "thermostat.rate=1.0"},
+      {"shear.rate=0.1"},
+      {"square_well.width=1.1", "square_well.depth=0.1"},
+      {"disks=[{ name = \"small\", count = 6, radius = 0.1, mass = 1.0, positions = \"random\", velocities = \"rest\" }, "
+       "{ count = 6, radius = 0.3, mass = 2.0, positions = \"random\", velocities = { temperature = 1.0 } }]"}};
+  std::size_t observed = 0;
+  for (const auto& base : bases)
+    for (const char* time : {"run.time=0.0", "run.time=0.02"}) {
+      std::vector<std::string> changes = base;
+      if (changes.empty() || !changes.front().starts_with("disks=")) changes.emplace_back("disks.0.count=12");
+      changes.emplace_back(time);
+      for (const detail::KnownObservable& known : detail::known_observables) {
+        changes.push_back(fmt::format("observe.{}=true", known.name));
+        try {
+          (void)number_names(parse_scene(fifty_disks, "gas.toml", changes));
+          ++observed;
+        } catch (const SceneError&) {  // it has no meaning there
+          changes.pop_back();
+        }
+      }
+      const Scene scene = parse_scene(fifty_disks, "gas.toml", changes);
+      EXPECT_EQ(number_names(scene), names_in_summary(scene)) << fmt::format("{}", fmt::join(changes, " "));
+    }
+  EXPECT_GT(observed, 200U);
+}
+
+}  // namespace
+}  // namespace carom::test

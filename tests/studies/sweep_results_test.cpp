@@ -1,0 +1,177 @@
+// What a sweep finds in the files of its runs, and the tables that it makes of it.
+
+#include "studies/sweep/hdf5.hpp"
+#include "studies/sweep/results.hpp"
+#include "studies/sweep/tables.hpp"
+
+#include "io/hdf5_handle.hpp"
+#include "support/sweep_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace carom::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+namespace fs = std::filesystem;
+
+TEST(SweepAverage, IsMeanAndStandardErrorOverSeeds) {
+  // Mean of 1, 2, 4, 9 is 4; squares of what is left: 9 + 4 + 0 + 25 = 38; 38 / 3 / 4 = 19 / 6.
+  const SeedAverage four = average_of({1.0, 2.0, 4.0, 9.0});
+  EXPECT_EQ(four.count, 4U);
+  EXPECT_EQ(four.mean, 4.0);
+  EXPECT_DOUBLE_EQ(*four.error, std::sqrt(19.0 / 6.0));
+  // Of two values half their distance.
+  const SeedAverage two = average_of({3.0, std::nullopt, 5.0});
+  EXPECT_EQ(two.count, 2U);
+  EXPECT_EQ(two.mean, 4.0);
+  EXPECT_DOUBLE_EQ(*two.error, 1.0);
+}
+
+TEST(SweepAverage, OfOneSeedHasNoErrorAndOfNoneNoMean) {
+  const SeedAverage one = average_of({std::nullopt, 2.5});
+  EXPECT_EQ(one.mean, 2.5);
+  EXPECT_EQ(one.error, std::nullopt);
+  EXPECT_EQ(average_of({std::nullopt}).mean, std::nullopt);
+  EXPECT_EQ(average_of({}).count, 0U);
+}
+
+class SweepResultsOf : public ::testing::Test {
+ protected:
+  SweepResultsOf() {
+    sweep_ = files_.load(
+        "scene = \"gas.toml\"\nseeds = 2\ntable = [\"pressure.Z\", \"observables.temperature.kT\"]\n"
+        "[set]\nobserve.temperature = true\n[grid]\nrun.time = [1.0, 2.0]\n"
+        "[[points]]\nname = \"walls\"\n\"box.boundary\" = \"walls\"\n");
+  }
+  [[nodiscard]] fs::path place(std::size_t run) const { return files_.directory().path() / "out" / sweep_.directory_of(run); }
+  [[nodiscard]] Json summary(std::size_t run, const Json& Z) const {
+    return {{"carom", {{"version", "1.2.3"}, {"commit", "abc"}, {"threads", 5}}},
+            {"seed", sweep_.seed_of(run)},
+            {"pressure", {{"Z", Z}, {"Z_error", 0.5}}},
+            {"wall_seconds", 12.5},
+            {"stopped", "time"},
+            {"resolved_scene", resolved_toml(sweep_.scene_of(run))}};
+  }
+  void put(std::size_t run, const Json& summary) const {
+    fs::create_directories(place(run));
+    write_text(place(run) / "summary.json", summary.dump());
+  }
+  [[nodiscard]] FoundRun found(std::size_t run) const {
+    return find_run(place(run), [&] { return resolved_toml(sweep_.scene_of(run)); });
+  }
+  [[nodiscard]] RunState state(std::size_t run) const { return found(run).state; }
+  [[nodiscard]] SweepResults results() const { return collect(sweep_, files_.directory().path() / "out"); }
+
+  SweepFiles files_;
+  Sweep sweep_;
+};
+
+TEST_F(SweepResultsOf, ARunIsFinishedExactlyWithASummaryOfItsOwnScene) {
+  EXPECT_EQ(state(0), RunState::missing);
+  put(0, summary(0, 1.5));
+  EXPECT_EQ(state(0), RunState::finished);
+  put(0, summary(1, 1.5));
+  EXPECT_EQ(state(0), RunState::other);
+  Json interrupted = summary(0, 1.5);
+  interrupted["stopped"] = "interrupted";
+  put(0, interrupted);
+  EXPECT_EQ(state(0), RunState::missing);
+  for (const char* text : {"{", "", "[1]", R"({"stopped": 3})", R"({"stopped": "time"})"}) {
+    write_text(place(0) / "summary.json", text);
+    EXPECT_EQ(state(0), RunState::missing) << text;
+  }
+  fs::remove(place(0) / "summary.json");
+  fs::create_directory(place(0) / "summary.json");
+  EXPECT_EQ(state(0), RunState::missing);
+  fs::remove(place(0) / "summary.json");
+  put(0, summary(0, 1.5));
+  write_text(place(0) / failure_file, "disks overlap\n");
+  EXPECT_EQ(state(0), RunState::failed);
+}
+
+TEST_F(SweepResultsOf, ARunThatNeverLeftEquilibrationHasFailed) {
+  Json jammed = summary(0, 1.5);
+  jammed["stopped"] = "jammed";
+  jammed["measured"] = false;
+  put(0, jammed);
+  EXPECT_EQ(state(0), RunState::failed);
+  EXPECT_EQ(found(0).failure, "the run ended while it was still equilibrating (jammed)");
+}
+
+TEST_F(SweepResultsOf, TablesHaveMeansErrorsAndWhatFailed) {
+  put(0, summary(0, 1.0));
+  put(1, summary(1, 2.0));
+  put(2, summary(2, nullptr));
+  Json measured = summary(3, 7.0);
+  measured["observables"]["temperature"]["kT"] = {{"value", 0.1}, {"error", nullptr}};
+  put(3, measured);
+  fs::create_directories(place(4));
+  write_text(place(4) / failure_file, "no room, \"none\" at all\n");
+  EXPECT_EQ(points_csv(sweep_, results()),
+            "point,run.time,box.boundary,finished,failed,pressure.Z_mean,pressure.Z_error,observables.temperature.kT_mean,"
+            "observables.temperature.kT_error\n"
+            "time=1.0,1.0,,2,0,1.5,0.5,,\n"
+            "time=2.0,2.0,,2,0,7,,0.1,\n"
+            "walls,,walls,0,1,,,,\n");
+  EXPECT_EQ(runs_csv(sweep_, results()),
+            "point,run.time,box.boundary,seed,directory,state,stopped,pressure.Z,observables.temperature.kT,failure\n"
+            "time=1.0,1.0,,1,time=1.0/seed=1,finished,time,1,,\n"
+            "time=1.0,1.0,,2,time=1.0/seed=2,finished,time,2,,\n"
+            "time=2.0,2.0,,1,time=2.0/seed=1,finished,time,,,\n"
+            "time=2.0,2.0,,2,time=2.0/seed=2,finished,time,7,0.1,\n"
+            "walls,,walls,1,walls/seed=1,failed,,,,\"no room, \"\"none\"\" at all\"\n"
+            "walls,,walls,2,walls/seed=2,missing,,,,\n");
+  EXPECT_THAT(results().versions, ElementsAre("1.2.3 (commit abc)"));
+}
+
+TEST_F(SweepResultsOf, WithoutATableTheUsualNumbersAreThereAndNoneOfAClock) {
+  sweep_.table.clear();
+  Json measured = summary(0, 1.0);
+  measured["observables"]["temperature"] = {{"note", "x"}, {"kT", {{"value", 0.1}, {"error", 0.2}}}};
+  measured["temperature"]["mean"] = nullptr;
+  measured["collisions_per_second"] = 1e6;
+  put(0, measured);
+  EXPECT_THAT(results().numbers, ElementsAre("pressure.Z", "observables.temperature.kT"));
+}
+
+TEST_F(SweepResultsOf, NumbersOfListsAndErrorsOfObservablesHaveNames) {
+  const Json summary = {{"momentum", {{"final", {1.0, 2.0}}}},
+                        {"observables", {{"pressure", {{"Z", {{"value", 3.0}, {"error", 0.5}}}}}}}};
+  std::string text;
+  for (const SummaryNumber& number : numbers_of(summary)) text += number.name + " " + std::to_string(*number.value) + "\n";
+  EXPECT_EQ(text,
+            "momentum.final.0 1.000000\nmomentum.final.1 2.000000\nobservables.pressure.Z 3.000000\n"
+            "observables.pressure.Z_error 0.500000\n");
+}
+
+TEST_F(SweepResultsOf, TheHdf5FileHoldsTheSameAndHasTheSameBytesEveryTime) {
+  put(0, summary(0, 1.0));
+  put(1, summary(1, 2.0));
+  const std::string bytes = sweep_hdf5(sweep_, results());
+  EXPECT_EQ(sweep_hdf5(sweep_, results()), bytes);
+  const std::string path = files_.directory().file("sweep.h5");
+  write_text(path, bytes);
+  const detail::Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  EXPECT_THAT(detail::members_of(file.get(), "/points/parameters"), ElementsAre("box.boundary", "run.time"));
+  const std::vector<double> mean = detail::read_rows(file.get(), "/points/mean/pressure.Z", 0, 3);
+  EXPECT_EQ(mean[0], 1.5);
+  EXPECT_TRUE(std::isnan(mean[1]));
+  EXPECT_EQ(detail::read_rows(file.get(), "/points/error/pressure.Z", 0, 1)[0], 0.5);
+  EXPECT_THAT(detail::read_rows(file.get(), "/runs/numbers/pressure.Z", 0, 2), ElementsAre(1.0, 2.0));
+  EXPECT_THAT(detail::read_rows(file.get(), "/runs/seed", 0, 6), ElementsAre(1, 2, 1, 2, 1, 2));
+  EXPECT_EQ(detail::read_string_attribute(file.get(), "/", "sweep"), sweep_.text);
+  EXPECT_EQ(detail::read_string_attribute(file.get(), "/", "scene"), fifty_disks);
+}
+
+}  // namespace
+}  // namespace carom::test
