@@ -1,5 +1,5 @@
 #pragma once
-// The rectangle that holds the disks.
+// The rectangular box that holds the disks.
 
 #include <Eigen/Core>
 
@@ -8,6 +8,7 @@
 
 namespace carom {
 
+/// What the two sides across one axis of the box are.
 enum class Boundary { walls, periodic };
 
 /// The rectangle [lower, upper], with the kind of boundary of each axis (x, y).

@@ -1,5 +1,5 @@
 #pragma once
-// All of Carom's public interface.
+// The whole public interface of Carom.
 
 #include <carom/blocking.hpp>
 #include <carom/observe.hpp>

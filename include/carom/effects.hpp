@@ -1,6 +1,7 @@
 #pragma once
-// The effects that a scene may call for beyond straight flight between hard walls: plain data, one struct per table of the scene
-// format. What is absent is not simulated. Every effect has a neutral value, at which it leaves the same bits as without it.
+// The effects that a scene may have beyond free flight between hard walls at rest: plain data, one struct per table of the scene
+// format. An effect that is absent is not simulated. Every effect has a neutral value, at which the run has the same bits as
+// without the effect.
 
 #include <carom/box.hpp>
 
@@ -14,38 +15,40 @@
 
 namespace carom {
 
-/// Where the user said something: a file with line and column (both from 1), or a command-line override (line 0).
+/// The place of a value: a file with line and column (both from 1), or a command-line override (line 0).
 struct Location {
   std::string source;
   int line = 0;
   int column = 0;
 };
 
+/// What a collision of two disks reverses: the whole relative velocity, or its component along the line of centres.
 enum class CollisionRule { reversal, specular };
 
-/// What contact of two disks does to them: the [collision] table.
+/// The collision of two disks: the [collision] table.
 struct Collision {
   CollisionRule rule = CollisionRule::specular;
   std::optional<double> restitution;    ///< e in [0, 1]; neutral: 1
-  std::optional<double> roughness;      ///< beta in [-1, 1], turns spin on; neutral: -1 (smooth)
-  std::optional<double> elastic_below;  ///< time >= 0 (TC model); neutral: 0
+  std::optional<double> roughness;      ///< beta in [-1, 1]; present: disks have spin; neutral: -1 (smooth)
+  std::optional<double> elastic_below;  ///< contact time of the TC model, >= 0; neutral: 0
 };
 
-/// Uniform acceleration of all disks: the [gravity] table. Zero along periodic axes.
+/// Gravity, a uniform acceleration of all disks: the [gravity] table. It is zero along periodic axes.
 struct Gravity {
   Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();  ///< length / time^2; neutral: zero
   Location where;
 };
 
-/// One side of the box, one key of the [walls] table. Nothing set: a hard wall at rest.
+/// The properties of one wall: one key of the [walls] table. Without any of them it is a hard wall at rest.
 struct WallProperties {
   std::optional<double> restitution;  ///< e in [0, 1]; neutral: 1
-  std::optional<double> temperature;  ///< kT > 0 of a diffuse wall; there is no neutral value, and no restitution beside it
-  std::optional<double> velocity;     ///< constant, along +x or +y whichever side it is; neutral: 0
-  std::optional<double> mass;         ///< > 0: a piston, free to move across its axis
-  std::optional<double> load;         ///< >= 0, inward force per unit length on the piston; present if mass is
+  std::optional<double> temperature;  ///< kT > 0 of a thermal wall; it has no neutral value and excludes `restitution`
+  std::optional<double> velocity;     ///< constant velocity along +x or +y, whichever side it is; neutral: 0
+  std::optional<double> mass;         ///< mass > 0 of a piston, a wall that moves freely along its normal
+  std::optional<double> load;         ///< inward force per unit length on the piston, >= 0; present if `mass` is
   Location where;
 
+  /// Returns whether the scene names any property of this wall.
   [[nodiscard]] bool present() const { return restitution || temperature || velocity || mass; }
 };
 
@@ -54,33 +57,33 @@ struct DiskObstacle {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   double radius = 0.0;  ///< length, > 0
 };
-/// A fixed straight line, hard from both sides; its ends are corners of radius 0.
+/// A fixed straight segment, hard on both sides; its ends are points.
 struct SegmentObstacle {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
 };
-/// One [[obstacles]] table.
+/// A fixed obstacle: one [[obstacles]] table.
 struct Obstacle {
   std::variant<DiskObstacle, SegmentObstacle> shape;
   Location where;
 };
 
-/// All radii grow as radius (1 + rate t), t from the start of the measured run (Lubachevsky-Stillinger): the [growth] table.
+/// Growth of all radii as radius (1 + rate t), t from the start of the measured run (Lubachevsky-Stillinger): the [growth] table.
 struct Growth {
   double rate = 0.0;                       ///< 1 / time, >= 0; neutral: 0
-  std::optional<double> packing_fraction;  ///< at which the run ends
-  std::optional<double> reduced_pressure;  ///< (4 eta / pi) Z at which the run ends
+  std::optional<double> packing_fraction;  ///< packing fraction at which the run ends
+  std::optional<double> reduced_pressure;  ///< reduced pressure (4 eta / pi) Z at which the run ends
   Location where;
 };
 
-/// Andersen: each disk's velocity is redrawn from the Maxwell distribution at this rate: the [thermostat] table.
+/// The Andersen thermostat, which redraws the velocity of each disk from the Maxwell distribution: the [thermostat] table.
 struct Thermostat {
   double temperature = 0.0;  ///< kT > 0
-  double rate = 0.0;         ///< 1 / time per disk, >= 0; neutral: 0
+  double rate = 0.0;         ///< mean number of redraws per disk and time, >= 0; neutral: 0
   Location where;
 };
 
-/// Lees-Edwards boundaries: the flow is v_x = rate y: the [shear] table.
+/// Lees-Edwards boundaries with the flow v_x = rate y: the [shear] table.
 struct Shear {
   double rate = 0.0;  ///< 1 / time; neutral: 0
   Location where;
@@ -88,11 +91,12 @@ struct Shear {
 
 /// A square well (depth > 0) or shoulder (depth < 0) round every disk: the [square_well] table.
 struct SquareWell {
-  double width = 0.0;  ///< outer diameter over hard diameter, > 1
+  double width = 0.0;  ///< outer over hard diameter, > 1
   double depth = 0.0;  ///< energy; neutral: 0
   Location where;
 };
 
+/// All effects of a scene.
 struct Effects {
   Collision collision;
   std::optional<Gravity> gravity;
@@ -103,24 +107,24 @@ struct Effects {
   std::optional<Shear> shear;
   std::optional<SquareWell> square_well;
 
-  /// Whether nothing is there but the collision rule and hard walls at rest: every other effect is absent or at its neutral
+  /// Returns whether nothing acts but the collision rule and hard walls at rest: every other effect is absent or at its neutral
   /// value.
   [[nodiscard]] bool neutral() const { return acting().empty(); }
-  /// The others: what is there at another value than its neutral one, in the words of names_of().
+  /// Returns the names, as by names_of(), of all effects that are not at their neutral value.
   [[nodiscard]] std::vector<std::string> acting() const;
-  /// Whether any contact takes energy away, so that time may come to a stand (inelastic collapse).
+  /// Returns whether any contact dissipates energy, so that inelastic collapse is possible.
   [[nodiscard]] bool dissipate() const;
 };
 
-/// Whether the total momentum along an axis stays what it was: the axis is periodic, and nothing beside the other disks (a
-/// thermostat, an obstacle, a thermal wall) pushes a disk.
+/// Returns whether the total momentum along `axis` is conserved: the axis is periodic, and nothing but other disks (no
+/// thermostat, obstacle or thermal wall) acts on a disk.
 [[nodiscard]] bool keeps_momentum(const Box& box, const Effects& effects, int axis);
 
-/// What acts, in the words of the scene format, in its order: "specular", "walls" (where an axis has them), "restitution", ...
-/// Whatever the scene names acts, at its neutral value too.
+/// Returns the names of all effects in the words and order of the scene format: "specular", "walls" (where `walled`),
+/// "restitution", ... Effects at their neutral value are included.
 [[nodiscard]] std::vector<std::string> names_of(const Effects& effects, bool walled);
 
-/// The same without the rule and hard walls, joined by commas: what is there beyond them. Empty where nothing is named.
+/// Returns names_of() without the collision rule and hard walls, joined by commas; empty where there are no others.
 [[nodiscard]] std::string words_beyond_the_rule(const Effects& effects);
 
 }  // namespace carom

@@ -1,5 +1,5 @@
 #pragma once
-// What the user asked for, as plain data: the scene format of docs/scene-format.md after it was read, completed
+// A scene: what is to be simulated, as plain data. It is the scene format of docs/scene-format.md after it was read, completed
 // with every default, and checked. Nothing here is computed beyond what the file says.
 
 #include <carom/box.hpp>
@@ -16,13 +16,13 @@
 
 namespace carom {
 
-/// The scene is wrong. what() is one sentence: "file:line:column: what is wrong; what would be right", or without a place where
-/// a program has put the scene together.
+/// Thrown for a scene that is wrong. what() is one sentence, "file:line:column: what is wrong; what would be right", without the
+/// place where a program has made the scene.
 class SceneError : public std::runtime_error {
  public:
   SceneError(const Location& where, const std::string& sentence);
   [[nodiscard]] const Location& where() const { return where_; }
-  /// what() without the place.
+  /// Returns what() without the place.
   [[nodiscard]] const std::string& sentence() const { return sentence_; }
 
  private:
@@ -33,82 +33,83 @@ class SceneError : public std::runtime_error {
 struct RandomPositions {};   ///< uniform without overlap, by random sequential addition
 struct SquareLattice {};     ///< a rectangular lattice over the whole box
 struct HexagonalLattice {};  ///< a triangular lattice over the whole box
-struct ListedPositions {
+struct ListedPositions {     ///< one centre per disk
   std::vector<Eigen::Vector2d> values;
 };
-struct FilePositions {
-  std::string path;  ///< absolute; a scene's relative path is relative to the scene file
+struct FilePositions {  ///< the columns x, y of a file
+  std::string path;     ///< absolute; a scene's relative path is relative to the scene file
   std::vector<Eigen::Vector2d> values;
 };
-struct GrownPositions {           ///< random and dense: small disks grown to their size while they move and collide
+struct GrownPositions {           ///< random and dense: small disks that grew to their size while they moved and collided
   double packing_fraction = 0.0;  ///< of all disks of the scene together
 };
 using Positions = std::variant<RandomPositions, SquareLattice, HexagonalLattice, ListedPositions, FilePositions, GrownPositions>;
 
-struct UniformVelocities {
-  double maximum = 0.0;  ///< each component uniform in [-maximum, maximum]
+struct UniformVelocities {  ///< each component uniform in [-maximum, maximum]
+  double maximum = 0.0;
 };
-struct MaxwellVelocities {
-  double temperature = 0.0;  ///< kT, met exactly by the drawn sample unless keep_momentum
+struct MaxwellVelocities {   ///< a Maxwell distribution
+  double temperature = 0.0;  ///< kT; the drawn sample has it exactly, unless keep_momentum
 };
-struct FixedSpeed {
-  double speed = 0.0;  ///< in a random direction
+struct FixedSpeed {  ///< one speed in random directions
+  double speed = 0.0;
 };
-struct ListedVelocities {
+struct ListedVelocities {  ///< one velocity per disk
   std::vector<Eigen::Vector2d> values;
 };
-struct FileVelocities {  ///< the columns vx, vy of the file that gives the positions
+struct FileVelocities {  ///< the columns vx, vy of the file of positions
   std::vector<Eigen::Vector2d> values;
 };
-struct AtRest {};
+struct AtRest {};  ///< zero velocity
 using Velocities = std::variant<AtRest, UniformVelocities, MaxwellVelocities, FixedSpeed, ListedVelocities, FileVelocities>;
 
-/// One [[disks]] table.
+/// A kind of disks: one [[disks]] table.
 struct Species {
   std::string name;
-  std::int64_t count = 0;
-  double radius = 0.0;         ///< of every disk, where `radii` is empty
-  double mass = 0.0;           ///< of every disk, where `masses` is empty
+  std::int64_t count = 0;      ///< number of disks
+  double radius = 0.0;         ///< length, > 0; of every disk, where `radii` is empty
+  double mass = 0.0;           ///< > 0; of every disk, where `masses` is empty
   std::vector<double> radii;   ///< one per disk, from a file; else empty
   std::vector<double> masses;  ///< one per disk, from a file; else empty
   Positions positions;
   Velocities velocities;
-  Location where;             ///< of the table
-  Location positions_where;   ///< of the key `positions`
-  Location velocities_where;  ///< of the key `velocities`
+  Location where;             ///< place of the table in the file
+  Location positions_where;   ///< place of the key `positions`
+  Location velocities_where;  ///< place of the key `velocities`
 
+  /// Returns radius and mass of disk i of this species, 0 <= i < count.
   [[nodiscard]] double radius_of(std::int64_t i) const { return radii.empty() ? radius : radii[static_cast<std::size_t>(i)]; }
   [[nodiscard]] double mass_of(std::int64_t i) const { return masses.empty() ? mass : masses[static_cast<std::size_t>(i)]; }
 };
 
-/// What times in a block differ by, at the least, and its length over the shortest of them, at the most: so much doubles can
-/// tell.
+/// Bounds of a SampleLog: the least ratio of one time in a block to the one before it, and the largest ratio of the length of a
+/// block to its shortest time. Beyond these, times in double precision cannot be told apart.
 inline constexpr double least_log_base = 1.01, most_log_ratio = 1e12;
 
-/// Samples in blocks of one length: at the beginning of each, and at block / base^(per_block - 1), ..., block / base^2,
-/// block / base after it. A few samples so tell what happens over short times and over long ones.
+/// Samples in blocks of equal length: at the beginning of each, and at block / base^(per_block - 1), ..., block / base^2,
+/// block / base after it. Few samples then cover both short and long times.
 struct SampleLog {
-  double base = 0.0;           ///< at least least_log_base; base^(per_block - 1) at most most_log_ratio
-  std::int64_t per_block = 0;  ///< samples of one block, >= 2
-  double block = 0.0;          ///< its length: time, > 0
+  double base = 0.0;           ///< ratio of successive times, >= least_log_base; base^(per_block - 1) <= most_log_ratio
+  std::int64_t per_block = 0;  ///< number of samples in a block, >= 2
+  double block = 0.0;          ///< length of a block: time, > 0
 };
 
-/// The [run] table. At least one of time and collisions is present.
+/// How long a scene runs and what it samples: the [run] table. At least one of `time` and `collisions` is present.
 struct Run {
-  struct Equilibrate {
+  struct Equilibrate {                          ///< the run before the measured one
     std::optional<double> collisions_per_disk;  ///< exactly one of the two is present
     std::optional<double> time;
   };
-  std::optional<double> time;
-  std::optional<std::uint64_t> collisions;  ///< pair collisions
-  // At most one of these three is present, and without them there are no samples.
-  std::optional<double> sample_every;                    ///< time
-  std::optional<std::uint64_t> sample_every_collisions;  ///< of pairs, > 0
+  std::optional<double> time;               ///< end of the measured run
+  std::optional<std::uint64_t> collisions;  ///< number of pair collisions at which it ends
+  // At most one of these three is present. Without them there are no samples.
+  std::optional<double> sample_every;                    ///< time, > 0
+  std::optional<std::uint64_t> sample_every_collisions;  ///< number of pair collisions, > 0
   std::optional<SampleLog> sample_log;
   std::optional<Equilibrate> equilibrate;
-  std::uint64_t seed = 1;
-  bool keep_momentum = false;
-  bool accept_overlap = false;  ///< disks given one by one may overlap each other, however deep
+  std::uint64_t seed = 1;       ///< seed of all random numbers
+  bool keep_momentum = false;   ///< whether drawn velocities stay as drawn; else their momentum and temperature are adjusted
+  bool accept_overlap = false;  ///< whether disks that are given one by one may overlap each other, however deeply
 
   [[nodiscard]] bool is_sampled() const { return sample_every || sample_every_collisions || sample_log; }
   void take_no_samples() {
@@ -118,28 +119,28 @@ struct Run {
   }
 };
 
-/// The [output] table.
+/// What a run writes: the [output] table.
 struct Output {
-  bool trajectory = true;
-  bool xyz = false;
-  bool csv = false;
-  bool events = false;
-  bool unwrapped = false;
+  bool trajectory = true;  ///< trajectory.h5md
+  bool xyz = false;        ///< trajectory.xyz
+  bool csv = false;        ///< samples.csv
+  bool events = false;     ///< all collisions, in trajectory.h5md
+  bool unwrapped = false;  ///< positions continue past periodic edges
 };
 
-/// One key of the [observe] table: something to measure while the run goes on. Which settings an observable has is said in
-/// docs/scene-format.md; those that it has are present, but for `every`, which follows from the mean free time where it is
-/// absent.
+/// An observable that the scene asks for: one key of the [observe] table. docs/scene-format.md says which settings an observable
+/// has; these are present, except `every`, which follows from the mean free time where it is absent.
 struct ObservableRequest {
   std::string name;                  ///< "radial_distribution"
   std::optional<double> every;       ///< time between samples, > 0
-  std::optional<std::int64_t> bins;  ///< of its histogram, >= 2
-  std::optional<double> range;       ///< how far the histogram reaches, > 0; in mean diameters for distances
-  std::optional<double> largest;     ///< wave number, > 0; in inverse mean diameters
+  std::optional<std::int64_t> bins;  ///< number of bins of its histogram, >= 2
+  std::optional<double> range;       ///< upper end of the histogram, > 0; in mean diameters for distances
+  std::optional<double> largest;     ///< largest wave number, > 0; in inverse mean diameters
   std::optional<int> axis;           ///< 0 or 1
   Location where;
 };
 
+/// All that is to be simulated.
 struct Scene {
   std::string title;
   Box box;
@@ -153,29 +154,32 @@ struct Scene {
   std::string text;                    ///< the TOML text as it was read, before overrides
   std::vector<std::string> overrides;  ///< "run.time=2", in the order in which they were applied
 
+  /// Returns the number of disks of all species.
   [[nodiscard]] std::int64_t disk_count() const;
-  /// sum of pi r^2 over the area of the box
+  /// Returns the sum of pi r^2 of all disks over the area of the box.
   [[nodiscard]] double packing_fraction() const;
 };
 
-/// Checks that a scene makes sense: that every number is finite and in its range, that lists have one entry per disk, that disks
-/// fit in the box and given ones do not overlap, that effects can act together and in this box, that the run can come to its end,
-/// and that what is to be observed has a meaning. Throws SceneError with the sentence with which load_scene() refuses a file that
-/// says the same, without its place. load_scene(), parse_scene(), every make_simulation() and restore_simulation() check a scene
-/// by it. What only files must say is not asked for: a program may leave species without names, and a run without an end where it
-/// calls run_until() by itself. Whether lattices and random places have room for the disks is found where they are placed.
+/// Checks that a scene is valid: that every number is finite and in its range, that lists have one entry per disk, that disks fit
+/// in the box and listed ones do not overlap, that effects can act together and in this box, that the run can end, and that the
+/// observables have a meaning. Throws SceneError with the sentence, without its place, by which load_scene() refuses a file of
+/// the same content. load_scene(), parse_scene(), make_simulation() and restore_simulation() call it.
+///
+/// A program may leave out what only files need: names of species, and the end of a run that it advances by run_until(). Whether
+/// lattices and random positions have room for the disks is checked where they are placed.
 void check(const Scene& scene);
 
-/// Reads, completes and checks a scene file. Each override is "dotted.key=value", its value in TOML syntax (a bare
-/// word stands for a string); "disks.0.radius" is the first species' radius.
-/// Throws SceneError for anything that the scene format does not allow, and where the file cannot be read.
+/// Reads, completes and checks a scene file. Each override is "dotted.key=value" with a value in TOML syntax (a bare word stands
+/// for a string); "disks.0.radius" is the radius of the first species. Throws SceneError for anything that the scene format does
+/// not allow, and where the file cannot be read.
 Scene load_scene(const std::string& path, const std::vector<std::string>& overrides = {});
 
-/// The same from text. `source` names the text in messages; start files are looked for in `directory`.
+/// Reads, completes and checks a scene in TOML text, as load_scene() does. `source` names the text in messages; start files are
+/// searched in `directory`. Throws SceneError.
 Scene parse_scene(const std::string& text, const std::string& source = "scene", const std::vector<std::string>& overrides = {},
                   const std::string& directory = ".");
 
-/// The scene as TOML with every default filled in. parse_scene of the result gives the same scene.
+/// Returns the scene as TOML with every default filled in. parse_scene() of the result gives the same scene.
 std::string resolved_toml(const Scene& scene);
 
 }  // namespace carom

@@ -7,7 +7,7 @@
 
 namespace carom::cli {
 
-/// What the command line asks for, ready to be done. Throws UsageError where it is wrong.
+/// Parses the command line. Returns the function that carries the command out. Throws UsageError where the command line is wrong.
 std::function<ExitCode()> parse_arguments(int argc, char** argv);
 
 }  // namespace carom::cli

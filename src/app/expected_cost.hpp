@@ -1,5 +1,5 @@
 #pragma once
-// What a run will cost on this machine, told from a short trial of it.
+// The expected cost of a run on this machine, from a short trial run.
 
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
@@ -10,16 +10,15 @@
 
 namespace carom::cli {
 
-/// Of the whole schedule: what is equilibrated and what is measured, in the event loop and with the scene's observables, without
-/// what files take.
+/// The cost of the whole schedule, equilibration included: event loop and observables, without writing files.
 struct ExpectedCost {
   double trial_seconds = 0.0;          ///< in the event loop alone
   std::uint64_t trial_collisions = 0;  ///< of pairs
   double trial_time = 0.0;             ///< of the scene's clock
-  std::optional<double> collisions;    ///< of pairs, expected; empty where the trial tells nothing
+  std::optional<double> collisions;    ///< expected number of pair collisions; empty where the trial does not determine it
   std::optional<double> seconds;       ///< the same
   bool by_theory = false;       ///< collisions are what kinetic theory says of a uniform gas, and not as many as the trial had
-  bool at_least = false;        ///< disks grow: what comes later is denser than what was tried, or nobody knows when it ends
+  bool at_least = false;        ///< disks grow: later times are denser than the trial, or the end is not known
   bool whole = false;           ///< the trial came to the end of the run
   std::size_t observables = 0;  ///< so many are in `seconds`
   std::string came_to_rest;     ///< why the trial ended early, "collapsed"; else empty
@@ -32,7 +31,7 @@ class Trial {
   /// Draws the start. Throws as make_simulation().
   Trial(const Scene& scene, const std::string& engine);
 
-  /// As the scene begins.
+  /// Returns the simulation at the start of the scene.
   [[nodiscard]] const Simulation& simulation() const { return simulation_; }
 
   /// May be called once.
@@ -47,7 +46,8 @@ class Trial {
   Simulation simulation_;
 };
 
-/// "about 12 s and 23 million collisions on this machine (a trial of 0.2 s: 1.92 million collisions per second)"
+/// Returns the cost in words: "about 12 s on this machine for 23 million collisions (a trial run of 200 ms: 1.92 million
+/// collisions per second)".
 std::string words(const ExpectedCost& cost);
 
 }  // namespace carom::cli

@@ -1,5 +1,5 @@
 #pragma once
-// What a file holds, in words: the text of `carom info`.
+// Descriptions of files in words: the text of `carom info`.
 
 #include "io/output_error.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of describe_file: one function per kind of file. Each throws OutputError with a sentence that names the path.
+// The parts of describe_file: one function per kind of file. Each throws OutputError, whose sentence names the path.
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// What carom sweep has left: its tables, or the runs of one that has not come to its tables.
+// Descriptions of the results of carom sweep: its tables, or the runs of a sweep without tables.
 
 #include <hdf5.h>
 
@@ -11,14 +11,14 @@ namespace carom::detail {
 
 /// Whether an open HDF5 file is the sweep.h5 of a sweep.
 bool is_sweep(hid_t file);
-/// Of one. Throws Hdf5Error.
+/// Returns the lines about the sweep in this file. Throws Hdf5Error.
 std::string sweep_lines(hid_t file);
 
 /// Whether a table that begins with this line is sweep.csv or runs.csv.
 bool is_sweep_table(std::string_view heading);
 std::string describe_sweep_table(const std::filesystem::path& path);
 
-/// The products of a sweep that tell of all its runs.
+/// The products of a sweep that are about all its runs.
 inline constexpr std::string_view sweep_products[] = {"sweep.h5", "sweep.csv", "runs.csv"};
 /// A directory with runs and no such product; empty where there are no runs below it.
 std::string describe_runs_of_sweep(const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-// What a trajectory.xyz, a samples.csv or another table holds. Both are read line by line, so their size does not matter.
+// Descriptions of trajectory.xyz, samples.csv and other tables. They are read line by line, so their size does not matter.
 
 #include "app/info_parts.hpp"
 #include "app/info_sweep.hpp"
@@ -25,7 +25,7 @@ std::optional<Number> leading_number(std::string_view text) {
   return value;
 }
 
-/// What follows `key` in `line`, up to the next space or quote.
+/// Returns the text after `key` in `line`, up to the next space or quote.
 std::string_view value_of(std::string_view line, std::string_view key) {
   const std::size_t found = line.find(key);
   if (found == std::string_view::npos) return {};
@@ -96,7 +96,7 @@ std::string describe_xyz(const std::filesystem::path& path) {
 
 namespace {
 
-/// Of an observable: a comment about averages and units, a heading, rows.
+/// Describes the table of an observable: a comment about averages and units, a heading, rows.
 std::string describe_observable_table(const std::filesystem::path& path, const std::string& comment, std::ifstream& file) {
   std::string heading, line;
   std::getline(file, heading);

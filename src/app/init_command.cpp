@@ -25,7 +25,7 @@ void list_presets() {
   }
 }
 
-/// With `force` an existing file is replaced. Exclusive creation leaves no moment in which another's file can be lost.
+/// With `force` an existing file is replaced. Without it, exclusive creation never overwrites a file of another process.
 void write_file(const std::string& path, const std::string& text, bool force) {
   std::FILE* file = std::fopen(path.c_str(), force ? "w" : "wx");
   if (file == nullptr) {

@@ -14,8 +14,8 @@
 
 namespace carom::cli {
 
-/// What stderr can show: nothing where it is no terminal, or one that cannot move its cursor, has no UTF-8 or is smaller than 60
-/// x 18.
+/// Returns the colours that stderr can show; empty where it is no terminal, or one that cannot move its cursor, has no UTF-8 or
+/// is smaller than 60 x 18.
 [[nodiscard]] std::optional<TerminalColours> terminal_for_pictures();
 
 class LiveView {
@@ -26,7 +26,7 @@ class LiveView {
   /// Draws where it is time to: at most ten times a second, and so that drawing takes no more than a fiftieth of the time.
   void update(const Progress& progress);
 
-  /// The same for a run that is slowed down to `pace` (simulated time per second): first waits until the state is due.
+  /// Draws a run that is slowed down to `pace` (simulated time per second): waits until the state is due, then draws it.
   void keep_pace(double pace, const State& state, const Totals& totals);
 
   /// The last picture, which stays.

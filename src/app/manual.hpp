@@ -13,7 +13,7 @@ namespace carom::cli {
 /// carom(1), in the macros of man(7).
 std::string manual_page(const CLI::App& program, const std::string& version);
 
-/// What bash sources to complete commands, options and file names.
+/// Returns the script by which bash completes commands, options and file names.
 std::string bash_completion(const CLI::App& program);
 
 }  // namespace carom::cli

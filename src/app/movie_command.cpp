@@ -45,7 +45,7 @@ Look look_of(const MovieOptions& options, const MoviePlan& plan, const RunReader
   return look;
 }
 
-/// So many that every frame shows another time, or one picture its time to a thousandth of it.
+/// Returns so many decimals that every frame shows another time, or for one picture its time to a thousandth of itself.
 int decimals_for(const std::vector<double>& times) {
   constexpr int most = 9;
   if (times.size() > 1) return std::clamp(static_cast<int>(std::ceil(-std::log10(times[1] - times[0]))), 0, most);

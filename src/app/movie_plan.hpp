@@ -1,5 +1,5 @@
 #pragma once
-// What carom movie is to draw, read from its options before the run is opened.
+// The plan of carom movie, read from its options before the run is opened.
 
 #include "app/commands.hpp"
 #include "pages/film_writer.hpp"

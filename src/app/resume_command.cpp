@@ -59,7 +59,7 @@ void check_end(const CheckpointFacts& facts, const ResumeOptions& options) {
         fmt::format("--collisions {}: the run has had {} already; give more", *options.collisions, facts.collisions));
 }
 
-/// What the checkpoint says of how it was run, where this command says nothing.
+/// Returns the options: those of this command, and where it gives none those of the checkpoint.
 RunOptions options_for(const CheckpointFacts& facts, const ResumeOptions& options) {
   RunOptions run = options.run;
   run.scene.path = facts.scene_source;

@@ -32,7 +32,7 @@ std::filesystem::path directory_for(const RunOptions& options) {
   return std::filesystem::path(options.scene.path).stem();
 }
 
-/// By exact events or in fixed steps, as the options say.
+/// Makes the simulation, by exact events or fixed steps, as the options say.
 Simulation simulation_for(const RunOptions& options, const Scene& scene, const std::string& engine) {
   if (options.method == "exact") {
     if (options.dt)

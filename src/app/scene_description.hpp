@@ -1,5 +1,5 @@
 #pragma once
-// What a scene will simulate, in words.
+// Descriptions of a scene in words.
 
 #include <carom/scene.hpp>
 

@@ -1,5 +1,5 @@
 #pragma once
-// A directory for what nobody keeps.
+// A temporary directory, which is removed at the end.
 
 #include <filesystem>
 

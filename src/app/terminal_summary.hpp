@@ -1,5 +1,5 @@
 #pragma once
-// What a run has shown, for the person who started it.
+// The summary of a run on the terminal.
 
 #include "observe/run_report.hpp"
 
@@ -11,7 +11,7 @@
 
 namespace carom::cli {
 
-/// Where the results of a run are, and how to name the program in suggestions.
+/// The directory and files of the results of a run, and the program's name for suggestions.
 struct Results {
   std::filesystem::path directory;
   std::vector<std::string> files;

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a run's summary says of how it was made.
+/// The facts of a run's summary that its repetition needs.
 struct Recorded {
   std::string resolved_scene, engine, commit;
   std::optional<double> dt = {};

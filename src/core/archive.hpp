@@ -1,10 +1,10 @@
 #pragma once
-// State written down and read back to the last bit: what checkpoints are made of. Reading is left to cereal; here is what it
-// does not know by itself: Eigen's matrices, and records of numbers, which are kept as they lie in memory. The same state is the
-// same bytes: those of a record or a number that hold nothing are written as zeros.
+// Archives: state written and read back to the last bit, as checkpoints need it. cereal reads; this file adds what cereal lacks:
+// Eigen's matrices, and records of numbers, which are stored as they lie in memory. Equal states give equal bytes: those of a
+// record or number without a value are zeros.
 //
-// A class whose state is more than that has `template <class Archive> void serialize(Archive& archive)`, which lists its members
-// for both directions. What is kept can be read by a program with the same records only: io/checkpoint.hpp sees to that.
+// A class with further state has `template <class Archive> void serialize(Archive& archive)`, which lists its members for both
+// directions. Only a program with the same records can read an archive; io/checkpoint.hpp checks that.
 
 #include "core/real.hpp"
 
@@ -27,7 +27,8 @@
 
 namespace carom {
 
-/// A namespace by itself, so that what carom knows how to write is not looked for on behalf of the archive.
+/// The functions that write carom's own types. They are in a namespace of their own, so that they are not found by overload
+/// resolution on behalf of the archive.
 namespace saving {
 
 /// Writes what LoadingArchive reads.
@@ -107,8 +108,8 @@ inline constexpr bool is_of_cereal<cereal::NameValuePair<T>> = true;
 
 }  // namespace detail
 
-/// Numbers side by side, some of them perhaps in small matrices. Pointers and references do not belong there: nothing notices
-/// them.
+/// Archives numbers that are adjacent in memory, some of them perhaps in small matrices. T must not contain pointers or
+/// references: nothing would detect them.
 template <class T, class Archive>
 concept Record = std::is_class_v<T> && std::is_trivially_destructible_v<T> && !detail::is_of_cereal<T> &&
                  !requires(T & record, Archive& archive) {

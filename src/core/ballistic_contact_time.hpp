@@ -54,8 +54,9 @@ struct BallisticApproach {
     return 8 * std::max<Real>(speed / strength, sqrt(length / strength));
   }
 
-  /// Where the slope of rate() is zero, ascending: (3/2) g^2 t^2 + 3 g.v t + (v^2 + g.r - growth^2) = 0. Infinity twice if
-  /// nowhere.
+  /// Returns the times at which the slope of rate() is zero, in ascending order: the roots of (3/2) g^2 t^2 + 3 g.v t + (v^2 +
+  /// g.r
+  /// - growth^2) = 0. Returns infinity twice if there are none.
   [[nodiscard]] std::array<Real, 2> bends() const {
     using std::sqrt;
     const Real a = 3 * g.squaredNorm() / 2;

@@ -1,5 +1,6 @@
 #pragma once
-// Where a function of one variable changes sign between two places: Newton's steps, kept inside a bracket that shrinks.
+// Root of a function of one variable between two points at which it has opposite signs, by Newton steps inside a shrinking
+// bracket.
 
 #include "core/real.hpp"
 

@@ -34,16 +34,16 @@ template <class Real>
   return c / (sqrt(d) - b);
 }
 
-/// The same where the contact distance is sigma + growth t: the first t >= 0 at which |r + v t| = sigma + growth t while
-/// |r + v t|^2 - (sigma + growth t)^2 decreases. Zero where the disks touch or overlap already and the gap shrinks; where it
-/// opens but growth wins in the end (growth > |v|), when it has closed again. Touching disks whose gap opens are parted for good:
-/// then |v| > growth. Growth 0 gives the bits of the function above.
+/// Returns the contact time for a contact distance that grows as sigma + growth t: the first t >= 0 at which |r + v t| = sigma +
+/// growth t while |r + v t|^2 - (sigma + growth t)^2 decreases. Returns zero where the disks touch or overlap already and the gap
+/// shrinks. Where the gap opens but growth closes it again (growth > |v|), returns the time at which it has closed. Touching
+/// disks whose gap opens never meet again unless growth > |v|. With growth 0 the result has the bits of the function above.
 ///
-/// growth >= 0: length/time. All finite.
-/// Error: with h = |r| + sigma + (|v| + growth) t, the distance at the time t returned differs from sigma + growth t by at most
-/// 16 u k h, k = |v| / sqrt(v^2 - growth^2) where growth < |v| and 1 otherwise: k, since disks that grow nearly as fast as they
-/// come together stay close to contact for long. Where growth < |v|, a hit can be taken for a miss, or a miss for a hit, only
-/// where the smallest gap is below 8 u k h at that time; where growth > |v| they always meet.
+/// growth >= 0: length/time. All arguments finite. Error: with h = |r| + sigma + (|v| + growth) t, the distance at the returned
+/// time t differs from sigma + growth t by at most 16 u k h, where k = |v| / sqrt(v^2 - growth^2) for growth < |v| and 1
+/// otherwise: disks that grow nearly as fast as they approach stay close to contact for long. For growth < |v| a hit can be taken
+/// for a miss, or a miss for a hit, only where the smallest gap is below 8 u k h at that time; for growth > |v| the disks always
+/// meet.
 template <class Real>
 [[nodiscard]] Real contact_time(const Vec2<Real>& r, const Vec2<Real>& v, Real sigma, Real growth) {
   using std::sqrt;

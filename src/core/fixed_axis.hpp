@@ -11,8 +11,8 @@
 
 namespace carom {
 
-/// What whole steps of a coordinate could not hold of lengths so far. It is added to the next of them, so that steps are never
-/// off by more than half of one, however many lengths they are made of.
+/// The sum of what whole steps of a coordinate could not hold of the lengths so far. It is added to the next length, so that the
+/// sum of steps is never off by more than half a step, however many lengths it is made of.
 class StepRest {
  public:
   /// The length speed * time in steps, and what was left before. All digits count: products that are rounded to a double may be
@@ -84,7 +84,8 @@ struct FixedAxis {
     return sum.high + (sum.low + (apart.low + middle.low));
   }
 
-  /// What is missing of a position that was rounded. From the middle on: far from the origin a double would not hold the sum.
+  /// Returns exact position minus `position`. It is computed from the middle of the axis: far from the origin a double would not
+  /// hold the sum.
   [[nodiscard]] double remainder(std::int64_t x, double position) const {
     const TwoDoubles exact = from_middle(x);
     const TwoDoubles rounded = TwoDoubles::sum(position, -middle.high);

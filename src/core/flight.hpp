@@ -29,8 +29,7 @@ struct alignas(64) SizedFlight {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
 }
 
-/// The same for the upper halves of coordinates, which cages have: how many boxes the image of b nearest to a lies above b.
-/// -1, 0 or 1.
+/// Returns, from the upper halves of two coordinates, how many boxes the image of b nearest to a lies above b: -1, 0 or 1.
 [[nodiscard]] inline std::int32_t boxes_between(std::int32_t a, std::int32_t b) {
   const std::int64_t apart = std::int64_t{a} - std::int64_t{b};
   const auto nearest = static_cast<std::int32_t>(static_cast<std::uint32_t>(apart));

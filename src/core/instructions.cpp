@@ -7,7 +7,7 @@ namespace carom {
 
 namespace {
 
-/// What stands here must cover the flags in CMakeLists.txt that the kernels are compiled with.
+/// The features tested here must cover the flags in CMakeLists.txt by which the kernels are compiled.
 Instructions best_instructions() {
   Instructions best = Instructions::portable;
 #if CAROM_HAS_AVX2

@@ -1,5 +1,5 @@
 #pragma once
-// How far it is from one place to another where a box continues past its periodic edges.
+// Separations in a box that continues past its periodic edges.
 
 #include <carom/box.hpp>
 

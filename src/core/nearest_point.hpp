@@ -7,7 +7,7 @@
 
 namespace carom {
 
-/// Of the segment between `from` and `to`. Where the two are the same point, that point.
+/// Returns the point of the segment between `from` and `to` nearest to `point`. The two ends may be equal.
 template <class Real>
 [[nodiscard]] Vec2<Real> nearest_on_segment(const Vec2<Real>& from, const Vec2<Real>& to, const Vec2<Real>& point) {
   const Vec2<Real> along = to - from;

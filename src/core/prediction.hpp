@@ -10,7 +10,7 @@
 
 namespace carom {
 
-/// Of a box whose images above slide past those below (effects/shear.hpp), for the kernel that knows about it.
+/// Data of a sheared box, whose images above slide past those below (effects/shear.hpp), for the kernel that supports it.
 struct SlidingFrame {
   /// Of the centre of each disk's cage, in steps of 2^32. It tells in which box a disk is whose coordinate has wrapped;
   /// velocities are those of the disk in that box, and those of its images above and below are other ones.
@@ -20,7 +20,7 @@ struct SlidingFrame {
   std::int64_t inner = 0;         ///< disks with cages nearer to the middle than this meet nobody through an edge
 };
 
-/// What all predictions of a run have in common.
+/// Constants of all predictions of a run.
 struct PredictionFrame {
   double unit[2];     ///< length of a step of a coordinate, per axis
   double steps[2];    ///< 1 / unit
@@ -36,9 +36,10 @@ struct PredictionFrame {
   SlidingFrame sliding = {};
 };
 
-/// What a pair of disks comes to: hard cores, hard cores that fall, hard cores that grow, wells with hard cores (which may fall
-/// too), or hard cores in a box whose images slide. Falling is nothing that a pair notices, but height is energy: where others'
-/// new lines begin at the next step of a coordinate towards the old line, theirs are rounded to no side.
+/// The kind of contact between two disks: hard cores, falling hard cores, growing hard cores, wells with hard cores (which may
+/// fall too), or hard cores in a sheared box. Falling does not change the relative motion of a pair, but height is energy: where
+/// other engines begin a new line at the next step of a coordinate towards the old line, falling disks' lines are rounded to
+/// nearest.
 enum class Contact { hard, falling, growing, wells, falling_wells, sheared };
 
 /// Where a disk is to be looked for: a square round `centre` (in steps of 2^32 of a coordinate), and the ids of the disks that it
@@ -73,9 +74,9 @@ struct PredictionKernel {
   /// Disk i from `now` on.
   void (*predict)(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around, double now,
                   Prediction& ahead);
-  /// From `now` on the disks a and b of a pair have other velocities: draws their new lines, which at `now` are where the old
-  /// ones are, then predicts both. No coordinate may change by half its range. (Storing here, in one piece, lets the loads that
-  /// follow read what has just been written.)
+  /// Changes the velocities of the disks a and b of a pair from time `now` on: draws their new lines, which at `now` are where
+  /// the old ones are, then predicts both. No coordinate may change by half its range. (Storing here, in one piece, lets the
+  /// loads that follow read what has just been written.)
   void (*turn_and_predict)(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, double avx, double avy,
                            double bvx, double bvy);
   const char* name;  ///< of the instruction set

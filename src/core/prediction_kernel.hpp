@@ -159,7 +159,7 @@ CAROM_INLINE void earliest(Doubles t0, Doubles t1, const std::int32_t* ids, Pred
   first.tied = static_cast<std::int32_t>(which & (which - 1)) & ~nobody;
 }
 
-/// Everybody beyond the first eight, four at a time.
+/// Predicts with all neighbours beyond the first eight, four at a time.
 template <bool growing, class Line>
 void search_on(const Line* lines, const PredictionFrame& frame, const Mine& mine, const Surroundings& around, double now,
                Prediction& first) {

@@ -7,7 +7,8 @@ namespace carom {
 /// a b / (a + b), to the bit the same with a and b exchanged.
 [[nodiscard]] constexpr double reduced_mass(double a, double b) { return a < b ? a * (b / (a + b)) : b * (a / (a + b)); }
 
-/// The same from the product of the two, and as above where that is beyond the range of numbers.
+/// Returns the reduced mass from the product of the two masses; falls back to the quotients where the product is beyond the range
+/// of numbers.
 template <class Real>
 [[nodiscard]] Real reduced_mass_by_product(Real a, Real b) {
   const Real product = a * b;

@@ -1,5 +1,5 @@
 #pragma once
-// What an engine counts and adds up while it runs.
+// The counts and sums of an engine while it runs.
 
 #include "core/exact_sum.hpp"
 

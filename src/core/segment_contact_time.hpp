@@ -36,7 +36,7 @@ struct DiskPath {
   Real growth;
 
   [[nodiscard]] Vec2<Real> at(Real t) const { return r + t * (v + (t / 2) * g); }
-  /// What is left of it from time t on.
+  /// Returns the rest of this path from time t on.
   [[nodiscard]] DiskPath after(Real t) const { return {at(t), v + t * g, g, radius + growth * t, growth}; }
 };
 
@@ -83,7 +83,7 @@ struct PathAtSegment {
   [[nodiscard]] bool approaches(Real t, Real growth) const {
     return (height.at(t) < 0 ? -height.rate(t) : height.rate(t)) < growth;
   }
-  /// For a centre that is abreast at the start: when it no longer is, by more than rounding.
+  /// Returns the time at which a centre that is abreast at the start no longer is, by more than rounding.
   [[nodiscard]] Real exit() const {
     const Real first = fall_time(abreast.x + 2 * rounding, abreast.v, abreast.a);
     const Real last = fall_time(length + 2 * rounding - abreast.x, -abreast.v, -abreast.a);

@@ -1,5 +1,5 @@
-// Predictions in a box whose images above slide past those below. Disks far from its edges meet nobody beyond them and go to the
-// vectors, the few others are looked at one neighbour at a time, by the formula of prediction_kernel.hpp.
+// Predictions in a sheared box. Disks far from its upper and lower edges meet no disk beyond them and go to the vector kernel;
+// the few others are predicted one neighbour at a time, by the formula of prediction_kernel.hpp.
 
 #include "core/single_prediction.hpp"
 #include "core/sliding_separation.hpp"
@@ -30,7 +30,7 @@ bool is_inner(const PredictionFrame& frame, const Surroundings& around) {
   return std::abs(std::int64_t{around.centre[1]}) < frame.sliding.inner;
 }
 
-/// `plain`: the kernel of an instruction set, for everybody else.
+/// `plain`: the kernel of an instruction set, for all other disks.
 template <class Line, const PredictionKernel<Line>& plain>
 void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around, double now,
              Prediction& ahead) {

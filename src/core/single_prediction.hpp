@@ -1,6 +1,6 @@
 #pragma once
-// The shape of a prediction that looks at one neighbour at a time, for pairs of which the vectors of prediction_kernel.hpp know
-// nothing: those in wells and those in a sheared box. The time at which a disk leaves its cage has the bits that it has there.
+// Predictions of one neighbour at a time, for pairs that the vectors of prediction_kernel.hpp do not support: those in wells and
+// those in a sheared box. The time at which a disk leaves its cage has the same bits as there.
 
 #include "core/prediction.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where two disks of a sheared box are from each other, if the nearest image of one is beyond an edge past which images slide.
+// Separations in a sheared box, where the nearest image of a disk may be beyond an edge past which images slide.
 
 #include "core/prediction.hpp"
 #include "core/vec2.hpp"
@@ -8,13 +8,13 @@
 
 namespace carom {
 
-/// From b to a at one time, and how fast that changes.
+/// Separation from b to a at one time, and its rate of change.
 struct Approach {
   Vec2<double> r;
   Vec2<double> v;
 };
 
-/// To the image of b that lies `above` boxes above it (core/flight.hpp says how many).
+/// Returns the separation from the image of b that lies `above` boxes above it (core/flight.hpp computes that number).
 template <class Line>
 [[nodiscard]] Approach approach(const PredictionFrame& frame, const Line& a, const Line& b, std::int32_t above, double now) {
   const std::uint64_t displacement =

@@ -1,5 +1,5 @@
-// Predictions for disks in wells: a pair is either inside its well, and comes to its core or to the edge from within, or outside,
-// and comes to the edge. One neighbour at a time: who is inside is looked up, which no vector does faster.
+// Predictions for disks in wells. A pair is either inside its well, and reaches its core or the edge from within, or outside, and
+// reaches the edge. Neighbours are predicted one at a time: vectors would not look up faster which pairs are inside.
 
 #include "core/contact_time.hpp"
 #include "core/single_prediction.hpp"

@@ -27,7 +27,7 @@ using detail::Hdf5Id;
 namespace {
 
 constexpr std::size_t head_bytes = 512;
-/// Of the parts' contents: what one format has written, another must not read.
+/// Version of the format of the parts' contents; a program reads only its own.
 constexpr std::uint64_t checkpoint_format = 1;
 
 /// The text before the HDF5 file, which is all of it, so that nothing in it can change unnoticed.
@@ -39,7 +39,7 @@ std::string head_for(std::uint64_t bytes, const XXH128_hash_t& sum) {
   return head;
 }
 
-/// What the head of a file must be; the head that it has goes to `found`. Empty where it cannot be read.
+/// Returns what the head of a file must be; the head that the file has goes to `found`. Empty where it cannot be read.
 std::string right_head(const fs::path& path, std::string& found) {
   std::ifstream in(path, std::ios::binary);
   found.resize(head_bytes);

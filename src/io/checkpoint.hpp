@@ -19,7 +19,7 @@
 
 namespace carom {
 
-/// What a checkpoint says of its run in words and numbers.
+/// Facts about the run of a checkpoint.
 struct CheckpointFacts {
   Provenance provenance;
   std::string scene_source;  ///< as the user called the scene's file
@@ -40,8 +40,8 @@ struct CheckpointPart {
   std::function<void(std::ostream& out)> write;
 };
 
-/// Throws OutputError; then the checkpoints that were there are there still. `state` is for those who open the file with other
-/// programs.
+/// Writes a checkpoint. Throws OutputError; the earlier checkpoints are then still there. `state` is for readers that open the
+/// file with other programs.
 void write_checkpoint(const RunDirectory& directory, const CheckpointFacts& facts, const State& state,
                       const std::vector<CheckpointPart>& parts);
 
@@ -54,7 +54,7 @@ class Checkpoint {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const CheckpointFacts& facts() const { return facts_; }
-  /// What is wrong with a newer one, which was passed over; empty where there is nothing.
+  /// Returns what is wrong with a newer checkpoint that was skipped; empty where none was.
   [[nodiscard]] const std::string& damage() const { return damage_; }
   [[nodiscard]] bool has(const std::string& part) const;
   /// Calls `read` with the part as a stream. Throws OutputError where there is none of that name.
@@ -67,7 +67,7 @@ class Checkpoint {
   CheckpointFacts facts_;
 };
 
-/// What is wrong with a checkpoint file; empty where it is sound.
+/// Returns what is wrong with a checkpoint file; empty where nothing is.
 [[nodiscard]] std::string checkpoint_damage(const std::filesystem::path& path);
 
 /// Facts of a sound file. Throws OutputError.

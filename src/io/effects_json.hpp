@@ -1,5 +1,5 @@
 #pragma once
-// The part of summary.json that tells what the effects of a scene have done.
+// The part of summary.json about the effects of a scene.
 
 #include "observe/run_report.hpp"
 

@@ -16,13 +16,13 @@ class EventLog {
   /// Creates the group. Throws Hdf5Error, as every function here.
   explicit EventLog(hid_t file);
 
-  /// Where disks were and how they flew before the first event. Once; what is there already stays.
+  /// Writes positions and velocities before the first event. A start that is already in the file stays.
   void start(const State& state);
   void append(std::span<const Event> events);
   void write();  ///< hands complete chunks to HDF5
   void close();  ///< hands everything to HDF5
 
-  /// How far all columns have come, for core/archive.hpp.
+  /// Saves or loads the lengths of all columns, for core/archive.hpp.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(time_, time_remainder_, disk_, partner_, velocity_, partner_velocity_);

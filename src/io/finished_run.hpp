@@ -1,6 +1,6 @@
 #pragma once
-// What every reader of a run directory begins with: is it a finished run, its summary, its trajectory, the scene in it. Whatever
-// is wrong is an OutputError: one sentence that names the path.
+// The common part of all readers of a run directory: is it a finished run, its summary, its trajectory, the scene in it. Every
+// fault is an OutputError, one sentence that names the path.
 
 #include "io/hdf5_handle.hpp"
 #include "io/output_error.hpp"
@@ -21,7 +21,7 @@ void require_finished_run(const std::filesystem::path& directory);
 
 /// summary.json. Its keys are not checked.
 [[nodiscard]] nlohmann::ordered_json summary_in(const std::filesystem::path& directory);
-/// What to throw where the keys are not those of a summary.
+/// Returns the error to throw where the keys are not those of a summary.
 [[nodiscard]] OutputError no_summary(const std::filesystem::path& directory);
 
 /// Does what may throw Hdf5Error, and says it of the file at `path`.
@@ -43,7 +43,7 @@ auto reading_hdf5(const std::filesystem::path& path, Action action) {
 /// The scene with every default that the file at `path` holds. Its species are not those of the run where a start file that it
 /// names is gone.
 [[nodiscard]] Scene scene_of(const std::string& resolved, const std::filesystem::path& path);
-/// That of a trajectory.
+/// Returns the scene of a trajectory.
 [[nodiscard]] Scene scene_in(hid_t file, const std::filesystem::path& path);
 
 }  // namespace carom::detail

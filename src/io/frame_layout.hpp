@@ -1,5 +1,5 @@
 #pragma once
-// How the datasets of trajectory.h5md are laid out that have one row per sample.
+// The layout of the datasets of trajectory.h5md that have one row per sample.
 
 #include "io/growing_dataset.hpp"
 
@@ -11,7 +11,7 @@
 
 namespace carom::detail {
 
-/// For a run of this scene, whose rows have these extents.
+/// Returns the layout for a run of this scene, whose rows have these extents.
 [[nodiscard]] DatasetLayout frame_layout(const Scene& scene, std::size_t bytes_per_number, std::vector<hsize_t> row);
 
 /// Gives the group the steps and times of the samples, which are stored once, under particles/trajectory/position.

@@ -19,7 +19,7 @@ struct DatasetLayout {
   bool compressed = false;     ///< where the library can
 };
 
-/// How many rows of `row_bytes` make a chunk: about 256 KiB, but at most 1024 rows and at most `expected_rows`.
+/// Returns the number of rows of `row_bytes` in a chunk: about 256 KiB, but at most 1024 rows and at most `expected_rows`.
 [[nodiscard]] hsize_t rows_per_chunk(std::size_t row_bytes, std::uint64_t expected_rows);
 
 /// Creates the empty dataset `name`, [0][row...], without a limit on its rows, or opens the one that is there. A chunk takes at
@@ -60,8 +60,8 @@ class GrowingDataset {
         rows_per_chunk_of(dataset_.get());  // of a file that is resumed, it may have been chosen for another end
   }
 
-  /// How many rows there are, and those that HDF5 has not got yet, for core/archive.hpp. Read back, the dataset must have
-  /// those rows.
+  /// Saves or loads the number of rows, and the rows that are not in the file yet, for core/archive.hpp. When it is loaded, the
+  /// dataset must have those rows.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(written_rows_, buffered_rows_, buffer_);

@@ -23,7 +23,7 @@ class H5mdFrames {
   void write();  ///< hands everything to HDF5
   void close();
 
-  /// How far all columns have come, for core/archive.hpp.
+  /// Saves or loads the lengths of all columns, for core/archive.hpp.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(step_, time_, position_, velocity_, image_, edges_, observables_);

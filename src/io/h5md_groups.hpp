@@ -1,5 +1,5 @@
 #pragma once
-// Where things stand in trajectory.h5md.
+// The names of groups in trajectory.h5md.
 
 #include <string>
 

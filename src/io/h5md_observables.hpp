@@ -24,7 +24,7 @@ class H5mdObservables {
   void write();                                                               ///< hands everything to HDF5
   void close();
 
-  /// How far all columns have come, for core/archive.hpp.
+  /// Saves or loads the lengths of all columns, for core/archive.hpp.
   template <class Archive>
   void serialize(Archive& archive) {
     for (Column& column : columns_) archive(column.values);
@@ -33,7 +33,7 @@ class H5mdObservables {
   [[nodiscard]] std::size_t buffered_bytes() const;
 
  private:
-  /// What a row is made of.
+  /// The data of one row.
   struct Sample {
     const Box& box;
     const Effects& effects;

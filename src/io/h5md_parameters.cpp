@@ -1,4 +1,4 @@
-// Who wrote the file, and from what.
+// The facts about the program that wrote the file, and about the run.
 
 #include "io/h5md_parameters.hpp"
 

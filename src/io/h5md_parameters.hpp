@@ -1,5 +1,5 @@
 #pragma once
-// The groups /h5md and /parameters of trajectory.h5md: who wrote the file, and everything needed to run it again.
+// The groups /h5md and /parameters of trajectory.h5md: the program that wrote the file, and everything needed to repeat the run.
 
 #include "io/hdf5_handle.hpp"
 #include "io/provenance.hpp"

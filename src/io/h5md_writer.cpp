@@ -15,7 +15,7 @@ namespace carom {
 
 namespace {
 
-// What a killed run may lose at most, and with it the size of the index that waits in memory for the flush.
+// The most bytes that a killed run may lose, which also bounds the index that waits in memory for the flush.
 constexpr std::uint64_t most_bytes_between_flushes = std::uint64_t{1} << 28;
 
 std::string kept_sentence(std::uint64_t samples, std::uint64_t events) {
@@ -80,7 +80,7 @@ H5mdWriter::~H5mdWriter() {
   try {
     close();
   } catch (const std::exception&) {
-    // the file is as it was at the last flush, and nobody is left who could do more
+    // the file is as it was at the last flush, and a destructor cannot report the error
   }
   const detail::SilentHdf5 silent;
   events_.reset();

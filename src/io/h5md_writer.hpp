@@ -38,10 +38,10 @@ class H5mdWriter {
   void start(const State& state, double temperature);
   /// A state, and the totals up to then.
   void sample(std::uint64_t k, const State& state, const Totals& totals) { sample(k, state, totals, state.positions); }
-  /// The same with other positions, unwrapped ones, in the file.
+  /// Writes a sample with other positions, unwrapped ones, in place of those of `state`.
   void sample(std::uint64_t k, const State& state, const Totals& totals, const Eigen::Matrix2Xd& positions);
   void events(std::span<const Event> events);  ///< nothing where scene.output.events is not set
-  /// What was measured, once, at the end.
+  /// Writes the results of observables; to be called once, at the end.
   void measurements(const std::vector<Measurement>& observables);
   void flush();  ///< from now on all samples so far survive whatever happens
   void close();

@@ -266,8 +266,8 @@ H5FD_class_t driver_class() {
   return driver;
 }
 
-/// HDF5 keeps it until the process ends: as it closes a file it frees the class of a driver that nobody else holds, and then
-/// calls that class once more. A program may close the library in between, which forgets all drivers.
+/// The driver that HDF5 keeps until the process ends. When HDF5 closes a file it frees the class of a driver without other users,
+/// and then calls that class once more. A program may close the library in between, which drops all drivers.
 hid_t driver() {
   static hid_t registered = H5I_INVALID_HID;
   if (H5Iget_type(registered) != H5I_VFL) {

@@ -30,7 +30,7 @@ class Hdf5File {
   /// Creates (or empties) the file and opens it in HDF5. This object must outlive the returned identifier and every
   /// identifier in it. Throws OutputError or Hdf5Error.
   [[nodiscard]] Hdf5Id create(const std::filesystem::path& path) { return access(path, true, 0); }
-  /// The same behind `bytes` (a power of two, 512 at least) that HDF5 leaves to others.
+  /// Creates a file with a block of `bytes` (a power of two, 512 at least) in front, which HDF5 leaves free.
   [[nodiscard]] Hdf5Id create_behind(std::uint64_t bytes, const std::filesystem::path& path) { return access(path, true, bytes); }
   /// Writes where all parts of the index are and what they hold, as of the last flush. Requires nothing to have happened since.
   void save_index(std::ostream& out);
@@ -45,7 +45,7 @@ class Hdf5File {
   [[nodiscard]] std::size_t held_bytes() const;       ///< of the index, waiting for the next flush
   [[nodiscard]] std::uint64_t bytes_written() const { return bytes_written_; }
 
-  // What HDF5 calls. Nothing here throws or fails.
+  // The functions that HDF5 calls. None of them throws.
   void open(const char* path, bool fresh) noexcept;
   void close() noexcept;
   void read(std::uint64_t address, std::size_t size, std::byte* out) noexcept;

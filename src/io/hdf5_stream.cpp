@@ -50,7 +50,7 @@ void Hdf5OutputStream::close() {
   dataset_.close();
 }
 
-/// What fits the buffer takes no more room than it needs.
+/// Data that fit the buffer take no more room than they need.
 void Hdf5OutputStream::write_whole() {
   const auto count = static_cast<hsize_t>(pptr() - pbase());
   const Hdf5Id space(H5Screate_simple(1, &count, nullptr), H5Sclose);

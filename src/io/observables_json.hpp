@@ -1,5 +1,5 @@
 #pragma once
-// What observables have found, as the key `observables` of summary.json: numbers there, tables by the names of their files.
+// The key `observables` of summary.json: numbers, and tables by the names of their files.
 
 #include "io/json_number.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is thrown when a file cannot be written or read, and the sentences that every such error is made of.
+// The error that is thrown when a file cannot be written or read, and its sentences.
 
 #include <cstdint>
 #include <filesystem>
@@ -22,7 +22,7 @@ namespace detail {
 [[nodiscard]] OutputError system_error(const std::filesystem::path& path, std::string_view action, int error_number,
                                        std::string_view kept = {});
 
-/// Of a file that a run cannot go on with, since it has fewer bytes than it had.
+/// Returns the error for a file with which a run cannot go on, because it has fewer bytes than it had.
 [[nodiscard]] OutputError cut_short(const std::filesystem::path& path, std::uint64_t bytes, std::uint64_t wanted);
 
 }  // namespace detail

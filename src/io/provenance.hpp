@@ -1,5 +1,5 @@
 #pragma once
-// Where results come from: what every result file says about its run beside the scene itself and build_info().
+// The provenance of results: the facts about a run that every result file records, besides the scene itself and build_info().
 
 #include <optional>
 #include <string>

@@ -70,8 +70,8 @@ RunDirectory RunDirectory::reopen(fs::path path) {
   return directory;
 }
 
-/// Of the directory itself, so that no file is left behind; the system gives it up when the process ends, however it does. Where
-/// a file system knows no locks, there are none.
+/// Locks the directory itself, so that no file is left behind; the system releases the lock when the process ends in any way.
+/// File systems without locks have none.
 void RunDirectory::lock() {
   const int descriptor = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;  // what is wrong will be said by whoever writes

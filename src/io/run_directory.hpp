@@ -39,16 +39,15 @@ inline constexpr std::array<std::string_view, 21> run_products = {"checkpoint.h5
                                                                   "report.html",
                                                                   "summary.json"};
 
-/// From which a run can go on: io/checkpoint.hpp.
+/// The names of checkpoints, from which a run can be continued: io/checkpoint.hpp.
 inline constexpr std::string_view checkpoint_name = run_products[0], previous_checkpoint_name = run_products[1];
 
 class RunDirectory {
  public:
-  /// Creates the directory, parents included, or takes one that holds no results; other files in it are left alone. What an
-  /// earlier run left there (a product, or the .partial of a run that did not end) is removed where `force` is set.
-  /// Throws OutputError where results are in the way without `force`, where `path` is not a directory, where nothing can be
-  /// written there, and where somebody else has it, until that one ends; then nothing was changed.
-  /// `products` are the names that count as results; they must live as long as this.
+  /// Creates the directory with its parents, or takes one that holds no results; other files in it are left alone. With `force`,
+  /// results of an earlier run (a product, or the .partial of a run that did not end) are removed. `products` are the names that
+  /// count as results; they must outlive this object. Throws OutputError where results are in the way without `force`, where
+  /// `path` is not a directory or not writable, and where another process uses it; nothing has then been changed.
   RunDirectory(std::filesystem::path path, bool force, std::span<const std::string_view> products = run_products);
 
   /// The directory of a run that is to go on. Throws OutputError where there is none, or nothing can be written there.
@@ -61,12 +60,12 @@ class RunDirectory {
   /// Was the directory made by this object?
   [[nodiscard]] bool created() const { return !created_.empty(); }
 
-  /// Gives the files that grow with a run, where they have their own names, those of files that are being written again, and
-  /// removes what tells of the run's end. Throws OutputError.
+  /// Renames the files that grow with a run back to the names of unfinished files, and removes the results of the run's end.
+  /// Throws OutputError.
   void take_back() const;
   /// Brings DIR/product.partial safely to the disk. Throws OutputError.
   void synchronise_partial(std::string_view product) const;
-  /// The same, then renames it to DIR/product. Throws OutputError.
+  /// Syncs the file to the disk, then renames it to DIR/product. Throws OutputError.
   void publish(std::string_view product) const;
 
   /// Removes the directory, and the parents that were made for it, where this object made them and they are empty.
@@ -74,7 +73,7 @@ class RunDirectory {
 
  private:
   explicit RunDirectory(std::filesystem::path path) : path_(std::move(path)), products_(run_products) {}
-  /// Of the place, when a run begins or goes on.
+  /// Returns the error for a place where a run cannot begin or be continued.
   [[nodiscard]] OutputError refusal(const std::filesystem::path& path, std::string_view action, int error_number) const;
   void create();
   void lock();
@@ -85,7 +84,7 @@ class RunDirectory {
   std::span<const std::string_view> products_;
   std::string otherwise_;                       ///< advice beside another's; empty for a run that goes on: it has no other place
   std::vector<std::filesystem::path> created_;  ///< the deepest last
-  std::shared_ptr<const void> lock_;            ///< while it lives, nobody else can have this directory
+  std::shared_ptr<const void> lock_;            ///< while it lives, no other process can take this directory
 };
 
 }  // namespace carom

@@ -27,7 +27,7 @@ class RunReader {
   [[nodiscard]] const Disks& disks() const { return disks_; }
   [[nodiscard]] const std::vector<std::string>& species_names() const { return species_names_; }
   [[nodiscard]] const std::string& title() const { return title_; }
-  /// Who ran what, for the foot of a page: names and values.
+  /// Returns names and values of the facts about this run, for the foot of a page.
   [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& facts() const { return facts_; }
 
   [[nodiscard]] double end() const { return end_; }                 ///< the time that the run reached

@@ -55,7 +55,7 @@ std::vector<double> thinned(const std::vector<double>& all) {
   return some;
 }
 
-/// What is one number per sample.
+/// Reads quantities of one number per sample.
 void read_sampled(hid_t file, RunRecord::Source& source) {
   if (source.samples == 0) return;
   source.times = thinned(detail::read_rows(file, particles + "/position/time", 0, source.samples));
@@ -93,7 +93,7 @@ RunRecord::Source source_in(const std::filesystem::path& path, std::vector<Measu
   });
 }
 
-/// What the scene alone tells.
+/// Returns the data that follow from the scene alone.
 RunRecord::Source source_of(const std::string& resolved, std::int64_t disks, const std::filesystem::path& path) {
   RunRecord::Source source;
   source.scene = detail::scene_of(resolved, path);

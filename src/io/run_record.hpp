@@ -21,7 +21,7 @@ struct RunRecord {
   BuildInfo build;   ///< of the program that ran
   std::string command_line;
 
-  /// The scene, and what only the trajectory tells; without one the latter is empty.
+  /// The scene, and what only the trajectory holds; empty without a trajectory.
   struct Source {
     Scene scene;                         ///< box, effects, [run] and [observe]; for species see `disks`
     Disks disks;                         ///< empty where the scene's start file is gone, and there is no trajectory

@@ -30,14 +30,14 @@ class RunWriter {
   /// where samples, events or observables are asked for. Without run.sample_every and run.sample_log there are no samples, and no
   /// file for them.
   RunWriter(const RunDirectory& directory, const Scene& scene, const Disks& disks, const Provenance& provenance);
-  /// Goes on with the files of a run from where save() was called, whether they have their own names or are .partial still. What
-  /// was written after that is cut off, and what tells of an end is removed: summary, tables, pages.
+  /// Continues the files of a run from where save() was called, whether they have their own names or are still .partial. Whatever
+  /// was written later is cut off; summary, tables and pages, which the end of a run writes, are removed.
   RunWriter(const RunDirectory& directory, const Scene& scene, const Disks& disks, const Provenance& provenance,
             std::istream& saved);
   /// Throws OutputError where a file that the constructor above would go on with is missing, or shorter than when save() was
   /// called. Changes nothing.
   static void require_files(const RunDirectory& directory, const Scene& scene, std::istream& saved);
-  /// Without finish(): keeps what there is as .partial, or removes it where nothing has happened yet.
+  /// Without finish(), keeps the files as .partial, or removes them where nothing has happened yet.
   ~RunWriter();
   RunWriter(const RunWriter&) = delete;
   RunWriter& operator=(const RunWriter&) = delete;

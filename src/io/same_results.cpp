@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t most_per_file = 3;  // differences: where one bit goes another way, all that follow do
 
-/// What may differ between two runs that are the same.
+/// Keys that may differ between two equal runs.
 constexpr std::array<std::string_view, 9> not_compared = {
     "carom",          "scene",   "wall_seconds", "collisions_per_second", "loop_seconds", "command_line",
     "resolved_scene", "horizon", "verified"};

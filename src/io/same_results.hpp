@@ -9,15 +9,14 @@
 
 namespace carom {
 
-/// What was held against each other, and where it differs.
+/// The files that were compared, and their differences.
 struct SameResults {
   std::vector<std::string> files;        ///< those compared, with what is in them: "trajectory.h5md (23 datasets)"
   std::vector<std::string> differences;  ///< one sentence each, the first few of every file; empty where all is the same
 };
 
-/// Compares the trajectory, the text files and the summary of two run directories. What a clock measured, who ran the program and
-/// with which build may differ; so may checks that were asked for beside (horizon, verification). Throws OutputError where a file
-/// cannot be read.
+/// Compares the trajectories, text files and summaries of two run directories. Times by the clock, the command and the build may
+/// differ; so may checks that were asked for in addition (horizon, verification). Throws OutputError where a file cannot be read.
 [[nodiscard]] SameResults compare_results(const std::filesystem::path& one, const std::filesystem::path& other);
 
 }  // namespace carom

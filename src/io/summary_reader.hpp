@@ -1,5 +1,5 @@
 #pragma once
-// summary.json read back: the inverse of summary_json(), as far as it tells.
+// Reads summary.json: the inverse of summary_json(), as far as the file holds the data.
 
 #include "observe/run_report.hpp"
 

@@ -40,7 +40,7 @@ TextFile::~TextFile() {
   try {
     close();
   } catch (const OutputError&) {
-    // fail() has cut the file back to whole records, and nobody is left who could do more
+    // fail() has cut the file back to whole records, and a destructor cannot report the error
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A text file that is written from its beginning to its end through a buffer, and that notices every failure.
+// A text file that is written from beginning to end through a buffer, and that detects every failure.
 
 #include "io/output_error.hpp"
 

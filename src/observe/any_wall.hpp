@@ -8,7 +8,7 @@ namespace carom {
 
 /// Whether a wall can be anywhere but where the scene puts it.
 inline bool moves(const WallProperties& wall) { return wall.mass || wall.velocity.value_or(0.0) != 0.0; }
-/// The same of one that the scene says something of that kind of, be it that it stands.
+/// Returns whether the scene lets this wall move, even if its velocity is 0.
 inline bool may_move(const WallProperties& wall) { return wall.mass || wall.velocity; }
 
 /// Whether one of the four walls at least has a property.

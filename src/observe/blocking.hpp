@@ -10,7 +10,7 @@
 
 namespace carom {
 
-/// What stands in a table for a number that is not known.
+/// The entry of a table for an unknown number.
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A Blocking for every row of a column.

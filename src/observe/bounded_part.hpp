@@ -1,10 +1,10 @@
 #pragma once
-// Errors of a rate of which a part is the change of a bounded quantity. That part cancels from one sample to the next, so that
-// short blocks tell far too large an error, and only blocks of a length that few runs have tell the right one. Where the quantity
-// is known no block need be so long: what is left without it is blocked, and the part itself adds to the total no more than the
+// Errors of a rate of which one part is the change of a bounded quantity. That part cancels from one sample to the next, so that
+// short blocks give far too large an error, and only blocks of a length that few runs have give the right one. Where the quantity
+// is known no block need be so long: the rest is blocked without it, and the part itself adds to the total no more than the
 // quantity's values at the two ends.
 //
-// What walls get is of this kind: see wall_momentum.hpp.
+// The momentum that walls receive is of this kind: see wall_momentum.hpp.
 
 #include <carom/blocking.hpp>
 

@@ -1,9 +1,9 @@
 #pragma once
-// What collisions do to the fluxes of momentum and energy. A flux flies along with the disks, and jumps from disk to disk where
-// they meet; so a collision changes what flies, and adds a jump to the flux's integral over time.
+// Changes of the fluxes of momentum and energy by collisions. A flux is carried along by the disks, and jumps from disk to disk
+// in a collision; so a collision changes the carried flux, and adds a jump to the flux's integral over time.
 //
-// Added up four collisions at a time (collision_fluxes_kernel.hpp), in four lanes: collision n goes to lane n mod 4, and so the
-// sums are the same bits however collisions are handed over. They are the same bits whichever of the two disks comes first, too.
+// Four collisions are added at a time (collision_fluxes_kernel.hpp), in four lanes: collision n goes to lane n mod 4. So the sums
+// have the same bits however collisions are divided among calls, and whichever of the two disks comes first.
 
 #include <carom/collision_note.hpp>
 
@@ -31,7 +31,7 @@ struct FluxSum {
   double since = 0.0;  ///< in the time of the measured run
 };
 
-/// Where they are added up; null where nobody asks.
+/// Pointers to the sums; null for those that no observable needs.
 struct FluxSums {
   TransferSum* transfer = nullptr;
   FluxSum* momentum = nullptr;  ///< twice xy and (xx - yy) / 2
@@ -47,12 +47,13 @@ struct NotedFluxes {
   double common[2];               ///< velocity of all disks together: what flies is relative to it
 };
 
-/// What fluxes follow from, besides velocities: by rows, the first of which is that of lane 0.
+/// What fluxes depend on besides velocities, by rows; the first row is that of lane 0.
 struct alignas(64) CollisionContacts {
-  static constexpr std::size_t most = 64;  ///< collisions
-  using Column = double[most + 8];         ///< rows before the first collision and after the last make up fours
+  /// The data besides velocities that fluxes depend on, by rows; the first row is that of lane 0.
+  static constexpr std::size_t most = 64;
+  using Column = double[most + 8];  ///< rows before the first collision and after the last make up fours
 
-  Column mu, sigma;              ///< of two smooth disks, whose velocities tell the rest
+  Column mu, sigma;              ///< reduced mass and contact distance of two smooth disks, whose velocities determine the rest
   std::size_t rows_of_four = 4;  ///< 0 where the first four rows are those of all collisions
   Column impulse[2], separation[2];
 };
@@ -61,7 +62,8 @@ struct alignas(64) CollisionContacts {
 struct FluxKernel {
   using Function = void(const NotedFluxes& noted, const CollisionContacts& contacts, const FluxSums& sums);
 
-  // By which sums are asked for: 1 for that of transfer, 2 for momentum, 4 for energy.
+  // Indexed by the sums that are needed: 1 for transfer, 2 for momentum, 4 for energy. They use contacts.mu and sigma; that of
+  // energy requires equal masses and conserved energy.
   Function* of_smooth[8];  ///< from contacts.mu and sigma; of energy, where masses are equal and energy is kept
   Function* of_told[8];    ///< from contacts.impulse and separation
 };

@@ -40,7 +40,7 @@ CAROM_INLINE Vectors load(const CollisionContacts::Column (&from)[2], std::size_
   return {load(from[0] + row), load(from[1] + row)};
 }
 
-/// Of four collisions, from every second: a of the first and third, b of the second and fourth.
+/// Joins the vectors of four collisions, from every second of them: a of the first and third, b of the second and fourth.
 CAROM_INLINE Vectors joined(Doubles a, Doubles b) {
   return {__builtin_shufflevector(a, b, 0, 4, 2, 6), __builtin_shufflevector(a, b, 1, 5, 3, 7)};
 }
@@ -51,7 +51,7 @@ CAROM_INLINE Vectors traceless(const Vectors& a, const Vectors& b) { return {a.x
 static_assert(offsetof(CollisionNote, partner_before) == offsetof(CollisionNote, before) + 2 * sizeof(double) &&
               offsetof(CollisionNote, partner_after) == offsetof(CollisionNote, after) + 2 * sizeof(double));
 
-/// Of two collisions, from the two velocities that begin at each address.
+/// The velocities of two collisions, from the two velocities that begin at each address.
 struct TwoVelocities {
   Doubles disk, partner;
 
@@ -62,7 +62,7 @@ struct TwoVelocities {
   }
 };
 
-/// Of four collisions.
+/// The velocities of four collisions.
 struct Velocities {
   Vectors disk, partner;
 
@@ -77,7 +77,7 @@ CAROM_INLINE Doubles times(const NotedFluxes& noted, const CollisionNote* four) 
   return sum + (((epoch - (sum - part)) + (time - part)) + all(noted.epoch_remainder));
 }
 
-/// What four collisions do.
+/// The changes of fluxes by four collisions.
 struct Fluxes {
   Vectors J, r;
   Vectors momentum;     ///< twice the change of xy and (xx - yy) / 2
@@ -124,7 +124,8 @@ CAROM_INLINE Fluxes of_told(const NotedFluxes& noted, const CollisionNote* four,
   return found;
 }
 
-/// Where fewer than four are left, or the first is not of lane 0: those there are, among others in which nothing happens.
+/// Returns four collisions where fewer than four are left, or where the first does not belong to lane 0; the missing ones are
+/// collisions without effect.
 inline const CollisionNote* filled_up(const NotedFluxes& noted, std::size_t row, CollisionNote (&four)[4]) {
   for (std::size_t lane = 0; lane < 4; ++lane) {
     const std::size_t n = row + lane - noted.lane;  // very large before the first
@@ -162,7 +163,7 @@ struct RunningFlux {
   Doubles since;
 };
 
-/// Who is not asked for is not computed: the compiler leaves out what nobody uses.
+/// Adds the fluxes of all collisions. Sums that are not needed are not computed: the compiler removes them.
 template <bool smooth, bool transfer, bool momentum, bool energy>
 void add(const NotedFluxes& noted, const CollisionContacts& contacts, const FluxSums& sums) {
   static constexpr TransferSum no_transfer{};

@@ -45,7 +45,7 @@ void CollisionStream::follow(std::span<const Event> events, std::vector<PairColl
   collisions.resize(met);
 }
 
-/// To where a disk is just before an event.
+/// Moves disk i to its state just before an event.
 void CollisionStream::move(std::size_t i, double time) {
   const double elapsed = time - since_[i];
   position_[i] += (velocity_[i] + 0.5 * elapsed * gravity_) * elapsed;

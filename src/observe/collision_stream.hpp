@@ -1,9 +1,9 @@
 #pragma once
-// Collisions with what came before them: the event log says how disks fly on; how they came is known from a copy of every disk's
-// motion that is kept here, exact straight flight (or a parabola) from event to event.
+// Collisions with what came before them. The event log holds the velocities after a collision; those before it come from a copy
+// of every disk's motion that is kept here, exact straight flight (or a parabola) from event to event.
 //
-// The impulse of smooth disks is along the line of centres, so velocities alone tell where they touched. Only where that does not
-// hold (reversal, rough disks, wells) are positions followed too.
+// The impulse of smooth disks is along the line of centres, so their velocities determine where they touched. Only where that
+// does not hold (reversal, rough disks, wells) positions are followed too.
 
 #include <carom/observe.hpp>
 

@@ -16,7 +16,8 @@ struct alignas(64) EndedFlights {
   static constexpr std::size_t most = 128;  ///< collisions
   static constexpr double unknown = std::numeric_limits<double>::infinity();
 
-  double time[2][most] = {};      ///< that they took; `unknown` where nobody follows the disk or knows when its flight began
+  /// durations of the flights; `unknown` where the disk is not followed, or its flight began before the run
+  double time[2][most] = {};
   double velocity[most][4] = {};  ///< of one disk and the other, all the way
 };
 
@@ -36,7 +37,7 @@ struct EndedFlightsKernel {
   /// Puts collisions in which both disks are followed into rows from `row` on; `last` is by place. Requires that there is room.
   void (*gather)(const Instant& epoch, const CollisionNote* notes, std::size_t count, double* last, EndedFlights& ended,
                  std::size_t row);
-  /// Of four times so many collisions.
+  /// Tallies four times `fours` flights.
   void (*tally)(const EndedFlights& ended, std::size_t fours, const FlightBins& bins, TalliedFlights& found);
 };
 

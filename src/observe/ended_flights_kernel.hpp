@@ -21,7 +21,7 @@ CAROM_INLINE double sum(Doubles x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
 static_assert(offsetof(CollisionNote, partner_before) == offsetof(CollisionNote, before) + 2 * sizeof(double));
 
-/// As Instant::plus rounds it. (That itself would be compiled here for machines that others have not got.)
+/// Rounds as Instant::plus does. (Instant::plus itself would be compiled here for machines with other instruction sets.)
 template <class Number>
 CAROM_INLINE Number plus(Number high, Number low, Number time) {
   const Number sum = high + time, part = sum - high;

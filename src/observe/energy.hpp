@@ -31,7 +31,7 @@ struct Energies {
   double pistons = 0.0;
 
   [[nodiscard]] double total() const { return kinetic + spin + potential + pistons; }
-  /// What a change of the total is small against, where parts of opposite sign may leave no total.
+  /// Returns the scale for changes of the total, where parts of opposite sign may cancel.
   [[nodiscard]] double scale() const { return kinetic + spin + std::abs(potential) + pistons; }
 };
 [[nodiscard]] Energies energies_of(const Box& box, const Effects& effects, const Disks& disks, const State& state);

@@ -11,12 +11,12 @@ namespace carom {
 /// Why there is no such number, as the end of a sentence; empty where there is one. An effect at its neutral value does no harm.
 [[nodiscard]] std::string_view why_no_Z(const Effects& effects);
 
-/// Whether kinetic energy changes from moment to moment, because a heat bath, spins or wells take part in it: Z is then told with
+/// Returns whether the kinetic energy fluctuates, because a heat bath, spins or wells take part in it. Z is then computed with
 /// the mean of the temperature, and not with that of one state.
 [[nodiscard]] bool temperature_fluctuates(const Effects& effects);
 
-/// Why errors of one run do not tell how runs from other starts differ, as a sentence without its stop; empty where they do.
-/// Reversal of equal masses leaves the set of speeds what the start drew.
+/// Returns the reason why errors of one run do not cover the scatter between starts, as a sentence without its stop; empty where
+/// they do. Reversal of equal masses never changes the set of speeds.
 [[nodiscard]] std::string_view why_errors_are_of_one_start(const Scene& scene);
 
 }  // namespace carom

@@ -41,7 +41,7 @@ void FluxMeter::add(FluxFollower& follower) {
 
 void FluxMeter::start(const Eigen::Vector2d& common) { Eigen::Vector2d::Map(noted_.common) = common; }
 
-/// In pieces between which nobody wants to be called: `add(begin, end)` for each.
+/// Calls `add(begin, end)` for pieces between which no sample lies.
 template <class TimeOf, class Add>
 void FluxMeter::follow(std::size_t count, TimeOf time_of, Add add) {
   for (std::size_t begin = 0; begin < count;) {
@@ -91,7 +91,7 @@ void FluxMeter::follow(std::span<const PairCollision> collisions) {
         std::array<CollisionNote, CollisionContacts::most> notes;
         for (std::size_t most = notes.size(); begin < end; begin += most) {
           const std::size_t count = std::min(most, end - begin);
-          // Where there is no collision in a row nothing happens.
+          // Rows without a collision change nothing.
           for (auto* column : {&contacts_.impulse, &contacts_.separation})
             for (auto& axis : *column)
               for (std::size_t k = 0; k < 3; ++k) axis[k] = axis[noted_.lane + count + k] = 0.0;
@@ -114,7 +114,7 @@ void FluxMeter::follow(std::span<const PairCollision> collisions) {
       });
 }
 
-/// Of two disks that touch.
+/// Adds the collision of two disks that touch.
 void FluxMeter::meet(std::size_t row, std::size_t disk, std::size_t partner) {
   contacts_.mu[row] = reduced_mass(disks_.mass[disk], disks_.mass[partner]);
   contacts_.sigma[row] = disks_.radius[disk] + disks_.radius[partner];

@@ -1,6 +1,6 @@
 #pragma once
-// Adds up the fluxes of collisions that are told by the simulation or known from the event log: to the same bits, however they
-// are handed over.
+// Adds up the fluxes of collisions, from the simulation's records or from the event log: to the same bits, however they are
+// divided among calls.
 
 #include "observe/collision_fluxes.hpp"
 #include "observe/followers.hpp"
@@ -24,9 +24,9 @@ class FluxMeter {
   void add(FluxFollower& follower);
   [[nodiscard]] bool has_followers() const { return !followers_.empty(); }
 
-  /// What flies is relative to this.
+  /// Begins with the common velocity, relative to which the carried fluxes are counted.
   void start(const Eigen::Vector2d& common);
-  /// Adds collisions that come after all before. Requires disks that velocities tell the contacts of.
+  /// Adds collisions that come after all before. Requires smooth disks, whose velocities determine where they touched.
   void follow(const CollisionNotes& told);
   void follow(std::span<const PairCollision> collisions);
 
@@ -48,7 +48,7 @@ class FluxMeter {
   void meet(std::size_t row, std::size_t disk, std::size_t partner);
 
   const Disks& disks_;
-  bool smooth_;  ///< velocities tell the contacts
+  bool smooth_;  ///< whether velocities determine where disks touched
   bool equal_;   ///< all disks are
   std::vector<FluxFollower*> followers_;
   double until_ = -std::numeric_limits<double>::infinity();  ///< that of all followers

@@ -9,8 +9,8 @@
 
 namespace carom {
 
-/// Some disks of many, and where they are in the engine's memory. To ask whether a collision concerns them looks at 16 KiB at
-/// most; and only where it may, farther away.
+/// Some disks out of many, with their slots in the engine's memory. Testing whether a collision concerns them reads 16 KiB at
+/// most, and further memory only where it may.
 class FollowedDisks {
  public:
   FollowedDisks() = default;
@@ -29,10 +29,10 @@ class FollowedDisks {
       rows_[place] = static_cast<std::uint32_t>(follows(disks.ids[place]) ? row++ : ids_.size());
   }
 
-  /// That of a disk that is not followed is one behind the last.
+  /// Returns the row of the disk in a slot; one behind the last for a disk that is not followed.
   [[nodiscard]] std::size_t row(std::int32_t place) const { return rows_[static_cast<std::uint32_t>(place)]; }
   [[nodiscard]] bool has(std::int32_t place) const { return row(place) < ids_.size(); }
-  /// By row.
+  /// Returns the ids of the followed disks, by row.
   [[nodiscard]] const std::vector<std::int32_t>& ids() const { return ids_; }
 
   /// Finds the notes of collisions in which one disk at least is followed: their numbers in `which`, which has room for all.

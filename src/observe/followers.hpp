@@ -1,5 +1,5 @@
 #pragma once
-// What observables of this library ask of collisions where they need less than all of it, and so get it faster.
+// Interfaces of this library's observables that need less than whole collisions, and so get the data faster.
 
 #include "observe/collision_fluxes.hpp"
 

@@ -35,7 +35,7 @@ class FlightHistogram {
  public:
   FlightHistogram(std::size_t bins, double range) : width_(range / static_cast<double>(bins)), counts_(bins + 1), shares_(bins) {}
 
-  /// What is in the bin behind the last is not shown.
+  /// The bin behind the last is not shown.
   void add(std::span<const std::int32_t> found) {
     std::uint32_t* counts = counts_.data();
     for (; found.size() >= 4; found = found.subspan(4))
@@ -133,9 +133,9 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   }
 
  private:
-  /// Of the histograms, in mean free times: one flight in e^10 is longer.
+  /// Upper end of the histograms, in mean free times: one flight in e^10 is longer.
   static constexpr double longest = 10.0;
-  /// No more disks are followed: what all of them tell in a run would slow a large one down.
+  /// Number of disks that are followed at most; following all would slow large runs down.
   static constexpr std::size_t most_disks = 1000;
   /// EndedFlights::most collisions count as one sample of the means; a sample of the histograms has so many times as many.
   /// Later on four times as many: its errors are known well enough by then, and all its bins have to be gone through.
@@ -158,7 +158,8 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
     return run.temperature > 0.0 ? std::sqrt(run.temperature / mass) : 1.0;
   }
 
-  /// At most `piece` of them. Who is followed nobody can guess: collisions that end flights are listed without a branch.
+  /// Processes at most `piece` collisions. Which disks are followed is unpredictable, so collisions that end flights are listed
+  /// without a branch.
   void look_at(const Instant& epoch, std::span<const CollisionNote> notes) {
     if (ids_.size() < rows_by_id_.size()) {
       std::array<std::uint32_t, piece> which;
@@ -196,13 +197,13 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   [[nodiscard]] std::size_t row_by_id(std::int32_t disk) const { return rows_by_id_[static_cast<std::size_t>(disk)]; }
   [[nodiscard]] bool follows(std::int32_t disk) const { return row_by_id(disk) < ids_.size(); }
 
-  /// Two flights end, or one where nobody follows the other disk or knows when its flight began.
+  /// Ends two flights, or one where the other disk is not followed or the beginning of its flight is unknown.
   void end(double* last, double* partner_last, double time) {
     ended_.time[0][count_] = time - *last;
     ended_.time[1][count_] = time - *partner_last;
     *last = *partner_last = time;
   }
-  /// After so many collisions, however they are handed over.
+  /// Ends a sample, after a fixed number of collisions however they are divided among calls.
   void end_sample() {
     const std::size_t fours = (count_ + 3) / 4;
     for (std::size_t n = count_; n < 4 * fours; ++n) ended_.time[0][n] = ended_.time[1][n] = EndedFlights::unknown;
@@ -235,8 +236,8 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
 
   FlightHistogram times_, paths_;
   FlightBins bins_;
-  std::vector<std::int32_t> ids_;          ///< of those who are followed, by row
-  std::vector<std::uint32_t> rows_by_id_;  ///< to begin with; one behind the last of those who are not
+  std::vector<std::int32_t> ids_;          ///< ids of the followed disks, by row
+  std::vector<std::uint32_t> rows_by_id_;  ///< row of each disk at the start; one behind the last for disks that are not followed
   std::vector<double> last_;               ///< collision of each, `never` before the first; the last is that of all others
   std::shared_ptr<const NotedDisks> noted_;
   FollowedDisks places_;  ///< in noted_

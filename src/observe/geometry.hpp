@@ -1,5 +1,5 @@
 #pragma once
-// What the box and the disks measure at one instant: walls may move, and disks may grow.
+// Lengths and areas of box and disks at one instant: walls may move, and disks may grow.
 
 #include <carom/box.hpp>
 #include <carom/state.hpp>

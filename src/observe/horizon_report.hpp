@@ -1,5 +1,5 @@
 #pragma once
-// How far a trajectory can be trusted, in numbers: what studies/horizon/horizon.hpp finds and what JSON and terminal show.
+// The horizon of a trajectory in numbers: the result of studies/horizon/horizon.hpp, which JSON and terminal show.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Lyapunov {
   [[nodiscard]] bool is_chaotic() const { return per_time_error && per_time > 4.0 * *per_time_error && per_time > 0.0; }
 };
 
-/// Where two logs of events part.
+/// The first difference between two logs of events.
 struct FirstDifference {
   std::uint64_t index = 0;      ///< so many events before it are the same
   double time = 0.0;            ///< of the event in the more precise log
@@ -42,7 +42,7 @@ struct HorizonRow {
   bool estimated = false;                     ///< time is not measured but extrapolated with the Lyapunov exponent
   std::optional<FirstDifference> first_difference;  ///< empty: the same events to the end
   double seconds = 0.0;  ///< of processor time in the event loop, from the start to Horizon::timed_until
-  double price = 0.0;    ///< seconds over those of the textbook engine in double precision; 0 where too few to tell
+  double price = 0.0;    ///< seconds over those of the textbook engine in double precision; 0 where they are too few
 };
 
 /// Why a measurement of horizons ended.
@@ -60,7 +60,7 @@ struct Horizon {
   double resolution = 0.0;  ///< time from one comparison to the next: horizons are known to this, rounded down
   std::string engine;       ///< the one that runs the scene; a name in rows
   std::vector<HorizonRow> rows;
-  std::optional<Lyapunov> lyapunov;  ///< empty where disks do not collide, or too rarely to tell
+  std::optional<Lyapunov> lyapunov;  ///< empty where disks do not collide, or too rarely
   double time = 0.0;                 ///< compared up to here
   double collisions_per_disk = 0.0;  ///< up to here, in the best precision
   std::uint64_t collisions = 0;      ///< of pairs, up to here, in the best precision

@@ -1,5 +1,5 @@
 #pragma once
-// What correlations do to all their lags, in rows that lie side by side: four at a time, for many steps in a row.
+// Products and squares of a correlator at all its lags, in rows side by side: four at a time, for many steps in a row.
 //
 // A matrix has a line for each step, as long as there are rows.
 
@@ -25,10 +25,11 @@ struct LagRowsKernel {
   /// Both for tree_lines, with which blocks of all levels below tree_levels begin: those are `sums`. Leaves the mean of all in
   /// the first line.
   void (*blocks_of_tree)(double* samples, const double* first, const BlockSums* sums);
-  /// Of values that come latest first: one for each line, behind them as many earlier ones as there are rows. Line n is about a,
-  /// the n-th of the former in time; its row k about a and b, the value k before a: the mean of a.x b.x and a.y b.y.
+  /// Computes products of values whose latest come first: one value for each line, then as many earlier values as there are rows.
+  /// Line n is about a, the n-th of the former in time; its row k is the mean of a.x b.x and a.y b.y, where b is the value k
+  /// before a.
   void (*products)(const double* x, const double* y, std::size_t rows, std::size_t lines, double* found);
-  /// The same of (a.x - b.x)^2 and (a.y - b.y)^2.
+  /// Computes likewise the mean of (a.x - b.x)^2 and (a.y - b.y)^2.
   void (*squares)(const double* x, const double* y, std::size_t rows, std::size_t lines, double* found);
 };
 

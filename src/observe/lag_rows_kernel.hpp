@@ -34,7 +34,7 @@ void since(double* samples, const double* first, std::size_t rows, std::size_t l
     });
 }
 
-/// Of x and x^2, in registers.
+/// Sums of x and x^2, in registers.
 template <class Number>
 struct RunningSums {
   Number sum, square;

@@ -19,8 +19,8 @@ namespace carom {
 /// collision changes, and f = 2 N minus the number of such axes. 0 where no degree of freedom is left.
 [[nodiscard]] double kinetic_temperature(const Box& box, const Disks& disks, const State& state);
 
-/// The same under the scene's effects. Where a thermostat, thermal walls or obstacles change momentum along periodic axes too,
-/// the common motion along them is heat like any other. Under shear velocities are taken relative to the flow.
+/// Returns kT with the scene's effects. Where a thermostat, thermal walls or obstacles change momentum along periodic axes,
+/// motion of the centre of mass along them counts as heat. Under shear, velocities are relative to the flow.
 [[nodiscard]] double kinetic_temperature(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 
 /// kT of the spins, 2 sum of (I w^2 / 2) / N, I = m r^2 / 2; 0 where disks are smooth

@@ -9,7 +9,7 @@ namespace carom {
 
 namespace {
 
-/// So many numbers, which may be anything.
+/// Returns memory for so many numbers, whose values are undefined.
 std::span<double> scratch(std::vector<double>& memory, std::size_t numbers) {
   if (memory.size() < numbers) memory.resize(numbers);
   return std::span(memory).first(numbers);
@@ -37,9 +37,9 @@ std::vector<double> correlation_of_squares(std::size_t k, double power) {
   return correlation;
 }
 
-/// Row k of squares, with an error that knows of overlaps. They are those of diffusion, unless the squares grow more slowly by
-/// more than a standard error, as between walls or in a crystal; what moves straight on does so for less than the lag, which
-/// blocks see.
+/// Returns row k of squares, with an error that allows for overlapping windows. The squares are taken as those of diffusion,
+/// unless they grow more slowly by more than a standard error, as between walls or in a crystal. Ballistic motion lasts less than
+/// the lag, which blocks detect.
 Blocking::Estimate estimate_of_squares(const BlockedRows& squares, const Means& means, std::size_t k) {
   const Blocking::Estimate diffusing = *squares.estimate(k, correlation_of_squares(k, 1.0));
   const std::size_t half = k / 2;
@@ -106,7 +106,7 @@ void MultipleTau::add_level() {
   level.integrals = BlockedRows(lags_);
 }
 
-/// Of a level, and of those above that are full then.
+/// Processes the new values of a level, and of those above that are full then.
 void MultipleTau::look_at_coming(std::size_t l) {
   if (l + 1 == levels_.size() && l + 1 < most_levels_) add_level();
   Level& level = levels_[l];
@@ -140,8 +140,8 @@ void MultipleTau::find_pairs(Level& level, std::size_t count) {
   }
 }
 
-/// The same of two channels, by far the most pairs of all: latest values come first, each channel by itself, so that lags lie
-/// side by side.
+/// Finds the pairs of two channels, by far the most frequent case: latest values come first, each channel by itself, so that lags
+/// are adjacent in memory.
 void MultipleTau::find_pairs_of_two(Level& level, std::size_t count) {
   const std::size_t length = count + lags_;
   double* latest_first = scratch(latest_first_, 2 * length).data();

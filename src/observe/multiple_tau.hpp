@@ -26,7 +26,7 @@ class MultipleTau {
  public:
   enum class Pairs { products, squared_differences };
 
-  /// To be read into.
+  /// Makes an empty correlator, for reading into.
   MultipleTau() = default;
   /// `lags`: values kept per level, even. `levels`: at most that many.
   MultipleTau(std::size_t channels, Pairs pairs, std::size_t lags = 16, std::size_t levels = 64);
@@ -41,9 +41,9 @@ class MultipleTau {
     /// Products only: the integral from 0 to lag + width / 2, per step.
     std::optional<Blocking::Estimate> integral;
   };
-  /// In order of the lag, as far as there are pairs. Squared differences begin with lag 1.
+  /// Returns the rows in order of the lag, as far as there are pairs. Squared differences begin with lag 1.
   [[nodiscard]] std::vector<Row> rows();
-  /// What is to be said of their errors, as a sentence without its stop; empty where that is nothing.
+  /// Returns a remark on the errors of these rows, as a sentence without its stop; empty where there is none.
   [[nodiscard]] static std::string note_on_errors(const std::vector<Row>& rows);
 
   template <class Archive>
@@ -53,7 +53,7 @@ class MultipleTau {
 
  private:
   struct Level {
-    std::vector<double> coming;   ///< values nobody has looked at yet
+    std::vector<double> coming;   ///< values that were not processed yet
     std::vector<double> earlier;  ///< lags x channels of those before
     std::vector<double> waiting;  ///< for a second one
     bool has_waiting = false;

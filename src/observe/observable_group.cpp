@@ -75,7 +75,7 @@ void ObservableGroup::start(const State& state) {
   for (const auto& observable : observables_) observable->start(state);
 }
 
-/// In pieces that stay in the nearest cache while everybody looks at them.
+/// Passes events on in pieces that stay in the nearest cache while all observables read them.
 void ObservableGroup::follow(std::span<const Event> events) {
   while (!events.empty()) {
     const std::size_t count = std::min(CollisionContacts::most, events.size());

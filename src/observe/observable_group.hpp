@@ -20,27 +20,29 @@ namespace carom {
 
 class ObservableGroup {
  public:
-  /// What run.scene.observe lists. Requires scene and disks of the run to live as long as this. Throws SceneError.
+  /// Makes the observables that run.scene.observe lists. Requires that scene and disks of the run outlive this object. Throws
+  /// SceneError.
   explicit ObservableGroup(const ObservedRun& run);
-  /// The same, going on from what save() wrote.
+  /// Makes these observables and continues them from what save() wrote.
   ObservableGroup(const ObservedRun& run, std::istream& saved);
 
-  /// One more, before start(). Throws SceneError where it follows collisions and something changes velocities between them.
+  /// Adds an observable, before start(). Throws SceneError where it follows collisions and something changes velocities between
+  /// them.
   void add(std::unique_ptr<Observable> observable);
 
   [[nodiscard]] const ObservedRun& run() const { return run_; }
   [[nodiscard]] bool empty() const { return observables_.empty(); }
   [[nodiscard]] bool follows_collisions() const;
-  /// Of what run().scene.observe lists, in its order; 0 of what takes no steps.
+  /// Returns the steps of run().scene.observe, in its order; 0 for observables without samples.
   [[nodiscard]] std::vector<double> steps() const;
-  /// Those that want states, by the time between two of them.
+  /// Returns the observables that need samples, by the time between two of them.
   [[nodiscard]] std::map<double, std::vector<Observable*>> by_step() const;
 
   void start(const State& state);
   /// Requires events in order, none left out, and !run().collisions_told. What comes of it does not depend on how they are
   /// divided among calls.
   void follow(std::span<const Event> events);
-  /// The same, told by the simulation: requires run().collisions_told.
+  /// Passes on collisions that the simulation has recorded; requires run().collisions_told.
   void hear(const CollisionNotes& told);
   /// One entry per observable; empty where start() was never called. Call it once.
   [[nodiscard]] std::vector<Measurement> results(double time, const Totals& totals);

@@ -1,5 +1,5 @@
 #pragma once
-// What observables know of a run before it begins.
+// The facts about a run that observables need before it begins.
 
 #include <carom/observe.hpp>
 
@@ -18,9 +18,10 @@ struct ObservedRun {
   bool collisions_told = false;     ///< by the simulation itself, with what came before them
   double mean_free_time = 0.0;      ///< as Enskog's theory estimates it for disks of mean size and mass; 0 where nothing moves
 
-  /// What the scene says, else so many mean free times as the observable is known to take; 0 where it takes no steps.
+  /// Returns the step of an observable: as the scene says, else the observable's own number of mean free times; 0 for observables
+  /// without samples.
   [[nodiscard]] double step(const ObservableRequest& request) const;
-  /// So many mean free times; at most 1/256 of the run, so that errors can be told.
+  /// Returns a step of so many mean free times, but at most 1/256 of the run, so that there are errors.
   [[nodiscard]] double step_of(double mean_free_times) const;
 
   [[nodiscard]] std::size_t species_count() const { return scene.species.size(); }
@@ -44,9 +45,9 @@ struct ObservedRun {
 /// Velocity of all disks together; zero where it is no more than what rounding leaves.
 [[nodiscard]] Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state);
 
-/// Before the run: its temperature is that of the start, or of the thermostat.
+/// Returns the facts before the run, whose temperature is that of the start or of the thermostat.
 [[nodiscard]] ObservedRun observed_run(const Simulation& simulation);
-/// Of a run whose temperature is known. Requires scene and disks to live as long as what is returned.
+/// Returns the facts about a run of known temperature. Requires that scene and disks outlive the result.
 [[nodiscard]] ObservedRun observed_run(const Scene& scene, const Disks& disks, double temperature);
 
 }  // namespace carom

@@ -11,11 +11,11 @@ namespace {
 
 /// Events or notes handed over together. What may wait of them, some 1.5 MB, stays in the second-level cache.
 constexpr std::size_t most_together = 4'096;
-/// Of what was handed over; then the run waits.
+/// The most pieces of work that may wait; then the run waits.
 constexpr std::size_t most_waiting = 4;
 /// A large system's take much memory.
 std::size_t most_states(std::size_t disks) { return disks > 100'000 ? 2 : 4; }
-/// To wake a thread takes the one that does it some ten microseconds: so it wakes up by itself.
+/// The time between two wake-ups of the thread. Waking it from the run would take the run some ten microseconds.
 constexpr std::chrono::milliseconds nap{1};
 
 }  // namespace
@@ -29,7 +29,7 @@ ObservingThread::~ObservingThread() {
   try {
     finish();
   } catch (...) {
-    // nobody is left to hear of it
+    // a destructor cannot report the error
   }
   {
     const std::lock_guard lock(mutex_);
@@ -110,7 +110,7 @@ void ObservingThread::wait_until(std::unique_lock<std::mutex>& lock, Condition c
   changed_.wait(lock, condition);
 }
 
-/// After the first error nothing more is looked at.
+/// After the first error no further work is done.
 void ObservingThread::work() {
   for (;;) {
     std::unique_lock lock(mutex_);

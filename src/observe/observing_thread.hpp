@@ -21,7 +21,7 @@ namespace carom {
 
 class ObservingThread {
  public:
-  /// Requires `group` to live as long as this, and nobody else to touch it between two calls of finish().
+  /// Requires that `group` outlives this object, and that nothing else uses it between two calls of finish().
   explicit ObservingThread(ObservableGroup& group);
   /// Does what was handed over, and forgets what an observable threw.
   ~ObservingThread();
@@ -29,7 +29,7 @@ class ObservingThread {
   ObservingThread& operator=(const ObservingThread&) = delete;
 
   void follow(std::span<const Event> events);
-  /// Where the next notes to be heard are best written: others are copied.
+  /// Returns memory for the next collision records; records written elsewhere are copied.
   [[nodiscard]] std::span<CollisionNote> room();
   void hear(const CollisionNotes& notes);
   void sample(const std::vector<Observable*>& observables, const State& state, const Totals& totals);

@@ -78,7 +78,7 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
   }
 
   [[nodiscard]] std::string name() const override { return "radial_distribution"; }
-  /// In diameters: g jumps at the edge of a well.
+  /// Distance, in diameters, up to which g is smooth: it jumps at the edge of a well.
   static double smooth_until(const ObservedRun& run) {
     const auto& well = run.scene.effects.square_well;
     return well && well->depth != 0.0 ? std::min(1.25, well->width) : 1.25;

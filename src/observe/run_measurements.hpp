@@ -1,5 +1,5 @@
 #pragma once
-// What every run measures on the way: energy, momentum, temperature, pressure and overlap. Fed by the schedule's hooks.
+// The measurements of every run: energy, momentum, temperature, pressure and overlap. The schedule's hooks feed them.
 
 #include "observe/pressure.hpp"
 #include "observe/run_report.hpp"
@@ -20,7 +20,7 @@ class RunMeasurements {
   /// All results, when the run has ended. `wall_seconds`: of the whole run, as the caller took it.
   [[nodiscard]] RunReport report(const RunResult& result, double wall_seconds);
 
-  /// What was measured so far, for core/archive.hpp.
+  /// Saves or loads the measurements so far, for core/archive.hpp.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(report_.energy_initial, report_.energy_scale, report_.momentum_initial, report_.max_relative_overlap,

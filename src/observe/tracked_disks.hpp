@@ -15,13 +15,13 @@ class TrackedDisks {
  public:
   static constexpr std::size_t most = 1000;
 
-  /// Of one species.
+  /// Tracks the disks of one species.
   TrackedDisks(const ObservedRun& run, std::size_t species);
 
   [[nodiscard]] std::size_t channels() const { return 2 * ids_.size(); }
   /// x and y of each disk, relative to the common motion of all along axes that keep momentum. Valid until the next call.
   [[nodiscard]] std::span<const double> velocities(const Eigen::Matrix2Xd& peculiar);
-  /// The same of places, less `drift`: how far the common motion has carried everybody.
+  /// Returns unwrapped positions, less `drift`, the displacement of the centre of mass.
   [[nodiscard]] std::span<const double> unwrapped(const ObservedRun& run, const State& state, const Eigen::Vector2d& drift);
 
  private:

@@ -55,7 +55,7 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
   }
 
  private:
-  /// Of the momentum that each wall gets.
+  /// Returns the bounded part of the momentum that each wall receives.
   [[nodiscard]] std::array<double, 4> bounded_parts(const State& state) const {
     std::array<double, 4> parts{};
     for (int axis = 0; axis < 2; ++axis) {

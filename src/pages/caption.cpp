@@ -22,7 +22,7 @@ void write(cairo_t* context, const std::string& text, double x, double y) {
   cairo_show_text(context, text.c_str());
 }
 
-/// What stands at the ends of the scale of colours: its name, where it begins and where it ends.
+/// The labels of the colour scale: its name, its beginning and its end.
 struct Scale {
   std::string name, low, high;
 };

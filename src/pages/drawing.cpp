@@ -155,7 +155,7 @@ class Drawing {
     }
   }
 
-  /// From the rim on; the typical speed is as long as 3.5 % of the box.
+  /// Draws velocities from the rim on; the typical speed is 3.5 % of the box long.
   void draw_velocities() {
     const auto& [left, right, bottom, top] = of_.ranges.extent;
     const double unit = 0.035 * std::min(right - left, top - bottom) / of_.ranges.typical_speed;

@@ -16,7 +16,7 @@ struct DestroyCairo {
 using Context = std::unique_ptr<cairo_t, DestroyCairo>;
 using Surface = std::unique_ptr<cairo_surface_t, DestroyCairo>;
 
-/// What a drawing is made of.
+/// The data of a drawing.
 struct Subject {
   const Scene& scene;
   const Disks& disks;

@@ -1,5 +1,5 @@
 #pragma once
-// What the effects of a scene have done, in rows. Nothing for effects that the scene does not name.
+// The results of a scene's effects, in rows. Effects that the scene does not name have none.
 
 #include "observe/run_report.hpp"
 #include "pages/summary_row.hpp"
@@ -11,10 +11,10 @@ namespace carom {
 /// Counts of what happens beside collisions of pairs and with walls.
 [[nodiscard]] SummaryRows rows_of_events(const RunReport& report);
 
-/// Of energy: its drift, or where effects give and take, how much of its change is explained.
+/// Returns the row of energy: its drift or, where effects supply and remove energy, how well they account for its change.
 [[nodiscard]] SummaryRow row_of_energy(const RunReport& report);
 
-/// What walls, thermostat, growth, shear and wells gave, took and measured. Of walls only where `scene` is known.
+/// Returns the rows of walls, thermostat, growth, shear and wells; those of walls only where `scene` is known.
 [[nodiscard]] SummaryRows rows_of_effects(const RunReport& report, const Scene* scene);
 
 }  // namespace carom

@@ -12,7 +12,8 @@ namespace carom {
 /// The collision, and each effect beside it: a subject and what is said of it.
 [[nodiscard]] SummaryRows words_of(const Effects& effects);
 
-/// What the scene does not call for, as one sentence part: "gravity, a thermostat, shear"; empty where it calls for everything.
+/// Returns the effects that the scene does not simulate, as part of a sentence: "gravity, a thermostat, shear"; empty where there
+/// are none.
 [[nodiscard]] std::string absent(const Effects& effects);
 
 }  // namespace carom

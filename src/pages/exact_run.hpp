@@ -1,5 +1,5 @@
 #pragma once
-// What replays a recorded run exactly: its start and all of its events, where these tell how the disks moved.
+// The data that replay a recorded run exactly: its start and all of its events, where these determine how the disks moved.
 
 #include "io/run_reader.hpp"
 
@@ -10,7 +10,7 @@
 
 namespace carom {
 
-/// How far a replay may be from the run's samples to count as exact, as a share of the longer side of the box.
+/// The largest distance of an exact replay from the run's samples, over the longer side of the box.
 inline constexpr double replay_tolerance = 1e-6;
 
 struct ExactRun {

@@ -24,7 +24,7 @@ struct FilmShape {
   double fps = 30.0;          ///< frames per second
 };
 
-/// Where a program is that is found on PATH.
+/// Returns the path of a program that is found on PATH.
 [[nodiscard]] std::optional<std::filesystem::path> find_program(std::string_view name);
 
 class FilmWriter {

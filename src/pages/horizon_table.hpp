@@ -1,5 +1,5 @@
 #pragma once
-// How far a trajectory can be trusted, in every precision, as a table of a page.
+// The horizon of a trajectory in every precision, as a table of a page.
 
 #include "observe/horizon_report.hpp"
 #include "pages/page.hpp"

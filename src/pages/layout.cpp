@@ -11,7 +11,7 @@ struct Borders {
   double line, margin, letters, caption;
 };
 
-/// In proportion to the picture, but never too small to be seen or read.
+/// Returns borders in proportion to the picture, but never too small to be read.
 Borders borders(int longer, bool caption) {
   const double line = std::max(1.0, std::round(longer / 360.0));
   const double letters = caption ? std::clamp(std::round(longer / 50.0), 11.0, 60.0) : 0.0;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the box and its caption are in a picture.
+// The places of the box and its caption in a picture.
 
 #include <Eigen/Core>
 
@@ -11,7 +11,7 @@ struct PictureSize {
   int width = 0, height = 0;  ///< pixels
 };
 
-/// From lengths of the run to pixels, whose y runs downwards.
+/// The map from lengths of the run to pixels, whose y runs downwards.
 struct Layout {
   PictureSize size;
   double scale = 1.0;                             ///< pixels per length

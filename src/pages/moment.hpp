@@ -23,14 +23,14 @@ struct Moment {
   std::array<double, 4> sides{};             ///< left, right, bottom, top
   double shear_displacement = 0.0;           ///< of the images above
   std::vector<std::uint64_t> collisions;     ///< of each disk so far; empty where the run kept no events
-  std::vector<std::vector<Stretch>> trails;  ///< of each disk, the oldest first; empty where nobody asked for them
+  std::vector<std::vector<Stretch>> trails;  ///< the trail of each disk, oldest first; empty without trails
 };
 
 /// Left, right, bottom, top, wherever they have moved to.
 [[nodiscard]] std::array<double, 4> sides_of(const Box& box, const State& state);
 
-/// What takes `position` back into the box: whole box lengths along periodic axes, nothing along others. An image that is n boxes
-/// above is displaced along x by n times `shear_displacement`, too.
+/// Returns the displacement that takes `position` back into the box: whole box lengths along periodic axes, zero along others. An
+/// image that is n boxes above is displaced along x by n times `shear_displacement`, too.
 [[nodiscard]] Eigen::Vector2d into_box(const Box& box, const Eigen::Vector2d& position, double shear_displacement = 0.0);
 
 }  // namespace carom

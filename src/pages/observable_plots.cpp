@@ -264,7 +264,7 @@ Plot plot_of(const Frame& frame, const Table& table, const RunTheory& theory) {
   return plot;
 }
 
-/// Whatever it is, against its first column.
+/// Plots a table of any kind against its first column.
 Plot plain_plot_of(const Table& table) {
   std::string id = table.name;
   std::replace_if(

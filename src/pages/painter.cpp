@@ -1,4 +1,4 @@
-// From a drawing to pixels and files.
+// Turns a drawing into pixels and files.
 
 #include "pages/painter.hpp"
 

@@ -26,7 +26,7 @@ struct Look {
   bool caption = true;      ///< the clock, and what the colours mean
 };
 
-/// What all pictures of a film have in common.
+/// The data that all pictures of a film share.
 struct Ranges {
   std::array<double, 4> extent{};  ///< of the box, as large as it ever is: left, right, bottom, top
   double typical_speed = 1.0;      ///< the largest root mean square speed

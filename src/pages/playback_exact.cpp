@@ -1,4 +1,4 @@
-// From the events.
+// Playback from the events.
 
 #include "pages/playback_source.hpp"
 #include "pages/replay.hpp"

@@ -1,4 +1,4 @@
-// From sample to sample: straight lines, the short way round where the box is periodic.
+// Playback from sample to sample: straight lines, the short way where the box is periodic.
 
 #include "pages/playback_source.hpp"
 

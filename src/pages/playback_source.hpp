@@ -1,5 +1,5 @@
 #pragma once
-// The two ways to know where disks are between samples.
+// The two sources of positions between samples.
 
 #include "pages/exact_run.hpp"
 #include "pages/playback.hpp"

@@ -76,7 +76,7 @@ struct WallTracks {
   }
 };
 
-/// How far rounding the velocities puts a disk from where it is, at most, at any time up to `end`.
+/// Returns the largest displacement of any disk by rounding the velocities, at any time up to `end`.
 double rounding_error(const Scene& scene, const Disks& disks, const State& start, const std::vector<Event>& events, double end) {
   Replay exact(scene, disks, start), rounded(scene, disks, start, VelocityDigits::single);
   double largest = 0.0;

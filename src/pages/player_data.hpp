@@ -1,11 +1,11 @@
 #pragma once
-// What the player plays: a recorded run as a short description and columns of numbers, small enough for a page.
+// The data of the player: a recorded run as a short description and columns of numbers, small enough for a page.
 //
 // With the event log the columns are the start and every event with the velocities after it. Velocities have 24 bits where that
 // keeps every disk within `player_tolerance` of the longer side of the box all the time, which is found by doing the player's
 // arithmetic here, and 53 where it does not: errors between two events are linear in time, so they are largest at one of them.
-// Without it they are samples with positions in 16 bits, at most 2^-17 of the extent of the box away from the true ones: a
-// thousandth of a pixel and a hundredth of one, if the box is a thousand wide.
+// Without the log they are samples with positions in 16 bits, at most 2^-17 of the extent of the box away from the true ones: a
+// hundredth of a pixel, if the box is a thousand pixels wide.
 
 #include "pages/exact_run.hpp"
 

@@ -8,7 +8,7 @@
 
 namespace carom {
 
-/// Every player contains it, near its beginning: what tells a player from another file.
+/// The mark near the beginning of every player, by which it is told from other files.
 inline constexpr std::string_view player_mark = "<meta name=\"generator\" content=\"carom play\">";
 
 [[nodiscard]] std::string player_page(const PlayerData& data);

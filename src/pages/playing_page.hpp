@@ -9,7 +9,7 @@
 namespace carom {
 
 struct PlayingPage {
-  std::string_view mark;                      ///< what tells this kind of page from another file, near its beginning
+  std::string_view mark;                      ///< mark near the beginning, by which this kind of page is told from other files
   std::string_view body;                      ///< a file below src/show; {NAME.html} in it stands for player/NAME.html
   std::span<const std::string_view> styles;   ///< files
   std::span<const std::string_view> scripts;  ///< files, in the order in which they run

@@ -1,4 +1,4 @@
-// From event to event.
+// Replay from event to event.
 
 #include "pages/replay.hpp"
 

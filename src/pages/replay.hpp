@@ -14,7 +14,7 @@
 
 namespace carom {
 
-/// How exact velocities are in the file that the player reads.
+/// The precision of velocities in the file that the player reads.
 enum class VelocityDigits { single, twice };
 
 class Replay {
@@ -27,7 +27,7 @@ class Replay {
 
   [[nodiscard]] Eigen::Vector2d position(std::size_t disk, double time) const;  ///< not folded into a periodic box
   [[nodiscard]] Eigen::Vector2d velocity(std::size_t disk, double time) const;
-  /// Of left, right, bottom, top: when it last changed its motion, and where it was then.
+  /// One wall, left, right, bottom or top: the last time at which it changed its motion, and its position then.
   struct Side {
     double time = 0.0, position = 0.0, velocity = 0.0, acceleration = 0.0;  ///< along its axis
   };
@@ -54,11 +54,11 @@ class Replay {
   double energy_at_start_ = 0.0;
 };
 
-/// Why collisions and what is made up here cannot tell how the disks moved, as a sentence; empty where they can.
+/// Returns why collisions and the data made up here do not determine how the disks moved, as a sentence; empty where they do.
 [[nodiscard]] std::string why_no_replay(const Scene& scene);
 
-/// How far the replay is from the samples at most, of some fifty samples spread over the run; `sample` gives them by their
-/// number.
+/// Returns the largest distance of the replay from the run's samples, over some fifty samples spread over the run; `sample`
+/// returns them by their number.
 [[nodiscard]] double distance_from_samples(const Scene& scene, Replay replay, const std::vector<Event>& events,
                                            std::uint64_t samples, const std::function<State(std::uint64_t)>& sample);
 

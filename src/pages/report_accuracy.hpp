@@ -1,5 +1,5 @@
 #pragma once
-// How exact a run was: energy, momentum and overlap beside what rounding explains, and its near misses.
+// The accuracy of a run: energy, momentum and overlap beside what rounding explains, and the near misses of its arithmetic.
 
 #include "io/run_record.hpp"
 #include "pages/page.hpp"

@@ -12,13 +12,13 @@
 
 namespace carom {
 
-/// Every report of a run contains it, near its beginning: what tells one from another file.
+/// The mark near the beginning of every report, by which it is told from other files.
 inline constexpr std::string_view report_mark = "<meta name=\"generator\" content=\"carom report\">";
 
 /// `player` is empty where the run kept no samples.
 [[nodiscard]] Page report_page(const RunRecord& record, const std::optional<PlayerData>& player);
 
-/// What a report has room for: its player holds every event, or fewer samples than one of its own.
+/// The limits of the player in a report: it holds every event, or fewer samples than a player of its own.
 inline constexpr PlayerLimits report_limits = {.events = 1'000'000, .sample_bytes = 8'000'000};
 
 struct ReportFile {

@@ -15,7 +15,7 @@ const std::vector<double>* sampled(const RunRecord::Source& source, const std::s
   return nullptr;
 }
 
-/// By more than rounding.
+/// Returns whether values change by more than rounding.
 bool changes(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return low != values.end() && *high - *low > 1e-9 * std::max(std::abs(*low), std::abs(*high));

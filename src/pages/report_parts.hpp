@@ -15,7 +15,7 @@ namespace carom {
 /// Change of the energy from sample to sample, over its first value; no series where there are no samples.
 [[nodiscard]] Plot energy_plot(const RunRecord::Source& source);
 
-/// What changes from sample to sample beside that: temperature, packing fraction, kinds of energy, bonds.
+/// Returns the plots of quantities that change from sample to sample: temperature, packing fraction, kinds of energy, bonds.
 [[nodiscard]] std::vector<Plot> plots_over_time(const RunRecord::Source& source);
 
 }  // namespace carom

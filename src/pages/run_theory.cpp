@@ -117,7 +117,7 @@ std::vector<RunTheory::Kind> RunTheory::kinds(const std::string& suffix) const {
 double RunTheory::velocity_density(const Kind& kind, double x, bool of_energy) const {
   const double all_mass = source_->disks.total_mass();
   const bool is_fixed = velocities_ == Velocities::fixed_energy;
-  // Where momentum is kept, a disk has less than kT the heavier it is.
+  // Where momentum is conserved, a disk has less than kT, the less the heavier it is.
   const double mean = kT_ * (is_fixed && keeps_momentum_ ? 1.0 - kind.mass / all_mass : 1.0);
   if (!is_fixed) {
     const double energy = of_energy ? x : 0.5 * kind.mass * x * x;

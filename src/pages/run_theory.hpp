@@ -1,6 +1,7 @@
 #pragma once
-// What theory says of a run: of numbers that it measured and of the curves in its tables. Only where the theory is of this scene:
-// equal elastic disks in equilibrium, and nothing else that acts. Nothing here judges; `carom validate` does.
+// Theoretical values for the results of a run: for numbers that it measured and for the curves in its tables. They exist only
+// where the theory holds in this scene: equal elastic disks in equilibrium, and nothing else that acts. Nothing here is a
+// verdict; `carom validate` gives those.
 
 #include "io/run_record.hpp"
 #include "pages/page.hpp"
@@ -13,14 +14,14 @@ namespace carom {
 
 struct Expected {
   double value = 0.0;
-  std::string source;  ///< a few words: who says so
+  std::string source;  ///< a few words: the source of the theory
 };
 
 class RunTheory {
  public:
   explicit RunTheory(const RunRecord& record);
 
-  /// Of a number of [observe].
+  /// Returns the expected value of a number of [observe].
   [[nodiscard]] std::optional<Expected> of(const std::string& observable, const std::string& scalar) const;
   /// Z after Kolafa and Rottner, for so many disks where its first term in 1/N is known; why_not_Z() says why there is none.
   [[nodiscard]] std::optional<Expected> Z() const { return Z_; }

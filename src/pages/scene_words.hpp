@@ -1,5 +1,5 @@
 #pragma once
-// What a scene simulates, in words.
+// Descriptions of a scene in words.
 
 #include "pages/summary_row.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
-// What happened in a run, how exact it was and what it measured, in rows: on the terminal and on the page of a run alike.
+// The summary of a run in rows: what happened, how exact it was and what it measured. Terminal and page show the same rows.
 //
-// `scene` may be null where only the summary of a run is left; what it would tell is then left out.
+// `scene` may be null where only the summary of a run is left; rows that need it are then left out.
 
 #include "observe/run_report.hpp"
 #include "pages/summary_row.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Where disks came from: the flights of the last stretch of time, kept while a replay goes on.
+// The trails of disks: their flights during the last stretch of time, kept while a replay goes on.
 
 #include "pages/moment.hpp"
 
@@ -13,12 +13,12 @@ class Trails {
   Trails(const Box& box, const Eigen::Vector2d& acceleration, double span);
 
   [[nodiscard]] double span() const { return span_; }
-  /// From now on this disk leaves a trail; what is noted of others is not kept.
+  /// Starts the trail of this disk; flights of other disks are not kept.
   void follow(std::size_t disk);
   /// All that was noted.
   void forget();
 
-  /// From `time` on, `disk` flies on from here. Requires increasing times.
+  /// Adds the flight of `disk` from here and `time` on. Requires increasing times.
   void note(std::size_t disk, double time, const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
             double shear_displacement = 0.0);
 

@@ -1,4 +1,4 @@
-// What the parts of a scene must agree on: names, room for the disks, density, given positions, and an end to the run.
+// Checks of the parts of a scene against each other: names, room for the disks, density, given positions, and an end to the run.
 
 #include "neighbours/disks_at_rest.hpp"
 #include "scene/checks.hpp"

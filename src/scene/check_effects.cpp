@@ -47,8 +47,8 @@ void check_shear(const Scene& scene) {
   if (effects.square_well) refuse_together("shear", "[shear]", "[square_well]");
 }
 
-/// By this share of half the box a well must end before the middle between two images of a disk: more than separations are
-/// rounded by, in single precision too.
+/// The fraction of half the box by which a well must end before the middle between two images of a disk: more than the rounding
+/// of separations, in single precision too.
 constexpr double image_margin = 0x1p-20;
 /// Times the largest coordinate: thinner wells are lost in some thousand roundings of a separation.
 constexpr double least_thickness = 0x1p-40;

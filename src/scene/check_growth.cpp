@@ -54,7 +54,7 @@ void check_target(const Scene& scene, const Growth& growth) {
   }
 }
 
-/// Of a run that nothing but its time will end. One that ends by pressure or by collisions may do so before that.
+/// Checks a run that only its time can end. One that ends by pressure or collisions may end earlier.
 void check_time(const Scene& scene, const Growth& growth) {
   const Run& run = scene.run;
   const bool may_end_before = growth.reduced_pressure || run.collisions;

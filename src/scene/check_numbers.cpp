@@ -16,7 +16,7 @@
 namespace carom::detail {
 namespace {
 
-/// Of the key in its table; nothing where the number is absent.
+/// Checks a number of the key `key` in its table; does nothing where the number is absent.
 void require(const std::string& table, const std::optional<double>& value, const NumberKey& key) {
   if (value && !key.holds(*value)) refuse_number(fmt::format("{}.{}", table, key.name), *value, key);
 }
@@ -30,7 +30,7 @@ void require_pairs(const std::string& path, const std::vector<Eigen::Vector2d>& 
     if (!pairs[i].allFinite()) require_pair(fmt::format("{}.{}", path, i), pairs[i], example);
 }
 
-/// What stands in for the number of all disks of a species: empty, or one per disk.
+/// Checks a list that replaces the number for all disks of a species: empty, or one entry per disk.
 void check_list(const std::string& path, const std::vector<double>& list, std::int64_t count, const NumberKey& key) {
   if (!list.empty() && static_cast<std::int64_t>(list.size()) != count)
     throw Refusal(path, fmt::format("{} has length {}, but there are {} disks; give one {} per disk, or none", path, list.size(),

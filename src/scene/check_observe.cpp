@@ -1,4 +1,4 @@
-// What cannot be measured in a scene, and why.
+// Checks of [observe]: which observables have no meaning in a scene, and why.
 
 #include "scene/checks.hpp"
 #include "scene/known_keys.hpp"
@@ -26,7 +26,8 @@ bool acts(const std::optional<Thermostat>& effect) { return effect && effect->ra
 bool acts(const std::optional<Growth>& effect) { return effect && effect->rate > 0.0; }
 bool acts(const std::optional<Shear>& effect) { return effect && effect->rate != 0.0; }
 
-/// What changes velocities without a collision, so that one does not know how disks came to the next; empty where nothing does.
+/// Returns what changes velocities between collisions, so that the velocities before a collision are unknown; empty where nothing
+/// does.
 std::string_view between_collisions(const Effects& effects) {
   if (acts(effects.thermostat)) return "[thermostat]";
   if (acts(effects.growth)) return "[growth]";

@@ -19,19 +19,19 @@
 namespace carom::detail {
 namespace {
 
-/// Of the products of speed and length.
+/// Bounds of products of speed and length.
 constexpr double least = 1e-150, most = 1e150;
 constexpr double least_mass = 1e-300, most_mass = 1e300;
 /// Places must be known to this share of the smallest radius.
 constexpr double resolution = 1e-3;
 /// The distance of two doubles at x is at most this share of x.
 constexpr double spacing = 0x1p-52;
-/// So many of the smallest radii from the origin, coordinates still have that resolution: 4.5e12.
+/// Distance from the origin, in smallest radii, up to which coordinates have that resolution: 4.5e12.
 constexpr double most_radii = resolution / spacing;
-/// By so much of the smallest radius a disk must get on from one of its events to the next (simulation/standstill.hpp).
+/// Fraction of the smallest radius that a disk must move from one of its events to the next (simulation/standstill.hpp).
 constexpr double least_way = 0x1p-50;
 
-/// What the disks and the box of a scene are measured by.
+/// The lengths, masses and times of a scene by which its numbers are judged.
 struct Sizes {
   double smallest = 0.0;  ///< radius
   double lightest = 0.0, heaviest = 0.0;
@@ -79,7 +79,7 @@ std::vector<Drive> drives_of(const Scene& scene, const Sizes& sizes) {
   const auto from_energy = [&](const std::string& path, double value, long double energy, double lightest, double heaviest) {
     put(path, value, std::sqrt(energy / heaviest), std::sqrt(energy / lightest), 2, true);
   };
-  // How slow disks may begin is asked of the velocities that are drawn.
+  // Slow starts are checked when velocities are drawn.
   for (std::size_t s = 0; s < scene.species.size(); ++s)
     if (const auto* law = std::get_if<MaxwellVelocities>(&scene.species[s].velocities))
       put(fmt::format("disks.{}.velocities.temperature", s), law->temperature, std::numeric_limits<long double>::infinity(),

@@ -29,13 +29,13 @@ void check_kind(const WallProperties& wall, const std::string& path) {
 
 double velocity_of(const WallProperties& wall) { return wall.velocity.value_or(0.0); }
 
-/// How long walls move for certain; a time to equilibrate comes before that of the run.
+/// Returns for how long walls move in any case; the time to equilibrate comes before that of the run.
 double duration(const Run& run) {
   const double before = run.equilibrate ? run.equilibrate->time.value_or(0.0) : 0.0;
   return before + run.time.value_or(0.0);
 }
 
-/// Of the two walls across an axis, the one to blame for their coming together.
+/// Returns which of the two walls across an axis to name where they come together.
 std::size_t faster_inward(const Effects& effects, std::size_t lower) {
   return velocity_of(effects.walls[lower]) >= -velocity_of(effects.walls[lower + 1]) ? lower : lower + 1;
 }

@@ -1,4 +1,4 @@
-// What the checks of a scene ask of it.
+// Helpers of the checks of a scene.
 
 #include "scene/checks.hpp"
 

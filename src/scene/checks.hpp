@@ -1,6 +1,6 @@
 #pragma once
-// The checks of a whole scene, one file each, and what they share. They look at a Scene alone, so that one from a file and one
-// that a program has put together are refused in the same words; whoever catches a Refusal says where the scene was written.
+// The checks of a whole scene, one file each, and what they share. They read a Scene alone, so that a scene from a file and one
+// that a program has made are refused in the same words. The code that catches a Refusal adds the place in the file.
 
 #include "scene/refusal.hpp"
 
@@ -42,7 +42,7 @@ double mean_diameter(const Scene& scene);
 /// Throws Refusal where the parts of a scene do not make sense, alone or together.
 void check_scene(const Scene& scene);
 
-// What check_scene() does, in its order. Each throws Refusal, and relies on those before it.
+// The steps of check_scene(), in order. Each throws Refusal, and relies on those before it.
 
 /// Every number is in its range, and every list has one entry per disk.
 void check_numbers(const Scene& scene);

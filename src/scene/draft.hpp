@@ -1,5 +1,5 @@
 #pragma once
-// What the reader knows before the short forms are completed: the tables as they were written, and where.
+// The data of the reader before the short forms are completed: the tables as they were written, and their places.
 
 #include <carom/scene.hpp>
 
@@ -12,7 +12,7 @@
 
 namespace carom::detail {
 
-/// Where each disk of a start file was written, so that a refusal can name the row.
+/// The place of each disk in a start file, so that a refusal can name the row.
 struct Rows {
   std::string source;
   std::vector<std::array<int, 2>> places;  ///< line and column, one per disk

@@ -1,5 +1,5 @@
 #pragma once
-// What another seed would change.
+// Whether a scene contains anything random, which another seed would change.
 
 #include <carom/scene.hpp>
 

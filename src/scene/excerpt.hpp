@@ -11,7 +11,7 @@ namespace carom::detail {
 /// bytes that are no UTF-8 become "?", so that a message about garbage does not carry the garbage to a terminal.
 std::string excerpt(std::string_view text, std::size_t longest);
 
-/// Without blanks, tabs and ends of lines at either side.
+/// Returns `text` without blanks, tabs and ends of lines at either end.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
 }  // namespace carom::detail

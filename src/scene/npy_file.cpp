@@ -158,7 +158,7 @@ std::optional<NumberType> number_type(std::string_view type) {
   return NumberType{type[1], *size, type[0] == other};
 }
 
-/// Where in the bytes of a row a column stands.
+/// The place of a column in the bytes of a row.
 struct Field {
   NumberType type;
   std::size_t offset = 0;

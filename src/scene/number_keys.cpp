@@ -1,4 +1,4 @@
-// What a number of the scene format must be, in numbers and in words.
+// The ranges of the numbers of the scene format, in numbers and in words.
 
 #include "scene/number_keys.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
-// The numbers of the scene format: which range each must lie in by itself, and what it could look like. The reader of files and
-// the checks of a Scene hold numbers against the same entries, so that both refuse the same in the same words.
+// The numbers of the scene format: the range of each by itself, and an example. The reader of files and the checks of a Scene use
+// the same entries, so that both refuse the same numbers in the same words.
 
 #include <carom/scene.hpp>
 
@@ -10,12 +10,12 @@
 
 namespace carom::detail {
 
-/// What a number must be. Whatever it is, it must be finite.
+/// The range of a number. Every number must be finite as well.
 enum class Range { any, zero_or_more, above_zero, within };
 
 struct NumberKey {
   std::string_view name;     ///< of the key in its table: "restitution"
-  std::string_view example;  ///< what the key could look like: "restitution = 0.9"
+  std::string_view example;  ///< example of the key: "restitution = 0.9"
   Range range = Range::any;
   double least = 0.0, most = 0.0;  ///< of Range::within, both included
 

@@ -15,7 +15,7 @@ namespace carom::detail {
 /// A setting that an observable has carries its default; one that it has not is absent.
 struct KnownObservable {
   std::string_view name;
-  std::string_view example;  ///< what the key could look like
+  std::string_view example;  ///< example of the key
   double step = 0.0;         ///< where the scene says none, in mean free times; 0: it takes no steps
   std::optional<std::int64_t> bins = {};
   std::optional<double> range = {};
@@ -23,7 +23,7 @@ struct KnownObservable {
   std::optional<int> axis = {};
 };
 
-/// In the order of docs/scene-format.md, which is that of all results.
+/// All observables, in the order of docs/scene-format.md, which is that of all results.
 inline constexpr std::array<KnownObservable, 16> known_observables = {{
     {.name = "temperature", .example = "temperature = true", .step = 4.0},
     {.name = "pressure", .example = "pressure = true", .step = 16.0},
@@ -60,7 +60,7 @@ inline std::vector<std::string_view> names_of_observables() {
   return names;
 }
 
-/// What a setting could look like: "range = 5.0".
+/// Returns an example of a setting: "range = 5.0".
 inline std::string example_of(const char* setting, double otherwise) { return fmt::format("{} = {:.1f}", setting, otherwise); }
 
 }  // namespace carom::detail

@@ -1,4 +1,4 @@
-// How far a disk is from an obstacle, all images of the box counted.
+// Distances of disks from obstacles, all images of the box included.
 
 #include "scene/obstacle_overlap.hpp"
 

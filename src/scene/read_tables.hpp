@@ -27,7 +27,7 @@ Run read_run(const toml::table& table);
 /// `sampled` is whether [run] has sample_every or sample_log: files of samples need it.
 Output read_output(const toml::table* table, bool sampled);
 
-/// What is to be measured, in the order of the format.
+/// Reads the observables, in the order of the format.
 std::vector<ObservableRequest> read_observe(const toml::table& table);
 /// The range of histograms over distances, where the scene leaves it open: no more than half of the box.
 void complete_observe(Scene& scene);

@@ -1,5 +1,5 @@
 #pragma once
-// A scene that is refused, before it is said where that was written: the reader of files knows, a program has no such place.
+// The refusal of a scene, before the place in a file is added: the reader of files adds it, and a program has no such place.
 
 #include <stdexcept>
 #include <string>

@@ -67,7 +67,7 @@ void read_document(const toml::table& document, const std::string& directory, de
   if (const toml::table* observe = reader.table("observe", "[observe]")) scene.observe = detail::read_observe(*observe);
 }
 
-/// Where a path was written. A row of a start file has its place there.
+/// Returns the place of a path. A row of a start file has its place there.
 Location place_of(const toml::table& document, const detail::SceneDraft& draft, const std::string& path) {
   for (const detail::DisksDraft& disks : draft.disks) {
     const std::string positions = disks.path + ".positions.";

@@ -1,4 +1,4 @@
-// What packing fractions must be, and what follows from them.
+// Packing fractions: their ranges, and what follows from them.
 
 #include "scene/shares.hpp"
 

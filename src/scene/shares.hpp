@@ -29,8 +29,8 @@ std::optional<double> disk_area(const DisksDraft& disks);
 /// The area that all disks cover; empty where that of a species is still unknown.
 std::optional<double> total_area(const std::vector<DisksDraft>& species);
 
-/// What the grown start of a scene asks for; empty where nothing is grown. All species are grown together or none is. `species`:
-/// how each is placed, null for those without disks.
+/// Returns the packing fraction of the grown start of a scene; empty where no start is grown. All species are grown or none is.
+/// `species`: the positions of each, null for those without disks.
 std::optional<Share> grown_share(std::span<const Positions* const> species);
 
 /// Fills the one radius that may be left open, from what the other species leave of the grown share. Throws where two are open.

@@ -28,7 +28,7 @@ struct StartFile {
 /// number that is none or not finite, and a radius or mass that is not above zero.
 StartFile read_start_file(const std::string& path);
 
-/// The same from text.
+/// Reads a start file from text.
 StartFile parse_start_file(std::string_view text, const std::string& path);
 
 }  // namespace carom::detail

@@ -1,6 +1,6 @@
 #pragma once
-// One TOML table of a scene while it is read. It knows its keys, so a word that the format does not have is found
-// before anything else, and every refusal carries the line and column of what it refuses.
+// Reads one TOML table of a scene. The reader has the list of the table's keys, so that an unknown word is found before anything
+// else; every refusal carries the line and column of what it refuses.
 
 #include <carom/scene.hpp>
 
@@ -17,14 +17,14 @@
 
 namespace carom::detail {
 
-/// Where a node was written. Nodes that come from an override carry the override itself in place of a file.
+/// Returns the place of a node. Nodes from an override carry the override itself in place of a file.
 Location location_of(const toml::source_region& region);
 Location location_of(const toml::node& node);
 
 /// A value as an error names it: `a string ("wide")`, `an integer (3)`, `a table`.
 std::string describe(const toml::node& node);
 
-/// Where as much of a path was written as the document has: of "walls.top.mass" the table where it has no mass.
+/// Returns the place of the longest part of a path that the document has: of "walls.top.mass" the table where it has no mass.
 Location place_of(const toml::table& document, std::string_view path);
 
 /// `path` is the key's full name: "run.time".

@@ -67,7 +67,7 @@ std::string read_text_file(const std::string& path) {
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw SceneError(where, "there is no such file; check the path");
   if (std::filesystem::is_directory(status)) throw SceneError(where, "this is a directory; give the path of a file in it");
-  // A device may never end, or wait for someone to type. Pipes do end.
+  // A device may never end, or wait for input. Pipes do end.
   if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status)) {
     throw SceneError(where, "this is a device; give the path of a file");
   }

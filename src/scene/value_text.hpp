@@ -8,10 +8,10 @@
 
 namespace carom::detail {
 
-/// In quotes, with what TOML asks to be escaped.
+/// Returns `text` in quotes, escaped as TOML requires.
 std::string quoted_text(std::string_view text);
 
-/// What stands behind the "=" of an override that gives this value. Dates have no meaning in a scene and come out as nothing.
+/// Returns the text behind the "=" of an override that gives this value. Dates have no meaning in a scene and give empty text.
 std::string value_text(const toml::node& value);
 
 }  // namespace carom::detail

@@ -1,5 +1,5 @@
 #pragma once
-// Disks as the fixed-step method knows them: places and velocities at the present step, nothing else.
+// The disks of a fixed-step method: positions and velocities at the present step, and nothing else.
 
 #include "core/domain.hpp"
 

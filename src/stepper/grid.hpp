@@ -15,13 +15,13 @@ class ClosePairs {
  public:
   ClosePairs(const Bodies& bodies, double dt);
 
-  /// Disk pairs that a step looks at, roughly.
+  /// Returns the approximate number of disk pairs that a step examines.
   [[nodiscard]] static double work(double disks) { return 8 * disks; }
 
-  /// To be told of every move, and of the farthest that a disk has gone in it.
+  /// Updates the grid after a move. `farthest` is the longest distance that a disk went in it.
   void moved(const Bodies& bodies, double farthest);
 
-  /// As AllPairs::for_contacts().
+  /// Calls `contact` for pairs, as AllPairs::for_contacts() does.
   template <class Contact>
   void for_contacts(const Bodies& bodies, Contact contact) {
     find_contacts(bodies);

@@ -1,13 +1,12 @@
 #pragma once
-// The guarded fixed-step method, the best that fixed steps can do simply. In each step:
+// The guarded fixed-step method, the best of the simple ones. In each step:
 //
-//   1. a disk whose edge is beyond a wall and that moves outward is turned round;
+//   1. a disk whose edge is beyond a wall and that moves outward is reflected;
 //   2. each pair (i, j), i < j in order, that is closer than the sum of the radii and approaches collides by the rule;
 //   3. record the positions; move by v dt.
 //
-// What it cannot know is when in the step they met: disks are up to |v| dt deep in each other before they turn, and a pair that
-// enters and leaves within one step has never met. Pairs are found by looking at all of them; grid.hpp finds the same ones
-// faster.
+// The method does not determine when in the step disks met: they overlap by up to |v| dt before they are reflected, and a pair
+// that enters and leaves contact within one step is missed. This version examines all pairs; grid.hpp finds the same ones faster.
 
 #include "effects/impact.hpp"
 #include "stepper/bodies.hpp"
@@ -25,7 +24,7 @@ class AllPairs {
  public:
   AllPairs(const Bodies& /*bodies*/, double /*dt*/) {}
 
-  /// Disk pairs that a step looks at.
+  /// Returns the number of disk pairs that a step examines.
   [[nodiscard]] static double work(double disks) { return disks * disks / 2; }
 
   void moved(const Bodies& /*bodies*/, double /*farthest*/) {}
@@ -72,7 +71,7 @@ class GuardedStep {
     });
   }
 
-  /// With which disk i leaves the last step.
+  /// Returns the velocity with which disk i leaves the last step.
   [[nodiscard]] static const Vec2<double>& flight(const Bodies& bodies, std::size_t i) { return bodies.v[i]; }
   [[nodiscard]] std::size_t bytes() const { return pairs_.bytes(); }
 

@@ -27,10 +27,10 @@ class NaiveStep {
  public:
   NaiveStep(const Bodies& bodies, double dt) : dt_(dt), flight_(bodies.v) {}
 
-  /// Disk pairs that a step looks at.
+  /// Returns the number of disk pairs that a step examines.
   [[nodiscard]] static double work(double disks) { return disks * disks; }
 
-  /// From the last step to this one: what step 4 of the last one has decided.
+  /// Moves the disks from the last step to this one, as step 4 of the last one decided.
   void advance(Bodies& bodies) const {
     for (std::size_t i = 0; i < bodies.count(); ++i) bodies.move(i, flight_[i], dt_);
   }
@@ -51,7 +51,7 @@ class NaiveStep {
     }
   }
 
-  /// With which disk i leaves the last step; a disk later in the order may since have given it another velocity.
+  /// Returns the velocity with which disk i leaves the last step; a disk later in the order may since have given it another one.
   [[nodiscard]] const Vec2<double>& flight(const Bodies& /*bodies*/, std::size_t i) const { return flight_[i]; }
   [[nodiscard]] std::size_t bytes() const { return (flight_.capacity() + place_.capacity()) * sizeof(Vec2<double>); }
 

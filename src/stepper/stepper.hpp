@@ -48,7 +48,7 @@ class Stepper {
   /// The time of the next step is always to come.
   [[nodiscard]] static bool idle() { return false; }
   [[nodiscard]] bool jammed() const { return !fault_.empty(); }
-  /// What is not finite, so that steps lead nowhere any more; empty where all is well.
+  /// Returns which number is not finite, so that stepping has no meaning any more; empty where all are finite.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
   [[nodiscard]] Instant now() const { return now_; }

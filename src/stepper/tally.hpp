@@ -1,6 +1,6 @@
 #pragma once
-// What a step counts and logs: the same totals and the same event log as the engines keep, taken from what the method did,
-// whether or not it should have.
+// The counts and the log of a step: the same totals and event log as those of engines, for what the method did, whether or not it
+// should have.
 
 #include "core/running_totals.hpp"
 #include "core/vec2.hpp"

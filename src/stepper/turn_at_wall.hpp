@@ -1,5 +1,5 @@
 #pragma once
-// What every fixed-step method does at a wall, once it has decided that a disk is there.
+// The reflection of a disk at a wall, which all fixed-step methods share.
 
 #include "stepper/bodies.hpp"
 #include "stepper/tally.hpp"

@@ -13,7 +13,7 @@
 
 namespace carom::detail {
 
-/// For sentences about such a file: its parts are points of a scene, or trials of a seed.
+/// The words for sentences about such a file: its parts are points of a scene, or trials of a seed.
 struct PartWords {
   std::string part;  ///< "point"
   std::string of;    ///< "scene"
@@ -25,7 +25,7 @@ class FinishedParts {
   /// have been written again. Throws OutputError.
   FinishedParts(std::filesystem::path path, PartWords words, const std::string& key, const std::vector<std::string>& before);
 
-  /// One more. It is with the operating system when this returns.
+  /// Adds a finished part. It has reached the operating system when this returns.
   void add(const std::string& line);
 
  private:

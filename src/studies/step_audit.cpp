@@ -37,7 +37,7 @@ void StepAudit::look_at_reversals(const State& state, std::span<const Event> rev
       ++counts_.repeated;
       continue;
     }
-    // What recedes after the rule approached before it.
+    // A pair that recedes after the rule approached before it.
     const Eigen::Vector2d r = separation(state, pair);
     const bool approached = r.dot(event.velocity - event.partner_velocity) > 0.0;
     ++(approached ? counts_.found : counts_.spurious);

@@ -1,6 +1,6 @@
 #pragma once
-// What a fixed-step method did to collisions: which it missed, which it repeated, which were none. Judged along the method's own
-// trajectory, step by step, so that no chaos comes between: where it stands wrong, what it does next is still right or wrong.
+// Classification of a fixed-step method's collisions: found, missed, repeated, spurious. It is made along the method's own
+// trajectory, step by step, so that chaos does not matter: wherever the trajectory is, the next step is right or wrong.
 
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
@@ -28,9 +28,9 @@ struct StepCounts {
 
   [[nodiscard]] std::uint64_t collisions() const { return found + missed; }
   [[nodiscard]] std::uint64_t reversals() const { return found + spurious + repeated; }
-  /// Of the collisions that there were.
+  /// Returns missed over all collisions that should happen.
   [[nodiscard]] double missed_fraction() const { return fraction(missed, collisions()); }
-  /// Of all reversals.
+  /// Returns repeated over all reversals.
   [[nodiscard]] double repeated_fraction() const { return fraction(repeated, found + spurious + repeated); }
   [[nodiscard]] double spurious_fraction() const { return fraction(spurious, found + spurious + repeated); }
   [[nodiscard]] double mean_depth() const { return found == 0 ? 0.0 : depth_sum / static_cast<double>(found); }
@@ -68,8 +68,8 @@ class StepAudit {
   StepCounts counts_;
 };
 
-/// Runs the method from `start` for `time`, or for as many steps as `pair_limit` looks at pairs allow, one at least. `proceed` is
-/// asked now and then; false ends it. Requires a fixed-step method.
+/// Runs the method from `start` for `time`, or for as many steps (one at least) as examine `pair_limit` pairs. `proceed` is
+/// called now and then; false ends the run. Requires a fixed-step method.
 [[nodiscard]] StepCounts audit(const Scene& scene, const State& start, const FixedStep& method, double time, double pair_limit,
                                const std::function<bool()>& proceed = {});
 

@@ -10,7 +10,7 @@ namespace carom::cli {
 RunDirectory open_study(const std::filesystem::path& path, bool force, bool resume, std::span<const std::string_view> products) {
   if (force && resume) throw UsageError("--force begins anew and --resume goes on with what is there: give one of them");
   try {
-    // What is resumed finds its finished parts in the way, and nothing else may be.
+    // A study that is resumed finds its finished parts in the directory; any other file is refused.
     static constexpr std::array<std::string_view, 0> none = {};
     return resume ? RunDirectory(path, false, none) : RunDirectory(path, force, products);
   } catch (const OutputError& error) {

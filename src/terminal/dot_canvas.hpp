@@ -10,7 +10,7 @@
 
 namespace carom {
 
-/// What a terminal can show.
+/// The colours that a terminal can show.
 enum class TerminalColours { none, palette, all };  ///< palette: the 256 of xterm
 
 class DotCanvas {
@@ -44,8 +44,8 @@ class DotCanvas {
   std::vector<Cell> cells_;
 };
 
-/// The escape sequence that begins a colour, from blue (0) through grey to orange (1), which is told apart by everyone and on
-/// dark and light terminals; empty without colours.
+/// Returns the escape sequence that begins a colour, from blue (0) through grey to orange (1), which colour-blind readers can
+/// tell apart on dark and light terminals; empty without colours.
 [[nodiscard]] std::string colour_sequence(double shade, TerminalColours colours);
 
 }  // namespace carom

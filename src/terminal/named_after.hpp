@@ -1,5 +1,5 @@
 #pragma once
-// Where what is made of a directory goes: beside it, with a word behind its name.
+// Names of directories for results made from a directory: beside it, with a suffix.
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// What was observed, as lines of the terminal.
+// The results of observables, as lines of the terminal.
 
 #include <carom/observe.hpp>
 #include <carom/scene.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-// Where a page of a run goes, and how it gets there: a page of the same kind may be replaced, nothing else is.
+// The file of a page about a run, and how it is written: a page of the same kind may be replaced, no other file is.
 
 #include <filesystem>
 #include <string>

@@ -16,7 +16,8 @@ std::string repeated(const char* sign, int times) {
   return text;
 }
 
-/// How much of the disks is slower: 1 - exp(-v^2 / <v^2>) in equilibrium, so that all colours are used alike.
+/// Shade of a speed: the fraction of disks that is slower, 1 - exp(-v^2 / <v^2>) in equilibrium, so that all colours are used
+/// equally.
 class SpeedShade {
  public:
   explicit SpeedShade(const State& state) {
@@ -32,7 +33,7 @@ class SpeedShade {
   double per_mean_ = 0.0;
 };
 
-/// Where a point of the box is on the canvas.
+/// The place of a point of the box on the canvas.
 class Placement {
  public:
   Placement(const Box& box, double scale) : box_(box), scale_(scale) {}

@@ -11,7 +11,7 @@
 
 namespace carom {
 
-/// How much room a picture has, in characters.
+/// The size of a picture, in characters.
 struct TextArea {
   int columns = 0;
   int rows = 0;

@@ -14,7 +14,7 @@ namespace carom::cli {
 
 enum class ProgressMode { automatic, always, never };  ///< automatic: only where stderr is a terminal
 
-/// What --progress and --quiet ask for. Throws UsageError where `when` is not auto, always or never.
+/// Returns the mode that --progress and --quiet ask for. Throws UsageError where `when` is not auto, always or never.
 ProgressMode progress_mode(const std::string& when, bool quiet);
 
 class ProgressLine {
@@ -27,7 +27,7 @@ class ProgressLine {
   /// Cheap when called more often than the line changes.
   void update(const Progress& progress);
 
-  /// The same for work that is not a run: what is being done, and how much of it is done (0 to 1).
+  /// Shows the progress of work that is not a run: what is being done, and the fraction that is done (0 to 1).
   void update(const std::string& doing, double fraction);
 
  private:

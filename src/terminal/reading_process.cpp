@@ -36,8 +36,8 @@ extern "C" void stop_both(int) {
   hand_on(SIGCONT);
 }
 
-/// Signals that ask the parent to end are for the child. It has a group of its own: whether one comes from a terminal, from
-/// `timeout` or from `kill`, it then comes once, and the second is the user's, who wants no more of it.
+/// Passes signals that ask the parent to end on to the child, which has a process group of its own. A signal from a terminal,
+/// from `timeout` or from `kill` then reaches it once; a second one is the user's, and ends it at once.
 class HandOn {
  public:
   explicit HandOn(pid_t child) {
@@ -115,7 +115,7 @@ ExitCode in_reading_process(const fs::path& file, const std::function<ExitCode()
 
 namespace {
 
-/// Of processor time, so that neither a busy machine nor a slow disk counts; none where `seconds` is 0.
+/// Limits the processor time, so that neither a busy machine nor a slow disk counts; no limit where `seconds` is 0.
 void end_after(std::uintmax_t seconds) {
   const itimerval timer = {.it_interval = {}, .it_value = {.tv_sec = static_cast<time_t>(seconds), .tv_usec = 0}};
   setitimer(ITIMER_PROF, &timer, nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-// How much of a run is done, and when it will be.
+// The fraction of a run that is done, and the time that it still needs.
 
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>

@@ -20,7 +20,7 @@ namespace carom::cli {
 
 namespace {
 
-/// A seed as the scene reader takes it, which also knows 1e5.
+/// Returns a seed as the scene reader takes it, which also accepts 1e5.
 std::string checked_seed(const std::string& text) {
   std::optional<std::int64_t> seed;
   try {

@@ -26,7 +26,7 @@ struct SceneOptions {
 /// them. Throws SceneError.
 Scene load(const SceneOptions& options);
 
-/// Throws UsageError where effects beyond the collision rule and hard walls act, which `what` ("carom horizon") does not know.
+/// Throws UsageError where effects beyond the collision rule and hard walls act, which `what` ("carom horizon") does not support.
 void require_no_effects(const Scene& scene, const std::string& what);
 
 /// "auto", or one of engine_names(). Throws UsageError where the user named another.

@@ -7,7 +7,7 @@
 
 namespace carom::cli {
 
-/// Those that ask to stop.
+/// The signals that ask the program to stop.
 inline constexpr std::array stopping_signals = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1};
 
 /// While a StopRequest lives, SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is closed), SIGXCPU (the limit of processor time)

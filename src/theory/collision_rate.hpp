@@ -1,5 +1,5 @@
 #pragma once
-// How often the disks of a uniform gas collide: what kinetic theory says.
+// The collision rate of a uniform gas of disks, by kinetic theory.
 
 #include <span>
 

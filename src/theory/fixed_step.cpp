@@ -27,8 +27,8 @@ double over_speeds(double bend, Function f) {
   return sum / norm;
 }
 
-/// With w the length of a step's relative flight over the longest chord that is noticed, and chords c = sqrt(1 - b^2) of evenly
-/// distributed b: the mean of max(0, 1 - c / w).
+/// Returns the fraction of missed collisions: with w the length of a step's relative flight over the longest chord that is
+/// detected, and chords c = sqrt(1 - b^2) of uniform b, the mean of max(0, 1 - c / w).
 double missed_at(double w) {
   if (w >= 1.0) return 1.0 - std::acos(-1.0) / (4.0 * w);
   if (w < 1e-3) return w * w / 6.0;  // the rest is w^4 / 40

@@ -1,6 +1,6 @@
 #pragma once
-// What a fixed step does to an isolated pair of equal disks, averaged over the collisions of a dilute gas at equilibrium. Derived
-// in docs/accuracy.md.
+// The error of a fixed step for an isolated pair of equal disks, averaged over the collisions of a dilute gas in equilibrium.
+// Derived in docs/accuracy.md.
 
 namespace carom::theory {
 

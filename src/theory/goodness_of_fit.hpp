@@ -1,5 +1,5 @@
 #pragma once
-// How likely chance alone is to bring about what was measured.
+// Probabilities that chance alone explains a measurement.
 
 namespace carom::theory {
 

@@ -11,8 +11,8 @@ namespace carom::theory {
 /// Collisions of a disk per time in a gas of this compressibility factor: (4 / sqrt pi) (Z - 1).
 [[nodiscard]] double disk_collision_rate(double Z);
 
-/// The same for N disks in a periodic box, of one energy and total momentum zero, with kT = K / (N - 1): Z of so many disks, and
-/// what a fixed energy makes of the mean relative speed, as it does of the mean speed. Requires eta <= 0.63 and N > 2.
+/// Returns the collision rate of a disk among N disks in a periodic box, of one energy and total momentum zero, with
+/// kT = K / (N - 1): with Z of N disks, and with the mean relative speed at fixed energy. Requires eta <= 0.63 and N > 2.
 [[nodiscard]] double disk_collision_rate(double eta, std::int64_t disks);
 
 /// Mean free path of an infinite system, 1 / (2 sqrt2 rho g).
@@ -24,12 +24,13 @@ namespace carom::theory {
 [[nodiscard]] double enskog_viscosity(double eta);
 [[nodiscard]] double enskog_conductivity(double eta);
 
-/// How often a disk of speed v (in units of sqrt(kT / m)) collides, over the mean of all disks: the mean of |v - v'| over
-/// Maxwell's v', over sqrt(pi). Boltzmann's theory, and Enskog's.
+/// Returns the collision rate of a disk of speed v (in units of sqrt(kT / m)) over the mean of all disks: the mean of |v - v'|
+/// over Maxwell's v', over sqrt(pi). It is the same in the theories of Boltzmann and Enskog.
 [[nodiscard]] double relative_rate(double speed);
 
-/// The same in a periodic box of `disks` disks at fixed energy and zero total momentum, exactly: the velocities of the others
-/// then depend a little on that of the disk. `speed` is in units of sqrt(kT / m) with kT = K / (N - 1). Requires disks > 3.
+/// Returns the relative rate in a periodic box of `disks` disks at fixed energy and zero total momentum, exactly: the velocities
+/// of the others then depend a little on that of the disk. `speed` is in units of sqrt(kT / m) with kT = K / (N - 1). Requires
+/// disks > 3.
 [[nodiscard]] double relative_rate(double speed, std::int64_t disks);
 
 /// The mean of relative_rate(v, disks) over the disks with speeds of `from` to `to`.
@@ -44,7 +45,8 @@ namespace carom::theory {
 /// dilute gas (Visco, van Wijland & Trizac, Phys. Rev. E 77, 041117 (2008)).
 [[nodiscard]] double flights_longer_than(double time);
 
-/// The same of those flights that begin and end within a run of `run` mean free times: a long flight has less room in it.
+/// Returns the fraction of flights longer than `time` among those that begin and end within a run of `run` mean free times: long
+/// flights are less likely to fit.
 [[nodiscard]] double flights_longer_within(double time, double run);
 
 /// The density of these times, in mean free times: minus the derivative.
@@ -60,11 +62,12 @@ namespace carom::theory {
 [[nodiscard]] double instantaneous_viscosity(double eta, std::int64_t disks);
 [[nodiscard]] double instantaneous_conductivity(double eta, std::int64_t disks);
 
-/// How much the diffusion coefficient D(t) of disks in a square periodic box grows between two times by the slow modes of the
-/// fluid: the velocity of a disk is carried by shear waves, and to and fro by sound. Sum over the wave vectors k of the box,
-///   C(t) = kT / (2 m N) sum of exp(-(D + nu) k^2 t) + cos(c k t) exp(-(D + Gamma) k^2 t)
-/// with Enskog's D, viscosity and conductivity; for a large box and late times it comes to the tail kT / (8 pi rho m (D + nu) t)
-/// of Ernst, Hauge & van Leeuwen, Phys. Rev. Lett. 25, 1254 (1970). It holds beyond some 20 mean free times (Erpenbeck & Wood,
+/// Returns the growth of the diffusion coefficient D(t) of disks in a square periodic box between two times by the slow modes of
+/// the fluid: shear waves and sound carry the velocity of a disk. It is the integral of the sum over the wave vectors k of the
+/// box,
+///   C(t) = kT / (2 m N) sum of exp(-(D + nu) k^2 t) + cos(c k t) exp(-(D + Gamma) k^2 t),
+/// with Enskog's D, viscosity and conductivity. For a large box and late times C(t) approaches the tail kT / (8 pi rho m (D + nu)
+/// t) of Ernst, Hauge & van Leeuwen, Phys. Rev. Lett. 25, 1254 (1970). It holds beyond some 20 mean free times (Erpenbeck & Wood,
 /// Phys. Rev. A 26, 1648 (1982), who sum in the same way).
 [[nodiscard]] double diffusion_growth(double eta, std::int64_t disks, double from, double to);
 

@@ -48,7 +48,7 @@ AtForce at_force(double p, double h) {
   return {1.0 / p + state.dot(apart * state) / largest, (1.0 + p * state.dot(stretch * state) / largest) / h};
 }
 
-/// Up to this force the 60 nodes resolve how disks crowd at the walls, to eight digits.
+/// The largest force for which 60 nodes resolve the density at the walls, to eight digits.
 constexpr double strongest = 200.0;
 
 double force_at(double length, double h) {
@@ -68,7 +68,7 @@ double force_at(double length, double h) {
   return 0.5 * (from + to);
 }
 
-/// What a fixed length makes of the free energy beside N times that at fixed force: the first term of its saddle point,
+/// Returns the correction of the free energy at fixed length to N times that at fixed force: the first term of its saddle point,
 /// -ln(-d length / d force) / 2.
 double saddle(double length, double h) {
   const double p = force_at(length, h), step = 1e-4 * p;

@@ -19,13 +19,12 @@ struct Analysis {
   std::uint64_t samples = 0, events = 0;  ///< that the run has kept
 };
 
-/// Measures `observables`, each "NAME" or "NAME={ key = value, ... }" as in the [observe] table; where there are none, what the
-/// run's own scene lists. States are needed at multiples of the step of the run's samples (or of the length of its blocks), which
-/// an observable without `every` gets: the nearest to what it would choose. Where the run's positions were unwrapped, the results
-/// are those of the run to the rounding of these.
-/// `progress`, where there is one, is told again and again how much is done (0 to 1).
-/// Throws OutputError for what is wrong with the run directory, SceneError for what is wrong with the observables, and
-/// std::invalid_argument where the run has not kept what one of them needs.
+/// Measures `observables`, each "NAME" or "NAME={ key = value, ... }" as in the [observe] table; without any, those of the run's
+/// own scene. States are needed at multiples of the step of the run's samples (or of the length of its blocks); an observable
+/// without `every` gets the multiple nearest to its own default. Where the run's positions were unwrapped, the results equal
+/// those of the run to rounding. `progress`, if given, is called repeatedly with the fraction that is done (0 to 1). Throws
+/// OutputError for a fault of the run directory, SceneError for a fault of the observables, and std::invalid_argument where the
+/// run has not stored the data that one of them needs.
 [[nodiscard]] Analysis analyse(const std::filesystem::path& run_directory, const std::vector<std::string>& observables,
                                const std::function<void(double)>& progress = {});
 

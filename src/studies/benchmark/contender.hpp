@@ -23,7 +23,7 @@ class Contender {
   /// Times so many pair collisions more, in seconds of this program's processor time: what other programs take does not count.
   void take_turn(std::uint64_t collisions);
 
-  /// What is wrong with where it has got to, in one sentence; empty where energy, plan and (where it is known) pressure are
+  /// Returns what is wrong with the present state, in one sentence; empty where energy, plan and (where it is known) pressure are
   /// right. All collisions since the run-up count.
   [[nodiscard]] std::string fault() const;
 
@@ -37,7 +37,7 @@ class Contender {
   [[nodiscard]] std::optional<double> bytes_per_disk() const;
 
  private:
-  /// Of disks and pistons, without what has come in and with what has gone out since the clock stood at 0.
+  /// Returns the energy of disks and pistons, less what was supplied and plus what was lost since the clock stood at 0.
   [[nodiscard]] double energy_balance() const;
   [[nodiscard]] double disks() const { return static_cast<double>(simulation_.disks().count()); }
 

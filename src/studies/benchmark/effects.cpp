@@ -1,7 +1,6 @@
-// carom bench --effects: what it costs that an effect could act, and what it costs that it does. Three take turns on one gas: the
-// lean engine, which knows no effect; the engine that knows all, with this one at its neutral value; and the same with this one
-// acting. What is shown are ratios of the times that they take for a collision, so that what the machine does meanwhile meets
-// all three.
+// carom bench --effects: the cost of an effect at its neutral value, and where it acts. Three engines take turns on one gas: the
+// lean engine without effects; the engine with all effects, this one at its neutral value; and the same engine with this effect
+// acting. The results are ratios of their times per collision, so that other load of the machine meets all three.
 
 #include "studies/benchmark/command.hpp"
 
@@ -60,14 +59,14 @@ class Race {
 
   void take_turn() {
     for (Contender* contender : contenders()) contender->take_turn(turn_);
-    // Who came first comes last: what a turn finds in the caches is what the one before has left there.
+    // The order is reversed in turn: each finds the caches as the one before has left them.
     first_ = (first_ + 1) % 3;
   }
 
   /// Whether the neutral value has left the bits as they are.
   [[nodiscard]] bool same_bits() const { return !neutral_ || same_bits(lean_->state(), neutral_->state()); }
 
-  /// What is wrong with an answer, in one sentence; empty where all are right. Requires a turn.
+  /// Returns what is wrong with an answer, in one sentence; empty where all are right. Requires a turn.
   [[nodiscard]] std::string fault() const {
     if (!same_bits()) return fmt::format("{}: its neutral value leaves other bits than the engine without it", effect_.name);
     if (acting_ && same_bits(lean_->state(), acting_->state()))
@@ -96,7 +95,7 @@ class Race {
            a.images == b.images;
   }
 
-  /// In the order of this turn.
+  /// Returns the three in the order of this turn.
   std::vector<Contender*> contenders() {
     std::vector<Contender*> all;
     for (std::optional<Contender>* contender : {&lean_, &neutral_, &acting_})

@@ -1,4 +1,4 @@
-// What a measurement was made on, as Linux and glibc tell it.
+// Facts about the machine, from Linux and glibc.
 
 #include "studies/benchmark/machine.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a measurement was made on.
+// The machine of a measurement.
 
 #include <cstddef>
 #include <optional>

@@ -17,8 +17,8 @@ struct PricedEffect {
   std::optional<Effects> acting;   ///< empty where only the neutral price is asked
 };
 
-/// For bench_scene() of so many disks, each effect by itself and all neutral ones together; at first the engine that knows all
-/// effects without any. What needs walls is there only where `gas` has them.
+/// Returns the effects to measure for bench_scene() of so many disks: each by itself and all neutral ones together; first the
+/// engine that has all effects, without any. Effects of walls are included only where `gas` has walls.
 std::vector<PricedEffect> priced_effects(const Scene& gas);
 
 }  // namespace carom::cli

@@ -98,7 +98,7 @@ std::optional<Estimate> order_of(const std::vector<MethodSummary>& summaries, co
   return Estimate{order, std::sqrt(rest / (n - 2.0) / sxx)};
 }
 
-/// Where the method's cost passes that of exact events, by a straight line between the logarithms of neighbouring points.
+/// Finds where the method's cost passes that of exact events, by a straight line between the logarithms of neighbouring points.
 void find_crossover(const std::vector<MethodSummary>& summaries, Answers& answers) {
   const auto steps = by_step(summaries, "grid");
   for (std::size_t k = 0; k + 1 < steps.size(); ++k) {

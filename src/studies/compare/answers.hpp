@@ -1,6 +1,6 @@
 #pragma once
-// What a comparison's points say together: medians and errors over the seeds, the law of the error, where methods cross, and the
-// sentences that answer the question.
+// Conclusions from a comparison's points: medians and errors over the seeds, the law of the error, where methods cross, and the
+// sentences of the answer.
 
 #include "studies/compare/comparison.hpp"
 
@@ -12,7 +12,7 @@ namespace carom {
 
 struct Estimate {
   double value = 0.0;
-  double error = 0.0;  ///< standard error over the starts; NaN of a single one, which tells none
+  double error = 0.0;  ///< standard error over the starts; NaN for a single one
 };
 
 /// Over the seeds.
@@ -42,10 +42,10 @@ struct MethodSummary {
   std::optional<StepCounts> counts;
 };
 
-/// In the order in which the methods first appear.
+/// Returns one summary per method, in the order in which the methods first appear.
 [[nodiscard]] std::vector<MethodSummary> summaries_of(const Comparison& comparison);
 
-/// Processor time to know Z to a relative accuracy, bias and chance together.
+/// Processor time for Z to a relative accuracy, bias and statistical error together.
 struct TimeToZ {
   std::string method;
   double accuracy = 0.0;
@@ -54,7 +54,7 @@ struct TimeToZ {
   std::string remark;             ///< why it is empty
 };
 
-/// What a fixed-step method takes for an error at the early sample, by the first-order law through its smallest steps.
+/// Processor time of a fixed-step method for an error at the early sample, by the first-order law through its smallest steps.
 struct PriceOfError {
   double dt = 0.0;
   double seconds = 0.0;

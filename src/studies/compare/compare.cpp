@@ -118,8 +118,9 @@ class Study {
     return start;
   }
 
-  /// A number of collisions is reached at a collision, and a pair in contact to rounding is no fair start for those who look for
-  /// contacts. A tenth of the time in which a disk goes a spacing over N lies well before the next event or beyond it.
+  /// Moves the start to a moment between events. A number of collisions is reached at a collision, and a pair in contact to
+  /// rounding is no fair start for methods that search contacts. A tenth of the time in which a disk goes a spacing over N is
+  /// well before the next event or beyond it.
   void fly_on_between_events(State& start) const {
     const auto disks = static_cast<double>(start.positions.cols());
     const double speed = std::sqrt(start.velocities.squaredNorm() / std::max(disks, 1.0));
@@ -188,8 +189,8 @@ class Study {
     return true;
   }
 
-  /// How far a method is run: to the end, to the early sample, or not at all; for every seed as for the first, so that means are
-  /// over the same starts for all.
+  /// Returns how far a method is run: to the end, to the early sample, or not at all. It is the same for every seed as for the
+  /// first, so that means are over the same starts for all.
   std::uint64_t samples_for(const Method& method, const State& start) {
     const ComparePlan& plan = result_.plan;
     if (method.exact()) return plan.samples;

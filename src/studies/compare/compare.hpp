@@ -1,6 +1,6 @@
 #pragma once
-// What accuracy costs: the same start advanced by exact events in four precisions and by fixed steps over a ladder of dt, every
-// one held against 113 bits.
+// The cost of accuracy: one start advanced by exact events in four precisions and by fixed steps over a ladder of dt, each
+// compared with 113 bits.
 
 #include "studies/compare/comparison.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
-// What a comparison of methods has measured, as plain data: filled by studies/compare/compare.cpp, kept by
-// studies/compare/files.cpp, read by studies/compare/answers.cpp and by the page.
+// The measurements of a comparison of methods, as plain data. studies/compare/compare.cpp fills it, studies/compare/files.cpp
+// stores it, and studies/compare/answers.cpp and the page read it.
 
 #include "observe/horizon_report.hpp"
 #include "studies/horizon/method.hpp"
@@ -13,7 +13,7 @@
 
 namespace carom {
 
-/// What is compared, and when: the same for every method.
+/// The times and steps of a comparison, which are the same for every method.
 struct ComparePlan {
   double sigma = 0.0;           ///< mean diameter, the unit of every error
   double mean_free_time = 0.0;  ///< from one collision of a disk to the next, in the exact run
@@ -57,7 +57,7 @@ struct LeftOut {
   double seconds = 0.0;  ///< foreseen, for the early sample alone
 };
 
-/// What a scene like this one costs at another size or density, at fixed accuracy: Z to 1 %.
+/// The cost of a similar scene at another size or density, at fixed accuracy: Z to 1 %.
 struct CostPoint {
   std::int64_t disks = 0;
   double packing_fraction = 0.0;

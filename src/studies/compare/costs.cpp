@@ -30,7 +30,7 @@ constexpr double bias_free_times = 60.0;
 
 using Proceed = std::function<bool()>;
 
-/// In slices, so that a wish to stop is heard. False where there was one.
+/// Runs in slices between which `proceed` may stop the run. Returns false where it did.
 bool run_collisions(Simulation& simulation, std::uint64_t collisions, const Proceed& proceed) {
   const std::uint64_t end = simulation.totals().pair + collisions;
   while (simulation.totals().pair < end) {
@@ -89,7 +89,7 @@ std::optional<double> bias_slope(const Gas& gas, double temperature, const Proce
 }
 
 double seconds_per_disk_and_free_time(const Gas& gas, const Method& method) {
-  // As many free times as take about as long as the clock needs; few, where a step looks at all pairs.
+  // As many free times as take about as long as the clock needs; fewer where a step examines all pairs.
   const double disks = static_cast<double>(gas.scene.disk_count());
   const bool all_pairs = method.name == "guarded" || method.name.starts_with("naive");
   const double free_times = all_pairs ? 1.0 : std::max(2.0, 4e4 / disks);

@@ -1,5 +1,5 @@
 #pragma once
-// What it costs, at other sizes and densities, to know Z to 1 %: exact events against fixed steps whose bias is 1 %.
+// Processor time for Z to 1 % at other sizes and densities: exact events against fixed steps whose bias is 1 %.
 
 #include "studies/compare/comparison.hpp"
 

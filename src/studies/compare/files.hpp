@@ -13,7 +13,8 @@
 
 namespace carom {
 
-/// What two studies must share for one to go on from the other: the scene, the options that shape its points, and the program.
+/// Returns the key that two studies must share for one to continue the other: the scene, the options that shape its points, and
+/// the program.
 [[nodiscard]] std::string study_key(const Scene& scene, const CompareOptions& options);
 
 /// The finished points, one JSON object a line.

@@ -23,7 +23,7 @@ std::optional<std::pair<double, double>> nearer_than(double reach, const Eigen::
   return from < to ? std::optional(std::pair(from, to)) : std::nullopt;
 }
 
-/// The same box with room beyond its walls, as if it went on past them: no pair is near another one through that.
+/// Returns the box with room beyond its walls, as if it continued: no pair is near another one through that.
 Box without_walls(Box box, double room) {
   for (int axis = 0; axis < 2; ++axis) {
     if (box.periodic(axis)) continue;

@@ -20,8 +20,8 @@ struct Overlap {
   double depth = 0.0;                  ///< the deepest, (sigma - |r|) / sigma
 };
 
-/// As a share of sigma: nearer contact than this a pair touches and does not overlap, since rounding does as much in many steps.
-/// It is the bound of docs/accuracy.md for overlap in the hard cases too.
+/// Smallest overlap that counts, over sigma. Rounding makes smaller ones over many steps. It is also the bound of
+/// docs/accuracy.md for overlap in the hard cases.
 inline constexpr double overlap_tolerance = 1e-9;
 
 class FlownOverlaps {
@@ -33,7 +33,7 @@ class FlownOverlaps {
   /// box in one.
   void fly(const Eigen::Matrix2Xd& positions, const Eigen::Matrix2Xd& velocities, double begin, double lasting);
 
-  /// In the order in which they began, of those in one stretch by their disks.
+  /// Returns the overlaps in the order in which they began, and those of one stretch in the order of their disks.
   [[nodiscard]] const std::vector<Overlap>& found() const { return found_; }
 
  private:

@@ -25,12 +25,12 @@ std::string seconds_text(double seconds) {
   return seconds < 120.0 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.3g} min", seconds / 60.0);
 }
 
-/// Of so many events; a fraction of a handful says nothing.
+/// Returns a fraction of `events` in per cent; empty below 20 events, where it would mean little.
 std::string percent_of(double fraction, std::uint64_t events) {
   return events < 20 ? "–" : fmt::format("{:.2f} %", 100.0 * fraction);
 }
 
-/// Of a single start no error is known.
+/// Returns Z with its error; a single start has no error.
 std::string Z_text(const std::optional<Estimate>& Z) {
   if (!Z) return "–";
   return std::isfinite(Z->error) ? fmt::format("{:.4g} ± {:.1g}", Z->value, Z->error) : fmt::format("{:.4g}", Z->value);

@@ -1,5 +1,5 @@
 #pragma once
-// What accuracy costs, as a page.
+// The page of carom compare: error against cost.
 
 #include "pages/page.hpp"
 #include "studies/compare/comparison.hpp"

@@ -8,7 +8,8 @@
 
 namespace carom {
 
-/// What accuracy costs; where the fixed step is the cheaper way to a crude answer; what it does to collisions and to Z.
+/// Returns the conclusions: the cost of accuracy, the errors for which the fixed step is cheaper, and its effect on collisions
+/// and Z.
 [[nodiscard]] std::vector<std::string> compare_sentences(const Comparison& comparison,
                                                          const std::vector<MethodSummary>& summaries, const Answers& answers);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_distances = 1000;  ///< a plot shows no more
 
-/// How the fixed-step side is flown: guarded and grid have one trajectory to the last bit, and one is O(N).
+/// Returns the method that runs for the fixed-step side: guarded and grid have one trajectory to the last bit, and grid is O(N).
 FixedStep as_flown(const FixedStep& step) { return {step.method == "guarded" ? "grid" : step.method, step.dt}; }
 
 class Flight {
@@ -85,8 +85,8 @@ class Flight {
     return true;
   }
 
-  /// What a disk flies with is its velocity after the step, or where a method has given it another one when it had moved already
-  /// (naive), what its way tells.
+  /// The velocity of a flight is that after the step; where a method changes it after the move (naive), it follows from the
+  /// displacement.
   void fly_steps(std::uint64_t k) {
     const bool whole = ends_with_a_step(k);
     const double lasting = whole ? dt_ : until_ - at(k);

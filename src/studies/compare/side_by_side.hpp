@@ -18,7 +18,7 @@
 
 namespace carom {
 
-/// From step `step` on, at step * dt, `disk` flies with `velocity`.
+/// A change of velocity: from step `step` on, at step * dt, `disk` flies with `velocity`.
 struct Turn {
   std::uint32_t step = 0;
   std::int32_t disk = 0;
@@ -38,7 +38,7 @@ enum class ShownUntil {
 /// More disks than this are too small to be seen overlapping, and a page of them too large.
 inline constexpr std::int64_t most_disks_side_by_side = 2000;
 
-/// In mean diameters: from here on disks meet others than on the other side.
+/// Distance, in mean diameters, beyond which a disk meets other partners than on the other side.
 inline constexpr double parted_distance = 0.5;
 
 struct SideBySideLimits {
@@ -81,9 +81,9 @@ struct SideBySide {
 /// Flies both. Throws as make_simulation.
 [[nodiscard]] SideBySide fly_side_by_side(const Scene& scene, const State& start, const SideBySideOptions& options);
 
-/// Of the study's steps the one nearest to that in which a disk of typical speed goes a fiftieth of a diameter: overlaps can be
-/// seen, and errors still have two decades to grow. Or to a tenth of the mean free time where that is shorter: a step that sees
-/// most collisions.
+/// Returns, of the study's steps, the one nearest to that in which a disk of typical speed goes a fiftieth of a diameter:
+/// overlaps are then visible, and errors still have two decades to grow. Where a tenth of the mean free time is shorter, the step
+/// is nearest to that: it detects most collisions.
 [[nodiscard]] double visible_step(const ComparePlan& plan, const State& start);
 
 }  // namespace carom

@@ -1,5 +1,5 @@
 #pragma once
-// What --play of carom compare asks for, and the page that it makes.
+// The option --play of carom compare, and the page that it makes.
 
 #include "studies/compare/comparison.hpp"
 

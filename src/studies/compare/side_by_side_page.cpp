@@ -37,7 +37,7 @@ constexpr std::array<std::string_view, 22> side_by_side_scripts = {"player/recor
                                                                    "side_by_side/twins.js",  "side_by_side/overlaps.js",
                                                                    "side_by_side/curves.js", "side_by_side/side_by_side.js"};
 
-/// What every page that plays needs to know of a scene without effects.
+/// Returns the description of a scene without effects that every playing page needs.
 Json description_of(const SideBySide& shown, const Scene& scene) {
   const Box& box = scene.box;
   Json json{{"title", scene.title}, {"disks", shown.disks.count()}, {"exact", true}, {"duration", shown.until}};

@@ -1,5 +1,5 @@
 #pragma once
-// How long each method takes to know the compressibility factor.
+// The processor time that each method needs for the compressibility factor.
 
 #include "studies/compare/answers.hpp"
 
@@ -7,10 +7,10 @@
 
 namespace carom {
 
-/// For 1 % and 0.1 %. Chance: Z scatters by C / sqrt(collisions), with C from the exact runs over the seeds. Bias: that of the
-/// guarded methods is fitted, slope times dt, where it is below a tenth of Z - 1; elsewhere, and for the naive methods, it is
-/// taken as it was measured, with its error. Then the dt is taken for which the time to bring chance down to what bias leaves of
-/// the accuracy is shortest. A method whose bias is larger than the accuracy at every dt never gets there.
+/// Returns the rows for 1 % and 0.1 %. The statistical error of Z is C / sqrt(collisions), with C from the exact runs over the
+/// seeds. The bias of the guarded methods is fitted as slope times dt where it is below a tenth of Z - 1; elsewhere, and for the
+/// naive methods, the measured bias is used, with its error. The dt is that for which the time to bring the statistical error
+/// down to what the bias leaves of the accuracy is shortest. A method whose bias exceeds the accuracy at every dt has no time.
 [[nodiscard]] std::vector<TimeToZ> time_to_Z(const Comparison& comparison, const std::vector<MethodSummary>& summaries);
 
 }  // namespace carom

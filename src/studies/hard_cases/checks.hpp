@@ -1,5 +1,5 @@
 #pragma once
-// What a hard case expects, held against what an engine did: one small function per expectation.
+// The checks of a hard case against the run of an engine: one small function per expectation.
 
 #include "studies/hard_cases/hard_case.hpp"
 #include "studies/hard_cases/run.hpp"
@@ -13,11 +13,11 @@ namespace carom {
 /// Everything that one run shows by itself.
 [[nodiscard]] std::vector<CaseCheck> checks_of_run(const HardCase& hard_case, const Scene& scene, const EngineRun& run);
 
-/// That all engines have the same events in the same order, as far as the case asks: one check for each but the one that the
-/// others are compared with.
+/// Returns the checks that all engines have the same events in the same order, where the case asks for it: one for each engine
+/// but the one that the others are compared with.
 [[nodiscard]] std::vector<CaseCheck> checks_of_order(const HardCase& hard_case, const std::vector<EngineRun>& runs);
 
-/// Those that take runs of their own: velocities reversed, disks in another order.
+/// Returns the checks that need runs of their own: velocities reversed, disks in another order.
 [[nodiscard]] std::vector<CaseCheck> checks_of_twins(const HardCase& hard_case, const Scene& scene, const EngineRun& run);
 
 /// A number against a bound; not a number is beyond every bound.

@@ -51,7 +51,7 @@ void require_known(const HardCasesOptions& options) {
         fmt::format("--family {}: there is no such family; choose one of: {}", options.family, fmt::join(families, ", ")));
 }
 
-/// Those that are named, however long they take; else the corpus.
+/// Returns the named cases, however long they take; without names, the corpus.
 std::vector<HardCase> chosen(const HardCasesOptions& options) {
   std::vector<HardCase> cases;
   for (const std::string& name : options.cases)
@@ -63,7 +63,7 @@ std::vector<HardCase> chosen(const HardCasesOptions& options) {
   return cases;
 }
 
-/// What a fixed-step method does to the cases is no failure of the program.
+/// Runs the cases by a fixed-step method, whose errors are no failure of the program.
 ExitCode in_steps(const HardCasesOptions& options, const std::vector<HardCase>& cases) {
   std::vector<StepTrial> trials;
   for (const HardCase& one : cases) trials.push_back(run_in_steps(one, options.method, options.dt));

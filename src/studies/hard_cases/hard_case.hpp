@@ -16,7 +16,7 @@
 
 namespace carom {
 
-/// One collision that must happen: when, and who meets whom.
+/// A collision that must happen: its time and the two partners.
 struct ExpectedEvent {
   double time = 0.0;
   std::int32_t disk = 0;
@@ -35,7 +35,8 @@ struct LateSample {
   double time = 0.0;
 };
 
-/// What must hold. What is absent is not asked; bounds are those of double precision and 2^29 times as wide in single.
+/// The expectations of a hard case. An expectation that is absent is not checked. Bounds are those of double precision, and 2^29
+/// times as wide in single.
 struct Expectations {
   std::optional<std::string> refused;       ///< the scene is refused with a sentence that holds this
   std::string stopped;                      ///< to_string(StopReason)

@@ -1,5 +1,5 @@
-// From a file to a HardCase: numbers in hexfloat become decimal ones, the tables [case] and [expect] are read here, and what is
-// left is a scene for the scene's own reader. Lines keep their places, so that whoever complains names the right one.
+// Reads a file into a HardCase: numbers in hexfloat become decimal ones, the tables [case] and [expect] are read here, and the
+// rest is a scene for the scene's own reader. Lines keep their numbers, so that every message names the right one.
 
 #include "scene/known_keys.hpp"
 #include "scene/number_text.hpp"

@@ -31,10 +31,10 @@ struct EngineRun {
   std::vector<std::string> faults;  ///< what check_invariants() found, but for overlap, which has a bound of its own
 };
 
-/// Of the significand in which an engine computes: 24, 53, 64 or 113.
+/// Returns the bits of the significand in which an engine computes: 24, 53, 64 or 113.
 [[nodiscard]] int bits_of_engine(const std::string& engine);
 
-/// What to keep of a run, and when to give it up.
+/// The data to keep of a run, and the limit at which it is stopped.
 struct Watch {
   std::uint64_t events = 0;                                               ///< the first so many are kept
   std::uint64_t most_events = std::numeric_limits<std::uint64_t>::max();  ///< of any kind; a run beyond is interrupted

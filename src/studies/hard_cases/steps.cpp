@@ -38,7 +38,7 @@ double distance(const Box& box, const State& a, const State& b) {
   return largest;
 }
 
-/// Where the method has the disks at the end, and how far that is from `exact`.
+/// Returns the distance between the method's final positions and `exact`.
 double error_in_steps(const Scene& scene, const State& start, const FixedStep& step, double time, const State& exact,
                       double* energy) {
   Simulation simulation = make_simulation(scene, start, step);

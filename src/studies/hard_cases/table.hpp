@@ -23,10 +23,10 @@ struct HardCaseRow {
 /// "96 cases, 530 runs, 6200 checks: all hold; 12 s"
 [[nodiscard]] std::string summary_of(std::span<const CaseVerdict> verdicts);
 
-/// What is checked in every run, in one sentence.
+/// Returns one sentence on what is checked in every run.
 [[nodiscard]] std::string always_checked();
 
-/// For docs/hard-cases.md: a table for each family.
+/// Returns the tables of docs/hard-cases.md, one for each family.
 [[nodiscard]] std::string hard_cases_markdown(std::span<const CaseVerdict> verdicts);
 
 [[nodiscard]] std::string hard_cases_json(std::span<const CaseVerdict> verdicts);

@@ -13,7 +13,7 @@ std::string hardcases_list(std::span<const HardCase> cases);
 
 std::string hardcases_header();
 std::string hardcases_row(const CaseVerdict& verdict);
-/// What was checked, how many cases hold, and one line for every check that does not.
+/// Returns what was checked, how many cases hold, and one line for every check that fails.
 std::string hardcases_footer(std::span<const CaseVerdict> verdicts);
 
 }  // namespace carom::cli

@@ -16,7 +16,7 @@ namespace {
 
 using Order = std::vector<std::size_t>;
 
-/// The same scene with the disks of a run in another order: one species that lists them all.
+/// Returns the scene with the disks of a run in another order: one species that lists them all.
 Scene relabelled(const Scene& scene, const EngineRun& run, const Order& order) {
   Scene other = scene;
   Species all;
@@ -79,7 +79,7 @@ double off_when_reversed(const Scene& scene, const EngineRun& run) {
   return difference(scene.box, start, run.start);
 }
 
-/// How far the clock is from where it should be when it stands at a sample that no run would ever come to one by one.
+/// Returns the error of the clock at a sample so late that no run would reach it one by one.
 double off_at_late_sample(const Scene& scene, const EngineRun& run, const LateSample& expected) {
   Simulation late = make_simulation(scene, run.engine);
   late.run_until_sample(expected.number, scene.run.sample_every.value_or(0.0));

@@ -1,5 +1,5 @@
 #pragma once
-// How far two runs of one scene have come apart: in positions, and in the order of their events.
+// The difference between two runs of one scene: in positions, and in the order of their events.
 
 #include "observe/horizon_report.hpp"
 
@@ -12,12 +12,12 @@
 
 namespace carom {
 
-/// From where disk i is in state b to where it is in state a, to the nearest image along periodic axes, with what the states
-/// know beyond doubles (State::remainders).
+/// Returns the displacement of disk i from state b to state a, to the nearest image along periodic axes, with the remainders of
+/// the states (State::remainders).
 [[nodiscard]] Eigen::Vector2d displacement(const Box& box, const State& a, const State& b, Eigen::Index i);
 
-/// The largest distance of a disk in one state from itself in the other, to the nearest image along periodic axes; with
-/// what the states know beyond doubles (State::remainders). Infinite where a position is not finite. Both states of one time.
+/// Returns the largest displacement of any disk between two states of one time, to the nearest image along periodic axes, with
+/// the remainders of the states (State::remainders). Infinite where a position is not finite.
 [[nodiscard]] double largest_distance(const Box& box, const State& a, const State& b);
 
 /// Root of the mean square distance of the disks in one state from themselves in the other, likewise; 0 without disks.

@@ -30,11 +30,12 @@ constexpr double comparisons_per_collision = 8.0;
 /// Events between two looks at the clock and at the caller's wish: a fraction of a second in 113 bits.
 constexpr double events_per_comparison = 20'000.0;
 
-/// How long to wait for chaos beyond the end of the scene's run.
+/// Limits of the comparison beyond the end of the scene's run: in times in which an error of one unit in the last place reaches
+/// the tolerance, and in collisions per disk.
 constexpr double most_exponents = 3.0;
 constexpr double most_collisions_per_disk = 1000.0;
 
-/// Pairs and events that are enough to tell the price of a precision.
+/// Numbers of pairs and events that suffice to time a precision.
 constexpr std::uint64_t timed_pairs = 50'000;
 constexpr std::uint64_t timed_events = 500'000;
 
@@ -162,7 +163,7 @@ class HorizonSearch {
     limit_ = options_.limit > 0 ? static_cast<double>(options_.limit) : std::clamp(1500.0 * disks_, 2e6, 2e8);
   }
 
-  /// Where the scene's own run is over.
+  /// Returns whether the scene's own run is over.
   [[nodiscard]] bool run_is_over(double time) const {
     if (scene_.run.collisions && best().totals().pair >= *scene_.run.collisions) return true;
     return time >= end_;

@@ -1,5 +1,5 @@
 #pragma once
-// How far a trajectory can be trusted: the same start in 24, 53, 64 and 113 bits, each held against the next better one.
+// The horizon of a trajectory: the same start in 24, 53, 64 and 113 bits, each compared with the next better one.
 
 #include "observe/horizon_report.hpp"
 

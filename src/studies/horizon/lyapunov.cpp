@@ -19,7 +19,7 @@ namespace {
 /// Shorter than this the tangent vector may still be on its way.
 constexpr std::size_t fewest_intervals = 40;
 
-/// What happened from one normalization to the next.
+/// The growth and the collisions from one normalization to the next.
 struct Interval {
   double time = 0.0;
   double collisions = 0.0;  ///< per disk
@@ -54,7 +54,7 @@ Ratio growth_per(const std::vector<Interval>& intervals, Clock&& clock) {
   return ratio;
 }
 
-/// In any direction: what does not grow is soon forgotten.
+/// Returns a random direction: components that do not grow soon vanish.
 Eigen::Matrix2Xd any_direction(Eigen::Index disks, std::uint64_t seed, std::uint64_t which) {
   RandomStream stream(seed, Stream::perturbations, which);
   boost::random::uniform_real_distribution<double> component(-1.0, 1.0);

@@ -19,7 +19,7 @@ struct Method {
   [[nodiscard]] bool exact() const { return dt == 0.0; }
 };
 
-/// From a given state. Throws as make_simulation.
+/// Makes a simulation by this method from a given state. Throws as make_simulation.
 [[nodiscard]] Simulation begin(const Scene& scene, const State& start, const Method& method);
 
 /// The state in which the scene's measured run begins: after its equilibration, by `engine` or the one that runs the scene. Empty

@@ -1,5 +1,5 @@
 #pragma once
-// How fast things happen in a scene, from a short look ahead: what the studies choose their steps by.
+// The pace of events in a scene, from a short run; the studies choose their steps by it.
 
 #include <carom/scene.hpp>
 #include <carom/state.hpp>

@@ -16,7 +16,7 @@ namespace carom::cli {
 Horizon horizon_with_progress(const Scene& scene, const State& start, HorizonOptions options, ProgressMode mode,
                               const StopRequest& stop);
 
-/// What was compared, a table with a row per engine, and the Lyapunov exponent.
+/// Returns what was compared, a table with a row per engine, and the Lyapunov exponent.
 std::string horizon_table(const Horizon& horizon, const Scene& scene);
 
 }  // namespace carom::cli

@@ -96,8 +96,8 @@ class Child {
   }
 
  private:
-  /// In the child, where other threads of the parent may have held any lock: system calls alone. It dies with the parent, even
-  /// where that is killed, and writes no more into directories that a next sweep may use.
+  /// Runs in the child, where other threads of the parent may have held any lock: system calls only. The child dies with the
+  /// parent, even where that is killed, and writes no more into directories that a later sweep may use.
   [[noreturn]] static void run(char** argv, int errors, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGUSR1, SIG_DFL);  // where the parent was started to ignore it, the child is not
@@ -177,7 +177,7 @@ RunEnd carry_out(const RunOrder& order, const StopRequest& stop, const std::func
     file.write(end.failure + "\n");
     file.publish();
   } catch (const OutputError&) {
-    // Without the file the run counts as not finished, and its sentence is told once, by whoever has started it.
+    // Without the file the run counts as not finished, and the process that started it reports its sentence once.
   }
   return end;
 }

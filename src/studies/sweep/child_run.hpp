@@ -10,7 +10,7 @@
 
 namespace carom::cli {
 
-/// What is to be run, and where. Goes to other machines as it is.
+/// A run to carry out, and its directory. It can be sent to other machines as it is.
 struct RunOrder {
   std::size_t run = 0;              ///< its number in the sweep
   std::filesystem::path directory;  ///< of its results

@@ -1,6 +1,6 @@
 // carom sweep SWEEP: many runs of one scene, each in a process and a directory of its own, on the threads of one machine or under
-// mpirun on many; then one table of all that is finished. The same command goes on where an earlier one was interrupted or
-// killed: what is there is all that it knows.
+// mpirun on many; then one table of all finished runs. The same command continues a sweep that was interrupted or killed: its
+// only state is the files that are there.
 
 #include "studies/sweep/command.hpp"
 #include "pages/page.hpp"
@@ -126,7 +126,7 @@ void run_all(Desk& desk, int threads, SweepServer* server, const StopRequest& st
   here.get();
 }
 
-/// A number asked for that no run has is a slip that nobody should have to look for.
+/// Warns of numbers that were asked for and that no run has.
 void warn_of_absent_numbers(const Sweep& sweep, const SweepResults& results) {
   if (results.count(RunState::finished) == 0) return;
   for (std::size_t k = 0; k < sweep.table.size(); ++k) {

@@ -9,8 +9,8 @@ namespace carom::cli {
 /// when the last of them is gone. File systems without locks lock nothing.
 class DirectoryLock {
  public:
-  /// The directory must be there. Waits for two seconds, in which a process that was killed is gone; then throws UsageError where
-  /// somebody else has it.
+  /// Locks a directory, which must exist. Waits up to two seconds, in which a process that was killed disappears; then throws
+  /// UsageError where another process holds the lock.
   explicit DirectoryLock(const std::filesystem::path& directory);
   ~DirectoryLock();
   DirectoryLock(const DirectoryLock&) = delete;

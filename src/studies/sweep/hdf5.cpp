@@ -22,10 +22,10 @@ using detail::Hdf5Id;
 using detail::write_attribute;
 using detail::write_column;
 
-/// What is absent is not a number.
+/// Returns NaN for an absent number.
 double number(const std::optional<double>& value) { return value.value_or(std::numeric_limits<double>::quiet_NaN()); }
 
-/// For every run the number of its point; for points their own.
+/// The number of its point for every run; for points their own number.
 using Points = std::vector<std::size_t>;
 
 /// A swept key is a column of numbers where all of its values are numbers, else of texts.

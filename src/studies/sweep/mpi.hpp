@@ -7,7 +7,7 @@
 
 namespace carom::cli {
 
-/// From a process to another. A kind is any number from 0 on.
+/// A message from one process to another. Its kind is any number from 0 on.
 struct Message {
   int from = 0;
   int kind = 0;
@@ -31,7 +31,7 @@ class Ranks {
   Ranks() = default;
 };
 
-/// How many processes were started together, and which this is, as their starter says in the environment.
+/// The number of processes that were started together, and the number of this one, as their starter says in the environment.
 struct Launch {
   int size = 1;
   int rank = 0;

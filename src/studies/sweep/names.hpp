@@ -7,7 +7,7 @@
 
 namespace carom {
 
-/// The shortest ends of dotted keys that still tell them apart: "radius" for "disks.0.radius" where no other key ends so, else
+/// Returns the shortest endings that still tell dotted keys apart: "radius" for "disks.0.radius" where no other key ends so, else
 /// "0.radius" and "1.radius".
 [[nodiscard]] std::vector<std::string> short_keys(const std::vector<std::string>& keys);
 

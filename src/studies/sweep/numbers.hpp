@@ -18,8 +18,8 @@ struct SummaryNumber {
   std::string unit = {};        ///< made of the scene's units; empty for a pure number
 };
 
-/// In the order of the summary. An observable has its value under its name, and its standard error within the run under the name
-/// with "_error".
+/// Returns all numbers in the order of the summary. The value of an observable has the observable's name, and its standard error
+/// within the run the name with "_error".
 [[nodiscard]] std::vector<SummaryNumber> numbers_of(const nlohmann::ordered_json& summary);
 
 /// Whether a sweep's table holds the number where nothing else is asked for.

@@ -31,7 +31,7 @@ struct PlottedCurve {
   std::vector<PlottedPoint> points;
 };
 
-/// What tells a point from others that differ in this key alone: "count=200, boundary=periodic"
+/// Returns the values that distinguish a point from others that differ only in this key: "count=200, boundary=periodic".
 std::string others_of(const Sweep& sweep, const SweepPoint& point, std::size_t key) {
   const std::vector<std::string> keys = short_keys(sweep.keys);
   std::string text;

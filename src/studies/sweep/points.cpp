@@ -39,7 +39,7 @@ void collect(const toml::table& table, const std::string& prefix, std::vector<En
   }
 }
 
-/// In the order of the file, which toml++ does not keep.
+/// Returns the entries in the order of the file, which toml++ does not keep.
 std::vector<Entry> entries_of(const toml::table& table) {
   std::vector<Entry> entries;
   collect(table, "", entries);

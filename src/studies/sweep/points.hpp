@@ -1,5 +1,5 @@
 #pragma once
-// What a sweep file changes in its scene: [set] at every point, every combination of [grid], and each of [[points]].
+// The changes that a sweep file makes to its scene: [set] at every point, every combination of [grid], and each of [[points]].
 
 #include "studies/sweep/sweep.hpp"
 

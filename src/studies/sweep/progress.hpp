@@ -1,5 +1,5 @@
 #pragma once
-// How far a sweep has come, on one line of stderr and in numbers. Any thread may call it.
+// The progress of a sweep, on one line of stderr and in numbers. Any thread may call it.
 
 #include "studies/sweep/child_run.hpp"
 #include "terminal/progress.hpp"
@@ -13,7 +13,7 @@ namespace carom::cli {
 
 class SweepProgress {
  public:
-  /// Of so many runs `before` are finished already.
+  /// Begins with `before` of `runs` runs finished.
   SweepProgress(ProgressMode mode, std::size_t runs, std::size_t before);
 
   void begun();

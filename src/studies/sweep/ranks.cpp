@@ -33,7 +33,7 @@ std::string text_of(std::size_t run, const RunEnd& end) {
   return fmt::format("{}{}{}{}{}", run, separator, end.finished ? 1 : 0, separator, end.failure);
 }
 
-/// What stood between the separators, and the number in front.
+/// The parts between the separators, and the number in front.
 struct Parts {
   std::size_t run = 0;
   std::vector<std::string> texts;

@@ -1,6 +1,6 @@
 #pragma once
-// Runs handed out over processes: the first one has the list, all of them ask for a run when they have nothing to do. So nobody
-// waits for the slowest, and whoever fails to run costs no more than that run.
+// Distribution of runs over processes: the first one has the list, and each asks it for a run when it is idle. So no process
+// waits for the slowest, and a process that fails loses only the run that it had.
 
 #include "studies/sweep/mpi.hpp"
 #include "studies/sweep/threads.hpp"
@@ -10,7 +10,7 @@
 
 namespace carom::cli {
 
-/// In the first process.
+/// The first process, which has the list of runs.
 class SweepServer {
  public:
   explicit SweepServer(Ranks& ranks) : ranks_(ranks), working_(ranks.size() - 1) {}
@@ -30,7 +30,7 @@ class SweepServer {
   bool stopping_ = false;
 };
 
-/// In the others: so many runs at a time, until there are no more.
+/// The other processes: carries out `threads` runs at a time, until there are no more.
 [[nodiscard]] ExitCode work_for_first_rank(Ranks& ranks, int threads);
 
 }  // namespace carom::cli

@@ -1,4 +1,4 @@
-// From text to a sweep: which scene, what is changed in it, with which seeds, what the table is to hold.
+// Reads a sweep from text: its scene, the changes, the seeds, and the columns of the table.
 
 #include "studies/sweep/reader.hpp"
 

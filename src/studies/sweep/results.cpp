@@ -28,7 +28,7 @@ std::vector<std::string> columns_of(const Sweep& sweep, const std::vector<Number
   return columns;
 }
 
-/// Of the first run that has the number.
+/// Returns the unit from the first run that has the number.
 std::string unit_in(const std::vector<Numbers>& found, const std::string& name) {
   for (const Numbers& numbers : found)
     for (const SummaryNumber& number : numbers)

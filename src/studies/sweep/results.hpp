@@ -1,6 +1,6 @@
 #pragma once
-// What a sweep has found, from the files of its runs alone and in the order of its points: whoever ran them, with however many
-// threads, finds the same.
+// The results of a sweep, from the files of its runs alone and in the order of its points: they do not depend on the number of
+// threads or processes.
 
 #include "studies/sweep/state.hpp"
 #include "studies/sweep/sweep.hpp"
@@ -29,7 +29,7 @@ struct SweepResults {
   std::vector<std::vector<SeedAverage>> averages;          ///< of every point, one per column
   std::vector<std::string> versions;                       ///< the programs that have run it; one, or the runs are of several
 
-  /// How many runs of a point are in this state.
+  /// Returns the number of runs of a point in this state.
   [[nodiscard]] std::size_t count(const Sweep& sweep, std::size_t point, RunState state) const;
   [[nodiscard]] std::size_t count(RunState state) const;
 };

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// As JSON keeps it: a path in it need not be UTF-8.
+/// Returns the text as JSON stores it: a path need not be UTF-8.
 std::string kept(const std::string& text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 /// Network file systems remember for a while that a file was not there; to list its directory makes them ask again.

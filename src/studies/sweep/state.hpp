@@ -1,6 +1,6 @@
 #pragma once
-// What the directory of one run of a sweep says of it. A run is finished exactly when its summary.json is there, of this very
-// scene, and it was not interrupted; everything else is done again.
+// The state of one run of a sweep, from its directory. A run is finished exactly when its summary.json is there, of this very
+// scene, and it was not interrupted; any other run is done again.
 
 #include "studies/sweep/numbers.hpp"
 

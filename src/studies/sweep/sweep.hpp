@@ -45,13 +45,13 @@ struct Sweep {
   [[nodiscard]] std::filesystem::path directory_of(std::size_t run) const;
   /// The overrides that make the scene of this run: "disks.0.radius=0.1", "run.seed=3"
   [[nodiscard]] std::vector<std::string> overrides_of(std::size_t run) const;
-  /// The same of a point, without a seed.
+  /// Returns the changes of a point, without a seed.
   [[nodiscard]] std::vector<std::string> changes_of(const SweepPoint& point) const;
-  /// That scene. Throws SceneError, which load_sweep() has ruled out.
+  /// Returns the scene of a run. Throws SceneError, which load_sweep() has ruled out.
   [[nodiscard]] Scene scene_of(std::size_t run) const;
 };
 
-/// What stands in a sweep's directory beside its points; no point may be called like one of these.
+/// The files in a sweep's directory besides its points; no point may have one of these names.
 inline constexpr std::array<std::string_view, 4> sweep_products = {"runs.csv", "sweep.csv", "sweep.h5", "report.html"};
 
 }  // namespace carom

@@ -16,7 +16,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-/// In quotes where a comma, a quote or the end of a line would be taken for that of the table (RFC 4180).
+/// Returns the text in quotes where it contains a comma, a quote or the end of a line (RFC 4180).
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t most_columns = 4, most_points = 40, most_failures = 20;
 
-/// Those asked for, or the ones that most people look at first.
+/// Returns the columns that were asked for, or the most common ones.
 std::vector<std::size_t> shown_columns(const Sweep& sweep, const SweepResults& results) {
   std::vector<std::size_t> columns;
   if (sweep.table.empty())

@@ -1,5 +1,5 @@
 #pragma once
-// What carom sweep prints.
+// The text that carom sweep prints.
 
 #include "studies/sweep/results.hpp"
 #include "terminal/command.hpp"

@@ -8,7 +8,7 @@
 
 namespace carom::cli {
 
-/// Who hands out runs and hears how they end. Both are called by one thread at a time each.
+/// The source of runs, which is also told how they end. Each function is called by one thread at a time.
 struct RunDesk {
   std::function<std::optional<RunOrder>()> next;  ///< nothing: there are no more
   std::function<void(const RunOrder&, const RunEnd&)> done;

@@ -13,7 +13,7 @@ struct Measured {
   double error = 0.0;
 };
 
-/// What a check is for.
+/// The purpose of a check.
 enum class Judged {
   agrees,     ///< the measured number must agree with the expected one
   disagrees,  ///< negative control: the measured number must not agree, or the test could not tell a right law from a wrong one
@@ -23,7 +23,7 @@ enum class Judged {
 struct Check {
   std::string name = {};
   std::string theory = {};  ///< the formula, in words
-  std::string source = {};  ///< who says so
+  std::string source = {};  ///< source of the theory
   double expected = 0.0;
   Measured measured = {};
   double reference_error = 0.0;    ///< standard error of `expected`, where that is a measured number of the literature
@@ -40,7 +40,7 @@ struct Check {
   /// (measured - expected) / error(), without any allowance; infinite where they differ and there is no error, or where one of
   /// them is no number. Of a calibrated measurement against an exact theory this is a normal variable of variance 1.
   [[nodiscard]] double z() const;
-  /// What is beyond the allowance, in standard errors, with the sign of z(): what the verdict depends on.
+  /// Returns the deviation beyond the allowance, in standard errors, with the sign of z(); the verdict depends on it.
   [[nodiscard]] double deviation() const;
   /// Whether deviation() is within five standard errors, which chance exceeds once in 1.7 million.
   [[nodiscard]] bool fits() const;
@@ -60,7 +60,7 @@ struct Curve {
   std::vector<double> error = {};  ///< of y; empty, or as long
 };
 
-/// What one trial has found.
+/// The results of one trial.
 struct TrialResult {
   std::string trial = {};
   std::vector<Check> checks = {};

@@ -1,4 +1,4 @@
-// How often disks collide, how far they fly between, and how they meet.
+// Trials of collisions: their rate, the free paths between them, and their impact parameters.
 
 #include "studies/validate/encounters.hpp"
 #include "studies/validate/gas.hpp"
@@ -43,7 +43,7 @@ TrialResult rates(const std::string& trial, double eta, const Effort& effort) {
                            .measured = measured,
                            .reference_error = 1e-5 * rate});
   const Measured path = found.measured("free_flight", "mean_free_path"), speed = found.measured("velocity_moments", "speed");
-  // What few disks change: Z, and the ratio of mean speed to rate not at all.
+  // Few disks change Z, but not the ratio of mean speed to rate.
   const double expected_path = theory::mean_free_path(eta) * (theory::kolafa_rottner(eta) - 1.0) /
                                (theory::kolafa_rottner_finite(eta, disks) - 1.0) * std::sqrt(1.0 - 1.0 / disks) * ends;
   result.checks.push_back({.name = "mean free path, " + what,
@@ -114,8 +114,8 @@ TrialResult rates(const std::string& trial, double eta, const Effort& effort) {
 
 TrialResult free_times(const std::string& trial, const Effort& effort) {
   TrialResult result{.trial = trial};
-  // So many disks that what a fixed energy changes is 1/4096; disks that meet again soon are of the order of the density, which a
-  // straight line through two densities takes away.
+  // With so many disks the effect of a fixed energy is 1/4096. Disks that meet again soon contribute in proportion to the
+  // density, which a straight line through two densities removes.
   constexpr std::int64_t disks = 4096;
   constexpr std::array<double, 2> densities = {0.001, 0.003};
   const double collisions = effort.collisions(5e5), flights_each = 2.0 * collisions / disks;

@@ -60,7 +60,7 @@ std::string list() {
   return text;
 }
 
-/// What one trial has found, in lines of the terminal.
+/// Returns the results of one trial, in lines of the terminal.
 std::string lines_of(const TrialResult& result) {
   std::string text = fmt::format("{} ({})\n", result.trial, duration(result.seconds));
   for (const Check& check : result.checks) {

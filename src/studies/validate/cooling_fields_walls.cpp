@@ -61,8 +61,8 @@ class Thermometer final : public Observable {
   std::vector<Reading>& readings_;
 };
 
-/// So few disks that the longest shear wave of the box decays faster than the gas cools; or many, where it grows and takes the
-/// gas away from Haff's law.
+/// A cooling gas: of so few disks that the longest shear wave of the box decays faster than the gas cools, or of many, where it
+/// grows and Haff's law fails.
 struct Cooling {
   std::int64_t disks;
   std::size_t replicas;  ///< in a quick validation
@@ -124,7 +124,7 @@ TrialResult haff(const std::string& trial, const Cooling& gas, const Effort& eff
 TrialResult kurtosis(const std::string& trial, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr double e = 0.8, eta = 0.05;
-  // So few that the box has no room for streams: shear waves grow only above some length.
+  // So few that the box has no room for shear waves that grow.
   constexpr std::int64_t disks = 100;
   const std::size_t replicas = effort.full ? 4000 : 400;
   const double rate = theory::disk_collision_rate(theory::kolafa_rottner(eta));
@@ -255,7 +255,7 @@ TrialResult wall_pressure(const std::string& trial, const Effort& effort) {
   }
   const Eigen::Matrix3d covariance = normal.inverse();
   const Eigen::Vector3d fit = covariance * right;
-  // What the fit makes of the next term, with a coefficient as large as that of the last.
+  // The contribution of the next term to the fit, with a coefficient as large as that of the last.
   const double next = std::abs((covariance * cubes).x() * fit.z());
   const double Z = theory::kolafa_rottner(eta);
   result.checks.push_back({.name = "Z from the force on walls, fitted for many disks, packing fraction 0.3",

@@ -1,6 +1,5 @@
 #pragma once
-// What collisions are like: how squarely disks meet, how often at which speed, how long they fly between. Measured for trials of
-// one species of diameter 1.
+// Statistics of collisions for trials of one species of diameter 1: impact parameters, rates by speed, free times.
 
 #include "studies/validate/check.hpp"
 
@@ -29,7 +28,7 @@ class Encounters final : public Observable {
     std::uint64_t collisions = 0;
   };
 
-  /// `step`: between two looks at how many disks have which speed.
+  /// `step`: time between two counts of disks by speed.
   Encounters(double step, double mean_free_time, Seen& seen) : step_(step), mean_free_time_(mean_free_time), seen_(seen) {}
 
   [[nodiscard]] std::string name() const override { return "encounters"; }

@@ -29,7 +29,7 @@ struct Density {
   std::int64_t disks;
   double collisions;  ///< in a quick validation
 };
-// Beyond 0.63 the first term in 1/N does not hold any more; there systems are large enough for what it would be to be small.
+// Beyond 0.63 the first term in 1/N does not hold; systems there are large enough for it to be small.
 constexpr std::array<Density, 12> densities = {{{0.01, 256, 1e6},
                                                 {0.05, 256, 1e6},
                                                 {0.10, 256, 2e6},
@@ -163,8 +163,8 @@ TrialResult solid(const std::string& trial, double alpha, const Effort& effort) 
   return result;
 }
 
-/// Where liquid turns to hexatic domains take long to form and to dissolve. Only what an ordered and a disordered start agree on
-/// is the pressure of equilibrium.
+/// Checks the pressure in the transition from liquid to hexatic, where domains take long to form and to dissolve: an ordered and
+/// a disordered start must agree on it.
 TrialResult transition(const std::string& trial, const theory::ReferencePressure& known, const Effort& effort) {
   TrialResult result{.trial = trial};
   const auto pressure = [&](double equilibrate, std::uint64_t k, const Change& change) {

@@ -23,7 +23,7 @@ namespace {
 using detail::Json;
 using detail::number;
 
-/// What is null was not finite: a NaN, since only what was measured can be none.
+/// Reads null as NaN: only measured numbers can be null.
 double number_in(const Json& json) { return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>(); }
 
 Json json_of(const std::vector<double>& values) {

@@ -10,7 +10,7 @@
 
 namespace carom {
 
-/// What two validations must share for one to go on from the other: how much work, the seed, the program.
+/// Returns the key that two validations must share for one to continue the other: the amount of work, the seed, the program.
 [[nodiscard]] std::string validation_key(const ValidateOptions& options);
 
 /// The finished trials, one JSON object a line.

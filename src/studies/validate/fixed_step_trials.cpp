@@ -86,7 +86,7 @@ TrialResult in_steps(const std::string& trial, const std::string& method, double
 
 void add_fixed_steps(std::vector<Trial>& trials) {
   const std::string group = "fixed steps";
-  // In units of the mean free time, 0.417 here; where a step is short the methods differ from exact events by little.
+  // Steps in units of the mean free time, 0.417 here; short steps differ little from exact events.
   for (const FixedStep& step :
        {FixedStep{"naive", 0.02}, FixedStep{"naive", 0.004}, FixedStep{"grid", 0.02}, FixedStep{"grid", 0.004}}) {
     const std::string name = fmt::format("{}-{:g}", step.method, step.dt);

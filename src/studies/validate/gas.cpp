@@ -74,7 +74,8 @@ State compressed_liquid(std::int64_t disks, double eta, const Effort& effort, st
                 .positions = fmt::format("{{ packing_fraction = {:.17g} }}", liquid),
                 .equilibrate = 3000.0};
   State state = run(scene_text(gas, seed), effort, not_kept).simulation.state();
-  // The same in the smaller box of the final density, with disks that grow to a diameter of 1 while they collide some 3000 times.
+  // The start is the smaller box of the final density, with disks that grow to a diameter of 1 while they collide some 3000
+  // times.
   const double side = std::sqrt(0.25 * std::numbers::pi * static_cast<double>(disks) / eta), shorter = 2.0 * radius;
   const std::string growing = fmt::format(
       "[box]\nx = [0.0, {0:.17g}]\ny = [0.0, {0:.17g}]\nboundary = \"periodic\"\n\n[[disks]]\ncount = {1}\n"

@@ -27,7 +27,7 @@ struct Gas {
 };
 [[nodiscard]] std::string scene_text(const Gas& gas, std::uint64_t seed);
 
-/// What a run has found.
+/// The results of a run.
 struct Found {
   Simulation simulation;
   std::vector<Measurement> measurements;

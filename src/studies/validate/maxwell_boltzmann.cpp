@@ -75,9 +75,9 @@ TrialResult relax(const std::string& trial, const std::string& boundary, bool al
   return result;
 }
 
-/// What the observable is to find of H for a number of velocities from Maxwell's distribution. In bins half a thermal velocity
-/// wide those at the edge hold less than one disk, for which Miller's correction is not enough: so the mean over the number of
-/// disks in each bin, which is binomial.
+/// Returns the expected result of the observable H for a number of velocities from Maxwell's distribution. In bins half a thermal
+/// velocity wide those at the edge hold less than one disk, for which Miller's correction is not enough: the result is the mean
+/// over the number of disks in each bin, which is binomial.
 double expected_h(double number) {
   std::vector<double> axis;
   for (int k = -16; k < 16; ++k)
@@ -127,7 +127,7 @@ TrialResult h_theorem(const std::string& trial, const Effort& effort) {
     curve.y.push_back(mean.value);
     curve.error.push_back(mean.error);
     if (k == 0) continue;
-    // Of the same replicas, so what they have in common drops out.
+    // The differences are between the same replicas, so that their common part cancels.
     std::vector<double> rise;
     for (std::size_t r = 0; r < replicas; ++r) rise.push_back(H[k][r] - H[k - 1][r]);
     Measured change = mean_of(rise);

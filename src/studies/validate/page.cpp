@@ -14,7 +14,7 @@ namespace carom {
 
 namespace {
 
-/// What a plot of the page shows, whichever trials give it numbers.
+/// A plot of the page; trials supply its numbers.
 struct TrialPlot {
   const char* id;
   const char* group;

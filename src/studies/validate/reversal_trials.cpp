@@ -1,5 +1,5 @@
-// What the reversal rule does and what it does not. Equal masses only exchange velocities, so no distribution relaxes; pressure
-// is that of smooth disks nevertheless; the rate and the fall of the autocorrelation follow from the frozen velocities.
+// Trials of the reversal rule. Equal masses only exchange velocities, so no distribution relaxes; pressure is that of smooth
+// disks nevertheless; the rate and the decay of the autocorrelation follow from the frozen velocities.
 
 #include "studies/validate/gas.hpp"
 #include "studies/validate/speed_law.hpp"

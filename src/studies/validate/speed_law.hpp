@@ -24,7 +24,7 @@ class SpeedCounts {
   void add(const Eigen::Matrix2Xd& velocities);
   /// sqrt(n) times the largest distance between the distribution of what was counted and that of the law itself.
   [[nodiscard]] double distance() const;
-  /// The same for infinitely many disks.
+  /// Returns the distance from the law of infinitely many disks.
   [[nodiscard]] double distance_from_maxwell() const;
   /// Density of speeds, in 50 bins, with the errors of independent counts.
   [[nodiscard]] Curve density(const std::string& plot, const std::string& name) const;

@@ -22,10 +22,10 @@ std::size_t row_at(const std::vector<double>& lags, double time) {
   return row;
 }
 
-/// With moments G that grow by a in one step h and by b in the next, <a^2> / 2h is their growth at lag h, <(a + b)^2> / 4h that
-/// at 2h, and twice the first less the second is what a straight line through both comes to at lag 0: <a^2> / 2h - <a b> / 2h.
-/// What flows between collisions has the correlation c exp(-nu t), which bends the line: by c nu h^2 / 3 at lag 0, less than
-/// 0.1 % of the limit, taken with Enskog's nu.
+/// Checks the instantaneous coefficient. With moments G that grow by a in one step h and by b in the next, <a^2> / 2h is their
+/// growth at lag h and <(a + b)^2> / 4h that at 2h; a straight line through both extrapolates to <a^2> / 2h - <a b> / 2h at lag
+/// 0. The kinetic part has the correlation c exp(-nu t), which bends the line by c nu h^2 / 3 at lag 0, less than 0.1 % of the
+/// limit with Enskog's nu.
 TrialResult instantaneous(const std::string& trial, double eta, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr std::int64_t disks = 256;

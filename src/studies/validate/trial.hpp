@@ -10,13 +10,13 @@
 
 namespace carom::validation {
 
-/// How much work a trial may do, and from where it draws its chance.
+/// The amount of work of a trial, and the seed of its random numbers.
 struct Effort {
   bool full = false;
   std::uint64_t seed = 1;
   std::function<bool()> proceed = {};  ///< false: stop
 
-  /// As many collisions in a quick validation, twenty times as many in a full one.
+  /// Returns the number of collisions: `quick` in a quick validation, twenty times as many in a full one.
   [[nodiscard]] double collisions(double quick) const { return full ? 20.0 * quick : quick; }
   /// A seed for the k-th run of a trial. No two trials run the same system.
   [[nodiscard]] std::uint64_t seed_of(std::uint64_t k) const { return 1'000'003 * seed + k; }

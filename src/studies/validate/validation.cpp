@@ -99,7 +99,7 @@ Validation validate(const ValidateOptions& options, const ValidateHooks& hooks, 
 
 namespace {
 
-/// With as many decimals as the second digit of the error has.
+/// Returns a value with as many decimals as the second digit of the error has.
 std::string number(double value, double error) {
   if (!std::isfinite(value)) return "no number";
   if (!(error > 0.0) || !std::isfinite(error)) return fmt::format("{:.6g}", value);

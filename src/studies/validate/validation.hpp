@@ -28,7 +28,7 @@ struct Validation {
 };
 
 struct ValidateHooks {
-  /// What is being done, and how many of the trials are done (0 to 1). False stops.
+  /// Called with what is being done and the fraction of the trials that is done (0 to 1). Returning false stops the validation.
   std::function<bool(const std::string& doing, double fraction)> proceed = {};
   std::function<void(const TrialResult& result)> done = {};
 };
