@@ -154,8 +154,8 @@ std::vector<std::string> fixed_step_names();
 /// "fast", "general", "textbook", "textbook-float", ...: the engines, in the order in which "auto" prefers them.
 std::vector<std::string> engine_names();
 
-/// The names of the engines that can run a scene, in the order of engine_names(). Draws the start of the scene. Throws as
-/// make_simulation() does.
+/// The names of the engines that can run a scene, in the order of engine_names(). Draws no start. Throws SceneError where
+/// check(scene) does.
 std::vector<std::string> engines_covering(const Scene& scene);
 
 /// How far a run has come, for progress lines and for the decision to go on.

@@ -80,10 +80,10 @@ std::vector<std::string> engine_names() {
 }
 
 std::vector<std::string> engines_covering(const Scene& scene) {
-  const Start start = draw_start(scene);
+  const Disks disks = all_disks(scene);
   std::vector<std::string> names;
   for (const auto& entry : detail::catalogue())
-    if (entry.covers(scene, start.disks)) names.push_back(entry.name);
+    if (entry.covers(scene, disks)) names.push_back(entry.name);
   return names;
 }
 

@@ -73,6 +73,13 @@ TEST(ChoiceOfEngine, SaysWhyTheOneAskedForCannotRunTheScene) {
   }
 }
 
+TEST(ChoiceOfEngine, EnginesThatCoverASceneAreKnownWithoutItsStart) {
+  Scene scene = gas_scene(100, 0.85, Boundary::periodic);
+  scene.species.front().positions = SquareLattice{};
+  EXPECT_THROW(make_simulation(scene), SceneError) << "no square lattice of disks is as dense as this";
+  EXPECT_EQ(engines_covering(scene), engine_names());
+}
+
 // Records of 64 bytes alone are more than a tenth of what is allowed here; ten times as much would be something forgotten.
 TEST(ChoiceOfEngine, EveryEngineTellsItsMemory) {
   const Scene scene = gas_scene(1000, 0.3, Boundary::walls);

@@ -6,6 +6,8 @@
 #include "observe/mechanics.hpp"
 #include "observe/pressure.hpp"
 #include "scene/drawn.hpp"
+#include "simulation/catalogue.hpp"
+#include "simulation/start.hpp"
 #include "studies/compare/costs.hpp"
 #include "studies/compare/reference.hpp"
 #include "studies/horizon/horizon.hpp"
@@ -272,7 +274,7 @@ std::vector<std::string> compared_engines(const Scene& scene, const std::string&
   std::vector<std::string> names;
   const std::vector<std::string> covering = engines_covering(scene);
   if (std::find(covering.begin(), covering.end(), "textbook-float") != covering.end()) names.emplace_back("textbook-float");
-  const std::string runs_it = make_simulation(scene, engine).engine();
+  const std::string runs_it = detail::choose_engine(scene, all_disks(scene), engine).name;
   names.emplace_back("textbook");
   if (runs_it == "fast") names.emplace_back("fast");
   names.emplace_back("textbook-long-double");
