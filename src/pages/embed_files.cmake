@@ -16,7 +16,7 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
   add_custom_command(OUTPUT ${carom_embedded} VERBATIM COMMENT "Embedding the files of a page"
                      COMMAND ${CMAKE_COMMAND} -D OUTPUT=${carom_embedded} -P ${CMAKE_CURRENT_LIST_FILE}
                      DEPENDS ${carom_page_paths} ${CMAKE_CURRENT_LIST_FILE})
-  target_sources(carom PRIVATE ${carom_embedded})
+  target_sources(carom_pages PRIVATE ${carom_embedded})
   return()
 endif()
 
