@@ -1,2 +1,0 @@
-#define CAROM_INSTRUCTIONS avx512
-#include "core/prediction_kernel.hpp"

@@ -1,2 +1,0 @@
-#define CAROM_INSTRUCTIONS portable
-#include "core/prediction_kernel.hpp"

@@ -1,2 +1,0 @@
-#define CAROM_INSTRUCTIONS portable
-#include "neighbours/cage_search_kernel.hpp"

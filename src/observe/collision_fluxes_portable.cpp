@@ -1,2 +1,0 @@
-#define CAROM_INSTRUCTIONS portable
-#include "observe/collision_fluxes_kernel.hpp"

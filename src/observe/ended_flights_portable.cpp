@@ -1,2 +1,0 @@
-#define CAROM_INSTRUCTIONS portable
-#include "observe/ended_flights_kernel.hpp"

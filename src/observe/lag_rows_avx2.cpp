@@ -1,2 +1,0 @@
-#define CAROM_INSTRUCTIONS avx2
-#include "observe/lag_rows_kernel.hpp"

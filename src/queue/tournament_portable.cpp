@@ -1,2 +1,0 @@
-#define CAROM_INSTRUCTIONS portable
-#include "queue/tournament_kernel.hpp"
