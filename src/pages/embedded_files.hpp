@@ -9,7 +9,7 @@
 namespace carom::detail {
 
 struct EmbeddedFile {
-  std::string_view name;                     ///< its path below src/show
+  std::string_view name;                     ///< its path below src/pages
   std::span<const std::string_view> pieces;  ///< its bytes, cut because compilers limit the length of a literal
 };
 

@@ -27,7 +27,7 @@ struct PlayerData {
   std::string description;  ///< JSON: what src/pages/player/recording.js reads
   std::string columns;      ///< the numbers, little-endian, each column at a multiple of 8 bytes
   bool exact = false;
-  std::string why_not;  ///< half a sentence where it is not exact
+  std::string why_not = {};  ///< half a sentence where it is not exact
 };
 
 /// Throws OutputError where the run cannot be read.

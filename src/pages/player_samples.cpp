@@ -1,6 +1,6 @@
 // Positions in steps of the box / 65535, velocities in steps of the fastest / 32767.
 
-#include "pages/player_samples.hpp"
+#include "pages/player_parts.hpp"
 
 #include "pages/moment.hpp"
 

@@ -31,7 +31,7 @@ TEST(SideBySidePage, IsOneFileThatSaysWhatItShowsAndFetchesNothing) {
        {"<title>&lt;b&gt;A dozen&lt;/b&gt; &amp; &quot;more&quot;</title>", "12 disks from one start",
         "in steps of 0.02 (0.05 mean free times)", "carom compare dozen.toml --play", "default-src 'none'"})
     EXPECT_TRUE(contains(html, there)) << there;
-  for (const char* const absent : {"<b>A dozen", "src=\"", "{choices.html}"}) EXPECT_FALSE(contains(html, absent)) << absent;
+  for (const char* const absent : {"<b>A dozen", "src=\"", "{panel}"}) EXPECT_FALSE(contains(html, absent)) << absent;
 }
 
 TEST(SideBySidePage, SaysWhatGrowthMeansWhereItIsKnown) {

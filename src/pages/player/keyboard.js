@@ -1,4 +1,5 @@
-// Every control has a key. Fields, sliders and buttons that have the focus keep the keys that they need themselves.
+// Every control has a key. Fields and sliders that have the focus keep the keys that they need themselves; Space always plays, and
+// Enter presses a button that has the focus.
 "use strict";
 
 const keys = {
@@ -31,23 +32,33 @@ const keys = {
   Escape: () => follow(-1),
 };
 
+/// A key of one page alone, in the list of keys too.
+function addKey(letter, what, action) {
+  keys[letter.toLowerCase()] = action;
+  const [term, key, text] = ["dt", "kbd", "dd"].map((tag) => document.createElement(tag));
+  key.textContent = letter;
+  text.textContent = what;
+  term.append(key);
+  document.querySelector("#help dl").append(term, text);
+}
+
 function connectKeyboard() {
   window.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || control("help").open) return;
     const { tagName, type } = event.target;
-    if (tagName === "SELECT" || (tagName === "INPUT" && type === "number")) return;
+    const isField = tagName === "SELECT" || (tagName === "INPUT" && type === "number");
+    if (isField && event.key !== " ") return;
     if (tagName === "INPUT" && (event.key.startsWith("Arrow") || event.key === "Home" || event.key === "End")) return;
-    if (tagName === "BUTTON" && event.key === " " && event.target === document.activeElement) return;  // it presses the button
     const action = keys[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!action) return;
     event.preventDefault();
     action(event);
   });
-  // A click leaves no focus behind, so that Space plays after it, as in any player of films; who came by keys keeps their place.
-  window.addEventListener("click", (event) => {
-    const isKey = event.isTrusted && event.detail === 0;
-    if (!isKey && event.target.closest("button")) document.activeElement.blur();
+  // Some browsers press the button that has the focus when Space comes up.
+  window.addEventListener("keyup", (event) => {
+    if (event.key === " " && !control("help").open) event.preventDefault();
   });
+  // A list from which the mouse has chosen leaves the letters to the page.
   window.addEventListener("change", (event) => {
     if (event.target.tagName === "SELECT" && !event.target.matches(":focus-visible")) event.target.blur();
   });

@@ -1,37 +1,52 @@
-// Puts the player to work, and keeps it going: one frame after the other for as long as something changes.
+// Puts the page to work, and keeps it going: one frame after the other for as long as it is open. What a page shows beside what all
+// players have is its `panel`.
 //
 // For scripts: window.carom is the player; data-errors of the document says what went wrong.
 "use strict";
 
 /// Moves on by so many seconds, and draws where something has changed.
 function frame(seconds) {
+  const before = moment.time;
+  const wasPlaying = settings.isPlaying;
   advance(seconds);
   if (!isStale) return;
   isStale = false;
+  const { time } = moment;
+  const isFilm = wasPlaying && Math.abs(time - before) <= 1.001 * settings.rate * seconds;  // and has not begun again at an end
   followView(moment);
-  drawMoment(moment);
-  drawCollision(moment);
-  showReadings(moment);
+  panel.show(isFilm ? before : time);
+  say("time", `${time.toPrecision(9).replace(/\.?0+$/, "")} / ${shortNumber(duration)}`);
+  say("followed", settings.followed >= 0 ? `disk ${settings.followed}: ${panel.ofDisk(settings.followed)}` : "click a disk to follow it");
+  showLegendEnds();
   showScrub();
   ++window.carom.frames;
 }
 
-function describeRun() {
-  control("title").textContent = description.title || "A run of Carom";
-  const badge = control("how");
-  badge.textContent = description.exact ? "exact" : "interpolated";
-  badge.classList.toggle("interpolated", !description.exact);
-  const nearest = description.exact ? description.distance + description.rounding : 0;
-  control("how-text").textContent = description.exact
-    ? `Every instant is computed from ${counted(columns.time.length, "recorded event")}: free flight between collisions, ` +
-      (nearest > 0 ? `within ${nearest.toExponential(0)} of where the run had the disks.` : "just where the run had the disks.")
-    : `Interpolated between ${counted(description.samples.count, "sample")}, because ${description.whyNot}: ` +
-      "disks move in straight lines from each sample to the next, and collisions in between are not shown." +
-      (description.samples.every > 1 ? ` One sample in ${description.samples.every} is kept.` : "");
-  listFacts();
-  for (const name of ["collisions", "walls"]) readings[name].closest("div").hidden = !totals;
-  if (description.whyNoZ) say("pressure-label", `no pressure Z: ${description.whyNoZ}`);
-  else if (!totals) say("pressure-label", "pressure Z of the run");
+/// Calls frame(seconds since the last one) for as long as the page is open; and frame(0) at once when a canvas has changed its size,
+/// which leaves it black.
+function keepShowing() {
+  const resize = () => {
+    resizeView();
+    resizePlots();
+  };
+  resize();
+  const resized = new ResizeObserver(() => {
+    resize();
+    isStale = true;
+    frame(0);
+  });
+  for (const element of [canvas, ...plots.map((plot) => plot.element)]) resized.observe(element);
+  let shownAt = 0;
+  const animate = (now) => {
+    const longest = 0.1;  // seconds: after a pause of the browser the run goes on where it was
+    frame(Math.min((now - shownAt) / 1000, longest));
+    shownAt = now;
+    requestAnimationFrame(animate);
+  };
+  requestAnimationFrame((now) => {
+    shownAt = now;
+    animate(now);
+  });
 }
 
 window.carom = {
@@ -57,11 +72,10 @@ fillLists();
 connectControls();
 connectKeyboard();
 connectPointer(canvas, moment);
-describeRun();
+control("title").textContent = document.title;
+panel.describe();
+listFacts();
 listeners.push(showSettings);
 showTime(0, description.exact ? 0 : 1);
 showSettings();
-keepShowing(frame, [canvas, plot], () => {
-  resizeView();
-  resizePlot();
-});
+keepShowing();

@@ -59,3 +59,6 @@ function sampleReplay() {
     },
   };
 }
+
+/// From event to event where the file holds them, else from sample to sample.
+const replay = description.exact ? exactReplay() : sampleReplay();

@@ -39,6 +39,7 @@ function applyTheme() {
     stage: value("--stage"),
     accent: value("--accent"),
     solid: value("--solid"),
+    overlap: value("--overlap"),
     font: value("--text-font"),
   });
 }

@@ -1,7 +1,8 @@
 // From the run's lengths to pixels and back: where the reader looks, how near, and whom the view follows.
 "use strict";
 
-const canvas = document.getElementById("stage");
+const stages = [...document.querySelectorAll(".stage canvas")];  // one box, or two with one view
+const canvas = stages[0];
 const view = { width: 1, height: 1, density: 1, scale: 1, x: 0, y: 0 };  // pixels per length; x, y: the place in the middle
 
 /// The box as large as it ever is.
@@ -56,12 +57,14 @@ function followView(moment) {
   view.y = moment.y[settings.followed];
 }
 
-/// Takes the canvas as large as the page has it.
+/// Takes every box as large as the page has the first.
 function resizeView() {
   const { width, height } = canvas.getBoundingClientRect();
   Object.assign(view, { width, height, density: window.devicePixelRatio || 1 });
-  canvas.width = Math.round(width * view.density);
-  canvas.height = Math.round(height * view.density);
+  for (const stage of stages) {
+    stage.width = Math.round(width * view.density);
+    stage.height = Math.round(height * view.density);
+  }
   if (isFitted && settings.followed < 0) fitView();
 }
 

@@ -2,23 +2,9 @@
 // to the moment shown. A press on one shows the moment there.
 "use strict";
 
-/// A canvas with its size in pixels of the page, which is looked up only when it changes.
-function plotOn(id) {
-  const element = document.getElementById(id);
-  return { element, context: element.getContext("2d"), width: 1, height: 1, density: 1 };
-}
 const distancePlot = plotOn("distance");
 const overlapPlot = plotOn("overlaps");
 const inset = { left: 46, right: 14, top: 8, bottom: 22 };
-
-function resizeCurves() {
-  for (const plot of [distancePlot, overlapPlot]) {
-    const { clientWidth: width, clientHeight: height } = plot.element;
-    Object.assign(plot, { width, height, density: window.devicePixelRatio || 1 });
-    plot.element.width = Math.round(width * plot.density);
-    plot.element.height = Math.round(height * plot.density);
-  }
-}
 
 const plotX = (plot, time) => inset.left + (time / duration) * (plot.width - inset.left - inset.right);
 const plotY = (plot, share) => plot.height - inset.bottom - share * (plot.height - inset.top - inset.bottom);
@@ -33,10 +19,8 @@ function roundTicks(end, count) {
 
 /// Empties the plot and draws its axes; `levels` are pairs of a share of the height and what it says.
 function drawAxes(plot, levels) {
-  const { context, width, height, density } = plot;
-  context.setTransform(density, 0, 0, density, 0, 0);
-  context.clearRect(0, 0, width, height);
-  context.font = `11px ${theme.font}`;
+  const { context, width, height } = plot;
+  clearPlot(plot);
   context.lineWidth = 1;
   context.strokeStyle = theme.rule;
   context.fillStyle = theme.muted;

@@ -16,9 +16,9 @@ function turnsAsEvents() {
 const exact = exactReplay();
 const stepped = exactReplay(turnsAsEvents());
 const stepsMoment = emptyMoment();  // of the fixed steps, at the time of the moment shown
-const stepTimes = Float64Array.from({ length: stepCount + 1 }, (_, step) => step * dt);
+const stepTimes = Float64Array.from({ length: stepCount }, (_, step) => Math.min((step + 1) * dt, description.duration));
 
-/// `done` counts steps.
+/// Reads both sides; `done` counts steps.
 const replay = {
   ...exact,
   stepName: "step",
@@ -26,10 +26,7 @@ const replay = {
   doneAt: (time) => countUpTo(stepTimes, time),
   read(time, done, moment) {
     exact.read(time, exact.doneAt(time), moment);
+    stepped.read(time, stepped.doneAt(time), stepsMoment);
     moment.done = done;
   },
 };
-
-function readSteps(time) {
-  stepped.read(time, stepped.doneAt(time), stepsMoment);
-}

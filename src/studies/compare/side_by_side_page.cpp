@@ -2,10 +2,8 @@
 
 #include "studies/compare/side_by_side_page.hpp"
 
-#include "io/json_number.hpp"
-#include "pages/event_columns.hpp"
-#include "pages/number_columns.hpp"
-#include "pages/playing_page.hpp"
+#include "pages/player_page.hpp"
+#include "pages/player_parts.hpp"
 #include "text/numbers.hpp"
 
 #include <carom/version.hpp>
@@ -24,50 +22,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using detail::NumberColumns;
 
-constexpr std::array<std::string_view, 2> side_by_side_styles = {"player/player.css", "side_by_side/side_by_side.css"};
-constexpr std::array<std::string_view, 22> side_by_side_scripts = {"player/recording.js",    "player/flights.js",
-                                                                   "side_by_side/sides.js",  "player/measures.js",
-                                                                   "player/hexatic.js",      "player/palettes.js",
-                                                                   "player/settings.js",     "player/view.js",
-                                                                   "player/trails.js",       "player/raster.js",
-                                                                   "player/drawing.js",      "player/readings.js",
-                                                                   "player/legend.js",       "player/clock.js",
-                                                                   "player/controls.js",     "player/keyboard.js",
-                                                                   "player/pointer.js",      "player/frames.js",
-                                                                   "side_by_side/twins.js",  "side_by_side/overlaps.js",
-                                                                   "side_by_side/curves.js", "side_by_side/side_by_side.js"};
+constexpr std::array<std::string_view, 4> panel_scripts = {"side_by_side/twins.js", "side_by_side/overlaps.js",
+                                                           "side_by_side/curves.js", "side_by_side/panel.js"};
 
-/// Returns the description of a scene without effects that every playing page needs.
-Json description_of(const SideBySide& shown, const Scene& scene) {
-  const Box& box = scene.box;
-  Json json{{"title", scene.title}, {"disks", shown.disks.count()}, {"exact", true}, {"duration", shown.until}};
-  json["box"] = {{"lower", detail::vector(box.lower)},
-                 {"upper", detail::vector(box.upper)},
-                 {"periodic", Json::array({box.periodic(0), box.periodic(1)})}};
-  json["species"] = Json::array();
-  for (const Species& species : scene.species) json["species"].push_back(species.name);
-  json["gravity"] = detail::vector(Eigen::Vector2d::Zero());
-  json["growth"] = 0.0;
-  json["scale"] = 1.0;
-  json["accelerations"] = Json::array({0.0, 0.0, 0.0, 0.0});
-  json["obstacles"] = Json::array();
-  json["keepsMomentum"] = Json::array({box.periodic(0), box.periodic(1)});
-  json["whyNoZ"] = "";
-  return json;
-}
-
-void put_exact(const SideBySide& shown, const Scene& scene, NumberColumns& columns) {
-  columns.add("radius", shown.disks.radius);
-  columns.add("mass", shown.disks.mass);
-  columns.add("species", std::vector<std::uint16_t>(shown.disks.species.begin(), shown.disks.species.end()));
-  columns.add("start", detail::start_column(shown.start));
-  detail::EventColumns<std::uint16_t> events;
-  for (const Event& event : shown.events) events.add(event, shown.disks.count());
-  events.put<double>(columns);
-  const Box& box = scene.box;
-  const std::array<double, 4> sides = {box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y()};
-  for (std::size_t side = 0; side < 4; ++side)
-    columns.add(fmt::format("wall{}", side), std::vector<double>{0.0, sides[side], 0.0});
+std::vector<std::string> species_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Species& species : scene.species) names.push_back(species.name);
+  return names;
 }
 
 void put_steps(const SideBySide& shown, NumberColumns& columns) {
@@ -158,8 +119,11 @@ std::string why_no_longer(const SideBySide& shown, const Scene& scene) {
 std::string side_by_side_page(const SideBySide& shown, const Scene& scene, const std::optional<Lyapunov>& lyapunov,
                               const std::string& command_line) {
   NumberColumns columns;
-  Json json = description_of(shown, scene);
-  put_exact(shown, scene, columns);
+  Json json = detail::player_description(scene, scene.title, species_names(scene), shown.disks.count());
+  json["exact"] = true;
+  json["duration"] = shown.until;
+  detail::put_disks(shown.disks, columns);
+  detail::put_events(scene, shown.disks, shown.start, shown.events, VelocityDigits::twice, columns, json);
   put_steps(shown, columns);
   json["sigma"] = shown.sigma;
   json["steps"] = {{"method", shown.step.method},
@@ -177,9 +141,9 @@ std::string side_by_side_page(const SideBySide& shown, const Scene& scene, const
                                {"Program", fmt::format("carom {} (commit {})", build.version, build.commit)},
                                {"Compiler", fmt::format("{}; {}", build.compiler, build.flags)}});
   json["columns"] = columns.list();
-  return playing_page({side_by_side_mark, "side_by_side/side_by_side.html", side_by_side_styles, side_by_side_scripts,
-                       "Exact events and fixed steps"},
-                      json.dump(-1, ' ', false, Json::error_handler_t::replace), columns.take_bytes());
+  return player_page({.description = json.dump(-1, ' ', false, Json::error_handler_t::replace), .columns = columns.take_bytes()},
+                     {side_by_side_mark, "Exact events and fixed steps", "side_by_side/side_by_side.html",
+                      "side_by_side/sides.js", panel_scripts});
 }
 
 }  // namespace carom
