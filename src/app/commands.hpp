@@ -22,7 +22,7 @@ struct RunOptions {
   std::optional<std::uint64_t> verify;  ///< events from one check of the invariants to the next; absent: no checks
   std::string progress = "auto";
   std::string method = "exact";  ///< or a fixed-step method
-  std::optional<double> dt;      ///< of a fixed-step method; absent: the sampling grid's
+  std::optional<double> dt;      ///< time step of a fixed-step method; absent: that of the sampling grid
   std::optional<int> threads;    ///< 2: observables on one of their own; absent: where there is a second processor
   bool watch = false;
   std::optional<double> pace;                   ///< simulated time per second to watch; absent: as fast as the machine
@@ -32,10 +32,10 @@ struct RunOptions {
 ExitCode run(const RunOptions& options, const Invocation& invocation);
 
 struct ResumeOptions {
-  std::string directory;                    ///< of a run
+  std::string directory;                    ///< directory of a run
   std::optional<double> time;               ///< another end than the run's own
-  std::optional<std::uint64_t> collisions;  ///< the same
-  RunOptions run;                           ///< how to go on: what the checkpoint does not say
+  std::optional<std::uint64_t> collisions;  ///< number of pair collisions at which the run is to end
+  RunOptions run;                           ///< options that the checkpoint does not hold
 };
 /// Goes on with a run that was interrupted or killed.
 ExitCode resume(const ResumeOptions& options, const Invocation& invocation);
@@ -63,7 +63,7 @@ struct InfoOptions {
 ExitCode info(const InfoOptions& options, const Invocation& invocation);
 
 struct VerifyOptions {
-  std::string directory;  ///< of a finished run
+  std::string directory;  ///< directory of a finished run
   std::string progress = "auto";
 };
 ExitCode verify(const VerifyOptions& options, const Invocation& invocation);
@@ -72,26 +72,26 @@ ExitCode verify(const VerifyOptions& options, const Invocation& invocation);
 std::string reproduction(const std::string& directory, const Invocation& invocation);
 
 struct PlayOptions {
-  std::string directory;  ///< of a finished run
+  std::string directory;  ///< directory of a finished run
   std::string output;     ///< empty: player.html in it
 };
 ExitCode play(const PlayOptions& options);
 
 struct ReportOptions {
-  std::string directory;  ///< of a finished run
+  std::string directory;  ///< directory of a finished run
   std::string output;     ///< empty: report.html in it
 };
 ExitCode report(const ReportOptions& options);
 
 struct MovieOptions {
-  std::string directory;  ///< of a finished run
+  std::string directory;  ///< directory of a finished run
   std::string output;     ///< a film or a picture, which its ending says
   bool force = false;
   std::optional<double> fps;    ///< frames per second; absent: 30
   std::optional<double> speed;  ///< simulated time per second; absent: the film lasts 10 s
   std::optional<double> from;   ///< simulated times; absent: the whole run
   std::optional<double> to;
-  std::optional<double> at;      ///< of a picture; absent: the last sample
+  std::optional<double> at;      ///< time of a picture; absent: the last sample
   std::optional<double> trails;  ///< time
   std::string trails_of;         ///< a species; empty: of all
   std::string size;              ///< WxH or the longer side; empty: 1080, of a GIF 480

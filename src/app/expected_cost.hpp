@@ -12,15 +12,15 @@ namespace carom::cli {
 
 /// The cost of the whole schedule, equilibration included: event loop and observables, without writing files.
 struct ExpectedCost {
-  double trial_seconds = 0.0;          ///< in the event loop alone
-  std::uint64_t trial_collisions = 0;  ///< of pairs
-  double trial_time = 0.0;             ///< of the scene's clock
+  double trial_seconds = 0.0;          ///< seconds of the trial in the event loop alone
+  std::uint64_t trial_collisions = 0;  ///< number of pair collisions in the trial
+  double trial_time = 0.0;             ///< simulated time of the trial
   std::optional<double> collisions;    ///< expected number of pair collisions; empty where the trial does not determine it
-  std::optional<double> seconds;       ///< the same
+  std::optional<double> seconds;       ///< expected seconds; empty where the trial does not determine them
   bool by_theory = false;       ///< collisions are what kinetic theory says of a uniform gas, and not as many as the trial had
   bool at_least = false;        ///< disks grow: later times are denser than the trial, or the end is not known
   bool whole = false;           ///< the trial came to the end of the run
-  std::size_t observables = 0;  ///< so many are in `seconds`
+  std::size_t observables = 0;  ///< number of observables that `seconds` includes
   std::string came_to_rest;     ///< why the trial ended early, "collapsed"; else empty
 };
 

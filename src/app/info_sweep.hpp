@@ -9,12 +9,12 @@
 
 namespace carom::detail {
 
-/// Whether an open HDF5 file is the sweep.h5 of a sweep.
+/// Returns whether an open HDF5 file is the sweep.h5 of a sweep.
 bool is_sweep(hid_t file);
 /// Returns the lines about the sweep in this file. Throws Hdf5Error.
 std::string sweep_lines(hid_t file);
 
-/// Whether a table that begins with this line is sweep.csv or runs.csv.
+/// Returns whether a table that begins with this line is sweep.csv or runs.csv.
 bool is_sweep_table(std::string_view heading);
 std::string describe_sweep_table(const std::filesystem::path& path);
 

@@ -16,7 +16,7 @@ namespace carom::detail {
 
 namespace {
 
-/// The number that `text` begins with.
+/// Returns the number that `text` begins with.
 template <class Number>
 std::optional<Number> leading_number(std::string_view text) {
   Number value{};

@@ -53,7 +53,7 @@ TextArea size_of_terminal() {
 
 std::string plain(TerminalColours colours) { return colours == TerminalColours::none ? "" : "\x1b[39m"; }
 
-/// A horizontal bar to an eighth of a character, with a mark across it; a negative mark is none.
+/// Returns a horizontal bar to an eighth of a character, with a mark across it; a negative mark is not drawn.
 std::string bar(double fraction, int width, double mark = -1.0) {
   static constexpr std::array<const char*, 9> parts = {" ", "▏", "▎", "▍", "▌", "▋", "▊", "▉", "█"};
   const auto eighths = std::lround(8.0 * width * std::clamp(fraction, 0.0, 1.0));

@@ -31,7 +31,7 @@ std::string plain(const std::string& text) {
   return safe;
 }
 
-/// "-q, --quiet" or "--out DIR"; for what is no option, its place: "SCENE"
+/// Returns text such as "-q, --quiet" or "--out DIR"; for what is no option, its place: "SCENE"
 std::string usage_of(const CLI::Option& option) {
   std::vector<std::string> names;
   for (const std::string& name : option.get_snames()) names.push_back("\\fB" + plain("-" + name) + "\\fR");

@@ -10,7 +10,7 @@ class App;
 
 namespace carom::cli {
 
-/// carom(1), in the macros of man(7).
+/// Returns the manual page carom(1), in the macros of man(7).
 std::string manual_page(const CLI::App& program, const std::string& version);
 
 /// Returns the script by which bash completes commands, options and file names.

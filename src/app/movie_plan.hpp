@@ -23,11 +23,11 @@ struct MoviePlan {
 /// Throws UsageError where the options are wrong by themselves, or a file is in the way.
 [[nodiscard]] MoviePlan movie_plan(const MovieOptions& options);
 
-/// The size in pixels for a box of this extent.
+/// Returns the size in pixels for a box of this extent.
 [[nodiscard]] PictureSize size_for(const MoviePlan& plan, const std::array<double, 4>& extent, bool caption);
 
-/// The times of the pictures: one, or those of all frames. Throws UsageError where they are not in the run, which goes from
-/// `begin` to `end`, or are too many.
+/// Returns the times of the pictures: one, or those of all frames. Throws UsageError where they are not in the run, which goes
+/// from `begin` to `end`, or are too many.
 [[nodiscard]] std::vector<double> picture_times(const MovieOptions& options, const MoviePlan& plan, double begin, double end,
                                                 double last_sample);
 

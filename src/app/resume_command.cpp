@@ -21,7 +21,7 @@ namespace carom::cli {
 
 namespace {
 
-/// The scene of the run, to the bit, with the end that is asked for.
+/// Returns the scene of the run, to the bit, with the end that is asked for.
 Scene scene_of(const CheckpointFacts& facts, const ResumeOptions& options) {
   Scene scene = parse_scene(facts.provenance.resolved_scene, facts.scene_source);
   scene.text = facts.scene_text;

@@ -31,7 +31,7 @@ struct BallisticApproach {
     const Vec2<Real> u = velocity(t);
     return {at.dot(u) - (sigma + growth * t) * growth, u.squaredNorm() + at.dot(g) - growth * growth};
   }
-  /// |separation|^2 - (contact distance)^2: its sign is that of the gap; and its rate.
+  /// Returns |separation|^2 - (contact distance)^2: its sign is that of the gap; and its rate.
   [[nodiscard]] ValueAndSlope<Real> overlap(Real t) const {
     const Vec2<Real> at = separation(t);
     const Real reach = sigma + growth * t;
@@ -44,7 +44,8 @@ struct BallisticApproach {
     return 128 * epsilon<Real> * (r.squaredNorm() + t * t * (v.squaredNorm() + t * t * g.squaredNorm()) + reach * reach);
   }
 
-  /// A time from which on the disks recede for ever: at t >= 8 x where |v| and growth are at most |g| x, |r| and sigma at most
+  /// Returns a time from which on the disks recede for ever: at t >= 8 x where |v| and growth are at most |g| x, |r| and sigma at
+  /// most
   /// |g| x^2, rate(t) > |g|^2 t^3 / 4.
   [[nodiscard]] Real horizon() const {
     using std::sqrt;

@@ -14,8 +14,8 @@ struct ValueAndSlope {
   Real slope;
 };
 
-/// A zero of `function` between the places `positive`, where its value is positive, and `other`, where it is not, in either
-/// order. `function(t)` returns a ValueAndSlope<Real>.
+/// Returns a zero of `function` between the places `positive`, where its value is positive, and `other`, where it is not, in
+/// either order. `function(t)` returns a ValueAndSlope<Real>.
 ///
 /// Ends when no number is left between two places of opposite sign, or when a Newton step no longer changes t: to the last bits
 /// that the function's own rounding leaves. A step that leaves the bracket, or is not half the one before the last, is replaced

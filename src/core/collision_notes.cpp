@@ -17,7 +17,7 @@ constexpr std::size_t piece = 64;  ///< notes, that stay in the nearest cache wi
 using Pair = double __attribute__((vector_size(16)));
 using Mask = std::int64_t __attribute__((vector_size(16)));
 
-/// The pair b where all bits are set, a where none is.
+/// Returns the pair b where all bits are set, a where none is.
 Eigen::Vector2d either(std::int64_t bits, const double (&a)[2], const double (&b)[2]) {
   const Pair chosen = Mask{bits, bits} ? Pair{b[0], b[1]} : Pair{a[0], a[1]};
   return {chosen[0], chosen[1]};

@@ -43,7 +43,7 @@ struct Domain {
     return winding;
   }
 
-  /// Whether no other image of a pair at separation r is nearer.
+  /// Returns whether no other image of a pair at separation r is nearer.
   [[nodiscard]] bool nearest(const Vec2<Real>& r) const {
     using std::abs;
     for (int a = 0; a < 2; ++a)

@@ -44,7 +44,7 @@ class ExactSum {
     carry();
   }
 
-  /// The sum, rounded once to the nearest double; +0 where it vanishes.
+  /// Returns the sum, rounded once to the nearest double; +0 where it vanishes.
   [[nodiscard]] double value() const {
     if (beyond_ != 0.0) return beyond_;  // a NaN is not 0 either
     ExactSum sum = *this;

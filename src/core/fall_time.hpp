@@ -28,8 +28,8 @@ template <class Real>
   return (w + (d > 0 ? sqrt(d) : Real(0))) / -a;
 }
 
-/// The only time at which a height that is not positive now is zero while it falls: the body rises above the floor first and
-/// comes back. Infinity where it does not. Error as above.
+/// Returns the only time at which a height that is not positive now is zero while it falls: the body rises above the floor first
+/// and comes back. Infinity where it does not. Error as above.
 template <class Real>
 [[nodiscard]] Real return_time(Real h, Real w, Real a) {
   using std::sqrt;

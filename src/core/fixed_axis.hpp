@@ -15,9 +15,9 @@ namespace carom {
 /// sum of steps is never off by more than half a step, however many lengths it is made of.
 class StepRest {
  public:
-  /// The length speed * time in steps, and what was left before. All digits count: products that are rounded to a double may be
-  /// whole numbers of some fraction of a step every time, and all are rounded to one side then. Requires |speed * time| < half
-  /// the range.
+  /// Returns the length speed * time in steps, and what was left before. All digits count: products that are rounded to a double
+  /// may be whole numbers of some fraction of a step every time, and all are rounded to one side then. Requires |speed * time| <
+  /// half the range.
   std::int64_t steps_of(double speed, double time, double per_length) {
     const TwoDoubles length = TwoDoubles::product(speed, time);
     return whole(length.high, per_length) + whole(length.low, per_length);
@@ -37,7 +37,7 @@ class StepRest {
     return static_cast<std::int64_t>(nearest) + static_cast<std::int64_t>(carried);
   }
 
-  double rest_ = 0.0;  ///< in steps
+  double rest_ = 0.0;  ///< what is left over, in steps
 };
 
 /// One axis of the box as a range of integers. Its arithmetic is that of doubles and pairs of doubles, which every machine rounds
@@ -63,7 +63,8 @@ struct FixedAxis {
     steps = 1.0 / unit;
   }
 
-  /// The coordinate of a position inside the box, to the nearest step. The upper edge of a periodic axis is its lower one.
+  /// Returns the coordinate of a position inside the box, to the nearest step. The upper edge of a periodic axis is its lower
+  /// one.
   [[nodiscard]] std::int64_t at(double position) const {
     const TwoDoubles apart = TwoDoubles::sum(position, -middle.high);
     const double low = apart.low - middle.low;
@@ -77,7 +78,7 @@ struct FixedAxis {
     return beyond ? INT64_MIN : found;
   }
 
-  /// The position of a coordinate, rounded to a double; remainder() has what is missing of it.
+  /// Returns the position of a coordinate, rounded to a double; remainder() has what is missing of it.
   [[nodiscard]] double position(std::int64_t x) const {
     const TwoDoubles apart = from_middle(x);
     const TwoDoubles sum = TwoDoubles::sum(middle.high, apart.high);
@@ -92,11 +93,11 @@ struct FixedAxis {
     return (exact.high - rounded.high) + (exact.low - (rounded.low - middle.low));
   }
 
-  /// A length in steps, rounded towards zero. Requires |length| < half the range.
+  /// Returns a length in steps, rounded towards zero. Requires |length| < half the range.
   [[nodiscard]] std::int64_t steps_of(double length) const { return static_cast<std::int64_t>(length * steps); }
 
  private:
-  /// x unit, to 2^-42 of a step: upper and lower bits of x apart, each of which a double holds.
+  /// Returns x unit, to 2^-42 of a step: upper and lower bits of x apart, each of which a double holds.
   [[nodiscard]] TwoDoubles from_middle(std::int64_t x) const {
     const TwoDoubles upper_bits = TwoDoubles::product(static_cast<double>(x >> 11) * 0x1p11, unit);
     const TwoDoubles s = TwoDoubles::sum(upper_bits.high, static_cast<double>(x & 0x7ff) * unit);

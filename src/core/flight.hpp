@@ -12,7 +12,7 @@ namespace carom {
 
 /// A disk among equals: half a cache line.
 struct alignas(32) Flight {
-  std::int64_t x[2];  ///< at the epoch, in units of FixedAxis::unit from the middle of the box
+  std::int64_t x[2];  ///< position at the epoch, in units of FixedAxis::unit from the middle of the box
   double v[2];        ///< length / time
 };
 
@@ -24,7 +24,7 @@ struct alignas(64) SizedFlight {
   double mass;
 };
 
-/// a - b as integers that wrap: the nearest image on a periodic axis.
+/// Returns a - b as integers that wrap: the nearest image on a periodic axis.
 [[nodiscard]] inline std::int64_t wrapped_difference(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
 }

@@ -13,13 +13,13 @@ struct Instant {
   double high = 0.0;  ///< the nearest double
   double low = 0.0;   ///< the rest, at most half an ulp of `high`
 
-  /// k * dt without rounding. Requires k < 2^53.
+  /// Returns k * dt without rounding. Requires k < 2^53.
   [[nodiscard]] static Instant product(std::uint64_t k, double dt) {
     const TwoDoubles p = TwoDoubles::product(static_cast<double>(k), dt);
     return {p.high, p.low};
   }
 
-  /// a + b without rounding
+  /// Returns a + b without rounding
   [[nodiscard]] static Instant sum(double a, double b) {
     const TwoDoubles s = TwoDoubles::sum(a, b);
     return {s.high, s.low};

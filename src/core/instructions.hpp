@@ -6,7 +6,7 @@ namespace carom {
 /// Instruction sets in ascending order: a machine that has one has all before it.
 enum class Instructions { portable, avx2, avx512 };
 
-/// The best that this build has kernels for and the machine can run; or, of these, the one that the environment names in
+/// Returns the best that this build has kernels for and the machine can run; or, of these, the one that the environment names in
 /// CAROM_INSTRUCTIONS (any other word is ignored). The bits of a run do not depend on it.
 [[nodiscard]] Instructions chosen_instructions();
 

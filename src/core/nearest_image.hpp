@@ -9,7 +9,7 @@
 
 namespace carom {
 
-/// The shortest of all vectors that differ from `apart` by whole box lengths along periodic axes.
+/// Returns the shortest of all vectors that differ from `apart` by whole box lengths along periodic axes.
 [[nodiscard]] inline Eigen::Vector2d nearest_image(const Box& box, Eigen::Vector2d apart) {
   for (int axis = 0; axis < 2; ++axis) {
     if (!box.periodic(axis)) continue;

@@ -15,8 +15,8 @@ struct SlidingFrame {
   /// Of the centre of each disk's cage, in steps of 2^32. It tells in which box a disk is whose coordinate has wrapped;
   /// velocities are those of the disk in that box, and those of its images above and below are other ones.
   const std::int32_t* heights = nullptr;
-  std::int64_t displacement = 0;  ///< of the images above at the epoch, in steps of a coordinate
-  double speed = 0.0;             ///< of the images above
+  std::int64_t displacement = 0;  ///< displacement of the images above at the epoch, in steps of a coordinate
+  double speed = 0.0;             ///< speed of the images above
   std::int64_t inner = 0;         ///< disks with cages nearer to the middle than this meet nobody through an edge
 };
 
@@ -29,10 +29,10 @@ struct PredictionFrame {
   /// The time at which a disk leaves its cage is rounded down to steps of this length (a power of two; 0 for none). It is nothing
   /// physical, and with a time of few bits as `now` the predictions made then are exact for dyadic data.
   double edge_step = 0.0;
-  double scale = 1.0;   ///< of all radii at the epoch; beyond 1 only for the kernel of growing disks
-  double growth = 0.0;  ///< of the scale, per time
+  double scale = 1.0;   ///< scale of all radii at the epoch; beyond 1 only for the kernel of growing disks
+  double growth = 0.0;  ///< growth of the scale per time
   double well = 1.0;    ///< outer over hard diameter; beyond 1 only for the kernel of wells
-  const std::vector<std::int32_t>* inside = nullptr;  ///< for that kernel: of each disk, those inside its well
+  const std::vector<std::int32_t>* inside = nullptr;  ///< for the kernel of wells: for each disk, those inside its well
   SlidingFrame sliding = {};
 };
 
@@ -79,10 +79,10 @@ struct PredictionKernel {
   /// loads that follow read what has just been written.)
   void (*turn_and_predict)(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, double avx, double avy,
                            double bvx, double bvy);
-  const char* name;  ///< of the instruction set
+  const char* name;  ///< name of the instruction set
 };
 
-/// The best kernel for this machine; see core/instructions.hpp. That of wells is the same on all.
+/// Returns the best kernel for this machine; see core/instructions.hpp. That of wells is the same on all.
 template <class Line>
 const PredictionKernel<Line>& prediction_kernel(Contact contact = Contact::hard);
 

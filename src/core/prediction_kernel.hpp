@@ -24,7 +24,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 CAROM_INLINE Longs all(std::int64_t x) { return Longs{x, x, x, x}; }
 
-/// a - b as integers that wrap.
+/// Returns a - b as integers that wrap.
 CAROM_INLINE Longs wrapped(Longs a, Longs b) {
   return reinterpret_cast<Longs>(reinterpret_cast<UnsignedLongs>(a) - reinterpret_cast<UnsignedLongs>(b));
 }
@@ -217,8 +217,8 @@ CAROM_INLINE void store(Line& line, Longs x, Doubles v, bool upper) {
       upper ? __builtin_shufflevector(x, bits, 2, 3, 6, 7) : __builtin_shufflevector(x, bits, 0, 1, 4, 5);
 }
 
-/// The coordinates of new lines, x and y of a, x and y of b, where from `now` on the velocities are v; see Contact::falling for
-/// how they are rounded.
+/// Returns the coordinates of new lines, x and y of a, x and y of b, where from `now` on the velocities are v; see
+/// Contact::falling for how they are rounded.
 template <bool falling, class Line>
 CAROM_INLINE Longs new_places(const Line& a, const Line& b, Doubles v, const PredictionFrame& frame, double now,
                               CollidedPair& pair) {

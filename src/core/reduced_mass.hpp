@@ -4,7 +4,7 @@
 
 namespace carom {
 
-/// a b / (a + b), to the bit the same with a and b exchanged.
+/// Returns a b / (a + b), to the bit the same with a and b exchanged.
 [[nodiscard]] constexpr double reduced_mass(double a, double b) { return a < b ? a * (b / (a + b)) : b * (a / (a + b)); }
 
 /// Returns the reduced mass from the product of the two masses; falls back to the quotients where the product is beyond the range

@@ -17,7 +17,7 @@ struct RunningTotals : Counts {
   ExactSum dissipated, growth_energy, shear_energy;
   std::array<ExactSum, 2> obstacle_impulse;
 
-  /// The totals so far. Takes a microsecond: not for every event.
+  /// Returns the totals so far. Takes a microsecond: not for every event.
   [[nodiscard]] Totals rounded() const {
     Totals totals{static_cast<const Counts&>(*this)};
     totals.virial = virial.value();

@@ -72,14 +72,14 @@ struct PathAtSegment {
     rounding = 8 * epsilon<Real> * (sqrt(path.r.squaredNorm()) + sqrt(segment.from.squaredNorm()) + length);
   }
 
-  /// Whether the centre is abreast at time t, or is not by no more than rounding.
+  /// Returns whether the centre is abreast at time t, or is not by no more than rounding.
   [[nodiscard]] bool is_abreast(Real t) const {
     using std::abs;
     const Real x = abreast.at(t);
     const Real slack = rounding + 8 * epsilon<Real> * t * (abs(abreast.v) + t / 2 * abs(abreast.a));
     return length > 0 && x >= -slack && x <= length + slack;
   }
-  /// Whether the gap to the face that the centre is in front of shrinks at time t.
+  /// Returns whether the gap to the face that the centre is in front of shrinks at time t.
   [[nodiscard]] bool approaches(Real t, Real growth) const {
     return (height.at(t) < 0 ? -height.rate(t) : height.rate(t)) < growth;
   }

@@ -7,9 +7,9 @@
 
 namespace carom {
 
-/// The axis that a wall is across: 0 for left and right, 1 for bottom and top.
+/// Returns the axis that a wall is across: 0 for left and right, 1 for bottom and top.
 [[nodiscard]] constexpr int axis_of(Wall wall) { return wall >= wall_right ? 0 : 1; }
-/// Whether it is the upper one of its axis: right or top.
+/// Returns whether it is the upper one of its axis: right or top.
 [[nodiscard]] constexpr bool is_upper(Wall wall) { return wall == wall_right || wall == wall_top; }
 /// Left, right, bottom, top: 0 to 3.
 [[nodiscard]] constexpr std::size_t index_of(Wall wall) { return static_cast<std::size_t>(-1 - wall); }

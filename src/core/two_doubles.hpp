@@ -11,18 +11,18 @@ struct TwoDoubles {
   double high = 0.0;  ///< the nearest double
   double low = 0.0;   ///< the rest, at most half an ulp of `high`
 
-  /// a + b without rounding. Requires that the sum does not overflow.
+  /// Returns a + b without rounding. Requires that the sum does not overflow.
   [[nodiscard]] static TwoDoubles sum(double a, double b) {
     const double s = a + b;
     const double z = s - a;
     return {s, (a - (s - z)) + (b - z)};
   }
-  /// a b without rounding. Requires that neither the product overflows nor its last digit, 2^-106 of it, underflows.
+  /// Returns a b without rounding. Requires that neither the product overflows nor its last digit, 2^-106 of it, underflows.
   [[nodiscard]] static TwoDoubles product(double a, double b) {
     const double p = a * b;
     return {p, std::fma(a, b, -p)};
   }
-  /// The number plus b, to about 2^-104 of the larger of the two.
+  /// Returns the number plus b, to about 2^-104 of the larger of the two.
   [[nodiscard]] TwoDoubles plus(double b) const {
     const TwoDoubles s = sum(high, b);
     return sum(s.high, s.low + low);

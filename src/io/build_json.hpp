@@ -5,7 +5,7 @@
 
 namespace carom::detail {
 
-/// version, commit, compiler, flags, and the instruction set that runs here
+/// Returns version, commit, compiler, flags, and the instruction set that runs here
 [[nodiscard]] nlohmann::ordered_json build_json();
 
 }  // namespace carom::detail

@@ -30,7 +30,7 @@ constexpr std::size_t head_bytes = 512;
 /// Version of the format of the parts' contents; a program reads only its own.
 constexpr std::uint64_t checkpoint_format = 1;
 
-/// The text before the HDF5 file, which is all of it, so that nothing in it can change unnoticed.
+/// Returns the text before the HDF5 file, which is all of it, so that nothing in it can change unnoticed.
 std::string head_for(std::uint64_t bytes, const XXH128_hash_t& sum) {
   std::string head = fmt::format(
       "carom checkpoint\nAn HDF5 file begins at byte 512.\nbytes {}\nxxh3-128 {:016x}{:016x} of bytes 512 to the end\n", bytes,

@@ -22,14 +22,14 @@ namespace carom {
 /// Facts about the run of a checkpoint.
 struct CheckpointFacts {
   Provenance provenance;
-  std::string scene_source;  ///< as the user called the scene's file
-  std::string scene_text;    ///< as it was read
+  std::string scene_source;  ///< name of the scene's file, as the user gave it
+  std::string scene_text;    ///< text of the scene, as it was read
   std::vector<std::string> overrides;
   double time = 0.0;
   std::uint64_t collisions = 0;
   bool finished = false;  ///< the run had come to its end
   double wall_seconds = 0.0;
-  std::uint64_t verify = 0;  ///< what the run was asked beside its scene: RunOptions of the program
+  std::uint64_t verify = 0;  ///< options of the run besides its scene: RunOptions of the program
   std::string checkpoint_every;
   bool report = false;
 };

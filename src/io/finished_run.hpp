@@ -19,7 +19,7 @@ namespace carom::detail {
 void require_finished_run(const std::filesystem::path& directory);
 [[nodiscard]] bool has_trajectory(const std::filesystem::path& directory);
 
-/// summary.json. Its keys are not checked.
+/// Returns summary.json. Its keys are not checked.
 [[nodiscard]] nlohmann::ordered_json summary_in(const std::filesystem::path& directory);
 /// Returns the error to throw where the keys are not those of a summary.
 [[nodiscard]] OutputError no_summary(const std::filesystem::path& directory);
@@ -40,8 +40,8 @@ auto reading_hdf5(const std::filesystem::path& path, Action action) {
 /// Opens a file that Carom wrote. Throws Hdf5Error too.
 [[nodiscard]] Hdf5Id open_trajectory(const std::filesystem::path& path);
 
-/// The scene with every default that the file at `path` holds. Its species are not those of the run where a start file that it
-/// names is gone.
+/// Returns the scene with every default that the file at `path` holds. Its species are not those of the run where a start file
+/// that it names is gone.
 [[nodiscard]] Scene scene_of(const std::string& resolved, const std::filesystem::path& path);
 /// Returns the scene of a trajectory.
 [[nodiscard]] Scene scene_in(hid_t file, const std::filesystem::path& path);

@@ -15,7 +15,7 @@ namespace carom::detail {
 
 struct DatasetLayout {
   std::vector<hsize_t> row;    ///< the extents of one row; empty for a single number
-  hsize_t rows_per_chunk = 1;  ///< how many rows are buffered, written and read together
+  hsize_t rows_per_chunk = 1;  ///< number of rows that are buffered, written and read together
   bool compressed = false;     ///< where the library can
 };
 
@@ -68,7 +68,7 @@ class GrowingDataset {
     if constexpr (Archive::is_loading::value) require_rows(dataset_.get(), written_rows_);
   }
 
-  /// A new row of zeros at the end, for the caller to fill. It is valid until the next call of any function.
+  /// Returns a new row of zeros at the end, for the caller to fill. It is valid until the next call of any function.
   [[nodiscard]] std::span<Number> add_row() {
     if (chunk_is_complete()) write();
     buffer_.resize(buffer_.size() + row_size_);

@@ -43,12 +43,12 @@ class H5mdWriter {
   void events(std::span<const Event> events);  ///< nothing where scene.output.events is not set
   /// Writes the results of observables; to be called once, at the end.
   void measurements(const std::vector<Measurement>& observables);
-  void flush();  ///< from now on all samples so far survive whatever happens
+  void flush();  ///< writes all samples so far to the file, where they survive a kill
   void close();
   /// Flushes, and writes how far the file has come.
   void save(std::ostream& out);
 
-  [[nodiscard]] std::uint64_t safe_samples() const { return safe_samples_; }  ///< up to the last flush
+  [[nodiscard]] std::uint64_t safe_samples() const { return safe_samples_; }  ///< number of samples up to the last flush
   [[nodiscard]] std::uint64_t safe_events() const { return safe_events_; }
   [[nodiscard]] std::size_t buffered_bytes() const;  ///< all memory that holds data, without HDF5's own caches
 

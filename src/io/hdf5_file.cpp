@@ -157,7 +157,7 @@ struct DriverFile {
   H5FD_t header;  // first, because HDF5 knows this struct by it
   Hdf5File* file;
   haddr_t end_of_allocated;
-  haddr_t index_begin, index_end;  ///< what is left of the page that new parts of the index go into
+  haddr_t index_begin, index_end;  ///< the rest of the page that new parts of the index go into
 };
 
 DriverFile* driver_file(H5FD_t* file) { return reinterpret_cast<DriverFile*>(file); }
@@ -266,8 +266,8 @@ H5FD_class_t driver_class() {
   return driver;
 }
 
-/// The driver that HDF5 keeps until the process ends. When HDF5 closes a file it frees the class of a driver without other users,
-/// and then calls that class once more. A program may close the library in between, which drops all drivers.
+/// Returns the driver that HDF5 keeps until the process ends. When HDF5 closes a file it frees the class of a driver without
+/// other users, and then calls that class once more. A program may close the library in between, which drops all drivers.
 hid_t driver() {
   static hid_t registered = H5I_INVALID_HID;
   if (H5Iget_type(registered) != H5I_VFL) {

@@ -21,7 +21,7 @@ namespace carom::detail {
 
 class Hdf5File {
  public:
-  static constexpr std::size_t page_size = 4096;  ///< what the system writes as a whole
+  static constexpr std::size_t page_size = 4096;  ///< number of bytes that the system writes as a whole
 
   Hdf5File() = default;
   Hdf5File(const Hdf5File&) = delete;
@@ -42,7 +42,7 @@ class Hdf5File {
   [[nodiscard]] Hdf5Id reopen(const std::filesystem::path& path, std::istream& saved);
 
   [[nodiscard]] int error() const { return error_; }  ///< errno of the first failure, else 0
-  [[nodiscard]] std::size_t held_bytes() const;       ///< of the index, waiting for the next flush
+  [[nodiscard]] std::size_t held_bytes() const;       ///< number of bytes of the index that wait for the next flush
   [[nodiscard]] std::uint64_t bytes_written() const { return bytes_written_; }
 
   // The functions that HDF5 calls. None of them throws.
@@ -64,7 +64,7 @@ class Hdf5File {
 
   int descriptor_ = -1;
   int error_ = 0;
-  std::uint64_t size_ = 0;  ///< as HDF5 believes it to be
+  std::uint64_t size_ = 0;  ///< size of the file as HDF5 sees it
   std::uint64_t bytes_written_ = 0;
   std::map<std::uint64_t, Page> held_;  ///< by page number
   std::set<std::uint64_t> index_;       ///< numbers of all pages that have anything of the index

@@ -111,14 +111,14 @@ void write_column(hid_t parent, const std::string& name, const std::vector<std::
 
 /// Empty where there is no such attribute, or it is no single string.
 [[nodiscard]] std::string read_string_attribute(hid_t file, const std::string& object, const std::string& name);
-/// Every element of a list of strings; empty where there is no such attribute, or it holds something else.
+/// Returns every element of a list of strings; empty where there is no such attribute, or it holds something else.
 [[nodiscard]] std::vector<std::string> read_strings_attribute(hid_t file, const std::string& object, const std::string& name);
-/// Every element of an attribute of numbers; empty where there is none, or it holds something else.
+/// Returns every element of an attribute of numbers; empty where there is none, or it holds something else.
 [[nodiscard]] std::vector<double> read_numbers_attribute(hid_t file, const std::string& object, const std::string& name);
 [[nodiscard]] std::uint64_t read_unsigned_attribute(hid_t file, const std::string& object, const std::string& name);
-/// The names in a group, in alphabetical order; empty where there is none.
+/// Returns the names in a group, in alphabetical order; empty where there is none.
 [[nodiscard]] std::vector<std::string> members_of(hid_t file, const std::string& group);
-/// The extents of a dataset; empty where there is none.
+/// Returns the extents of a dataset; empty where there is none.
 [[nodiscard]] std::vector<hsize_t> extents_of(hid_t file, const std::string& dataset);
 /// Rows [first, first + count) of a dataset, as doubles. Throws Hdf5Error.
 [[nodiscard]] std::vector<double> read_rows(hid_t file, const std::string& dataset, hsize_t first, hsize_t count);

@@ -10,8 +10,8 @@ namespace carom {
 /// Its keys are those of docs/output.md. null stands for what has no meaning or was not found.
 nlohmann::ordered_json horizon_json(const Horizon& horizon);
 
-/// The inverse. The end of the scene's run (Horizon::run_time) is not in it: the scene has that. Throws nlohmann::json::exception
-/// where keys are missing or of another type.
+/// Returns the horizon from its JSON. The end of the scene's run (Horizon::run_time) is not in it: the scene has that. Throws
+/// nlohmann::json::exception where keys are missing or of another type.
 Horizon horizon_of(const nlohmann::ordered_json& json);
 
 }  // namespace carom

@@ -11,7 +11,7 @@ namespace carom {
 /// Over what an average is: "time" or "collisions".
 [[nodiscard]] inline const char* average_word(Average average) { return average == Average::time ? "time" : "collisions"; }
 
-/// "observe_NAME.csv"
+/// Returns text such as "observe_NAME.csv"
 [[nodiscard]] std::string table_file(const Table& table);
 
 /// Throws OutputError.

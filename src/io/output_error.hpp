@@ -17,8 +17,8 @@ class OutputError : public std::runtime_error {
 
 namespace detail {
 
-/// "PATH: cannot ACTION: REASON; ADVICE", with the system's reason and the advice that belong to `error_number`.
-/// `kept` says what can still be read, and stands before the advice where it is not empty.
+/// Returns the error "PATH: cannot ACTION: REASON; ADVICE", with the system's reason and the advice that belong to
+/// `error_number`. `kept` says what can still be read, and stands before the advice where it is not empty.
 [[nodiscard]] OutputError system_error(const std::filesystem::path& path, std::string_view action, int error_number,
                                        std::string_view kept = {});
 

@@ -50,7 +50,7 @@ class RunDirectory {
   /// `path` is not a directory or not writable, and where another process uses it; nothing has then been changed.
   RunDirectory(std::filesystem::path path, bool force, std::span<const std::string_view> products = run_products);
 
-  /// The directory of a run that is to go on. Throws OutputError where there is none, or nothing can be written there.
+  /// Returns the directory of a run that is to go on. Throws OutputError where there is none, or nothing can be written there.
   [[nodiscard]] static RunDirectory reopen(std::filesystem::path path);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

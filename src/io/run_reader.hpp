@@ -31,12 +31,12 @@ class RunReader {
   [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& facts() const { return facts_; }
 
   [[nodiscard]] double end() const { return end_; }                 ///< the time that the run reached
-  [[nodiscard]] std::optional<double> Z() const { return Z_; }      ///< of the whole run, where it has one
+  [[nodiscard]] std::optional<double> Z() const { return Z_; }      ///< Z of the whole run, if it has one
   [[nodiscard]] std::uint64_t samples() const { return samples_; }  ///< 0 where it kept events alone
   [[nodiscard]] std::uint64_t events() const { return events_; }    ///< 0 without a log
   [[nodiscard]] bool has_event_log() const { return has_event_log_; }
 
-  [[nodiscard]] std::vector<double> sample_times() const;  ///< in order
+  [[nodiscard]] std::vector<double> sample_times() const;  ///< times of all samples, in order
   /// Sample k with its time, to the last bit, but for positions of runs whose output was unwrapped: on periodic axes they are
   /// brought back into the box, whatever the file holds. No remainders, bonds, and velocities of walls.
   [[nodiscard]] State sample(std::uint64_t k) const;
@@ -44,13 +44,13 @@ class RunReader {
   [[nodiscard]] Totals totals(std::uint64_t k) const;
   /// Positions and velocities at the beginning of the event log. Requires a log.
   [[nodiscard]] State start() const;
-  /// The whole log, in order of time: ids are those of disks, walls and obstacles of this run, numbers are finite.
+  /// Returns the whole log, in order of time: ids are those of disks, walls and obstacles of this run, numbers are finite.
   [[nodiscard]] std::vector<Event> event_log() const { return event_log(0, events_, 0.0); }
   /// `count` events from `first` on, the one before which was at time `before`.
   [[nodiscard]] std::vector<Event> event_log(std::uint64_t first, std::uint64_t count, double before) const;
-  /// kT that observables refer to (ObservedRun::temperature).
+  /// Returns kT that observables refer to (ObservedRun::temperature).
   [[nodiscard]] double reference_temperature() const;
-  /// The scene with other values for some of its keys (load_scene). Throws SceneError for these.
+  /// Returns the scene with other values for some of its keys (load_scene). Throws SceneError for these.
   [[nodiscard]] Scene scene(const std::vector<std::string>& overrides) const;
 
  private:
@@ -65,7 +65,7 @@ class RunReader {
   /// Row k of /observables/NAME; empty where the file has none.
   [[nodiscard]] std::vector<double> observable(const std::string& name, std::uint64_t k, std::uint64_t row_size) const;
 
-  std::filesystem::path path_;  ///< of the trajectory
+  std::filesystem::path path_;  ///< path of the trajectory
   detail::Hdf5Id file_;
   Scene scene_;
   std::string resolved_scene_;

@@ -17,7 +17,7 @@ using detail::Hdf5Error;
 using detail::parameters;
 using detail::particles;
 
-/// The columns of a table, of one length.
+/// Returns the columns of a table, of one length.
 std::vector<Column> columns_in(hid_t file, const std::string& group) {
   const std::vector<std::string> names = detail::read_strings_attribute(file, group, "columns");
   const std::vector<std::string> units = detail::read_strings_attribute(file, group, "units");
@@ -46,7 +46,7 @@ Disks disks_in(hid_t file) {
   return disks;
 }
 
-/// Every so many-th of a long list.
+/// Returns a list thinned to at most a thousand entries at equal distances.
 std::vector<double> thinned(const std::vector<double>& all) {
   constexpr std::size_t most = 1000;  // a plot shows no more
   const std::size_t step = (all.size() + most - 1) / most;

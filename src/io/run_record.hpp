@@ -17,8 +17,8 @@
 namespace carom {
 
 struct RunRecord {
-  RunReport report;  ///< as summary.json has it; tables of observables are those of the trajectory
-  BuildInfo build;   ///< of the program that ran
+  RunReport report;  ///< the report in summary.json; tables of observables are those of the trajectory
+  BuildInfo build;   ///< the program that ran
   std::string command_line;
 
   /// The scene, and what only the trajectory holds; empty without a trajectory.
@@ -30,7 +30,7 @@ struct RunRecord {
     std::string text;                    ///< the scene as it was written
     std::vector<std::string> overrides;  ///< options of the command line that change the scene
     std::uint64_t samples = 0, events = 0;
-    std::vector<double> times;    ///< of samples: of every so many-th, a thousand at most
+    std::vector<double> times;    ///< times of samples, thinned to a thousand at most
     std::vector<Column> sampled;  ///< "temperature", "kinetic_energy", ... at these times
   };
   bool has_trajectory = false;

@@ -69,7 +69,7 @@ class RunWriter {
   bool trajectory_;
   bool unwrapped_;
   Provenance provenance_;
-  std::vector<std::string> products_;  ///< in the order of run_products, without the summary
+  std::vector<std::string> products_;  ///< names of the files in the order of run_products, without the summary
   bool holds_data_ = false;
   bool finished_ = false;
   State unwrapped_state_;  // kept from sample to sample for its memory

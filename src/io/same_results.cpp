@@ -71,7 +71,7 @@ class RawDataset {
   std::vector<hsize_t> extents_;
 };
 
-/// The first row that differs, in words; empty where none does.
+/// Returns the first row that differs, in words; empty where none does.
 std::string first_difference(const RawDataset& one, const RawDataset& other) {
   if (!one.is_of_type(other)) return "numbers of another type";
   if (one.extents() != other.extents())

@@ -11,7 +11,7 @@ namespace carom {
 
 /// The files that were compared, and their differences.
 struct SameResults {
-  std::vector<std::string> files;        ///< those compared, with what is in them: "trajectory.h5md (23 datasets)"
+  std::vector<std::string> files;        ///< the files that were compared, with their contents: "trajectory.h5md (23 datasets)"
   std::vector<std::string> differences;  ///< one sentence each, the first few of every file; empty where all is the same
 };
 

@@ -8,7 +8,8 @@
 
 namespace carom {
 
-/// The text of summary.json, without a newline at its end. null stands for what has no meaning and for what is not finite.
+/// Returns the text of summary.json, without a newline at its end. null stands for what has no meaning and for what is not
+/// finite.
 std::string summary_json(const RunReport& report, const Provenance& provenance);
 
 }  // namespace carom

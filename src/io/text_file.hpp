@@ -24,7 +24,7 @@ class TextFile {
   /// Text is appended here; then call end_line() or end_record().
   [[nodiscard]] std::string& buffer() { return buffer_; }
   void end_line();    ///< lets a full buffer go to the file
-  void end_record();  ///< the same, and: what was written so far is worth keeping if the disk fills up
+  void end_record();  ///< ends a line that also ends a record: a file is cut back to whole records if the disk fills up
 
   void flush();  ///< hands everything to the operating system
   void close();  ///< flush, and the end
@@ -39,8 +39,8 @@ class TextFile {
   std::string buffer_;
   int descriptor_ = -1;
   std::uint64_t written_ = 0;
-  std::uint64_t record_end_ = 0;          ///< in bytes from the beginning, buffered text included
-  std::uint64_t written_record_end_ = 0;  ///< of the last record that is in the file for certain
+  std::uint64_t record_end_ = 0;          ///< end of the last record, in bytes from the beginning, buffered text included
+  std::uint64_t written_record_end_ = 0;  ///< end of the last record that is in the file for certain
 };
 
 }  // namespace carom::detail

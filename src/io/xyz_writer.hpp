@@ -43,7 +43,7 @@ class XyzWriter {
 
   detail::TextFile file_;
   Box box_;
-  double diameter_;   ///< of the largest disk at scale 1
+  double diameter_;   ///< diameter of the largest disk at scale 1
   std::string head_;  ///< the comment line up to the time
   std::vector<Kind> kinds_;
   double tails_scale_ = 1.0;        ///< for which tails_ are

@@ -7,7 +7,7 @@ namespace carom {
 
 namespace {
 
-/// The first block of a row that begins at step `row`.
+/// Returns the first block of a row that begins at step `row`.
 std::uint64_t first_block(std::size_t row, std::size_t level) { return (row + (std::uint64_t{1} << level) - 1) >> level; }
 
 }  // namespace

@@ -26,8 +26,8 @@ class RateWithBoundedPart {
 
  private:
   Blocking all_, rest_;
-  double weight_ = 0.0;      ///< of all samples
-  std::uint64_t count_ = 0;  ///< of the quantity's values, with their mean and sum of squares about it
+  double weight_ = 0.0;      ///< total weight of all samples
+  std::uint64_t count_ = 0;  ///< number of the quantity's values, with their mean and sum of squares about it
   double mean_ = 0.0, squares_ = 0.0;
 };
 

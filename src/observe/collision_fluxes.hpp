@@ -20,7 +20,7 @@ struct alignas(32) Lanes {
 /// Momentum that jumps.
 struct TransferSum {
   Lanes virial[4];        ///< r_a J_b: xx, xy, yx, yy
-  double meetings = 0.0;  ///< of sigma sqrt(mu) where the disks touch; of mixtures alone
+  double meetings = 0.0;  ///< sum of sigma sqrt(mu) over collisions; in mixtures only
 };
 
 /// A flux whose integral over time is wanted: what flies grows by `change` at time t, and so the integral up to a later time T by

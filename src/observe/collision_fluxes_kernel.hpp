@@ -45,7 +45,7 @@ CAROM_INLINE Vectors joined(Doubles a, Doubles b) {
   return {__builtin_shufflevector(a, b, 0, 4, 2, 6), __builtin_shufflevector(a, b, 1, 5, 3, 7)};
 }
 
-/// a_x b_y + a_y b_x and a_x b_x - a_y b_y
+/// Returns a_x b_y + a_y b_x and a_x b_x - a_y b_y
 CAROM_INLINE Vectors traceless(const Vectors& a, const Vectors& b) { return {a.x * b.y + a.y * b.x, a.x * b.x - a.y * b.y}; }
 
 static_assert(offsetof(CollisionNote, partner_before) == offsetof(CollisionNote, before) + 2 * sizeof(double) &&

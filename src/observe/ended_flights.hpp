@@ -18,13 +18,13 @@ struct alignas(64) EndedFlights {
 
   /// durations of the flights; `unknown` where the disk is not followed, or its flight began before the run
   double time[2][most] = {};
-  double velocity[most][4] = {};  ///< of one disk and the other, all the way
+  double velocity[most][4] = {};  ///< velocities of the two disks during the whole flight
 };
 
 /// Bins of two histograms, and sums.
 struct alignas(64) TalliedFlights {
   std::int32_t time_bin[2][EndedFlights::most], path_bin[2][EndedFlights::most];  ///< beyond the last where there is none
-  double flights, time, path;  ///< of those that are known; the same bits whichever disk comes first
+  double flights, time, path;  ///< sums over flights of known duration; the same bits whichever disk comes first
 };
 
 struct FlightBins {

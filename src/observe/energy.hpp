@@ -11,16 +11,16 @@
 
 namespace carom {
 
-/// sum of I w^2 / 2, I = m r^2 / 2 with the radii of the state; 0 where disks are smooth
+/// Returns the sum of I w^2 / 2, I = m r^2 / 2 with the radii of the state; 0 where disks are smooth
 [[nodiscard]] double spin_energy(const Disks& disks, const State& state);
 
-/// The work still to be got from gravity, wells and loads, the sum of
+/// Returns the work still to be got from gravity, wells and loads, the sum of
 ///   m |g| h over disks, h the height of the centre above the side of the box to which that component of g points;
 ///   - depth over pairs inside each other's well;
 ///   load * length of the wall * way outward from its place in `box`, over pistons.
 [[nodiscard]] double potential_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 
-/// sum of M u^2 / 2 over pistons
+/// Returns the sum of M u^2 / 2 over pistons
 [[nodiscard]] double piston_energy(const Effects& effects, const State& state);
 
 /// Energy, and of what kind it is.
@@ -38,7 +38,7 @@ struct Energies {
 
 [[nodiscard]] double total_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 
-/// Whether energy is more than that of disks in flight.
+/// Returns whether energy is more than that of disks in flight.
 [[nodiscard]] bool has_potential(const Effects& effects);
 [[nodiscard]] bool has_pistons(const Effects& effects);
 [[nodiscard]] bool has_more_than_kinetic_energy(const Effects& effects);

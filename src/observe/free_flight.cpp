@@ -65,7 +65,7 @@ class FlightHistogram {
   [[nodiscard]] std::size_t bins() const { return counts_.size() - 1; }
 
   double width_;
-  std::vector<std::uint32_t> counts_;  ///< of the bins, and of all the rest
+  std::vector<std::uint32_t> counts_;  ///< counts of the bins, and of all values beyond them
   BlockedColumn shares_;
 };
 
@@ -243,7 +243,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   FollowedDisks places_;  ///< in noted_
   std::string why_no_path_;
   EndedFlights ended_;
-  std::uint64_t count_ = 0;                  ///< of collisions in it
+  std::uint64_t count_ = 0;                  ///< number of collisions in it
   std::uint64_t counted_ = 0, samples_ = 0;  ///< flights, and samples, since the last one of the histograms
   std::uint64_t histograms_ = 0;             ///< that were looked at
   const EndedFlightsKernel& kernel_ = ended_flights_kernel();

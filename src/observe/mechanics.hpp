@@ -9,13 +9,13 @@
 
 namespace carom {
 
-/// sum of m v^2 / 2
+/// Returns the sum of m v^2 / 2
 [[nodiscard]] double kinetic_energy(const Disks& disks, const State& state);
 
-/// sum of m v
+/// Returns the sum of m v
 [[nodiscard]] Eigen::Vector2d total_momentum(const Disks& disks, const State& state);
 
-/// kT = 2 K' / f: K' is the kinetic energy without that of the common motion along periodic axes, whose momentum no
+/// Returns kT = 2 K' / f: K' is the kinetic energy without that of the common motion along periodic axes, whose momentum no
 /// collision changes, and f = 2 N minus the number of such axes. 0 where no degree of freedom is left.
 [[nodiscard]] double kinetic_temperature(const Box& box, const Disks& disks, const State& state);
 
@@ -23,13 +23,13 @@ namespace carom {
 /// motion of the centre of mass along them counts as heat. Under shear, velocities are relative to the flow.
 [[nodiscard]] double kinetic_temperature(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 
-/// kT of the spins, 2 sum of (I w^2 / 2) / N, I = m r^2 / 2; 0 where disks are smooth
+/// Returns kT of the spins, 2 sum of (I w^2 / 2) / N, I = m r^2 / 2; 0 where disks are smooth
 [[nodiscard]] double spin_temperature(const Disks& disks, const State& state);
 
 /// Velocities relative to the flow v_x = rate y and to the common motion. Requires positions inside the box.
 [[nodiscard]] Eigen::Matrix2Xd velocities_in_flow(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 
-/// sum of m u_x u_y, u relative to the flow: the part of P_xy times the area that flight carries
+/// Returns the sum of m u_x u_y, u relative to the flow: the part of P_xy times the area that flight carries
 [[nodiscard]] double momentum_flow_xy(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 
 }  // namespace carom

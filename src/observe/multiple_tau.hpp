@@ -35,8 +35,8 @@ class MultipleTau {
   void add(std::span<const double> value);
 
   struct Row {
-    double lag = 0.0;    ///< in steps
-    double width = 1.0;  ///< of a value of this level, in steps
+    double lag = 0.0;    ///< the lag, in steps
+    double width = 1.0;  ///< length of a value of this level, in steps
     Blocking::Estimate pairs;
     /// Products only: the integral from 0 to lag + width / 2, per step.
     std::optional<Blocking::Estimate> integral;

@@ -54,10 +54,10 @@ class ObservableGroup {
   void follow_with(Observable& observable);
 
   ObservedRun run_;
-  std::string saved_stream_;        ///< what a run that is resumed had gathered
-  std::vector<std::string> saved_;  ///< the same of each observable
+  std::string saved_stream_;        ///< saved data of a run that is resumed
+  std::vector<std::string> saved_;  ///< saved data of each observable
   std::vector<std::unique_ptr<Observable>> observables_;
-  std::vector<Observable*> followers_;  ///< of whole collisions
+  std::vector<Observable*> followers_;  ///< observables of whole collisions
   std::vector<NoteFollower*> note_followers_;
   std::optional<CollisionStream> stream_;  ///< where events are followed
   FluxMeter meter_;

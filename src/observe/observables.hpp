@@ -28,7 +28,7 @@ MadeObservable make_heat_conductivity(const ObservableRequest& request, const Ob
 MadeObservable make_h_function(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_wall_fluxes(const ObservableRequest& request, const ObservedRun& run);
 
-/// The observable that a scene asks for. Throws SceneError where there is none of that name.
+/// Makes the observable that a scene asks for. Throws SceneError where there is none of that name.
 [[nodiscard]] MadeObservable make_observable(const ObservableRequest& request, const ObservedRun& run);
 
 }  // namespace carom

@@ -11,12 +11,12 @@ namespace carom {
 struct ObservedRun {
   const Scene& scene;
   const Disks& disks;
-  std::optional<double> time = {};  ///< that the run was to last when it began
+  std::optional<double> time = {};  ///< end of the run as planned when it began
   double temperature = 0.0;         ///< kT at the start, or that of the thermostat
   double mean_diameter = 1.0;       ///< 1 without disks
   bool collisions_known = true;     ///< can be followed one by one: of a run that is over, its log may not have been kept
-  bool collisions_told = false;     ///< by the simulation itself, with what came before them
-  double mean_free_time = 0.0;      ///< as Enskog's theory estimates it for disks of mean size and mass; 0 where nothing moves
+  bool collisions_told = false;     ///< whether the simulation itself records collisions with what came before them
+  double mean_free_time = 0.0;      ///< mean free time by Enskog's theory for disks of mean size and mass; 0 where nothing moves
 
   /// Returns the step of an observable: as the scene says, else the observable's own number of mean free times; 0 for observables
   /// without samples.
@@ -25,21 +25,21 @@ struct ObservedRun {
   [[nodiscard]] double step_of(double mean_free_times) const;
 
   [[nodiscard]] std::size_t species_count() const { return scene.species.size(); }
-  /// "" with one species, else "_NAME", with nothing in it that a file could not have in a name; "_0", "_1" where that is
-  /// ambiguous
+  /// Returns text such as "" with one species, else "_NAME", with nothing in it that a file could not have in a name; "_0", "_1"
+  /// where that is ambiguous
   [[nodiscard]] std::string suffix(std::size_t species) const;
-  /// Whether the total momentum along an axis is kept, so that the common motion is no heat.
+  /// Returns whether the total momentum along an axis is kept, so that the common motion is no heat.
   [[nodiscard]] bool keeps_momentum(int axis) const;
-  /// Whether what counts as heat depends on where a disk is: velocities are relative to a flow.
+  /// Returns whether what counts as heat depends on where a disk is: velocities are relative to a flow.
   [[nodiscard]] bool sheared() const { return scene.effects.shear && scene.effects.shear->rate != 0.0; }
 };
 
-/// Whether a thermostat, growth or shear acts: velocities then change without a collision.
+/// Returns whether a thermostat, growth or shear acts: velocities then change without a collision.
 [[nodiscard]] bool is_driven(const Effects& effects);
 
 /// Velocities as heat: without the flow of a sheared box, and without the common motion where momentum is kept.
 [[nodiscard]] Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state);
-/// The common motion that they are without in a box at rest.
+/// Returns the velocity of the centre of mass along axes that conserve momentum, which does not count as heat; zero along others.
 [[nodiscard]] Eigen::Vector2d kept_velocity(const ObservedRun& run, const State& state);
 
 /// Velocity of all disks together; zero where it is no more than what rounding leaves.

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_together = 4'096;
 /// The most pieces of work that may wait; then the run waits.
 constexpr std::size_t most_waiting = 4;
-/// A large system's take much memory.
+/// Returns the number of states that may wait: states of large systems take much memory.
 std::size_t most_states(std::size_t disks) { return disks > 100'000 ? 2 : 4; }
 /// The time between two wake-ups of the thread. Waking it from the run would take the run some ten microseconds.
 constexpr std::chrono::milliseconds nap{1};

@@ -8,8 +8,9 @@ namespace carom {
 
 namespace {
 
-/// The state seen half a box higher: disks of the lower half are replaced by their images above, which shear has displaced. Pairs
-/// across the edges of y then stand in the middle. Places along x carry the rounding of the box's size, 1e-16 of it.
+/// Returns the state seen half a box higher: disks of the lower half are replaced by their images above, which shear has
+/// displaced. Pairs across the edges of y then stand in the middle. Places along x carry the rounding of the box's size, 1e-16 of
+/// it.
 Eigen::Matrix2Xd half_a_box_higher(const Box& box, const State& state) {
   const Eigen::Vector2d lengths = box.lengths();
   const double middle = box.lower.y() + 0.5 * lengths.y();

@@ -14,7 +14,7 @@ class BlockedRate {
   /// The total's value at a time later than the last one given; the first block begins at time 0 with total 0.
   void add(double time, double total);
 
-  /// total / time at the last point; empty before the first.
+  /// Returns total / time at the last point; empty before the first.
   [[nodiscard]] std::optional<double> rate() const;
 
   /// Standard error of rate(); empty with fewer than 8 blocks, where it would be a guess.

@@ -17,7 +17,7 @@ class RunMeasurements {
   void sample(const State& state);       ///< a state of the sampling grid
   void block(const Progress& progress);  ///< RunHooks::block
 
-  /// All results, when the run has ended. `wall_seconds`: of the whole run, as the caller took it.
+  /// Returns all results, when the run has ended. `wall_seconds`: of the whole run, as the caller took it.
   [[nodiscard]] RunReport report(const RunResult& result, double wall_seconds);
 
   /// Saves or loads the measurements so far, for core/archive.hpp.

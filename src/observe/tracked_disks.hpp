@@ -19,7 +19,7 @@ class TrackedDisks {
   TrackedDisks(const ObservedRun& run, std::size_t species);
 
   [[nodiscard]] std::size_t channels() const { return 2 * ids_.size(); }
-  /// x and y of each disk, relative to the common motion of all along axes that keep momentum. Valid until the next call.
+  /// Returns x and y of each disk, relative to the common motion of all along axes that keep momentum. Valid until the next call.
   [[nodiscard]] std::span<const double> velocities(const Eigen::Matrix2Xd& peculiar);
   /// Returns unwrapped positions, less `drift`, the displacement of the centre of mass.
   [[nodiscard]] std::span<const double> unwrapped(const ObservedRun& run, const State& state, const Eigen::Vector2d& drift);

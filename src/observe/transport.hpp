@@ -23,9 +23,9 @@ namespace carom {
 /// A coefficient, its flux, and what leads from the integral of <J J> to it.
 struct TransportCoefficient {
   std::string name, unit, unit_of_flux;
-  Eigen::Vector2d (*flow)(double mass, const Eigen::Vector2d& velocity);  ///< what one disk carries
-  FluxSum* FluxSums::*sum;                                                ///< what collisions do to it
-  double part;                                                            ///< that the flux is of this sum
+  Eigen::Vector2d (*flow)(double mass, const Eigen::Vector2d& velocity);  ///< the flux that one disk carries
+  FluxSum* FluxSums::*sum;                                                ///< the sum of what collisions transfer
+  double part;                                                            ///< fraction of this sum that the flux is
   double (*factor)(double kT, double area);
 };
 

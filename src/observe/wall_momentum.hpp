@@ -20,7 +20,7 @@ struct WallMomentum {
 /// Along an axis. Positions are to be those of the state.
 [[nodiscard]] WallMomentum wall_momentum(const ObservedRun& run, const State& state, int axis);
 
-/// h for disks of the mean diameter; 0 where there is no room.
+/// Returns h for disks of the mean diameter; 0 where there is no room.
 [[nodiscard]] double reach_between_walls(const ObservedRun& run, int axis);
 
 }  // namespace carom

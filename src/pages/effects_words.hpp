@@ -9,7 +9,7 @@
 
 namespace carom {
 
-/// The collision, and each effect beside it: a subject and what is said of it.
+/// Returns the collision, and each effect beside it: a subject and what is said of it.
 [[nodiscard]] SummaryRows words_of(const Effects& effects);
 
 /// Returns the effects that the scene does not simulate, as part of a sentence: "gravity, a thermostat, shear"; empty where there

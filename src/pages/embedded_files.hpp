@@ -15,7 +15,7 @@ struct EmbeddedFile {
 
 std::span<const EmbeddedFile> embedded_files();
 
-/// The bytes of a file. Throws std::invalid_argument where there is none of that name.
+/// Returns the bytes of a file. Throws std::invalid_argument where there is none of that name.
 std::string embedded_text(std::string_view name);
 
 }  // namespace carom::detail

@@ -16,7 +16,7 @@ inline constexpr double replay_tolerance = 1e-6;
 struct ExactRun {
   State start;  ///< the first sample
   std::vector<Event> events;
-  double distance = 0.0;  ///< from the samples that it was held against, at most
+  double distance = 0.0;  ///< largest distance from the samples that it was compared with
   std::string why_not;    ///< half a sentence where the run cannot be replayed; then there are no events
   [[nodiscard]] bool exact() const { return why_not.empty(); }
 };

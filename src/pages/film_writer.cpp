@@ -128,7 +128,7 @@ pid_t start(const std::filesystem::path& program, std::vector<std::string> words
                                 std::generic_category().message(error)));
 }
 
-/// The first line that ffmpeg has written, or nothing.
+/// Returns the first line that ffmpeg has written, or nothing.
 std::string first_line(std::FILE* file) {
   std::rewind(file);
   std::string line;

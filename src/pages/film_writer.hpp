@@ -53,9 +53,9 @@ class FilmWriter {
 
   std::filesystem::path path_;  ///< for messages
   std::function<bool()> keep_going_;
-  std::unique_ptr<std::FILE, CloseFile> complaints_;  ///< what ffmpeg says on its standard error
+  std::unique_ptr<std::FILE, CloseFile> complaints_;  ///< standard error of ffmpeg
   pid_t process_ = -1;
-  int status_ = 0;  ///< with which it has ended
+  int status_ = 0;  ///< exit status of ffmpeg
   int pipe_ = -1;
 };
 

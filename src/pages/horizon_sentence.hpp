@@ -11,7 +11,7 @@ namespace carom {
 /// cost; or where the comparison ended before anything parted, and why. Ends with a full stop.
 [[nodiscard]] std::string sentence_of(const Horizon& horizon);
 
-/// "double precision", "113 bits", ... in a row of that many bits.
+/// Returns text such as "double precision", "113 bits", ... in a row of that many bits.
 [[nodiscard]] std::string precision_name(int bits);
 
 }  // namespace carom

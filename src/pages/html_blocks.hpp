@@ -7,7 +7,7 @@
 
 namespace carom::detail {
 
-/// The element of a block. A plot is an empty place for page.js to draw in, with its numbers beside it.
+/// Returns the element of a block. A plot is an empty place for page.js to draw in, with its numbers beside it.
 std::string html_block(const Block& block);
 
 }  // namespace carom::detail

@@ -12,7 +12,7 @@ std::string html_text(std::string_view text);
 /// Escapes text for HTML, with text between two `backquotes` as code. An odd backquote stays as it is.
 std::string html_prose(std::string_view text);
 
-/// A whole document, which is HTML and UTF-8 already, as the value of a quoted attribute.
+/// Returns a whole document, which is HTML and UTF-8 already, as the value of a quoted attribute.
 std::string html_document_text(std::string_view document);
 
 /// The content security policy of a page: the browser fetches nothing, and shows only the file and pictures that its scripts

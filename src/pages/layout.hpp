@@ -25,10 +25,10 @@ struct Layout {
   [[nodiscard]] double y(double length) const { return top + (extent[3] - length) * scale; }
 };
 
-/// The size of a picture of this extent whose longer side has `longer` pixels.
+/// Returns the size of a picture of this extent whose longer side has `longer` pixels.
 [[nodiscard]] PictureSize fitted_size(const std::array<double, 4>& extent, int longer, bool caption);
 
-/// The box as large as it fits, in the middle.
+/// Returns the box as large as it fits, in the middle.
 [[nodiscard]] Layout layout_of(const std::array<double, 4>& extent, const PictureSize& size, bool caption);
 
 }  // namespace carom

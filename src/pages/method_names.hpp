@@ -5,9 +5,9 @@
 
 namespace carom {
 
-/// The method's colour in every plot.
+/// Returns the method's colour in every plot.
 [[nodiscard]] int group_of(const std::string& method);
-/// Its name for people: "double", "113 bits", "grid, fixed step".
+/// Returns its name for people: "double", "113 bits", "grid, fixed step".
 [[nodiscard]] std::string name_of(const std::string& method);
 
 }  // namespace carom

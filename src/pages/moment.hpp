@@ -21,8 +21,8 @@ struct Moment {
   Eigen::Matrix2Xd velocities;               ///< between two samples those of the sample before
   double scale = 1.0;                        ///< radii are scale * Disks::radius
   std::array<double, 4> sides{};             ///< left, right, bottom, top
-  double shear_displacement = 0.0;           ///< of the images above
-  std::vector<std::uint64_t> collisions;     ///< of each disk so far; empty where the run kept no events
+  double shear_displacement = 0.0;           ///< displacement of the images above
+  std::vector<std::uint64_t> collisions;     ///< number of collisions of each disk so far; empty where the run stored no events
   std::vector<std::vector<Stretch>> trails;  ///< the trail of each disk, oldest first; empty without trails
 };
 

@@ -12,7 +12,7 @@
 namespace carom {
 
 struct Axis {
-  std::string title = {};  ///< with its unit
+  std::string title = {};  ///< title with its unit
   bool log = false;        ///< then points at zero and below are left out of the plot
 };
 
@@ -57,8 +57,8 @@ struct Plot {
 
 struct TextTable {
   std::string title = {};
-  std::vector<std::string> columns = {};            ///< where all are empty, there is no row of them
-  std::vector<std::vector<std::string>> rows = {};  ///< as many cells as columns; the first names the row
+  std::vector<std::string> columns = {};            ///< headings; where all are empty, there is no row of them
+  std::vector<std::vector<std::string>> rows = {};  ///< rows with as many cells as columns; the first cell names the row
   std::string caption = {};
 };
 
@@ -98,11 +98,11 @@ struct Page {
   std::string lead = {};  ///< the answer in a few sentences
   std::vector<KeyNumber> key_numbers = {};
   std::vector<Section> sections = {};
-  std::vector<std::pair<std::string, std::string>> facts = {};  ///< where the results come from, at the foot of the page
+  std::vector<std::pair<std::string, std::string>> facts = {};  ///< the sources of the results, at the foot of the page
 };
 
-/// The page as one HTML file, about 1.2 MB and its numbers. Throws std::invalid_argument where lengths differ that must not, a
-/// group is negative, or an id is unfit or there twice.
+/// Returns the page as one HTML file, about 1.2 MB and its numbers. Throws std::invalid_argument where lengths differ that must
+/// not, a group is negative, or an id is unfit or there twice.
 std::string html_page(const Page& page);
 
 }  // namespace carom

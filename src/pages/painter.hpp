@@ -28,11 +28,11 @@ struct Look {
 
 /// The data that all pictures of a film share.
 struct Ranges {
-  std::array<double, 4> extent{};  ///< of the box, as large as it ever is: left, right, bottom, top
+  std::array<double, 4> extent{};  ///< largest extent of the box: left, right, bottom, top
   double typical_speed = 1.0;      ///< the largest root mean square speed
-  double fastest = 1.0;            ///< where the colours of speeds end
-  double most_collisions = 1.0;    ///< of any disk
-  int decimals = 2;                ///< of the clock
+  double fastest = 1.0;            ///< speed at the end of the colour scale
+  double most_collisions = 1.0;    ///< largest number of collisions of any disk
+  int decimals = 2;                ///< decimals of the clock
 };
 /// Looks at a few moments between two times.
 [[nodiscard]] Ranges ranges_of(Playback& playback, double from, double to);
@@ -50,7 +50,7 @@ class Painter {
 
   /// Rows from the top, in each pixel 0xRRGGBB.
   [[nodiscard]] std::vector<std::uint32_t> frame(const Moment& moment) const;
-  /// The bytes of a file; a pixel is a point of SVG and PDF.
+  /// Returns the bytes of a file; a pixel is a point of SVG and PDF.
   [[nodiscard]] std::string picture(const Moment& moment, PictureFormat format) const;
 
  private:

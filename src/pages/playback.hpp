@@ -12,7 +12,7 @@
 namespace carom {
 
 struct PlaybackOptions {
-  double trail = 0.0;                          ///< how long trails are, in time; 0: none
+  double trail = 0.0;                          ///< length of trails, in time; 0: none
   std::optional<std::int32_t> trails_of = {};  ///< the species that leaves them; absent: all
   std::uint64_t most_events = 10'000'000;      ///< more are not replayed: they take 1.1 GB of memory
 };

@@ -20,7 +20,7 @@ inline constexpr double player_tolerance = replay_tolerance;
 
 struct PlayerLimits {
   std::uint64_t events = 1'000'000;         ///< more are not replayed: 37 MB of page and 100 MB of browser
-  std::uint64_t sample_bytes = 24'000'000;  ///< of samples; beyond that only every so many-th is kept
+  std::uint64_t sample_bytes = 24'000'000;  ///< largest size of the samples; beyond that they are thinned
 };
 
 struct PlayerData {

@@ -23,10 +23,10 @@ inline constexpr PlayerLimits report_limits = {.events = 1'000'000, .sample_byte
 
 struct ReportFile {
   std::string html;
-  std::string player;  ///< what is said of the replay in it, half a sentence
+  std::string player;  ///< remark on its replay, half a sentence
 };
-/// The page of the run in a directory. Throws OutputError: one sentence about a directory that is no finished run, or a file of
-/// it that cannot be read.
+/// Returns the page of the run in a directory. Throws OutputError: one sentence about a directory that is no finished run, or a
+/// file of it that cannot be read.
 [[nodiscard]] ReportFile report_of(const std::filesystem::path& directory);
 
 }  // namespace carom

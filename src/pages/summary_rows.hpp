@@ -10,7 +10,7 @@
 
 namespace carom {
 
-/// "as asked", "interrupted here; ..."
+/// Returns why the run ended: "as requested", "interrupted; ..."
 [[nodiscard]] std::string why_stopped(const RunReport& report, const Scene* scene);
 
 [[nodiscard]] SummaryRows rows_of_what_happened(const RunReport& report, const Scene* scene);

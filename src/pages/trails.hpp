@@ -22,7 +22,7 @@ class Trails {
   void note(std::size_t disk, double time, const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
             double shear_displacement = 0.0);
 
-  /// The trail of every disk up to `time`. Each stretch begins in the box and is at most half as long as it.
+  /// Returns the trail of every disk up to `time`. Each stretch begins in the box and is at most half as long as it.
   [[nodiscard]] std::vector<std::vector<Stretch>> until(double time) const;
 
  private:

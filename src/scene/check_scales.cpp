@@ -114,7 +114,7 @@ std::vector<Drive> drives_of(const Scene& scene, const Sizes& sizes) {
   return drives;
 }
 
-/// The speed that the disks of a species start with, roughly.
+/// Returns the speed that the disks of a species start with, roughly.
 double start_speed(const Species& species) {
   const auto largest = [](const std::vector<Eigen::Vector2d>& values) {
     double most_of_all = 0.0;
@@ -140,7 +140,7 @@ double fastest_of(const Scene& scene, const std::vector<Drive>& drives) {
   return static_cast<double>(fastest);
 }
 
-/// The value at which the speed of a drive would be `speed`, with its sign.
+/// Returns the value at which the speed of a drive would be `speed`, with its sign.
 double value_at(const Drive& drive, long double speed, long double present) {
   return static_cast<double>(drive.value * std::pow(speed / present, static_cast<long double>(drive.power)));
 }

@@ -57,7 +57,7 @@ void check_gap(const Scene& scene, int axis) {
                   time, gap, wall_names[lower], wall_names[lower + 1], diameter, wall_names[wall], room));
 }
 
-/// The lower and upper end of an obstacle along an axis.
+/// Returns the lower and upper end of an obstacle along an axis.
 Eigen::Vector2d extent(const Obstacle& obstacle, int axis) {
   if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
     return {disk->centre[axis] - disk->radius, disk->centre[axis] + disk->radius};

@@ -21,7 +21,7 @@ inline constexpr double closest_packing = std::numbers::pi / (2.0 * std::numbers
 inline constexpr double most_countable = 9007199254740992.0;  // 2^53
 inline constexpr const char* axis_names[] = {"x", "y"};
 
-/// The positions of a species that gives them one by one; else none.
+/// Returns the positions of a species that gives them one by one; else none.
 std::span<const Eigen::Vector2d> given_positions(const Species& species);
 
 /// The smallest and the largest radius of all disks; both 0 where there is no disk.
@@ -34,7 +34,7 @@ struct Radii {
   [[nodiscard]] double densest() const { return equal() ? closest_packing : 1.0; }
 };
 Radii radii_of(const Scene& scene);
-/// The distance of the origin to the farther limit of the box along an axis.
+/// Returns the distance of the origin to the farther limit of the box along an axis.
 double largest_coordinate(const Box& box, int axis);
 /// Over all disks. Requires one.
 double mean_diameter(const Scene& scene);

@@ -11,7 +11,7 @@ bool is_drawn(const Positions& positions) {
   return std::holds_alternative<RandomPositions>(positions) || std::holds_alternative<GrownPositions>(positions);
 }
 
-/// A law that only gives rest draws nothing.
+/// Returns whether velocities are random; a law by which all disks are at rest draws nothing.
 bool is_drawn(const Velocities& velocities) {
   if (const auto* uniform = std::get_if<UniformVelocities>(&velocities)) return uniform->maximum > 0.0;
   if (const auto* thermal = std::get_if<MaxwellVelocities>(&velocities)) return thermal->temperature > 0.0;

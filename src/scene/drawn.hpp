@@ -5,10 +5,10 @@
 
 namespace carom {
 
-/// Whether places or velocities of some disk are drawn at random, so that another seed gives another start.
+/// Returns whether places or velocities of some disk are drawn at random, so that another seed gives another start.
 [[nodiscard]] bool start_is_drawn(const Scene& scene);
 
-/// Whether a run of the scene draws anything: its start, velocities at thermal walls, or those that a thermostat gives.
+/// Returns whether a run of the scene draws anything: its start, velocities at thermal walls, or those that a thermostat gives.
 [[nodiscard]] bool run_is_drawn(const Scene& scene);
 
 }  // namespace carom

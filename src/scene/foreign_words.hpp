@@ -5,7 +5,7 @@
 
 namespace carom::detail {
 
-/// The clause that names Carom's key for a word such as "dt", "nsteps" or "N"; empty where the word is not known.
+/// Returns the clause that names Carom's key for a word such as "dt", "nsteps" or "N"; empty where the word is not known.
 std::string_view meant_by(std::string_view word);
 
 }  // namespace carom::detail

@@ -11,8 +11,8 @@ namespace carom::detail {
 /// proportional to 1 / gap, and infinite until it is filled. The box counts as filled where this share of it is left.
 inline constexpr double room_left = 0x1p-16;
 
-/// The factor by which a radius can grow until the disk fills the box along an axis from wall to wall, to room_left, or meets its
-/// own image.
+/// Returns the factor by which a radius can grow until the disk fills the box along an axis from wall to wall, to room_left, or
+/// meets its own image.
 [[nodiscard]] inline double growth_room(const Box& box, int axis, double radius) {
   return box.lengths()[axis] * (box.periodic(axis) ? 1.0 : 1.0 - room_left) / (2.0 * radius);
 }

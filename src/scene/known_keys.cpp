@@ -20,7 +20,7 @@ namespace {
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
-/// A key that is right in another table is a misplaced key, not a misspelt one.
+/// Returns the table to which a key belongs, for keys that are in the wrong table rather than misspelt; empty for others.
 std::string_view home_of(std::string_view key) {
   using Home = std::pair<std::string_view, std::string_view>;
   static constexpr std::array<Home, 48> homes = {{{"grid", "a sweep, which carom sweep runs"},
@@ -76,7 +76,8 @@ std::string_view home_of(std::string_view key) {
   return find_observable(key) != nullptr ? "[observe]" : std::string_view();
 }
 
-/// Whether a user of another program might look here for all that its input file had. A radius in [[obstacles]] is another one.
+/// Returns whether a user of another program might look here for all that its input file had. A radius in [[obstacles]] is
+/// another one.
 bool takes_foreign_words(std::string_view path) {
   static constexpr std::array<std::string_view, 6> tables = {"the scene",   "[box]", "[[disks]]",
                                                              "[collision]", "[run]", "[output]"};

@@ -10,14 +10,14 @@ namespace carom::detail {
 /// The number of single-character edits (a swap of neighbours counts as one) between two words, ignoring case.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate that is fewest edits away; empty when there is none within about a third of the word's length.
+/// Returns the candidate that is fewest edits away; empty when there is none within about a third of the word's length.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates);
 
-/// "[run]" for "run", "[[disks]]" for "disks.0", "the scene" for "", and the path itself for inline tables.
+/// Returns text such as "[run]" for "run", "[[disks]]" for "disks.0", "the scene" for "", and the path itself for inline tables.
 std::string table_title(std::string_view path);
 
-/// The sentence for a key that the table at `path` does not have: it names what other programs mean by it, the nearest key of
-/// that table, or the table where a key of just this name belongs, or all keys of the table.
+/// Returns the sentence for a key that the table at `path` does not have: it names what other programs mean by it, the nearest
+/// key of that table, or the table where a key of just this name belongs, or all keys of the table.
 std::string unknown_key_sentence(std::string_view key, std::string_view path, std::span<const std::string_view> known);
 
 }  // namespace carom::detail

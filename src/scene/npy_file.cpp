@@ -43,7 +43,7 @@ class LiteralReader {
  public:
   explicit LiteralReader(std::string_view text) : text_(trimmed(text)) {}
 
-  /// The whole text as a dictionary.
+  /// Returns the whole text as a dictionary.
   std::optional<std::map<std::string, Literal>> dictionary() {
     std::map<std::string, Literal> entries;
     if (!take('{')) return std::nullopt;
@@ -140,7 +140,7 @@ double number_at(const char* at, const NumberType& type) {
   }
 }
 
-/// The size in "<f8" and "|V4"; none where it is larger than any number or gap between two has.
+/// Returns the size in "<f8" and "|V4"; none where it is larger than any number or gap between two has.
 std::optional<std::size_t> size_in(std::string_view type) {
   std::size_t size = 0;
   if (type.size() < 3 || type.size() > 5) return std::nullopt;

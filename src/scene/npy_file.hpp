@@ -8,11 +8,11 @@
 
 namespace carom::detail {
 
-/// Whether the bytes begin as an .npy file does, whatever the file is called.
+/// Returns whether the bytes begin as an .npy file does, whatever the file is called.
 bool is_npy(std::string_view bytes);
 
-/// The rows of an array of numbers with 2 columns (x, y) or 4 (x, y, vx, vy), or of a structured array whose fields are named
-/// like the columns of a start file. Floats of 4 and 8 bytes and whole numbers of any size and byte order, in C and Fortran
+/// Returns the rows of an array of numbers with 2 columns (x, y) or 4 (x, y, vx, vy), or of a structured array whose fields are
+/// named like the columns of a start file. Floats of 4 and 8 bytes and whole numbers of any size and byte order, in C and Fortran
 /// order. Throws SceneError at the path, with the row where one is to blame, counted from 0.
 StartFile parse_npy(std::string_view bytes, const std::string& path);
 

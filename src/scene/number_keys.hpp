@@ -14,13 +14,13 @@ namespace carom::detail {
 enum class Range { any, zero_or_more, above_zero, within };
 
 struct NumberKey {
-  std::string_view name;     ///< of the key in its table: "restitution"
+  std::string_view name;     ///< name of the key in its table: "restitution"
   std::string_view example;  ///< example of the key: "restitution = 0.9"
   Range range = Range::any;
-  double least = 0.0, most = 0.0;  ///< of Range::within, both included
+  double least = 0.0, most = 0.0;  ///< limits of Range::within, both included
 
   [[nodiscard]] bool holds(double value) const;
-  /// "a finite number above zero, such as mass = 1.0"
+  /// Returns text such as "a finite number above zero, such as mass = 1.0"
   [[nodiscard]] std::string expected() const;
 };
 

@@ -16,7 +16,7 @@ namespace carom::detail {
 struct KnownObservable {
   std::string_view name;
   std::string_view example;  ///< example of the key
-  double step = 0.0;         ///< where the scene says none, in mean free times; 0: it takes no steps
+  double step = 0.0;         ///< default step in mean free times; 0: the observable has no samples
   std::optional<std::int64_t> bins = {};
   std::optional<double> range = {};
   std::optional<double> largest = {};

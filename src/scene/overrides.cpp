@@ -40,7 +40,7 @@ std::vector<std::string> split_key(std::string_view key, const Location& where) 
   return parts;
 }
 
-/// The table { v = <value> }, each node of it with the override as its source.
+/// Returns the table { v = <value> }, each node of it with the override as its source.
 toml::table parse_value(std::string_view value, const Location& where) {
   try {
     toml::table parsed = toml::parse(fmt::format("v = {}", value), where.source);

@@ -7,7 +7,7 @@
 
 namespace carom::detail {
 
-/// Whether a source name is that of an override ("--set run.time=2") and not of a file.
+/// Returns whether a source name is that of an override ("--set run.time=2") and not of a file.
 bool is_override(const std::string& source);
 
 /// Applies "dotted.key=value" to the document. Numbers in the key are indices, from 0, into lists. Tables on the way

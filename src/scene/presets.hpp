@@ -7,10 +7,10 @@
 
 namespace carom {
 
-/// "box" first, then the others in alphabetical order.
+/// Returns the names of all presets: "box" first, then the others in alphabetical order.
 std::vector<std::string> preset_names();
 
-/// The TOML text of a preset. Throws std::invalid_argument, with the names that exist, for any other name.
+/// Returns the TOML text of a preset. Throws std::invalid_argument, with the names that exist, for any other name.
 std::string preset(const std::string& name);
 
 }  // namespace carom

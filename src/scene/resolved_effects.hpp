@@ -7,7 +7,7 @@
 
 namespace carom::detail {
 
-/// The table [collision] and one for every effect that is there; each begins with an empty line.
+/// Returns the table [collision] and one for every effect that is there; each begins with an empty line.
 std::string effects_toml(const Effects& effects);
 
 }  // namespace carom::detail

@@ -77,7 +77,7 @@ Location place_of(const toml::table& document, const detail::SceneDraft& draft, 
   return detail::place_of(document, path);
 }
 
-/// The scene of a document. Throws SceneError, at the place of what is wrong.
+/// Returns the scene of a document. Throws SceneError, at the place of what is wrong.
 Scene scene_of(const toml::table& document, const std::string& source, const std::string& directory) {
   detail::SceneDraft draft;
   // Nodes of a document without any text carry no source name.

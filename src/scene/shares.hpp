@@ -21,12 +21,12 @@ struct Share {
 /// Throws unless it is below 1.
 void require_fraction(const Share& share);
 
-/// Whether values that say the same twice are near enough.
+/// Returns whether values that say the same twice are near enough.
 bool agree(double a, double b);
 
-/// The area that a species' disks cover; empty where count or radius is still unknown.
+/// Returns the area that a species' disks cover; empty where count or radius is still unknown.
 std::optional<double> disk_area(const DisksDraft& disks);
-/// The area that all disks cover; empty where that of a species is still unknown.
+/// Returns the area that all disks cover; empty where that of a species is still unknown.
 std::optional<double> total_area(const std::vector<DisksDraft>& species);
 
 /// Returns the packing fraction of the grown start of a scene; empty where no start is grown. All species are grown or none is.

@@ -21,7 +21,7 @@ namespace {
 
 struct Field {
   std::string_view text;
-  int column = 1;  ///< where it begins in its line, from 1
+  int column = 1;  ///< column of its first character, from 1
 };
 
 std::string shown(std::string_view text) { return fmt::format("\"{}\"", excerpt(text, 40)); }
@@ -36,7 +36,7 @@ void split(std::string_view line, std::vector<Field>& fields) {
   }
 }
 
-/// The finite number that the whole of `text` spells.
+/// Returns the finite number that the whole of `text` spells.
 std::optional<double> parse_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+')
     text.remove_prefix(1);  // from_chars takes no plus sign

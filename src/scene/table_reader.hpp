@@ -21,7 +21,7 @@ namespace carom::detail {
 Location location_of(const toml::source_region& region);
 Location location_of(const toml::node& node);
 
-/// A value as an error names it: `a string ("wide")`, `an integer (3)`, `a table`.
+/// Returns a value as an error names it: `a string ("wide")`, `an integer (3)`, `a table`.
 std::string describe(const toml::node& node);
 
 /// Returns the place of the longest part of a path that the document has: of "walls.top.mass" the table where it has no mass.
@@ -29,7 +29,8 @@ Location place_of(const toml::table& document, std::string_view path);
 
 /// `path` is the key's full name: "run.time".
 double read_number(const toml::node& node, const std::string& path, const NumberKey& key);
-/// The whole number that a node is, also with a point or an exponent (1e5) where it is at most 2^53; empty where it is none.
+/// Returns the whole number that a node is, also with a point or an exponent (1e5) where it is at most 2^53; empty where it is
+/// none.
 std::optional<std::int64_t> whole_number(const toml::node& node);
 std::int64_t read_integer(const toml::node& node, const std::string& path, const std::string& example);  ///< zero or more
 bool read_switch(const toml::node& node, const std::string& path, const std::string& example);
@@ -49,7 +50,7 @@ class TableReader {
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] std::string path(std::string_view key) const;  ///< "run.time"
   [[nodiscard]] Location where() const { return location_of(table_); }
-  [[nodiscard]] Location where(std::string_view key) const;  ///< of the value; of the table where the key is absent
+  [[nodiscard]] Location where(std::string_view key) const;  ///< place of the value; of the table where the key is absent
 
   [[nodiscard]] const toml::node* find(std::string_view key) const;  ///< null where absent
   /// Throws "<table> lacks <key>; <advice>" where absent.
@@ -61,7 +62,7 @@ class TableReader {
   [[nodiscard]] std::optional<bool> on_or_off(std::string_view key) const;
   [[nodiscard]] std::optional<std::string> string(std::string_view key, const std::string& example) const;
 
-  /// The sub-table `key`; throws where the value is not a table. Null where absent.
+  /// Returns the sub-table `key`; throws where the value is not a table. Null where absent.
   [[nodiscard]] const toml::table* table(std::string_view key, const std::string& example) const;
 
  private:

@@ -7,11 +7,11 @@
 
 namespace carom::detail {
 
-/// The bytes of a file of at most 1 GiB. Throws SceneError located at the path: missing, a directory, a device, no permission,
-/// too large.
+/// Returns the bytes of a file of at most 1 GiB. Throws SceneError located at the path: missing, a directory, a device, no
+/// permission, too large.
 std::string read_text_file(const std::string& path);
 
-/// The TOML document in `text`; `source` stands in every location. Throws SceneError where it is not TOML.
+/// Returns the TOML document in `text`; `source` stands in every location. Throws SceneError where it is not TOML.
 toml::table parse_toml(const std::string& text, const std::string& source);
 
 }  // namespace carom::detail

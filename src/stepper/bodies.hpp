@@ -37,14 +37,14 @@ struct Bodies {
            static_cast<std::size_t>(images.size()) * sizeof(std::int64_t);
   }
 
-  /// Whether all places and velocities are.
+  /// Returns whether all positions and velocities are finite.
   [[nodiscard]] bool finite() const {
     double sum = 0.0;  // what is not finite leaves no 0
     for (std::size_t i = 0; i < r.size(); ++i) sum += 0.0 * (r[i][0] + r[i][1] + v[i][0] + v[i][1]);
     return sum == 0.0;
   }
 
-  /// a - b between the nearest images. Requires both inside the box along periodic axes.
+  /// Returns a - b between the nearest images. Requires both inside the box along periodic axes.
   [[nodiscard]] Vec2<double> separation(const Vec2<double>& a, const Vec2<double>& b) const {
     Vec2<double> apart = a - b;
     for (int axis = 0; axis < 2; ++axis) {
@@ -53,7 +53,7 @@ struct Bodies {
     return apart;
   }
 
-  /// separation(a, b).squaredNorm(), to the last bit, without a branch that half of all pairs would take.
+  /// Returns separation(a, b).squaredNorm(), to the last bit, without a branch that half of all pairs would take.
   [[nodiscard]] double squared_distance(const Vec2<double>& a, const Vec2<double>& b) const {
     const Vec2<double> apart = (a - b).cwiseAbs();
     return apart.cwiseMin(around - apart).squaredNorm();

@@ -7,8 +7,8 @@ namespace carom {
 
 namespace {
 
-/// The margin, in diameters, at which looking at the pairs of the list and making it anew cost least together. Per disk and
-/// step the first takes about 2 ns for each of the rho pi (sigma + margin)^2 / 2 pairs of a disk, the second 80 ns every
+/// Returns the margin, in diameters, at which looking at the pairs of the list and making it anew cost least together. Per disk
+/// and step the first takes about 2 ns for each of the rho pi (sigma + margin)^2 / 2 pairs of a disk, the second 80 ns every
 /// margin / (2 v_max dt) steps; only their ratio matters, and not much.
 double best_margin(double density, double sigma, double farthest) {
   double best = 0.0, least = 1e300;

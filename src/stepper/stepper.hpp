@@ -101,7 +101,7 @@ class Stepper {
     std::swap(events, tally_.log);
   }
 
-  /// A fixed-step method plans nothing that could be wrong.
+  /// Returns no faults: a fixed-step method has no plans that could be wrong.
   [[nodiscard]] static std::vector<std::string> check_invariants(double /*tolerated_overlap*/ = 0.0) { return {}; }
   [[nodiscard]] static double deepest_overlap() { return 0.0; }
 
@@ -112,7 +112,7 @@ class Stepper {
   }
 
  private:
-  /// dt and the target were decimal fractions once: 200 * 0.01 is later than 2 by its rounding, and yet meant to be 2.
+  /// Returns whether two times are equal to rounding: 200 * 0.01 is later than 2 by its rounding, and yet meant to be 2.
   [[nodiscard]] static bool equal_to_rounding(const Instant& a, const Instant& b) {
     return std::abs(a.high - b.high) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(b.high);
   }

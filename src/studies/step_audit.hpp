@@ -18,7 +18,7 @@ namespace carom {
 /// reversed in the last step.
 struct StepCounts {
   std::uint64_t steps = 0;
-  double time = 0.0;           ///< that they cover
+  double time = 0.0;           ///< simulated time of these steps
   std::uint64_t found = 0;     ///< encounters that begin with the reversal of an approaching pair: collisions
   std::uint64_t spurious = 0;  ///< encounters that begin with the reversal of a pair that was parting
   std::uint64_t repeated = 0;  ///< further reversals within an encounter
@@ -62,9 +62,9 @@ class StepAudit {
   const Box& box_;
   const Disks& disks_;
   double dt_;
-  std::set<Pair> encounters_;  ///< that go on
+  std::set<Pair> encounters_;  ///< encounters that have not ended
   std::set<Pair> reversed_last_step_;
-  std::set<Pair> unnoticed_;  ///< in contact at the last step, and not reversed since they came into it
+  std::set<Pair> unnoticed_;  ///< pairs in contact at the last step that were not reversed since they touched
   StepCounts counts_;
 };
 

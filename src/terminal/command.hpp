@@ -1,5 +1,5 @@
 #pragma once
-// What every command of the program has to do with: its exit status, how it was called, and errors of use.
+// The common parts of all commands of the program: exit codes, command line, and errors of use.
 
 #include "io/output_error.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace carom::cli {
 
-/// What the program's exit status says.
+/// The exit codes of the program.
 enum ExitCode : int {
   exit_done = 0,
   exit_failed = 1,         ///< failed while running
@@ -18,19 +18,19 @@ enum ExitCode : int {
   exit_interrupted = 130,  ///< stopped by a signal; what was done until then is saved
 };
 
-/// What the user asked for cannot be done as asked. what() is one sentence.
+/// Thrown where a command cannot be carried out as it was given. what() is one sentence.
 class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How the program was called.
+/// The command line by which the program was called.
 struct Invocation {
-  std::string program;       ///< as a user at this place would type it
+  std::string program;       ///< name of the program as a user in this directory would type it
   std::string command_line;  ///< all of it, quoted for a shell
 };
 
-/// Does `action`, whose OutputError becomes a UsageError of the same sentence: what cannot be read or written to begin with is
-/// the user's to mend.
+/// Calls `action` and turns its OutputError into a UsageError of the same sentence: where files cannot be read or written at the
+/// beginning of a command, its arguments are wrong.
 template <class Action>
 auto as_usage_error(Action action) -> decltype(action()) {
   try {

@@ -40,7 +40,7 @@ std::string colour_sequence(double shade, TerminalColours colours) {
 DotCanvas::DotCanvas(int columns, int rows)
     : columns_(columns), rows_(rows), cells_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {}
 
-/// The cell of a dot that is now there; null off the canvas.
+/// Returns the cell of a dot that is now there; null off the canvas.
 DotCanvas::Cell* DotCanvas::set(double x, double y) {
   if (!(x >= 0.0 && x < width() && y >= 0.0 && y < height())) return nullptr;
   const auto column = static_cast<unsigned>(x), row = static_cast<unsigned>(y);

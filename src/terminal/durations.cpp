@@ -33,7 +33,7 @@ std::string_view take_word(std::string_view& text) {
   return word.substr(0, word.find_last_not_of(' ') + 1);
 }
 
-/// "HH:MM:SS" or "MM:SS"
+/// Reads "HH:MM:SS" or "MM:SS"; empty for other text.
 std::optional<double> clock_time(std::string_view text) {
   double seconds = 0.0;
   for (int part = 0; part < 3; ++part) {

@@ -9,10 +9,10 @@
 
 namespace carom {
 
-/// "1.0970 ± 0.0041"; the value alone where it does not scatter. Requires a value.
+/// Returns text such as "1.0970 ± 0.0041"; the value alone where it does not scatter. Requires a value.
 [[nodiscard]] std::string number_words(const Scalar& scalar);
 
-/// Every number of every observable with its unit, and what the rest is in.
+/// Returns every number of every observable with its unit, and the sizes of its tables.
 [[nodiscard]] std::string observed_lines(const std::vector<Measurement>& observables, const Scene& scene);
 
 }  // namespace carom

@@ -9,7 +9,7 @@ namespace carom::cli {
 
 struct PageKind {
   std::string_view name;  ///< "player"
-  std::string_view mark;  ///< what every page of this kind has in its first 512 bytes
+  std::string_view mark;  ///< mark in the first 512 bytes of every page of this kind
 };
 
 /// `output` as the user gave it, or `otherwise` where it is empty. Throws UsageError where a page cannot go there: it is called

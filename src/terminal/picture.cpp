@@ -47,7 +47,7 @@ class Placement {
   double scale_;
 };
 
-/// The box as large as it will get: walls that move keep the picture's scale where they move inwards.
+/// Returns the box as large as it will get: walls that move keep the picture's scale where they move inwards.
 Box whole_box(const Scene& scene, const State& state) {
   Box whole = box_of(scene.box, state);
   whole.lower = whole.lower.cwiseMin(scene.box.lower);

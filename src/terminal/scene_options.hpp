@@ -12,7 +12,7 @@ namespace carom::cli {
 struct SceneOptions {
   std::string path;
   std::vector<std::string> overrides;  ///< "run.time=2", in the order given
-  std::optional<std::string> seed;     ///< as typed
+  std::optional<std::string> seed;     ///< the seed as typed
   std::string engine = "auto";
   bool accept_overlap = false;
   bool no_trajectory = false;
@@ -22,8 +22,8 @@ struct SceneOptions {
   bool unwrapped = false;
 };
 
-/// The scene as asked for: every option beside the path becomes an override, so that a result's resolved scene holds all of
-/// them. Throws SceneError.
+/// Loads the scene with the options: every option beside the path becomes an override, so that a result's resolved scene holds
+/// all of them. Throws SceneError.
 Scene load(const SceneOptions& options);
 
 /// Throws UsageError where effects beyond the collision rule and hard walls act, which `what` ("carom horizon") does not support.

@@ -8,28 +8,28 @@
 
 namespace carom {
 
-/// 1234567 as "1,234,567"
+/// Returns 1234567 as "1,234,567"
 std::string grouped(std::uint64_t number);
 
-/// A duration in seconds as "340 µs", "12 ms", "1.5 s", "48 s", "3 min 20 s" or "2 h 5 min"
+/// Returns a duration in seconds as "340 µs", "12 ms", "1.5 s", "48 s", "3 min 20 s" or "2 h 5 min"
 std::string duration(double seconds);
 
-/// A number of bytes as "16 MB"
+/// Returns a number of bytes as "16 MB"
 std::string size(double bytes);
 
-/// A large number of things in a second as "1.23 million"
+/// Returns a large number of things in a second as "1.23 million"
 std::string rate(double per_second);
 
-/// A value with its standard error, both to the error's second digit: "1.0970 ± 0.0041"
+/// Returns a value with its standard error, both to the error's second digit: "1.0970 ± 0.0041"
 std::string with_error(double value, double error);
 
-/// "1 disk", "2 disks"
+/// Returns text such as "1 disk", "2 disks"
 std::string counted(std::uint64_t number, std::string_view thing);
 
-/// "fast"; "naive, dt = 0.001" where there is a time step.
+/// Returns text such as "fast"; "naive, dt = 0.001" where there is a time step.
 std::string method_words(const std::string& name, std::optional<double> time_step);
 
-/// The text as one word of a POSIX shell, in quotes only where it needs them.
+/// Returns the text as one word of a POSIX shell, in quotes only where it needs them.
 std::string shell_quoted(const std::string& text);
 
 }  // namespace carom

@@ -7,10 +7,11 @@
 
 namespace carom {
 
-/// "length^2 / time" as "length² / time".
+/// Returns text such as "length^2 / time" as "length² / time".
 [[nodiscard]] std::string unit_words(std::string_view unit);
 
-/// The label with its unit, which is empty for a pure number: "speed (length / time in scene units)", "time (scene units)".
+/// Returns the label with its unit, which is empty for a pure number: "speed (length / time in scene units)", "time (scene
+/// units)".
 [[nodiscard]] std::string with_unit(const std::string& label, std::string_view unit);
 
 }  // namespace carom

@@ -7,10 +7,10 @@ namespace carom::theory {
 /// Which pairs in contact a method takes for colliding.
 enum class Notices {
   contact,     ///< all (naive)
-  approaching  ///< those that approach (guarded)
+  approaching  ///< approaching pairs only (guarded)
 };
 
-/// The fraction of collisions that a step passes over. `step` = v_T dt / sigma with v_T = sqrt(kT / m). For small steps
+/// Returns the fraction of collisions that a step passes over. `step` = v_T dt / sigma with v_T = sqrt(kT / m). For small steps
 /// step^2 / 4 where contact is noticed, step^2 where approach is.
 [[nodiscard]] double missed_fraction(double step, Notices notices);
 

@@ -3,7 +3,8 @@
 
 namespace carom::theory {
 
-/// The deviation in standard errors that a normal variable exceeds, to either side, with this probability. Requires 0 < p <= 1.
+/// Returns the deviation in standard errors that a normal variable exceeds, to either side, with this probability. Requires 0 < p
+/// <= 1.
 [[nodiscard]] double standard_errors(double probability);
 
 /// Kolmogorov and Smirnov's test of speeds against the law of Microcanonical, for whole snapshots of one run. `distance` is

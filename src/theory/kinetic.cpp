@@ -21,7 +21,7 @@ const double sqrt_pi = std::sqrt(pi);
 
 double density(double eta) { return 4.0 * eta / pi; }
 
-/// The mean of f(speed, rate) over flights: of a speed there are as many as disks of it collide.
+/// Returns the mean of f(speed, rate) over flights: of a speed there are as many as disks of it collide.
 template <class Function>
 double over_flights(Function f) {
   const auto at_speed = [&](double v) {

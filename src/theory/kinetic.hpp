@@ -33,7 +33,7 @@ namespace carom::theory {
 /// disks > 3.
 [[nodiscard]] double relative_rate(double speed, std::int64_t disks);
 
-/// The mean of relative_rate(v, disks) over the disks with speeds of `from` to `to`.
+/// Returns the mean of relative_rate(v, disks) over the disks with speeds of `from` to `to`.
 [[nodiscard]] double mean_relative_rate(double from, double to, std::int64_t disks);
 
 /// Mean of v / relative_rate(v) over Maxwell's v, over the mean speed: the mean path of a disk from an instant to its next
@@ -49,10 +49,10 @@ namespace carom::theory {
 /// flights are less likely to fit.
 [[nodiscard]] double flights_longer_within(double time, double run);
 
-/// The density of these times, in mean free times: minus the derivative.
+/// Returns the density of these times, in mean free times: minus the derivative.
 [[nodiscard]] double flight_time_density(double time);
-/// The density of the lengths of these flights, in thermal velocities sqrt(kT / m) times mean free times; their mean is sqrt(pi /
-/// 2).
+/// Returns the density of the lengths of these flights, in thermal velocities sqrt(kT / m) times mean free times; their mean is
+/// sqrt(pi / 2).
 [[nodiscard]] double flight_length_density(double length);
 
 /// Shear viscosity and heat conductivity at once: the limits, for short times t, of the mean squares of what Helfand's moments
@@ -71,17 +71,17 @@ namespace carom::theory {
 /// Phys. Rev. A 26, 1648 (1982), who sum in the same way).
 [[nodiscard]] double diffusion_growth(double eta, std::int64_t disks, double from, double to);
 
-/// The coefficient a2 of the second Sonine polynomial in the velocities of a gas of restitution e that cools evenly (van Noije &
-/// Ernst, Granular Matter 1, 57 (1998)), here for disks.
+/// Returns the coefficient a2 of the second Sonine polynomial in the velocities of a gas of restitution e that cools evenly (van
+/// Noije & Ernst, Granular Matter 1, 57 (1998)), here for disks.
 [[nodiscard]] double cooling_sonine(double restitution);
 
-/// 1 / t_H of Haff's law T(t) = T(0) / (1 + t / t_H)^2 for kT(0) = 1 and this number of disks in a periodic box:
-/// (1 - e^2) omega / 4, omega the rate that belongs to the pressure of this many disks, with what a2 (1 + 3 a2 / 16) and the
-/// fixed energy make of the mean cube of the relative speed. Requires eta <= 0.63 and disks > 2.
+/// Returns 1 / t_H of Haff's law T(t) = T(0) / (1 + t / t_H)^2 for kT(0) = 1 and this number of disks in a periodic box: (1 -
+/// e^2) omega / 4, omega the rate that belongs to the pressure of this many disks, with what a2 (1 + 3 a2 / 16) and the fixed
+/// energy make of the mean cube of the relative speed. Requires eta <= 0.63 and disks > 2.
 [[nodiscard]] double haff_rate(double restitution, double eta, std::int64_t disks);
 
-/// The number of disks in a square box above which its longest shear wave grows, in units of the thermal speed, while the gas
-/// cools: k^2 = zeta / 2 nu at k = 2 pi / L, zeta / 2 = 1 / t_H and Enskog's viscosity.
+/// Returns the number of disks in a square box above which its longest shear wave grows, in units of the thermal speed, while the
+/// gas cools: k^2 = zeta / 2 nu at k = 2 pi / L, zeta / 2 = 1 / t_H and Enskog's viscosity.
 [[nodiscard]] double shear_instability(double restitution, double eta);
 
 /// Kurtosis <v^4> / <v^2>^2 of a gas of restitution e that cools evenly: 2 (1 + a2).

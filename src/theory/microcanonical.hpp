@@ -14,7 +14,7 @@ class Microcanonical {
   /// Share of the disks whose v^2 is at most `share` times the mean of v^2: 1 - (1 - share / n)^(n - 1), where n is the number of
   /// disks, less one where momentum is kept.
   [[nodiscard]] double speeds_below(double share) const;
-  /// Its inverse: v^2 over its mean, up to which this share of the disks is.
+  /// Returns the inverse: the v^2, over its mean, below which this fraction of the disks is.
   [[nodiscard]] double square_below_which(double share_of_disks) const;
   /// Density of speeds v for which v^2 has this mean.
   [[nodiscard]] double speed_density(double v, double mean_square) const;
@@ -34,7 +34,7 @@ class Microcanonical {
   double free_;  ///< n
 };
 
-/// 1 - exp(-share): the same for infinitely many disks, the law of Rayleigh.
+/// Returns 1 - exp(-share): the same for infinitely many disks, the law of Rayleigh.
 [[nodiscard]] double maxwell_speeds_below(double share);
 
 }  // namespace carom::theory

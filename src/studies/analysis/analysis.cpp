@@ -20,7 +20,7 @@ namespace {
 
 using detail::SamplingTimes;
 
-/// The scene of the run with another [observe] table.
+/// Returns the scene of the run with another [observe] table.
 Scene scene_with(const RunReader& run, const std::vector<std::string>& observables) {
   if (observables.empty()) return run.scene(std::vector<std::string>{});
   std::vector<std::string> overrides = {"observe={}"};

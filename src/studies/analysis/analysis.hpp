@@ -14,9 +14,9 @@
 namespace carom {
 
 struct Analysis {
-  Scene scene;  ///< of the run, with [observe] as it was measured: steps that follow from the mean free time are filled in
+  Scene scene;  ///< scene of the run, with [observe] as it was measured: default steps are filled in
   std::vector<Measurement> observables;
-  std::uint64_t samples = 0, events = 0;  ///< that the run has kept
+  std::uint64_t samples = 0, events = 0;  ///< numbers of samples and events that the run has stored
 };
 
 /// Measures `observables`, each "NAME" or "NAME={ key = value, ... }" as in the [observe] table; without any, those of the run's

@@ -33,7 +33,7 @@ namespace {
 
 constexpr const char* json_name = "analysis.json";
 
-/// The tables of observables among what a run may write, and the numbers.
+/// Returns the tables of observables among what a run may write, and the numbers.
 std::vector<std::string_view> analysis_products() {
   std::vector<std::string_view> names;
   for (const std::string_view product : run_products)

@@ -9,7 +9,7 @@
 namespace carom::cli {
 
 struct AnalyzeOptions {
-  std::string directory;                 ///< of a finished run
+  std::string directory;                 ///< directory of a finished run
   std::vector<std::string> observables;  ///< "NAME" or "NAME={ ... }"; empty: those of the run's scene
   std::string out;                       ///< empty: RUN_DIR-analysis
   bool force = false;

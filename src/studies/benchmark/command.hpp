@@ -11,14 +11,15 @@ namespace carom::cli {
 
 struct BenchOptions {
   bool json = false;
-  bool effects = false;                     ///< the price of each effect, in place of how fast the engines are
-  bool large = false;                       ///< a million disks too
-  std::vector<std::int64_t> disks;          ///< empty: 1000, 10000, 100000
-  std::optional<std::uint64_t> collisions;  ///< in a turn of the textbook engine; absent: 200000, or one per disk
+  bool effects = false;             ///< the price of each effect, in place of how fast the engines are
+  bool large = false;               ///< a million disks too
+  std::vector<std::int64_t> disks;  ///< empty: 1000, 10000, 100000
+  /// collisions per measurement of the textbook engine; absent: 200000, or one per disk
+  std::optional<std::uint64_t> collisions;
 };
 ExitCode bench(const BenchOptions& options);
 
-/// The time of a collision with each effect, as a ratio to that of the lean engine on the same gas.
+/// Returns the time of a collision with each effect, as a ratio to that of the lean engine on the same gas.
 ExitCode bench_effects(const BenchOptions& options);
 
 }  // namespace carom::cli

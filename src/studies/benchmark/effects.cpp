@@ -63,7 +63,7 @@ class Race {
     first_ = (first_ + 1) % 3;
   }
 
-  /// Whether the neutral value has left the bits as they are.
+  /// Returns whether the neutral value has left the bits as they are.
   [[nodiscard]] bool same_bits() const { return !neutral_ || same_bits(lean_->state(), neutral_->state()); }
 
   /// Returns what is wrong with an answer, in one sentence; empty where all are right. Requires a turn.

@@ -7,7 +7,7 @@
 
 namespace carom::cli {
 
-/// The processor's name, as the system calls it; "unknown" where it does not say.
+/// Returns the processor's name, as the system calls it; "unknown" where it does not say.
 std::string processor();
 
 /// Bytes of second-level cache that a core has; empty where the system does not say.

@@ -7,7 +7,8 @@
 
 namespace carom::cli {
 
-/// "Intel(R) Xeon(R) Processor, 2048 KiB of second-level cache; carom 0.1.0 (commit ...), avx512 instructions."
+/// Returns text such as "Intel(R) Xeon(R) Processor, 2048 KiB of second-level cache; carom 0.1.0 (commit ...), avx512
+/// instructions."
 std::string measured_on();
 
 /// {"carom": {...}, "machine": {...}, "instructions": "avx512"}

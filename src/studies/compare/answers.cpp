@@ -22,7 +22,7 @@ std::optional<Estimate> mean_of(const std::vector<double>& values) {
   return Estimate{mean, values.size() < 2 ? NAN : std::sqrt(squares / (n - 1.0) / n)};
 }
 
-/// The run of the engine that runs the scene, from the same start.
+/// Returns the run of the engine that runs the scene, from the same start.
 const MethodRun* exact_twin(const Comparison& comparison, const MethodRun& run) {
   for (const MethodRun& one : comparison.runs)
     if (one.method.name == comparison.plan.horizon.engine && one.seed == run.seed) return &one;
@@ -67,7 +67,7 @@ MethodSummary summary_of(const Comparison& comparison, const Method& method) {
   return summary;
 }
 
-/// A method's summaries by falling dt.
+/// Returns a method's summaries by falling dt.
 std::vector<const MethodSummary*> by_step(const std::vector<MethodSummary>& summaries, const std::string& method) {
   std::vector<const MethodSummary*> found;
   for (const MethodSummary& summary : summaries)
@@ -83,7 +83,7 @@ std::vector<const MethodSummary*> lawful(const std::vector<MethodSummary>& summa
   return steps;
 }
 
-/// log error against log dt by least squares.
+/// Returns log error against log dt by least squares.
 std::optional<Estimate> order_of(const std::vector<MethodSummary>& summaries, const std::string& method) {
   const auto steps = lawful(summaries, method);
   if (steps.size() < 4) return std::nullopt;

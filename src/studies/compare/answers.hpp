@@ -27,7 +27,7 @@ struct Spread {
 struct MethodSummary {
   Method method;
   std::size_t runs = 0;
-  Spread error;                   ///< at the early sample
+  Spread error;                   ///< error at the early sample
   double seconds_early = 0.0;     ///< median
   double seconds_per_time = 0.0;  ///< median
   std::optional<Estimate> Z;      ///< empty where the method was cut short
@@ -63,18 +63,18 @@ struct PriceOfError {
 
 struct Answers {
   std::string exact;                         ///< the engine that runs the scene
-  double exact_seconds = 0.0;                ///< until the early sample
+  double exact_seconds = 0.0;                ///< processor time until the early sample
   double exact_error = 0.0;                  ///< there
-  std::optional<Estimate> order;             ///< of the grid method: error ~ dt^order
-  std::optional<PriceOfError> to_millionth;  ///< of the grid method, for an error of 1e-6 sigma
-  std::optional<double> crossover_error;     ///< for cruder answers than this the grid method is cheaper; empty where it never is
+  std::optional<Estimate> order;             ///< order of the grid method: error ~ dt^order
+  std::optional<PriceOfError> to_millionth;  ///< cost of the grid method for an error of 1e-6 sigma
+  std::optional<double> crossover_error;     ///< error above which the grid method is cheaper; empty where it never is
   std::optional<double> crossover_dt;
   std::vector<TimeToZ> time_to_Z;
   std::vector<std::string> sentences;
 };
 [[nodiscard]] Answers answers_of(const Comparison& comparison);
 
-/// The grid method's price for an error at the early sample. Empty where its errors follow no law yet.
+/// Returns the grid method's price for an error at the early sample. Empty where its errors follow no law yet.
 [[nodiscard]] std::optional<PriceOfError> price_of_error(const std::vector<MethodSummary>& summaries, const std::string& method,
                                                          double error);
 

@@ -150,7 +150,7 @@ class Study {
            std::any_of(result_.left_out.begin(), result_.left_out.end(), [&](const LeftOut& one) { return same(one.method); });
   }
 
-  /// All methods from one start. False where the study was stopped.
+  /// Runs all methods from one start. Returns false where the study was stopped.
   bool compare_from(std::uint64_t seed) {
     const std::vector<Method> all = methods();
     std::optional<State> start;

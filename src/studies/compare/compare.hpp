@@ -37,7 +37,7 @@ struct CompareHooks {
 [[nodiscard]] Comparison compare(const Scene& scene, const CompareOptions& options, const CompareHooks& hooks,
                                  Comparison before = {});
 
-/// The exact engines that are compared, least precise first, without the 113 bits that are the measure of all.
+/// Returns the exact engines that are compared, least precise first, without the 113 bits that are the measure of all.
 [[nodiscard]] std::vector<std::string> compared_engines(const Scene& scene, const std::string& engine);
 
 }  // namespace carom

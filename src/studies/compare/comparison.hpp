@@ -16,14 +16,14 @@ namespace carom {
 /// The times and steps of a comparison, which are the same for every method.
 struct ComparePlan {
   double sigma = 0.0;           ///< mean diameter, the unit of every error
-  double mean_free_time = 0.0;  ///< from one collision of a disk to the next, in the exact run
+  double mean_free_time = 0.0;  ///< mean time between two collisions of one disk, in the exact run
   double temperature = 0.0;     ///< kT of the start with the first seed
   double thermal_speed = 0.0;   ///< sqrt(kT / m) where all disks are equal; else 0
-  Horizon horizon;              ///< of the exact trajectory with the first seed
+  Horizon horizon;              ///< horizon of the exact trajectory with the first seed
   double sample_step = 0.0;     ///< errors are taken at k * sample_step, k = 1 to samples
   std::uint64_t samples = 0;
   std::uint64_t early = 0;  ///< the sample at which methods are compared before chaos takes over: a sixteenth of the horizon
-  std::vector<double> dts;  ///< of the fixed-step methods, falling
+  std::vector<double> dts;  ///< time steps of the fixed-step methods, falling
   std::vector<std::uint64_t> seeds;  ///< one per start
   bool drawn = true;                 ///< another seed gives another start; else there is one
   double longest = 0.0;              ///< seconds of processor time that one run of a fixed-step method may be foreseen to take
@@ -40,15 +40,15 @@ struct MethodRun {
   std::vector<double>
       error;  ///< rms distance from the 113-bit trajectory at the samples, in sigma; fewer samples where cut short
   double seconds_early = 0.0;        ///< processor time of the loop until the early sample
-  double seconds = 0.0;              ///< until `time`
+  double seconds = 0.0;              ///< processor time until `time`
   double time = 0.0;                 ///< reached; plan.until(), or less where that would have taken too long
   std::uint64_t pair = 0;            ///< reversals
-  double Z = 0.0;                    ///< from r . dp of each reversal
+  double Z = 0.0;                    ///< Z from r . dp of each reversal
   double collision_rate = 0.0;       ///< reversals of one disk per time
   double mean_free_path = 0.0;       ///< mean speed over collision_rate; length
   double energy_drift = 0.0;         ///< relative
   double worst_overlap = 0.0;        ///< over the samples, in units of the pair's sigma
-  std::optional<StepCounts> counts;  ///< of a fixed-step method, over the first steps
+  std::optional<StepCounts> counts;  ///< counts of a fixed-step method, over the first steps
 };
 
 /// A method that was not run because it would have taken too long.
@@ -64,9 +64,9 @@ struct CostPoint {
   std::string method;
   double dt = 0.0;          ///< the step with which the bias of Z is 1 %, or the longest whose bias is known; 0: exact
   double free_time = 0.0;   ///< mean, there
-  double seconds = 0.0;     ///< of processor time per disk and mean free time
+  double seconds = 0.0;     ///< processor time per disk and mean free time
   double Z = 0.0;           ///< exact, there
-  double bias_slope = 0.0;  ///< of fixed steps: relative bias of Z per dt
+  double bias_slope = 0.0;  ///< relative bias of Z per dt, for fixed steps
 };
 
 struct Comparison {

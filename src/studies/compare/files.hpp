@@ -30,14 +30,14 @@ class PointsFile {
   detail::FinishedParts parts_;
 };
 
-/// The points that an earlier study has finished; its plan is made anew. A last line that was not finished is left out. Throws
-/// OutputError where the file cannot be read, or belongs to another study than `key`.
+/// Returns the points that an earlier study has finished; its plan is made anew. A last line that was not finished is left out.
+/// Throws OutputError where the file cannot be read, or belongs to another study than `key`.
 [[nodiscard]] Comparison load_points(const std::filesystem::path& path, const std::string& key);
 
 /// Everything, with the answers.
 [[nodiscard]] std::string compare_json(const Comparison& comparison, const Scene& scene, const std::string& command_line);
 
-/// method,dt,seed,... : one line per run.
+/// Returns compare.csv: a line "method,dt,seed,..." per run.
 [[nodiscard]] std::string compare_csv(const Comparison& comparison);
 
 }  // namespace carom

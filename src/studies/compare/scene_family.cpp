@@ -10,7 +10,7 @@ namespace carom {
 
 namespace {
 
-/// The first `count` of a list that goes round.
+/// Returns the first `count` of a list that goes round.
 std::vector<double> repeated(const std::vector<double>& values, std::int64_t count) {
   std::vector<double> more;
   for (std::int64_t i = 0; i < count && !values.empty(); ++i) more.push_back(values[static_cast<std::size_t>(i) % values.size()]);

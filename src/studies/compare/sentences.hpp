@@ -13,7 +13,7 @@ namespace carom {
 [[nodiscard]] std::vector<std::string> compare_sentences(const Comparison& comparison,
                                                          const std::vector<MethodSummary>& summaries, const Answers& answers);
 
-/// "8 starts", or that there is one, and why.
+/// Returns text such as "8 starts", or that there is one, and why.
 [[nodiscard]] std::string starts_words(const ComparePlan& plan);
 
 /// Two digits and no more: "1.3", "420", "23,000", "2.1e+09". Requires a positive value.

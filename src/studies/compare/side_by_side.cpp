@@ -60,7 +60,7 @@ class Flight {
   /// The last stretch may be shorter than a step.
   [[nodiscard]] bool ends_with_a_step(std::uint64_t k) const { return at(k + 1) <= until_ * (1.0 + rounding); }
 
-  /// Whether another step from step k is wanted and fits.
+  /// Returns whether another step from step k is wanted and fits.
   bool goes_on(std::uint64_t k) {
     const auto disks = static_cast<double>(shown_.disks.count());
     const bool is_naive = options_.step.method.starts_with("naive");

@@ -50,7 +50,7 @@ struct SideBySideLimits {
 
 struct SideBySideOptions {
   FixedStep step;
-  std::string engine = "auto";  ///< of the exact side
+  std::string engine = "auto";  ///< engine of the exact side
   double until = 0.0;           ///< time, > 0: the end of the scene's run
   double free_time = 0.0;       ///< mean; as far as ten of them are shown however early the two have parted
   double sigma = 1.0;           ///< mean diameter, the unit of distances
@@ -60,17 +60,18 @@ struct SideBySideOptions {
 
 struct SideBySide {
   FixedStep step;
-  std::string engine;  ///< that flew the exact side
+  std::string engine;  ///< engine of the exact side
   State start;
   Disks disks;
   double sigma = 1.0;
   double until = 0.0;  ///< time that is shown
   ShownUntil because = ShownUntil::end;
   double free_time = 0.0;
-  std::vector<Event> events;  ///< of the exact side
-  std::vector<Turn> turns;  ///< of the fixed steps, by step, then by disk; the first ones at step 0, where a velocity was changed
-  std::vector<Overlap> overlaps;     ///< of the fixed steps, in the order in which they began
-  std::vector<double> times;         ///< of steps, rising from 0; a thousand at most
+  std::vector<Event> events;  ///< events of the exact side
+  /// changes of velocity of the fixed steps, by step, then by disk; the first ones at step 0, where a velocity was changed
+  std::vector<Turn> turns;
+  std::vector<Overlap> overlaps;     ///< overlaps of the fixed steps, in the order in which they began
+  std::vector<double> times;         ///< times of steps, rising from 0; a thousand at most
   std::vector<double> distance;      ///< then, of the two sides: root mean square over disks, to nearest images, in sigma
   double energy_change_exact = 0.0;  ///< the largest at these times, as a share of the energy at the start
   double energy_change_stepped = 0.0;

@@ -19,7 +19,8 @@ inline constexpr std::string_view side_by_side_mark = "<meta name=\"generator\" 
 [[nodiscard]] std::string side_by_side_page(const SideBySide& shown, const Scene& scene, const std::optional<Lyapunov>& lyapunov,
                                             const std::string& command_line);
 
-/// "shown until time 2 of 10: a page holds no more collisions and turns"; empty where the whole run is shown.
+/// Returns text such as "shown until time 2 of 10: a page holds no more collisions and turns"; empty where the whole run is
+/// shown.
 [[nodiscard]] std::string why_no_longer(const SideBySide& shown, const Scene& scene);
 
 }  // namespace carom

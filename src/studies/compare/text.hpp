@@ -9,7 +9,7 @@
 
 namespace carom::cli {
 
-/// A table with a row per method and step, and the sentences that answer; `brief`: the sentences alone.
+/// Returns a table with a row per method and step, and the sentences that answer; `brief`: the sentences alone.
 std::string compare_text(const Comparison& comparison, const Scene& scene, bool brief);
 
 }  // namespace carom::cli

@@ -20,10 +20,10 @@ namespace carom {
 /// Returns the checks that need runs of their own: velocities reversed, disks in another order.
 [[nodiscard]] std::vector<CaseCheck> checks_of_twins(const HardCase& hard_case, const Scene& scene, const EngineRun& run);
 
-/// A number against a bound; not a number is beyond every bound.
+/// Returns the check of a number against a bound; NaN is beyond every bound.
 [[nodiscard]] CaseCheck within(std::string what, const EngineRun& run, double value, double bound);
 
-/// A bound of double precision for the engine of the run: in single precision it is 2^29 times as wide.
+/// Returns a bound of double precision for the engine of the run: in single precision it is 2^29 times as wide.
 [[nodiscard]] double widened(double bound, const EngineRun& run);
 
 }  // namespace carom

@@ -20,7 +20,7 @@ struct HardCasesOptions {
   bool markdown = false;
   std::string page;          ///< an HTML file to write besides; empty: none
   std::string method;        ///< a fixed-step method in the place of the engines
-  std::optional<double> dt;  ///< of it; absent: from each case's speeds
+  std::optional<double> dt;  ///< time step of the method; absent: from each case's speeds
 };
 ExitCode hardcases(const HardCasesOptions& options, const Invocation& invocation);
 

@@ -28,7 +28,7 @@ namespace {
 using detail::Range;
 using detail::TableReader;
 
-/// "0x1.8p-3", quotes included, as 0.1875: decimal text with as many digits as lead back to the same bits.
+/// Returns `text` with numbers such as "0x1.8p-3" (quotes included) in decimal, 0.1875, with enough digits for the same bits.
 std::string without_hexfloats(const std::string& text) {
   static const std::regex hexfloat("\"([+-]?)0x([0-9a-fA-F]+\\.?[0-9a-fA-F]*p[+-]?[0-9]+)\"");
   std::string plain;

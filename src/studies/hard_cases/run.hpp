@@ -28,7 +28,7 @@ struct EngineRun {
   double overlap = 0.0;       ///< deepest, in contact distances: at the start, samples, collisions now and then, and the end
   bool finite = true;         ///< every number in every state that was looked at
   bool monotone = true;       ///< neither an event nor a sample before the one that came before it
-  std::vector<std::string> faults;  ///< what check_invariants() found, but for overlap, which has a bound of its own
+  std::vector<std::string> faults;  ///< faults found by check_invariants(), except overlap, which has a bound of its own
 };
 
 /// Returns the bits of the significand in which an engine computes: 24, 53, 64 or 113.
@@ -36,8 +36,9 @@ struct EngineRun {
 
 /// The data to keep of a run, and the limit at which it is stopped.
 struct Watch {
-  std::uint64_t events = 0;                                               ///< the first so many are kept
-  std::uint64_t most_events = std::numeric_limits<std::uint64_t>::max();  ///< of any kind; a run beyond is interrupted
+  std::uint64_t events = 0;  ///< the first so many are kept
+  /// largest number of events of any kind; a longer run is interrupted
+  std::uint64_t most_events = std::numeric_limits<std::uint64_t>::max();
   bool look_for_faults = false;
   std::function<bool()> proceed = {};  ///< false interrupts it too
 };
@@ -45,8 +46,8 @@ struct Watch {
 /// Throws what make_simulation and run_schedule throw.
 [[nodiscard]] EngineRun run_in_engine(const Scene& scene, const std::string& engine, const Watch& watch);
 
-/// The largest difference of two states of the same disks: positions in lengths of the box, to the nearest image, velocities in
-/// the largest speed of either. 0 where every number is the same.
+/// Returns the largest difference of two states of the same disks: positions in lengths of the box, to the nearest image,
+/// velocities in the largest speed of either. 0 where every number is the same.
 [[nodiscard]] double difference(const Box& box, const State& a, const State& b);
 
 }  // namespace carom

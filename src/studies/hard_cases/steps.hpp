@@ -17,15 +17,16 @@ struct StepTrial {
   std::string not_run;  ///< why; empty where it ran
   double dt = 0.0;
   double time = 0.0;                   ///< over which both were followed
-  std::uint64_t exact_collisions = 0;  ///< of pairs, by exact events
+  std::uint64_t exact_collisions = 0;  ///< number of pair collisions by exact events
   StepCounts counts;
-  double overlap_at_start = 0.0;  ///< in contact distances, where the case accepts one
+  double overlap_at_start = 0.0;  ///< overlap at the start in contact distances, where the case accepts one
   double error = 0.0;             ///< largest distance of a disk from where exact events have it, in mean diameters
-  double finer_error = 0.0;       ///< the same with a tenth of dt
+  double finer_error = 0.0;       ///< error with a tenth of dt
   double energy = 0.0;            ///< relative drift
 
-  /// "tunnelled": collisions were missed; "stuck": more reversals were repeats than collisions; "overlapped": deeper than at the
-  /// start; "gained nothing": a tenth of dt did not halve the error; "off" where only the error shows; "held" where nothing does.
+  /// Returns text such as "tunnelled": collisions were missed; "stuck": more reversals were repeats than collisions;
+  /// "overlapped": deeper than at the start; "gained nothing": a tenth of dt did not halve the error; "off" where only the error
+  /// shows; "held" where nothing does.
   [[nodiscard]] std::vector<std::string> faults() const;
 };
 

@@ -38,7 +38,7 @@ std::size_t failures(std::span<const CaseVerdict> verdicts) {
   return static_cast<std::size_t>(std::count_if(verdicts.begin(), verdicts.end(), [](const auto& one) { return !one.holds(); }));
 }
 
-/// A bar would end the cell.
+/// Returns `text` with its bars escaped, which would end the cell.
 std::string table_cell(std::string text) {
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.replace(at, 1, "\\|");
   return text;

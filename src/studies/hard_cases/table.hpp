@@ -14,13 +14,13 @@ namespace carom {
 struct HardCaseRow {
   std::string name;
   std::string engines;  ///< "fast, general, textbook"; "-" where none ran, as for a scene that is refused
-  std::string checked;  ///< what beyond the things that are checked always
+  std::string checked;  ///< names of the checks besides those that are always made
   std::string worst;    ///< "overlap 2.2e-16 of 1e-12 (fast)"; where something fails, what was found
   std::string verdict;  ///< "holds", "FAILS" or "not run"
 };
 [[nodiscard]] HardCaseRow row_of(const CaseVerdict& verdict);
 
-/// "96 cases, 530 runs, 6200 checks: all hold; 12 s"
+/// Returns text such as "96 cases, 530 runs, 6200 checks: all hold; 12 s"
 [[nodiscard]] std::string summary_of(std::span<const CaseVerdict> verdicts);
 
 /// Returns one sentence on what is checked in every run.

@@ -8,7 +8,7 @@
 
 namespace carom::cli {
 
-/// Every case with what it states, by family.
+/// Returns every case with what it states, by family.
 std::string hardcases_list(std::span<const HardCase> cases);
 
 std::string hardcases_header();

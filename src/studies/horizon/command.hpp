@@ -12,7 +12,8 @@ namespace carom::cli {
 
 struct HorizonCommandOptions {
   SceneOptions scene;
-  std::optional<std::uint64_t> collisions;  ///< of pairs, for the exponent; absent: half a million, or 100 per disk
+  /// number of pair collisions for the exponent; absent: half a million, or 100 per disk
+  std::optional<std::uint64_t> collisions;
   bool json = false;
   bool quiet = false;
   std::string progress = "auto";

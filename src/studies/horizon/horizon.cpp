@@ -48,7 +48,7 @@ struct Precision {
   int bits;
 };
 
-/// The engines that cover a scene from coarse to fine, each better than the one before.
+/// Returns the engines that cover a scene from coarse to fine, each better than the one before.
 std::vector<Precision> ladder(const Scene& scene) {
   std::vector<Precision> all;
   const std::vector<std::string> covering = engines_covering(scene);
@@ -196,8 +196,8 @@ class HorizonSearch {
     }
   }
 
-  /// Every engine to time k * step, or to `time` where k is 0, the cheap ones first. False where time stopped for one or the
-  /// caller said stop. Single precision may lose its way without the others.
+  /// Advances every engine to time k * step, or to `time` where k is 0, the cheap ones first. Returns false where time stopped
+  /// for one or the caller said stop. Single precision may lose its way without the others.
   bool advance_to(double time, std::uint64_t k) {
     for (auto at = runners_.rbegin(); at != runners_.rend(); ++at) {
       Runner& one = *at;

@@ -13,14 +13,14 @@
 namespace carom {
 
 struct HorizonProgress {
-  std::string doing;      ///< what is being done, as "time 3.2, 12 collisions per disk"
-  double fraction = 0.0;  ///< of all that is to be done, roughly
+  std::string doing;      ///< what is being done: "time 3.2, 12 collisions per disk"
+  double fraction = 0.0;  ///< fraction of the work that is done, roughly
 };
 
 struct HorizonOptions {
-  double tolerance = 1e-3;                ///< in units of the mean diameter; > 0
+  double tolerance = 1e-3;                ///< tolerance in mean diameters, > 0
   std::string engine = "auto";            ///< the one that is to run the scene: its row is the one that the user asks about
-  std::uint64_t lyapunov_collisions = 0;  ///< of pairs, for the exponent; 0: see LyapunovOptions
+  std::uint64_t lyapunov_collisions = 0;  ///< number of pair collisions for the exponent; 0: see LyapunovOptions
   /// The limit of work: events of any kind in the best precision, a comparison counting one for each disk. 0: 1500 per disk,
   /// which is 100 collisions per disk or more, but two million at least and 200 million at most: a quarter of an hour.
   std::uint64_t limit = 0;

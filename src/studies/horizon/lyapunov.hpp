@@ -14,7 +14,7 @@
 namespace carom {
 
 struct LyapunovOptions {
-  std::uint64_t collisions = 0;                       ///< of pairs; 0: half a million, or 100 per disk where that is more
+  std::uint64_t collisions = 0;  ///< number of pair collisions; 0: half a million, or 100 per disk where that is more
   std::function<bool(double fraction)> proceed = {};  ///< several times a second; false ends it
 };
 

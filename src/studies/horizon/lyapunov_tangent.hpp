@@ -32,11 +32,11 @@ class TangentFlow {
   /// Brings every disk to one time, not before the last event. O(N).
   void advance(double time);
 
-  /// The difference of all disks; of one time only just after advance().
+  /// Returns the difference of all disks; of one time only just after advance().
   [[nodiscard]] Eigen::Matrix2Xd dr() const;
   [[nodiscard]] Eigen::Matrix2Xd dv() const;
 
-  /// sqrt(sum |dr|^2 / length^2 + sum |dv|^2 / speed^2), after advance().
+  /// Returns sqrt(sum |dr|^2 / length^2 + sum |dv|^2 / speed^2), after advance().
   [[nodiscard]] double norm(double length, double speed) const;
   void scale(double factor);
 

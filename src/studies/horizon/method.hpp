@@ -22,8 +22,8 @@ struct Method {
 /// Makes a simulation by this method from a given state. Throws as make_simulation.
 [[nodiscard]] Simulation begin(const Scene& scene, const State& start, const Method& method);
 
-/// The state in which the scene's measured run begins: after its equilibration, by `engine` or the one that runs the scene. Empty
-/// where that was stopped by `proceed`, or ended for want of collisions.
+/// Returns the state in which the scene's measured run begins: after its equilibration, by `engine` or the one that runs the
+/// scene. Empty where that was stopped by `proceed`, or ended for want of collisions.
 [[nodiscard]] std::optional<State> measured_start(const Scene& scene, const std::string& engine,
                                                   const std::function<bool(const Progress&)>& proceed = {});
 

@@ -7,9 +7,9 @@
 namespace carom {
 
 struct Pace {
-  double time = 0.0;             ///< how long was looked; 0 where nothing moves
+  double time = 0.0;             ///< simulated time of the short run; 0 where nothing moves
   double collision_rate = 0.0;   ///< collisions of one disk per time, 0 where no pair met
-  double events_per_time = 0.0;  ///< of every kind, bookkeeping too
+  double events_per_time = 0.0;  ///< number of events of every kind per time, bookkeeping too
   bool stuck = false;            ///< jammed at the time reached: collisions without end at one instant
 };
 

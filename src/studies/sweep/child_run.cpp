@@ -84,7 +84,7 @@ class Child {
       if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "cannot wait for a process");
     return status;
   }
-  /// The last line, without the program's name.
+  /// Returns the last line, without the program's name.
   [[nodiscard]] std::string last_sentence() const {
     const std::size_t end = said_.find_last_not_of('\n');
     if (end == std::string::npos) return "";

@@ -13,9 +13,9 @@ namespace carom::cli {
 /// A run to carry out, and its directory. It can be sent to other machines as it is.
 struct RunOrder {
   std::size_t run = 0;              ///< its number in the sweep
-  std::filesystem::path directory;  ///< of its results
-  std::string scene;                ///< with every default
-  std::string checkpoint_every;     ///< as carom run takes it; empty: only when it is stopped
+  std::filesystem::path directory;  ///< directory of its results
+  std::string scene;                ///< the scene with every default
+  std::string checkpoint_every;     ///< interval as carom run takes it; empty: only when it is stopped
 };
 
 struct RunEnd {

@@ -9,10 +9,10 @@
 namespace carom::cli {
 
 struct SweepCommandOptions {
-  std::string path;              ///< of the sweep file
+  std::string path;              ///< path of the sweep file
   std::string out;               ///< empty: the sweep file's name without its ending
   std::optional<int> threads;    ///< runs at a time; absent: one per processor, under MPI one per process
-  std::string checkpoint_every;  ///< of each run, "10min" or "1e8 collisions"; empty: only when it is stopped
+  std::string checkpoint_every;  ///< interval for each run, "10min" or "1e8 collisions"; empty: only when it is stopped
   bool force = false;
   bool list = false;  ///< print the commands of the runs that are still to do, in place of running them
   bool quiet = false;

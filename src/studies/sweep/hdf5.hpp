@@ -7,7 +7,7 @@
 
 namespace carom {
 
-/// The bytes of sweep.h5. Throws detail::Hdf5Error.
+/// Returns the bytes of sweep.h5. Throws detail::Hdf5Error.
 [[nodiscard]] std::string sweep_hdf5(const Sweep& sweep, const SweepResults& results);
 
 }  // namespace carom

@@ -20,11 +20,11 @@ class Ranks {
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
-  [[nodiscard]] virtual int rank() const = 0;  ///< of this process, from 0
+  [[nodiscard]] virtual int rank() const = 0;  ///< number of this process, from 0
   [[nodiscard]] virtual int size() const = 0;
   /// One thread at a time may call these.
   virtual void send(int to, int kind, const std::string& text) = 0;
-  /// A message of this kind (absent: of any) if one has come.
+  /// Returns a message of this kind (absent: of any) if one has come.
   [[nodiscard]] virtual std::optional<Message> receive(std::optional<int> kind) = 0;
 
  protected:

@@ -15,7 +15,7 @@ bool is_letter_or_digit(char c) { return std::isalnum(static_cast<unsigned char>
 
 bool is_plain(char c) { return is_letter_or_digit(c) || std::string_view("._+-").find(c) != std::string_view::npos; }
 
-/// The last `parts` parts of a dotted key.
+/// Returns the last `parts` parts of a dotted key.
 std::string_view end_of(std::string_view key, std::size_t parts) {
   std::size_t dot = key.size();
   for (; parts > 0 && dot != std::string_view::npos; --parts) dot = dot == 0 ? std::string_view::npos : key.rfind('.', dot - 1);

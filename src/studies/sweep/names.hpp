@@ -11,11 +11,12 @@ namespace carom {
 /// "0.radius" and "1.radius".
 [[nodiscard]] std::vector<std::string> short_keys(const std::vector<std::string>& keys);
 
-/// "radius=0.1_boundary=periodic" from short keys and values in TOML. What file systems or shells may mind becomes "-", and a
-/// long value its beginning and a hash of all of it. Absent values (empty) are left out; "scene" where all are.
+/// Returns text such as "radius=0.1_boundary=periodic" from short keys and values in TOML. What file systems or shells may mind
+/// becomes "-", and a long value its beginning and a hash of all of it. Absent values (empty) are left out; "scene" where all
+/// are.
 [[nodiscard]] std::string point_name(const std::vector<std::string>& short_keys, const std::vector<std::string>& values);
 
-/// Whether a user may call a point so: letters, digits and . _ = + -, a letter or a digit first, at most 100 of them.
+/// Returns whether a user may call a point so: letters, digits and . _ = + -, a letter or a digit first, at most 100 of them.
 [[nodiscard]] bool is_point_name(std::string_view name);
 
 }  // namespace carom

@@ -64,7 +64,7 @@ State state_of_nothing(const Scene& scene, Eigen::Index disks) {
   return state;
 }
 
-/// "pressure" of "observables.pressure.Z"
+/// Returns the observable of a number: "pressure" of "observables.pressure.Z"
 std::string observable_of(std::string_view name) {
   const std::string_view rest = name.substr(observables.size());
   return std::string(rest.substr(0, rest.find('.')));

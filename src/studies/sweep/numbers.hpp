@@ -22,13 +22,14 @@ struct SummaryNumber {
 /// within the run the name with "_error".
 [[nodiscard]] std::vector<SummaryNumber> numbers_of(const nlohmann::ordered_json& summary);
 
-/// Whether a sweep's table holds the number where nothing else is asked for.
+/// Returns whether a sweep's table holds the number where nothing else is asked for.
 [[nodiscard]] bool is_usual_number(std::string_view name);
 
-/// The names of all numbers that a run of the scene has in its summary, with a value or null. Nothing is drawn and nothing run.
+/// Returns the names of all numbers that a run of the scene has in its summary, with a value or null. Nothing is drawn and
+/// nothing run.
 [[nodiscard]] std::vector<std::string> number_names(const Scene& scene);
 
-/// The end of a sentence that says why `name` is none of the numbers, and which there are.
+/// Returns the end of a sentence that says why `name` is none of the numbers, and which there are.
 [[nodiscard]] std::string fault_of_number_name(const std::string& name, const std::vector<std::string>& numbers);
 
 }  // namespace carom

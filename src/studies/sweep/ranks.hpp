@@ -30,7 +30,7 @@ class SweepServer {
   bool stopping_ = false;
 };
 
-/// The other processes: carries out `threads` runs at a time, until there are no more.
+/// Carries out `threads` runs at a time in a process other than the first, until there are no more.
 [[nodiscard]] ExitCode work_for_first_rank(Ranks& ranks, int threads);
 
 }  // namespace carom::cli

@@ -68,7 +68,7 @@ std::vector<std::uint64_t> listed_seeds(const toml::array& list) {
   return seeds;
 }
 
-/// A list as it is; a number of them from the scene's own seed on, which is `first`.
+/// Returns a list as it is; a number of them from the scene's own seed on, which is `first`.
 std::vector<std::uint64_t> read_seeds(const toml::table& document, std::uint64_t first) {
   const toml::node* node = document.get("seeds");
   if (node == nullptr) return {first};

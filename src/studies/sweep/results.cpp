@@ -18,7 +18,7 @@ bool is_wanted(const Sweep& sweep, const std::string& name) {
                              : std::find(sweep.table.begin(), sweep.table.end(), name) != sweep.table.end();
 }
 
-/// The usual numbers that any run has, in the order in which they first appear; those asked for, in the order asked for.
+/// Returns the usual numbers that any run has, in the order in which they first appear; those asked for, in the order asked for.
 std::vector<std::string> columns_of(const Sweep& sweep, const std::vector<Numbers>& found) {
   if (!sweep.table.empty()) return sweep.table;
   std::vector<std::string> columns;

@@ -22,11 +22,11 @@ struct SeedAverage {
 [[nodiscard]] SeedAverage average_of(const std::vector<std::optional<double>>& values);
 
 struct SweepResults {
-  std::vector<std::string> numbers;                        ///< the columns
-  std::vector<std::string> units;                          ///< of each, made of the scene's units; empty for a pure number
-  std::vector<FoundRun> runs;                              ///< of every run its state; `numbers` is empty
-  std::vector<std::vector<std::optional<double>>> values;  ///< of every run, one per column
-  std::vector<std::vector<SeedAverage>> averages;          ///< of every point, one per column
+  std::vector<std::string> numbers;  ///< the columns
+  std::vector<std::string> units;    ///< unit of each column, made of the scene's units; empty for a pure number
+  std::vector<FoundRun> runs;        ///< state of every run; `numbers` is empty
+  std::vector<std::vector<std::optional<double>>> values;  ///< values of every run, one per column
+  std::vector<std::vector<SeedAverage>> averages;          ///< averages of every point, one per column
   std::vector<std::string> versions;                       ///< the programs that have run it; one, or the runs are of several
 
   /// Returns the number of runs of a point in this state.

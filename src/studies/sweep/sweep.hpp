@@ -18,23 +18,23 @@ namespace carom {
 struct SweepPoint {
   std::string name;                 ///< "radius=0.1_count=200"; that of its directory, too
   std::vector<std::string> values;  ///< one per key of the sweep, in TOML; empty where the scene's own stays
-  std::vector<Location> places;     ///< where each was written
-  Location where;                   ///< of the point as a whole
+  std::vector<Location> places;     ///< place of each value in the file
+  Location where;                   ///< place of the point as a whole
 };
 
 struct Sweep {
   std::string source;      ///< the sweep file's path
-  std::string text;        ///< what it holds
+  std::string text;        ///< text of the sweep file
   std::string scene_path;  ///< as `carom run` would be given it
   std::string scene_text;
   Location scene_where;
   std::vector<std::string> shared;      ///< changes at every point, as overrides: "run.time=2"
-  std::vector<Location> shared_places;  ///< where each was written
-  std::vector<std::string> keys;        ///< what is changed, "disks.0.radius", in the order of the file
+  std::vector<Location> shared_places;  ///< place of each of these
+  std::vector<std::string> keys;        ///< keys that change, "disks.0.radius", in the order of the file
   std::vector<SweepPoint> points;
   std::vector<std::uint64_t> seeds;
   std::vector<std::string> table;      ///< numbers of summary.json that the results are to hold; empty: the usual ones
-  std::vector<Location> table_places;  ///< where each was written
+  std::vector<Location> table_places;  ///< place of each of these
   bool drawn = true;                   ///< some point's runs differ from seed to seed
 
   /// Runs are numbered point by point, the seeds of one after each other.
@@ -43,7 +43,7 @@ struct Sweep {
   [[nodiscard]] std::uint64_t seed_of(std::size_t run) const { return seeds[run % seeds.size()]; }
   /// Below the directory of the sweep: "radius=0.1_count=200/seed=3"
   [[nodiscard]] std::filesystem::path directory_of(std::size_t run) const;
-  /// The overrides that make the scene of this run: "disks.0.radius=0.1", "run.seed=3"
+  /// Returns the overrides that make the scene of this run: "disks.0.radius=0.1", "run.seed=3"
   [[nodiscard]] std::vector<std::string> overrides_of(std::size_t run) const;
   /// Returns the changes of a point, without a seed.
   [[nodiscard]] std::vector<std::string> changes_of(const SweepPoint& point) const;

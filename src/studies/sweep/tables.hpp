@@ -7,9 +7,9 @@
 
 namespace carom {
 
-/// runs.csv
+/// Returns the text of runs.csv.
 [[nodiscard]] std::string runs_csv(const Sweep& sweep, const SweepResults& results);
-/// sweep.csv
+/// Returns the text of sweep.csv.
 [[nodiscard]] std::string points_csv(const Sweep& sweep, const SweepResults& results);
 
 }  // namespace carom

@@ -10,7 +10,7 @@
 
 namespace carom::cli {
 
-/// The points with some of their numbers, what has failed, and where the files are.
+/// Returns the points with some of their numbers, the failed runs, and the names of the files.
 [[nodiscard]] std::string sweep_text(const Sweep& sweep, const SweepResults& results, const std::filesystem::path& directory);
 
 /// A shell command for each of these runs, one per line.

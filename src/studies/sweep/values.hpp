@@ -9,11 +9,11 @@
 
 namespace carom {
 
-/// A value in TOML as a number; absent where it is none, or absent itself.
+/// Returns a value in TOML as a number; absent where it is none, or absent itself.
 [[nodiscard]] std::optional<double> number_of(const std::string& value);
-/// Whether all values of this key are numbers.
+/// Returns whether all values of this key are numbers.
 [[nodiscard]] bool is_numeric(const Sweep& sweep, std::size_t key);
-/// A string without the quotes that TOML needs; other values as they are.
+/// Returns a string without the quotes that TOML needs; other values as they are.
 [[nodiscard]] std::string plain_value(const std::string& value);
 
 }  // namespace carom

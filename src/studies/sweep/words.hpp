@@ -7,10 +7,10 @@
 
 namespace carom {
 
-/// Whether two numbers differ by more than rounding leaves: a part in 10^9 of the larger.
+/// Returns whether two numbers differ by more than rounding leaves: a part in 10^9 of the larger.
 [[nodiscard]] bool differ(double a, double b);
 
-/// "1.0970 ± 0.0041", "50", or a dash where there is none.
+/// Returns text such as "1.0970 ± 0.0041", "50", or a dash where there is none.
 [[nodiscard]] std::string average_words(const SeedAverage& average);
 
 }  // namespace carom

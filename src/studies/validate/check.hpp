@@ -35,19 +35,19 @@ struct Check {
   std::optional<double> equivalent = {};
   Judged judged = Judged::agrees;
 
-  /// The standard error of measured - expected: that of both.
+  /// Returns the standard error of measured - expected: that of both.
   [[nodiscard]] double error() const;
-  /// (measured - expected) / error(), without any allowance; infinite where they differ and there is no error, or where one of
-  /// them is no number. Of a calibrated measurement against an exact theory this is a normal variable of variance 1.
+  /// Returns (measured - expected) / error(), without any allowance; infinite where they differ and there is no error, or where
+  /// one of them is no number. Of a calibrated measurement against an exact theory this is a normal variable of variance 1.
   [[nodiscard]] double z() const;
   /// Returns the deviation beyond the allowance, in standard errors, with the sign of z(); the verdict depends on it.
   [[nodiscard]] double deviation() const;
-  /// Whether deviation() is within five standard errors, which chance exceeds once in 1.7 million.
+  /// Returns whether deviation() is within five standard errors, which chance exceeds once in 1.7 million.
   [[nodiscard]] bool fits() const;
-  /// Whether z() is that of the measurement alone: a normal statistic that must agree, with an error of its own
-  /// that is no bound, of which the errors of reference and theory together are less than a fifth.
+  /// Returns whether z() is that of the measurement alone: a normal statistic that must agree, with an error of its own that is
+  /// no bound, of which the errors of reference and theory together are less than a fifth.
   [[nodiscard]] bool calibrates() const;
-  /// Whether fits() is what it must be.
+  /// Returns whether fits() is what it must be.
   [[nodiscard]] bool holds() const;
 };
 
@@ -57,7 +57,7 @@ struct Curve {
   std::string name = {};
   bool theory = false;  ///< a line; else points
   std::vector<double> x = {}, y = {};
-  std::vector<double> error = {};  ///< of y; empty, or as long
+  std::vector<double> error = {};  ///< errors of y; empty, or as long
 };
 
 /// The results of one trial.
@@ -65,7 +65,7 @@ struct TrialResult {
   std::string trial = {};
   std::vector<Check> checks = {};
   std::vector<Curve> curves = {};
-  std::vector<std::string> scenes = {};  ///< what was run, as scene files
+  std::vector<std::string> scenes = {};  ///< scene files of the runs
   double seconds = 0.0;
 };
 

@@ -10,7 +10,7 @@
 namespace carom::cli {
 
 struct ValidateCommandOptions {
-  bool quick = false;  ///< what it is without --full
+  bool quick = false;  ///< the default, without --full
   bool full = false;
   std::int64_t seed = 1;
   std::vector<std::string> only;  ///< names of trials; empty: all

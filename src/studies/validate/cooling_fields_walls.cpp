@@ -24,7 +24,7 @@ std::array<double, 2> moments(const State& state) {
   return {squares.mean(), squares.squaredNorm() / static_cast<double>(squares.size())};
 }
 
-/// An equilibrium of elastic disks, whose state a gas that cools begins with.
+/// Returns an equilibrium of elastic disks, whose state a gas that cools begins with.
 State equilibrium(std::int64_t disks, double eta, const Effort& effort, std::uint64_t seed) {
   TrialResult not_kept;
   const Gas gas{.disks = disks, .packing_fraction = eta, .collisions = 1.0, .equilibrate = 20.0};

@@ -139,7 +139,7 @@ TrialResult small(const std::string& trial, const theory::ReferencePressure& kno
   return result;
 }
 
-/// A crystal of 16 x 18 disks in a box that fits it.
+/// Returns a crystal of 16 x 18 disks in a box that fits it.
 TrialResult solid(const std::string& trial, double alpha, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr int columns = 16, rows = 18, disks = columns * rows;

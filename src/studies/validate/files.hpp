@@ -24,8 +24,8 @@ class TrialsFile {
   detail::FinishedParts parts_;
 };
 
-/// The trials that an earlier validation has finished. A last line that was not finished is left out. Throws OutputError where
-/// the file cannot be read, or belongs to another validation than `key`.
+/// Returns the trials that an earlier validation has finished. A last line that was not finished is left out. Throws OutputError
+/// where the file cannot be read, or belongs to another validation than `key`.
 [[nodiscard]] Validation load_trials(const std::filesystem::path& path, const std::string& key);
 
 [[nodiscard]] std::string validation_json(const Validation& validation, const std::string& command_line);

@@ -17,7 +17,7 @@ namespace carom::validation {
 struct Gas {
   std::int64_t disks = 0;
   double packing_fraction = 0.0;
-  double collisions = 0.0;   ///< of all disks together
+  double collisions = 0.0;   ///< number of collisions of all disks together
   std::string observe = {};  ///< lines of the [observe] table
   std::string rule = "specular";
   std::string boundary = "periodic";
@@ -33,7 +33,7 @@ struct Found {
   std::vector<Measurement> measurements;
 
   [[nodiscard]] const Scalar& scalar(const std::string& observable, const std::string& name) const;
-  /// A number with its error. NaN where there is none, with which nothing agrees.
+  /// Returns a number with its error. NaN where there is none; it agrees with nothing.
   [[nodiscard]] Measured measured(const std::string& observable, const std::string& name) const;
   [[nodiscard]] const std::vector<double>& column(const std::string& observable, const std::string& name) const;
 };
@@ -45,11 +45,12 @@ using Change = std::function<void(State& start)>;
 [[nodiscard]] Found run(const std::string& scene, const Effort& effort, TrialResult& result,
                         std::vector<std::unique_ptr<Observable>> own = {}, const Change& change = {});
 
-/// A start without order for a dense system: disks of diameter 1 in a square periodic box, a liquid that has been compressed
-/// slowly to packing fraction `eta`. Requires a density that a liquid can be compressed to, some 0.72. Throws Interrupted.
+/// Returns a start without order for a dense system: disks of diameter 1 in a square periodic box, a liquid that has been
+/// compressed slowly to packing fraction `eta`. Requires a density that a liquid can be compressed to, some 0.72. Throws
+/// Interrupted.
 [[nodiscard]] State compressed_liquid(std::int64_t disks, double eta, const Effort& effort, std::uint64_t seed);
 
-/// The mean of independent values, and its error from their scatter.
+/// Returns the mean of independent values, and its error from their scatter.
 [[nodiscard]] Measured mean_of(const std::vector<double>& values);
 
 }  // namespace carom::validation

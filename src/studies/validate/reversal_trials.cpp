@@ -31,7 +31,7 @@ PairMoments pair_moments(const Eigen::Matrix2Xd& v) {
   return {sum.first / pairs, sum.second / pairs, sum.third / pairs};
 }
 
-/// The speeds in rising order, which equal masses never change.
+/// Returns the speeds in rising order, which equal masses never change.
 std::vector<double> sorted_speeds(const Eigen::Matrix2Xd& v) {
   std::vector<double> speeds(static_cast<std::size_t>(v.cols()));
   for (Eigen::Index i = 0; i < v.cols(); ++i) speeds[static_cast<std::size_t>(i)] = v.col(i).norm();

@@ -22,7 +22,7 @@ class SpeedCounts {
 
   /// One snapshot.
   void add(const Eigen::Matrix2Xd& velocities);
-  /// sqrt(n) times the largest distance between the distribution of what was counted and that of the law itself.
+  /// Returns sqrt(n) times the largest distance between the distribution of what was counted and that of the law itself.
   [[nodiscard]] double distance() const;
   /// Returns the distance from the law of infinitely many disks.
   [[nodiscard]] double distance_from_maxwell() const;
@@ -56,7 +56,7 @@ class Snapshots final : public Observable {
 /// The counts against the law.
 [[nodiscard]] Check speed_check(const std::string& what, const SpeedCounts& counts);
 
-/// The line that belongs to density().
+/// Returns the line that belongs to density().
 [[nodiscard]] Curve speed_curve(const std::string& plot, const theory::Microcanonical& law, double mean_square);
 
 }  // namespace carom::validation

@@ -15,7 +15,7 @@ namespace carom::validation {
 
 namespace {
 
-/// The first row of a table of lags that is not shorter than `time`.
+/// Returns the first row of a table of lags that is not shorter than `time`.
 std::size_t row_at(const std::vector<double>& lags, double time) {
   std::size_t row = 0;
   while (row + 1 < lags.size() && lags[row] < time) ++row;
@@ -106,7 +106,7 @@ TrialResult transport(const std::string& trial, double eta, const Effort& effort
   return result;
 }
 
-/// The law of long times where it holds: beyond 20 mean free times, and by the modes that the box has room for.
+/// Returns the law of long times where it holds: beyond 20 mean free times, and by the modes that the box has room for.
 TrialResult long_time_tail(const std::string& trial, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr double eta = 0.3, from = 20.0, to = 60.0;

@@ -18,7 +18,7 @@ struct Effort {
 
   /// Returns the number of collisions: `quick` in a quick validation, twenty times as many in a full one.
   [[nodiscard]] double collisions(double quick) const { return full ? 20.0 * quick : quick; }
-  /// A seed for the k-th run of a trial. No two trials run the same system.
+  /// Returns a seed for the k-th run of a trial. No two trials run the same system.
   [[nodiscard]] std::uint64_t seed_of(std::uint64_t k) const { return 1'000'003 * seed + k; }
 };
 

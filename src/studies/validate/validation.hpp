@@ -20,7 +20,7 @@ struct ValidateOptions {
 
 struct Validation {
   ValidateOptions options = {};
-  std::vector<TrialResult> results = {};  ///< in the order of the trials
+  std::vector<TrialResult> results = {};  ///< results in the order of the trials
   bool complete = false;
 
   [[nodiscard]] std::size_t checks() const;
@@ -33,7 +33,7 @@ struct ValidateHooks {
   std::function<void(const TrialResult& result)> done = {};
 };
 
-/// The trials that `options` name. Throws std::invalid_argument where there is no such trial.
+/// Returns the trials that `options` name. Throws std::invalid_argument where there is no such trial.
 [[nodiscard]] std::vector<validation::Trial> chosen_trials(const ValidateOptions& options);
 
 /// Runs the trials that `before` does not hold already. A trial that cannot be run is one that fails.
@@ -56,10 +56,10 @@ struct CheckRow {
 /// One check as a sentence: "Z of 256 disks: 2.0599 +- 0.0010, expected 2.0602; z = -0.3 (-0.01 %)"
 [[nodiscard]] std::string sentence_of(const Check& check);
 
-/// "98 checks in 40 trials: all hold"
+/// Returns text such as "98 checks in 40 trials: all hold"
 [[nodiscard]] std::string summary_of(const Validation& validation);
 
-/// A table for each group.
+/// Returns a table for each group.
 [[nodiscard]] std::string validation_markdown(const Validation& validation);
 
 }  // namespace carom
