@@ -15,8 +15,8 @@
 // disk carries). Uniform gravity costs nothing where disks meet: lines are drawn in a frame that falls with the disks from the
 // epoch on, in which they are straight, and only walls and obstacles are looked for along the parabola.
 //
-// The other files engine_*.hpp hold the rest: how an engine begins, epochs, cages and lists, plans where there is more than hard
-// walls, boxes whose images slide, what is seen from outside, invariants, checkpoints.
+// engine_impl.hpp has the functions that are only declared here: how an engine begins, epochs, cages and lists, plans where there
+// is more than hard walls, boxes whose images slide, what is seen from outside, invariants, checkpoints.
 
 #include "core/fetch.hpp"
 #include "core/fixed_axis.hpp"
@@ -741,13 +741,3 @@ class Engine {
 };
 
 }  // namespace carom
-
-#include "engine/engine_archive.hpp"
-#include "engine/engine_begin.hpp"
-#include "engine/engine_cages.hpp"
-#include "engine/engine_check.hpp"
-#include "engine/engine_epochs.hpp"
-#include "engine/engine_log.hpp"
-#include "engine/engine_outside.hpp"
-#include "engine/engine_plans.hpp"
-#include "engine/engine_shear.hpp"

@@ -558,5 +558,3 @@ class TextbookEngine {
 };
 
 }  // namespace carom
-
-#include "engine/textbook_state.hpp"

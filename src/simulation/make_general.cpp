@@ -1,6 +1,6 @@
 // From a scene to the fast engine with every effect, with the leanest layout that its disks allow.
 
-#include "engine/engine.hpp"
+#include "engine/engine_impl.hpp"
 #include "simulation/catalogue.hpp"
 
 #include <utility>

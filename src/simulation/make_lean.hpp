@@ -3,7 +3,7 @@
 // allow. One rule is compiled in one file.
 
 #include "effects/elastic.hpp"
-#include "engine/engine.hpp"
+#include "engine/engine_impl.hpp"
 #include "simulation/catalogue.hpp"
 
 #include <memory>

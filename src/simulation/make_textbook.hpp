@@ -1,7 +1,7 @@
 #pragma once
 // From a scene to the textbook engine.
 
-#include "engine/textbook.hpp"
+#include "engine/textbook_impl.hpp"
 #include "simulation/catalogue.hpp"
 
 namespace carom::detail {

@@ -13,6 +13,18 @@ set_tests_properties(architecture.UpwardArrowIsFound PROPERTIES PASS_REGULAR_EXP
   "open.hpp: includes engine/textbook.hpp.*old.cpp: no room.*core/upward.hpp: includes engine/textbook.hpp, but core may not use engine\n")
 set_tests_properties(architecture.IncludeArrowsPointDown architecture.UpwardArrowIsFound PROPERTIES LABELS quick)
 
+# No header includes itself, and the check sees one that does so through another.
+set(check_circles ${CMAKE_CURRENT_SOURCE_DIR}/architecture/check_include_circles.cmake)
+add_test(NAME architecture.IncludesFormNoCircle COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -P ${check_circles})
+set(circular ${CMAKE_CURRENT_BINARY_DIR}/circular_tree)
+file(WRITE ${circular}/src/core/straight.hpp "#include <cmath>\n")
+file(WRITE ${circular}/src/core/first.hpp "#include \"core/straight.hpp\"\n#include \"core/second.hpp\"\n")
+file(WRITE ${circular}/src/core/second.hpp "#include \"core/first.hpp\"\n")
+file(WRITE ${circular}/src/core/begin.cpp "#include \"core/first.hpp\"\n")
+add_test(NAME architecture.CircleOfIncludesIsFound COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${circular} -P ${check_circles})
+set_tests_properties(architecture.CircleOfIncludesIsFound PROPERTIES PASS_REGULAR_EXPRESSION "src/core/first.hpp[ \n]+includes[ \n]+src/core/second.hpp[ \n]+includes[ \n]+src/core/first.hpp")
+set_tests_properties(architecture.IncludesFormNoCircle architecture.CircleOfIncludesIsFound PROPERTIES LABELS quick)
+
 # What the documentation names: tests, hard cases, files. The check sees one of each that is not there, and a claim that nothing checks.
 set(check_claims ${CMAKE_CURRENT_SOURCE_DIR}/architecture/check_claims.cmake)
 add_test(NAME architecture.ClaimsNameWhatIsThere COMMAND ${CMAKE_COMMAND} -D SOURCE_DIR=${PROJECT_SOURCE_DIR} -P ${check_claims})

@@ -1,7 +1,7 @@
 // A disk that a collision makes faster than its epoch allows, late in that epoch: its line is longer than half the box.
 
 #include "effects/specular.hpp"
-#include "engine/engine.hpp"
+#include "engine/engine_impl.hpp"
 #include "support/systems.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 #pragma once
-// The textbook engine's beginning, its state seen from outside, and the check of its plan: everything but the loop.
+// The whole textbook engine, what a file includes that makes one: its beginning, its state seen from outside and the check of its
+// plan are here, the loop is in textbook.hpp.
 
 #include "engine/textbook.hpp"
 
