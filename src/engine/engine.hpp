@@ -32,11 +32,11 @@
 #include "effects/world.hpp"
 #include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
-#include "engine/ending.hpp"
 #include "engine/epoch.hpp"
 #include "engine/image_counts.hpp"
 #include "engine/layout.hpp"
 #include "engine/note_listener.hpp"
+#include "engine/stall_detector.hpp"
 #include "neighbours/cage_tuner.hpp"
 #include "neighbours/neighbour_lists.hpp"
 #include "queue/future_event_list.hpp"
@@ -89,10 +89,10 @@ class Engine {
 
   /// Processes every event with time <= target, then stands at target (at the last event where target is forever and none
   /// is to come) and returns true. Returns false, and stands at the last event, where totals().pair reaches `pair_limit`,
-  /// after `event_limit` events of any kind, and when jammed().
+  /// after `event_limit` events of any kind, and when stall().jammed().
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
     double end = target.since<double>(epoch_);
-    for (; totals_.pair < pair_limit && event_limit > 0 && !jammed(); --event_limit) {
+    for (; totals_.pair < pair_limit && event_limit > 0 && !stall_.jammed(); --event_limit) {
       const auto [time, disk] = queue_.next(*this, [this](std::int64_t span) { look_ahead(span); });
       if (time <= end && time < epoch_length_) [[likely]] {
         step(disk, time);
@@ -111,19 +111,13 @@ class Engine {
   /// Nothing will ever happen again: nothing moves, and nothing makes it move.
   [[nodiscard]] bool idle() const { return epoch_length_ == never; }
 
-  /// It can go no further (engine/ending.hpp): time has stopped, as for disks that touch on all sides and still are to move.
-  [[nodiscard]] bool jammed() const { return ending_.has_come(); }
-  /// Disks whose speeds have vanished so (engine/ending.hpp).
-  [[nodiscard]] std::vector<std::int32_t> slow() const { return ending_.slow(); }
-  /// It is not time that has stopped but speeds that have become too small to compute with (engine/epoch.hpp).
-  [[nodiscard]] bool cooled() const { return ending_.cooled(); }
-  /// Nor that: velocities would not be finite. It stands before what would have made them so. Empty where all is well.
-  [[nodiscard]] const std::string& fault() const { return ending_.fault(); }
+  /// Whether the engine can go no further, and why.
+  [[nodiscard]] const StallDetector& stall() const { return stall_; }
 
  private:
   /// The next event of all.
   [[gnu::flatten]] void step(std::int32_t i, double time) {
-    ending_.count(time > now_);
+    stall_.count_event(time > now_);
     now_ = std::max(now_, time);
     const Plan& mine = plan(i);
     if (edge_first(mine)) {
@@ -187,7 +181,7 @@ class Engine {
     if constexpr (Impact::plain)
       meet();
     else
-      ending_.note_loss(meet(), {id(i), id(j)});
+      stall_.record_loss(meet(), {id(i), id(j)});
   }
 
   /// A disk meets a wall or an obstacle.
@@ -200,7 +194,7 @@ class Engine {
     if constexpr (World::plain)
       world_.meet(what, visitor, v, now_, totals_);
     else
-      ending_.note_loss(world_.meet(what, visitor, v, now_, totals_), {id(i)});
+      stall_.record_loss(world_.meet(what, visitor, v, now_, totals_), {id(i)});
     impact_.touched(i, now_);
     if (recording_) log_hit(i, what, v);
     turn(i, v);
@@ -634,7 +628,7 @@ class Engine {
   std::uint64_t changed_ = 0;  ///< lists_.changes() at that time
   std::uint64_t looks_ = 0;    ///< since then: more_looks() of those who collided
 
-  Ending ending_;
+  StallDetector stall_;
   CommonMotion<double> common_motion_;
   RunningTotals totals_;
   LastInstant last_collision_;

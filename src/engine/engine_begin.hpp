@@ -114,7 +114,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       spacing_(detail::mean_spacing(box, disks.count())),
       walled_(!box.periodic(0) || !box.periodic(1)),
       bare_(!walled_ && effects.obstacles.empty() && !SlidingImages<double>::acts(effects.shear)),
-      ending_(effects, disks.count()),
+      stall_(effects, disks.count()),
       common_motion_(box, effects) {
   detail::OrderInSpace order = detail::order_in_space(axes_[0], axes_[1], start);
   ids_ = std::move(order.ids);

@@ -53,8 +53,8 @@ void Engine<Impact, Layout, World>::fail_between(std::int32_t i, std::int32_t j)
   // What has been written down of it is no event.
   if (i != j && noting_) --noted_;
   if (i == j && !log_.empty() && !log_.back().velocity.allFinite()) log_.pop_back();
-  ending_.fail(i == j ? fmt::format("disk {}: its velocity would not be finite after what it has met", id(i))
-                      : fmt::format("disks {} and {}: their velocities would not be finite after their collision", id(i), id(j)));
+  stall_.fail(i == j ? fmt::format("disk {}: its velocity would not be finite after what it has met", id(i))
+                     : fmt::format("disks {} and {}: their velocities would not be finite after their collision", id(i), id(j)));
 }
 
 template <class Impact, class Layout, class World>
@@ -116,9 +116,9 @@ void Engine<Impact, Layout, World>::choose_epoch_length() {
       fastest[k] = std::max(fastest[k], std::abs(a.v[k]));
       speeds.add(std::abs(a.v[k]));
     }
-  ending_.note_speeds(is_too_slow<double>(std::max(fastest[0], fastest[1]), sigma_));
+  stall_.check_speeds(is_too_slow<double>(std::max(fastest[0], fastest[1]), sigma_));
   const double sum = speeds.value();
-  if (!(sum < never)) ending_.fail("a velocity is not finite");
+  if (!(sum < never)) stall_.fail("a velocity is not finite");
   mean_speed_ = sum / static_cast<double>(std::max(count(), 1));
   // Rounding x + v t moves a disk by 2^-53 of the way since the epoch: some spacings for most, never more than the room
   // that coordinates have, were the fastest to become somewhat faster.

@@ -21,8 +21,8 @@
 #include "effects/walls.hpp"
 #include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
-#include "engine/ending.hpp"
 #include "engine/epoch.hpp"
+#include "engine/stall_detector.hpp"
 #include "neighbours/cell_grid.hpp"
 #include "queue/event_queue.hpp"
 
@@ -51,9 +51,9 @@ class TextbookEngine {
 
   /// Processes every event with time <= target, then stands at target (at the last event where target is forever and none
   /// is to come) and returns true. Returns false, and stands at the last event, where totals().pair reaches `pair_limit`,
-  /// after `event_limit` events of any kind, and when jammed().
+  /// after `event_limit` events of any kind, and when stall().jammed().
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
-    for (; totals_.pair < pair_limit && event_limit > 0 && !jammed(); --event_limit) {
+    for (; totals_.pair < pair_limit && event_limit > 0 && !stall_.jammed(); --event_limit) {
       const Real end = target.since<Real>(epoch_);
       const Real next = queue_.empty() ? infinity<Real> : queue_.next().time;
       if (epoch_length_ <= std::min(next, end) && epoch_length_ < infinity<Real>) {
@@ -71,20 +71,14 @@ class TextbookEngine {
   /// Nothing will ever happen again. (Images that slide may hit what is at rest, however late.)
   [[nodiscard]] bool idle() const { return queue_.empty() || (queue_.next().time == infinity<Real> && !sliding_.present()); }
 
-  /// It can go no further (engine/ending.hpp): time has stopped, as for disks that touch on all sides and still are to move.
-  [[nodiscard]] bool jammed() const { return ending_.has_come(); }
-  /// Disks whose speeds have vanished so (engine/ending.hpp).
-  [[nodiscard]] std::vector<std::int32_t> slow() const { return ending_.slow(); }
-  /// It is not time that has stopped but speeds that have become too small to compute with (engine/epoch.hpp).
-  [[nodiscard]] bool cooled() const { return ending_.cooled(); }
-  /// Nor that: velocities would not be finite. It stands before what would have made them so. Empty where all is well.
-  [[nodiscard]] const std::string& fault() const { return ending_.fault(); }
+  /// Whether the engine can go no further, and why.
+  [[nodiscard]] const StallDetector& stall() const { return stall_; }
 
  private:
   /// The next event of all.
   void step() {
     const QueuedEvent<Real> event = queue_.next();
-    ending_.count(event.time > now_);
+    stall_.count_event(event.time > now_);
     now_ = std::max(now_, event.time);
     if (event.higher == cell_crossing) {
       cross_cell(event.disk);
@@ -119,14 +113,14 @@ class TextbookEngine {
     const Real image_before = b.v[0];
     count_contact<Real>(r, a.v - b.v, radius_at(a, now_) + radius_at(b, now_), (a.radius + b.radius) * growth_, totals_.numerics);
     last_collision_.count(now_, totals_.numerics);
-    ending_.note_loss(impact_.meet(r, (a.radius + b.radius) * growth_, {i, a.mass, radius_at(a, now_), a.v},
-                                   {j, b.mass, radius_at(b, now_), b.v}, now_, totals_),
-                      {i, j});
+    stall_.record_loss(impact_.meet(r, (a.radius + b.radius) * growth_, {i, a.mass, radius_at(a, now_), a.v},
+                                    {j, b.mass, radius_at(b, now_), b.v}, now_, totals_),
+                       {i, j});
     if (image_speed != 0) totals_.shear_energy.add(static_cast<double>(b.mass * (image_before - b.v[0]) * image_speed));
     b.v[0] -= image_speed;
     if (!a.v.allFinite() || !b.v.allFinite()) {
       a.v = before_a, b.v = before_b;
-      return ending_.fail(fmt::format("disks {} and {}: their velocities would not be finite after their collision", i, j));
+      return stall_.fail(fmt::format("disks {} and {}: their velocities would not be finite after their collision", i, j));
     }
     if (recording_) log_event(i, j, a.v, b.v);
     if (outruns_epoch(a.v, now_, box_size_) || outruns_epoch(b.v, now_, box_size_)) return begin_epoch_early();
@@ -143,7 +137,7 @@ class TextbookEngine {
     const auto hit = walls_.meet(wall, a.v, falling_.g, a.mass, a.radius, a.radius * growth_, impact_.rests(i, now_), now_);
     totals_.wall_impulse[index_of(wall)].add(static_cast<double>(hit.impulse));
     totals_.wall_energy[index_of(wall)].add(static_cast<double>(hit.energy));
-    ending_.note_loss(hit.smallness, {i});
+    stall_.record_loss(hit.smallness, {i});
     if (!a.v.allFinite()) return fail_after_hit(i, before);
     impact_.touched(i, now_);
     if (recording_) log_event(i, wall, a.v, Vec2<Real>(0, 0));
@@ -190,7 +184,7 @@ class TextbookEngine {
   /// The velocity of a disk would not be finite: it keeps the one that it had, and the run ends.
   void fail_after_hit(std::int32_t i, const Vec2<Real>& before) {
     record(i).v = before;
-    ending_.fail(fmt::format("disk {}: its velocity would not be finite after what it has met", i));
+    stall_.fail(fmt::format("disk {}: its velocity would not be finite after what it has met", i));
   }
 
   /// A disk enters the next cell and may meet those who come into reach. Its record stays as it is.
@@ -318,8 +312,8 @@ class TextbookEngine {
     scale_ += growth_ * now_;
     now_ = 0;
     const double speed = rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; });
-    ending_.note_speeds(is_too_slow<Real>(speed, 2.0 * largest_radius_));
-    if (!std::isfinite(speed)) ending_.fail("a velocity is not finite");
+    stall_.check_speeds(is_too_slow<Real>(speed, 2.0 * largest_radius_));
+    if (!std::isfinite(speed)) stall_.fail("a velocity is not finite");
     if (common_motion_.present()) impact_.owe(common_motion_.owed(records_, [](const Record& a) { return momentum(a); }));
     epoch_length_ = suitable_epoch_length();
     suit_grid();
@@ -467,7 +461,7 @@ class TextbookEngine {
   Real epoch_length_ = 0;
   double box_size_;  ///< root of the area
   double largest_radius_;
-  Ending ending_;
+  StallDetector stall_;
   CommonMotion<Real> common_motion_;
   RunningTotals totals_;
   LastInstant last_collision_;

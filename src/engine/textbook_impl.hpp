@@ -35,7 +35,7 @@ TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const S
       images_(Images::Zero(2, static_cast<Eigen::Index>(disks.count()))),
       box_size_(box.lengths()[0] * std::sqrt(box.lengths()[1] / box.lengths()[0])),
       largest_radius_(disks.count() == 0 ? 0.5 : *std::max_element(disks.radius.begin(), disks.radius.end())),
-      ending_(effects, disks.count()),
+      stall_(effects, disks.count()),
       common_motion_(box, effects) {
   for (std::int32_t i = 0; i < count(); ++i) {
     record(i).r = start.positions.col(i).template cast<Real>();
@@ -138,7 +138,7 @@ Real TextbookEngine<Real>::suitable_epoch_length() const {
 template <class Real>
 template <class Archive>
 void TextbookEngine<Real>::serialize(Archive& archive) {
-  archive(walls_, sliding_, impact_, scale_, growth_, grid_, records_, plans_, images_, epoch_, now_, epoch_length_, ending_,
+  archive(walls_, sliding_, impact_, scale_, growth_, grid_, records_, plans_, images_, epoch_, now_, epoch_length_, stall_,
           common_motion_, totals_, last_collision_);
   if constexpr (Archive::is_loading::value) fill_queue();
 }

@@ -102,16 +102,24 @@ class EngineAdapter final : public AnyEngine {
     return arrived;
   }
   [[nodiscard]] bool idle() const override { return engine_.idle(); }
-  [[nodiscard]] bool jammed() const override { return engine_.jammed(); }
+  [[nodiscard]] bool jammed() const override {
+    if constexpr (stalls) return engine_.stall().jammed();
+    return !fault().empty();
+  }
   [[nodiscard]] std::vector<std::int32_t> slow() const override {
-    if constexpr (requires { engine_.slow(); }) return engine_.slow();
+    if constexpr (stalls) return engine_.stall().slow();
     return {};
   }
   [[nodiscard]] bool cooled() const override {
-    if constexpr (requires { engine_.cooled(); }) return engine_.cooled();
+    if constexpr (stalls) return engine_.stall().cooled();
     return false;
   }
-  [[nodiscard]] std::string fault() const override { return engine_.fault(); }
+  [[nodiscard]] std::string fault() const override {
+    if constexpr (stalls)
+      return engine_.stall().fault();
+    else
+      return engine_.fault();
+  }
   [[nodiscard]] Instant now() const override { return engine_.now(); }
   [[nodiscard]] Totals totals() const override { return engine_.totals(); }
   [[nodiscard]] const Counts& counts() const override { return engine_.counts(); }
@@ -160,6 +168,7 @@ class EngineAdapter final : public AnyEngine {
   void load(LoadingArchive& archive) override { archive(engine_); }
 
  private:
+  static constexpr bool stalls = requires(const Engine& engine) { engine.stall(); };
   /// Which engine runs a scene is decided before: no scene gets here.
   [[noreturn]] static void refuse_to_be_driven() {
     throw std::logic_error("this engine does not let velocities be changed from outside");

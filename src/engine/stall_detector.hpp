@@ -1,0 +1,79 @@
+#pragma once
+// Why an engine can go no further: time stands still, speeds are too small to compute with, or a velocity is not finite.
+
+#include "effects/vanishing.hpp"
+#include "effects/world.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+class StallDetector {
+ public:
+  /// `effects` and the number of disks decide after how many events at one instant time is taken to stand still.
+  StallDetector(const Effects& effects, std::size_t disks)
+      : patience_((effects.dissipate() ? 100'000 : 10'000'000) + 100 * static_cast<std::uint64_t>(disks)),
+        may_cool_(effects.dissipate() && !(effects.gravity && !effects.gravity->acceleration.isZero(0.0))) {}
+
+  /// Counts an event, which is later than the event before it or at the same instant.
+  void count_event(bool later) { at_one_instant_ = later ? 0 : at_one_instant_ + 1; }
+
+  /// Whether the engine can go no further: time stands still, as for disks that touch on all sides and still are to move, or one
+  /// of the functions below has found another reason.
+  [[nodiscard]] bool jammed() const { return at_one_instant_ > patience_; }
+
+  /// Records that these disks, or a disk and a wall, lost a share of a speed of such a `smallness` (effects/vanishing.hpp). At
+  /// the end of a series of events at one instant that is a collapse: its speeds vanish, and no event follows, before patience
+  /// ends.
+  template <class Real>
+  void record_loss(Real smallness, std::initializer_list<std::int32_t> disks) {
+    if (!squares_vanish(smallness)) return;
+    if (at_one_instant_ < recorded_at_) slow_.clear();  // time has gone on since
+    recorded_at_ = at_one_instant_;
+    for (const std::int32_t disk : disks)
+      if (std::find(slow_.begin(), slow_.end(), disk) == slow_.end()) slow_.push_back(disk);
+    if (vanishes(smallness) && at_one_instant_ >= series) at_one_instant_ = recorded_at_ = stalled;
+  }
+  /// The ids of the disks whose vanishing speeds stalled the engine; empty where another reason did.
+  [[nodiscard]] std::vector<std::int32_t> slow() const { return recorded_at_ == stalled ? slow_ : std::vector<std::int32_t>(); }
+
+  /// Stalls the engine as cooled where speeds at the beginning of an epoch are too small to compute with (engine/epoch.hpp) and
+  /// nothing will raise them.
+  void check_speeds(bool too_slow) {
+    if (may_cool_ && too_slow) cooled_ = true, at_one_instant_ = stalled;
+  }
+  /// Whether the engine stalled because speeds have become too small to compute with.
+  [[nodiscard]] bool cooled() const { return cooled_; }
+
+  /// Stalls the engine before a velocity that would not be finite. `what` is a sentence without its full stop.
+  void fail(std::string what) { fault_ = std::move(what), at_one_instant_ = stalled; }
+  /// What fail() was told; empty where nothing failed.
+  [[nodiscard]] const std::string& fault() const { return fault_; }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(at_one_instant_, recorded_at_, slow_, cooled_, fault_);
+  }
+
+ private:
+  static constexpr std::uint64_t stalled = std::numeric_limits<std::uint64_t>::max();
+  /// Events: fewer than a collapse takes to bring a speed from 1 to nothing, a hundred halvings in single precision.
+  static constexpr std::uint64_t series = 64;
+
+  std::uint64_t patience_;            ///< events at one instant after which time is taken to stand still
+  bool may_cool_;                     ///< collisions take energy, and nothing brings it back by itself
+  std::uint64_t at_one_instant_ = 0;  ///< events since time last advanced; `stalled` for any other reason
+  std::uint64_t recorded_at_ = 0;     ///< what that was at the last record_loss() of a speed whose square vanishes
+  std::vector<std::int32_t> slow_;
+  bool cooled_ = false;
+  std::string fault_;
+};
+
+}  // namespace carom

@@ -1,0 +1,94 @@
+// When an engine is said to have stalled, and why.
+
+#include "engine/stall_detector.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace carom::test {
+namespace {
+
+Effects inelastic() {
+  Effects effects;
+  effects.collision.restitution = 0.5;
+  return effects;
+}
+
+/// What dissipating disks have left of their speed when its square vanishes.
+constexpr double square_vanishes = 1e-155, vanishes = 1e-310;
+
+TEST(StallDetector, TimeStandsStillAfterSoManyEventsAtOneInstant) {
+  StallDetector stall(inelastic(), 3);
+  constexpr int patience = 100'000 + 100 * 3;
+  for (int n = 0; n < patience; ++n) stall.count_event(false);
+  EXPECT_FALSE(stall.jammed());
+  stall.count_event(true);
+  for (int n = 0; n < patience; ++n) stall.count_event(false);
+  EXPECT_FALSE(stall.jammed());
+  stall.count_event(false);
+  EXPECT_TRUE(stall.jammed());
+  EXPECT_FALSE(stall.cooled());
+  EXPECT_EQ(stall.fault(), "");
+  EXPECT_TRUE(stall.slow().empty());
+}
+
+TEST(StallDetector, ElasticDisksMayHaveAHundredTimesAsManyEventsAtOneInstant) {
+  StallDetector stall(Effects{}, 0);
+  for (int n = 0; n < 10'000'000; ++n) stall.count_event(false);
+  EXPECT_FALSE(stall.jammed());
+  stall.count_event(false);
+  EXPECT_TRUE(stall.jammed());
+}
+
+TEST(StallDetector, AVanishingSpeedAtTheEndOfASeriesIsACollapseOfThoseDisks) {
+  StallDetector stall(inelastic(), 2);
+  stall.count_event(true);
+  stall.record_loss(square_vanishes, {7});
+  stall.count_event(true);  // time goes on: disk 7 is not among them
+  for (int n = 0; n < 64; ++n) stall.count_event(false);
+  stall.record_loss(square_vanishes, {1, 4});
+  stall.record_loss(1.0, {9});
+  EXPECT_FALSE(stall.jammed());
+  EXPECT_TRUE(stall.slow().empty());
+  stall.record_loss(vanishes, {4, 5});
+  EXPECT_TRUE(stall.jammed());
+  EXPECT_EQ(stall.slow(), (std::vector<std::int32_t>{1, 4, 5}));
+}
+
+TEST(StallDetector, AVanishingSpeedOutsideOfASeriesIsNoCollapse) {
+  StallDetector stall(inelastic(), 2);
+  for (int n = 0; n < 1000; ++n) {
+    stall.count_event(n % 64 == 0);
+    stall.record_loss(vanishes, {0, 1});
+  }
+  EXPECT_FALSE(stall.jammed());
+}
+
+TEST(StallDetector, OnlyDisksThatDissipateAndDoNotFallCool) {
+  Effects falling = inelastic();
+  falling.gravity.emplace().acceleration = {0.0, -1.0};
+  for (const Effects& effects : {Effects{}, falling}) {
+    StallDetector stall(effects, 2);
+    stall.check_speeds(true);
+    EXPECT_FALSE(stall.jammed());
+    EXPECT_FALSE(stall.cooled());
+  }
+  StallDetector stall(inelastic(), 2);
+  stall.check_speeds(false);
+  EXPECT_FALSE(stall.jammed());
+  stall.check_speeds(true);
+  EXPECT_TRUE(stall.jammed());
+  EXPECT_TRUE(stall.cooled());
+}
+
+TEST(StallDetector, AFaultStallsAtOnceAndSaysWhat) {
+  StallDetector stall(Effects{}, 2);
+  stall.fail("disk 1: its velocity would not be finite");
+  EXPECT_TRUE(stall.jammed());
+  EXPECT_FALSE(stall.cooled());
+  EXPECT_EQ(stall.fault(), "disk 1: its velocity would not be finite");
+}
+
+}  // namespace
+}  // namespace carom::test
