@@ -1,6 +1,6 @@
 // Scenes that become others while they run, on both engines, from the same start to the same end each time: an inelastic gas that
-// cools and clusters, and disks that grow until they are dense. What an engine has fitted to the scene, cages, lists, cells and
-// the width of its calendar, has to follow.
+// cools and clusters, and disks that grow until they are dense. What an engine has fitted to the scene, neighbourhoods, lists,
+// cells and the width of its calendar, has to follow.
 //
 // No time is reported of a run in which energy is not what went in and came out, or whose plan at the end is not what an
 // independent search finds.

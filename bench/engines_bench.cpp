@@ -106,7 +106,7 @@ void time_events(benchmark::State& state, Run& run) {
 
 double packing_fraction_of(const benchmark::State& state) { return static_cast<double>(state.range(1)) / 100.0; }
 
-/// Twenty collisions of every disk; of few disks more, so that the cages have found their width.
+/// Twenty collisions of every disk; of few disks more, so that the neighbourhoods have found their width.
 std::uint64_t usual_run_up(std::int64_t disks) {
   return std::max<std::uint64_t>(10 * static_cast<std::uint64_t>(disks), 400'000);
 }

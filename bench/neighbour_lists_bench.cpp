@@ -1,8 +1,8 @@
-// Neighbour lists alone, in a gas at equilibrium: one disk gets a new cage, and all lists are made anew. Before any time is
-// taken the lists are held against a search through all disks.
+// Neighbour lists alone, in a gas at equilibrium: one disk gets a new neighbourhood, and all lists are made anew. Before any time
+// is taken the lists are held against a search through all disks.
 
-#include "neighbours/cage_tuner.hpp"
 #include "neighbours/neighbour_lists.hpp"
+#include "neighbours/neighbourhood_tuning.hpp"
 #include "support/engines.hpp"
 #include "support/systems.hpp"
 
@@ -21,7 +21,7 @@ using namespace carom;
 
 constexpr std::int32_t disks = 10'000;
 
-/// Lists of a gas, with cages of the width that an engine begins with.
+/// Lists of a gas, with neighbourhoods of the width that an engine begins with.
 class Gas {
  public:
   explicit Gas(double packing_fraction)
@@ -32,10 +32,10 @@ class Gas {
     engine->run_until(forever, 10 * disks, test::no_limit);
     const State state = engine->state();
     std::uniform_real_distribution<double> angle(0.0, 2.0 * std::numbers::pi);
-    half_width = CageTuner::first_half_width(1.0, system_.box.area() / disks);
+    half_width = HalfWidthSearch::first_half_width(1.0, system_.box.area() / disks);
     for (Eigen::Index i = 0; i < disks; ++i) {
       const double direction = angle(random);
-      // A disk at the edge of its cage, and its next cage half a half-width ahead of it.
+      // A disk at the edge of its neighbourhood, and its next neighbourhood half a half-width ahead of it.
       const double way[2] = {1.5 * half_width * std::cos(direction), 1.5 * half_width * std::sin(direction)};
       centres.push_back({steps(0, state.positions(0, i)), steps(1, state.positions(1, i))});
       moved.push_back({steps(0, state.positions(0, i) + way[0]), steps(1, state.positions(1, i) + way[1])});
@@ -70,14 +70,14 @@ class Gas {
  public:
   NeighbourLists lists;
   double half_width = 0.0;
-  std::vector<CageCentre> centres, moved;
+  std::vector<NeighbourhoodCentre> centres, moved;
   std::mt19937_64 random{1};
 };
 
 double packing_fraction_of(const benchmark::State& state) { return static_cast<double>(state.range(0)) / 100.0; }
 
-/// Every disk in turn, in random order, to a new cage and in the next round back to the old one.
-void move_cage(benchmark::State& state) {
+/// Every disk in turn, in random order, to a new neighbourhood and in the next round back to the old one.
+void move_neighbourhood(benchmark::State& state) {
   Gas gas(packing_fraction_of(state));
   std::vector<std::int32_t> order(static_cast<std::size_t>(disks));
   for (std::int32_t i = 0; i < disks; ++i) order[static_cast<std::size_t>(i)] = i;
@@ -87,7 +87,7 @@ void move_cage(benchmark::State& state) {
   const auto move_next = [&] {
     const std::int32_t i = order[k];
     const auto at = static_cast<std::size_t>(i);
-    benchmark::DoNotOptimize(gas.lists.move_cage(i, forth ? gas.moved[at] : gas.centres[at]));
+    benchmark::DoNotOptimize(gas.lists.move_neighbourhood(i, forth ? gas.moved[at] : gas.centres[at]));
     if (++k == order.size()) k = 0, forth = !forth;
   };
   for (std::int32_t n = 0; n < disks / 2; ++n) move_next();
@@ -117,7 +117,7 @@ void rebuild(benchmark::State& state) {
 
 void densities(benchmark::internal::Benchmark* benchmark) { benchmark->ArgName("percent")->Arg(5)->Arg(30)->Arg(60); }
 
-BENCHMARK(move_cage)->Apply(densities);
+BENCHMARK(move_neighbourhood)->Apply(densities);
 BENCHMARK(rebuild)->Apply(densities);
 
 }  // namespace

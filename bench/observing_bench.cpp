@@ -1,9 +1,9 @@
 // What observing costs: seconds per pair collision of a gas of 10,000 disks (or as many as it says), with nothing observed, with
 // each observable that follows collisions, with all of them, and with those that look at states, each at its default step; in the
 // thread of the run, and beside it. The same stretch of one trajectory runs with and without them in turns, from a simulation
-// made anew each time: stretches that follow each other differ by some per cent, since an engine tries other cages from time to
-// time. What counts is the median of the ratios. The time is that of a clock on the wall. Before a time is taken one run is
-// looked at: energy is kept, and the rate that was observed is that of the totals.
+// made anew each time: stretches that follow each other differ by some per cent, since an engine tries other neighbourhoods from
+// time to time. What counts is the median of the ratios. The time is that of a clock on the wall. Before a time is taken one run
+// is looked at: energy is kept, and the rate that was observed is that of the totals.
 
 #include "observe/mechanics.hpp"
 #include "support/systems.hpp"

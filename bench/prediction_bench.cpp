@@ -80,8 +80,8 @@ class Surrounded {
         ++k;
       }
       lists_.push_back(list);
-      centre_.push_back(
-          {cage_centre(lines_[static_cast<std::size_t>(i)], 0), cage_centre(lines_[static_cast<std::size_t>(i)], 1)});
+      centre_.push_back({neighbourhood_centre(lines_[static_cast<std::size_t>(i)], 0),
+                         neighbourhood_centre(lines_[static_cast<std::size_t>(i)], 1)});
     }
   }
 
@@ -113,7 +113,7 @@ class Surrounded {
 
  private:
   /// Where a disk is at `now`.
-  [[nodiscard]] std::int32_t cage_centre(const Line& line, int axis) const {
+  [[nodiscard]] std::int32_t neighbourhood_centre(const Line& line, int axis) const {
     const auto way = static_cast<std::int64_t>(line.v[axis] * now / frame_.unit[axis]);
     return static_cast<std::int32_t>((static_cast<std::uint64_t>(line.x[axis]) + static_cast<std::uint64_t>(way)) >> 32);
   }

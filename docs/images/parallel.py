@@ -30,7 +30,7 @@ for run in runs:
 barrier = measured["threads"]["barrier_nanoseconds"]["fastest"]
 round_trip = measured["threads"]["round_trip_nanoseconds"]["median"]
 
-# Assumed: what a core gets from memory when all of them ask, in bytes per nanosecond; to be able to undo an event, line, plan, cage
+# Assumed: what a core gets from memory when all of them ask, in bytes per nanosecond; to be able to undo an event, line, plan, neighbourhood
 # and list of both disks (128 bytes each, docs/performance.md) are read and written down.
 COPY = 10.0
 LOGGING = 2 * 2 * 128 / COPY

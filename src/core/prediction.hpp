@@ -1,7 +1,7 @@
 #pragma once
-// What lies ahead of a disk: which of its neighbours it meets first, and when it leaves its cage. The hot question of the
-// engine, answered for many neighbours at a time. One algorithm (prediction_kernel.hpp), compiled for every machine,
-// for those with AVX2 and for those with AVX-512; all give the same bits, and which one runs is decided when the program starts.
+// What lies ahead of a disk: which of its neighbours it meets first, and when it leaves its neighbourhood. The hot question of
+// the engine, answered for many neighbours at a time. One algorithm (prediction_kernel.hpp), compiled for every machine, for
+// those with AVX2 and for those with AVX-512; all give the same bits, and which one runs is decided when the program starts.
 
 #include "core/flight.hpp"
 
@@ -12,12 +12,12 @@ namespace carom {
 
 /// Data of a sheared box, whose images above slide past those below (effects/shear.hpp), for the kernel that supports it.
 struct SlidingFrame {
-  /// Of the centre of each disk's cage, in steps of 2^32. It tells in which box a disk is whose coordinate has wrapped;
+  /// Of the centre of each disk's neighbourhood, in steps of 2^32. It tells in which box a disk is whose coordinate has wrapped;
   /// velocities are those of the disk in that box, and those of its images above and below are other ones.
   const std::int32_t* heights = nullptr;
   std::int64_t displacement = 0;  ///< displacement of the images above at the epoch, in steps of a coordinate
   double speed = 0.0;             ///< speed of the images above
-  std::int64_t inner = 0;         ///< disks with cages nearer to the middle than this meet nobody through an edge
+  std::int64_t inner = 0;         ///< disks with neighbourhoods nearer to the middle than this meet no disk through an edge
 };
 
 /// Constants of all predictions of a run.
@@ -25,9 +25,9 @@ struct PredictionFrame {
   double unit[2];     ///< length of a step of a coordinate, per axis
   double steps[2];    ///< 1 / unit
   double sigma;       ///< contact distance of equal disks; unused where disks have sizes of their own
-  double half_width;  ///< of a cage
-  /// The time at which a disk leaves its cage is rounded down to steps of this length (a power of two; 0 for none). It is nothing
-  /// physical, and with a time of few bits as `now` the predictions made then are exact for dyadic data.
+  double half_width;  ///< of a neighbourhood
+  /// The time at which a disk leaves its neighbourhood is rounded down to steps of this length (a power of two; 0 for none). It
+  /// is nothing physical, and with a time of few bits as `now` the predictions made then are exact for dyadic data.
   double edge_step = 0.0;
   double scale = 1.0;   ///< scale of all radii at the epoch; beyond 1 only for the kernel of growing disks
   double growth = 0.0;  ///< growth of the scale per time
@@ -57,7 +57,7 @@ struct Prediction {
   double pair_time;
   std::int32_t partner;  ///< -1 where there is none
   std::int32_t tied;     ///< not 0: another partner comes at the very same time
-  double edge_time;      ///< when the disk leaves its cage; not before now
+  double edge_time;      ///< when the disk leaves its neighbourhood; not before now
 };
 
 /// Two disks that have just collided: what surrounds them, and (to be filled in) what lies ahead of them.

@@ -176,7 +176,7 @@ void search_on(const Line* lines, const PredictionFrame& frame, const Mine& mine
   }
 }
 
-/// When two disks (x and y of the one, x and y of the other) leave their cages, per axis.
+/// When two disks (x and y of the one, x and y of the other) leave their neighbourhoods, per axis.
 CAROM_INLINE Doubles leaving_times(const PredictionFrame& frame, Longs x, Doubles v, Longs centre, double now) {
   const Doubles unit = {frame.unit[0], frame.unit[1], frame.unit[0], frame.unit[1]};
   const Doubles off =

@@ -2,27 +2,27 @@
 // The engine that runs scenes: the same physics as engine/textbook.hpp, several times faster. Read from run_until() downwards.
 //
 // Where it gains: a disk is a line in space and time that nothing but its own collisions changes (core/flight.hpp);
-// neighbours are known from lists that change only when a disk leaves its cage (neighbours/neighbour_lists.hpp); one disk is
-// predicted against eight neighbours at a time (core/prediction.hpp); the next event comes from a calendar in O(1), which
+// neighbours are known from lists that change only when a disk leaves its neighbourhood (neighbours/neighbour_lists.hpp); one
+// disk is predicted against eight neighbours at a time (core/prediction.hpp); the next event comes from a calendar in O(1), which
 // also shows the events after it, so that their data can be fetched ahead (queue/calendar_queue.hpp), or where disks are few from
 // a tournament without branches (queue/tournament_queue.hpp).
 //
-// Every disk has one plan: the earliest collision that it foresaw when it was last predicted, and when it leaves its cage or
-// meets a wall. Of two partners the one predicted last foresees the collision; a plan whose partner has collided since is stale
-// and made anew when its time comes.
+// Every disk has one plan: the earliest collision that it foresaw when it was last predicted, and when it leaves its
+// neighbourhood or meets a wall. Of two partners the one predicted last foresees the collision; a plan whose partner has collided
+// since is stale and made anew when its time comes.
 //
 // Three slots say what acts: Impact (what two disks do to each other), World (what else there is round them) and Layout (what a
 // disk carries). Uniform gravity costs nothing where disks meet: lines are drawn in a frame that falls with the disks from the
 // epoch on, in which they are straight, and only walls and obstacles are looked for along the parabola.
 //
-// engine_impl.hpp has the functions that are only declared here: how an engine begins, epochs, cages and lists, plans where there
-// is more than hard walls, boxes whose images slide, what is seen from outside, invariants, checkpoints.
+// engine_impl.hpp has the functions that are only declared here: how an engine begins, epochs, neighbourhoods and lists, plans
+// where there is more than hard walls, boxes whose images slide, what is seen from outside, invariants, checkpoints.
 
-#include "core/fetch.hpp"
 #include "core/fixed_axis.hpp"
 #include "core/instant.hpp"
 #include "core/large_memory.hpp"
 #include "core/prediction.hpp"
+#include "core/prefetch.hpp"
 #include "core/sides.hpp"
 #include "core/sliding_separation.hpp"
 #include "core/two_doubles.hpp"
@@ -37,8 +37,8 @@
 #include "engine/layout.hpp"
 #include "engine/note_listener.hpp"
 #include "engine/stall_detector.hpp"
-#include "neighbours/cage_tuner.hpp"
 #include "neighbours/neighbour_lists.hpp"
+#include "neighbours/neighbourhood_tuning.hpp"
 #include "queue/future_event_list.hpp"
 
 #include <carom/collisions.hpp>
@@ -63,16 +63,16 @@ class Engine {
   /// What a disk expects. Half a cache line.
   struct alignas(32) Plan {
     double pair_time;  ///< of the earliest collision foreseen
-    double edge_time;  ///< when it leaves its cage or meets a wall or an obstacle
+    double edge_time;  ///< when it leaves its neighbourhood or meets a wall or an obstacle
     std::int32_t partner;
-    std::int32_t edge;            ///< `cage`, a Wall, or an obstacle
+    std::int32_t edge;            ///< `neighbourhood`, a Wall, or an obstacle
     std::uint32_t foreseen;       ///< stamp of the collision after which the partner was found
     std::uint32_t last_collided;  ///< stamp of the last collision of the disk itself
   };
 
  public:
   /// Whether this engine can run these disks: periodic boxes must be wide enough for the nearest image to be the only one that a
-  /// disk can meet, disks not so small that the resolution of cages would show, and slots the right ones.
+  /// disk can meet, disks not so small that the resolution of neighbourhoods would show, and slots the right ones.
   [[nodiscard]] static bool covers(const Box& box, const Disks& disks, const Effects& effects = {}) {
     return why_not(box, disks, effects).empty();
   }
@@ -122,11 +122,11 @@ class Engine {
     const Plan& mine = plan(i);
     if (edge_first(mine)) {
       queue_.pop(*this);
-      fetch_next();
-      mine.edge == cage ? leave_cage(i) : hit(i, mine.edge);
+      prefetch_next();
+      mine.edge == neighbourhood ? leave_neighbourhood(i) : hit(i, mine.edge);
     } else if (is_stale(mine)) {
       queue_.pop(*this);
-      fetch_next();
+      prefetch_next();
       ++totals_.stale;
       predict(i);
     } else {
@@ -155,11 +155,11 @@ class Engine {
     pair.around[0] = surroundings(i), pair.around[1] = surroundings(j);
     looks_ += more_looks(pair.around[0].count) + more_looks(pair.around[1].count);
     queue_.pop(*this, j);  // not earlier: all up to here goes on while the predictions before still wait for their results
-    fetch_next();
+    prefetch_next();
     kernel_.turn_and_predict(lines_.data(), frame_, pair, now_, va[0], va[1], vb[0], vb[1]);
     if (pair.wrapped != 0) [[unlikely]]
       count_images(pair);
-    fetch_partner_of_next();
+    prefetch_partner_of_next();
     plan_ahead(i, pair.ahead[0]);
     plan_ahead(j, pair.ahead[1]);
     queue_.push(*this, i, time(i), j, time(j));
@@ -217,12 +217,12 @@ class Engine {
       begin_epoch(now_);
   }
 
-  /// A disk leaves its cage, gets a new one round where it is, and may meet those who come within reach. What it has planned
-  /// with others stays as it is.
-  void leave_cage(std::int32_t i) {
+  /// A disk leaves its neighbourhood, gets a new one round where it is, and may meet those who come within reach. What it has
+  /// planned with others stays as it is.
+  void leave_neighbourhood(std::int32_t i) {
     ++totals_.other;
-    const CageCentre centre = cage_around(i, now_);
-    const auto fresh = lists_.move_cage(i, centre);
+    const NeighbourhoodCentre centre = neighbourhood_around(i, now_);
+    const auto fresh = lists_.move_neighbourhood(i, centre);
     if constexpr (!World::plain)
       if (world_.sliding.present()) height(i) = centre.y;
     Prediction ahead =
@@ -243,7 +243,7 @@ class Engine {
 
   // -------------------------------------------------------------------------------------------------- prediction
 
-  /// Disk i against all its neighbours, walls, obstacles and the edges of its cage.
+  /// Disk i against all its neighbours, walls, obstacles and the edges of its neighbourhood.
   void predict(std::int32_t i) {
     plan_ahead(i, predicted(i, surroundings(i)));
     schedule(i);
@@ -260,7 +260,7 @@ class Engine {
 
   void plan_edge(std::int32_t i, double leaving_time) {
     plan(i).edge_time = leaving_time;
-    plan(i).edge = cage;
+    plan(i).edge = neighbourhood;
     if constexpr (World::plain) {
       if (walled_ && !far_from_walls(i)) plan_hard_wall(i);
     } else if (!bare_ && !(world_.obstacles.empty() && far_from_walls(i))) {
@@ -268,13 +268,13 @@ class Engine {
     }
   }
 
-  /// Whether a disk leaves its cage before it can meet a wall.
+  /// Whether a disk leaves its neighbourhood before it can meet a wall.
   [[nodiscard]] bool far_from_walls(std::int32_t i) const {
-    const CageCentre centre = lists_.centre(i);
+    const NeighbourhoodCentre centre = lists_.centre(i);
     return std::abs(std::int64_t{centre.x}) < clear_[0] && std::abs(std::int64_t{centre.y}) < clear_[1];
   }
 
-  /// Puts the next contact with a wall in the place of the edge of the cage where it comes first.
+  /// Puts the next contact with a wall in the place of the edge of the neighbourhood where it comes first.
   void plan_hard_wall(std::int32_t i) {
     const Line& a = line(i);
     Plan& mine = plan(i);
@@ -285,7 +285,7 @@ class Engine {
       const std::int64_t limit = half_[axis] - axes_[axis].steps_of(layout_.radius(a));
       const double gap = frame_.unit[axis] * static_cast<double>(up ? limit - a.x[axis] : a.x[axis] + limit) - std::abs(v) * now_;
       const double time = gap > 0.0 ? now_ + gap / std::abs(v) : now_;
-      if (time < mine.edge_time || (time == mine.edge_time && mine.edge == cage)) {
+      if (time < mine.edge_time || (time == mine.edge_time && mine.edge == neighbourhood)) {
         mine.edge_time = time;
         mine.edge = wall_left - 2 * axis - (up ? 1 : 0);
       }
@@ -297,13 +297,13 @@ class Engine {
   /// event.
   [[gnu::noinline]] void plan_world(std::int32_t i);
 
-  /// Puts the edge past which images slide in the place of the edge of the cage where it comes first.
+  /// Puts the edge past which images slide in the place of the edge of the neighbourhood where it comes first.
   [[gnu::noinline]] void plan_sliding_edge(std::int32_t i);
 
   /// A wall or obstacle at one time with a lower partner comes second: it will be found again after the collision.
   void yield_to_lower_partner(std::int32_t i) {
     Plan& mine = plan(i);
-    if (mine.edge_time == mine.pair_time && mine.edge != cage && mine.partner >= 0 && id(mine.partner) < id(i))
+    if (mine.edge_time == mine.pair_time && mine.edge != neighbourhood && mine.partner >= 0 && id(mine.partner) < id(i))
       mine.edge_time = never;
   }
 
@@ -317,12 +317,12 @@ class Engine {
   [[nodiscard]] bool is_stale(const Plan& mine) const { return plan(mine.partner).last_collided > mine.foreseen; }
 
   [[nodiscard]] std::pair<std::int32_t, std::int32_t> rank(const FutureEvent& event) const {
-    if (event.other == cage) return {cage, id(event.disk)};
+    if (event.other == neighbourhood) return {neighbourhood, id(event.disk)};
     if (event.other < 0) return {id(event.disk), event.other};
     return std::minmax(id(event.disk), id(event.other));
   }
 
-  /// Whether a disk leaves its cage or meets a wall before it meets its partner.
+  /// Whether a disk leaves its neighbourhood or meets a wall before it meets its partner.
   [[nodiscard]] static bool edge_first(const Plan& mine) { return mine.edge_time <= mine.pair_time; }
   /// Of two partners at the same time, whether the one ahead comes before the one planned.
   [[nodiscard]] bool precedes_as_partner(std::int32_t i, const Prediction& ahead) const {
@@ -363,9 +363,9 @@ class Engine {
   /// Lists and predictions know how images slide.
   void note_slide();
   void note_heights(const State& start);
-  void leave_room_to_slide(const std::vector<CageCentre>& centres);
-  /// Of cages, for disks of the size that lists are for.
-  [[nodiscard]] double suitable_half_width() const { return CageTuner::first_half_width(sigma_ * listed_scale_, area_); }
+  void leave_room_to_slide(const std::vector<NeighbourhoodCentre>& centres);
+  /// Of neighbourhoods, for disks of the size that lists are for.
+  [[nodiscard]] double suitable_half_width() const { return HalfWidthSearch::first_half_width(sigma_ * listed_scale_, area_); }
   /// A disk that begins in contact with a wall is so in steps too.
   void touch_walls(Line& a, int axis) const;
   /// Who begins inside whose well.
@@ -375,9 +375,9 @@ class Engine {
   [[nodiscard]] double longest_by_world() const;
   /// What rounding has left of it is to be given back where disks lose energy.
   void look_after_momentum();
-  /// Chooses the width of cages by the work done since the last choice.
-  void tune_cages(double elapsed);
-  /// New cages round all disks, and new lists. The plans must be made anew as well.
+  /// Chooses the width of neighbourhoods by the work done since the last choice.
+  void tune_neighbourhoods(double elapsed);
+  /// New neighbourhoods round all disks, and new lists. The plans must be made anew as well.
   void rebuild(double half_width);
   void predict_all();
   /// A length for the first spans of the queue.
@@ -396,7 +396,7 @@ class Engine {
   static constexpr double list_margin = 1.0 / 64.0;
   /// At which an epoch ends, if it has not before.
   static constexpr std::uint32_t last_stamp = 0xFFFFFFFF;
-  static constexpr std::int32_t cage = -100;
+  static constexpr std::int32_t neighbourhood = -100;
   static constexpr double never = infinity<double>;
 
   /// From j to i now, to the nearest image.
@@ -432,7 +432,7 @@ class Engine {
     const double start = frame_.unit[axis] * static_cast<double>(sign > 0 ? limit - x : x + limit);
     return (start - sign * a.v[axis] * now_) - sign * world_.fallen(axis, now_);
   }
-  /// Where the line of a disk is now along an axis, from the centre of its cage.
+  /// Where the line of a disk is now along an axis, from the centre of its neighbourhood.
   [[nodiscard]] double offset(int axis, const Line& a, std::int32_t centre) const {
     const auto wide = static_cast<std::int64_t>(static_cast<std::uint64_t>(centre) << 32);
     return frame_.unit[axis] * static_cast<double>(wrapped_difference(a.x[axis], wide)) + a.v[axis] * now_;
@@ -496,29 +496,29 @@ class Engine {
       if ((pair.wrapped >> k & 1) != 0) images_.step(pair.disk[k / 2], k % 2, (pair.downwards >> k & 1) != 0 ? -1 : 1);
   }
 
-  /// A cage round where disk i is at a time, somewhat ahead of it.
-  [[nodiscard]] CageCentre cage_around(std::int32_t i, double when) const {
+  /// A neighbourhood round where disk i is at a time, somewhat ahead of it.
+  [[nodiscard]] NeighbourhoodCentre neighbourhood_around(std::int32_t i, double when) const {
     const Line& a = line(i);
     const double fastest = std::max(std::abs(a.v[0]), std::abs(a.v[1]));
-    const double ahead = fastest > 0.0 ? cage_lead * lists_.half_width() / fastest : 0.0;
+    const double ahead = fastest > 0.0 ? neighbourhood_lead * lists_.half_width() / fastest : 0.0;
     if constexpr (!World::plain)
-      if (world_.sliding.present()) return {cage_centre(0, a, when, ahead), cage_height(i, when, ahead)};
-    return {cage_centre(0, a, when, ahead), cage_centre(1, a, when, ahead)};
+      if (world_.sliding.present()) return {neighbourhood_centre(0, a, when, ahead), neighbourhood_height(i, when, ahead)};
+    return {neighbourhood_centre(0, a, when, ahead), neighbourhood_centre(1, a, when, ahead)};
   }
-  [[nodiscard]] std::int32_t cage_centre(int axis, const Line& a, double when, double ahead) const {
+  [[nodiscard]] std::int32_t neighbourhood_centre(int axis, const Line& a, double when, double ahead) const {
     const auto x = static_cast<std::uint64_t>(a.x[axis]) + static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * when)) +
                    static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * ahead));
     return static_cast<std::int32_t>((x + 0x80000000U) >> 32);
   }
 
   /// In the box of the disk.
-  [[nodiscard]] std::int32_t cage_height(std::int32_t i, double when, double ahead) const;
+  [[nodiscard]] std::int32_t neighbourhood_height(std::int32_t i, double when, double ahead) const;
 
   /// At four neighbours each, after the first eight.
   [[nodiscard]] static std::uint32_t more_looks(std::uint32_t neighbours) { return (std::max(neighbours, 8U) - 5U) / 4U; }
 
   [[nodiscard]] Surroundings surroundings(std::int32_t i) const {
-    const CageCentre centre = lists_.centre(i);
+    const NeighbourhoodCentre centre = lists_.centre(i);
     return {{centre.x, centre.y}, lists_.ids(i), lists_.count(i)};
   }
   [[nodiscard]] Prediction predicted(std::int32_t i, const Surroundings& around) const {
@@ -540,8 +540,8 @@ class Engine {
       find_room_for_notes();
     CollisionNote& next = room_[noted_++];
     // Some microseconds ahead, whole lines: another processor may have read what was there before.
-    fetch_to_write(&next + 16);
-    fetch_to_write(&(&next + 16)->partner_after);
+    prefetch_for_writing(&next + 16);
+    prefetch_for_writing(&(&next + 16)->partner_after);
     next = {now_, i, j, {before_a[0], before_a[1]}, {before_b[0], before_b[1]}, {va[0], va[1]}, {vb[0], vb[1]}};
   }
   [[gnu::noinline]] void find_room_for_notes();
@@ -550,19 +550,19 @@ class Engine {
   [[gnu::noinline]] void log_hit(std::int32_t i, std::int32_t what, const Vec2<double>& v);
   [[gnu::noinline]] void look_ahead(std::int64_t span) const;
   /// Fetches what the next event will need first.
-  void fetch_next() const {
+  void prefetch_next() const {
     if (!queue_.foresees()) return;
     const std::int32_t i = queue_.foreseen();
-    fetch(&plan(i)), fetch_disk(i);
+    prefetch(&plan(i)), prefetch_disk(i);
   }
   /// And what follows from that.
-  void fetch_partner_of_next() const {
+  void prefetch_partner_of_next() const {
     if (!queue_.foresees()) return;
     const std::int32_t i = queue_.foreseen(), j = plan(i).partner < 0 ? i : plan(i).partner;
-    fetch(&plan(j)), fetch_disk(j);
-    for (int n = 0; n < 8 && fetching_neighbours_; ++n) fetch(&line(lists_.ids(i)[n]));
+    prefetch(&plan(j)), prefetch_disk(j);
+    for (int n = 0; n < 8 && fetching_neighbours_; ++n) prefetch(&line(lists_.ids(i)[n]));
   }
-  void fetch_disk(std::int32_t i) const { fetch(&line(i)), lists_.fetch_list(i); }
+  void prefetch_disk(std::int32_t i) const { prefetch(&line(i)), lists_.prefetch_list(i); }
 
   [[nodiscard]] Instant instant(double t) const { return epoch_.plus(t); }
   [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(lines_.size()); }
@@ -572,9 +572,9 @@ class Engine {
   [[nodiscard]] const Plan& plan(std::int32_t i) const { return plans_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] std::int32_t id(std::int32_t i) const { return ids_[static_cast<std::size_t>(i)]; }
 
-  /// By how much of its half-width a new cage lies ahead of the disk. Between a quarter and three quarters there is little
-  /// difference; dilute gases gain from more.
-  static constexpr double cage_lead = 0.5;
+  /// By how much of its half-width a new neighbourhood lies ahead of the disk. Between a quarter and three quarters there is
+  /// little difference; dilute gases gain from more.
+  static constexpr double neighbourhood_lead = 0.5;
 
   FixedAxis axes_[2];
   std::int64_t half_[2];  ///< from the middle to a wall
@@ -591,7 +591,8 @@ class Engine {
   StepRest depth_rest_[2];
   std::vector<std::array<StepRest, 2>> rests_;  ///< of the coordinates of disks that fall
   ImageCounts images_;
-  std::vector<std::int32_t> heights_;  ///< where images slide: of the cages' centres, which are in the boxes of their disks
+  std::vector<std::int32_t>
+      heights_;  ///< where images slide: of the neighbourhoods' centres, which are in the boxes of their disks
   NeighbourLists lists_;
   FutureEventList<Engine> queue_;
 
@@ -610,20 +611,20 @@ class Engine {
   double listed_scale_ = 1.0;         ///< of the radii for which lists are made
   double way_ = 0.0;                  ///< that images may slide in an epoch
   double travel_[2] = {};             ///< the longest that a line may be along each axis
-  std::int64_t clear_[2] = {};        ///< centres of cages nearer than this to the middle are too far from any wall to matter
-  double speed_limit_[2] = {};        ///< with which a line stays shorter than that until the epoch ends
-  double span_ = 0.0;                 ///< of the queue
-  std::uint64_t begun_with_ = 0;      ///< events that the queue got at the beginning of the epoch
-  bool busy_ = true;                  ///< the epoch before had a new event for every fourth disk or more
+  std::int64_t clear_[2] = {};  ///< centres of neighbourhoods nearer than this to the middle are too far from any wall to matter
+  double speed_limit_[2] = {};  ///< with which a line stays shorter than that until the epoch ends
+  double span_ = 0.0;           ///< of the queue
+  std::uint64_t begun_with_ = 0;  ///< events that the queue got at the beginning of the epoch
+  bool busy_ = true;              ///< the epoch before had a new event for every fourth disk or more
   bool walled_;
   bool bare_;                         ///< no walls, no obstacles, no images that slide
   bool fetching_ = false;             ///< the data do not fit the second-level cache
   bool fetching_neighbours_ = false;  ///< they do not fit half of it
 
-  CageTuner tuner_;
-  double widest_ = never;      ///< that a cage may be
-  bool settling_ = true;       ///< the cages are too new for their work to be judged
-  double travelled_ = 0.0;     ///< since the width of cages was last looked at: mean path of a disk
+  HalfWidthSearch tuner_;
+  double widest_ = never;      ///< that a neighbourhood may be
+  bool settling_ = true;       ///< the neighbourhoods are too new for their work to be judged
+  double travelled_ = 0.0;     ///< since the width of neighbourhoods was last looked at: mean path of a disk
   std::uint64_t left_ = 0;     ///< totals_.other at that time
   std::uint64_t changed_ = 0;  ///< lists_.changes() at that time
   std::uint64_t looks_ = 0;    ///< since then: more_looks() of those who collided
@@ -644,16 +645,16 @@ class Engine {
   // ------------------------------------------------------------------------------------- for the queue
 
   [[nodiscard]] double time(std::int32_t i) const { return std::min(plan(i).pair_time, plan(i).edge_time); }
-  void fetch_event(std::int32_t i) const { fetch_early(&plan(i)); }
+  void prefetch_event(std::int32_t i) const { prefetch_early(&plan(i)); }
   [[nodiscard]] std::int32_t other(std::int32_t i) const {
     const Plan& mine = plan(i);
     const std::int32_t edge = -static_cast<std::int32_t>(edge_first(mine));  // all bits or none: a branch would be guessed wrong
     return (mine.edge & edge) | (mine.partner & ~edge);
   }
 
-  /// Ties: cages are left before anything else happens, so that everybody is foreseen; then the event with the lower disk
-  /// first, then the one with the lower other disk; a wall is met before a disk. Of two plans for one collision that of the lower
-  /// disk comes first.
+  /// Ties: neighbourhoods are left before anything else happens, so that everybody is foreseen; then the event with the lower
+  /// disk first, then the one with the lower other disk; a wall is met before a disk. Of two plans for one collision that of the
+  /// lower disk comes first.
   [[nodiscard]] bool precedes(const FutureEvent& a, const FutureEvent& b) const {
     const auto rank_a = rank(a), rank_b = rank(b);
     return rank_a < rank_b || (rank_a == rank_b && id(a.disk) < id(b.disk));

@@ -1,5 +1,5 @@
 #pragma once
-// How an engine begins: which scenes it can run, where disks lie in memory, first cages, lists and predictions.
+// How an engine begins: which scenes it can run, where disks lie in memory, first neighbourhoods, lists and predictions.
 
 #include "engine/engine.hpp"
 #include "engine/order_in_space.hpp"

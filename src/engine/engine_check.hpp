@@ -1,6 +1,6 @@
 #pragma once
-// What must hold in the fast engine at any time: nobody overlaps, everybody is in his cage and on the right lists, no collision
-// is overlooked, and the queue knows every event.
+// What must hold in the fast engine at any time: nobody overlaps, everybody is in his neighbourhood and on the right lists, no
+// collision is overlooked, and the queue knows every event.
 
 #include "engine/engine.hpp"
 
@@ -22,15 +22,15 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants(double 
     if (time(i) < now_ * (1.0 - 1e-12)) faults.push_back(fmt::format("disk {}: its next event lies in the past", id(i)));
     if (time(i) < epoch_length_ && !queue_.holds(*this, i))
       faults.push_back(fmt::format("disk {}: the queue does not know its event", id(i)));
-    const CageCentre centre = lists_.centre(i);
+    const NeighbourhoodCentre centre = lists_.centre(i);
     if constexpr (!World::plain)
       if (world_.sliding.present() && (height(i) != centre.y || std::abs(steps_up(i, now_)) > 0x1p63 * (1.0 + 1e-12)))
-        faults.push_back(fmt::format("disk {}: outside the box of its cage", id(i)));
+        faults.push_back(fmt::format("disk {}: outside the box of its neighbourhood", id(i)));
     for (int k = 0; k < 2; ++k) {
       const double off = offset(k, a, k == 0 ? centre.x : centre.y);
       if (!(std::abs(off) <= lists_.half_width() + slack))
         faults.push_back(
-            fmt::format("disk {}: outside its cage along axis {} by {}", id(i), k, std::abs(off) - lists_.half_width()));
+            fmt::format("disk {}: outside its neighbourhood along axis {} by {}", id(i), k, std::abs(off) - lists_.half_width()));
       const double out = beyond_walls(i, k);
       if (out > tolerated_overlap * layout_.radius(a) * world_.scale(now_) + 1e-12 * (axes_[k].upper - axes_[k].lower))
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", id(i), out, k));

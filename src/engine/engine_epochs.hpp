@@ -17,13 +17,13 @@ void Engine<Impact, Layout, World>::begin_epoch(double now) {
   rebase(now);
   look_after_momentum();
   if constexpr (!World::plain) draw_up_frame(), widen();
-  if (now > 0.0) tune_cages(now);
+  if (now > 0.0) tune_neighbourhoods(now);
   choose_epoch_length();
   if constexpr (!World::plain) slide_images();
   if (outgrow_lists())
     list_larger();
   else if (world_.falls())
-    predict_all();  // the frame starts from rest again, and disks leave their cages at other times
+    predict_all();  // the frame starts from rest again, and disks leave their neighbourhoods at other times
   // Too few events tell nothing: an epoch may have been cut short.
   const std::uint64_t pushed = queue_.pushed() - begun_with_;
   const bool enough = pushed > lines_.size() / 4 + 16;
@@ -142,8 +142,8 @@ double Engine<Impact, Layout, World>::longest_by_world() const {
   return longest;
 }
 
-/// The frame of the lines falls on from epoch to epoch, with the cages in it. Before it leaves the box behind it is drawn up.
-/// Everybody is to be predicted anew then.
+/// The frame of the lines falls on from epoch to epoch, with the neighbourhoods in it. Before it leaves the box behind it is
+/// drawn up. Everybody is to be predicted anew then.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::draw_up_frame() {
   const auto far = [this](int k) { return axes_[k].unit * std::abs(static_cast<double>(depth_[k])) >= 4.0 * spacing_; };

@@ -3,9 +3,9 @@
 
 #include "engine/engine_archive.hpp"
 #include "engine/engine_begin.hpp"
-#include "engine/engine_cages.hpp"
 #include "engine/engine_check.hpp"
 #include "engine/engine_epochs.hpp"
+#include "engine/engine_lists.hpp"
 #include "engine/engine_log.hpp"
 #include "engine/engine_outside.hpp"
 #include "engine/engine_plans.hpp"

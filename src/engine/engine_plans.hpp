@@ -14,7 +14,7 @@ void Engine<Impact, Layout, World>::plan_world(std::int32_t i) {
   Plan& mine = plan(i);
   const double radius = layout_.radius(a) * world_.scale(now_), growth = layout_.radius(a) * world_.growth();
   const auto consider = [&](double time, std::int32_t what) {
-    if (time < mine.edge_time || (time == mine.edge_time && mine.edge == cage)) mine.edge_time = time, mine.edge = what;
+    if (time < mine.edge_time || (time == mine.edge_time && mine.edge == neighbourhood)) mine.edge_time = time, mine.edge = what;
   };
   for (int axis = 0; axis < 2; ++axis) {
     if (axes_[axis].periodic) continue;
@@ -26,7 +26,7 @@ void Engine<Impact, Layout, World>::plan_world(std::int32_t i) {
     }
   }
   if (!world_.obstacles.empty()) {
-    // Disks may fall far while they stay in their cages, but where they fall all is planned anew with every epoch.
+    // Disks may fall far while they stay in their neighbourhoods, but where they fall all is planned anew with every epoch.
     const double until = world_.falls() ? std::min(mine.edge_time, epoch_length_) : mine.edge_time;
     const auto meeting = world_.obstacles.next(place(a), velocity(a), world_.g(), radius, growth, until - now_);
     if (meeting.obstacle >= 0) consider(now_ + meeting.time, first_obstacle - meeting.obstacle);
@@ -39,7 +39,7 @@ void Engine<Impact, Layout, World>::plan_edges_anew() {
   for (std::int32_t i = 0; i < count(); ++i) {
     const double before = time(i);
     const std::int32_t other_before = other(i);
-    plan_edge(i, plan(i).edge == cage ? plan(i).edge_time : predicted(i, surroundings(i)).edge_time);
+    plan_edge(i, plan(i).edge == neighbourhood ? plan(i).edge_time : predicted(i, surroundings(i)).edge_time);
     if (time(i) != before || other(i) != other_before) schedule(i);
   }
 }
@@ -58,32 +58,32 @@ std::int32_t Engine<Impact, Layout, World>::lowest_of_tied(std::int32_t i, const
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::look_ahead(std::int64_t span) const {
   if (!fetching_) return;
-  queue_.calendar().fetch_span(span + 7);
-  for (const std::int32_t i : queue_.calendar().ids_of(span + 5)) fetch_early(&plan(i));
+  queue_.calendar().prefetch_span(span + 7);
+  for (const std::int32_t i : queue_.calendar().ids_of(span + 5)) prefetch_early(&plan(i));
   for (const std::int32_t i : queue_.calendar().ids_of(span + 4)) {
-    const auto fetch_disk = [this](std::int32_t k) {
-      fetch_early(&line(k));
-      lists_.fetch_list_early(k);
+    const auto prefetch_disk = [this](std::int32_t k) {
+      prefetch_early(&line(k));
+      lists_.prefetch_list_early(k);
     };
-    fetch_disk(i);
+    prefetch_disk(i);
     if (plan(i).pair_time < plan(i).edge_time) {
-      fetch_early(&plan(plan(i).partner));
-      fetch_disk(plan(i).partner);
+      prefetch_early(&plan(plan(i).partner));
+      prefetch_disk(plan(i).partner);
     }
   }
   for (const std::int32_t i : queue_.calendar().ids_of(span + 2)) {
     if (queue_.calendar().span_of(time(i)) != span + 2) continue;
-    const auto fetch_neighbours = [this](std::int32_t k) {
+    const auto prefetch_neighbours = [this](std::int32_t k) {
       const std::int32_t* ids = lists_.ids(k);
       for (int n = 0; n < 8; ++n)
-        fetch_early(&line(ids[n]));  // so many there always are, and no end of a loop to be guessed wrong
-      for (std::uint32_t n = 8, all = std::min(lists_.count(k), 16U); n < all; ++n) fetch_early(&line(ids[n]));
+        prefetch_early(&line(ids[n]));  // so many there always are, and no end of a loop to be guessed wrong
+      for (std::uint32_t n = 8, all = std::min(lists_.count(k), 16U); n < all; ++n) prefetch_early(&line(ids[n]));
     };
     if (plan(i).pair_time < plan(i).edge_time) {
-      fetch_neighbours(i), fetch_neighbours(plan(i).partner);
+      prefetch_neighbours(i), prefetch_neighbours(plan(i).partner);
     } else {
-      fetch_early(&ids_[static_cast<std::size_t>(i)]);  // decides ties, which times in steps often are
-      lists_.fetch_cells(i, cage_around(i, plan(i).edge_time));
+      prefetch_early(&ids_[static_cast<std::size_t>(i)]);  // decides ties, which times in steps often are
+      lists_.prefetch_cells(i, neighbourhood_around(i, plan(i).edge_time));
     }
   }
 }

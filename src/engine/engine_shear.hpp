@@ -2,10 +2,10 @@
 // The engine in a box whose images above slide past those below (effects/shear.hpp).
 //
 // Coordinates wrap, so a line does not tell in which of the boxes, one above the other, its disk is, and with which of their
-// velocities. The centre of the disk's cage does: it is in the box of the disk, and a disk that comes to an edge gets a cage on
-// the other side. For a pair, the centres tell how many boxes above the one the other is met, hence by how much that image is
-// displaced and how fast it slides. Disks far from the edges know nothing of all this. In every epoch images slide on from
-// where they have come to, and cages near an edge are neighbours of all that will slide past them in it.
+// velocities. The centre of the disk's neighbourhood does: it is in the box of the disk, and a disk that comes to an edge gets a
+// neighbourhood on the other side. For a pair, the centres tell how many boxes above the one the other is met, hence by how much
+// that image is displaced and how fast it slides. Disks far from the edges know nothing of all this. In every epoch images slide
+// on from where they have come to, and neighbourhoods near an edge are neighbours of all that will slide past them in it.
 
 #include "engine/engine.hpp"
 
@@ -44,9 +44,9 @@ void Engine<Impact, Layout, World>::slide_images() {
     if (std::abs(std::int64_t{height(i)}) >= lists_.inner()) plan_ahead(i, predicted(i, surroundings(i)));
 }
 
-/// Of the half box within which nearest images are right, lines and the slide of images share what cages leave.
+/// Of the half box within which nearest images are right, lines and the slide of images share what neighbourhoods leave.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::leave_room_to_slide(const std::vector<CageCentre>& centres) {
+void Engine<Impact, Layout, World>::leave_room_to_slide(const std::vector<NeighbourhoodCentre>& centres) {
   for (std::int32_t i = 0; i < count(); ++i) height(i) = centres[static_cast<std::size_t>(i)].y;
   way_ = travel_[0];
   travel_[0] /= 2.0;
@@ -92,7 +92,7 @@ void Engine<Impact, Layout, World>::cross_sliding_edge(std::int32_t i, std::int3
   a.v[0] -= up * world_.sliding.speed();
   totals_.shear_energy.add(layout_.mass(a) * (a.v[0] * a.v[0] - before * before) / 2.0);
   height(i) = up > 0 ? INT32_MIN : INT32_MAX;
-  leave_cage(i);
+  leave_neighbourhood(i);
   if (const Vec2<double> v(a.v[0], a.v[1]); outruns_epoch(v)) begin_epoch_between(i, v, i, v);
 }
 
@@ -104,7 +104,7 @@ double Engine<Impact, Layout, World>::steps_up(std::int32_t i, double when) cons
 }
 
 template <class Impact, class Layout, class World>
-std::int32_t Engine<Impact, Layout, World>::cage_height(std::int32_t i, double when, double ahead) const {
+std::int32_t Engine<Impact, Layout, World>::neighbourhood_height(std::int32_t i, double when, double ahead) const {
   const double steps = steps_up(i, when) + line(i).v[1] * ahead * axes_[1].steps;
   return static_cast<std::int32_t>(std::clamp(std::rint(steps * 0x1p-32), -0x1p31, 0x1p31 - 1.0));
 }

@@ -21,7 +21,7 @@ int size_of(float radius) { return std::ilogb(std::nextafter(radius, 0.0F)); }
 }  // namespace
 
 NeighbourLists::NeighbourLists(const FixedAxis& x, const FixedAxis& y, const std::vector<double>& radius)
-    : axes_{x, y}, around_(radius.size()), kernel_(&cage_kernel()) {
+    : axes_{x, y}, around_(radius.size()), kernel_(&neighbour_search_kernel()) {
   if (!radius.empty()) largest_ = *std::max_element(radius.begin(), radius.end());
   one_radius_ = all_equal(radius);
   radius_.reserve(one_radius_ ? 1 : radius.size());
@@ -49,13 +49,13 @@ NeighbourLists::NeighbourLists(const FixedAxis& x, const FixedAxis& y, const std
   for (const auto& size : sizes) sizes_.push_back({size.second.first, size.second.second});
 }
 
-void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> centres) {
+void NeighbourLists::rebuild(double half_width, std::span<const NeighbourhoodCentre> centres) {
   half_width_ = half_width;
   h_ = half_width / largest_;
   // A few steps of the centres, and of single precision, on the safe side.
   nearness_.two_halves = static_cast<float>(2.0 * h_ * (1.0 + 1e-6) + 4.0 / std::min(steps_[0], steps_[1]));
 
-  if (sliding_) sliding_->set_cages(2.0 * h_, 2.0 * (1.0 + h_));
+  if (sliding_) sliding_->set_neighbourhoods(2.0 * h_, 2.0 * (1.0 + h_));
 
   layers_.clear();
   for (const auto& [disks, largest] : sizes_)
@@ -64,7 +64,7 @@ void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> cent
   around_.clear();
   const auto disks = static_cast<std::int32_t>(around_.disks());
   for (std::int32_t i = 0; i < disks; ++i) {
-    const CageCentre centre = centres[static_cast<std::size_t>(i)];
+    const NeighbourhoodCentre centre = centres[static_cast<std::size_t>(i)];
     around_.set_centre(i, centre);
     layers_[layer_of(i)].insert(i, centre, radius(i));
   }
@@ -74,14 +74,14 @@ void NeighbourLists::rebuild(double half_width, std::span<const CageCentre> cent
   }
 }
 
-std::span<const std::int32_t> NeighbourLists::move_cage(std::int32_t i, CageCentre to) {
+std::span<const std::int32_t> NeighbourLists::move_neighbourhood(std::int32_t i, NeighbourhoodCentre to) {
   layers_[layer_of(i)].move(i, centre(i), to, radius(i));
   around_.set_centre(i, to);
   search(i);
   if (gone_.size() < count(i) + 16) gone_.resize(2 * std::size_t{count(i)} + 16);
   const auto [fresh, gone] = kernel_->compare(ids(i), count(i), found_.data(), found_count_, fresh_.data(), gone_.data());
   for (std::size_t k = fresh; k < fresh + 8; ++k) fresh_[k] = i;
-  for (std::size_t k = 0; k < 4; ++k) around_.fetch_list(fresh_[k]);  // those left behind were fetched with the cells
+  for (std::size_t k = 0; k < 4; ++k) around_.prefetch_list(fresh_[k]);  // those left behind were fetched with the cells
   for (std::size_t k = 0; k < gone; ++k) around_.remove_at(gone_[k], kernel_->position(ids(gone_[k]), i));
   for (std::size_t k = 0; k < fresh; ++k) around_.append(fresh_[k], i);
   changes_ += gone + fresh;
@@ -89,28 +89,28 @@ std::span<const std::int32_t> NeighbourLists::move_cage(std::int32_t i, CageCent
   return {fresh_.data(), fresh};
 }
 
-/// How far apart, in largest radii, cages may be that are near, one of a disk of the given radius and one of a layer.
-double NeighbourLists::reach(float radius, const CageCells& layer) const {
+/// How far apart, in largest radii, neighbourhoods may be that are near, one of a disk of the given radius and one of a layer.
+double NeighbourLists::reach(float radius, const NeighbourhoodCells& layer) const {
   return (static_cast<double>(radius) + static_cast<double>(layer.largest_radius()) + 2.0 * h_) * (1.0 + search_slack);
 }
 
-/// The cells of a layer in which there may be cages near one of a disk of the given radius.
-CageRange NeighbourLists::range_around(CageCentre centre, float radius, const CageCells& layer) const {
+/// The cells of a layer in which there may be neighbourhoods near one of a disk of the given radius.
+CellRange NeighbourLists::range_around(NeighbourhoodCentre centre, float radius, const NeighbourhoodCells& layer) const {
   const double to = reach(radius, layer);
   return layer.around(centre, {to * steps_[0] + 8.0, to * steps_[1] + 8.0});
 }
 
-/// Fills found_ with those near the cage of disk i as it is now.
+/// Fills found_ with those near the neighbourhood of disk i as it is now.
 void NeighbourLists::search(std::int32_t i) {
-  const CageQuery query{i, radius(i), centre(i)};
+  const NeighbourQuery query{i, radius(i), centre(i)};
   found_count_ = 0;
-  for (const CageCells& layer : layers_) {
-    const CageRange range = range_around(query.centre, query.radius, layer);
-    if (cells_.size() < CageCells::cells_in(range) + 12) cells_.resize(CageCells::cells_in(range) + 12);
+  for (const NeighbourhoodCells& layer : layers_) {
+    const CellRange range = range_around(query.centre, query.radius, layer);
+    if (cells_.size() < NeighbourhoodCells::cells_in(range) + 12) cells_.resize(NeighbourhoodCells::cells_in(range) + 12);
     // Room for eight disks of every block, those that follow full ones included.
-    const std::size_t most = found_count_ + 8 * (CageCells::cells_in(range) + layer.spilled()) + 16;
+    const std::size_t most = found_count_ + 8 * (NeighbourhoodCells::cells_in(range) + layer.spilled()) + 16;
     if (found_.size() < most) found_.resize(most), fresh_.resize(most);
-    const std::size_t cells = CageCells::list_cells(range, cells_.data());
+    const std::size_t cells = NeighbourhoodCells::list_cells(range, cells_.data());
     std::int32_t* const end =
         kernel_->search(layer.blocks(), layer.next(), cells_.data(), cells, query, nearness_, found_.data() + found_count_);
     found_count_ = static_cast<std::size_t>(end - found_.data());
@@ -118,17 +118,17 @@ void NeighbourLists::search(std::int32_t i) {
   if (sliding_ && sliding_->by_edge(query.centre)) search_across(query);
 }
 
-/// Puts right what search() has found for a cage near an edge past which images slide.
-void NeighbourLists::search_across(const CageQuery& query) {
+/// Puts right what search() has found for a neighbourhood near an edge past which images slide.
+void NeighbourLists::search_across(const NeighbourQuery& query) {
   const std::int32_t upwards = query.centre.y > 0 ? 1 : -1;
   const auto beyond = [&](std::int32_t j) { return boxes_between(query.centre.y, centre(j).y) != 0; };
   const auto end = found_.begin() + static_cast<std::ptrdiff_t>(found_count_);
   found_.resize(static_cast<std::size_t>(std::remove_if(found_.begin(), end, beyond) - found_.begin()));
-  for (const CageCells& layer : layers_) {
-    const CageCentre from = sliding_->as_seen_from_beyond(query.centre, upwards);
+  for (const NeighbourhoodCells& layer : layers_) {
+    const NeighbourhoodCentre from = sliding_->as_seen_from_beyond(query.centre, upwards);
     const double to = reach(query.radius, layer);
-    const CageRange range = layer.around(from, {(to + sliding_->way()) * steps_[0] + 8.0, to * steps_[1] + 8.0});
-    layer.for_each(range, [&](std::int32_t j, CageCentre at, float radius) {
+    const CellRange range = layer.around(from, {(to + sliding_->way()) * steps_[0] + 8.0, to * steps_[1] + 8.0});
+    layer.for_each(range, [&](std::int32_t j, NeighbourhoodCentre at, float radius) {
       if (j != query.id && boxes_between(query.centre.y, at.y) == upwards && near(query.centre, query.radius, at, radius))
         found_.push_back(j);
     });
@@ -142,7 +142,7 @@ void NeighbourLists::slide(std::int64_t displacement, double way) {
   if (!sliding_) sliding_.emplace(std::array{1.0 / steps_[0], 1.0 / steps_[1]});
   sliding_->set_way(static_cast<std::int32_t>(displacement >> 32), way / largest_);
   if (layers_.empty()) return;
-  sliding_->set_cages(2.0 * h_, 2.0 * (1.0 + h_));
+  sliding_->set_neighbourhoods(2.0 * h_, 2.0 * (1.0 + h_));
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(around_.disks()); ++i) {
     if (!sliding_->by_edge(centre(i))) continue;
     search(i);
@@ -150,15 +150,15 @@ void NeighbourLists::slide(std::int64_t displacement, double way) {
   }
 }
 
-void NeighbourLists::fetch_cells(std::int32_t i, CageCentre to) const {
-  const CageCells& layer = layers_[layer_of(i)];
-  layer.fetch_blocks(range_around(to, radius(i), layer));
-  for (std::uint32_t k = 0; k < count(i); ++k) fetch_list_early(ids(i)[k]);
+void NeighbourLists::prefetch_cells(std::int32_t i, NeighbourhoodCentre to) const {
+  const NeighbourhoodCells& layer = layers_[layer_of(i)];
+  layer.prefetch_blocks(range_around(to, radius(i), layer));
+  for (std::uint32_t k = 0; k < count(i); ++k) prefetch_list_early(ids(i)[k]);
 }
 
 bool NeighbourLists::near(std::int32_t i, std::int32_t j) const { return near(centre(j), radius(j), centre(i), radius(i)); }
 
-bool NeighbourLists::near(CageCentre a, float radius_a, CageCentre b, float radius_b) const {
+bool NeighbourLists::near(NeighbourhoodCentre a, float radius_a, NeighbourhoodCentre b, float radius_b) const {
   if (sliding_ && boxes_between(a.y, b.y) != 0) return sliding_->near(a, radius_a, b, radius_b);
   return kernel_->near(a, radius_a, b, radius_b, nearness_);
 }
@@ -180,7 +180,7 @@ std::uint64_t NeighbourLists::entries() const {
 
 std::size_t NeighbourLists::bytes() const {
   std::size_t sum = around_.bytes() + (one_radius_ ? 0 : radius_.capacity() * sizeof(float)) + layer_of_.capacity();
-  for (const CageCells& layer : layers_) sum += layer.bytes();
+  for (const NeighbourhoodCells& layer : layers_) sum += layer.bytes();
   return sum;
 }
 

@@ -1,19 +1,21 @@
 #pragma once
-// Who may meet whom before either has gone far. Every disk has a cage, a square of half-width h round a centre that stays where
-// it is until the disk leaves; two disks are on each other's lists exactly if their cages come within contact. So nobody need
-// look beyond his list until he leaves his cage, and then only lists of those near him change.
+// Neighbour lists. Every disk has a neighbourhood, a square of half-width h round a centre that stays where it is until the disk
+// leaves the square (the bounding neighbourhood of Donev, Torquato & Stillinger, J. Comput. Phys. 202, 737 (2005)). Two disks are
+// on each other's lists exactly if their neighbourhoods come within contact. A prediction looks at the list alone, and when a disk
+// leaves its neighbourhood only the lists of the disks near it change.
 //
-// Positions and velocities are not known here: cages are given and taken in steps of 2^32 of a coordinate (core/flight.hpp), so
-// that differences wrap to the nearest image. Disks of very different size are kept in layers, radii within a factor of two
-// in one layer, each with cells as wide as its own reach: one large disk among a million small ones costs nothing.
+// Positions and velocities are not known here: neighbourhoods are given and taken in steps of 2^32 of a coordinate
+// (core/flight.hpp), so that differences wrap to the nearest image. Disks of very different size are kept in layers, radii within
+// a factor of two in one layer, each with cells as wide as its own reach: one large disk among a million small ones costs
+// nothing.
 //
-// Where the images above slide past those below (effects/shear.hpp), cages near those edges are compared with where the images of
-// the others beyond will be from the beginning of an epoch to its end.
+// Where the images above slide past those below (effects/shear.hpp), neighbourhoods near those edges are compared with where the
+// images of the others beyond will be from the beginning of an epoch to its end.
 
 #include "core/fixed_axis.hpp"
-#include "neighbours/cage_cells.hpp"
+#include "neighbours/neighbourhood_cells.hpp"
 #include "neighbours/neighbourhoods.hpp"
-#include "neighbours/sliding_cages.hpp"
+#include "neighbours/sheared_neighbourhoods.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,35 +30,35 @@ class NeighbourLists {
   /// radius[i] (length) belongs to disk i.
   NeighbourLists(const FixedAxis& x, const FixedAxis& y, const std::vector<double>& radius);
 
-  /// Sets the half-width h of all cages (length) and the centres, and makes all lists anew. O(disks).
-  void rebuild(double half_width, std::span<const CageCentre> centres);
+  /// Sets the half-width h of all neighbourhoods (length) and the centres, and makes all lists anew. O(disks).
+  void rebuild(double half_width, std::span<const NeighbourhoodCentre> centres);
 
   [[nodiscard]] double half_width() const { return half_width_; }
-  [[nodiscard]] CageCentre centre(std::int32_t i) const { return around_.centre(i); }
+  [[nodiscard]] NeighbourhoodCentre centre(std::int32_t i) const { return around_.centre(i); }
 
   /// The ids of those who may meet disk i, padded with i itself to eight at least and to a multiple of four.
   [[nodiscard]] const std::int32_t* ids(std::int32_t i) const { return around_.ids(i); }
   [[nodiscard]] std::uint32_t count(std::int32_t i) const { return around_.count(i); }
 
-  /// Disk i has a new cage: mends its list and those of the others concerned. Returns who is new on its list, padded
+  /// Disk i has a new neighbourhood: mends its list and those of the others concerned. Returns who is new on its list, padded
   /// with i in the same way; valid until the next call.
-  std::span<const std::int32_t> move_cage(std::int32_t i, CageCentre centre);
+  std::span<const std::int32_t> move_neighbourhood(std::int32_t i, NeighbourhoodCentre centre);
 
   /// From now on, and until the next call, the images above are displaced along x by `displacement` (in steps of a coordinate),
   /// and by anything up to `way` (length) more. A disk is in that one of the boxes, one above the other, in which the centre of
-  /// its cage is. Mends the lists of cages near the edges. Requires y to be periodic, and reach of cages and way to be less than
-  /// half of the box together.
+  /// its neighbourhood is. Mends the lists of neighbourhoods near the edges. Requires y to be periodic, and reach of
+  /// neighbourhoods and way to be less than half of the box together.
   void slide(std::int64_t displacement, double way);
-  /// Cages with centres nearer to the middle than this (in steps) concern nobody beyond the edges that slide.
+  /// Neighbourhoods with centres nearer to the middle than this (in steps) concern nobody beyond the edges that slide.
   [[nodiscard]] std::int64_t inner() const { return sliding_ ? sliding_->inner() : INT64_MAX; }
 
-  /// Entries that move_cage() has put on lists of others, or taken from them, so far.
+  /// Entries that move_neighbourhood() has put on lists of others, or taken from them, so far.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
 
-  void fetch_list(std::int32_t i) const { around_.fetch_list(i); }
-  void fetch_list_early(std::int32_t i) const { around_.fetch_list_early(i); }
-  /// What move_cage(i, to) will look through.
-  void fetch_cells(std::int32_t i, CageCentre to) const;
+  void prefetch_list(std::int32_t i) const { around_.prefetch_list(i); }
+  void prefetch_list_early(std::int32_t i) const { around_.prefetch_list_early(i); }
+  /// What move_neighbourhood(i, to) will look through.
+  void prefetch_cells(std::int32_t i, NeighbourhoodCentre to) const;
 
   /// Half of the disks have at most so many neighbours. O(disks).
   [[nodiscard]] std::uint32_t median_count() const;
@@ -64,7 +66,7 @@ class NeighbourLists {
   [[nodiscard]] std::uint64_t entries() const;
   [[nodiscard]] std::size_t bytes() const;
 
-  /// Whether two cages come within contact: by definition, whether the disks must be on each other's lists.
+  /// Whether two neighbourhoods come within contact: by definition, whether the disks must be on each other's lists.
   [[nodiscard]] bool near(std::int32_t i, std::int32_t j) const;
 
   template <class Archive>
@@ -79,11 +81,11 @@ class NeighbourLists {
     return layers_.size() == 1 ? 0 : layer_of_[static_cast<std::size_t>(i)];
   }
 
-  [[nodiscard]] CageRange range_around(CageCentre centre, float radius, const CageCells& layer) const;
-  [[nodiscard]] double reach(float radius, const CageCells& layer) const;
+  [[nodiscard]] CellRange range_around(NeighbourhoodCentre centre, float radius, const NeighbourhoodCells& layer) const;
+  [[nodiscard]] double reach(float radius, const NeighbourhoodCells& layer) const;
   void search(std::int32_t i);
-  void search_across(const CageQuery& query);
-  [[nodiscard]] bool near(CageCentre a, float radius_a, CageCentre b, float radius_b) const;
+  void search_across(const NeighbourQuery& query);
+  [[nodiscard]] bool near(NeighbourhoodCentre a, float radius_a, NeighbourhoodCentre b, float radius_b) const;
   [[nodiscard]] std::span<const std::int32_t> found() const { return {found_.data(), found_count_}; }
 
   FixedAxis axes_[2];
@@ -92,25 +94,25 @@ class NeighbourLists {
   bool one_radius_ = true;
   double half_width_ = 0.0;
   double h_ = 0.0;  ///< the same in largest radii
-  CageNearness nearness_;
-  std::optional<SlidingCages> sliding_;
+  NeighbourCriterion nearness_;
+  std::optional<ShearedNeighbourhoods> sliding_;
 
   Neighbourhoods around_;
   struct Size {
     std::size_t disks;
     float largest;  ///< radius
   };
-  std::vector<Size> sizes_;        ///< of the layers, falling
-  std::vector<CageCells> layers_;  ///< one per size
+  std::vector<Size> sizes_;                 ///< of the layers, falling
+  std::vector<NeighbourhoodCells> layers_;  ///< one per size
   std::vector<std::uint8_t> layer_of_;
 
-  const CageKernel* kernel_;
+  const NeighbourSearchKernel* kernel_;
   double steps_[2];  ///< of a centre, per largest radius
   std::uint64_t changes_ = 0;
-  std::vector<std::int32_t> gone_;   ///< by move_cage(): those who are not near any more
+  std::vector<std::int32_t> gone_;   ///< by move_neighbourhood(): those who are not near any more
   std::vector<std::int32_t> cells_;  ///< by search(): those looked through
   std::vector<std::int32_t> found_;  ///< by search(): all
-  std::vector<std::int32_t> fresh_;  ///< by move_cage(): those who were not near before
+  std::vector<std::int32_t> fresh_;  ///< by move_neighbourhood(): those who were not near before
   std::size_t found_count_ = 0;
 };
 

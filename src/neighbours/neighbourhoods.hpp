@@ -1,11 +1,11 @@
 #pragma once
-// The cage of every disk and the ids of its neighbours, in one cache line; lists too long for that line live in a pool. Any
-// number of neighbours finds room.
+// The neighbourhood of every disk and the ids of its neighbours, in one cache line; lists too long for that line live in a pool.
+// Any number of neighbours finds room.
 
-#include "core/fetch.hpp"
 #include "core/four.hpp"
 #include "core/large_memory.hpp"
-#include "neighbours/cage_search.hpp"
+#include "core/prefetch.hpp"
+#include "neighbours/neighbour_search.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -34,8 +34,8 @@ class Neighbourhoods {
     free_.clear();
   }
 
-  [[nodiscard]] CageCentre centre(std::int32_t i) const { return line(i).centre; }
-  void set_centre(std::int32_t i, CageCentre centre) { line(i).centre = centre; }
+  [[nodiscard]] NeighbourhoodCentre centre(std::int32_t i) const { return line(i).centre; }
+  void set_centre(std::int32_t i, NeighbourhoodCentre centre) { line(i).centre = centre; }
 
   /// The list of disk i; unused places hold i itself, at least up to the eighth and to the next multiple of four. Sixteen more
   /// bytes may be read.
@@ -76,8 +76,8 @@ class Neighbourhoods {
     line(i).count = count;
   }
 
-  void fetch_list(std::int32_t i) const { fetch(&line(i)); }
-  void fetch_list_early(std::int32_t i) const { fetch_early(&line(i)); }
+  void prefetch_list(std::int32_t i) const { prefetch(&line(i)); }
+  void prefetch_list_early(std::int32_t i) const { prefetch_early(&line(i)); }
 
   [[nodiscard]] std::size_t bytes() const { return lines_.capacity() * sizeof(Line) + pool_.capacity() * sizeof(std::int32_t); }
 
@@ -91,7 +91,7 @@ class Neighbourhoods {
   static constexpr std::uint32_t none = 0xFFFFFFFF;
 
   struct alignas(64) Line {
-    CageCentre centre;
+    NeighbourhoodCentre centre;
     std::uint32_t count;
     std::uint32_t grown;  ///< where in the pool the list is: 32 * (place / 16) + size, for 16 * 2^size ids; or none
     std::int32_t ids[room];

@@ -9,8 +9,8 @@
 //
 // Ties: events at the same time are ordered by Events::precedes(a, b).
 
-#include "core/fetch.hpp"
 #include "core/large_memory.hpp"
+#include "core/prefetch.hpp"
 #include "queue/future_event.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ namespace carom {
 /// Events: `double time(std::int32_t disk) const`, when the disk's next event is, >= 0, infinity for never;
 /// `std::int32_t other(std::int32_t disk) const`, whatever else tells which event it is; and `bool precedes(const
 /// FutureEvent& a, const FutureEvent& b) const`, a strict order of events at one time that depends on a and b alone. Where
-/// there is a `void fetch_event(std::int32_t disk) const` it is told of disks whose events will be asked for soon.
+/// there is a `void prefetch_event(std::int32_t disk) const` it is told of disks whose events will be asked for soon.
 template <class Events>
 class CalendarQueue {
  public:
@@ -96,7 +96,7 @@ class CalendarQueue {
   [[nodiscard]] std::span<const std::int32_t> ids_of(std::int64_t k) const {
     return {span(k & mask_).ids, counts_[static_cast<std::size_t>(k & mask_)]};
   }
-  void fetch_span(std::int64_t k) const { fetch_early(&span(k & mask_)); }
+  void prefetch_span(std::int64_t k) const { prefetch_early(&span(k & mask_)); }
 
   /// The span into which a time falls.
   [[nodiscard]] std::int64_t span_of(double time) const {
@@ -168,8 +168,8 @@ class CalendarQueue {
   /// Stores leave the processor in order: one to memory that is far away holds up all that are behind it.
   void wait_for_span(std::int64_t place, std::int32_t disk) {
     if (waiting_ == waiting_room) append_waiting();
-    fetch_early(&span(place));
-    fetch_early(&count(place));
+    prefetch_early(&span(place));
+    prefetch_early(&count(place));
     places_[waiting_] = static_cast<std::int32_t>(place);
     disks_[waiting_++] = disk;
   }
@@ -245,8 +245,8 @@ class CalendarQueue {
     sort_out_at_ = current_ + mask_ / 2;
     std::size_t kept = 0;
     for (std::size_t n = 0; n < later_.size(); ++n) {
-      if constexpr (requires { events.fetch_event(later_[n].disk); })
-        if (n + 16 < later_.size()) events.fetch_event(later_[n + 16].disk);
+      if constexpr (requires { events.prefetch_event(later_[n].disk); })
+        if (n + 16 < later_.size()) events.prefetch_event(later_[n + 16].disk);
       const Entry entry = later_[n];
       if (!counts(events, entry)) continue;
       const std::int64_t k = span_of(entry.time);

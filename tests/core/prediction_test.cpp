@@ -186,7 +186,7 @@ void expect_predictions_of_twin(const Drawn& drawn, const std::vector<Line>& lin
   std::shuffle(others.begin(), others.end(), random);
   List list(0, others);
   for (int a = 0; a < 2; ++a) {
-    // The cage lies round where the disk is, or a little off, or somewhere.
+    // The neighbourhood lies round where the disk is, or a little off, or somewhere.
     const double kind = static_cast<double>(random() % 4);
     const double at = std::fmod(lines[0].v[a] * drawn.now / drawn.frame.unit[a], 0x1p63);
     const std::uint64_t place =
@@ -306,7 +306,7 @@ TEST_P(PredictionKernels, GiveTheSameBitsByAnEdgeThatSlidesForThoseOnOneSideOfIt
   for (int k = 0; k < 5'000; ++k) {
     Drawn drawn = draw(random, 1 + random() % 20);
     const std::vector<std::int32_t> heights(drawn.plain.size(), static_cast<std::int32_t>(random()));
-    // Either everybody is by an edge, or those whose cages are in the outer half.
+    // Either everybody is by an edge, or those whose neighbourhoods are in the outer half.
     const std::int64_t inner = k % 2 == 0 ? 0 : 1 << 30;
     drawn.frame.sliding = {heights.data(), static_cast<std::int64_t>(random()), 3.0, inner};
     ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, drawn.plain, random, GetParam(), Contact::sheared)) << "case " << k;
@@ -350,7 +350,7 @@ TEST_P(PredictionKernels, MeetTheImagesBeyondAnEdgeThatSlides) {
 }
 
 TEST_P(PredictionKernels, ConvertEveryCoordinateDifferenceAsTheHardwareDoes) {
-  // A cage of no width round 0, left at speed 1 from a coordinate x: in x, as a double.
+  // A neighbourhood of no width round 0, left at speed 1 from a coordinate x: in x, as a double.
   std::mt19937_64 random(2);
   const PredictionFrame narrow = frame_of(1.0, 0.0, 0.0);
   for (int k = 0; k < 20'000; ++k) {

@@ -92,7 +92,7 @@ TEST(Gravity, FindsItsWayBack) {
     }
 }
 
-TEST(Gravity, NobodyLeavesHisCageUnseenWhenTheFrameOfTheLinesStartsAnew) {
+TEST(Gravity, NoDiskLeavesItsNeighbourhoodUnseenWhenTheFallingFrameIsReset) {
   // An engine's epochs last some 4 spacings: a hundred of them, looked at all along.
   for (const V& g : {V(0.0, -0.5), V(0.3, -0.5), V(2.0, 1.0)}) {
     Simulation simulation = make_simulation(falling(mixture_scene(49, 0.3, Boundary::walls), g), "general");

@@ -1,4 +1,4 @@
-// Where an engine that keeps lines, cages and stale ids could go wrong: many events at one instant, disks that become
+// Where an engine that keeps lines, neighbourhoods and stale ids could go wrong: many events at one instant, disks that become
 // faster than anything was, pairs that see each other round the box, and next to nobody there.
 
 #include "support/engines.hpp"

@@ -56,7 +56,7 @@ TEST(EngineOutrun, KeepsEqualDisksApart) {
 }
 
 TEST(EngineSlowest, ADiskThatReachesNoWallBeforeTimesOverflowExpectsNothing) {
-  // The way to the wall over the speed is more than the largest number, as is the time to leave a cage.
+  // The way to the wall over the speed is more than the largest number, as is the time to leave a neighbourhood.
   const Box box = square_box(1e6, Boundary::walls);
   const System start = system_of(box, {{{5e5, 5e5}, {1e-304, 0.0}}, {{2e5, 2e5}, {0.0, 1e-304}}});
   Engine<Elastic<Specular>, AnyDisks, PlainWorld> engine(start.box, start.disks, start.state);

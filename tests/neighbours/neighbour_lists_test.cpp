@@ -1,5 +1,5 @@
-// Neighbour lists against a comparison of all pairs of cages, while cages move at random: by the lists' own definition,
-// and by geometry in double precision.
+// Neighbour lists against a comparison of all pairs of neighbourhoods, while neighbourhoods move at random: by the lists' own
+// definition, and by geometry in double precision.
 
 #include "neighbours/neighbour_lists.hpp"
 #include "core/flight.hpp"
@@ -16,10 +16,10 @@
 namespace carom::test {
 namespace {
 
-/// Cages in a box, and where they are.
-class Cages {
+/// Neighbourhoods in a box, and where they are.
+class Neighbourhoods {
  public:
-  Cages(const Box& box, std::vector<double> radius, double half_width, std::uint64_t seed)
+  Neighbourhoods(const Box& box, std::vector<double> radius, double half_width, std::uint64_t seed)
       : axes_{FixedAxis(box, 0, 0.0), FixedAxis(box, 1, 0.0)},
         box_(box),
         radius_(std::move(radius)),
@@ -32,18 +32,18 @@ class Cages {
 
   [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(radius_.size()); }
   [[nodiscard]] const NeighbourLists& lists() const { return lists_; }
-  [[nodiscard]] std::vector<CageCentre>& centres() { return centres_; }
+  [[nodiscard]] std::vector<NeighbourhoodCentre>& centres() { return centres_; }
   void rebuild(double half_width) {
     half_width_ = half_width;
     lists_.rebuild(half_width, centres_);
   }
 
   /// Somewhere in the box; often at an edge, a corner or in the middle.
-  CageCentre anywhere() { return at(unit() < 0.1 ? edge() : unit(), unit() < 0.1 ? edge() : unit()); }
+  NeighbourhoodCentre anywhere() { return at(unit() < 0.1 ? edge() : unit(), unit() < 0.1 ? edge() : unit()); }
   /// A place as parts of the box.
-  CageCentre at(double x, double y) { return {centre(0, x), centre(1, y)}; }
-  /// Up to some cage widths away, in the box where it has walls.
-  CageCentre nearby(CageCentre from) {
+  NeighbourhoodCentre at(double x, double y) { return {centre(0, x), centre(1, y)}; }
+  /// Up to some neighbourhood widths away, in the box where it has walls.
+  NeighbourhoodCentre nearby(NeighbourhoodCentre from) {
     const auto moved = [this](int axis, std::int32_t centre) {
       const double way = 3.0 * half_width_ * (unit() - 0.5) * (unit() < 0.1 ? 10.0 : 1.0);
       const auto steps = static_cast<std::int64_t>(std::fmod(way / unit_of(axis), 0x1p31));
@@ -55,10 +55,10 @@ class Cages {
     return {moved(0, from.x), moved(1, from.y)};
   }
 
-  /// Moves a cage; whom the call returns must be exactly those who are on the list and were not before.
-  void move(std::int32_t i, CageCentre to) {
+  /// Moves a neighbourhood; whom the call returns must be exactly those who are on the list and were not before.
+  void move(std::int32_t i, NeighbourhoodCentre to) {
     const std::vector<std::int32_t> before = list(i);
-    const auto returned = lists_.move_cage(i, to);
+    const auto returned = lists_.move_neighbourhood(i, to);
     std::vector<std::int32_t> fresh(returned.begin(), returned.end());
     centres_[static_cast<std::size_t>(i)] = to;
     for (std::size_t k = returned.size(); k < padded(returned.size()); ++k) ASSERT_EQ(returned.data()[k], i);
@@ -117,7 +117,7 @@ class Cages {
 
   /// Gap of the two squares, less the contact distance: not above zero where disks in them may touch. Nearest images by rounding.
   [[nodiscard]] double distance_beyond_contact(std::int32_t i, std::int32_t j) const {
-    const CageCentre a = centres_[static_cast<std::size_t>(i)], b = centres_[static_cast<std::size_t>(j)];
+    const NeighbourhoodCentre a = centres_[static_cast<std::size_t>(i)], b = centres_[static_cast<std::size_t>(j)];
     const double apart[2] = {(static_cast<double>(a.x) - static_cast<double>(b.x)) * unit_of(0),
                              (static_cast<double>(a.y) - static_cast<double>(b.y)) * unit_of(1)};
     double gap[2];
@@ -141,17 +141,18 @@ class Cages {
   double half_width_;
   std::mt19937_64 random_;
   NeighbourLists lists_;
-  std::vector<CageCentre> centres_;
+  std::vector<NeighbourhoodCentre> centres_;
 };
 
-void expect_right_while_moving(Cages& cages, int moves, int checks) {
-  ASSERT_NO_FATAL_FAILURE(cages.expect_lists_of_all_pairs());
+void expect_right_while_moving(Neighbourhoods& neighbourhoods, int moves, int checks) {
+  ASSERT_NO_FATAL_FAILURE(neighbourhoods.expect_lists_of_all_pairs());
   for (int k = 1; k <= moves; ++k) {
-    const std::int32_t i = cages.any();
-    const CageCentre to = cages.unit() < 0.1 ? cages.anywhere() : cages.nearby(cages.lists().centre(i));
-    ASSERT_NO_FATAL_FAILURE(cages.move(i, to)) << "move " << k;
+    const std::int32_t i = neighbourhoods.any();
+    const NeighbourhoodCentre to =
+        neighbourhoods.unit() < 0.1 ? neighbourhoods.anywhere() : neighbourhoods.nearby(neighbourhoods.lists().centre(i));
+    ASSERT_NO_FATAL_FAILURE(neighbourhoods.move(i, to)) << "move " << k;
     if (k % (moves / checks) == 0) {
-      ASSERT_NO_FATAL_FAILURE(cages.expect_lists_of_all_pairs()) << "move " << k;
+      ASSERT_NO_FATAL_FAILURE(neighbourhoods.expect_lists_of_all_pairs()) << "move " << k;
     }
   }
 }
@@ -170,16 +171,16 @@ TEST(NeighbourLists, AreThoseOfAllPairsForEqualDisks) {
     for (const double length : {4.0, 9.0, 30.0})
       for (const double half_width : {0.01, 0.2, 0.8}) {
         if (2.0 * half_width + 1.0 > length / 2.0) continue;  // nearest images would not be the only ones
-        Cages cages(shifted_box(length, length, kind[0], kind[1]), equal(120, 0.5), half_width, 1);
-        ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(cages, 2000, 10)) << length << " " << half_width;
+        Neighbourhoods neighbourhoods(shifted_box(length, length, kind[0], kind[1]), equal(120, 0.5), half_width, 1);
+        ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(neighbourhoods, 2000, 10)) << length << " " << half_width;
       }
 }
 
 TEST(NeighbourLists, AreThoseOfAllPairsInThinBoxes) {
   for (const auto& kind : kinds) {
-    Cages flat(shifted_box(500.0, 2.6, kind[0], kind[1]), equal(150, 0.5), 0.1, 2);
+    Neighbourhoods flat(shifted_box(500.0, 2.6, kind[0], kind[1]), equal(150, 0.5), 0.1, 2);
     ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(flat, 2000, 8));
-    Cages tall(shifted_box(3.0, 2000.0, kind[0], kind[1]), equal(150, 0.5), 0.2, 3);
+    Neighbourhoods tall(shifted_box(3.0, 2000.0, kind[0], kind[1]), equal(150, 0.5), 0.2, 3);
     ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(tall, 2000, 8));
   }
 }
@@ -193,73 +194,74 @@ TEST(NeighbourLists, AreThoseOfAllPairsForRadiiAFactorOfAHundredApart) {
       continuous.push_back(0.05 * std::pow(100.0, unit(random)));
       two.push_back(i % 30 == 7 ? 5.0 : 0.05);
     }
-    Cages many(shifted_box(40.0, 40.0, kind[0], kind[1]), continuous, 0.1, 5);
+    Neighbourhoods many(shifted_box(40.0, 40.0, kind[0], kind[1]), continuous, 0.1, 5);
     ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(many, 3000, 10));
-    Cages few(shifted_box(40.0, 30.0, kind[0], kind[1]), two, 0.03, 6);
+    Neighbourhoods few(shifted_box(40.0, 30.0, kind[0], kind[1]), two, 0.03, 6);
     ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(few, 3000, 10));
   }
 }
 
 TEST(NeighbourLists, GrowBeyondSixtyFourAndShrinkAgain) {
   for (const auto& kind : kinds) {
-    Cages cages(shifted_box(30.0, 30.0, kind[0], kind[1]), equal(150, 0.5), 0.3, 7);
+    Neighbourhoods neighbourhoods(shifted_box(30.0, 30.0, kind[0], kind[1]), equal(150, 0.5), 0.3, 7);
     for (int round = 0; round < 3; ++round) {
       std::uint32_t most = 0;
-      for (std::int32_t i = 0; i < cages.count(); ++i) {  // everybody into one corner, one by one
-        ASSERT_NO_FATAL_FAILURE(cages.move(i, cages.at(0.01 * cages.unit(), 0.01 * cages.unit())));
-        most = std::max(most, cages.lists().count(0));
+      for (std::int32_t i = 0; i < neighbourhoods.count(); ++i) {  // everybody into one corner, one by one
+        ASSERT_NO_FATAL_FAILURE(
+            neighbourhoods.move(i, neighbourhoods.at(0.01 * neighbourhoods.unit(), 0.01 * neighbourhoods.unit())));
+        most = std::max(most, neighbourhoods.lists().count(0));
         if (i % 15 == 0) {
-          ASSERT_NO_FATAL_FAILURE(cages.expect_lists_of_all_pairs());
+          ASSERT_NO_FATAL_FAILURE(neighbourhoods.expect_lists_of_all_pairs());
         }
       }
       EXPECT_EQ(most, 149u);
-      for (std::int32_t i = 0; i < cages.count(); ++i) {  // and out again
-        ASSERT_NO_FATAL_FAILURE(cages.move(i, cages.anywhere()));
+      for (std::int32_t i = 0; i < neighbourhoods.count(); ++i) {  // and out again
+        ASSERT_NO_FATAL_FAILURE(neighbourhoods.move(i, neighbourhoods.anywhere()));
         if (i % 15 == 0) {
-          ASSERT_NO_FATAL_FAILURE(cages.expect_lists_of_all_pairs());
+          ASSERT_NO_FATAL_FAILURE(neighbourhoods.expect_lists_of_all_pairs());
         }
       }
-      EXPECT_LT(cages.lists().count(0), 16u);
+      EXPECT_LT(neighbourhoods.lists().count(0), 16u);
     }
   }
 }
 
 TEST(NeighbourLists, AreRightAfterEveryRebuild) {
-  Cages cages(shifted_box(20.0, 20.0, Boundary::periodic, Boundary::walls), equal(200, 0.5), 0.1, 8);
+  Neighbourhoods neighbourhoods(shifted_box(20.0, 20.0, Boundary::periodic, Boundary::walls), equal(200, 0.5), 0.1, 8);
   for (const double half_width : {0.5, 0.02, 1.5, 0.3}) {
-    cages.rebuild(half_width);
-    EXPECT_EQ(cages.lists().half_width(), half_width);
-    ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(cages, 600, 4)) << half_width;
+    neighbourhoods.rebuild(half_width);
+    EXPECT_EQ(neighbourhoods.lists().half_width(), half_width);
+    ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(neighbourhoods, 600, 4)) << half_width;
   }
 }
 
-TEST(NeighbourLists, OfCagesInOnePlaceNameEverybody) {
-  Cages cages(shifted_box(30.0, 30.0, Boundary::periodic, Boundary::periodic), equal(40, 0.5), 0.2, 9);
-  for (std::int32_t i = 0; i < 40; ++i) ASSERT_NO_FATAL_FAILURE(cages.move(i, {INT32_MIN, INT32_MIN}));
-  for (std::int32_t i = 0; i < 40; ++i) EXPECT_EQ(cages.lists().count(i), 39u);
-  ASSERT_NO_FATAL_FAILURE(cages.expect_lists_of_all_pairs());
+TEST(NeighbourLists, OfNeighbourhoodsInOnePlaceNameEveryDisk) {
+  Neighbourhoods neighbourhoods(shifted_box(30.0, 30.0, Boundary::periodic, Boundary::periodic), equal(40, 0.5), 0.2, 9);
+  for (std::int32_t i = 0; i < 40; ++i) ASSERT_NO_FATAL_FAILURE(neighbourhoods.move(i, {INT32_MIN, INT32_MIN}));
+  for (std::int32_t i = 0; i < 40; ++i) EXPECT_EQ(neighbourhoods.lists().count(i), 39u);
+  ASSERT_NO_FATAL_FAILURE(neighbourhoods.expect_lists_of_all_pairs());
 }
 
 TEST(NeighbourLists, CountTheChangesOfOthersLists) {
-  Cages cages(shifted_box(30.0, 30.0, Boundary::walls, Boundary::walls), equal(3, 0.5), 0.2, 10);
-  cages.move(0, cages.at(0.1, 0.1));
-  cages.move(1, cages.at(0.5, 0.5));
-  cages.move(2, cages.at(0.9, 0.9));
-  const std::uint64_t before = cages.lists().changes();
-  cages.move(0, cages.at(0.5, 0.51));
-  EXPECT_EQ(cages.lists().changes(), before + 1) << "disk 1 got disk 0";
-  cages.move(0, cages.at(0.9, 0.91));
-  EXPECT_EQ(cages.lists().changes(), before + 3) << "and lost it to disk 2";
+  Neighbourhoods neighbourhoods(shifted_box(30.0, 30.0, Boundary::walls, Boundary::walls), equal(3, 0.5), 0.2, 10);
+  neighbourhoods.move(0, neighbourhoods.at(0.1, 0.1));
+  neighbourhoods.move(1, neighbourhoods.at(0.5, 0.5));
+  neighbourhoods.move(2, neighbourhoods.at(0.9, 0.9));
+  const std::uint64_t before = neighbourhoods.lists().changes();
+  neighbourhoods.move(0, neighbourhoods.at(0.5, 0.51));
+  EXPECT_EQ(neighbourhoods.lists().changes(), before + 1) << "disk 1 got disk 0";
+  neighbourhoods.move(0, neighbourhoods.at(0.9, 0.91));
+  EXPECT_EQ(neighbourhoods.lists().changes(), before + 3) << "and lost it to disk 2";
 }
 
 TEST(NeighbourLists, OfNoneOneAndTwoDisksAreWhatTheyShouldBe) {
   for (const auto& kind : kinds) {
     const Box box = shifted_box(10.0, 10.0, kind[0], kind[1]);
-    Cages none(box, {}, 0.1, 11);
+    Neighbourhoods none(box, {}, 0.1, 11);
     EXPECT_EQ(none.lists().entries(), 0u);
-    Cages one(box, equal(1, 0.5), 0.1, 12);
+    Neighbourhoods one(box, equal(1, 0.5), 0.1, 12);
     ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(one, 50, 10));
-    Cages two(box, {0.5, 0.25}, 0.1, 13);
+    Neighbourhoods two(box, {0.5, 0.25}, 0.1, 13);
     ASSERT_NO_FATAL_FAILURE(expect_right_while_moving(two, 500, 100));
   }
 }
@@ -276,8 +278,8 @@ RC_GTEST_PROP(PropertyNeighbourLists, AreThoseOfAllPairsInAnyBoxForAnyRadii, ())
   for (int i = 0; i < count; ++i) radius.push_back(largest * std::pow(spread, -unit(random)));
   // No wider than that nearest images are the only ones.
   const double half_width = (std::min(x, y) / 4.0 - largest) * *rc::gen::element(0.95, 0.3, 0.01);
-  Cages cages(shifted_box(x, y, kind[0], kind[1]), radius, half_width, random());
-  expect_right_while_moving(cages, 200, 5);
+  Neighbourhoods neighbourhoods(shifted_box(x, y, kind[0], kind[1]), radius, half_width, random());
+  expect_right_while_moving(neighbourhoods, 200, 5);
   RC_ASSERT(!::testing::Test::HasFatalFailure());
 }
 

@@ -1,5 +1,5 @@
-// Neighbour lists in a box whose images above slide past those below, against a comparison of all pairs while cages move and
-// images slide on: by the lists' own definition, and by geometry in double precision at many instants on the way.
+// Neighbour lists in a box whose images above slide past those below, against a comparison of all pairs while neighbourhoods move
+// and images slide on: by the lists' own definition, and by geometry in double precision at many instants on the way.
 
 #include "core/flight.hpp"
 #include "neighbours/neighbour_lists.hpp"
@@ -49,8 +49,8 @@ class SlidingBox {
   void move_any() {
     const auto i = static_cast<std::int32_t>(unit() * static_cast<double>(radius_.size()));
     const std::vector<std::int32_t> before = list(i);
-    const CageCentre to = anywhere();
-    const auto returned = lists_.move_cage(i, to);
+    const NeighbourhoodCentre to = anywhere();
+    const auto returned = lists_.move_neighbourhood(i, to);
     centres_[static_cast<std::size_t>(i)] = to;
     std::vector<std::int32_t> fresh(returned.begin(), returned.end()), expected;
     for (std::size_t k = returned.size(); k < (returned.size() + 3) / 4 * 4; ++k) ASSERT_EQ(returned.data()[k], i) << "padding";
@@ -88,7 +88,7 @@ class SlidingBox {
   static constexpr int instants = 32;
 
   /// Often at the edge of y, where all happens.
-  CageCentre anywhere() {
+  NeighbourhoodCentre anywhere() {
     const double x = unit(), y = unit() < 0.6 ? std::fmod(1.0 + 0.2 * (unit() - 0.5), 1.0) : unit();
     const auto centre = [](double part) { return static_cast<std::int32_t>(std::floor((part - 0.5) * 0x1p32)); };
     return {centre(x), centre(y)};
@@ -97,7 +97,7 @@ class SlidingBox {
 
   /// The least while images slide: gap of the two squares, less the contact distance, to whichever image is nearest.
   [[nodiscard]] double least_distance_beyond_contact(std::int32_t i, std::int32_t j) const {
-    const CageCentre a = centres_[static_cast<std::size_t>(i)], b = centres_[static_cast<std::size_t>(j)];
+    const NeighbourhoodCentre a = centres_[static_cast<std::size_t>(i)], b = centres_[static_cast<std::size_t>(j)];
     const Eigen::Vector2d length = box_.lengths();
     double least = std::numeric_limits<double>::infinity();
     for (int k = 0; k <= instants; ++k)
@@ -124,7 +124,7 @@ class SlidingBox {
   double half_width_;
   std::mt19937_64 random_;
   NeighbourLists lists_;
-  std::vector<CageCentre> centres_;
+  std::vector<NeighbourhoodCentre> centres_;
   double displacement_ = 0.0;
   double way_ = 0.0;
 };
@@ -140,19 +140,19 @@ void expect_right_while_sliding(SlidingBox& box, double most, int epochs, int mo
   }
 }
 
-TEST(SlidingCages, HaveListsOfAllPairsForEqualDisks) {
+TEST(ShearedNeighbourhoods, HaveListsOfAllPairsForEqualDisks) {
   SlidingBox box(box_of(12.0, 9.0, Boundary::periodic), std::vector<double>(40, 0.5), 0.3, 1);
   expect_right_while_sliding(box, 0.3, 8, 30);
 }
 
-TEST(SlidingCages, HaveListsOfAllPairsInFlatAndTallBoxes) {
+TEST(ShearedNeighbourhoods, HaveListsOfAllPairsInFlatAndTallBoxes) {
   SlidingBox flat(box_of(200.0, 4.0, Boundary::periodic), std::vector<double>(40, 0.5), 0.1, 2);
   ASSERT_NO_FATAL_FAILURE(expect_right_while_sliding(flat, 0.45, 6, 30));
   SlidingBox tall(box_of(4.0, 200.0, Boundary::periodic), std::vector<double>(40, 0.5), 0.1, 3);
   ASSERT_NO_FATAL_FAILURE(expect_right_while_sliding(tall, 0.15, 6, 30));
 }
 
-TEST(SlidingCages, HaveListsOfAllPairsForRadiiFarApart) {
+TEST(ShearedNeighbourhoods, HaveListsOfAllPairsForRadiiFarApart) {
   std::vector<double> radius;
   for (int i = 0; i < 40; ++i) radius.push_back(i % 15 == 7 ? 2.0 : 0.05 * (1 + i % 7));
   SlidingBox box(box_of(20.0, 15.0, Boundary::periodic), radius, 0.2, 4);

@@ -1,23 +1,24 @@
 #pragma once
-// How wide should cages be? Wide ones are left seldom, but every prediction has more neighbours to look at. The best width
-// depends on density, on how the disks are spread, and changes while a system melts, clusters or is compressed; so it is found,
-// and found again, by trying. What counts is work, not seconds: the same run takes the same decisions on every machine.
+// How wide should neighbourhoods be? Wide ones are left seldom, but every prediction has more neighbours to look at. The best
+// width depends on density, on how the disks are spread, and changes while a system melts, clusters or is compressed; so it is
+// found, and found again, by trying. What counts is work, not seconds: the same run takes the same decisions on every machine.
 
 #include <cmath>
 #include <cstdint>
 
 namespace carom {
 
-class CageTuner {
+class HalfWidthSearch {
  public:
-  /// Work in units of a look at four more neighbours: what it costs that so many disks left their cages, so many entries
+  /// Work in units of a look at four more neighbours: what it costs that so many disks left their neighbourhoods, so many entries
   /// of lists changed in consequence, and so many looks were taken. Measured: 100 to 150, 20 and 10 ns.
   [[nodiscard]] static double work(std::uint64_t left, std::uint64_t changes, std::uint64_t looks) {
     return 12.0 * static_cast<double>(left) + 2.0 * static_cast<double>(changes) + static_cast<double>(looks);
   }
 
   /// A width to start with for disks of mean diameter `sigma` and area `area` per disk: about seven neighbours on a list,
-  /// which are looked at in one go. The cages of two disks come within contact over an area of 16 h^2 + 16 h sigma + pi sigma^2.
+  /// which are looked at in one go. The neighbourhoods of two disks come within contact over an area of 16 h^2 + 16 h sigma + pi
+  /// sigma^2.
   [[nodiscard]] static double first_half_width(double sigma, double area) {
     const double beyond = std::fmax(8.0 * area / 16.0 - sigma * sigma * 3.14159 / 16.0, 0.01 * sigma * sigma);
     return 0.5 * (std::sqrt(sigma * sigma + 4.0 * beyond) - sigma);

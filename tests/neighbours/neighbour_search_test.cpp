@@ -1,6 +1,7 @@
-// The search for cages within contact, by the kernels of every instruction set that runs here, against one cage at a time.
+// The search for neighbourhoods within contact, by the kernels of every instruction set that runs here, against one neighbourhood
+// at a time.
 
-#include "neighbours/cage_search.hpp"
+#include "neighbours/neighbour_search.hpp"
 #include "core/instructions.hpp"
 #include "support/instructions.hpp"
 
@@ -17,12 +18,12 @@
 namespace carom::test {
 namespace {
 
-const CageKernel& kernel(std::string_view set) {
+const NeighbourSearchKernel& kernel(std::string_view set) {
   const WithInstructions asked(set);
-  return cage_kernel();
+  return neighbour_search_kernel();
 }
 
-class CageKernels : public testing::TestWithParam<std::string_view> {
+class NeighbourSearchKernels : public testing::TestWithParam<std::string_view> {
  protected:
   void SetUp() override {
     const WithInstructions asked(GetParam());
@@ -30,7 +31,7 @@ class CageKernels : public testing::TestWithParam<std::string_view> {
   }
   std::mt19937_64 random{1};
 
-  CageCentre anywhere() { return {static_cast<std::int32_t>(random()), static_cast<std::int32_t>(random())}; }
+  NeighbourhoodCentre anywhere() { return {static_cast<std::int32_t>(random()), static_cast<std::int32_t>(random())}; }
   float radius() { return 0.25F * static_cast<float>(1 + random() % 4); }
   std::vector<std::int32_t> some_ids(std::size_t count) {
     std::vector<std::int32_t> ids(count);
@@ -40,26 +41,26 @@ class CageKernels : public testing::TestWithParam<std::string_view> {
   }
 };
 
-TEST_P(CageKernels, FindThoseThatAreNearInTheOrderOfTheirPlaces) {
-  const CageNearness nearness{{0x1p-30F, 0x1p-30F}, 0.25F};  // the box is four largest radii wide
+TEST_P(NeighbourSearchKernels, FindThoseThatAreNearInTheOrderOfTheirPlaces) {
+  const NeighbourCriterion nearness{{0x1p-30F, 0x1p-30F}, 0.25F};  // the box is four largest radii wide
   for (int trial = 0; trial < 2000; ++trial) {
     // Four cells; each may go on in one more block.
-    std::vector<CageBlock> blocks(8);
+    std::vector<CellBlock> blocks(8);
     std::vector<std::int32_t> next(8, -1);
     std::int32_t disks = 0;
     for (std::size_t b = 0; b < 4; ++b) {
       const std::size_t held = random() % 17;
       if (held > 8) next[b] = static_cast<std::int32_t>(b + 4);
       for (std::size_t k = 0; k < 16; ++k) {
-        CageBlock& block = blocks[b + 4 * (k / 8)];
+        CellBlock& block = blocks[b + 4 * (k / 8)];
         block.id[k % 8] = k < held ? disks++ : -1;
-        const CageCentre centre = anywhere();
+        const NeighbourhoodCentre centre = anywhere();
         block.x[k % 8] = centre.x;
         block.y[k % 8] = centre.y;
         block.radius[k % 8] = radius();
       }
     }
-    const CageQuery query{static_cast<std::int32_t>(random() % 64), radius(), anywhere()};
+    const NeighbourQuery query{static_cast<std::int32_t>(random() % 64), radius(), anywhere()};
     std::vector<std::int32_t> cells = {3, 2, 1, 0};
     std::shuffle(cells.begin(), cells.end(), random);
     cells.resize(random() % 5);
@@ -67,9 +68,9 @@ TEST_P(CageKernels, FindThoseThatAreNearInTheOrderOfTheirPlaces) {
     for (const auto cell : std::vector<std::size_t>(cells.begin(), cells.end()))
       for (const std::size_t b : {cell, cell + 4})
         for (std::size_t k = 0; k < 8; ++k) {
-          const CageBlock& block = blocks[b];
+          const CellBlock& block = blocks[b];
           if (block.id[k] < 0 || block.id[k] == query.id) continue;
-          const auto near = [&](const CageKernel& by) {
+          const auto near = [&](const NeighbourSearchKernel& by) {
             return by.near({block.x[k], block.y[k]}, block.radius[k], query.centre, query.radius, nearness);
           };
           ASSERT_EQ(near(kernel(GetParam())), near(kernel("portable")));
@@ -83,7 +84,7 @@ TEST_P(CageKernels, FindThoseThatAreNearInTheOrderOfTheirPlaces) {
   }
 }
 
-TEST_P(CageKernels, CompareListsInTheirOrder) {
+TEST_P(NeighbourSearchKernels, CompareListsInTheirOrder) {
   for (std::size_t size = 0; size <= 40; ++size)
     for (int trial = 0; trial < 20; ++trial) {
       // Some ids are on both lists; what stands behind their ends may be anything, and does not count.
@@ -109,7 +110,7 @@ TEST_P(CageKernels, CompareListsInTheirOrder) {
     }
 }
 
-TEST_P(CageKernels, FindWhereAnIdIs) {
+TEST_P(NeighbourSearchKernels, FindWhereAnIdIs) {
   for (std::size_t size = 1; size <= 40; ++size) {
     std::vector<std::int32_t> among = some_ids(size);
     among.resize(48, 0);
@@ -117,7 +118,7 @@ TEST_P(CageKernels, FindWhereAnIdIs) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(InstructionSets, CageKernels, testing::ValuesIn(instruction_sets),
+INSTANTIATE_TEST_SUITE_P(InstructionSets, NeighbourSearchKernels, testing::ValuesIn(instruction_sets),
                          [](const auto& set) { return std::string(set.param); });
 
 }  // namespace

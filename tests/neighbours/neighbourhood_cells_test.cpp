@@ -1,6 +1,6 @@
-// The cells of cages: which a range has, in which order, and that nobody is lost where they overflow.
+// The cells of neighbourhoods: which a range has, in which order, and that nobody is lost where they overflow.
 
-#include "neighbours/cage_cells.hpp"
+#include "neighbours/neighbourhood_cells.hpp"
 
 #include <carom/box.hpp>
 
@@ -15,50 +15,50 @@
 namespace carom::test {
 namespace {
 
-TEST(CageCells, ListsTheCellsOfARangeRowByRow) {
+TEST(NeighbourhoodCells, ListsTheCellsOfARangeRowByRow) {
   for (const std::int32_t cells : {1, 2, 3, 4, 5, 9})
     for (std::int32_t columns = 1; columns <= std::min(cells, 7); ++columns)
       for (std::int32_t rows = 1; rows <= std::min(cells, 5); ++rows)
         for (std::int32_t first = -1; first < cells; ++first) {
-          const CageRange range{{first, -1}, {first + columns - 1, rows - 2}, {cells, cells}};
+          const CellRange range{{first, -1}, {first + columns - 1, rows - 2}, {cells, cells}};
           std::vector<std::int32_t> expected;
           for (std::int32_t y = -1; y < rows - 1; ++y)
             for (std::int32_t x = first; x < first + columns; ++x)
               expected.push_back((y + cells) % cells * cells + (x + cells) % cells);
           std::vector<std::int32_t> listed(expected.size() + 12, -7);
-          listed.resize(CageCells::list_cells(range, listed.data()));
+          listed.resize(NeighbourhoodCells::list_cells(range, listed.data()));
           ASSERT_EQ(listed, expected);
         }
 }
 
-TEST(CageCells, KeepEverybodyWhileTheyMove) {
+TEST(NeighbourhoodCells, KeepEverybodyWhileTheyMove) {
   Box box;
   box.lower = {0.0, 0.0};
   box.upper = {12.0, 12.0};
   box.boundary = {Boundary::periodic, Boundary::periodic};
   const FixedAxis x(box, 0, 0.0), y(box, 1, 0.0);
   constexpr std::int32_t disks = 300;  // in nine cells: blocks overflow, and are given back
-  CageCells cells(x, y, 1.0F, 2.5, disks);
+  NeighbourhoodCells cells(x, y, 1.0F, 2.5, disks);
   std::mt19937_64 random{1};
   // All in one corner for a time, then all over the box.
   const auto somewhere = [&](int round) {
     const int part = round % 2 == 0 ? 0 : 3;
-    return CageCentre{static_cast<std::int32_t>(random()) >> part, static_cast<std::int32_t>(random()) >> part};
+    return NeighbourhoodCentre{static_cast<std::int32_t>(random()) >> part, static_cast<std::int32_t>(random()) >> part};
   };
-  std::vector<CageCentre> at;
+  std::vector<NeighbourhoodCentre> at;
   for (std::int32_t i = 0; i < disks; ++i) {
     at.push_back(somewhere(0));
     cells.insert(i, at.back(), 1.0F);
   }
   for (int round = 0; round < 8; ++round) {
     for (std::int32_t i = 0; i < disks; ++i) {
-      CageCentre& centre = at[static_cast<std::size_t>(i)];
-      const CageCentre to = somewhere(round);
+      NeighbourhoodCentre& centre = at[static_cast<std::size_t>(i)];
+      const NeighbourhoodCentre to = somewhere(round);
       cells.move(i, centre, to, 1.0F);
       centre = to;
     }
     std::vector<int> seen(disks, 0);
-    cells.for_each(cells.around({0, 0}, {0x1p31, 0x1p31}), [&](std::int32_t i, CageCentre centre, float) {
+    cells.for_each(cells.around({0, 0}, {0x1p31, 0x1p31}), [&](std::int32_t i, NeighbourhoodCentre centre, float) {
       ++seen[static_cast<std::size_t>(i)];
       EXPECT_EQ(centre.x, at[static_cast<std::size_t>(i)].x);
       EXPECT_EQ(centre.y, at[static_cast<std::size_t>(i)].y);

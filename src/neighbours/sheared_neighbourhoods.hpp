@@ -1,9 +1,9 @@
 #pragma once
-// When cages come within contact through an edge past which images slide. Lengths are in units of the largest radius; few cages
-// are concerned, so all is in double precision, one by one.
+// When neighbourhoods come within contact through an edge past which images slide. Lengths are in units of the largest radius;
+// few neighbourhoods are concerned, so all is in double precision, one by one.
 
 #include "core/flight.hpp"
-#include "neighbours/cage_search.hpp"
+#include "neighbours/neighbour_search.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,36 +13,37 @@
 
 namespace carom {
 
-class SlidingCages {
+class ShearedNeighbourhoods {
  public:
   /// To be read into.
-  SlidingCages() = default;
+  ShearedNeighbourhoods() = default;
   /// unit: length of a step of a centre, per axis.
-  explicit SlidingCages(const std::array<double, 2>& unit) : unit_(unit) {}
+  explicit ShearedNeighbourhoods(const std::array<double, 2>& unit) : unit_(unit) {}
 
   /// Images above are `displacement` steps to the right, and slide on by `way`, which may be negative.
   void set_way(std::int32_t displacement, double way) {
     displacement_ = displacement;
     way_ = way;
   }
-  /// Two cages have a width of `two_halves` together, and are at most `reach` apart along an axis where disks in them touch.
-  void set_cages(double two_halves, double reach) {
+  /// Two neighbourhoods have a width of `two_halves` together, and are at most `reach` apart along an axis where disks in them
+  /// touch.
+  void set_neighbourhoods(double two_halves, double reach) {
     // Some steps, since centres and displacement are rounded, and some more than all rounding here, on the safe side.
     two_halves_ = two_halves * (1.0 + 1e-6) + 4.0 * std::max(unit_[0], unit_[1]);
     inner_ = (std::int64_t{1} << 31) - static_cast<std::int64_t>(std::ceil(reach * (1.0 + 1e-3) / unit_[1])) - 16;
   }
 
   [[nodiscard]] std::int64_t inner() const { return inner_; }
-  [[nodiscard]] bool by_edge(CageCentre centre) const { return std::abs(std::int64_t{centre.y}) >= inner_; }
+  [[nodiscard]] bool by_edge(NeighbourhoodCentre centre) const { return std::abs(std::int64_t{centre.y}) >= inner_; }
   [[nodiscard]] double way() const { return std::abs(way_); }
 
-  /// Where a cage at this place would be, were it one of the images that lie `above` boxes lower.
-  [[nodiscard]] CageCentre as_seen_from_beyond(CageCentre centre, std::int32_t above) const {
+  /// Where a neighbourhood at this place would be, were it one of the images that lie `above` boxes lower.
+  [[nodiscard]] NeighbourhoodCentre as_seen_from_beyond(NeighbourhoodCentre centre, std::int32_t above) const {
     return {wrapped(std::int64_t{centre.x} - above * std::int64_t{displacement_}), centre.y};
   }
 
-  /// Requires the cages to be nearest to each other through an edge.
-  [[nodiscard]] bool near(CageCentre a, float radius_a, CageCentre b, float radius_b) const {
+  /// Requires the neighbourhoods to be nearest to each other through an edge.
+  [[nodiscard]] bool near(NeighbourhoodCentre a, float radius_a, NeighbourhoodCentre b, float radius_b) const {
     const std::int32_t above = boxes_between(a.y, b.y);
     const double start = unit_[0] * wrapped(std::int64_t{a.x} - std::int64_t{b.x} - above * std::int64_t{displacement_});
     const double end = start - above * way_;

@@ -1,5 +1,5 @@
 #pragma once
-// Lists of neighbours for disks of the size that they have, and how wide cages are.
+// Lists of neighbours for disks of the size that they have, and how wide neighbourhoods are.
 
 #include "engine/engine.hpp"
 #include "engine/engine_begin.hpp"
@@ -17,7 +17,7 @@ void Engine<Impact, Layout, World>::make_lists() {
   std::vector<double> radius = radius_;
   for (double& one : radius) one *= factor;
   lists_ = NeighbourLists(axes_[0], axes_[1], radius);
-  widest_ = std::max(axes_[0].upper - axes_[0].lower, axes_[1].upper - axes_[1].lower);  // that cage holds the box
+  widest_ = std::max(axes_[0].upper - axes_[0].lower, axes_[1].upper - axes_[1].lower);  // that neighbourhood holds the box
   for (const FixedAxis& axis : axes_)
     if (axis.periodic) widest_ = std::min(widest_, ((axis.upper - axis.lower) / 2.0 - reach_) / 6.0);
 }
@@ -26,7 +26,7 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::list_larger() {
   const double before = suitable_half_width();
   make_lists();
-  // Disks that have grown have less room, and want narrower cages.
+  // Disks that have grown have less room, and want narrower neighbourhoods.
   rebuild(std::min(frame_.half_width * (suitable_half_width() / before), widest_));
   predict_all();
   settling_ = true;
@@ -34,15 +34,15 @@ void Engine<Impact, Layout, World>::list_larger() {
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::tune_cages(double elapsed) {
+void Engine<Impact, Layout, World>::tune_neighbourhoods(double elapsed) {
   travelled_ += mean_speed_ * elapsed;
   const std::uint64_t left = totals_.other - left_;
-  if (settling_) {  // after all cages were made at once, nobody leaves for a while
+  if (settling_) {  // after all neighbourhoods were made at once, nobody leaves for a while
     if (travelled_ < 4.0 * lists_.half_width()) return;
     settling_ = false;
   } else {
     if (travelled_ < 4.0 * spacing_ || left + looks_ < 4000) return;
-    const double work = CageTuner::work(left, lists_.changes() - changed_, looks_) / travelled_;
+    const double work = HalfWidthSearch::work(left, lists_.changes() - changed_, looks_) / travelled_;
     const double half_width = std::min(tuner_.next(lists_.half_width(), work), widest_);
     settling_ = half_width != lists_.half_width();
     if (settling_) {
@@ -60,18 +60,18 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::rebuild(double half_width) {
   frame_.half_width = half_width;
   ++totals_.numerics.lists_made;
-  std::vector<CageCentre> centres(lines_.size());
-  for (std::int32_t i = 0; i < count(); ++i) centres[static_cast<std::size_t>(i)] = cage_around(i, now_);
+  std::vector<NeighbourhoodCentre> centres(lines_.size());
+  for (std::int32_t i = 0; i < count(); ++i) centres[static_cast<std::size_t>(i)] = neighbourhood_around(i, now_);
   lists_.rebuild(half_width, centres);
   totals_.numerics.longest_list = 0;
   for (std::int32_t i = 0; i < count(); ++i)
     totals_.numerics.longest_list = std::max<std::uint64_t>(totals_.numerics.longest_list, lists_.count(i));
 
   // Nearest images are right as long as a pair that may meet is less than half a box apart, now and along its lines back
-  // to the epoch. What the cages leave of that belongs to the two lines.
+  // to the epoch. What the neighbourhoods leave of that belongs to the two lines.
   for (int k = 0; k < 2; ++k) {
     const double length = axes_[k].upper - axes_[k].lower;
-    // A sixteenth of the cage is far more than any rounding of the time at which it is left.
+    // A sixteenth of the neighbourhood is far more than any rounding of the time at which it is left.
     const double clear = world_.still() ? length / 2.0 - largest_contact_ - half_width * (1.0 + 1.0 / 16.0) : 0.0;
     clear_[k] = axes_[k].periodic ? INT64_MAX : static_cast<std::int64_t>(std::max(clear, 0.0) / (axes_[k].unit * 0x1p32));
     travel_[k] =

@@ -1,5 +1,5 @@
 #pragma once
-// Which cages come within contact of a given one? Eight at a time, over the cells around it. Like core/prediction.hpp
+// Which neighbourhoods come within contact of a given one? Eight at a time, over the cells around it. Like core/prediction.hpp
 // compiled for every machine, for those with AVX2 and for those with AVX-512, with the same answers.
 
 #include <cstddef>
@@ -7,31 +7,31 @@
 
 namespace carom {
 
-/// The centre of a cage, in steps of 2^32 of a coordinate.
-struct CageCentre {
+/// The centre of a neighbourhood, in steps of 2^32 of a coordinate.
+struct NeighbourhoodCentre {
   std::int32_t x, y;
 };
 
 /// Eight disks of one cell: two cache lines. The first places are taken first; an id of -1 marks an empty one.
-struct alignas(64) CageBlock {
+struct alignas(64) CellBlock {
   std::int32_t id[8];
   std::int32_t x[8];
   std::int32_t y[8];
   float radius[8];
 };
 
-/// When two cages come within contact: squares of half-width h, whose disks are `sigma` apart in contact, do unless the
+/// When two neighbourhoods come within contact: squares of half-width h, whose disks are `sigma` apart in contact, do unless the
 /// gap between the squares is wider than sigma. In single precision, with all rounding on the safe side.
-struct CageNearness {
+struct NeighbourCriterion {
   float unit[2];     ///< length of a step of a centre, per axis
   float two_halves;  ///< 2 h and a little more
 };
 
-/// A search around disk `id`, which has its cage at `centre`.
-struct CageQuery {
+/// A search around disk `id`, which has its neighbourhood at `centre`.
+struct NeighbourQuery {
   std::int32_t id;
   float radius;
-  CageCentre centre;
+  NeighbourhoodCentre centre;
 };
 
 /// How many are found, but not listed, and listed, but not found.
@@ -39,11 +39,11 @@ struct ListChange {
   std::size_t fresh, gone;
 };
 
-struct CageKernel {
+struct NeighbourSearchKernel {
   /// Writes to `found` those near, from the blocks of some cells in turn, and on through next[] where a block is full (-1: no
   /// more), and returns where they end. Requires room for eight more per block, and eight beyond.
-  std::int32_t* (*search)(const CageBlock* blocks, const std::int32_t* next, const std::int32_t* cells, std::size_t count,
-                          const CageQuery& query, const CageNearness& nearness, std::int32_t* found);
+  std::int32_t* (*search)(const CellBlock* blocks, const std::int32_t* next, const std::int32_t* cells, std::size_t count,
+                          const NeighbourQuery& query, const NeighbourCriterion& nearness, std::int32_t* found);
   /// Compares two lists without doubles: writes to `fresh` who is found, but not listed, and to `gone` who is listed, but not
   /// found, in the order of the lists. Requires eight ids of either to be readable, or as many as the next multiple of eight, and
   /// room for eight more than there are.
@@ -51,10 +51,10 @@ struct CageKernel {
                         std::int32_t* fresh, std::int32_t* gone);
   /// Where `id` is in `ids`. Requires it to be there, and all to be readable up to the next multiple of eight.
   std::size_t (*position)(const std::int32_t* ids, std::int32_t id);
-  bool (*near)(CageCentre a, float radius_a, CageCentre b, float radius_b, const CageNearness& nearness);
+  bool (*near)(NeighbourhoodCentre a, float radius_a, NeighbourhoodCentre b, float radius_b, const NeighbourCriterion& nearness);
 };
 
 /// The best kernel for this machine.
-const CageKernel& cage_kernel();
+const NeighbourSearchKernel& neighbour_search_kernel();
 
 }  // namespace carom

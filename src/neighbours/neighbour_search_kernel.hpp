@@ -1,6 +1,6 @@
 // No include guard: compiled once per instruction set, in the namespace CAROM_INSTRUCTIONS.
 
-#include "neighbours/cage_search.hpp"
+#include "neighbours/neighbour_search.hpp"
 
 #if defined(__AVX__)
 #include <immintrin.h>
@@ -42,7 +42,7 @@ constexpr LaneTable lane_table;
 #endif
 
 /// Writes the lanes of `ids` named by `bits` one after the other, with anything after them up to eight, and returns where
-/// they end. No branch: which cages are near is as good as random.
+/// they end. No branch: which neighbourhoods are near is as good as random.
 std::int32_t* pack(Ints ids, unsigned bits, std::int32_t* to) {
 #if defined(__AVX512VL__)
   const __m256i packed = _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), reinterpret_cast<__m256i>(ids));
@@ -68,21 +68,21 @@ Floats gap(Ints a, std::int32_t b, float unit, float two_halves) {
   return reinterpret_cast<Floats>(bits > 0 ? bits : Ints{});
 }
 
-Ints near_eight(Ints x, Ints y, Floats radius, CageCentre centre, float own_radius, const CageNearness& nearness) {
+Ints near_eight(Ints x, Ints y, Floats radius, NeighbourhoodCentre centre, float own_radius, const NeighbourCriterion& nearness) {
   const Floats gap_x = gap(x, centre.x, nearness.unit[0], nearness.two_halves);
   const Floats gap_y = gap(y, centre.y, nearness.unit[1], nearness.two_halves);
   const Floats sigma = (radius + own_radius) * 1.000001F;
   return gap_x * gap_x + gap_y * gap_y <= sigma * sigma;
 }
 
-std::int32_t* search(const CageBlock* blocks, const std::int32_t* next, const std::int32_t* cells, std::size_t count,
-                     const CageQuery& query, const CageNearness& nearness, std::int32_t* found) {
-  const CageQuery sought = query;  // copies: for all the compiler knows, the ids found are written over these
-  const CageNearness within = nearness;
+std::int32_t* search(const CellBlock* blocks, const std::int32_t* next, const std::int32_t* cells, std::size_t count,
+                     const NeighbourQuery& query, const NeighbourCriterion& nearness, std::int32_t* found) {
+  const NeighbourQuery sought = query;  // copies: for all the compiler knows, the ids found are written over these
+  const NeighbourCriterion within = nearness;
   for (std::size_t k = 0; k < count; ++k) {
     std::int32_t b = cells[k];
     do {
-      const CageBlock& block = blocks[b];
+      const CellBlock& block = blocks[b];
       const Ints id = *reinterpret_cast<const Ints*>(block.id);
       const Ints x = *reinterpret_cast<const Ints*>(block.x);
       const Ints y = *reinterpret_cast<const Ints*>(block.y);
@@ -155,7 +155,7 @@ std::size_t position(const std::int32_t* ids, std::int32_t id) {
   }
 }
 
-bool near(CageCentre a, float radius_a, CageCentre b, float radius_b, const CageNearness& nearness) {
+bool near(NeighbourhoodCentre a, float radius_a, NeighbourhoodCentre b, float radius_b, const NeighbourCriterion& nearness) {
   const Ints x = {a.x}, y = {a.y};
   const Floats radius = {radius_a};
   return near_eight(x, y, radius, b, radius_b, nearness)[0] != 0;
@@ -163,6 +163,6 @@ bool near(CageCentre a, float radius_a, CageCentre b, float radius_b, const Cage
 
 }  // namespace
 
-extern const CageKernel cage_kernel = {&search, &compare, &position, &near};
+extern const NeighbourSearchKernel neighbour_search_kernel = {&search, &compare, &position, &near};
 
 }  // namespace carom::CAROM_INSTRUCTIONS

@@ -1,6 +1,6 @@
-// The tuner of cage widths on curves of cost that are known.
+// The tuner of neighbourhood widths on curves of cost that are known.
 
-#include "neighbours/cage_tuner.hpp"
+#include "neighbours/neighbourhood_tuning.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -16,7 +16,7 @@ constexpr int patience = 10;   // judgements between two doubts
 
 /// The width at which the tuner stays for some judgements.
 template <class Cost>
-double settled(CageTuner& tuner, double width, const Cost& cost) {
+double settled(HalfWidthSearch& tuner, double width, const Cost& cost) {
   for (int k = 0, stayed = 0; k < 400 && stayed < patience / 2; ++k) {
     const double next = tuner.next(width, cost(width));
     stayed = next == width ? stayed + 1 : 0;
@@ -28,10 +28,10 @@ double settled(CageTuner& tuner, double width, const Cost& cost) {
 /// One minimum, at `best`; rises with the square of the way in the logarithm of the width.
 double bowl(double width, double best, double depth) { return depth * (1.0 + std::pow(std::log(width / best), 2)); }
 
-TEST(CageTuner, FindsTheBestWidthWithinAStepAndComesBackToItFromEveryDoubt) {
+TEST(HalfWidthSearch, FindsTheBestWidthWithinAStepAndComesBackToItFromEveryDoubt) {
   for (const double best : {0.01, 0.3, 1.0, 7.0}) {
     for (const double first : {0.3 * best, 0.95 * best, best, 1.05 * best, 4.0 * best}) {
-      CageTuner tuner;
+      HalfWidthSearch tuner;
       double width = first;
       width = settled(tuner, width, [&](double w) { return bowl(w, best, 5.0); });
       // It stops where a step gains less than 2 %, which in this bowl is no farther than one step from the best.
@@ -48,16 +48,16 @@ TEST(CageTuner, FindsTheBestWidthWithinAStepAndComesBackToItFromEveryDoubt) {
   }
 }
 
-TEST(CageTuner, TakesASystemThatChangesByItselfForNoGainOfItsOwn) {
+TEST(HalfWidthSearch, TakesASystemThatChangesByItselfForNoGainOfItsOwn) {
   // The work falls by 5 per cent from one judgement to the next whatever the width, as in a gas that spreads.
-  CageTuner tuner;
+  HalfWidthSearch tuner;
   double width = 1.0, work = 1.0;
   for (int k = 0; k < 200; ++k) width = tuner.next(width, (work *= 0.95) * bowl(width, 1.0, 1.0));
   EXPECT_LE(std::abs(std::log(width)), 2.0 * std::log(step) * 1.001);
 }
 
-TEST(CageTuner, MovesByOneStepAtATime) {
-  CageTuner tuner;
+TEST(HalfWidthSearch, MovesByOneStepAtATime) {
+  HalfWidthSearch tuner;
   double width = 10.0;
   for (int k = 0; k < 40; ++k) {
     const double next = tuner.next(width, bowl(width, 0.1, 1.0));
@@ -67,15 +67,15 @@ TEST(CageTuner, MovesByOneStepAtATime) {
   }
 }
 
-TEST(CageTuner, StaysThroughNoiseOnceSettled) {
-  CageTuner tuner;
+TEST(HalfWidthSearch, StaysThroughNoiseOnceSettled) {
+  HalfWidthSearch tuner;
   const double width = settled(tuner, 1.0, [](double w) { return bowl(w, 1.0, 1.0); });
   for (int k = 0; k < patience / 2 - 1; ++k)
     EXPECT_EQ(tuner.next(width, (1.0 + 0.1 * std::sin(k)) * bowl(width, 1.0, 1.0)), width);
 }
 
-TEST(CageTuner, StartsAgainWhereTheCostHasChanged) {
-  CageTuner tuner;
+TEST(HalfWidthSearch, StartsAgainWhereTheCostHasChanged) {
+  HalfWidthSearch tuner;
   double width = settled(tuner, 1.0, [](double w) { return bowl(w, 1.0, 1.0); });
   for (const double best : {3.0, 0.2, 1.0}) {  // each at once more than a fifth dearer where it stands
     width = settled(tuner, width, [&](double w) { return bowl(w, best, 1.0); });
@@ -83,8 +83,8 @@ TEST(CageTuner, StartsAgainWhereTheCostHasChanged) {
   }
 }
 
-TEST(CageTuner, SettlesAtABoundThatItsOwnerKeeps) {
-  CageTuner tuner;
+TEST(HalfWidthSearch, SettlesAtABoundThatItsOwnerKeeps) {
+  HalfWidthSearch tuner;
   double width = 0.5;
   for (int k = 0; k < 200; ++k) {
     width = std::min(tuner.next(width, bowl(width, 100.0, 1.0)), 2.0);  // wider would be better
@@ -96,14 +96,14 @@ TEST(CageTuner, SettlesAtABoundThatItsOwnerKeeps) {
   }
 }
 
-TEST(CageTuner, SettlesWhereNothingCostsAnything) {
-  CageTuner tuner;
+TEST(HalfWidthSearch, SettlesWhereNothingCostsAnything) {
+  HalfWidthSearch tuner;
   double width = 1.0;
   EXPECT_EQ(settled(tuner, width, [](double) { return 0.0; }), 1.0);
 }
 
-RC_GTEST_PROP(PropertyCageTuner, ItsWidthsArePositiveAndFiniteWhateverTheyCost, ()) {
-  CageTuner tuner;
+RC_GTEST_PROP(PropertyHalfWidthSearch, ItsWidthsArePositiveAndFiniteWhateverTheyCost, ()) {
+  HalfWidthSearch tuner;
   double width = std::pow(10.0, *rc::gen::inRange(-6, 7));
   const double first = width;
   for (int k = 0; k < 100; ++k) {
@@ -114,21 +114,21 @@ RC_GTEST_PROP(PropertyCageTuner, ItsWidthsArePositiveAndFiniteWhateverTheyCost, 
   }
 }
 
-TEST(CageTuner, FirstWidthsArePositiveForAnyDensity) {
+TEST(HalfWidthSearch, FirstWidthsArePositiveForAnyDensity) {
   double last = 0.0;
   for (const double area : {1e-3, 0.5, 0.87, 1.0, 2.0, 10.0, 1e6}) {  // per disk of diameter 1; below 0.87 they do not fit
-    const double width = CageTuner::first_half_width(1.0, area);
-    EXPECT_GE(width, last) << "more room, wider cages";
+    const double width = HalfWidthSearch::first_half_width(1.0, area);
+    EXPECT_GE(width, last) << "more room, wider neighbourhoods";
     EXPECT_GT(width, 0.0);
-    EXPECT_NEAR(CageTuner::first_half_width(1e-3, area * 1e-6), 1e-3 * width, 1e-15) << "lengths scale";
+    EXPECT_NEAR(HalfWidthSearch::first_half_width(1e-3, area * 1e-6), 1e-3 * width, 1e-15) << "lengths scale";
     last = width;
   }
 }
 
-TEST(CageTuner, FirstWidthsGiveEightPlacesOfAListToTheDisksOfAGas) {
-  // The formula itself: cages come within contact over 16 h^2 + 16 h sigma + pi sigma^2, eight times the area per disk.
+TEST(HalfWidthSearch, FirstWidthsGiveEightPlacesOfAListToTheDisksOfAGas) {
+  // The formula itself: neighbourhoods come within contact over 16 h^2 + 16 h sigma + pi sigma^2, eight times the area per disk.
   for (const double area : {1.2, 2.0, 10.0, 1e6}) {
-    const double h = CageTuner::first_half_width(1.0, area);
+    const double h = HalfWidthSearch::first_half_width(1.0, area);
     EXPECT_NEAR((16.0 * h * h + 16.0 * h + 3.14159) / area, 8.0, 1e-9);
   }
 }

@@ -1,11 +1,11 @@
 #pragma once
-// Cages sorted into cells by their centres, for disks of about one size.
+// Neighbourhoods sorted into cells by their centres, for disks of about one size.
 
-#include "core/fetch.hpp"
 #include "core/fixed_axis.hpp"
 #include "core/four.hpp"
 #include "core/large_memory.hpp"
-#include "neighbours/cage_search.hpp"
+#include "core/prefetch.hpp"
+#include "neighbours/neighbour_search.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 namespace carom {
 
 /// A rectangle of cells in a grid whose lines repeat: first <= last, both less than one grid beyond it.
-struct CageRange {
+struct CellRange {
   std::int32_t first[2], last[2];
   std::int32_t cells[2];  ///< of the whole grid
 };
@@ -28,14 +28,15 @@ inline std::int32_t folded(std::int32_t cell, std::int32_t cells) {
   return up >= cells ? up - cells : up;
 }
 
-class CageCells {
+class NeighbourhoodCells {
  public:
   /// Without any cells: to be read into.
-  CageCells() = default;
+  NeighbourhoodCells() = default;
 
-  /// For `disks` disks of at most `largest_radius` (any unit: it is only kept) whose cages come within contact at most `reach`
-  /// (length) apart. Cells somewhat wider than that hold four or five disks: few cells to look through, few that overflow.
-  CageCells(const FixedAxis& x, const FixedAxis& y, float largest_radius, double reach, std::size_t disks)
+  /// For `disks` disks of at most `largest_radius` (any unit: it is only kept) whose neighbourhoods come within contact at most
+  /// `reach` (length) apart. Cells somewhat wider than that hold four or five disks: few cells to look through, few that
+  /// overflow.
+  NeighbourhoodCells(const FixedAxis& x, const FixedAxis& y, float largest_radius, double reach, std::size_t disks)
       : largest_radius_(largest_radius) {
     const FixedAxis* axes[2] = {&x, &y};
     for (int a = 0; a < 2; ++a) {
@@ -62,10 +63,10 @@ class CageCells {
     next_.assign(cells, -1);
   }
 
-  void insert(std::int32_t i, CageCentre centre, float radius) {
+  void insert(std::int32_t i, NeighbourhoodCentre centre, float radius) {
     std::int32_t b = cell_at(centre);
     while (at(b).id[7] >= 0) b = follow(b);
-    CageBlock& block = at(b);
+    CellBlock& block = at(b);
     const int k = taken(block);
     block.id[k] = i;
     block.x[k] = centre.x;
@@ -73,7 +74,7 @@ class CageCells {
     block.radius[k] = radius;
   }
 
-  void move(std::int32_t i, CageCentre from, CageCentre to, float radius) {
+  void move(std::int32_t i, NeighbourhoodCentre from, NeighbourhoodCentre to, float radius) {
     const std::int32_t cell = cell_at(from);
     if (cell == cell_at(to)) {
       const Slot slot = find(cell, i);
@@ -85,9 +86,9 @@ class CageCells {
     }
   }
 
-  /// All cells that may hold cages within `reach` (steps of a centre, per axis) of `centre`.
-  [[nodiscard]] CageRange around(CageCentre centre, std::array<double, 2> reach) const {
-    CageRange range;
+  /// All cells that may hold neighbourhoods within `reach` (steps of a centre, per axis) of `centre`.
+  [[nodiscard]] CellRange around(NeighbourhoodCentre centre, std::array<double, 2> reach) const {
+    CellRange range;
     const double at[2] = {static_cast<double>(centre.x), static_cast<double>(centre.y)};
     for (std::size_t a = 0; a < 2; ++a) {
       const Line& line = lines_[a];
@@ -114,13 +115,13 @@ class CageCells {
     }
     return range;
   }
-  [[nodiscard]] static std::size_t cells_in(const CageRange& range) {
+  [[nodiscard]] static std::size_t cells_in(const CellRange& range) {
     return static_cast<std::size_t>(range.last[0] - range.first[0] + 1) *
            static_cast<std::size_t>(range.last[1] - range.first[1] + 1);
   }
 
   /// Writes the cells of a range to `to`, row by row, and returns how many. Requires room for twelve at least.
-  static std::size_t list_cells(const CageRange& range, std::int32_t* to) {
+  static std::size_t list_cells(const CellRange& range, std::int32_t* to) {
     const std::int32_t columns = range.last[0] - range.first[0] + 1, rows = range.last[1] - range.first[1] + 1;
     if (columns <= 4 && rows <= 3) [[likely]] {
       // Three rows of four cells always: how many of each would be guessed wrong. What is too much is overwritten, or left over.
@@ -135,22 +136,23 @@ class CageCells {
     return cells_in(range);
   }
 
-  /// Calls visit(id, centre, radius) for every cage in a range of cells.
+  /// Calls visit(id, centre, radius) for every neighbourhood in a range of cells.
   template <class Visit>
-  void for_each(const CageRange& range, Visit&& visit) const {
+  void for_each(const CellRange& range, Visit&& visit) const {
     for_each_cell(range, [&](std::int32_t cell) {
       for (std::int32_t b = cell; b >= 0; b = next_[static_cast<std::size_t>(b)]) {
-        const CageBlock& block = blocks_[static_cast<std::size_t>(b)];
-        for (int k = 0; k < 8 && block.id[k] >= 0; ++k) visit(block.id[k], CageCentre{block.x[k], block.y[k]}, block.radius[k]);
+        const CellBlock& block = blocks_[static_cast<std::size_t>(b)];
+        for (int k = 0; k < 8 && block.id[k] >= 0; ++k)
+          visit(block.id[k], NeighbourhoodCentre{block.x[k], block.y[k]}, block.radius[k]);
       }
     });
   }
 
-  void fetch_blocks(const CageRange& range) const {
+  void prefetch_blocks(const CellRange& range) const {
     for_each_cell(range, [this](std::int32_t cell) {
-      const CageBlock& block = blocks_[static_cast<std::size_t>(cell)];
-      fetch_early(&block);
-      fetch_early(block.y);
+      const CellBlock& block = blocks_[static_cast<std::size_t>(cell)];
+      prefetch_early(&block);
+      prefetch_early(block.y);
     });
   }
 
@@ -159,10 +161,10 @@ class CageCells {
     return blocks_.size() - static_cast<std::size_t>(lines_[0].cells) * static_cast<std::size_t>(lines_[1].cells);
   }
   [[nodiscard]] float largest_radius() const { return largest_radius_; }
-  [[nodiscard]] const CageBlock* blocks() const { return blocks_.data(); }
+  [[nodiscard]] const CellBlock* blocks() const { return blocks_.data(); }
   [[nodiscard]] const std::int32_t* next() const { return next_.data(); }
   [[nodiscard]] std::size_t bytes() const {
-    return blocks_.capacity() * sizeof(CageBlock) + next_.capacity() * sizeof(std::int32_t);
+    return blocks_.capacity() * sizeof(CellBlock) + next_.capacity() * sizeof(std::int32_t);
   }
 
   template <class Archive>
@@ -187,7 +189,7 @@ class CageCells {
 
   /// Calls visit(cell) for every cell of a range, row by row.
   template <class Visit>
-  static void for_each_cell(const CageRange& range, Visit&& visit) {
+  static void for_each_cell(const CellRange& range, Visit&& visit) {
     for (std::int32_t y = range.first[1]; y <= range.last[1]; ++y) {
       const std::int32_t row = folded(y, range.cells[1]) * range.cells[0];
       for (std::int32_t x = range.first[0]; x <= range.last[0]; ++x) visit(row + folded(x, range.cells[0]));
@@ -199,16 +201,16 @@ class CageCells {
     int place;
   };
 
-  static CageBlock empty_block() {
-    CageBlock block{};
+  static CellBlock empty_block() {
+    CellBlock block{};
     std::fill(std::begin(block.id), std::end(block.id), -1);
     return block;
   }
 
-  [[nodiscard]] CageBlock& at(std::int32_t b) { return blocks_[static_cast<std::size_t>(b)]; }
+  [[nodiscard]] CellBlock& at(std::int32_t b) { return blocks_[static_cast<std::size_t>(b)]; }
   [[nodiscard]] std::int32_t& next_of(std::int32_t b) { return next_[static_cast<std::size_t>(b)]; }
 
-  [[nodiscard]] std::int32_t cell_at(CageCentre centre) const {
+  [[nodiscard]] std::int32_t cell_at(NeighbourhoodCentre centre) const {
     return lines_[1].cell_at(centre.y) * lines_[0].cells + lines_[0].cell_at(centre.x);
   }
 
@@ -231,12 +233,12 @@ class CageCells {
   }
 
   // Eight places at once, as vectors: where the disk is, and where the first free place is, are as good as random.
-  [[nodiscard]] static int taken(const CageBlock& block) {
+  [[nodiscard]] static int taken(const CellBlock& block) {
     return 8 + sum((four_of(block.id) >> 31) + (four_of(block.id + 4) >> 31));
   }
   [[nodiscard]] Slot find(std::int32_t b, std::int32_t i) {
     for (;; b = next_of(b)) {
-      const CageBlock& block = at(b);
+      const CellBlock& block = at(b);
       const Four low = (four_of(block.id) == i) & Four{0, 1, 2, 3}, high = (four_of(block.id + 4) == i) & Four{4, 5, 6, 7};
       const int place = sum(low | high);
       if (block.id[place] == i) return {b, place};
@@ -248,8 +250,8 @@ class CageCells {
     const Slot slot = find(cell, i);
     std::int32_t before = -1, last = cell;
     while (at(last).id[7] >= 0 && next_of(last) >= 0) before = last, last = next_of(last);
-    CageBlock& to = at(slot.block);
-    CageBlock& from = at(last);
+    CellBlock& to = at(slot.block);
+    CellBlock& from = at(last);
     const int k = taken(from) - 1;
     to.id[slot.place] = from.id[k];
     to.x[slot.place] = from.x[k];
@@ -265,7 +267,7 @@ class CageCells {
 
   Line lines_[2];
   float largest_radius_ = 0.0F;
-  LargeVector<CageBlock> blocks_;  ///< one per cell, row by row, then those that follow full ones
+  LargeVector<CellBlock> blocks_;  ///< one per cell, row by row, then those that follow full ones
   std::vector<std::int32_t> next_;
   std::int32_t free_ = -1;
 };
