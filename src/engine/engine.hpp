@@ -36,6 +36,7 @@
 #include "engine/image_counts.hpp"
 #include "engine/layout.hpp"
 #include "engine/note_listener.hpp"
+#include "engine/plans.hpp"
 #include "engine/stall_detector.hpp"
 #include "neighbours/neighbour_lists.hpp"
 #include "neighbours/neighbourhood_tuning.hpp"
@@ -60,16 +61,6 @@ template <class Impact, class Layout, class World>
 class Engine {
   using Line = typename Layout::Line;
 
-  /// What a disk expects. Half a cache line.
-  struct alignas(32) Plan {
-    double pair_time;  ///< of the earliest collision foreseen
-    double edge_time;  ///< when it leaves its neighbourhood or meets a wall or an obstacle
-    std::int32_t partner;
-    std::int32_t edge;            ///< `neighbourhood`, a Wall, or an obstacle
-    std::uint32_t foreseen;       ///< stamp of the collision after which the partner was found
-    std::uint32_t last_collided;  ///< stamp of the last collision of the disk itself
-  };
-
  public:
   /// Whether this engine can run these disks: periodic boxes must be wide enough for the nearest image to be the only one that a
   /// disk can meet, disks not so small that the resolution of neighbourhoods would show, and slots the right ones.
@@ -93,7 +84,7 @@ class Engine {
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
     double end = target.since<double>(epoch_);
     for (; totals_.pair < pair_limit && event_limit > 0 && !stall_.jammed(); --event_limit) {
-      const auto [time, disk] = queue_.next(*this, [this](std::int64_t span) { look_ahead(span); });
+      const auto [time, disk] = queue_.next(plans_, [this](std::int64_t span) { look_ahead(span); });
       if (time <= end && time < epoch_length_) [[likely]] {
         step(disk, time);
         if (now_ == 0.0) end = target.since<double>(epoch_);  // a new epoch may have begun
@@ -119,13 +110,13 @@ class Engine {
   [[gnu::flatten]] void step(std::int32_t i, double time) {
     stall_.count_event(time > now_);
     now_ = std::max(now_, time);
-    const Plan& mine = plan(i);
-    if (edge_first(mine)) {
-      queue_.pop(*this);
+    const Plan& mine = plans_[i];
+    if (mine.edge_first()) {
+      queue_.pop(plans_);
       prefetch_next();
-      mine.edge == neighbourhood ? leave_neighbourhood(i) : hit(i, mine.edge);
-    } else if (is_stale(mine)) {
-      queue_.pop(*this);
+      mine.edge == neighbourhood_edge ? leave_neighbourhood(i) : hit(i, mine.edge);
+    } else if (plans_.is_stale(mine)) {
+      queue_.pop(plans_);
       prefetch_next();
       ++totals_.stale;
       predict(i);
@@ -145,7 +136,7 @@ class Engine {
       exchange(separation(a, b), i, va, j, vb);
     else
       meet_across_edge(i, va, j, vb, above);
-    plan(i).last_collided = plan(j).last_collided = ++stamp_;
+    plans_[i].last_collided = plans_[j].last_collided = ++stamp_;
     if (noting_) note(i, j, before_a, before_b, va, vb);
     if (outruns_epoch(va) || outruns_epoch(vb)) [[unlikely]]
       return begin_epoch_between(i, va, j, vb);
@@ -154,7 +145,7 @@ class Engine {
     pair.disk[0] = i, pair.disk[1] = j;
     pair.around[0] = surroundings(i), pair.around[1] = surroundings(j);
     looks_ += more_looks(pair.around[0].count) + more_looks(pair.around[1].count);
-    queue_.pop(*this, j);  // not earlier: all up to here goes on while the predictions before still wait for their results
+    queue_.pop(plans_, j);  // not earlier: all up to here goes on while the predictions before still wait for their results
     prefetch_next();
     kernel_.turn_and_predict(lines_.data(), frame_, pair, now_, va[0], va[1], vb[0], vb[1]);
     if (pair.wrapped != 0) [[unlikely]]
@@ -162,7 +153,7 @@ class Engine {
     prefetch_partner_of_next();
     plan_ahead(i, pair.ahead[0]);
     plan_ahead(j, pair.ahead[1]);
-    queue_.push(*this, i, time(i), j, time(j));
+    queue_.push(plans_, i, plans_.time(i), j, plans_.time(j));
     if (stamp_ == last_stamp) [[unlikely]]
       begin_epoch(now_);
   }
@@ -203,7 +194,7 @@ class Engine {
 
   /// From now on disk i moves with velocity v.
   void turn(std::int32_t i, const Vec2<double>& v) {
-    plan(i).last_collided = ++stamp_;
+    plans_[i].last_collided = ++stamp_;
     const Vec2<double> along(v[0] - world_.g()[0] * now_, v[1] - world_.g()[1] * now_);
     if (outruns_epoch(along)) [[unlikely]]
       return begin_epoch_between(i, along, i, along);
@@ -227,7 +218,7 @@ class Engine {
       if (world_.sliding.present()) height(i) = centre.y;
     Prediction ahead =
         predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, fresh.data(), static_cast<std::uint32_t>(fresh.size())});
-    Plan& mine = plan(i);
+    Plan& mine = plans_[i];
     if (ahead.pair_time < mine.pair_time || (ahead.pair_time == mine.pair_time && precedes_as_partner(i, ahead))) {
       plan_ahead(i, ahead);
     } else {
@@ -251,7 +242,7 @@ class Engine {
 
   /// By reference: see Prediction.
   void plan_ahead(std::int32_t i, const Prediction& ahead) {
-    Plan& mine = plan(i);
+    Plan& mine = plans_[i];
     mine.pair_time = ahead.pair_time;
     mine.partner = ahead.tied == 0 ? ahead.partner : lowest_of_tied(i, ahead);
     mine.foreseen = stamp_;
@@ -259,8 +250,8 @@ class Engine {
   }
 
   void plan_edge(std::int32_t i, double leaving_time) {
-    plan(i).edge_time = leaving_time;
-    plan(i).edge = neighbourhood;
+    plans_[i].edge_time = leaving_time;
+    plans_[i].edge = neighbourhood_edge;
     if constexpr (World::plain) {
       if (walled_ && !far_from_walls(i)) plan_hard_wall(i);
     } else if (!bare_ && !(world_.obstacles.empty() && far_from_walls(i))) {
@@ -277,7 +268,7 @@ class Engine {
   /// Puts the next contact with a wall in the place of the edge of the neighbourhood where it comes first.
   void plan_hard_wall(std::int32_t i) {
     const Line& a = line(i);
-    Plan& mine = plan(i);
+    Plan& mine = plans_[i];
     for (int axis = 0; axis < 2; ++axis) {
       const double v = a.v[axis];
       if (axes_[axis].periodic || v == 0.0) continue;
@@ -285,12 +276,9 @@ class Engine {
       const std::int64_t limit = half_[axis] - axes_[axis].steps_of(layout_.radius(a));
       const double gap = frame_.unit[axis] * static_cast<double>(up ? limit - a.x[axis] : a.x[axis] + limit) - std::abs(v) * now_;
       const double time = gap > 0.0 ? now_ + gap / std::abs(v) : now_;
-      if (time < mine.edge_time || (time == mine.edge_time && mine.edge == neighbourhood)) {
-        mine.edge_time = time;
-        mine.edge = wall_left - 2 * axis - (up ? 1 : 0);
-      }
+      mine.consider_edge(time, wall_of(axis, up));
     }
-    yield_to_lower_partner(i);
+    resolve_wall_pair_tie(i);
   }
 
   /// The same where walls may move, disks fall and grow, and obstacles stand. One copy of it: inlined, it would be one in every
@@ -301,32 +289,20 @@ class Engine {
   [[gnu::noinline]] void plan_sliding_edge(std::int32_t i);
 
   /// A wall or obstacle at one time with a lower partner comes second: it will be found again after the collision.
-  void yield_to_lower_partner(std::int32_t i) {
-    Plan& mine = plan(i);
-    if (mine.edge_time == mine.pair_time && mine.edge != neighbourhood && mine.partner >= 0 && id(mine.partner) < id(i))
+  void resolve_wall_pair_tie(std::int32_t i) {
+    Plan& mine = plans_[i];
+    if (mine.edge_time == mine.pair_time && mine.edge != neighbourhood_edge && mine.partner >= 0 && id(mine.partner) < id(i))
       mine.edge_time = never;
   }
 
   /// A piston has changed its motion: what everybody had planned with it is void.
   void plan_edges_anew();
 
-  void schedule(std::int32_t i) { queue_.push(*this, i, time(i)); }
+  void schedule(std::int32_t i) { queue_.push(plans_, i, plans_.time(i)); }
 
-  /// The partner has collided since this was planned. (The plan keeps a stamp of its own and not one of the partner: to read
-  /// that would be one more access to memory for every prediction.)
-  [[nodiscard]] bool is_stale(const Plan& mine) const { return plan(mine.partner).last_collided > mine.foreseen; }
-
-  [[nodiscard]] std::pair<std::int32_t, std::int32_t> rank(const FutureEvent& event) const {
-    if (event.other == neighbourhood) return {neighbourhood, id(event.disk)};
-    if (event.other < 0) return {id(event.disk), event.other};
-    return std::minmax(id(event.disk), id(event.other));
-  }
-
-  /// Whether a disk leaves its neighbourhood or meets a wall before it meets its partner.
-  [[nodiscard]] static bool edge_first(const Plan& mine) { return mine.edge_time <= mine.pair_time; }
   /// Of two partners at the same time, whether the one ahead comes before the one planned.
   [[nodiscard]] bool precedes_as_partner(std::int32_t i, const Prediction& ahead) const {
-    return ahead.pair_time < never && id(ahead.partner) < id(plan(i).partner);
+    return ahead.pair_time < never && id(ahead.partner) < id(plans_[i].partner);
   }
 
   // ------------------------------------------------------------------------------------------------------- time
@@ -396,7 +372,6 @@ class Engine {
   static constexpr double list_margin = 1.0 / 64.0;
   /// At which an epoch ends, if it has not before.
   static constexpr std::uint32_t last_stamp = 0xFFFFFFFF;
-  static constexpr std::int32_t neighbourhood = -100;
   static constexpr double never = infinity<double>;
 
   /// From j to i now, to the nearest image.
@@ -553,13 +528,13 @@ class Engine {
   void prefetch_next() const {
     if (!queue_.foresees()) return;
     const std::int32_t i = queue_.foreseen();
-    prefetch(&plan(i)), prefetch_disk(i);
+    prefetch(&plans_[i]), prefetch_disk(i);
   }
   /// And what follows from that.
   void prefetch_partner_of_next() const {
     if (!queue_.foresees()) return;
-    const std::int32_t i = queue_.foreseen(), j = plan(i).partner < 0 ? i : plan(i).partner;
-    prefetch(&plan(j)), prefetch_disk(j);
+    const std::int32_t i = queue_.foreseen(), j = plans_[i].partner < 0 ? i : plans_[i].partner;
+    prefetch(&plans_[j]), prefetch_disk(j);
     for (int n = 0; n < 8 && fetching_neighbours_; ++n) prefetch(&line(lists_.ids(i)[n]));
   }
   void prefetch_disk(std::int32_t i) const { prefetch(&line(i)), lists_.prefetch_list(i); }
@@ -568,8 +543,6 @@ class Engine {
   [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(lines_.size()); }
   [[nodiscard]] Line& line(std::int32_t i) { return lines_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const Line& line(std::int32_t i) const { return lines_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] Plan& plan(std::int32_t i) { return plans_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] const Plan& plan(std::int32_t i) const { return plans_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] std::int32_t id(std::int32_t i) const { return ids_[static_cast<std::size_t>(i)]; }
 
   /// By how much of its half-width a new neighbourhood lies ahead of the disk. Between a quarter and three quarters there is
@@ -585,16 +558,16 @@ class Engine {
   World world_;
   const PredictionKernel<Line>& kernel_;
   LargeVector<Line> lines_;
-  LargeVector<Plan> plans_;
   LargeVector<std::int32_t> ids_;  ///< what the world calls them: the engine keeps neighbours near each other in memory
-  std::int64_t depth_[2] = {};     ///< that the frame of the lines has fallen, at the epoch
+  Plans plans_;
+  std::int64_t depth_[2] = {};  ///< that the frame of the lines has fallen, at the epoch
   StepRest depth_rest_[2];
   std::vector<std::array<StepRest, 2>> rests_;  ///< of the coordinates of disks that fall
   ImageCounts images_;
   std::vector<std::int32_t>
       heights_;  ///< where images slide: of the neighbourhoods' centres, which are in the boxes of their disks
   NeighbourLists lists_;
-  FutureEventList<Engine> queue_;
+  FutureEventList<Plans> queue_;
 
   Instant epoch_;  ///< the loop's zero of time
   double now_ = 0.0;
@@ -642,24 +615,6 @@ class Engine {
   std::vector<carom::Event> log_;
 
  public:
-  // ------------------------------------------------------------------------------------- for the queue
-
-  [[nodiscard]] double time(std::int32_t i) const { return std::min(plan(i).pair_time, plan(i).edge_time); }
-  void prefetch_event(std::int32_t i) const { prefetch_early(&plan(i)); }
-  [[nodiscard]] std::int32_t other(std::int32_t i) const {
-    const Plan& mine = plan(i);
-    const std::int32_t edge = -static_cast<std::int32_t>(edge_first(mine));  // all bits or none: a branch would be guessed wrong
-    return (mine.edge & edge) | (mine.partner & ~edge);
-  }
-
-  /// Ties: neighbourhoods are left before anything else happens, so that everybody is foreseen; then the event with the lower
-  /// disk first, then the one with the lower other disk; a wall is met before a disk. Of two plans for one collision that of the
-  /// lower disk comes first.
-  [[nodiscard]] bool precedes(const FutureEvent& a, const FutureEvent& b) const {
-    const auto rank_a = rank(a), rank_b = rank(b);
-    return rank_a < rank_b || (rank_a == rank_b && id(a.disk) < id(b.disk));
-  }
-
   // ------------------------------------------------------------------------------------- for those who look on
 
   [[nodiscard]] Instant now() const { return instant(now_); }

@@ -108,7 +108,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       world_(box, effects, start, seed),
       kernel_(detail::kernel_for<Line>(effects)),
       lines_(disks.count()),
-      plans_(disks.count()),
+      plans_(disks.count(), ids_),
       images_(disks.count()),
       lists_(axes_[0], axes_[1], {}),
       spacing_(detail::mean_spacing(box, disks.count())),

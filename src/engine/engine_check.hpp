@@ -19,8 +19,8 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants(double 
     const Line& a = line(i);
     if (!std::isfinite(a.v[0]) || !std::isfinite(a.v[1]))
       faults.push_back(fmt::format("disk {}: its velocity is not finite", id(i)));
-    if (time(i) < now_ * (1.0 - 1e-12)) faults.push_back(fmt::format("disk {}: its next event lies in the past", id(i)));
-    if (time(i) < epoch_length_ && !queue_.holds(*this, i))
+    if (plans_.time(i) < now_ * (1.0 - 1e-12)) faults.push_back(fmt::format("disk {}: its next event lies in the past", id(i)));
+    if (plans_.time(i) < epoch_length_ && !queue_.holds(plans_, i))
       faults.push_back(fmt::format("disk {}: the queue does not know its event", id(i)));
     const NeighbourhoodCentre centre = lists_.centre(i);
     if constexpr (!World::plain)
@@ -93,7 +93,7 @@ void Engine<Impact, Layout, World>::check_pair(std::int32_t i, std::int32_t j, d
   if (overlap > (tolerated_overlap + 1e-12) * sigma + rounding)
     faults.push_back(fmt::format("disks {} and {} overlap by {}", id(i), id(j), overlap));
   const double meeting = predicted_against(i, j).pair_time;
-  const double planned = std::min({time(i), time(j), epoch_length_});
+  const double planned = std::min({plans_.time(i), plans_.time(j), epoch_length_});
   if (!(meeting < planned)) return;
   if (world_.growth() > 0.0 || frame_.inside != nullptr) return;  // how deep they would be is another question there
   // Times of close pairs are uncertain; how deep they would be in each other by then is not.

@@ -88,12 +88,8 @@ void Engine<Impact, Layout, World>::rebase(double now) {
         keep_in_box(i, a.x[1], image);
         images_.set(i, 1, image);
       }
-    Plan& mine = plan(i);
-    mine.pair_time = std::max(mine.pair_time - now, 0.0);
-    mine.edge_time = std::max(mine.edge_time - now, 0.0);
-    mine.foreseen = mine.partner >= 0 && is_stale(mine) ? 0 : 1;
   }
-  for (Plan& any : plans_) any.last_collided = 1;
+  plans_.rebase(now);
   stamp_ = 1;
   impact_.rebase(now);
   last_collision_.rebase();
@@ -200,7 +196,7 @@ template <class Impact, class Layout, class World>
 double Engine<Impact, Layout, World>::first_span() const {
   if (count() == 0) return 1.0;
   std::vector<double> times(lines_.size());
-  for (std::int32_t i = 0; i < count(); ++i) times[static_cast<std::size_t>(i)] = time(i);
+  for (std::int32_t i = 0; i < count(); ++i) times[static_cast<std::size_t>(i)] = plans_.time(i);
   const auto median = times.begin() + count() / 2;
   std::nth_element(times.begin(), median, times.end());
   const double span = 4.0 * *median / static_cast<double>(count());

@@ -58,10 +58,9 @@ void Engine<Impact, Layout, World>::look_at_velocities(State& state) const {
 
 template <class Impact, class Layout, class World>
 std::size_t Engine<Impact, Layout, World>::bytes() const {
-  return lines_.capacity() * sizeof(Line) + plans_.capacity() * sizeof(Plan) + ids_.capacity() * sizeof(std::int32_t) +
-         images_.bytes() + lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() +
-         radius_.capacity() * sizeof(double) + rests_.capacity() * sizeof(rests_[0]) +
-         (places_.capacity() + heights_.capacity()) * sizeof(std::int32_t);
+  return lines_.capacity() * sizeof(Line) + plans_.bytes() + ids_.capacity() * sizeof(std::int32_t) + images_.bytes() +
+         lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() + radius_.capacity() * sizeof(double) +
+         rests_.capacity() * sizeof(rests_[0]) + (places_.capacity() + heights_.capacity()) * sizeof(std::int32_t);
 }
 
 template <class Impact, class Layout, class World>

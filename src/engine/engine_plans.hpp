@@ -11,36 +11,33 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::plan_world(std::int32_t i) {
   if (world_.sliding.present()) return plan_sliding_edge(i);
   const Line& a = line(i);
-  Plan& mine = plan(i);
+  Plan& mine = plans_[i];
   const double radius = layout_.radius(a) * world_.scale(now_), growth = layout_.radius(a) * world_.growth();
-  const auto consider = [&](double time, std::int32_t what) {
-    if (time < mine.edge_time || (time == mine.edge_time && mine.edge == neighbourhood)) mine.edge_time = time, mine.edge = what;
-  };
   for (int axis = 0; axis < 2; ++axis) {
     if (axes_[axis].periodic) continue;
     const double v = a.v[axis] + world_.g()[axis] * now_, g = world_.g()[axis];
     for (const int sign : {-1, 1}) {
       const Wall wall = wall_of(axis, sign > 0);
       if (world_.walls.recedes(wall, sign * v, sign * g, growth, now_)) continue;
-      consider(now_ + world_.walls.contact(wall, room(a, axis, sign, radius), sign * v, sign * g, growth, now_), wall);
+      mine.consider_edge(now_ + world_.walls.contact(wall, room(a, axis, sign, radius), sign * v, sign * g, growth, now_), wall);
     }
   }
   if (!world_.obstacles.empty()) {
     // Disks may fall far while they stay in their neighbourhoods, but where they fall all is planned anew with every epoch.
     const double until = world_.falls() ? std::min(mine.edge_time, epoch_length_) : mine.edge_time;
     const auto meeting = world_.obstacles.next(place(a), velocity(a), world_.g(), radius, growth, until - now_);
-    if (meeting.obstacle >= 0) consider(now_ + meeting.time, first_obstacle - meeting.obstacle);
+    if (meeting.obstacle >= 0) mine.consider_edge(now_ + meeting.time, first_obstacle - meeting.obstacle);
   }
-  yield_to_lower_partner(i);
+  resolve_wall_pair_tie(i);
 }
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::plan_edges_anew() {
   for (std::int32_t i = 0; i < count(); ++i) {
-    const double before = time(i);
-    const std::int32_t other_before = other(i);
-    plan_edge(i, plan(i).edge == neighbourhood ? plan(i).edge_time : predicted(i, surroundings(i)).edge_time);
-    if (time(i) != before || other(i) != other_before) schedule(i);
+    const double before = plans_.time(i);
+    const std::int32_t other_before = plans_.other(i);
+    plan_edge(i, plans_[i].edge == neighbourhood_edge ? plans_[i].edge_time : predicted(i, surroundings(i)).edge_time);
+    if (plans_.time(i) != before || plans_.other(i) != other_before) schedule(i);
   }
 }
 
@@ -59,31 +56,31 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::look_ahead(std::int64_t span) const {
   if (!fetching_) return;
   queue_.calendar().prefetch_span(span + 7);
-  for (const std::int32_t i : queue_.calendar().ids_of(span + 5)) prefetch_early(&plan(i));
+  for (const std::int32_t i : queue_.calendar().ids_of(span + 5)) prefetch_early(&plans_[i]);
   for (const std::int32_t i : queue_.calendar().ids_of(span + 4)) {
     const auto prefetch_disk = [this](std::int32_t k) {
       prefetch_early(&line(k));
       lists_.prefetch_list_early(k);
     };
     prefetch_disk(i);
-    if (plan(i).pair_time < plan(i).edge_time) {
-      prefetch_early(&plan(plan(i).partner));
-      prefetch_disk(plan(i).partner);
+    if (plans_[i].pair_time < plans_[i].edge_time) {
+      prefetch_early(&plans_[plans_[i].partner]);
+      prefetch_disk(plans_[i].partner);
     }
   }
   for (const std::int32_t i : queue_.calendar().ids_of(span + 2)) {
-    if (queue_.calendar().span_of(time(i)) != span + 2) continue;
+    if (queue_.calendar().span_of(plans_.time(i)) != span + 2) continue;
     const auto prefetch_neighbours = [this](std::int32_t k) {
       const std::int32_t* ids = lists_.ids(k);
       for (int n = 0; n < 8; ++n)
         prefetch_early(&line(ids[n]));  // so many there always are, and no end of a loop to be guessed wrong
       for (std::uint32_t n = 8, all = std::min(lists_.count(k), 16U); n < all; ++n) prefetch_early(&line(ids[n]));
     };
-    if (plan(i).pair_time < plan(i).edge_time) {
-      prefetch_neighbours(i), prefetch_neighbours(plan(i).partner);
+    if (plans_[i].pair_time < plans_[i].edge_time) {
+      prefetch_neighbours(i), prefetch_neighbours(plans_[i].partner);
     } else {
       prefetch_early(&ids_[static_cast<std::size_t>(i)]);  // decides ties, which times in steps often are
-      lists_.prefetch_cells(i, neighbourhood_around(i, plan(i).edge_time));
+      lists_.prefetch_cells(i, neighbourhood_around(i, plans_[i].edge_time));
     }
   }
 }

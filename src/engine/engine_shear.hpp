@@ -58,7 +58,7 @@ void Engine<Impact, Layout, World>::leave_room_to_slide(const std::vector<Neighb
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::plan_sliding_edge(std::int32_t i) {
   const Line& a = line(i);
-  Plan& mine = plan(i);
+  Plan& mine = plans_[i];
   const double v = a.v[1];
   if (v == 0.0) return;
   const double sign = v > 0.0 ? 1.0 : -1.0;
