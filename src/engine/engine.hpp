@@ -30,12 +30,12 @@
 #include "effects/any_impact.hpp"
 #include "effects/elastic.hpp"
 #include "effects/world.hpp"
+#include "engine/collision_recorder.hpp"
 #include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
 #include "engine/epoch.hpp"
 #include "engine/image_counts.hpp"
 #include "engine/layout.hpp"
-#include "engine/note_listener.hpp"
 #include "engine/plans.hpp"
 #include "engine/stall_detector.hpp"
 #include "neighbours/neighbour_lists.hpp"
@@ -137,7 +137,7 @@ class Engine {
     else
       meet_across_edge(i, va, j, vb, above);
     plans_[i].last_collided = plans_[j].last_collided = ++stamp_;
-    if (noting_) note(i, j, before_a, before_b, va, vb);
+    if (recorder_.active()) recorder_.record(now_, i, j, before_a, before_b, va, vb);
     if (outruns_epoch(va) || outruns_epoch(vb)) [[unlikely]]
       return begin_epoch_between(i, va, j, vb);
 
@@ -187,7 +187,7 @@ class Engine {
     else
       stall_.record_loss(world_.meet(what, visitor, v, now_, totals_), {id(i)});
     impact_.touched(i, now_);
-    if (recording_) log_hit(i, what, v);
+    if (recorder_.logging()) recorder_.log_hit(now_, i, what, v);
     turn(i, v);
     if (world_.gives_way(what)) plan_edges_anew();
   }
@@ -508,21 +508,6 @@ class Engine {
   }
   [[nodiscard, gnu::noinline, gnu::cold]] std::int32_t lowest_of_tied(std::int32_t i, const Prediction& ahead) const;
 
-  /// Writes a collision down for those who want to know: no more than its numbers as they are, for here every instruction counts.
-  void note(std::int32_t i, std::int32_t j, const Vec2<double>& before_a, const Vec2<double>& before_b, const Vec2<double>& va,
-            const Vec2<double>& vb) {
-    if (noted_ == room_.size()) [[unlikely]]
-      find_room_for_notes();
-    CollisionNote& next = room_[noted_++];
-    // Some microseconds ahead, whole lines: another processor may have read what was there before.
-    prefetch_for_writing(&next + 16);
-    prefetch_for_writing(&(&next + 16)->partner_after);
-    next = {now_, i, j, {before_a[0], before_a[1]}, {before_b[0], before_b[1]}, {va[0], va[1]}, {vb[0], vb[1]}};
-  }
-  [[gnu::noinline]] void find_room_for_notes();
-  [[gnu::noinline]] void read_notes(std::span<const CollisionNote> notes);
-  void log(std::span<const CollisionNote> notes);
-  [[gnu::noinline]] void log_hit(std::int32_t i, std::int32_t what, const Vec2<double>& v);
   [[gnu::noinline]] void look_ahead(std::int64_t span) const;
   /// Fetches what the next event will need first.
   void prefetch_next() const {
@@ -606,13 +591,7 @@ class Engine {
   CommonMotion<double> common_motion_;
   RunningTotals totals_;
   LastInstant last_collision_;
-  bool recording_ = false;  ///< events
-  NoteListener listener_;   ///< to collisions
-  bool noting_ = false;     ///< collisions, for one of the two
-  std::array<CollisionNote, 64> notes_;
-  std::span<CollisionNote> room_;  ///< for notes: those, or what the listener gave
-  std::size_t noted_ = 0;          ///< in it
-  std::vector<carom::Event> log_;
+  CollisionRecorder recorder_;
 
  public:
   // ------------------------------------------------------------------------------------- for those who look on
@@ -633,7 +612,7 @@ class Engine {
   /// Makes now the zero of time and forgets the totals.
   void reset_clock() {
     begin_epoch(now_);
-    epoch_ = Instant{};
+    recorder_.begin_epoch(epoch_ = Instant{});
     left_ -= totals_.other;                                            // wraps, as the difference to it will
     const std::uint64_t longest_list = totals_.numerics.longest_list;  // of now, not of the time before
     totals_ = RunningTotals{};
@@ -645,34 +624,10 @@ class Engine {
   /// All velocities and spins become `factor` times what they are.
   void scale_velocities(double factor);
 
-  void record_events(bool on) {
-    hand_over_notes();
-    recording_ = on;
-    noting_ = recording_ || listener_;
-  }
-  [[nodiscard]] std::vector<carom::Event> take_events() {
-    hand_over_notes();
-    return std::exchange(log_, {});
-  }
-  /// The same into a list whose memory is used again.
-  void take_events(std::vector<carom::Event>& events) {
-    hand_over_notes();
-    events.clear();
-    std::swap(events, log_);
-  }
-
-  /// Calls `listener` with collisions of pairs from now on, as many at a time as it has room for (in the engine's own memory some
-  /// dozen), and all so far at hand_over_notes(); an empty one ends that.
-  void listen(NoteListener listener) {
-    listener_ = {};
-    hand_over_notes();
-    listener_ = std::move(listener);
-    noting_ = recording_ || listener_;
-  }
-  void hand_over_notes() {
-    if (noted_ > 0) read_notes(room_.first(std::exchange(noted_, 0)));
-    room_ = {};
-  }
+  void record_events(bool on) { recorder_.log_events(on); }
+  void take_events(std::vector<Event>& events) { recorder_.take_events(events); }
+  /// What is written down of events, for the log and for a listener.
+  [[nodiscard]] CollisionRecorder& recorder() { return recorder_; }
   /// What the world calls the disks, by their places in notes.
   [[nodiscard]] std::span<const std::int32_t> ids() const { return ids_; }
 

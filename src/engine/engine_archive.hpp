@@ -21,6 +21,7 @@ void Engine<Impact, Layout, World>::serialize(Archive& archive) {
   archive(tuner_, widest_, settling_, travelled_, left_, changed_, looks_, busy_);
   if constexpr (Archive::is_loading::value) {
     frame_ = frame;
+    recorder_.begin_epoch(epoch_);
     if constexpr (!Impact::plain)
       if (impact_.wells().present()) frame_.inside = impact_.wells().table();
     frame_.sliding.heights = heights_.data();

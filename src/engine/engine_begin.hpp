@@ -115,7 +115,8 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       walled_(!box.periodic(0) || !box.periodic(1)),
       bare_(!walled_ && effects.obstacles.empty() && !SlidingImages<double>::acts(effects.shear)),
       stall_(effects, disks.count()),
-      common_motion_(box, effects) {
+      common_motion_(box, effects),
+      recorder_(ids_, world_.g()) {
   detail::OrderInSpace order = detail::order_in_space(axes_[0], axes_[1], start);
   ids_ = std::move(order.ids);
   radius_ = detail::in_order(disks.radius, ids_);

@@ -51,8 +51,7 @@ void Engine<Impact, Layout, World>::begin_epoch_between(std::int32_t i, const Ve
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::fail_between(std::int32_t i, std::int32_t j) {
   // What has been written down of it is no event.
-  if (i != j && noting_) --noted_;
-  if (i == j && !log_.empty() && !log_.back().velocity.allFinite()) log_.pop_back();
+  i == j ? recorder_.withdraw_hit() : recorder_.withdraw_collision();
   stall_.fail(i == j ? fmt::format("disk {}: its velocity would not be finite after what it has met", id(i))
                      : fmt::format("disks {} and {}: their velocities would not be finite after their collision", id(i), id(j)));
 }
@@ -98,8 +97,7 @@ void Engine<Impact, Layout, World>::rebase(double now) {
     for (int k = 0; k < 2; ++k) depth_[k] += depth_rest_[k].steps_of(world_.g()[k] * now, now / 2.0, axes_[k].steps);
   world_.rebase(now);
   frame_.scale = world_.scale(0.0);
-  hand_over_notes();
-  epoch_ = instant(now);
+  recorder_.begin_epoch(epoch_ = instant(now));
   now_ = 0.0;
 }
 

@@ -6,7 +6,6 @@
 #include "engine/engine_check.hpp"
 #include "engine/engine_epochs.hpp"
 #include "engine/engine_lists.hpp"
-#include "engine/engine_log.hpp"
 #include "engine/engine_outside.hpp"
 #include "engine/engine_plans.hpp"
 #include "engine/engine_shear.hpp"

@@ -532,8 +532,7 @@ class TextbookEngine {
   }
 
   void record_events(bool on) { recording_ = on; }
-  [[nodiscard]] std::vector<Event> take_events() { return std::exchange(log_, {}); }
-  /// The same into a list whose memory is used again.
+  /// Puts the events recorded since the last call in the place of what `events` held.
   void take_events(std::vector<Event>& events) {
     events.clear();
     std::swap(events, log_);

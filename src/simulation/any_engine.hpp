@@ -63,9 +63,14 @@ class AnyEngine {
   virtual void set_back(const Instant& time) = 0;
   virtual void reset_clock() = 0;
   virtual void record_events(bool on) = 0;
-  [[nodiscard]] virtual std::vector<Event> take_events() = 0;
-  /// The same into a list whose memory is used again: to get new memory for every batch takes as long as to fill it.
+  /// Puts the events recorded since the last call in the place of what `events` held, whose memory is used again: to get new
+  /// memory for every batch takes as long as to fill it.
   virtual void take_events(std::vector<Event>& events) = 0;
+  [[nodiscard]] std::vector<Event> take_events() {
+    std::vector<Event> events;
+    take_events(events);
+    return events;
+  }
   /// Whether listen() is there: engine/note_listener.hpp.
   [[nodiscard]] virtual bool tells_collisions() const { return false; }
   /// Tells of collisions of pairs from now on, all so far by each hand_over_notes(); an empty listener ends that.
@@ -144,16 +149,13 @@ class EngineAdapter final : public AnyEngine {
 #endif
   }
   void record_events(bool on) override { engine_.record_events(on); }
-  [[nodiscard]] std::vector<Event> take_events() override { return engine_.take_events(); }
   void take_events(std::vector<Event>& events) override { engine_.take_events(events); }
-  [[nodiscard]] bool tells_collisions() const override {
-    return requires(Engine engine) { engine.listen(NoteListener()); };
-  }
+  [[nodiscard]] bool tells_collisions() const override { return has_recorder; }
   void listen(NoteListener listener) override {
-    if constexpr (requires { engine_.listen(std::move(listener)); }) engine_.listen(std::move(listener));
+    if constexpr (has_recorder) engine_.recorder().listen(std::move(listener));
   }
   void hand_over_notes() override {
-    if constexpr (requires { engine_.hand_over_notes(); }) engine_.hand_over_notes();
+    if constexpr (has_recorder) engine_.recorder().hand_over();
   }
   [[nodiscard]] std::span<const std::int32_t> ids() const override {
     if constexpr (requires { engine_.ids(); }) return engine_.ids();
@@ -168,6 +170,7 @@ class EngineAdapter final : public AnyEngine {
   void load(LoadingArchive& archive) override { archive(engine_); }
 
  private:
+  static constexpr bool has_recorder = requires(Engine & engine) { engine.recorder(); };
   static constexpr bool stalls = requires(const Engine& engine) { engine.stall(); };
   /// Which engine runs a scene is decided before: no scene gets here.
   [[noreturn]] static void refuse_to_be_driven() {

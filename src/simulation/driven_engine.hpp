@@ -50,7 +50,6 @@ class DrivenEngine final : public AnyEngine {
   void set_back(const Instant& time) override { engine_->set_back(time); }
   void reset_clock() override;
   void record_events(bool on) override { engine_->record_events(on); }
-  [[nodiscard]] std::vector<Event> take_events() override { return engine_->take_events(); }
   void take_events(std::vector<Event>& events) override { engine_->take_events(events); }
   [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap) const override {
     return engine_->check_invariants(tolerated_overlap);

@@ -95,7 +95,6 @@ class Stepper {
   }
 
   void record_events(bool on) { tally_.recording = on; }
-  [[nodiscard]] std::vector<Event> take_events() { return std::exchange(tally_.log, {}); }
   void take_events(std::vector<Event>& events) {
     events.clear();
     std::swap(events, tally_.log);

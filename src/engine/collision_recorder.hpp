@@ -1,0 +1,135 @@
+#pragma once
+// What an engine writes down of its events: collisions as the loop has their numbers, for the event log and for a listener.
+
+#include "core/instant.hpp"
+#include "core/large_memory.hpp"
+#include "core/prefetch.hpp"
+#include "core/vec2.hpp"
+#include "engine/note_listener.hpp"
+
+#include <carom/collisions.hpp>
+#include <carom/state.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+class CollisionRecorder {
+ public:
+  /// `ids` has the id of the disk in each slot, and must outlive the recorder. Velocities that are written down are those of
+  /// lines in a frame that falls from rest at the epoch with acceleration `g`.
+  CollisionRecorder(const LargeVector<std::int32_t>& ids, const Vec2<double>& g) : ids_(ids), g_(g) {}
+
+  /// Whether any event is to be written down.
+  [[nodiscard]] bool active() const { return active_; }
+  /// Whether events are to be written to the log.
+  [[nodiscard]] bool logging() const { return logging_; }
+
+  /// Writes down a collision of the disks in slots i and j at a time since the epoch. Requires active(). No more than its numbers
+  /// as they are, for here every instruction counts.
+  void record(double time, std::int32_t i, std::int32_t j, const Vec2<double>& before_i, const Vec2<double>& before_j,
+              const Vec2<double>& after_i, const Vec2<double>& after_j) {
+    if (recorded_ == room_.size()) [[unlikely]]
+      find_room();
+    CollisionNote& next = room_[recorded_++];
+    // Some microseconds ahead, whole lines: another processor may have read what was there before.
+    prefetch_for_writing(&next + 16);
+    prefetch_for_writing(&(&next + 16)->partner_after);
+    next = {
+        time, i, j, {before_i[0], before_i[1]}, {before_j[0], before_j[1]}, {after_i[0], after_i[1]}, {after_j[0], after_j[1]}};
+  }
+
+  /// Writes to the log that the disk in slot i has met a wall or an obstacle and moves on with velocity v. Requires logging().
+  [[gnu::noinline]] void log_hit(double time, std::int32_t i, std::int32_t what, const Vec2<double>& v) {
+    hand_over();
+    const Instant when = epoch_.plus(time);
+    log_.push_back({when.high, when.low, id(i), what, v, {0.0, 0.0}});
+  }
+
+  /// Takes back the collision that was recorded last: it would have left a velocity that is not finite.
+  void withdraw_collision() {
+    if (active_) --recorded_;
+  }
+  /// Takes back the last hit if its velocity is not finite.
+  void withdraw_hit() {
+    if (!log_.empty() && !log_.back().velocity.allFinite()) log_.pop_back();
+  }
+
+  /// Lets times count from `epoch` from now on, after handing over what is recorded.
+  void begin_epoch(const Instant& epoch) {
+    hand_over();
+    epoch_ = epoch;
+  }
+
+  /// Writes every event to the log from now on, or no more.
+  void log_events(bool on) {
+    hand_over();
+    logging_ = on;
+    active_ = logging_ || listener_;
+  }
+  /// Puts the events logged since the last call in the place of what `events` held.
+  void take_events(std::vector<Event>& events) {
+    hand_over();
+    events.clear();
+    std::swap(events, log_);
+  }
+
+  /// Tells `listener` of collisions of pairs from now on, as many at a time as it has room for (in the recorder's own memory some
+  /// dozen), and of all so far at hand_over(). An empty listener ends that.
+  void listen(NoteListener listener) {
+    listener_ = {};
+    hand_over();
+    listener_ = std::move(listener);
+    active_ = logging_ || listener_;
+  }
+  /// Hands all that is recorded to the log and the listener.
+  void hand_over() {
+    if (recorded_ > 0) deliver(room_.first(std::exchange(recorded_, 0)));
+    room_ = {};
+  }
+
+ private:
+  [[nodiscard]] std::int32_t id(std::int32_t i) const { return ids_[static_cast<std::size_t>(i)]; }
+
+  [[gnu::noinline]] void find_room() {
+    hand_over();
+    if (listener_.room) room_ = listener_.room();
+    if (room_.empty()) room_ = own_room_;
+  }
+
+  [[gnu::noinline]] void deliver(std::span<const CollisionNote> notes) {
+    if (logging_) log(notes);
+    if (listener_) listener_.hear(epoch_, notes);  // whose notes they are from then on
+  }
+
+  void log(std::span<const CollisionNote> notes) {
+    for (const CollisionNote& note : notes) {
+      const std::int32_t a = id(note.place), b = id(note.partner);
+      const bool swapped = b < a;  // the lower id comes first
+      const Instant when = epoch_.plus(note.time);
+      const Vec2<double> fallen = g_ * note.time;
+      const double(&v)[2] = swapped ? note.partner_after : note.after;
+      const double(&w)[2] = swapped ? note.after : note.partner_after;
+      log_.push_back({when.high, when.low, swapped ? b : a, swapped ? a : b, Vec2<double>(v[0], v[1]) + fallen,
+                      Vec2<double>(w[0], w[1]) + fallen});
+    }
+  }
+
+  const LargeVector<std::int32_t>& ids_;
+  Vec2<double> g_;
+  Instant epoch_;
+  bool active_ = false;
+  bool logging_ = false;
+  NoteListener listener_;
+  std::array<CollisionNote, 64> own_room_;
+  std::span<CollisionNote> room_;  ///< for collisions: own_room_, or what the listener gave
+  std::size_t recorded_ = 0;       ///< in it
+  std::vector<Event> log_;
+};
+
+}  // namespace carom
