@@ -35,6 +35,7 @@ struct PlainWorld {
   [[nodiscard]] static Vec2<double> g() { return Vec2<double>::Zero(); }
   [[nodiscard]] static double fallen(int /*axis*/, double /*t*/) { return 0.0; }
   [[nodiscard]] static bool falls() { return false; }
+  [[nodiscard]] static bool sheared() { return false; }
   [[nodiscard]] static double scale(double /*t*/) { return 1.0; }
   [[nodiscard]] static double growth() { return 0.0; }
   [[nodiscard]] static bool still() { return true; }
@@ -69,6 +70,8 @@ struct AnyWorld {
   /// How far the frame in which lines are straight has fallen at time t. At the zero of the clock it stands still.
   [[nodiscard]] double fallen(int axis, double t) const { return (falling.g[axis] * t) * (t / 2); }
   [[nodiscard]] bool falls() const { return falling.present(); }
+  /// Whether images above slide past those below.
+  [[nodiscard]] bool sheared() const { return sliding.present(); }
   /// Of all radii, at time t.
   [[nodiscard]] double scale(double t) const { return scale_ + growth_ * t; }
   [[nodiscard]] double growth() const { return growth_; }

@@ -18,14 +18,12 @@
 // engine_impl.hpp has the functions that are only declared here: how an engine begins, epochs, neighbourhoods and lists, plans
 // where there is more than hard walls, boxes whose images slide, what is seen from outside, invariants, checkpoints.
 
-#include "core/fixed_axis.hpp"
 #include "core/instant.hpp"
 #include "core/large_memory.hpp"
 #include "core/prediction.hpp"
 #include "core/prefetch.hpp"
 #include "core/sides.hpp"
 #include "core/sliding_separation.hpp"
-#include "core/two_doubles.hpp"
 #include "core/vec2.hpp"
 #include "effects/any_impact.hpp"
 #include "effects/elastic.hpp"
@@ -34,7 +32,7 @@
 #include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
 #include "engine/epoch.hpp"
-#include "engine/image_counts.hpp"
+#include "engine/flight_frame.hpp"
 #include "engine/layout.hpp"
 #include "engine/plans.hpp"
 #include "engine/stall_detector.hpp"
@@ -132,8 +130,8 @@ class Engine {
     const Line &a = line(i), &b = line(j);
     Vec2<double> va(a.v[0], a.v[1]), vb(b.v[0], b.v[1]);
     const Vec2<double> before_a = va, before_b = vb;
-    if (const std::int32_t above = boxes_above(i, j); above == 0) [[likely]]
-      exchange(separation(a, b), i, va, j, vb);
+    if (const std::int32_t above = flight_.boxes_above(i, j); above == 0) [[likely]]
+      exchange(flight_.separation(a, b, now_), i, va, j, vb);
     else
       meet_across_edge(i, va, j, vb, above);
     plans_[i].last_collided = plans_[j].last_collided = ++stamp_;
@@ -149,7 +147,7 @@ class Engine {
     prefetch_next();
     kernel_.turn_and_predict(lines_.data(), frame_, pair, now_, va[0], va[1], vb[0], vb[1]);
     if (pair.wrapped != 0) [[unlikely]]
-      count_images(pair);
+      flight_.count_images(pair);
     prefetch_partner_of_next();
     plan_ahead(i, pair.ahead[0]);
     plan_ahead(j, pair.ahead[1]);
@@ -178,10 +176,11 @@ class Engine {
   /// A disk meets a wall or an obstacle.
   void hit(std::int32_t i, std::int32_t what) {
     if constexpr (!World::plain)
-      if (world_.sliding.present()) return cross_sliding_edge(i, is_upper(static_cast<Wall>(what)) ? 1 : -1);
+      if (world_.sheared()) return cross_sliding_edge(i, is_upper(static_cast<Wall>(what)) ? 1 : -1);
     const Line& a = line(i);
-    Vec2<double> v = velocity(a);
-    const Visitor visitor{place(a), layout_.mass(a), layout_.radius(a) * world_.scale(now_), impact_.rests(i, now_)};
+    Vec2<double> v = flight_.velocity(a, now_);
+    const Visitor visitor{flight_.place(a, now_), layout_.mass(a), layout_.radius(a) * world_.scale(now_),
+                          impact_.rests(i, now_)};
     if constexpr (World::plain)
       world_.meet(what, visitor, v, now_, totals_);
     else
@@ -195,14 +194,10 @@ class Engine {
   /// From now on disk i moves with velocity v.
   void turn(std::int32_t i, const Vec2<double>& v) {
     plans_[i].last_collided = ++stamp_;
-    const Vec2<double> along(v[0] - world_.g()[0] * now_, v[1] - world_.g()[1] * now_);
+    const Vec2<double> along = flight_.line_velocity(v, now_);
     if (outruns_epoch(along)) [[unlikely]]
       return begin_epoch_between(i, along, i, along);
-    Line& a = line(i);
-    for (int k = 0; k < 2; ++k) {
-      a.x[k] = moved(i, k, along[k], now_, world_.falls() ? lift(a, k, now_, v[k], along[k], now_) : 0.0);
-      a.v[k] = along[k];
-    }
+    flight_.turn(i, line(i), v, now_);
     predict(i);
     if (stamp_ == last_stamp) [[unlikely]]
       begin_epoch(now_);
@@ -214,8 +209,7 @@ class Engine {
     ++totals_.other;
     const NeighbourhoodCentre centre = neighbourhood_around(i, now_);
     const auto fresh = lists_.move_neighbourhood(i, centre);
-    if constexpr (!World::plain)
-      if (world_.sliding.present()) height(i) = centre.y;
+    if (world_.sheared()) flight_.height(i) = centre.y;
     Prediction ahead =
         predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, fresh.data(), static_cast<std::uint32_t>(fresh.size())});
     Plan& mine = plans_[i];
@@ -271,10 +265,9 @@ class Engine {
     Plan& mine = plans_[i];
     for (int axis = 0; axis < 2; ++axis) {
       const double v = a.v[axis];
-      if (axes_[axis].periodic || v == 0.0) continue;
+      if (flight_.axis(axis).periodic || v == 0.0) continue;
       const bool up = v > 0.0;
-      const std::int64_t limit = half_[axis] - axes_[axis].steps_of(layout_.radius(a));
-      const double gap = frame_.unit[axis] * static_cast<double>(up ? limit - a.x[axis] : a.x[axis] + limit) - std::abs(v) * now_;
+      const double gap = flight_.room(a, axis, up ? 1 : -1, layout_.radius(a), now_);
       const double time = gap > 0.0 ? now_ + gap / std::abs(v) : now_;
       mine.consider_edge(time, wall_of(axis, up));
     }
@@ -338,12 +331,9 @@ class Engine {
   void slide_images();
   /// Lists and predictions know how images slide.
   void note_slide();
-  void note_heights(const State& start);
   void leave_room_to_slide(const std::vector<NeighbourhoodCentre>& centres);
   /// Of neighbourhoods, for disks of the size that lists are for.
   [[nodiscard]] double suitable_half_width() const { return HalfWidthSearch::first_half_width(sigma_ * listed_scale_, area_); }
-  /// A disk that begins in contact with a wall is so in steps too.
-  void touch_walls(Line& a, int axis) const;
   /// Who begins inside whose well.
   void find_wells();
   /// As long as the lines may become as the disks move now, rounded down to a power of two.
@@ -374,57 +364,8 @@ class Engine {
   static constexpr std::uint32_t last_stamp = 0xFFFFFFFF;
   static constexpr double never = infinity<double>;
 
-  /// From j to i now, to the nearest image.
-  [[nodiscard]] Vec2<double> separation(const Line& a, const Line& b) const {
-    Vec2<double> r;
-    for (int k = 0; k < 2; ++k)
-      r[k] = static_cast<double>(wrapped_difference(a.x[k], b.x[k])) * frame_.unit[k] + (a.v[k] - b.v[k]) * now_;
-    return r;
-  }
-
-  /// Where the line of a disk was at the epoch, from the middle of the box: the frame in which it is drawn had fallen by then.
-  [[nodiscard]] std::int64_t coordinate(const Line& a, int axis) const {
-    if constexpr (World::plain) return a.x[axis];
-    return a.x[axis] + depth_[axis];
-  }
-  /// Where a disk is now, to double precision; along periodic axes it may lie beyond the edges.
-  [[nodiscard]] Vec2<double> place(const Line& a) const {
-    Vec2<double> r;
-    for (int k = 0; k < 2; ++k)
-      r[k] = middle_[k] + (frame_.unit[k] * static_cast<double>(coordinate(a, k)) + (a.v[k] * now_ + world_.fallen(k, now_)));
-    return r;
-  }
-  [[nodiscard]] Vec2<double> velocity(const Line& a) const {
-    if constexpr (World::plain) return {a.v[0], a.v[1]};
-    return {a.v[0] + world_.g()[0] * now_, a.v[1] + world_.g()[1] * now_};
-  }
   /// At the beginning of an epoch.
   [[nodiscard]] Vec2<double> momentum(const Line& a) const { return layout_.mass(a) * Vec2<double>(a.v[0], a.v[1]); }
-  /// From the edge of a disk to where a side of the box was at the start, the upper one of an axis (sign 1) or the lower (-1).
-  [[nodiscard]] double room(const Line& a, int axis, int sign, double radius) const {
-    const std::int64_t limit = half_[axis] - axes_[axis].steps_of(radius);
-    const std::int64_t x = coordinate(a, axis);
-    const double start = frame_.unit[axis] * static_cast<double>(sign > 0 ? limit - x : x + limit);
-    return (start - sign * a.v[axis] * now_) - sign * world_.fallen(axis, now_);
-  }
-  /// Where the line of a disk is now along an axis, from the centre of its neighbourhood.
-  [[nodiscard]] double offset(int axis, const Line& a, std::int32_t centre) const {
-    const auto wide = static_cast<std::int64_t>(static_cast<std::uint64_t>(centre) << 32);
-    return frame_.unit[axis] * static_cast<double>(wrapped_difference(a.x[axis], wide)) + a.v[axis] * now_;
-  }
-  /// How many boxes above j that image of it lies which is nearest to i. Asked only where images slide: elsewhere 0 will do.
-  [[nodiscard]] std::int32_t boxes_above(std::int32_t i, std::int32_t j) const {
-    if constexpr (!World::plain)
-      if (world_.sliding.present()) return boxes_between(height(i), height(j));
-    return 0;
-  }
-  [[nodiscard]] std::int32_t& height(std::int32_t i) { return heights_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] std::int32_t height(std::int32_t i) const { return heights_[static_cast<std::size_t>(i)]; }
-  /// Where disk i is in its box at a time, in steps of a coordinate from the middle.
-  [[nodiscard]] double steps_up(std::int32_t i, double when) const;
-  /// Of a disk that rounding has carried over an edge which it has not crossed.
-  void keep_in_box(std::int32_t i, std::int64_t& y, std::int64_t& image) const;
-
   [[nodiscard]] double contact_distance(std::int32_t i, std::int32_t j) const {
     return (layout_.radius(line(i)) + layout_.radius(line(j))) * world_.scale(now_);
   }
@@ -432,62 +373,13 @@ class Engine {
   [[nodiscard]] double beyond_walls(std::int32_t i, int axis) const;
   void check_pair(std::int32_t i, std::int32_t j, double tolerated_overlap, std::vector<std::string>& faults) const;
 
-  /// The coordinate at the epoch from which disk i gets at a speed to where it is at a time, with its image count where it wraps;
-  /// lifted, where disks fall.
-  [[nodiscard]] std::int64_t moved(std::int32_t i, int axis, double speed, double time, double lift) {
-    std::int64_t x;
-    const double before = line(i).v[axis];
-    const std::int64_t steps =
-        world_.falls() ? fallen_steps(i, axis, before, speed, time, lift) : axes_[axis].steps_of((before - speed) * time);
-    if (__builtin_add_overflow(line(i).x[axis], steps, &x)) [[unlikely]]
-      images_.step(i, axis, steps < 0 ? -1 : 1);
-    return x;
-  }
-  /// For moved(): height is energy there, so rounding must add up to nothing.
-  [[nodiscard]] std::int64_t fallen_steps(std::int32_t i, int axis, double before, double speed, double time, double lift) {
-    StepRest& rest = rests_[static_cast<std::size_t>(i)][static_cast<std::size_t>(axis)];
-    const double per_length = axes_[axis].steps;
-    return rest.steps_of(before, time, per_length) + rest.steps_of(-speed, time, per_length) +
-           rest.steps_of(lift, 1.0, per_length);
-  }
-  /// How far a disk is to be lifted where its line changes, so that the energy of height makes up for what rounding does to that
-  /// of speed. Its velocity was velocity(a) at `now`, and is to be v where its new line has the velocity `along` at time `then`.
-  [[nodiscard]] double lift(const Line& a, int axis, double now, double v, double along, double then) const {
-    const double g = world_.g()[axis], before = a.v[axis] + g * now;
-    if (g == 0.0) return 0.0;
-    const double lost = before * missing(a.v[axis], g, now, before), gained = v * missing(along, g, then, v);
-    const double height = (gained - lost) / g;
-    // Where weights are next to nothing, no height makes up for a digit of the speed; nor need it.
-    return std::abs(height) <= 0x1p-50 * (axes_[axis].upper - axes_[axis].lower) ? height : 0.0;
-  }
-  /// line + g t - v, which v is rounded from or that was rounded to `line`.
-  [[nodiscard]] static double missing(double line, double g, double t, double v) {
-    const TwoDoubles fall = TwoDoubles::product(g, t), sum = TwoDoubles::sum(line, fall.high);
-    return ((sum.high - v) + sum.low) + fall.low;
-  }
-  /// The same of a pair whose coordinates have been moved.
-  [[gnu::noinline, gnu::cold]] void count_images(const CollidedPair& pair) {
-    for (int k = 0; k < 4; ++k)
-      if ((pair.wrapped >> k & 1) != 0) images_.step(pair.disk[k / 2], k % 2, (pair.downwards >> k & 1) != 0 ? -1 : 1);
-  }
-
   /// A neighbourhood round where disk i is at a time, somewhat ahead of it.
   [[nodiscard]] NeighbourhoodCentre neighbourhood_around(std::int32_t i, double when) const {
     const Line& a = line(i);
     const double fastest = std::max(std::abs(a.v[0]), std::abs(a.v[1]));
     const double ahead = fastest > 0.0 ? neighbourhood_lead * lists_.half_width() / fastest : 0.0;
-    if constexpr (!World::plain)
-      if (world_.sliding.present()) return {neighbourhood_centre(0, a, when, ahead), neighbourhood_height(i, when, ahead)};
-    return {neighbourhood_centre(0, a, when, ahead), neighbourhood_centre(1, a, when, ahead)};
+    return flight_.neighbourhood_centre(i, a, when, ahead);
   }
-  [[nodiscard]] std::int32_t neighbourhood_centre(int axis, const Line& a, double when, double ahead) const {
-    const auto x = static_cast<std::uint64_t>(a.x[axis]) + static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * when)) +
-                   static_cast<std::uint64_t>(axes_[axis].steps_of(a.v[axis] * ahead));
-    return static_cast<std::int32_t>((x + 0x80000000U) >> 32);
-  }
-
-  /// In the box of the disk.
-  [[nodiscard]] std::int32_t neighbourhood_height(std::int32_t i, double when, double ahead) const;
 
   /// At four neighbours each, after the first eight.
   [[nodiscard]] static std::uint32_t more_looks(std::uint32_t neighbours) { return (std::max(neighbours, 8U) - 5U) / 4U; }
@@ -534,23 +426,15 @@ class Engine {
   /// little difference; dilute gases gain from more.
   static constexpr double neighbourhood_lead = 0.5;
 
-  FixedAxis axes_[2];
-  std::int64_t half_[2];  ///< from the middle to a wall
-  double middle_[2];      ///< of the box
   Layout layout_;
-  PredictionFrame frame_;
   Impact impact_;
   World world_;
+  FlightFrame<Line, World> flight_;
+  PredictionFrame frame_;
   const PredictionKernel<Line>& kernel_;
   LargeVector<Line> lines_;
   LargeVector<std::int32_t> ids_;  ///< what the world calls them: the engine keeps neighbours near each other in memory
   Plans plans_;
-  std::int64_t depth_[2] = {};  ///< that the frame of the lines has fallen, at the epoch
-  StepRest depth_rest_[2];
-  std::vector<std::array<StepRest, 2>> rests_;  ///< of the coordinates of disks that fall
-  ImageCounts images_;
-  std::vector<std::int32_t>
-      heights_;  ///< where images slide: of the neighbourhoods' centres, which are in the boxes of their disks
   NeighbourLists lists_;
   FutureEventList<Plans> queue_;
 

@@ -12,9 +12,8 @@ void Engine<Impact, Layout, World>::serialize(Archive& archive) {
   PredictionFrame frame = frame_;  // which knows where in memory things lie
   frame.inside = nullptr;
   frame.sliding.heights = nullptr;
-  archive(axes_[0], axes_[1], half_[0], half_[1], frame, impact_, world_);
-  archive(lines_, plans_, ids_, images_, heights_, radius_, lists_, queue_);
-  archive(depth_[0], depth_[1], depth_rest_[0], depth_rest_[1], rests_);
+  archive(flight_, frame, impact_, world_);
+  archive(lines_, plans_, ids_, radius_, lists_, queue_);
   archive(epoch_, now_, epoch_length_, stamp_, stall_, common_motion_, last_collision_, totals_);
   archive(mean_speed_, reach_, area_, listed_scale_, way_, span_, begun_with_);
   for (int k = 0; k < 2; ++k) archive(travel_[k], clear_[k], speed_limit_[k]);
@@ -24,7 +23,7 @@ void Engine<Impact, Layout, World>::serialize(Archive& archive) {
     recorder_.begin_epoch(epoch_);
     if constexpr (!Impact::plain)
       if (impact_.wells().present()) frame_.inside = impact_.wells().table();
-    frame_.sliding.heights = heights_.data();
+    frame_.sliding.heights = flight_.heights();
     places_.clear();
   }
 }

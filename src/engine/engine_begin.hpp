@@ -17,19 +17,6 @@ namespace carom {
 
 namespace detail {
 
-/// Root of the area per disk. The area itself might overflow, and roots of lengths would round lengths in other units otherwise.
-inline double mean_spacing(const Box& box, std::size_t disks) {
-  const Eigen::Vector2d lengths = box.lengths();
-  return lengths[0] * std::sqrt(lengths[1] / lengths[0] / static_cast<double>(std::max<std::size_t>(disks, 1)));
-}
-
-/// In spacings: how far beyond a wall a line may start at the epoch.
-inline constexpr double free_path = 16.0;
-
-inline FixedAxis fixed_axis(const Box& box, int axis, std::size_t disks) {
-  return {box, axis, free_path * mean_spacing(box, disks)};
-}
-
 /// Of any two disks.
 inline double largest_contact_distance(const Disks& disks) {
   double largest = 0.0, second = 0.0;
@@ -80,7 +67,7 @@ std::string Engine<Impact, Layout, World>::why_not(const Box& box, const Disks& 
   const double smallest = *std::min_element(disks.radius.begin(), disks.radius.end());
   const double reach = detail::largest_contact_distance(disks) * detail::largest_scale(box, disks, effects);
   for (int k = 0; k < 2; ++k) {
-    const FixedAxis axis = detail::fixed_axis(box, k, disks.count());
+    const FixedAxis axis = fixed_axis(box, k, disks.count());
     if (axis.periodic && axis.upper - axis.lower < 2.5 * reach)
       return fmt::format(
           "the periodic box is too small: {:.4g} in {}, less than 2.5 times {:.4g}, the farthest that disks notice "
@@ -95,43 +82,32 @@ std::string Engine<Impact, Layout, World>::why_not(const Box& box, const Disks& 
 
 template <class Impact, class Layout, class World>
 Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State start, const Effects& effects, std::uint64_t seed)
-    : axes_{detail::fixed_axis(box, 0, disks.count()), detail::fixed_axis(box, 1, disks.count())},
-      half_{axes_[0].at(axes_[0].upper), axes_[1].at(axes_[1].upper)},
-      middle_{axes_[0].middle.high, axes_[1].middle.high},
-      layout_(disks),
-      frame_{{axes_[0].unit, axes_[1].unit},
-             {axes_[0].steps, axes_[1].steps},
+    : layout_(disks),
+      impact_(effects, disks.count()),
+      world_(box, effects, start, seed),
+      flight_(box, disks.count(), world_),
+      frame_{{flight_.axis(0).unit, flight_.axis(1).unit},
+             {flight_.axis(0).steps, flight_.axis(1).steps},
              disks.count() > 0 ? 2.0 * disks.radius[0] : 0.0,
              0.0,
              0.0},
-      impact_(effects, disks.count()),
-      world_(box, effects, start, seed),
       kernel_(detail::kernel_for<Line>(effects)),
       lines_(disks.count()),
       plans_(disks.count(), ids_),
-      images_(disks.count()),
-      lists_(axes_[0], axes_[1], {}),
-      spacing_(detail::mean_spacing(box, disks.count())),
+      lists_(flight_.axis(0), flight_.axis(1), {}),
+      spacing_(mean_spacing(box, disks.count())),
       walled_(!box.periodic(0) || !box.periodic(1)),
       bare_(!walled_ && effects.obstacles.empty() && !SlidingImages<double>::acts(effects.shear)),
       stall_(effects, disks.count()),
       common_motion_(box, effects),
       recorder_(ids_, world_.g()) {
-  detail::OrderInSpace order = detail::order_in_space(axes_[0], axes_[1], start);
+  detail::OrderInSpace order = detail::order_in_space(flight_.axis(0), flight_.axis(1), start);
   ids_ = std::move(order.ids);
   radius_ = detail::in_order(disks.radius, ids_);
   for (std::int32_t i = 0; i < count(); ++i) {
-    const auto column = static_cast<Eigen::Index>(id(i));
     Line& a = line(i);
-    for (int k = 0; k < 2; ++k) {
-      const double place = start.positions(k, column);
-      a.x[k] = axes_[k].at(place);
-      a.v[k] = start.velocities(k, column);
-      if (start.images.cols() > column) images_.set(i, k, start.images(k, column));
-      if (axes_[k].periodic && a.x[k] == INT64_MIN && place > axes_[k].lower) images_.step(i, k, 1);  // rounded to the upper edge
-    }
-    layout_.furnish(a, disks, static_cast<std::size_t>(column));
-    for (int k = 0; k < 2 && world_.falls(); ++k) touch_walls(a, k);
+    layout_.furnish(a, disks, static_cast<std::size_t>(id(i)));
+    flight_.begin(i, a, start, id(i), layout_.radius(a) * world_.scale(0.0));
   }
 
   sigma_ = disks.mean_diameter();
@@ -149,8 +125,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   frame_.growth = world_.growth();
   make_lists();
   if constexpr (!World::plain)
-    if (world_.sliding.present()) note_heights(start), note_slide();
-  if (world_.falls()) rests_.resize(lines_.size());
+    if (world_.sheared()) note_slide();
   if (World::plain) radius_ = std::vector<double>();  // nothing will ask for them again; {} alone would keep the memory
   start = State{};                                    // makes room for what follows
   double half_width = std::min(suitable_half_width(), widest_);
@@ -167,15 +142,6 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   fetching_neighbours_ = caches > 0.5;
 }
 
-/// Else the gap that rounding makes would be there at every bounce, since nothing is lost between them.
-template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::touch_walls(Line& a, int axis) const {
-  if (axes_[axis].periodic) return;
-  const std::int64_t contact = half_[axis] - axes_[axis].steps_of(layout_.radius(a) * world_.scale(0.0));
-  for (const std::int64_t x : {-contact, contact})
-    if (std::abs(a.x[axis] - x) <= 2) a.x[axis] = x;
-}
-
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::find_wells() {
   if constexpr (!Impact::plain) {
@@ -184,7 +150,7 @@ void Engine<Impact, Layout, World>::find_wells() {
       for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
         const std::int32_t j = lists_.ids(i)[n];
         const double edge = wells.reach() * (layout_.radius(line(i)) + layout_.radius(line(j)));
-        if (i < j && separation(line(i), line(j)).squaredNorm() < edge * edge) wells.enter(i, j);
+        if (i < j && flight_.separation(line(i), line(j), now_).squaredNorm() < edge * edge) wells.enter(i, j);
       }
   }
 }

@@ -24,15 +24,16 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants(double 
       faults.push_back(fmt::format("disk {}: the queue does not know its event", id(i)));
     const NeighbourhoodCentre centre = lists_.centre(i);
     if constexpr (!World::plain)
-      if (world_.sliding.present() && (height(i) != centre.y || std::abs(steps_up(i, now_)) > 0x1p63 * (1.0 + 1e-12)))
+      if (world_.sheared() &&
+          (flight_.height(i) != centre.y || std::abs(flight_.steps_up(i, line(i), now_)) > 0x1p63 * (1.0 + 1e-12)))
         faults.push_back(fmt::format("disk {}: outside the box of its neighbourhood", id(i)));
     for (int k = 0; k < 2; ++k) {
-      const double off = offset(k, a, k == 0 ? centre.x : centre.y);
+      const double off = flight_.offset(k, a, k == 0 ? centre.x : centre.y, now_);
       if (!(std::abs(off) <= lists_.half_width() + slack))
         faults.push_back(
             fmt::format("disk {}: outside its neighbourhood along axis {} by {}", id(i), k, std::abs(off) - lists_.half_width()));
       const double out = beyond_walls(i, k);
-      if (out > tolerated_overlap * layout_.radius(a) * world_.scale(now_) + 1e-12 * (axes_[k].upper - axes_[k].lower))
+      if (out > tolerated_overlap * layout_.radius(a) * world_.scale(now_) + 1e-12 * flight_.length(k))
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", id(i), out, k));
     }
     for (std::uint32_t n = 0; n < lists_.count(i); ++n) check_pair(i, lists_.ids(i)[n], tolerated_overlap, faults);
@@ -53,11 +54,11 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants(double 
 
 template <class Impact, class Layout, class World>
 double Engine<Impact, Layout, World>::beyond_walls(std::int32_t i, int axis) const {
-  if (axes_[axis].periodic) return -never;
+  if (flight_.axis(axis).periodic) return -never;
   const Line& a = line(i);
   double out = -never;
   for (const int sign : {-1, 1}) {
-    double left = room(a, axis, sign, layout_.radius(a) * world_.scale(now_));
+    double left = flight_.room(a, axis, sign, layout_.radius(a) * world_.scale(now_), now_);
     if constexpr (!World::plain) left += world_.walls.displacement(wall_of(axis, sign > 0), now_);
     out = std::max(out, -left);
   }
@@ -76,7 +77,7 @@ double Engine<Impact, Layout, World>::deepest_overlap() const {
     for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
       const std::int32_t j = lists_.ids(i)[n];
       const double sigma = contact_distance(i, j);
-      deepest = std::max(deepest, (sigma - approach(frame_, line(i), line(j), boxes_above(i, j), now_).r.norm()) / sigma);
+      deepest = std::max(deepest, (sigma - approach(frame_, line(i), line(j), flight_.boxes_above(i, j), now_).r.norm()) / sigma);
     }
   return deepest;
 }
@@ -86,7 +87,7 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::check_pair(std::int32_t i, std::int32_t j, double tolerated_overlap,
                                                std::vector<std::string>& faults) const {
   const double sigma = contact_distance(i, j);
-  const auto [r, v] = approach(frame_, line(i), line(j), boxes_above(i, j), now_);
+  const auto [r, v] = approach(frame_, line(i), line(j), flight_.boxes_above(i, j), now_);
   const double overlap = sigma - r.norm();
   // Separations are known to 4 u times the way since the epoch: docs/numerics.md.
   const double rounding = 4.0 * epsilon<double> * (travel_[0] + travel_[1]);

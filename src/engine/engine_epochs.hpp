@@ -74,27 +74,13 @@ void Engine<Impact, Layout, World>::go_on() {
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::rebase(double now) {
-  for (std::int32_t i = 0; i < count(); ++i) {
-    Line& a = line(i);
-    for (int k = 0; k < 2; ++k) {
-      const double v = a.v[k] + world_.g()[k] * now;
-      a.x[k] = moved(i, k, 0.0, now, world_.falls() ? lift(a, k, now, v, v, 0.0) : 0.0);
-      if constexpr (!World::plain) a.v[k] = v;
-    }
-    if constexpr (!World::plain)
-      if (world_.sliding.present()) {
-        std::int64_t image = images_.of(i, 1);
-        keep_in_box(i, a.x[1], image);
-        images_.set(i, 1, image);
-      }
-  }
+  for (std::int32_t i = 0; i < count(); ++i) flight_.rebase(i, line(i), now);
   plans_.rebase(now);
   stamp_ = 1;
   impact_.rebase(now);
   last_collision_.rebase();
   ++totals_.numerics.epochs;
-  if constexpr (!World::plain)
-    for (int k = 0; k < 2; ++k) depth_[k] += depth_rest_[k].steps_of(world_.g()[k] * now, now / 2.0, axes_[k].steps);
+  if constexpr (!World::plain) flight_.fall(now);
   world_.rebase(now);
   frame_.scale = world_.scale(0.0);
   recorder_.begin_epoch(epoch_ = instant(now));
@@ -132,7 +118,7 @@ double Engine<Impact, Layout, World>::longest_by_world() const {
   if (pull > 0.0) longest = std::sqrt(8.0 * spacing_ / pull);
   if (world_.walls.fastest(0.0) > 0.0) longest = std::min(longest, 4.0 * spacing_ / world_.walls.fastest(0.0));
   if (world_.growth() > 0.0) longest = std::min(longest, world_.scale(0.0) / (64.0 * world_.growth()));
-  if (world_.sliding.present()) longest = std::min(longest, way_ / std::abs(world_.sliding.speed()));
+  if (world_.sheared()) longest = std::min(longest, way_ / std::abs(world_.sliding.speed()));
   return longest;
 }
 
@@ -140,12 +126,8 @@ double Engine<Impact, Layout, World>::longest_by_world() const {
 /// drawn up. Everybody is to be predicted anew then.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::draw_up_frame() {
-  const auto far = [this](int k) { return axes_[k].unit * std::abs(static_cast<double>(depth_[k])) >= 4.0 * spacing_; };
-  if (!far(0) && !far(1)) return;
-  for (int k = 0; k < 2; ++k) {
-    const std::int64_t fallen = std::exchange(depth_[k], 0);
-    for (Line& a : lines_) a.x[k] += fallen;
-  }
+  if (!flight_.has_fallen(4.0 * spacing_)) return;
+  flight_.reset_fall(lines_);
   rebuild(frame_.half_width);
 }
 
@@ -155,19 +137,15 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::widen() {
   bool wider = false;
   for (int k = 0; k < 2; ++k) {
-    if (axes_[k].periodic) continue;
+    if (flight_.axis(k).periodic) continue;
     const double out =
         std::max(world_.walls.displacement(wall_of(k, false), 0.0), world_.walls.displacement(wall_of(k, true), 0.0));
-    const double length = axes_[k].upper - axes_[k].lower;
-    const double range = 0x1p63 * axes_[k].unit;  // from the middle
-    if (4.0 * (length / 2.0 + out + detail::free_path * spacing_) <= range * 2.0) continue;
-    axes_[k].unit *= 2.0;
-    axes_[k].steps /= 2.0;
-    half_[k] /= 2;
-    frame_.unit[k] = axes_[k].unit;
-    frame_.steps[k] = axes_[k].steps;
-    for (Line& a : lines_) a.x[k] >>= 1;
-    depth_[k] = depth_rest_[k].coarsened(depth_[k]);
+    const double length = flight_.length(k);
+    const double range = 0x1p63 * flight_.axis(k).unit;  // from the middle
+    if (4.0 * (length / 2.0 + out + free_path * spacing_) <= range * 2.0) continue;
+    flight_.coarsen(k, lines_);
+    frame_.unit[k] = flight_.axis(k).unit;
+    frame_.steps[k] = flight_.axis(k).steps;
     wider = true;
   }
   if (!wider) return;

@@ -16,10 +16,10 @@ void Engine<Impact, Layout, World>::make_lists() {
   reach_ = largest_contact_ * factor;
   std::vector<double> radius = radius_;
   for (double& one : radius) one *= factor;
-  lists_ = NeighbourLists(axes_[0], axes_[1], radius);
-  widest_ = std::max(axes_[0].upper - axes_[0].lower, axes_[1].upper - axes_[1].lower);  // that neighbourhood holds the box
-  for (const FixedAxis& axis : axes_)
-    if (axis.periodic) widest_ = std::min(widest_, ((axis.upper - axis.lower) / 2.0 - reach_) / 6.0);
+  lists_ = NeighbourLists(flight_.axis(0), flight_.axis(1), radius);
+  widest_ = std::max(flight_.length(0), flight_.length(1));  // that neighbourhood holds the box
+  for (int k = 0; k < 2; ++k)
+    if (flight_.axis(k).periodic) widest_ = std::min(widest_, (flight_.length(k) / 2.0 - reach_) / 6.0);
 }
 
 template <class Impact, class Layout, class World>
@@ -70,15 +70,16 @@ void Engine<Impact, Layout, World>::rebuild(double half_width) {
   // Nearest images are right as long as a pair that may meet is less than half a box apart, now and along its lines back
   // to the epoch. What the neighbourhoods leave of that belongs to the two lines.
   for (int k = 0; k < 2; ++k) {
-    const double length = axes_[k].upper - axes_[k].lower;
+    const double length = flight_.length(k);
     // A sixteenth of the neighbourhood is far more than any rounding of the time at which it is left.
     const double clear = world_.still() ? length / 2.0 - largest_contact_ - half_width * (1.0 + 1.0 / 16.0) : 0.0;
-    clear_[k] = axes_[k].periodic ? INT64_MAX : static_cast<std::int64_t>(std::max(clear, 0.0) / (axes_[k].unit * 0x1p32));
+    clear_[k] =
+        flight_.axis(k).periodic ? INT64_MAX : static_cast<std::int64_t>(std::max(clear, 0.0) / (flight_.axis(k).unit * 0x1p32));
     travel_[k] =
-        axes_[k].periodic ? (length / 2.0 - reach_ - 4.0 * half_width) / 2.0 : length / 2.0 + detail::free_path * spacing_;
+        flight_.axis(k).periodic ? (length / 2.0 - reach_ - 4.0 * half_width) / 2.0 : length / 2.0 + free_path * spacing_;
   }
   if constexpr (!World::plain)
-    if (world_.sliding.present()) leave_room_to_slide(centres);
+    if (world_.sheared()) leave_room_to_slide(centres);
 }
 
 }  // namespace carom

@@ -18,24 +18,14 @@ State Engine<Impact, Layout, World>::state() const {
     const Line& a = line(i);
     const auto column = static_cast<Eigen::Index>(id(i));
     for (int k = 0; k < 2; ++k) {
-      std::int64_t x;
-      std::int64_t image = images_.of(i, k);
-      const std::int64_t way = axes_[k].steps_of(a.v[k] * now_ + world_.fallen(k, now_));
-      if (__builtin_add_overflow(coordinate(a, k), way, &x)) image += way < 0 ? -1 : 1;
-      bool inside = false;
-      if constexpr (!World::plain)
-        if (k == 1 && world_.sliding.present()) keep_in_box(i, x, image), inside = true;
-      double position = axes_[k].position(x);
-      if (axes_[k].periodic && position < axes_[k].lower) position = axes_[k].lower;  // rounded an ulp below
-      if (inside && position >= axes_[k].upper) position = std::nextafter(axes_[k].upper, axes_[k].lower);
-      state.remainders(k, column) = axes_[k].remainder(x, position);
-      if (axes_[k].periodic && position >= axes_[k].upper) position = axes_[k].lower, ++image;
+      const auto [position, remainder, image] = flight_.coordinate_in_box(i, a, k, now_);
       state.positions(k, column) = position;
+      state.remainders(k, column) = remainder;
       state.images(k, column) = image;
     }
   }
   if constexpr (!World::plain)
-    if (world_.sliding.present()) state.shear_displacement = world_.sliding.reduced(now_);
+    if (world_.sheared()) state.shear_displacement = world_.sliding.reduced(now_);
   if constexpr (!Impact::plain) {
     state.bonds = impact_.wells().pairs();
     if (impact_.spinning()) state.spins.resize(count());
@@ -49,7 +39,7 @@ void Engine<Impact, Layout, World>::look_at_velocities(State& state) const {
   state.time = now().high;
   state.velocities.resize(2, count());
   for (std::int32_t i = 0; i < count(); ++i) {
-    const Vec2<double> v = velocity(line(i));
+    const Vec2<double> v = flight_.velocity(line(i), now_);
     state.velocities.col(id(i)) << v[0], v[1];
   }
   state.scale = world_.scale(now_);
@@ -58,9 +48,9 @@ void Engine<Impact, Layout, World>::look_at_velocities(State& state) const {
 
 template <class Impact, class Layout, class World>
 std::size_t Engine<Impact, Layout, World>::bytes() const {
-  return lines_.capacity() * sizeof(Line) + plans_.bytes() + ids_.capacity() * sizeof(std::int32_t) + images_.bytes() +
-         lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() + radius_.capacity() * sizeof(double) +
-         rests_.capacity() * sizeof(rests_[0]) + (places_.capacity() + heights_.capacity()) * sizeof(std::int32_t);
+  return lines_.capacity() * sizeof(Line) + plans_.bytes() + (ids_.capacity() + places_.capacity()) * sizeof(std::int32_t) +
+         flight_.bytes() + lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() +
+         radius_.capacity() * sizeof(double);
 }
 
 template <class Impact, class Layout, class World>
@@ -73,8 +63,8 @@ double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eige
   const double mass = layout_.mass(line(i));
   Vec2<double> to = v;
   if constexpr (!World::plain)
-    if (world_.sliding.present()) to[0] += world_.sliding.flow(middle_[1] + axes_[1].unit * steps_up(i, now_));
-  double gained = mass * (to.squaredNorm() - velocity(line(i)).squaredNorm()) / 2.0;
+    if (world_.sheared()) to[0] += world_.sliding.flow(flight_.height_in_box(i, line(i), now_));
+  double gained = mass * (to.squaredNorm() - flight_.velocity(line(i), now_).squaredNorm()) / 2.0;
   if constexpr (!Impact::plain)
     if (impact_.spinning()) {
       const double radius = layout_.radius(line(i)) * world_.scale(now_);
