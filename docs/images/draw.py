@@ -3,8 +3,8 @@
 
     docs/images/draw.py path/to/carom
 
-Needs python3-h5py, python3-numpy and python3-matplotlib. Writes box.svg and equation_of_state.svg beside this
-file, and prints the table of the latter.
+Needs python3-numpy, python3-matplotlib and ffmpeg. Writes box.gif and equation_of_state.svg beside this file, and
+prints the table of the latter.
 """
 import json
 import pathlib
@@ -12,14 +12,12 @@ import subprocess
 import sys
 import tempfile
 
-import h5py
 import matplotlib
 import numpy as np
 
 matplotlib.use("svg")
 matplotlib.rcParams["svg.hashsalt"] = "carom"
 import matplotlib.pyplot as plt
-from matplotlib.collections import EllipseCollection, LineCollection
 
 here = pathlib.Path(__file__).resolve().parent
 scenes = here.parent / "scenes"
@@ -35,21 +33,9 @@ def run(scene, out, *overrides):
 
 
 def draw_box(directory):
-    run(scenes / "box.toml", directory / "box", "run.time=1.0")
-    with h5py.File(directory / "box" / "trajectory.h5md") as file:
-        particles = file["particles/trajectory"]
-        position = particles["position/value"][-400:, :, :2]
-        speed = np.linalg.norm(particles["velocity/value"][-1, :, :2], axis=1)
-        radius = particles["radius"][:]
-    figure, axes = plt.subplots(figsize=(4.2, 4.2))
-    axes.set(xlim=(-1, 1), ylim=(-1, 1), aspect="equal", xticks=[-1, 0, 1], yticks=[-1, 0, 1])
-    colour = plt.cm.viridis(speed / speed.max())
-    trails = position[:, :, :].transpose(1, 0, 2)[:, ::10]
-    axes.add_collection(LineCollection(trails, colors=colour, linewidths=1.2, alpha=0.55))
-    axes.add_collection(EllipseCollection(2 * radius, 2 * radius, 0, units="x", offsets=position[-1], transOffset=axes.transData,
-                                          facecolors=colour, edgecolors="black", linewidths=0.4))
-    figure.tight_layout()
-    figure.savefig(here / "box.svg", metadata={"Date": None})
+    run(scenes / "box.toml", directory / "box", "run.time=1.5", "output.events=true")
+    film = "--size 360 --fps 15 --speed 0.3 --trails 0.25 --force --quiet"
+    subprocess.run([carom, "movie", str(directory / "box"), "-o", str(here / "box.gif"), *film.split()], check=True)
 
 
 def kolafa_rottner(eta):

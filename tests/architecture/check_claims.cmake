@@ -1,4 +1,4 @@
-# What the documentation names is there: reads README.md, docs/*.md and docs/effects/*.md below SOURCE_DIR and fails with one line for
+# What the documentation names is there: reads README.md, CONTRIBUTING.md, docs/*.md and docs/effects/*.md below SOURCE_DIR and fails with one line for
 # each test, hard case or file named in code style that does not exist, and for each row of docs/claims.md that names nothing.
 #
 #   cmake -D SOURCE_DIR=<checkout> -P tests/architecture/check_claims.cmake
@@ -28,7 +28,7 @@ endforeach()
 
 set(faults "")
 set(count 0)
-file(GLOB pages RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/README.md ${SOURCE_DIR}/docs/*.md ${SOURCE_DIR}/docs/effects/*.md)
+file(GLOB pages RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/README.md ${SOURCE_DIR}/CONTRIBUTING.md ${SOURCE_DIR}/docs/*.md ${SOURCE_DIR}/docs/effects/*.md)
 foreach(page IN LISTS pages)
   file(READ ${SOURCE_DIR}/${page} text)
   string(REGEX REPLACE "[][;]" " " text "${text}")  # what CMake takes for the structure of a list

@@ -78,9 +78,9 @@ TEST(ExampleScenes, TheClassicSceneIsTheClassicScene) {
   EXPECT_NEAR(scene.packing_fraction(), 64 * std::numbers::pi * 0.03 * 0.03 / 4.0, 1e-15);
 }
 
-/// The blocks of TOML in the page that explains the format.
-std::vector<std::string> scenes_of_the_page() {
-  const std::string page = text_of(scenes.parent_path() / "scene-format.md");
+/// The blocks of TOML of a page.
+std::vector<std::string> scenes_of(const std::filesystem::path& path) {
+  const std::string page = text_of(path);
   const std::string begin = "```toml\n";
   std::vector<std::string> blocks;
   for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
@@ -88,6 +88,16 @@ std::vector<std::string> scenes_of_the_page() {
     blocks.push_back(page.substr(at, page.find("```", at) - at));
   }
   return blocks;
+}
+
+/// Those of the page that explains the format.
+std::vector<std::string> scenes_of_the_page() { return scenes_of(scenes.parent_path() / "scene-format.md"); }
+
+TEST(Readme, ItsSceneIsValid) {
+  const std::vector<std::string> blocks = scenes_of(scenes.parent_path().parent_path() / "README.md");
+  ASSERT_EQ(blocks.size(), 1U);
+  EXPECT_EQ(parse_scene(blocks[0]).disk_count(), 64);
+  EXPECT_LE(std::count(blocks[0].begin(), blocks[0].end(), '\n'), 10) << "a scene is ten lines";
 }
 
 TEST(FormatPage, ItsScenesAreValid) {
