@@ -1,7 +1,7 @@
 #pragma once
 // Archives: state written and read back to the last bit, as checkpoints need it. cereal reads; this file adds what cereal lacks:
-// Eigen's matrices, and records of numbers, which are stored as they lie in memory. Equal states give equal bytes: those of a
-// record or number without a value are zeros.
+// Eigen's matrices, and records of numbers, which are stored as they lie in memory. Equal states give equal bytes with
+// every compiler: nothing is written of the padding between members.
 //
 // A class with further state has `template <class Archive> void serialize(Archive& archive)`, which lists its members for both
 // directions. Only a program with the same records can read an archive; io/checkpoint.hpp checks that.
@@ -18,6 +18,7 @@
 #include <cereal/types/vector.hpp>
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -46,21 +47,6 @@ class SavingArchive : public cereal::OutputArchive<SavingArchive, cereal::AllowE
     std::array<char, sizeof(Number)> bytes{};
     std::memcpy(bytes.data(), &number, is_x87 ? 10 : sizeof(Number));
     write(bytes.data(), bytes.size());
-  }
-  /// Whether the bytes between the members of a record are written as zeros. Clang has no word for them: with it they are written
-  /// as they happen to be.
-#if __has_builtin(__builtin_clear_padding)
-  static constexpr bool clears_padding = true;
-#else
-  static constexpr bool clears_padding = false;
-#endif
-  template <class T>
-  void write_record(const T& record) {
-    T written = record;
-#if __has_builtin(__builtin_clear_padding)
-    __builtin_clear_padding(&written);
-#endif
-    write(&written, sizeof(T));
   }
 
  private:
@@ -108,22 +94,36 @@ inline constexpr bool is_of_cereal<cereal::NameValuePair<T>> = true;
 
 }  // namespace detail
 
-/// Archives numbers that are adjacent in memory, some of them perhaps in small matrices. T must not contain pointers or
-/// references: nothing would detect them.
+/// Archives numbers that are adjacent in memory.
 template <class T, class Archive>
 concept Record = std::is_class_v<T> && std::is_trivially_destructible_v<T> && !detail::is_of_cereal<T> &&
                  !requires(T & record, Archive& archive) {
   record.serialize(archive);
 };
 
+namespace detail {
+
+template <std::size_t n>
+constexpr int sum(const std::array<unsigned char, n>& bytes) {
+  int sum = 0;
+  for (const unsigned char byte : bytes) sum += byte;
+  return sum;
+}
+
+/// T has a value for each of its bytes. Bytes of padding have none, so that a constant cannot be made of them.
+template <class T>
+concept WithoutPadding = requires {
+  typename std::bool_constant<(sum(std::bit_cast<std::array<unsigned char, sizeof(T)>>(T{})) >= 0)>;
+};
+
+}  // namespace detail
+
 template <class Archive, class T>
 requires Record<T, Archive>
 void serialize(Archive& archive, T& record) {
-  if constexpr (Archive::is_loading::value) {
-    archive(cereal::binary_data(static_cast<void*>(&record), sizeof(T)));
-  } else {
-    archive.write_record(record);
-  }
+  static_assert(std::is_empty_v<T> || detail::WithoutPadding<T>,
+                "a record with padding or pointers, or without a constant default value, needs a member serialize()");
+  if constexpr (!std::is_empty_v<T>) archive(cereal::binary_data(static_cast<void*>(&record), sizeof(T)));
 }
 
 namespace detail {

@@ -96,6 +96,11 @@ struct FixedAxis {
   /// Returns a length in steps, rounded towards zero. Requires |length| < half the range.
   [[nodiscard]] std::int64_t steps_of(double length) const { return static_cast<std::int64_t>(length * steps); }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(unit, steps, middle, lower, upper, periodic);
+  }
+
  private:
   /// Returns x unit, to 2^-42 of a step: upper and lower bits of x apart, each of which a double holds.
   [[nodiscard]] TwoDoubles from_middle(std::int64_t x) const {

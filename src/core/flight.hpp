@@ -22,6 +22,11 @@ struct alignas(64) SizedFlight {
   double v[2];
   double radius;
   double mass;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(x, v, radius, mass);
+  }
 };
 
 /// Returns a - b as integers that wrap: the nearest image on a periodic axis.

@@ -27,6 +27,11 @@ struct Kick {
   double wait = 0.0;      ///< since the kick before, or since the start
   std::int32_t disk = 0;  ///< the one that is kicked
   Normals normals{};      ///< two for its velocity, one for its spin
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(wait, disk, normals);
+  }
 };
 
 class Andersen {

@@ -49,6 +49,11 @@ class SlidingImages {
   /// The clock's zero moves to `now`.
   void rebase(Real now) { displacement_ = reduced(now); }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(displacement_);
+  }
+
  private:
   bool present_;
   Real rate_;

@@ -165,6 +165,11 @@ class Walls {
     return walls;
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(sides_, draws_);
+  }
+
  private:
   struct Side {
     Real displacement = 0;  ///< outward, at time t
@@ -180,6 +185,11 @@ class Walls {
       return displacement + (velocity * dt + (acceleration * dt) * (dt / 2));
     }
     [[nodiscard]] Real velocity_at(Real when) const { return velocity + acceleration * (when - t); }
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(displacement, velocity, t);
+    }
   };
 
   [[nodiscard]] Side& side(Wall wall) { return sides_[index_of(wall)]; }

@@ -6,20 +6,23 @@
 
 namespace carom {
 
+/// Archives a frame without its pointers, which are those of the engine that reads.
+template <class Archive>
+void serialize(Archive& archive, PredictionFrame& frame) {
+  archive(frame.unit, frame.steps, frame.sigma, frame.half_width, frame.edge_step, frame.scale, frame.growth, frame.well);
+  archive(frame.sliding.displacement, frame.sliding.speed, frame.sliding.inner);
+}
+
 template <class Impact, class Layout, class World>
 template <class Archive>
 void Engine<Impact, Layout, World>::serialize(Archive& archive) {
-  PredictionFrame frame = frame_;  // which knows where in memory things lie
-  frame.inside = nullptr;
-  frame.sliding.heights = nullptr;
-  archive(flight_, frame, impact_, world_);
+  archive(flight_, frame_, impact_, world_);
   archive(lines_, plans_, ids_, radius_, lists_, queue_);
   archive(epoch_, now_, epoch_length_, stamp_, stall_, common_motion_, last_collision_, totals_);
   archive(mean_speed_, reach_, area_, listed_scale_, way_, span_, begun_with_);
   for (int k = 0; k < 2; ++k) archive(travel_[k], clear_[k], speed_limit_[k]);
   archive(tuner_, widest_, settling_, travelled_, left_, changed_, looks_, busy_);
   if constexpr (Archive::is_loading::value) {
-    frame_ = frame;
     recorder_.begin_epoch(epoch_);
     if constexpr (!Impact::plain)
       if (impact_.wells().present()) frame_.inside = impact_.wells().table();

@@ -356,12 +356,22 @@ class TextbookEngine {
     Real radius = 0;
     Real mass = 0;
     std::uint32_t collisions = 0;  ///< so far; tells whether a plan with this disk still holds
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(r, v, t, radius, mass, collisions);
+    }
   };
 
   /// The next wall or obstacle that a disk hits.
   struct BoundaryContact {
     Real time = infinity<Real>;
     std::int32_t what = wall_left;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(time, what);
+    }
   };
 
   struct Plan {
@@ -371,6 +381,11 @@ class TextbookEngine {
     Winding shift = Winding::Zero();  ///< box lengths between this disk and that image of the partner
     BoundaryContact boundary;
     CellCrossing<Real> crossing;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(pair_time, partner, partner_collisions, shift, boundary, crossing);
+    }
   };
 
   static constexpr std::int32_t nobody = -1;

@@ -28,6 +28,11 @@ struct CellCrossing {
   Real time = infinity<Real>;
   std::int8_t axis = 0;
   std::int8_t step = 0;  ///< +1 or -1
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(time, axis, step);
+  }
 };
 
 template <class Real>
@@ -144,7 +149,7 @@ class CellGrid {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(domain_, count_[0], count_[1], width_[0], width_[1], sliding_, slid_least_, slid_most_, first_, places_);
+    archive(count_[0], count_[1], width_[0], width_[1], sliding_, slid_least_, slid_most_, first_, places_);
   }
 
  private:
@@ -155,6 +160,11 @@ class CellGrid {
     std::int32_t next;  ///< in the same cell
     std::int32_t previous;
     Winding winding;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(cell, next, previous, winding);
+    }
   };
 
   [[nodiscard]] Place& at(std::int32_t i) { return places_[static_cast<std::size_t>(i)]; }

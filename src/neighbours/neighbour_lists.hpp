@@ -101,6 +101,11 @@ class NeighbourLists {
   struct Size {
     std::size_t disks;
     float largest;  ///< radius
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(disks, largest);
+    }
   };
   std::vector<Size> sizes_;                 ///< of the layers, falling
   std::vector<NeighbourhoodCells> layers_;  ///< one per size

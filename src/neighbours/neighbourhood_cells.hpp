@@ -185,6 +185,11 @@ class NeighbourhoodCells {
           static_cast<std::int64_t>(std::clamp((centre - lower) * per_step, 0.0, static_cast<double>(columns - 1)));
       return static_cast<std::int32_t>(columns == cells ? column : column % cells);
     }
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(columns, cells, periodic, lower, per_step);
+    }
   };
 
   /// Calls visit(cell) for every cell of a range, row by row.

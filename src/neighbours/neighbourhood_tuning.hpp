@@ -64,6 +64,11 @@ class HalfWidthSearch {
     return base_;
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(stage_, base_, base_work_, trial_work_, factor_, improved_, settled_for_);
+  }
+
  private:
   enum class Stage { base, trial, base_again, settled };
   static constexpr double step = 1.25;

@@ -54,6 +54,11 @@ class ShearedNeighbourhoods {
     return gap_x * gap_x + gap_y * gap_y <= sigma * sigma;
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(unit_, displacement_, way_, two_halves_, inner_);
+  }
+
  private:
   [[nodiscard]] static std::int32_t wrapped(std::int64_t steps) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(steps));

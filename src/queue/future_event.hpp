@@ -18,6 +18,11 @@ struct FutureEvent {
 struct Upcoming {
   double time;
   std::int32_t disk;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(time, disk);
+  }
 };
 
 }  // namespace carom

@@ -35,6 +35,11 @@ class PressureWindow {
     return 4.0 * packing_fraction / std::numbers::pi * z;
   }
 
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(time_, pairs_, virial_, energy_time_);
+  }
+
  private:
   PressureWindow(const PressureWindow& like, int) : disks_(like.disks_), freedom_(like.freedom_), length_(like.length_) {}
 

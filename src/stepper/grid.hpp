@@ -46,6 +46,11 @@ class ClosePairs {
     Vec2<double> r;
     double radius;
     std::uint32_t disk;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(r, radius, disk);
+    }
   };
   struct Touching {
     std::uint32_t i, j;
