@@ -1,8 +1,8 @@
 #pragma once
 // Neighbour lists. Every disk has a neighbourhood, a square of half-width h round a centre that stays where it is until the disk
 // leaves the square (the bounding neighbourhood of Donev, Torquato & Stillinger, J. Comput. Phys. 202, 737 (2005)). Two disks are
-// on each other's lists exactly if their neighbourhoods come within contact. A prediction looks at the list alone, and when a disk
-// leaves its neighbourhood only the lists of the disks near it change.
+// on each other's lists exactly if their neighbourhoods come within contact. A prediction looks at the list alone, and when a
+// disk leaves its neighbourhood only the lists of the disks near it change.
 //
 // Positions and velocities are not known here: neighbourhoods are given and taken in steps of 2^32 of a coordinate
 // (core/flight.hpp), so that differences wrap to the nearest image. Disks of very different size are kept in layers, radii within

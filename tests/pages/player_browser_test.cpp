@@ -88,7 +88,8 @@ void expect_positions_of_the_engine(const Scene& scene, double until) {
 
 TEST(BrowserPlayer, EveryControlDoesWhatItSays) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  const Visit visit = played(parse_scene(watched_gas), script("page_checks.js") + script("run_player_checks.js") + script("player_controls.js"));
+  const Visit visit =
+      played(parse_scene(watched_gas), script("page_checks.js") + script("run_player_checks.js") + script("player_controls.js"));
   expect_clean(visit);
   EXPECT_EQ(data(visit, "failures"), "");
   EXPECT_GT(std::stoi(data(visit, "checks")), 100);

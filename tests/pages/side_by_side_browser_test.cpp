@@ -94,7 +94,8 @@ TEST(BrowserSideBySide, EveryControlDoesWhatItSaysAndOverlapsFlashWhereThereAreS
   if (!has_browser()) GTEST_SKIP() << no_browser;
   const Scene scene = parse_scene(flown_gas);
   const SideBySide shown = flown_in_steps(scene, "guarded");
-  const Visit visit = played(scene, shown, script("page_checks.js") + script("side_by_side_checks.js") + script("player_controls.js"));
+  const Visit visit =
+      played(scene, shown, script("page_checks.js") + script("side_by_side_checks.js") + script("player_controls.js"));
   expect_clean(visit);
   EXPECT_EQ(data(visit, "failures"), "");
   EXPECT_GT(std::stoi(data(visit, "checks")), 200);
