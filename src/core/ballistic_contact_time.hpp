@@ -13,14 +13,14 @@
 
 namespace carom {
 
-/// A separation r + v t + g t^2/2 and a contact distance sigma + growth t.
+/// A separation r + v t + g t^2/2 and a contact distance sigma + expansion t.
 template <class Real>
 struct BallisticApproach {
   Vec2<Real> r;
   Vec2<Real> v;
   Vec2<Real> g;
   Real sigma;
-  Real growth;
+  Real expansion;
 
   [[nodiscard]] Vec2<Real> separation(Real t) const { return r + t * (v + (t / 2) * g); }
   [[nodiscard]] Vec2<Real> velocity(Real t) const { return v + t * g; }
@@ -29,40 +29,39 @@ struct BallisticApproach {
   [[nodiscard]] ValueAndSlope<Real> rate(Real t) const {
     const Vec2<Real> at = separation(t);
     const Vec2<Real> u = velocity(t);
-    return {at.dot(u) - (sigma + growth * t) * growth, u.squaredNorm() + at.dot(g) - growth * growth};
+    return {at.dot(u) - (sigma + expansion * t) * expansion, u.squaredNorm() + at.dot(g) - expansion * expansion};
   }
   /// Returns |separation|^2 - (contact distance)^2: its sign is that of the gap; and its rate.
   [[nodiscard]] ValueAndSlope<Real> overlap(Real t) const {
     const Vec2<Real> at = separation(t);
-    const Real reach = sigma + growth * t;
-    return {at.squaredNorm() - reach * reach, 2 * (at.dot(velocity(t)) - reach * growth)};
+    const Real reach = sigma + expansion * t;
+    return {at.squaredNorm() - reach * reach, 2 * (at.dot(velocity(t)) - reach * expansion)};
   }
 
   /// More than overlap(t) is wrong by.
   [[nodiscard]] Real rounding(Real t) const {
-    const Real reach = sigma + growth * t;
+    const Real reach = sigma + expansion * t;
     return 128 * epsilon<Real> * (r.squaredNorm() + t * t * (v.squaredNorm() + t * t * g.squaredNorm()) + reach * reach);
   }
 
-  /// Returns a time from which on the disks recede for ever: at t >= 8 x where |v| and growth are at most |g| x, |r| and sigma at
-  /// most
-  /// |g| x^2, rate(t) > |g|^2 t^3 / 4.
+  /// Returns a time from which on the disks recede for ever: at t >= 8 x where |v| and expansion are at most |g| x, |r| and sigma
+  /// at most |g| x^2, rate(t) > |g|^2 t^3 / 4.
   [[nodiscard]] Real horizon() const {
     using std::sqrt;
     const Real strength = sqrt(g.squaredNorm());
-    const Real speed = std::max<Real>(sqrt(v.squaredNorm()), growth);
+    const Real speed = std::max<Real>(sqrt(v.squaredNorm()), expansion);
     const Real length = std::max<Real>(sqrt(r.squaredNorm()), sigma);
     return 8 * std::max<Real>(speed / strength, sqrt(length / strength));
   }
 
   /// Returns the times at which the slope of rate() is zero, in ascending order: the roots of (3/2) g^2 t^2 + 3 g.v t + (v^2 +
   /// g.r
-  /// - growth^2) = 0. Returns infinity twice if there are none.
+  /// - expansion^2) = 0. Returns infinity twice if there are none.
   [[nodiscard]] std::array<Real, 2> bends() const {
     using std::sqrt;
     const Real a = 3 * g.squaredNorm() / 2;
     const Real half_b = 3 * g.dot(v) / 2;
-    const Real c = v.squaredNorm() + g.dot(r) - growth * growth;
+    const Real c = v.squaredNorm() + g.dot(r) - expansion * expansion;
     const Real d = half_b * half_b - a * c;
     if (!(d > 0)) return {infinity<Real>, infinity<Real>};
     const Real q = half_b > 0 ? -half_b - sqrt(d) : sqrt(d) - half_b;  // no cancellation; not zero, since d > 0
@@ -70,25 +69,25 @@ struct BallisticApproach {
   }
 };
 
-/// First time t in [0, until] at which |r + v t + g t^2/2| = sigma + growth t while the gap shrinks. Zero where the disks touch
-/// or overlap already and approach, or are about to (rate zero and falling); infinity where there is none by then. Disks that
-/// touch or overlap by rounding and recede, but turn back before they are apart, are in contact when they turn back. Touching
-/// exactly in passing counts as contact.
+/// First time t in [0, until] at which |r + v t + g t^2/2| = sigma + expansion t while the gap shrinks. Zero where the disks
+/// touch or overlap already and approach, or are about to (rate zero and falling); infinity where there is none by then. Disks
+/// that touch or overlap by rounding and recede, but turn back before they are apart, are in contact when they turn back.
+/// Touching exactly in passing counts as contact.
 ///
-/// sigma > 0 (length), growth >= 0 (length/time), until >= 0, infinity allowed; it cuts, but the bits of the time do not depend
-/// on it. g = 0 gives the bits of contact_time. Error: with H = |r| + |v| t + |g| t^2/2 + sigma + growth t and u = epsilon/2, the
-/// distance at the time t returned differs from sigma + growth t by at most 16 u H for disks that are apart, and no contact is
-/// missed, nor one found where there is none, unless the smallest gap of that approach is within 16 u H of zero. No overflow or
-/// underflow of squares is assumed, at t up to horizon().
+/// sigma > 0 (length), expansion >= 0 (length/time), until >= 0, infinity allowed; it cuts, but the bits of the time do not
+/// depend on it. g = 0 gives the bits of contact_time. Error: with H = |r| + |v| t + |g| t^2/2 + sigma + expansion t and u =
+/// epsilon/2, the distance at the time t returned differs from sigma + expansion t by at most 16 u H for disks that are apart,
+/// and no contact is missed, nor one found where there is none, unless the smallest gap of that approach is within 16 u H of
+/// zero. No overflow or underflow of squares is assumed, at t up to horizon().
 template <class Real>
-[[nodiscard]] Real ballistic_contact_time(const Vec2<Real>& r, const Vec2<Real>& v, const Vec2<Real>& g, Real sigma, Real growth,
-                                          Real until) {
+[[nodiscard]] Real ballistic_contact_time(const Vec2<Real>& r, const Vec2<Real>& v, const Vec2<Real>& g, Real sigma,
+                                          Real expansion, Real until) {
   using std::sqrt;
   if (!(g.squaredNorm() > 0)) {
-    const Real t = contact_time<Real>(r, v, sigma, growth);
+    const Real t = contact_time<Real>(r, v, sigma, expansion);
     return t <= until ? t : infinity<Real>;
   }
-  const BallisticApproach<Real> approach{r, v, g, sigma, growth};
+  const BallisticApproach<Real> approach{r, v, g, sigma, expansion};
   const auto rate = [&approach](Real t) { return approach.rate(t); };
   const auto receding_rate = [&approach](Real t) {
     const ValueAndSlope<Real> at = approach.rate(t);

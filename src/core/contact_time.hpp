@@ -34,29 +34,30 @@ template <class Real>
   return c / (sqrt(d) - b);
 }
 
-/// Returns the contact time for a contact distance that grows as sigma + growth t: the first t >= 0 at which |r + v t| = sigma +
-/// growth t while |r + v t|^2 - (sigma + growth t)^2 decreases. Returns zero where the disks touch or overlap already and the gap
-/// shrinks. Where the gap opens but growth closes it again (growth > |v|), returns the time at which it has closed. Touching
-/// disks whose gap opens never meet again unless growth > |v|. With growth 0 the result has the bits of the function above.
+/// Returns the contact time for a contact distance that grows as sigma + expansion t: the first t >= 0 at which |r + v t| = sigma
+/// + expansion t while |r + v t|^2 - (sigma + expansion t)^2 decreases. Returns zero where the disks touch or overlap already and
+/// the gap shrinks. Where the gap opens but expansion closes it again (expansion > |v|), returns the time at which it has closed.
+/// Touching disks whose gap opens never meet again unless expansion > |v|. With expansion 0 the result has the bits of the
+/// function above.
 ///
-/// growth >= 0: length/time. All arguments finite. Error: with h = |r| + sigma + (|v| + growth) t, the distance at the returned
-/// time t differs from sigma + growth t by at most 16 u k h, where k = |v| / sqrt(v^2 - growth^2) for growth < |v| and 1
-/// otherwise: disks that grow nearly as fast as they approach stay close to contact for long. For growth < |v| a hit can be taken
-/// for a miss, or a miss for a hit, only where the smallest gap is below 8 u k h at that time; for growth > |v| the disks always
-/// meet.
+/// expansion >= 0: length/time. All arguments finite. Error: with h = |r| + sigma + (|v| + expansion) t, the distance at the
+/// returned time t differs from sigma + expansion t by at most 16 u k h, where k = |v| / sqrt(v^2 - expansion^2) for expansion <
+/// |v| and 1 otherwise: disks that grow nearly as fast as they approach stay close to contact for long. For expansion < |v| a hit
+/// can be taken for a miss, or a miss for a hit, only where the smallest gap is below 8 u k h at that time; for expansion > |v|
+/// the disks always meet.
 template <class Real>
-[[nodiscard]] Real contact_time(const Vec2<Real>& r, const Vec2<Real>& v, Real sigma, Real growth) {
+[[nodiscard]] Real contact_time(const Vec2<Real>& r, const Vec2<Real>& v, Real sigma, Real expansion) {
   using std::sqrt;
-  if (growth == 0) return contact_time<Real>(r, v, sigma);
-  const Real b = r.dot(v) - sigma * growth;  // half the rate at which |.|^2 - (.)^2 changes
-  const Real a = v.squaredNorm() - growth * growth;
+  if (expansion == 0) return contact_time<Real>(r, v, sigma);
+  const Real b = r.dot(v) - sigma * expansion;  // half the rate at which |.|^2 - (.)^2 changes
+  const Real a = v.squaredNorm() - expansion * expansion;
   if (!(b < 0) && !(a < 0)) return infinity<Real>;  // the gap never shrinks
 
   const auto beyond_contact = [&r, sigma] {
     const Real distance = sqrt(r.squaredNorm());
     return (distance - sigma) * (distance + sigma);
   };
-  if (a < 0) {  // growth wins: they are sure to meet
+  if (a < 0) {  // expansion wins: they are sure to meet
     const Real c = beyond_contact();
     if (b < 0 && c <= 0) return 0;
     const Real d = b * b - a * c;  // of one sign, but for an overlap by rounding
@@ -64,7 +65,7 @@ template <class Real>
     return b < 0 ? c / (root - b) : (b + root) / -a;
   }
 
-  const Vec2<Real> w = v - (growth / sigma) * r;  // relative to the expansion that sigma takes part in: r x w = r x v
+  const Vec2<Real> w = v - (expansion / sigma) * r;  // relative to the widening that sigma takes part in: r x w = r x v
   const Real s = cross<Real>(r, v);
   const Real d = sigma * sigma * w.squaredNorm() - s * s;  // b^2 - a c, whose terms cancel here
   if (d < 0) return infinity<Real>;                        // they pass each other

@@ -29,9 +29,9 @@ struct PredictionFrame {
   /// The time at which a disk leaves its neighbourhood is rounded down to steps of this length (a power of two; 0 for none). It
   /// is nothing physical, and with a time of few bits as `now` the predictions made then are exact for dyadic data.
   double edge_step = 0.0;
-  double scale = 1.0;   ///< scale of all radii at the epoch; beyond 1 only for the kernel of growing disks
-  double growth = 0.0;  ///< growth of the scale per time
-  double well = 1.0;    ///< outer over hard diameter; beyond 1 only for the kernel of wells
+  double scale = 1.0;      ///< scale of all radii at the epoch; beyond 1 only for the kernel of growing disks
+  double expansion = 0.0;  ///< expansion of the scale per time
+  double well = 1.0;       ///< outer over hard diameter; beyond 1 only for the kernel of wells
   const std::vector<std::int32_t>* inside = nullptr;  ///< for the kernel of wells: for each disk, those inside its well
   SlidingFrame sliding = {};
 };

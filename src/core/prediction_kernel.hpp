@@ -98,7 +98,7 @@ CAROM_INLINE Longs load(const Line& line) {
   return *reinterpret_cast<const StoredLongs*>(&line);
 }
 
-/// When `mine` meets each of four others. Growing disks: core/contact_time.hpp has the formulas; without growth they are the
+/// When `mine` meets each of four others. Growing disks: core/contact_time.hpp has the formulas; without expansion they are the
 /// same.
 template <bool growing, class Line>
 CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& frame, const Mine& mine, const std::int32_t* ids,
@@ -127,8 +127,8 @@ CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& fra
     const Longs meets = (b < all(0.0)) & (d >= all(0.0));
     return meets ? all(now) + wait : all(never);
   } else {
-    const Doubles a = sigma * all(frame.growth);
-    sigma = sigma * all(frame.scale + frame.growth * now);
+    const Doubles a = sigma * all(frame.expansion);
+    sigma = sigma * all(frame.scale + frame.expansion * now);
     const Doubles h = a / sigma, wx = vx - h * x, wy = vy - h * y;
     const Doubles sigma2 = sigma * sigma;
     const Doubles b = (x * vx + y * vy) - sigma * a;

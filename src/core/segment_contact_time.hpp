@@ -26,18 +26,18 @@ struct Segment {
   }
 };
 
-/// A point r + v t + g t^2/2 with a disk of radius + growth t round it.
+/// A point r + v t + g t^2/2 with a disk of radius + expansion t round it.
 template <class Real>
 struct DiskPath {
   Vec2<Real> r;
   Vec2<Real> v;
   Vec2<Real> g;
   Real radius;
-  Real growth;
+  Real expansion;
 
   [[nodiscard]] Vec2<Real> at(Real t) const { return r + t * (v + (t / 2) * g); }
   /// Returns the rest of this path from time t on.
-  [[nodiscard]] DiskPath after(Real t) const { return {at(t), v + t * g, g, radius + growth * t, growth}; }
+  [[nodiscard]] DiskPath after(Real t) const { return {at(t), v + t * g, g, radius + expansion * t, expansion}; }
 };
 
 /// A coordinate of a path along one direction: x + v t + a t^2/2.
@@ -80,8 +80,8 @@ struct PathAtSegment {
     return length > 0 && x >= -slack && x <= length + slack;
   }
   /// Returns whether the gap to the face that the centre is in front of shrinks at time t.
-  [[nodiscard]] bool approaches(Real t, Real growth) const {
-    return (height.at(t) < 0 ? -height.rate(t) : height.rate(t)) < growth;
+  [[nodiscard]] bool approaches(Real t, Real expansion) const {
+    return (height.at(t) < 0 ? -height.rate(t) : height.rate(t)) < expansion;
   }
   /// Returns the time at which a centre that is abreast at the start no longer is, by more than rounding.
   [[nodiscard]] Real exit() const {
@@ -97,7 +97,7 @@ struct PathAtSegment {
   /// missed by rounding. Without that a disk could slip under a face at its seam with the end.
   [[nodiscard]] Real face_contact_time(const DiskPath<Real>& path, bool to_the_left) const {
     const Coordinate<Real> above = to_the_left ? height : height.reversed();
-    const Coordinate<Real> gap{above.x - path.radius, above.v - path.growth, above.a};
+    const Coordinate<Real> gap{above.x - path.radius, above.v - path.expansion, above.a};
     const bool behind = to_the_left ? height.x < 0 : height.x >= 0;
     const Real t = behind ? return_time(gap.x, gap.v, gap.a) : fall_time(gap.x, gap.v, gap.a);
     if (!(t < infinity<Real>) || is_abreast(t)) return t;
@@ -114,7 +114,7 @@ struct PathAtSegment {
 /// First time t >= 0 at which the disk is in contact with a face of the segment and the gap shrinks, or is about to. Zero where
 /// it touches or overlaps already.
 ///
-/// Error: with H = |r| + |from| + length + |v| t + |g| t^2/2 + radius + growth t, the distance from the segment at the time t
+/// Error: with H = |r| + |from| + length + |v| t + |g| t^2/2 + radius + expansion t, the distance from the segment at the time t
 /// returned differs from the radius by at most 32 u H for disks that are apart; so does it where contact is missed or invented.
 template <class Real>
 [[nodiscard]] Real face_contact_time(const DiskPath<Real>& path, const Segment<Real>& segment) {

@@ -43,9 +43,9 @@ class AnyImpact {
     Vec2<Real>& v;
   };
 
-  /// Disks i and j meet at separation r = r_i - r_j at time `now`, at their hard cores or at the edge of their well. `growth`: of
-  /// their contact distance. Changes velocities and keeps count. Returns InelasticResult::smallness.
-  Real meet(const Vec2<Real>& r, Real growth, const Body& i, const Body& j, Real now, RunningTotals& totals) {
+  /// Disks i and j meet at separation r = r_i - r_j at time `now`, at their hard cores or at the edge of their well. `expansion`:
+  /// of their contact distance. Changes velocities and keeps count. Returns InelasticResult::smallness.
+  Real meet(const Vec2<Real>& r, Real expansion, const Body& i, const Body& j, Real now, RunningTotals& totals) {
     const Real before = i.v.x();
     InelasticResult<Real> impact;
     if (wells_.present() && wells_.at_edge(r, i.radius + j.radius)) {
@@ -54,9 +54,9 @@ class AnyImpact {
     } else {
       ++totals.pair;
       if (owing_) settle(i, j);
-      impact = by_rule_alone_ && growth == 0 ? InelasticResult<Real>{collide(r, i, j)} : collide(r, growth, i, j, now);
+      impact = by_rule_alone_ && expansion == 0 ? InelasticResult<Real>{collide(r, i, j)} : collide(r, expansion, i, j, now);
       if (impact.lost != 0) totals.dissipated.add(static_cast<double>(impact.lost));
-      if (growth > 0) totals.growth_energy.add(static_cast<double>(impact.energy + impact.lost));
+      if (expansion > 0) totals.growth_energy.add(static_cast<double>(impact.energy + impact.lost));
     }
     totals.virial.add(static_cast<double>(impact.virial));
     if (sheared_) totals.virial_yx.add(static_cast<double>(r.y() * i.mass * (i.v.x() - before)));
@@ -101,9 +101,9 @@ class AnyImpact {
     return rule_ == CollisionRule::reversal ? carom::collide<Reversal, Real>(r, i.mass, i.v, j.mass, j.v)
                                             : carom::collide<Specular, Real>(r, i.mass, i.v, j.mass, j.v);
   }
-  InelasticResult<Real> collide(const Vec2<Real>& r, Real growth, const Body& i, const Body& j, Real now) {
+  InelasticResult<Real> collide(const Vec2<Real>& r, Real expansion, const Body& i, const Body& j, Real now) {
     const bool elastic = rests(i.disk, now) || rests(j.disk, now);
-    const Inelasticity<Real> how{elastic ? Real(1) : turn_, growth};
+    const Inelasticity<Real> how{elastic ? Real(1) : turn_, expansion};
     InelasticResult<Real> result = rule_ == CollisionRule::reversal
                                        ? carom::collide<Reversal, Real>(r, i.mass, i.v, j.mass, j.v, how)
                                        : carom::collide<Specular, Real>(r, i.mass, i.v, j.mass, j.v, how);

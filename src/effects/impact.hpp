@@ -33,8 +33,8 @@ struct InelasticResult : ImpactResult<Real> {
 /// How a collision differs from that of elastic disks of constant size.
 template <class Real>
 struct Inelasticity {
-  Real turn = 1;    ///< (1 + e) / 2 for restitution e: the share of d that is turned round
-  Real growth = 0;  ///< of the contact distance: length / time, >= 0
+  Real turn = 1;       ///< (1 + e) / 2 for restitution e: the share of d that is turned round
+  Real expansion = 0;  ///< of the contact distance: length / time, >= 0
 };
 
 namespace detail {
@@ -109,19 +109,19 @@ ImpactResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real 
 }
 
 /// The same for disks that lose energy or grow: the rule acts on the velocity v - a n with which their surfaces approach, a the
-/// growth of the contact distance. With turn 1 and growth 0 the bits are those of the function above.
+/// expansion of the contact distance. With turn 1 and expansion 0 the bits are those of the function above.
 template <class Rule, class Real>
 InelasticResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j,
                               const Inelasticity<Real>& how) {
-  if (how.turn == 1 && how.growth == 0) return {collide<Rule, Real>(r, m_i, v_i, m_j, v_j)};
+  if (how.turn == 1 && how.expansion == 0) return {collide<Rule, Real>(r, m_i, v_i, m_j, v_j)};
   using std::sqrt;
   const Vec2<Real> v = v_i - v_j;
   const Real distance = sqrt(r.squaredNorm());
-  const Real least = how.growth * distance;  // of r . v, for surfaces that do not approach
+  const Real least = how.expansion * distance;  // of r . v, for surfaces that do not approach
   const Real b = r.dot(v) - least;
   if (!(b < 0)) return {};
 
-  const Vec2<Real> surfaces = v - (how.growth / distance) * r;
+  const Vec2<Real> surfaces = v - (how.expansion / distance) * r;
   const Vec2<Real> d = how.turn * Rule::turned(r, surfaces, b);
   // mu / 2 (|v - 2 d|^2 - v^2) = 2 mu (d^2 - d . v)
   const Real gained = detail::twice_reduced<Real>(d.dot(d - v), m_i, m_j);

@@ -82,7 +82,7 @@ double ObstacleBins::end_of(const SearchPath& path) const {
       until = std::min(until, far * lengths.maxCoeff() / path.v.cwiseAbs().maxCoeff());
     }
   }
-  if (path.growth > 0.0) until = std::min(until, 2.0 * lengths.sum() / path.growth);  // has filled the box by then
+  if (path.expansion > 0.0) until = std::min(until, 2.0 * lengths.sum() / path.expansion);  // has filled the box by then
   return until;
 }
 
@@ -94,7 +94,7 @@ double ObstacleBins::end_of_piece(const SearchPath& path, double from, double un
     if (v[a] != 0.0) time = std::min(time, width_[a] / std::abs(v[a]));
     if (path.g[a] != 0.0) time = std::min(time, std::sqrt(width_[a] / std::abs(path.g[a])));
   }
-  if (path.growth > 0.0) time = std::min(time, width_.minCoeff() / path.growth);
+  if (path.expansion > 0.0) time = std::min(time, width_.minCoeff() / path.expansion);
   return std::min(until, from + std::max(time, 1e-12 * from));
 }
 
@@ -103,8 +103,8 @@ ObstacleBins::Range ObstacleBins::range_of(const SearchPath& path, double from, 
   const bool rests = path.v.isZero(0.0) && path.g.isZero(0.0);  // and `to` may be infinite
   const Eigen::Vector2d first = rests ? path.r : at(from);
   const Eigen::Vector2d last = rests ? path.r : at(to);
-  const double moving = rests && path.growth == 0.0 ? 0.0 : to;
-  const double reach = path.radius + path.growth * moving;
+  const double moving = rests && path.expansion == 0.0 ? 0.0 : to;
+  const double reach = path.radius + path.expansion * moving;
   const double sag = path.g.norm() * (moving - from) * (moving - from) / 8;  // of a parabola, from its chord
   const double way = path.r.norm() + box_.lengths().sum() + moving * (path.v.norm() + moving / 2 * path.g.norm()) + reach;
   const Eigen::Vector2d around = Eigen::Vector2d::Constant(reach + sag + 64 * path.rounding * way);

@@ -21,13 +21,13 @@ struct ObstacleBounds {
   Eigen::Vector2d upper;
 };
 
-/// r + v t + g t^2/2 for 0 <= t <= until, with a disk of radius + growth t round it.
+/// r + v t + g t^2/2 for 0 <= t <= until, with a disk of radius + expansion t round it.
 struct SearchPath {
   Eigen::Vector2d r;
   Eigen::Vector2d v;
   Eigen::Vector2d g;
   double radius;
-  double growth;
+  double expansion;
   double until;
   double rounding;  ///< of the number type that contacts are computed in
 };

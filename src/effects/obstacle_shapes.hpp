@@ -47,7 +47,7 @@ template <class Real>
           in_double(path.v),
           in_double(path.g),
           static_cast<double>(path.radius),
-          static_cast<double>(path.growth),
+          static_cast<double>(path.expansion),
           static_cast<double>(until),
           std::max(static_cast<double>(epsilon<Real>), 0x1p-52)};
 }
@@ -90,7 +90,8 @@ class ObstacleShapes {
     seen.r -= shift(image);
     if (const auto* disk = std::get_if<Disk>(&shape(o))) {
       return take(first,
-                  point_contact_time({seen.r - disk->centre, path.v, path.g, disk->radius + path.radius, path.growth}, until), o);
+                  point_contact_time({seen.r - disk->centre, path.v, path.g, disk->radius + path.radius, path.expansion}, until),
+                  o);
     }
     const auto& segment = std::get<Segment<Real>>(shape(o));
     if (const Real t = face_contact_time(seen, segment); t <= until) take(first, t, o);
@@ -126,7 +127,7 @@ class ObstacleShapes {
   [[nodiscard]] static Real point_contact_time(DiskPath<Real> path, Real until) {
     Real start = 0;
     while (start <= until) {
-      const Real t = ballistic_contact_time<Real>(path.r, path.v, path.g, path.radius, path.growth, until - start);
+      const Real t = ballistic_contact_time<Real>(path.r, path.v, path.g, path.radius, path.expansion, until - start);
       if (!(t < infinity<Real>)) break;
       start += t;
       path = path.after(t);
@@ -147,7 +148,7 @@ class ObstacleShapes {
     const Real distance = sqrt(path.r.squaredNorm());
     if (!(distance > 0)) return 0;
     const Vec2<Real> n = path.r / distance;
-    const Real along = cross<Real>(n, path.v), approach = path.growth - n.dot(path.v);
+    const Real along = cross<Real>(n, path.v), approach = path.expansion - n.dot(path.v);
     const Real away = along * along / distance + n.dot(path.g);
     const Real rounding = 32 * epsilon<Real> * path.radius;
     if (!(away > 0) || approach * approach > 2 * away * rounding) return 0;
@@ -167,13 +168,13 @@ class ObstacleShapes {
     Real start = 0;
     DiskPath<Real> rest = path;
     for (std::size_t tries = 0; tries < 2 + 2 * joints.size(); ++tries) {
-      const Real t = point_contact_time({rest.r - end, rest.v, rest.g, rest.radius, rest.growth}, until - start);
+      const Real t = point_contact_time({rest.r - end, rest.v, rest.g, rest.radius, rest.expansion}, until - start);
       if (!(t < infinity<Real>)) return;
       const Joint* passed = nullptr;
       for (const Joint& joint : joints) {
         const PathAtSegment<Real> seen = at_joint(rest, joint);
         if (!seen.is_abreast(t)) continue;
-        if (seen.approaches(t, rest.growth)) return take(first, start + t, joint.segment);
+        if (seen.approaches(t, rest.expansion)) return take(first, start + t, joint.segment);
         if (!passed) passed = &joint;
       }
       if (!passed) return take(first, start + t, joints.front().segment);

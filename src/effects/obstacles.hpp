@@ -27,17 +27,17 @@ class Obstacles {
   [[nodiscard]] bool empty() const { return shapes_.count() == 0; }
   [[nodiscard]] std::size_t bytes() const { return shapes_.bytes() + bins_.bytes(); }
 
-  /// First meeting of a disk on the path r + v s + g s^2/2, 0 <= s <= until, its radius being radius + growth s, with any
+  /// First meeting of a disk on the path r + v s + g s^2/2, 0 <= s <= until, its radius being radius + expansion s, with any
   /// obstacle; of meetings at the same time, with the obstacle of the lowest index. Disks that touch or overlap an obstacle and
   /// approach it meet it now; those that recede do not.
   ///
   /// radius > 0. r may lie beyond a periodic edge, and the path cross any number of them. `until` may be infinite, where gravity
   /// acts only across walls: the path then ends where its centre leaves the box across a wall, or after 10^4 box lengths, and
   /// a disk that has met nothing by then meets nothing. Errors: those of contact_time and its kin.
-  [[nodiscard]] Meeting next(const Vec2<Real>& r, const Vec2<Real>& v, const Vec2<Real>& g, Real radius, Real growth,
+  [[nodiscard]] Meeting next(const Vec2<Real>& r, const Vec2<Real>& v, const Vec2<Real>& g, Real radius, Real expansion,
                              Real until) const {
     if (empty()) return {};
-    const DiskPath<Real> path{r, v, g, radius, growth};
+    const DiskPath<Real> path{r, v, g, radius, expansion};
     Meeting first;
     bins_.follow(
         search_path(path, until),

@@ -42,10 +42,10 @@ struct Bounce {
 /// A disk meets a fixed, smooth, elastic surface; `normal` points from there to its centre.
 template <class Real>
 [[nodiscard]] Bounce<Real> bounce_off(const Vec2<Real>& normal, Vec2<Real>& v, const Vec2<Real>& g, Real mass, Real radius,
-                                      Real growth) {
+                                      Real expansion) {
   using std::sqrt;
   const Real distance = sqrt(normal.squaredNorm());
-  const Vec2<Real> surface = v - (growth / distance) * normal;
+  const Vec2<Real> surface = v - (expansion / distance) * normal;
   const Real b = normal.dot(surface);
   const Vec2<Real> before = v;
   if (b < 0) v -= 2 * Specular::turned<Real>(normal, surface, b);
@@ -53,7 +53,7 @@ template <class Real>
   const Real parting = rebound<Real>(closing, 1, -normal.dot(g) / distance, radius);
   if (parting != closing) v += ((parting - closing) / distance) * normal;
   const Vec2<Real> impulse = mass * (before - v);
-  return {impulse, growth > 0 ? -impulse.dot(before + v) / 2 : Real(0)};
+  return {impulse, expansion > 0 ? -impulse.dot(before + v) / 2 : Real(0)};
 }
 
 }  // namespace carom

@@ -46,16 +46,17 @@ class Walls {
   [[nodiscard]] Real since(Wall wall) const { return side(wall).t; }
 
   /// How long it takes a disk to reach the side, from time t >= since(wall). `room`: from the disk's edge to where the side of
-  /// the box was at the start, `outward` and `acceleration`: the disk's, `growth`: of its radius, all at t. Infinite for never.
-  [[nodiscard]] Real contact(Wall wall, Real room, Real outward, Real acceleration, Real growth, Real t) const {
+  /// the box was at the start, `outward` and `acceleration`: the disk's, `expansion`: of its radius, all at t. Infinite for
+  /// never.
+  [[nodiscard]] Real contact(Wall wall, Real room, Real outward, Real acceleration, Real expansion, Real t) const {
     const Side& s = side(wall);
-    return fall_time<Real>(room + s.displacement_at(t), (s.velocity_at(t) - outward) - growth, s.acceleration - acceleration);
+    return fall_time<Real>(room + s.displacement_at(t), (s.velocity_at(t) - outward) - expansion, s.acceleration - acceleration);
   }
 
   /// Whether a disk that moves like that at time t >= since(wall) never comes nearer to the side: contact() is infinite then.
-  [[nodiscard]] bool recedes(Wall wall, Real outward, Real acceleration, Real growth, Real t) const {
+  [[nodiscard]] bool recedes(Wall wall, Real outward, Real acceleration, Real expansion, Real t) const {
     const Side& s = side(wall);
-    return (s.velocity_at(t) - outward) - growth >= 0 && s.acceleration >= acceleration;
+    return (s.velocity_at(t) - outward) - expansion >= 0 && s.acceleration >= acceleration;
   }
 
   /// What a contact did.
@@ -69,7 +70,7 @@ class Walls {
 
   /// The disk hits the side at time t: changes its velocity, and a piston's. `g` is the acceleration of the disk, `elastic`
   /// whether it may lose nothing (TC model).
-  Hit meet(Wall wall, Vec2<Real>& v, const Vec2<Real>& g, Real mass, Real radius, Real growth, bool elastic, Real t) {
+  Hit meet(Wall wall, Vec2<Real>& v, const Vec2<Real>& g, Real mass, Real radius, Real expansion, bool elastic, Real t) {
     Side& s = side(wall);
     const int axis = axis_of(wall);
     const Real sign = is_upper(wall) ? 1 : -1;
@@ -77,19 +78,19 @@ class Walls {
     const Real surface = s.velocity_at(t);
     const Real before = v.squaredNorm();
     using std::max;
-    const Real closing = max<Real>((outward + growth) - surface, 0);
+    const Real closing = max<Real>((outward + expansion) - surface, 0);
     Real after;
     Real small = infinity<Real>;
     if (s.temperature > 0) {
       RandomStream random(seed_, Stream::thermal_walls, 4 * draws_++ + index_of(wall));
       const DiffuseVelocity drawn = diffuse_velocity(random, s.temperature, static_cast<double>(mass));
-      after = (surface - growth) - Real(drawn.inward);
+      after = (surface - expansion) - Real(drawn.inward);
       v[1 - axis] = Real(drawn.along);
     } else {
       const Real restitution = elastic ? Real(1) : s.restitution, pressing = sign * g[axis] - s.acceleration;
       const Real parting = rebound<Real>(closing, restitution, pressing, radius);
       if (restitution < 1 && closing > 0 && !(pressing > 0)) small = smallness<Real>(closing, radius);
-      after = (surface - growth) - parting;
+      after = (surface - expansion) - parting;
       if (s.mass > 0) {
         // Shares of the change of the relative velocity, by mass.
         const Real change = closing + parting;

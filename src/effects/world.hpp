@@ -37,7 +37,7 @@ struct PlainWorld {
   [[nodiscard]] static bool falls() { return false; }
   [[nodiscard]] static bool sheared() { return false; }
   [[nodiscard]] static double scale(double /*t*/) { return 1.0; }
-  [[nodiscard]] static double growth() { return 0.0; }
+  [[nodiscard]] static double expansion() { return 0.0; }
   [[nodiscard]] static bool still() { return true; }
 
   /// The component of the velocity across the wall is reversed.
@@ -74,24 +74,24 @@ struct AnyWorld {
   [[nodiscard]] bool sheared() const { return sliding.present(); }
   /// Of all radii, at time t.
   [[nodiscard]] double scale(double t) const { return scale_ + growth_ * t; }
-  [[nodiscard]] double growth() const { return growth_; }
+  [[nodiscard]] double expansion() const { return growth_; }
   /// Whether disks fly straight and keep their size, between walls that stay where the box has them.
   [[nodiscard]] bool still() const { return !falling.present() && growth_ == 0.0 && !walls.any_moves() && !walls.any_moved(); }
 
   /// A disk meets a wall or an obstacle: changes its velocity and keeps count. Returns Walls::Hit::smallness.
   double meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double now, RunningTotals& totals) {
-    const double growth = growth_ * disk.radius / scale(now);
+    const double expansion = growth_ * disk.radius / scale(now);
     if (what <= first_obstacle) {
       ++totals.obstacle;
       const Vec2<double> normal = obstacles.from_nearest_point(first_obstacle - what, disk.r);
-      const auto bounce = bounce_off<double>(normal, v, falling.g, disk.mass, disk.radius, growth);
+      const auto bounce = bounce_off<double>(normal, v, falling.g, disk.mass, disk.radius, expansion);
       for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(bounce.impulse[k]);
       if (bounce.energy != 0.0) totals.growth_energy.add(bounce.energy);
       return infinity<double>;
     }
     const Wall wall = static_cast<Wall>(what);
     ++totals.wall;
-    const auto hit = walls.meet(wall, v, falling.g, disk.mass, disk.radius, growth, disk.elastic, now);
+    const auto hit = walls.meet(wall, v, falling.g, disk.mass, disk.radius, expansion, disk.elastic, now);
     totals.wall_impulse[index_of(wall)].add(hit.impulse);
     totals.wall_energy[index_of(wall)].add(hit.energy);
     return hit.smallness;

@@ -30,8 +30,8 @@ template <class Real>
 
 /// Disks meet at separation r with relative velocity v; their contact distance is sigma and grows at a speed.
 template <class Real>
-void count_contact(const Vec2<Real>& r, const Vec2<Real>& v, Real sigma, Real growth, Numerics& numerics) {
-  const Real rr = r.squaredNorm(), ss = sigma * sigma, rv = r.dot(v) - sigma * growth;
+void count_contact(const Vec2<Real>& r, const Vec2<Real>& v, Real sigma, Real expansion, Numerics& numerics) {
+  const Real rr = r.squaredNorm(), ss = sigma * sigma, rv = r.dot(v) - sigma * expansion;
   // At contact the discriminant sigma^2 v^2 - (r x v)^2 is (r . v)^2; its terms are of the size r^2 v^2 and rounded by 8 u of
   // that.
   const bool grazes = rv * rv <= 4 * epsilon<Real> * (rr * v.squaredNorm());

@@ -160,12 +160,12 @@ class Engine {
   void exchange(const Vec2<double>& r, std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb) {
     const Line &a = line(i), &b = line(j);
     const double scale = world_.scale(now_), radius_a = layout_.radius(a), radius_b = layout_.radius(b);
-    const double growth = (radius_a + radius_b) * world_.growth();
-    count_contact<double>(r, va - vb, (radius_a + radius_b) * scale, growth, totals_.numerics);
+    const double expansion = (radius_a + radius_b) * world_.expansion();
+    count_contact<double>(r, va - vb, (radius_a + radius_b) * scale, expansion, totals_.numerics);
     last_collision_.count(now_, totals_.numerics);
     const auto meet = [&] {
-      return impact_.meet(r, growth, {i, layout_.mass(a), radius_a * scale, va}, {j, layout_.mass(b), radius_b * scale, vb}, now_,
-                          totals_);
+      return impact_.meet(r, expansion, {i, layout_.mass(a), radius_a * scale, va}, {j, layout_.mass(b), radius_b * scale, vb},
+                          now_, totals_);
     };
     if constexpr (Impact::plain)
       meet();
@@ -323,7 +323,7 @@ class Engine {
   void make_lists();
   /// Whether disks will be larger at the end of the epoch than those that lists are for.
   [[nodiscard]] bool outgrow_lists() const {
-    return world_.growth() > 0.0 && !(epoch_length_ < never && world_.scale(epoch_length_) <= listed_scale_);
+    return world_.expansion() > 0.0 && !(epoch_length_ < never && world_.scale(epoch_length_) <= listed_scale_);
   }
   /// New lists for disks that have grown, and new plans with them.
   void list_larger();

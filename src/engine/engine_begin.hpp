@@ -122,7 +122,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       if (start.spins.size() > id(i)) impact_.spin(i) = start.spins[id(i)];
   }
   frame_.scale = world_.scale(0.0);
-  frame_.growth = world_.growth();
+  frame_.expansion = world_.expansion();
   make_lists();
   if constexpr (!World::plain)
     if (world_.sheared()) note_slide();

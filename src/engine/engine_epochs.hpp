@@ -40,7 +40,7 @@ void Engine<Impact, Layout, World>::begin_epoch_between(std::int32_t i, const Ve
   rebase(now_);
   ++totals_.numerics.outrun;
   for (int k = 0; k < 2; ++k) line(i).v[k] = va[k] + fallen[k], line(j).v[k] = vb[k] + fallen[k];
-  if (world_.growth() > 0.0 || world_.falls()) return go_on();
+  if (world_.expansion() > 0.0 || world_.falls()) return go_on();
   if constexpr (!World::plain) widen();
   choose_epoch_length();
   if constexpr (!World::plain) slide_images();
@@ -117,7 +117,7 @@ double Engine<Impact, Layout, World>::longest_by_world() const {
   const double pull = std::max(world_.g().cwiseAbs().maxCoeff(), world_.walls.strongest());
   if (pull > 0.0) longest = std::sqrt(8.0 * spacing_ / pull);
   if (world_.walls.fastest(0.0) > 0.0) longest = std::min(longest, 4.0 * spacing_ / world_.walls.fastest(0.0));
-  if (world_.growth() > 0.0) longest = std::min(longest, world_.scale(0.0) / (64.0 * world_.growth()));
+  if (world_.expansion() > 0.0) longest = std::min(longest, world_.scale(0.0) / (64.0 * world_.expansion()));
   if (world_.sheared()) longest = std::min(longest, way_ / std::abs(world_.sliding.speed()));
   return longest;
 }

@@ -11,7 +11,7 @@ namespace carom {
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::make_lists() {
   listed_scale_ = world_.scale(epoch_length_ < never ? epoch_length_ : 0.0);
-  if (world_.growth() > 0.0) listed_scale_ *= 1.0 + list_margin;
+  if (world_.expansion() > 0.0) listed_scale_ *= 1.0 + list_margin;
   const double factor = listed_scale_ * frame_.well;
   reach_ = largest_contact_ * factor;
   std::vector<double> radius = radius_;

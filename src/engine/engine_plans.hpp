@@ -12,22 +12,23 @@ void Engine<Impact, Layout, World>::plan_world(std::int32_t i) {
   if (world_.sheared()) return plan_sliding_edge(i);
   const Line& a = line(i);
   Plan& mine = plans_[i];
-  const double radius = layout_.radius(a) * world_.scale(now_), growth = layout_.radius(a) * world_.growth();
+  const double radius = layout_.radius(a) * world_.scale(now_), expansion = layout_.radius(a) * world_.expansion();
   for (int axis = 0; axis < 2; ++axis) {
     if (flight_.axis(axis).periodic) continue;
     const double v = a.v[axis] + world_.g()[axis] * now_, g = world_.g()[axis];
     for (const int sign : {-1, 1}) {
       const Wall wall = wall_of(axis, sign > 0);
-      if (world_.walls.recedes(wall, sign * v, sign * g, growth, now_)) continue;
+      if (world_.walls.recedes(wall, sign * v, sign * g, expansion, now_)) continue;
       mine.consider_edge(
-          now_ + world_.walls.contact(wall, flight_.room(a, axis, sign, radius, now_), sign * v, sign * g, growth, now_), wall);
+          now_ + world_.walls.contact(wall, flight_.room(a, axis, sign, radius, now_), sign * v, sign * g, expansion, now_),
+          wall);
     }
   }
   if (!world_.obstacles.empty()) {
     // Disks may fall far while they stay in their neighbourhoods, but where they fall all is planned anew with every epoch.
     const double until = world_.falls() ? std::min(mine.edge_time, epoch_length_) : mine.edge_time;
     const auto meeting =
-        world_.obstacles.next(flight_.place(a, now_), flight_.velocity(a, now_), world_.g(), radius, growth, until - now_);
+        world_.obstacles.next(flight_.place(a, now_), flight_.velocity(a, now_), world_.g(), radius, expansion, until - now_);
     if (meeting.obstacle >= 0) mine.consider_edge(now_ + meeting.time, first_obstacle - meeting.obstacle);
   }
   resolve_wall_pair_tie(i);

@@ -238,17 +238,17 @@ class TextbookEngine {
     const Real t = std::max(a.t, walls_.since(wall));
     const int axis = axis_of(wall);
     const Real sign = is_upper(wall) ? 1 : -1;
-    const Real outward = sign * velocity(a, t)[axis], g = sign * falling_.g[axis], growth = a.radius * growth_;
+    const Real outward = sign * velocity(a, t)[axis], g = sign * falling_.g[axis], expansion = a.radius * growth_;
     if (sliding_.present()) {  // no wall: the disk's centre leaves the box
       const Real r = position(a, t)[axis];
       const Real leaves = t + fall_time<Real>(is_upper(wall) ? domain_.upper[axis] - r : r - domain_.lower[axis], -outward, 0);
       if (leaves < first.time) first = {leaves, wall};
       return;
     }
-    if (walls_.recedes(wall, outward, g, growth, t)) return;
+    if (walls_.recedes(wall, outward, g, expansion, t)) return;
     const Real r = position(a, t)[axis], radius = radius_at(a, t);
     const Real room = is_upper(wall) ? (domain_.upper[axis] - radius) - r : r - (domain_.lower[axis] + radius);
-    const Real time = t + walls_.contact(wall, room, outward, g, growth, t);
+    const Real time = t + walls_.contact(wall, room, outward, g, expansion, t);
     if (time < first.time) first = {time, wall};
   }
 

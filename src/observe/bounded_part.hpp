@@ -14,7 +14,7 @@ namespace carom {
 
 class RateWithBoundedPart {
  public:
-  /// x is the rest less the growth of the quantity from `before` to `after`.
+  /// x is the rest less the increase of the quantity from `before` to `after`.
   void add(double x, double weight, double before, double after);
   /// offset + <x> / <w>, as Blocking has it, with the error of the rest and of the ends.
   void fill(Scalar& scalar, double step, double offset = 0.0) const;

@@ -14,12 +14,12 @@ void BlockedRate::add(double time, double total) {
     pending_ = 1;
   } else {
     blocks_.back().duration += step.duration;
-    blocks_.back().growth += step.growth;
+    blocks_.back().increase += step.increase;
     ++pending_;
   }
   if (blocks_.size() == 64 && pending_ == joined_) {
     for (std::size_t i = 0; i < 32; ++i)
-      blocks_[i] = {blocks_[2 * i].duration + blocks_[2 * i + 1].duration, blocks_[2 * i].growth + blocks_[2 * i + 1].growth};
+      blocks_[i] = {blocks_[2 * i].duration + blocks_[2 * i + 1].duration, blocks_[2 * i].increase + blocks_[2 * i + 1].increase};
     blocks_.resize(32);
     joined_ *= 2;
     pending_ = joined_;
@@ -36,7 +36,7 @@ std::optional<double> BlockedRate::standard_error() const {
   if (blocks_.size() < 8) return std::nullopt;
   const double mean = total_ / time_;
   double squares = 0.0;
-  for (const Block& block : blocks_) squares += std::pow(block.growth - mean * block.duration, 2);
+  for (const Block& block : blocks_) squares += std::pow(block.increase - mean * block.duration, 2);
   return std::sqrt(n / (n - 1.0) * squares) / time_;
 }
 

@@ -7,7 +7,7 @@
 
 namespace carom {
 
-/// The rate of growth of a total, as a ratio estimate over blocks of time. Bounded memory: when there are 64 blocks,
+/// The rate at which a total increases, as a ratio estimate over blocks of time. Bounded memory: when there are 64 blocks,
 /// neighbours are joined. So a long run ends with 32 to 63 blocks, each much longer than any correlation.
 class BlockedRate {
  public:
@@ -28,7 +28,7 @@ class BlockedRate {
  private:
   struct Block {
     double duration;
-    double growth;
+    double increase;
   };
   std::vector<Block> blocks_;
   std::size_t joined_ = 1;   ///< points that make one block

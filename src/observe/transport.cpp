@@ -99,10 +99,10 @@ Measurement Transport::finish(double time, const Totals&) {
   if (time >= next_) tick(time);
   const auto& [name, unit, unit_of_flux, flow, sum, part, factor_of] = coefficient_;
   const double step = step_, factor = factor_of(kT_, run_.scene.box.area()), longest = sound_time(run_);
-  const std::vector<MultipleTau::Row> correlations = products_.rows(), growth = moments_.rows();
+  const std::vector<MultipleTau::Row> correlations = products_.rows(), moments = moments_.rows();
   Measurement found{.name = name};
   found.scalars.push_back(coefficient("green_kubo", unit, step, factor * step, longest_row(correlations, longest / step)));
-  const MultipleTau::Row* last = longest_row(growth, longest / step);
+  const MultipleTau::Row* last = longest_row(moments, longest / step);
   found.scalars.push_back(
       coefficient("einstein_helfand", unit, step, last == nullptr ? 0.0 : factor / (2.0 * step * last->lag), last));
 
@@ -111,7 +111,7 @@ Measurement Transport::finish(double time, const Totals&) {
         "the flux has a mean that is not zero, as the stress of a strained crystal has: what grows with it is no coefficient";
     for (Scalar& scalar : found.scalars) scalar = {.name = scalar.name, .unit = unit, .note = found.note};
   }
-  if (found.note.empty()) found.note = MultipleTau::note_on_errors(growth);
+  if (found.note.empty()) found.note = MultipleTau::note_on_errors(moments);
   Table table{.name = name};
   Column lags{"lag", "time", {}}, flux{"correlation", unit_of_flux, {}}, flux_error{"correlation_error", unit_of_flux, {}};
   Column until{"integral_to", "time", {}}, integral{"green_kubo", unit, {}}, integral_error{"green_kubo_error", unit, {}};
@@ -124,8 +124,8 @@ Measurement Transport::finish(double time, const Totals&) {
     integral.values.push_back(factor * step * row.integral->mean);
     integral_error.values.push_back(row.integral->error ? factor * step * *row.integral->error : unknown);
     const auto same =
-        std::find_if(growth.begin(), growth.end(), [&](const MultipleTau::Row& other) { return other.lag == row.lag; });
-    const bool there = same != growth.end();
+        std::find_if(moments.begin(), moments.end(), [&](const MultipleTau::Row& other) { return other.lag == row.lag; });
+    const bool there = same != moments.end();
     const double scale = there ? factor / (2.0 * step * same->lag) : unknown;
     helfand.values.push_back(there ? scale * same->pairs.mean : unknown);
     helfand_error.values.push_back(there && same->pairs.error ? scale * *same->pairs.error : unknown);

@@ -2,7 +2,7 @@
 // Transport coefficients from the fluctuations of a flux that flies along with the disks and jumps over from disk to disk at
 // collisions. Its integral over time, Helfand's moment G, is known exactly: it grows evenly between collisions and jumps at each
 // by r_ij times what disk i got. From G on a grid come
-//   Green-Kubo:        the running integral of <J(0) J(t)>, J the mean flux over a step, G's growth over its time;
+//   Green-Kubo:        the running integral of <J(0) J(t)>, J the mean flux over a step, the increase of G over its time;
 //   Einstein-Helfand:  <(G(t) - G(0))^2> / 2 t.
 // Both are averages over time, of two components that isotropy makes equal.
 //

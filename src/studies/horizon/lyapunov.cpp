@@ -19,11 +19,11 @@ namespace {
 /// Shorter than this the tangent vector may still be on its way.
 constexpr std::size_t fewest_intervals = 40;
 
-/// The growth and the collisions from one normalization to the next.
+/// The logarithm of the factor of divergence and the collisions from one normalization to the next.
 struct Interval {
   double time = 0.0;
-  double collisions = 0.0;  ///< per disk
-  double growth = 0.0;      ///< the logarithm
+  double collisions = 0.0;   ///< per disk
+  double log_stretch = 0.0;  ///< logarithm of the factor by which the distance grew
 };
 
 struct Ratio {
@@ -31,22 +31,22 @@ struct Ratio {
   std::optional<double> error;
 };
 
-/// Sum of growth over sum of `clock`, with its standard error over blocks: that of the mean of growth - value * clock.
+/// Sum of log_stretch over sum of `clock`, with its standard error over blocks: that of the mean of log_stretch - value * clock.
 template <class Clock>
 Ratio growth_per(const std::vector<Interval>& intervals, Clock&& clock) {
-  double growth = 0.0;
+  double log_stretch = 0.0;
   double all = 0.0;
-  for (const Interval& one : intervals) growth += one.growth, all += clock(one);
+  for (const Interval& one : intervals) log_stretch += one.log_stretch, all += clock(one);
   Ratio ratio;
   if (!(all > 0.0)) return ratio;
-  ratio.value = growth / all;
+  ratio.value = log_stretch / all;
   const std::size_t blocks = std::min<std::size_t>(32, intervals.size() / 10);
   if (blocks < 8) return ratio;
   double squares = 0.0;
   for (std::size_t b = 0; b < blocks; ++b) {
     double surplus = 0.0;
     for (std::size_t k = b * intervals.size() / blocks; k < (b + 1) * intervals.size() / blocks; ++k)
-      surplus += intervals[k].growth - ratio.value * clock(intervals[k]);
+      surplus += intervals[k].log_stretch - ratio.value * clock(intervals[k]);
     squares += surplus * surplus;
   }
   const auto n = static_cast<double>(blocks);

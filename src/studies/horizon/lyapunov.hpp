@@ -21,7 +21,7 @@ struct LyapunovOptions {
 /// Benettin's method (benettin1980) along one trajectory of the engine that runs the scene, from `start`: a tangent vector
 /// (studies/horizon/lyapunov_tangent.hpp) is brought back to length 1 about once per collision of every disk, and the logarithms
 /// of what it had grown by are averaged. The first fifth, in which it turns towards the direction that grows fastest, is left
-/// out. The error is that of the mean over up to 32 blocks of 10 or more collisions per disk each; growth rates forget one
+/// out. The error is that of the mean over up to 32 blocks of 10 or more collisions per disk each; rates forget one
 /// another in 1 or 2, so that blocks are independent to some tenths of the error itself.
 ///
 /// Empty where `pace` has seen no collision, too few came, or the caller said stop. Throws as make_simulation.
