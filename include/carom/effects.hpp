@@ -114,6 +114,17 @@ struct Effects {
   [[nodiscard]] std::vector<std::string> acting() const;
   /// Returns whether any contact dissipates energy, so that inelastic collapse is possible.
   [[nodiscard]] bool dissipate() const;
+
+  // Numbers of single effects; neutral where the scene does not name the effect.
+
+  /// Returns the acceleration of all disks in flight; length / time^2, zero without gravity.
+  [[nodiscard]] Eigen::Vector2d acceleration() const;
+  /// Returns the rate at which all radii grow, in units of the first radii; 1 / time, 0 where disks keep their size.
+  [[nodiscard]] double growth_rate() const;
+  /// Returns the rate of the flow v_x = rate y; 1 / time, 0 without a flow.
+  [[nodiscard]] double shear_rate() const;
+  /// Returns kT of the bath that redraws velocities; empty without a bath.
+  [[nodiscard]] std::optional<double> bath_temperature() const;
 };
 
 /// Returns whether the total momentum along `axis` is conserved: the axis is periodic, and nothing but other disks (no

@@ -103,11 +103,10 @@ class Observation {
   Observation(const Observation&) = delete;
   Observation& operator=(const Observation&) = delete;
 
-  /// One more, before the run. Throws SceneError where it follows collisions and something changes velocities between them: a
-  /// thermostat, growth, shear.
+  /// One more, before the run. Throws SceneError where it follows collisions and something changes velocities between them.
   void add(std::unique_ptr<Observable> observable);
   [[nodiscard]] bool empty() const;
-  /// kT of the start as it was drawn, or of the thermostat: what default steps and ranges follow from.
+  /// kT of the start as it was drawn, or of the bath: what default steps and ranges follow from.
   [[nodiscard]] double reference_temperature() const;
   /// Time between two looks of what simulation.scene().observe lists, in its order: as the scene says, or as it followed from
   /// the end that the run had when it began; 0 of what takes no steps.

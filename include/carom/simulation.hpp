@@ -38,13 +38,12 @@ enum class StopReason {
   /// Inelastic disks have become too slow to compute with: products of speed and diameter are below 1e-150, in single precision
   /// 1e-15. Or collisions alone were asked for, and disks move together 2^14 times as fast as against each other.
   cooled,
-  grown,          ///< the packing fraction or pressure at which growth is to end was reached
+  grown,          ///< the packing fraction or pressure up to which disks were to grow was reached
   no_collisions,  ///< only a number of collisions was asked for, and no pair will ever (or seems ever to) collide
   invalid_state,  ///< check_invariants() found a fault, or a number is not finite: RunResult::faults says which
 };
 
-/// "time", "collisions", "interrupted", "jammed", "collapsed", "overheated", "cooled", "grown", "no_collisions",
-/// "invalid_state"
+/// "time", "collisions", "interrupted", "jammed", "collapsed", "overheated", "cooled", "grown", "no_collisions", "invalid_state"
 std::string to_string(StopReason reason);
 
 /// The method that exact events replace: move by v dt, look for contacts, move on.
@@ -64,7 +63,7 @@ class Simulation {
   [[nodiscard]] const std::string& engine()
       const;  ///< the name of the engine that the catalogue chose, or of a fixed-step method
   [[nodiscard]] std::optional<double> time_step() const;  ///< dt of a fixed-step method; nothing where events are exact
-  /// Why that engine, in half a sentence: "the scene asks for gravity, obstacles"; empty for a fixed-step method.
+  /// Why that engine, in half a sentence: "the scene asks for friction"; empty for a fixed-step method.
   [[nodiscard]] const std::string& engine_reason() const;
   /// Memory that the engine or method holds, without disks().
   [[nodiscard]] std::size_t bytes() const;
@@ -131,9 +130,9 @@ Simulation make_simulation(const Scene& scene, const std::string& engine = "auto
 
 /// The same from a given state in place of the scene's own start, at time 0: its positions, velocities and images, and what
 /// effects of this scene go on from: spins where there is roughness, the scale of radii where disks grow, places of moving walls
-/// and velocities of pistons, the displacement by shear. The rest is dropped, remainders too, so that every engine begins with
-/// the same numbers. The scene is checked as above. Throws std::invalid_argument too where any of it is not finite, a position is
-/// outside the box, or there is not one position and one velocity for each of the scene's disks.
+/// and velocities of pistons, the displacement of images that slide. The rest is dropped, remainders too, so that every engine
+/// begins with the same numbers. The scene is checked as above. Throws std::invalid_argument too where any of it is not finite, a
+/// position is outside the box, or there is not one position and one velocity for each of the scene's disks.
 Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine = "auto");
 
 /// The scene advanced by a fixed-step method in place of exact events, through the same door: states between two steps are those

@@ -43,7 +43,7 @@ struct State {
       remainders;  ///< 2 x N; length; exact position minus `positions`; 2 x 0 where the engine knows no more than doubles hold
 
   Eigen::VectorXd spins;            ///< N angular velocities, 1 / time, counter-clockwise; of length 0 where disks are smooth
-  double scale = 1.0;               ///< radii are scale * Disks::radius (growth)
+  double scale = 1.0;               ///< radii are scale * Disks::radius
   std::vector<WallState> walls;     ///< left, right, bottom, top; empty where none of them moves
   std::uint64_t bonds = 0;          ///< pairs inside each other's square well
   double shear_displacement = 0.0;  ///< of the images above against those below, in [0, length along x)
@@ -112,7 +112,7 @@ struct Totals : Counts {
   double growth_energy = 0.0;  ///< energy that growing surfaces gave, less what the rescaling of velocities took
   double shear_energy = 0.0;   ///< energy that disks gained across the edges of a sheared box
   /// sum over pair collisions of r_y times the impulse along x, momentum along x that goes across y: mass length^2 / time; kept
-  /// where there is shear
+  /// where the box is sheared
   double virial_yx = 0.0;
   Eigen::Vector2d obstacle_impulse = Eigen::Vector2d::Zero();  ///< that the obstacles took; mass length / time
 };

@@ -149,7 +149,7 @@ ExpectedCost Trial::run() {
   if (!cost.came_to_rest.empty() || !(cost.trial_time > 0.0)) return cost;
   const std::optional<double> known = rate_by_theory(scene_, kT);
   cost.by_theory = known.has_value();
-  cost.at_least = scene_.effects.growth && scene_.effects.growth->rate > 0.0;
+  cost.at_least = scene_.effects.growth_rate() > 0.0;
   const double per_time = known.value_or(tried / cost.trial_time);
   double collisions = 0.0, time = 0.0;
   for (const Part& part : parts) {

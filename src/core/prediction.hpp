@@ -10,7 +10,7 @@
 
 namespace carom {
 
-/// Data of a sheared box, whose images above slide past those below (effects/shear.hpp), for the kernel that supports it.
+/// Data of a sheared box, whose images above slide past those below (SlidingImages), for the kernel that supports it.
 struct SlidingFrame {
   /// Of the centre of each disk's neighbourhood, in steps of 2^32. It tells in which box a disk is whose coordinate has wrapped;
   /// velocities are those of the disk in that box, and those of its images above and below are other ones.
@@ -30,7 +30,7 @@ struct PredictionFrame {
   /// is nothing physical, and with a time of few bits as `now` the predictions made then are exact for dyadic data.
   double edge_step = 0.0;
   double scale = 1.0;      ///< scale of all radii at the epoch; beyond 1 only for the kernel of growing disks
-  double expansion = 0.0;  ///< expansion of the scale per time
+  double expansion = 0.0;  ///< of the scale, per time
   double well = 1.0;       ///< outer over hard diameter; beyond 1 only for the kernel of wells
   const std::vector<std::int32_t>* inside = nullptr;  ///< for the kernel of wells: for each disk, those inside its well
   SlidingFrame sliding = {};

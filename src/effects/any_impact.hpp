@@ -33,7 +33,7 @@ class AnyImpact {
         last_(elastic_below_ > 0 && effects.dissipate() ? disks : 0, -infinity<Real>),
         wells_(effects.square_well, disks),
         by_rule_alone_(turn_ == 1 && roughness_ == -1 && last_.empty()),
-        sheared_(effects.shear && effects.shear->rate != 0.0) {}
+        sheared_(effects.shear_rate() != 0.0) {}
 
   /// A disk as it takes part in a collision.
   struct Body {

@@ -1,6 +1,6 @@
 #pragma once
 // How disks move between events: uniformly accelerated, all alike. Two disks never notice it from each other, since it cancels in
-// their relative motion; only walls, obstacles and the edges of cells do.
+// their relative motion; only what stands still and the edges of cells do.
 
 #include "core/vec2.hpp"
 

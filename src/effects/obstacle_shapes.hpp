@@ -141,7 +141,7 @@ class ObstacleShapes {
 
   /// For how long a disk in contact with a fixed point at the origin needs no impulse to pass it: 0, unless its overlap on the
   /// way would be less than what rounding makes of the distance, 32 epsilon of it. The overlap after time t is c t - b t^2/2,
-  /// where c is the speed of approach and b > 0 the acceleration away, centrifugal and by gravity; c^2 / 2b at most, and none
+  /// where c is the speed of approach and b > 0 the acceleration away, centrifugal and of flight; c^2 / 2b at most, and none
   /// from 2c / b on.
   [[nodiscard]] static Real grazing_duration(const DiskPath<Real>& path) {
     using std::sqrt;

@@ -31,7 +31,7 @@ class Obstacles {
   /// obstacle; of meetings at the same time, with the obstacle of the lowest index. Disks that touch or overlap an obstacle and
   /// approach it meet it now; those that recede do not.
   ///
-  /// radius > 0. r may lie beyond a periodic edge, and the path cross any number of them. `until` may be infinite, where gravity
+  /// radius > 0. r may lie beyond a periodic edge, and the path cross any number of them. `until` may be infinite, where weight
   /// acts only across walls: the path then ends where its centre leaves the box across a wall, or after 10^4 box lengths, and
   /// a disk that has met nothing by then meets nothing. Errors: those of contact_time and its kin.
   [[nodiscard]] Meeting next(const Vec2<Real>& r, const Vec2<Real>& v, const Vec2<Real>& g, Real radius, Real expansion,

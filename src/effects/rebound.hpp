@@ -11,9 +11,9 @@ namespace carom {
 /// `closing` >= 0: the speed with which disk and surface approach along the normal; `pressing`: the acceleration with which the
 /// one is pushed against the other (0 or less: none). Returns the speed with which they part, restitution times closing.
 ///
-/// A disk that arrives with next to no speed on a surface that gravity presses it to would bounce without end at one instant. It
-/// hops instead: an elastic disk that arrives with less than twice the speed of a hop leaves with that speed, which lifts it by
-/// 2^-40 of its radius (1e-12: invisible, and thousands of times what rounding can do to its height). A disk at rest gains the
+/// A disk that arrives with next to no speed on a surface that its weight presses it to would bounce without end at one instant.
+/// It hops instead: an elastic disk that arrives with less than twice the speed of a hop leaves with that speed, which lifts it
+/// by 2^-40 of its radius (1e-12: invisible, and thousands of times what rounding can do to its height). A disk at rest gains the
 /// energy of one hop, once: each hop is the same, whatever rounding does. Where others push it, as in a stack, surfaces take
 /// more than they give: of the slow disks that reach a surface as many bring any energy as any other, so those below the energy
 /// of four hops bring two on average.

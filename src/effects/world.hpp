@@ -62,7 +62,7 @@ struct AnyWorld {
         obstacles(box, effects.obstacles),
         sliding(box, effects.shear, start.shear_displacement),
         scale_(start.scale),
-        growth_(effects.growth ? effects.growth->rate : 0.0) {
+        growth_(effects.growth_rate()) {
     walls.start_from(start.walls);
   }
 

@@ -17,7 +17,7 @@ template <class Real>
 class CommonMotion {
  public:
   CommonMotion(const Box& box, const Effects& effects) {
-    const bool sheared = effects.shear && effects.shear->rate != 0.0;
+    const bool sheared = effects.shear_rate() != 0.0;
     for (int axis = 0; axis < 2; ++axis) kept_[axis] = effects.dissipate() && !sheared && keeps_momentum(box, effects, axis);
   }
 

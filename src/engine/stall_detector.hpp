@@ -20,7 +20,7 @@ class StallDetector {
   /// `effects` and the number of disks decide after how many events at one instant time is taken to stand still.
   StallDetector(const Effects& effects, std::size_t disks)
       : patience_((effects.dissipate() ? 100'000 : 10'000'000) + 100 * static_cast<std::uint64_t>(disks)),
-        may_cool_(effects.dissipate() && !(effects.gravity && !effects.gravity->acceleration.isZero(0.0))) {}
+        may_cool_(effects.dissipate() && effects.acceleration().isZero(0.0)) {}
 
   /// Counts an event, which is later than the event before it or at the same instant.
   void count_event(bool later) { at_one_instant_ = later ? 0 : at_one_instant_ + 1; }

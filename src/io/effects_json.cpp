@@ -2,6 +2,11 @@
 
 #include "io/json_number.hpp"
 
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <optional>
+
 namespace carom::detail {
 
 namespace {
@@ -21,13 +26,10 @@ Json walls_json(const std::vector<WallReport>& walls) {
   return json;
 }
 
-Json shear_json(const ShearReport& shear) {
-  return {
-      {"strain", number(shear.strain)},
-      {"energy", number(shear.energy)},
-      {"pressure_xy", {{"collisions", number(shear.pressure_xy_of_collisions)}, {"flight", number(shear.pressure_xy_of_flight)}}},
-      {"viscosity", number(shear.viscosity)}};
-}
+Json json_of(std::uint64_t value) { return value; }
+Json json_of(double value) { return number(value); }
+Json json_of(const std::optional<double>& value) { return number(value); }
+Json json_of(const Eigen::Vector2d& value) { return vector(value); }
 
 }  // namespace
 
@@ -47,15 +49,12 @@ void add_effects(Json& summary, const RunReport& report) {
   if (!effects.walls.empty()) summary["walls"] = walls_json(effects.walls);
   if (effects.packing_fraction_end) summary["packing_fraction_end"] = number(effects.packing_fraction_end);
   if (effects.dissipated) summary["dissipated"] = number(effects.dissipated);
-  if (effects.obstacles) summary["obstacles"] = {{"momentum", vector(*effects.obstacles)}};
-  if (effects.thermostat)
-    summary["thermostat"] = {{"kicks", effects.thermostat->kicks}, {"energy", number(effects.thermostat->energy)}};
-  if (effects.growth)
-    summary["growth"] = {{"scale", number(effects.growth->scale)},
-                         {"packing_fraction", number(effects.growth->packing_fraction)},
-                         {"energy", number(effects.growth->energy)}};
-  if (effects.shear) summary["shear"] = shear_json(*effects.shear);
-  if (effects.bonds) summary["square_well"] = {{"bonds", *effects.bonds}};
+  visit_sections(effects, [&](const char* section, const auto& part, auto&& numbers) {
+    if (!part) return;
+    Json& json = summary[section];
+    numbers(*part,
+            [&](const char* key, const auto& value) { json[Json::json_pointer(fmt::format("/{}", key))] = json_of(value); });
+  });
 }
 
 }  // namespace carom::detail

@@ -44,7 +44,7 @@ class RunReader {
   [[nodiscard]] Totals totals(std::uint64_t k) const;
   /// Positions and velocities at the beginning of the event log. Requires a log.
   [[nodiscard]] State start() const;
-  /// Returns the whole log, in order of time: ids are those of disks, walls and obstacles of this run, numbers are finite.
+  /// Returns the whole log, in order of time: ids are those of disks and of what this run has them hit, numbers are finite.
   [[nodiscard]] std::vector<Event> event_log() const { return event_log(0, events_, 0.0); }
   /// `count` events from `first` on, the one before which was at time `before`.
   [[nodiscard]] std::vector<Event> event_log(std::uint64_t first, std::uint64_t count, double before) const;

@@ -64,13 +64,10 @@ WallReport wall_in(const std::string& name, const Json& json) {
   return wall;
 }
 
-ShearReport shear_in(const Json& json) {
-  return {.strain = finite_in(json.at("strain")),
-          .energy = finite_in(json.at("energy")),
-          .pressure_xy_of_collisions = number_in(json.at("pressure_xy").at("collisions")),
-          .pressure_xy_of_flight = number_in(json.at("pressure_xy").at("flight")),
-          .viscosity = number_in(json.at("viscosity"))};
-}
+void read(const Json& json, double& value) { value = finite_in(json); }
+void read(const Json& json, std::optional<double>& value) { value = number_in(json); }
+void read(const Json& json, std::uint64_t& value) { value = json.get<std::uint64_t>(); }
+void read(const Json& json, Eigen::Vector2d& value) { value = vector_in(json); }
 
 EffectsReport effects_in(const Json& json) {
   EffectsReport effects;
@@ -88,18 +85,11 @@ EffectsReport effects_in(const Json& json) {
     for (const auto& [name, wall] : json.at("walls").items()) effects.walls.push_back(wall_in(name, wall));
   effects.packing_fraction_end = number_in(json, "packing_fraction_end");
   effects.dissipated = number_in(json, "dissipated");
-  if (json.contains("obstacles")) effects.obstacles = vector_in(json.at("obstacles").at("momentum"));
-  if (json.contains("thermostat"))
-    effects.thermostat = {.kicks = count_in(json.at("thermostat"), "kicks"),
-                          .energy = finite_in(json.at("thermostat").at("energy"))};
-  if (json.contains("growth")) {
-    const Json& growth = json.at("growth");
-    effects.growth = {.scale = finite_in(growth.at("scale")),
-                      .packing_fraction = finite_in(growth.at("packing_fraction")),
-                      .energy = finite_in(growth.at("energy"))};
-  }
-  if (json.contains("shear")) effects.shear = shear_in(json.at("shear"));
-  if (json.contains("square_well")) effects.bonds = count_in(json.at("square_well"), "bonds");
+  visit_sections(effects, [&](const char* section, auto& part, auto&& numbers) {
+    if (!json.contains(section)) return;
+    numbers(part.emplace(),
+            [&](const char* key, auto& value) { read(json.at(section).at(Json::json_pointer(fmt::format("/{}", key))), value); });
+  });
   return effects;
 }
 

@@ -4,6 +4,8 @@
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 
+#include <fmt/format.h>
+
 #include <vector>
 
 namespace carom {
@@ -50,8 +52,9 @@ class CollisionRate final : public SavedObservable<CollisionRate> {
     Measurement found{.name = name()};
     put(found, "rate", all_, run_.scene.disk_count());
     if (kinds_ > 1 && !by_species_)
-      found.note = run_.collisions_known ? "rates by species are not told apart where a thermostat, growth or shear acts"
-                                         : "rates by species are not told apart, since the run kept no collisions (--events)";
+      found.note = run_.collisions_known
+                       ? fmt::format("rates by species are not told apart where {} acts", what_drives(run_.scene.effects))
+                       : "rates by species are not told apart, since the run kept no collisions (--events)";
     for (std::size_t k = 0; k < rates_.size(); ++k) {
       put(found, "rate" + run_.suffix(k / kinds_) + run_.suffix(k % kinds_), rates_[k], run_.scene.species[k / kinds_].count);
     }

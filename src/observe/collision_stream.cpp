@@ -14,7 +14,7 @@ CollisionStream::CollisionStream(const Scene& scene, const Disks& disks)
       box_(scene.box),
       smooth_(velocities_tell_contacts(scene.effects)),
       equal_(all_equal(disks.radius) && all_equal(disks.mass)) {
-  if (scene.effects.gravity) gravity_ = scene.effects.gravity->acceleration;
+  gravity_ = scene.effects.acceleration();
   if (scene.effects.square_well) edge_ = 0.5 * (1.0 + scene.effects.square_well->width);
   moves_between_ = !smooth_ || !gravity_.isZero(0.0);
 }

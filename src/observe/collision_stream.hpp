@@ -15,7 +15,7 @@ namespace carom {
 
 class CollisionStream {
  public:
-  /// Requires that nothing but logged events changes velocities: no thermostat, growth or shear.
+  /// Requires that nothing but logged events changes velocities: is_driven() is false.
   CollisionStream(const Scene& scene, const Disks& disks);
 
   void start(const State& state);

@@ -2,6 +2,7 @@
 
 #include "observe/any_wall.hpp"
 #include "observe/geometry.hpp"
+#include "scene/effect_traits.hpp"
 #include "scene/wall_names.hpp"
 
 #include <algorithm>
@@ -28,10 +29,8 @@ WallReport wall_report(const Scene& scene, const Totals& totals, const State& en
 }
 
 std::optional<double> energy_given(const Effects& effects, const Totals& totals) {
-  const auto gives = [](const WallProperties& wall) { return wall.restitution || wall.temperature || wall.velocity; };
-  const bool something = effects.collision.restitution || effects.collision.roughness || effects.growth || effects.thermostat ||
-                         effects.shear || any_wall(effects, gives);
-  if (!something || gives_untold(effects)) return std::nullopt;
+  const auto gives = [&](const detail::EffectTraits& effect) { return !effect.keeps_energy && effect.is_present(effects); };
+  if (std::ranges::none_of(detail::all_effects(), gives) || gives_untold(effects)) return std::nullopt;
   double given = totals.kick_energy + totals.growth_energy + totals.shear_energy - totals.dissipated;
   for (std::size_t side = 0; side < 4; ++side)
     if (!effects.walls[side].mass) given -= totals.wall_energy[side];
@@ -49,7 +48,7 @@ ShearReport shear_report(const Scene& scene, const Totals& totals, const State& 
 }  // namespace
 
 bool gives_untold(const Effects& effects) {
-  const bool growing = effects.growth && effects.growth->rate > 0.0;
+  const bool growing = effects.growth_rate() > 0.0;
   const auto takes_or_heats = [](const WallProperties& wall) {
     return wall.mass && (wall.restitution.value_or(1.0) != 1.0 || wall.temperature);
   };

@@ -1,6 +1,6 @@
 #pragma once
-// What the effects of a scene have done in a run: what walls, thermostat, growth and shear gave and took. Each part is there only
-// where the scene names its effect.
+// What the effects of a scene have done in a run: what they gave, took and measured. Each part is there only where the scene
+// names its effect.
 
 #include "observe/energy.hpp"
 
@@ -61,6 +61,30 @@ struct EffectsReport {
   /// gives_untold().
   std::optional<double> energy_given;
 };
+
+/// Calls visit(section, part, numbers) for each part that is a section of summary.json of its own; numbers(*part, put) calls
+/// put(key, number) for all that it holds. A slash in a key leads into a table.
+template <class Report, class Visit>
+void visit_sections(Report& report, Visit&& visit) {
+  visit("obstacles", report.obstacles, [](auto& momentum, auto&& put) { put("momentum", momentum); });
+  visit("thermostat", report.thermostat, [](auto& part, auto&& put) {
+    put("kicks", part.kicks);
+    put("energy", part.energy);
+  });
+  visit("growth", report.growth, [](auto& part, auto&& put) {
+    put("scale", part.scale);
+    put("packing_fraction", part.packing_fraction);
+    put("energy", part.energy);
+  });
+  visit("shear", report.shear, [](auto& part, auto&& put) {
+    put("strain", part.strain);
+    put("energy", part.energy);
+    put("pressure_xy/collisions", part.pressure_xy_of_collisions);
+    put("pressure_xy/flight", part.pressure_xy_of_flight);
+    put("viscosity", part.viscosity);
+  });
+  visit("square_well", report.bonds, [](auto& bonds, auto&& put) { put("bonds", bonds); });
+}
 
 /// Whether energy comes or goes that nobody counts: a piston that is inelastic or warm does not tell what it took from what it
 /// lost, and disks that spin and grow gain moment of inertia in flight.

@@ -53,7 +53,7 @@ double spin_energy(const Disks& disks, const State& state) {
 
 double potential_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
   long double sum = 0.0L;
-  if (effects.gravity) sum += energy_of_heights(box, effects.gravity->acceleration, disks, state);
+  sum += energy_of_heights(box, effects.acceleration(), disks, state);
   if (effects.square_well) sum -= static_cast<long double>(effects.square_well->depth) * static_cast<long double>(state.bonds);
   return static_cast<double>(sum + energy_of_loads(box, effects, state));
 }

@@ -1,6 +1,6 @@
 #include "observe/equilibrium.hpp"
 
-#include "observe/any_wall.hpp"
+#include "scene/effect_traits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,7 @@ namespace carom {
 namespace {
 
 bool has_walls_of_different_temperature(const Effects& effects) {
-  std::optional<double> first;
-  if (effects.thermostat && effects.thermostat->rate > 0.0) first = effects.thermostat->temperature;
+  std::optional<double> first = effects.bath_temperature();
   for (const WallProperties& wall : effects.walls) {
     if (!wall.temperature) continue;
     if (first && *first != *wall.temperature) return true;
@@ -25,25 +24,13 @@ bool has_walls_of_different_temperature(const Effects& effects) {
 }  // namespace
 
 std::string_view why_no_Z(const Effects& effects) {
-  const Collision& collision = effects.collision;
-  if (collision.restitution.value_or(1.0) != 1.0 || std::abs(collision.roughness.value_or(-1.0)) != 1.0)
-    return "collisions take energy away";
-  if (effects.gravity && !effects.gravity->acceleration.isZero(0.0)) return "pressure and density change with height";
-  if (any_wall(effects, [](const WallProperties& wall) { return wall.mass || wall.velocity.value_or(0.0) != 0.0; }))
-    return "the area changes";
-  if (any_wall(effects, [](const WallProperties& wall) { return wall.restitution.value_or(1.0) != 1.0; }))
-    return "walls take energy away";
+  if (std::abs(effects.collision.roughness.value_or(-1.0)) != 1.0) return "collisions take energy away";
   if (has_walls_of_different_temperature(effects)) return "walls differ in temperature, or from the thermostat";
-  if (!effects.obstacles.empty()) return "obstacles carry pressure and take up area";
-  if (effects.growth && effects.growth->rate != 0.0) return "disks grow";
-  if (effects.shear && effects.shear->rate != 0.0) return "shear heats the disks";
-  return {};
+  return detail::first_reason(effects, &detail::EffectTraits::why_no_Z);
 }
 
 bool temperature_fluctuates(const Effects& effects) {
-  return effects.collision.roughness.value_or(-1.0) != -1.0 || (effects.thermostat && effects.thermostat->rate > 0.0) ||
-         any_wall(effects, [](const WallProperties& wall) { return wall.temperature.has_value(); }) ||
-         (effects.square_well && effects.square_well->depth != 0.0);
+  return detail::any_acting(effects, &detail::EffectTraits::lets_temperature_fluctuate);
 }
 
 std::string_view why_errors_are_of_one_start(const Scene& scene) {

@@ -145,7 +145,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
 
   /// A path is speed times time where nothing but collisions changes the speed.
   static std::string why_no_path(const Effects& effects) {
-    if (effects.gravity && !effects.gravity->acceleration.isZero(0.0)) return "paths are parabolas under gravity";
+    if (!effects.acceleration().isZero(0.0)) return "paths are parabolas under gravity";
     if (effects.square_well && effects.square_well->depth != 0.0) return "speeds change at the edges of wells";
     const bool still = std::all_of(effects.walls.begin(), effects.walls.end(), [](const WallProperties& wall) {
       return !wall.temperature && !wall.mass && wall.velocity.value_or(0.0) == 0.0 && wall.restitution.value_or(1.0) == 1.0;

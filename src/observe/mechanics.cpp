@@ -53,7 +53,7 @@ double kinetic_temperature(const Box& box, const Disks& disks, const State& stat
 
 double kinetic_temperature(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
   const std::array<bool, 2> kept = {keeps_momentum(box, effects, 0), keeps_momentum(box, effects, 1)};
-  if (!effects.shear || effects.shear->rate == 0.0) return temperature_of(kept, disks, state);
+  if (effects.shear_rate() == 0.0) return temperature_of(kept, disks, state);
   State in_flow;
   in_flow.velocities = velocities_in_flow(box, effects, disks, state);
   return temperature_of(kept, disks, in_flow);
@@ -67,7 +67,7 @@ Eigen::Matrix2Xd velocities_in_flow(const Box& box, const Effects& effects, cons
   State in_flow;
   in_flow.velocities = state.velocities;
   const double middle = 0.5 * (box.lower.y() + box.upper.y());
-  in_flow.velocities.row(0) -= effects.shear->rate * (state.positions.row(1).array() - middle).matrix();
+  in_flow.velocities.row(0) -= effects.shear_rate() * (state.positions.row(1).array() - middle).matrix();
   const double mass = disks.total_mass();
   if (!(mass > 0.0)) return in_flow.velocities;
   const Eigen::Vector2d common = total_momentum(disks, in_flow) / mass;

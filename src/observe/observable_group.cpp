@@ -4,6 +4,8 @@
 #include "observe/equilibrium.hpp"
 #include "observe/observables.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <sstream>
@@ -24,9 +26,9 @@ ObservableGroup::ObservableGroup(const ObservedRun& run, std::istream& saved) : 
 void ObservableGroup::add(std::unique_ptr<Observable> observable) {
   if (observable->follows_collisions() && is_driven(run_.scene.effects))
     throw SceneError({run_.scene.source, 0, 0},
-                     observable->name() +
-                         " follows disks from collision to collision, and a thermostat, growth or shear changes "
-                         "their velocities in between; remove one of the two");
+                     fmt::format("{} follows disks from collision to collision, and {} changes their velocities in between; "
+                                 "remove one of the two",
+                                 observable->name(), what_drives(run_.scene.effects)));
   if (const std::size_t index = observables_.size(); index < saved_.size()) {
     std::istringstream gathered(std::move(saved_[index]));
     observable->load(gathered);

@@ -1,6 +1,7 @@
 #include "observe/observed_run.hpp"
 
 #include "observe/mechanics.hpp"
+#include "scene/effect_traits.hpp"
 #include "scene/observables_known.hpp"
 
 #include <algorithm>
@@ -34,11 +35,10 @@ std::string word_of(std::string name) {
 
 ObservedRun observed_run(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
-  const std::optional<Thermostat>& thermostat = scene.effects.thermostat;
-  ObservedRun run = observed_run(scene, simulation.disks(),
-                                 thermostat && thermostat->rate > 0.0
-                                     ? thermostat->temperature
-                                     : kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state()));
+  const std::optional<double> bath = scene.effects.bath_temperature();
+  ObservedRun run =
+      observed_run(scene, simulation.disks(),
+                   bath ? *bath : kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state()));
   run.collisions_told = simulation.tells_collisions();
   return run;
 }
@@ -77,8 +77,11 @@ std::string ObservedRun::suffix(std::size_t species) const {
 bool ObservedRun::keeps_momentum(int axis) const { return carom::keeps_momentum(scene.box, scene.effects, axis); }
 
 bool is_driven(const Effects& effects) {
-  return (effects.thermostat && effects.thermostat->rate > 0.0) || (effects.growth && effects.growth->rate > 0.0) ||
-         (effects.shear && effects.shear->rate != 0.0);
+  return detail::any_acting(effects, &detail::EffectTraits::changes_velocities_in_flight);
+}
+
+std::string_view what_drives(const Effects& effects) {
+  return detail::first_acting(effects, &detail::EffectTraits::changes_velocities_in_flight)->title;
 }
 
 Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state) {

@@ -4,6 +4,7 @@
 #include <carom/observe.hpp>
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace carom {
@@ -12,7 +13,7 @@ struct ObservedRun {
   const Scene& scene;
   const Disks& disks;
   std::optional<double> time = {};  ///< end of the run as planned when it began
-  double temperature = 0.0;         ///< kT at the start, or that of the thermostat
+  double temperature = 0.0;         ///< kT at the start, or of the bath
   double mean_diameter = 1.0;       ///< 1 without disks
   bool collisions_known = true;     ///< can be followed one by one: of a run that is over, its log may not have been kept
   bool collisions_told = false;     ///< whether the simulation itself records collisions with what came before them
@@ -31,11 +32,13 @@ struct ObservedRun {
   /// Returns whether the total momentum along an axis is kept, so that the common motion is no heat.
   [[nodiscard]] bool keeps_momentum(int axis) const;
   /// Returns whether what counts as heat depends on where a disk is: velocities are relative to a flow.
-  [[nodiscard]] bool sheared() const { return scene.effects.shear && scene.effects.shear->rate != 0.0; }
+  [[nodiscard]] bool sheared() const { return scene.effects.shear_rate() != 0.0; }
 };
 
-/// Returns whether a thermostat, growth or shear acts: velocities then change without a collision.
+/// Returns whether an effect acts that changes velocities without a collision.
 [[nodiscard]] bool is_driven(const Effects& effects);
+/// The first of them: "[thermostat]". Requires is_driven().
+[[nodiscard]] std::string_view what_drives(const Effects& effects);
 
 /// Velocities as heat: without the flow of a sheared box, and without the common motion where momentum is kept.
 [[nodiscard]] Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state);
@@ -45,7 +48,7 @@ struct ObservedRun {
 /// Velocity of all disks together; zero where it is no more than what rounding leaves.
 [[nodiscard]] Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state);
 
-/// Returns the facts before the run, whose temperature is that of the start or of the thermostat.
+/// Returns the facts before the run, whose temperature is that of the start or of the bath.
 [[nodiscard]] ObservedRun observed_run(const Simulation& simulation);
 /// Returns the facts about a run of known temperature. Requires that scene and disks outlive the result.
 [[nodiscard]] ObservedRun observed_run(const Scene& scene, const Disks& disks, double temperature);

@@ -8,9 +8,9 @@ namespace carom {
 
 namespace {
 
-/// Returns the state seen half a box higher: disks of the lower half are replaced by their images above, which shear has
-/// displaced. Pairs across the edges of y then stand in the middle. Places along x carry the rounding of the box's size, 1e-16 of
-/// it.
+/// Returns the state seen half a box higher: disks of the lower half are replaced by their images above, displaced
+/// as these are. Pairs across the edges of y then stand in the middle. Places along x carry the rounding of the box's size, 1e-16
+/// of it.
 Eigen::Matrix2Xd half_a_box_higher(const Box& box, const State& state) {
   const Eigen::Vector2d lengths = box.lengths();
   const double middle = box.lower.y() + 0.5 * lengths.y();
@@ -39,7 +39,7 @@ DeepestOverlap deepest_overlap_in_shear(const Box& box, const std::vector<double
 }  // namespace
 
 DeepestOverlap deepest_overlap(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
-  const bool sheared = effects.shear && state.shear_displacement != 0.0;
+  const bool sheared = effects.shear_rate() != 0.0 && state.shear_displacement != 0.0;
   if (sheared) return deepest_overlap_in_shear(box, radii_of(disks, state), state);
   if (state.scale != 1.0) return deepest_overlap(box_of(box, state), radii_of(disks, state), state.positions, state.remainders);
   return deepest_overlap(box_of(box, state), disks.radius, state.positions, state.remainders);

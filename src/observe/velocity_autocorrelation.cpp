@@ -26,9 +26,8 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
         changes_(run.species_count()),
         noted_(run.species_count()) {
     const Effects& effects = run.scene.effects;
-    const bool curved = effects.gravity && !effects.gravity->acceleration.isZero(0.0);
-    follows_ = run.collisions_known && !curved && !is_driven(effects) && run.scene.box.periodic(0) && run.scene.box.periodic(1) &&
-               effects.obstacles.empty();
+    const bool curved = !effects.acceleration().isZero(0.0);
+    follows_ = run.collisions_known && !curved && !is_driven(effects) && run.keeps_momentum(0) && run.keeps_momentum(1);
     for (std::size_t s = 0; s < run.species_count(); ++s) {
       tracked_.emplace_back(run, s);
       instants_.emplace_back(tracked_.back().channels(), MultipleTau::Pairs::products, lags, 1);

@@ -6,7 +6,7 @@
 //
 // where I is what each wall gets, outward positive. So I_low = S dt / 2h - d(G / h - P) / 2 and I_high = S dt / 2h - d(G / h + P)
 // / 2: sound and the disks' flight from wall to wall are in G and P, which stay bounded, and the pressure is in S. Disks of
-// several sizes, gravity and thermal walls leave a part of it in the rest, which does no harm.
+// several sizes, weight and thermal walls leave a part of it in the rest, which does no harm.
 
 #include "observe/observed_run.hpp"
 

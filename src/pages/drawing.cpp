@@ -51,7 +51,7 @@ class Drawing {
     for (int b = -up; b <= up; ++b) {
       const double y = b * lengths.y();
       if (place.y() + y + reach < bottom || place.y() + y - reach > top) continue;
-      const int along = !box().periodic(0) ? 0 : b == 0 ? 1 : 2;  // under shear those above are displaced by up to a box length
+      const int along = !box().periodic(0) ? 0 : b == 0 ? 1 : 2;  // images above may be displaced by up to a box length
       for (int a = -along; a <= along; ++a) {
         const double x = a * lengths.x() + b * moment_.shear_displacement;
         if (place.x() + x + reach < left || place.x() + x - reach > right) continue;
@@ -68,7 +68,7 @@ class Drawing {
   void line_to(const Eigen::Vector2d& place) { cairo_line_to(context_, at_.x(place.x()), at_.y(place.y())); }
 
   void draw_trails() {
-    const bool curved = of_.scene.effects.gravity && !of_.scene.effects.gravity->acceleration.isZero();
+    const bool curved = !of_.scene.effects.acceleration().isZero();
     cairo_set_line_width(context_, std::max(1.2, 0.5 * at_.line));
     cairo_set_line_cap(context_, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);

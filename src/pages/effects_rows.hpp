@@ -14,7 +14,7 @@ namespace carom {
 /// Returns the row of energy: its drift or, where effects supply and remove energy, how well they account for its change.
 [[nodiscard]] SummaryRow row_of_energy(const RunReport& report);
 
-/// Returns the rows of walls, thermostat, growth, shear and wells; those of walls only where `scene` is known.
+/// Returns the rows of all effects; those of walls only where `scene` is known.
 [[nodiscard]] SummaryRows rows_of_effects(const RunReport& report, const Scene* scene);
 
 }  // namespace carom

@@ -2,7 +2,7 @@
 
 #include "pages/effects_words.hpp"
 
-#include "observe/any_wall.hpp"
+#include "scene/effect_traits.hpp"
 #include "scene/wall_names.hpp"
 #include "text/numbers.hpp"
 
@@ -10,7 +10,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -49,58 +48,35 @@ std::string words(const std::vector<Obstacle>& obstacles) {
   return fmt::format("{}", fmt::join(parts, " and "));
 }
 
-std::string words(const Growth& growth) {
-  std::string text = fmt::format("all radii grow at rate {:.6g} of their first size", growth.rate);
-  if (growth.packing_fraction) text += fmt::format(", until packing fraction {:.6g}", *growth.packing_fraction);
-  if (growth.reduced_pressure) text += fmt::format(", until reduced pressure {:.6g}", *growth.reduced_pressure);
-  return text;
-}
-
-std::string words(const SquareWell& well) {
-  return fmt::format("{} {:.6g} from one to {:.6g} diameters apart",
-                     well.depth < 0.0 ? "a repulsive shoulder of height" : "an attractive well of depth", std::abs(well.depth),
-                     well.width);
-}
-
 }  // namespace
 
 SummaryRows words_of(const Effects& effects) {
   SummaryRows rows;
   const auto put = [&](const char* subject, std::string text) { rows.push_back({subject, std::move(text)}); };
   put("collisions", words(effects.collision));
-  if (effects.gravity) {
-    const Eigen::Vector2d& g = effects.gravity->acceleration;
-    put("gravity", fmt::format("acceleration ({:.6g}, {:.6g})", g.x(), g.y()));
-  }
   for (std::size_t w = 0; w < effects.walls.size(); ++w) {
     if (!effects.walls[w].present()) continue;
     put("wall", fmt::format("{}: {}", wall_names[w], words(effects.walls[w], axis_of_wall(w))));
   }
   if (!effects.obstacles.empty()) put("obstacles", words(effects.obstacles));
-  if (effects.growth) put("growth", words(*effects.growth));
-  if (effects.thermostat) {
-    put("thermostat", fmt::format("each disk's velocity is drawn anew at kT = {:.6g}, at rate {:.6g}",
-                                  effects.thermostat->temperature, effects.thermostat->rate));
+  for (const detail::EffectTraits& effect : detail::all_effects()) {
+    if (effect.words == nullptr || !effect.is_present(effects)) continue;
+    std::string subject(effect.name);
+    std::replace(subject.begin(), subject.end(), '_', ' ');
+    rows.push_back({std::move(subject), effect.words(effects)});
   }
-  if (effects.shear) put("shear", fmt::format("the flow is v_x = {:.6g} y (Lees-Edwards)", effects.shear->rate));
-  if (effects.square_well) put("square well", words(*effects.square_well));
   return rows;
 }
 
 std::string absent(const Effects& effects) {
-  std::vector<const char*> names;
-  const auto put = [&](bool present, const char* name) {
-    if (!present) names.push_back(name);
-  };
-  put(effects.collision.restitution.has_value(), "loss of energy in collisions");
-  put(effects.collision.roughness.has_value(), "friction and spin");
-  put(effects.gravity.has_value(), "gravity");
-  put(any_wall(effects, [](const WallProperties& wall) { return wall.present(); }), "moving, thermal or inelastic walls");
-  put(!effects.obstacles.empty(), "obstacles");
-  put(effects.growth.has_value(), "growth");
-  put(effects.thermostat.has_value(), "a thermostat");
-  put(effects.shear.has_value(), "shear");
-  put(effects.square_well.has_value(), "attraction at a distance");
+  std::vector<std::string_view> names;
+  for (const detail::EffectTraits& effect : detail::all_effects()) {
+    const auto is_there = [&](const detail::EffectTraits& other) {
+      return other.absence == effect.absence && other.is_present(effects);
+    };
+    if (effect.absence.empty() || std::ranges::find(names, effect.absence) != names.end()) continue;
+    if (std::ranges::none_of(detail::all_effects(), is_there)) names.push_back(effect.absence);
+  }
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

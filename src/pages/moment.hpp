@@ -10,7 +10,7 @@
 
 namespace carom {
 
-/// A piece of a path: a straight line, or under gravity a parabola, whose tangents at its ends meet in `middle`.
+/// A piece of a path: a straight line, or, where disks fall, a parabola, whose tangents at its ends meet in `middle`.
 struct Stretch {
   Eigen::Vector2d from, middle, to;
 };

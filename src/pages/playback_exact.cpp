@@ -31,7 +31,7 @@ class ExactSource : public Playback::Source {
       moment.velocities.col(column) = replay_->velocity(i, time);
     }
     moment.scale = exact_.start.scale;
-    if (scene.effects.growth) moment.scale += scene.effects.growth->rate * (time - exact_.start.time);
+    moment.scale += scene.effects.growth_rate() * (time - exact_.start.time);
     for (std::size_t side = 0; side < 4; ++side) {
       const Replay::Side& now = replay_->sides()[side];
       const double dt = time - now.time;

@@ -120,8 +120,8 @@ Json player_description(const Scene& scene, const std::string& title, const std:
   json["box"] = {
       {"lower", vector(box.lower)}, {"upper", vector(box.upper)}, {"periodic", Json::array({box.periodic(0), box.periodic(1)})}};
   json["species"] = species_names;
-  json["gravity"] = vector(effects.gravity ? effects.gravity->acceleration : Eigen::Vector2d::Zero());
-  json["growth"] = effects.growth ? effects.growth->rate : 0.0;
+  json["gravity"] = vector(effects.acceleration());
+  json["growth"] = effects.growth_rate();
   json["obstacles"] = obstacles_of(effects);
   json["keepsMomentum"] = Json::array({keeps_momentum(box, effects, 0), keeps_momentum(box, effects, 1)});
   json["whyNoZ"] = why_no_Z(effects);

@@ -2,6 +2,8 @@
 
 #include "pages/replay.hpp"
 
+#include "scene/effect_traits.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,18 +18,16 @@ constexpr double sign_of(std::size_t side) { return side % 2 == 1 ? 1.0 : -1.0; 
 
 std::string why_no_replay(const Scene& scene) {
   const Effects& effects = scene.effects;
-  if (effects.thermostat && effects.thermostat->rate > 0.0)
-    return "the thermostat changes velocities between collisions, which the event log does not hold";
-  if (effects.shear && effects.shear->rate != 0.0)
-    return "under shear disks change their velocity at the edges of the box, which the event log does not hold";
-  if (effects.growth && effects.growth->rate > 0.0 && effects.collision.roughness)
+  if (const std::string_view why = detail::first_reason(effects, &detail::EffectTraits::why_no_replay); !why.empty())
+    return std::string(why);
+  if (effects.growth_rate() > 0.0 && effects.collision.roughness)
     return "velocities of growing disks are rescaled by an energy that spins are part of, which the event log does not hold";
   return {};
 }
 
 Replay::Replay(const Scene& scene, const Disks& disks, const State& start, VelocityDigits digits)
     : disks_(&disks), digits_(digits) {
-  if (scene.effects.gravity) gravity_ = scene.effects.gravity->acceleration;
+  gravity_ = scene.effects.acceleration();
   for (Eigen::Index i = 0; i < start.positions.cols(); ++i)
     flights_.push_back({start.positions.col(i), start.velocities.col(i), start.time});
   const Box& box = scene.box;
@@ -41,7 +41,7 @@ Replay::Replay(const Scene& scene, const Disks& disks, const State& start, Veloc
       sides_[side].acceleration =
           -sign_of(side) * wall.load.value_or(0.0) * box.lengths()[static_cast<int>(1 - axis_of(side))] / *wall.mass;
   }
-  if (scene.effects.growth && scene.effects.growth->rate > 0.0) {
+  if (scene.effects.growth_rate() > 0.0) {
     rescale_every_ = std::max<std::uint64_t>(1, disks.count() / 2);  // as src/simulation/driven_engine.cpp does
     energy_at_start_ = kinetic_energy(start.time);
   }

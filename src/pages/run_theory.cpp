@@ -98,7 +98,7 @@ void RunTheory::find_velocities() {
   keeps_momentum_ = x && y;
   const bool is_fixed = effects.neutral() && x == y;
   velocities_ = is_fixed ? Velocities::fixed_energy : Velocities::maxwell;
-  if (effects.thermostat && effects.thermostat->rate > 0.0) kT_ = effects.thermostat->temperature;
+  kT_ = effects.bath_temperature().value_or(kT_);
 }
 
 std::vector<RunTheory::Kind> RunTheory::kinds(const std::string& suffix) const {
@@ -169,8 +169,7 @@ std::vector<Series> RunTheory::density_curves(const Table& table) const {
   const int across = 1 - axis;
   const std::vector<double>& x = table.columns.front().values;
   if (x.empty()) return {};
-  const bool periodic = scene.box.periodic(axis),
-             falls = scene.effects.gravity && scene.effects.gravity->acceleration[axis] != 0.0;
+  const bool periodic = scene.box.periodic(axis), falls = scene.effects.acceleration()[axis] != 0.0;
   if (periodic && scene.effects.obstacles.empty()) {
     const double density = static_cast<double>(report_.disks) / scene.box.area();
     Series uniform = line("uniform");
@@ -181,7 +180,7 @@ std::vector<Series> RunTheory::density_curves(const Table& table) const {
   const Disks& disks = source_->disks;
   const bool is_equal = disks.count() > 0 && all_equal(disks.radius) && all_equal(disks.mass);
   if (!falls || !is_equal || velocities_ == Velocities::unknown) return {};
-  const double g = scene.effects.gravity->acceleration[axis], radius = disks.radius.front();
+  const double g = scene.effects.acceleration()[axis], radius = disks.radius.front();
   const double height = scene.box.lengths()[axis] - 2.0 * radius;
   const double width = scene.box.lengths()[across] - (scene.box.periodic(across) ? 0.0 : 2.0 * radius);
   constexpr std::size_t steps = 400;

@@ -1,6 +1,7 @@
 // Which effects cannot act together, and which need a box of another kind.
 
 #include "scene/checks.hpp"
+#include "scene/effect_traits.hpp"
 #include "scene/number_keys.hpp"
 
 #include <fmt/format.h>
@@ -8,8 +9,24 @@
 namespace carom::detail {
 namespace {
 
-[[noreturn]] void refuse_together(const char* table, const char* one, const char* other) {
-  throw Refusal(table, fmt::format("{} and {} cannot be combined; remove one of the two", one, other));
+void check_exclusions(const Effects& effects) {
+  for (const EffectTraits& one : all_effects())
+    for (const Exclusion& exclusion : one.excludes) {
+      const EffectTraits& other = effect_named(exclusion.other);
+      const bool both = exclusion.at_neutral_value ? one.is_present(effects) && other.is_present(effects)
+                                                   : one.acts(effects) && other.acts(effects);
+      if (!both) continue;
+      throw Refusal(std::string(one.name),
+                    fmt::format("{} and {} cannot be combined; remove one of the two", one.title, other.title));
+    }
+}
+
+void check_equilibration(const Scene& scene) {
+  if (!scene.run.equilibrate) return;
+  for (const EffectTraits& effect : all_effects())
+    if (!effect.why_not_equilibrate.empty() && effect.acts(scene.effects))
+      throw Refusal(std::string(effect.name),
+                    fmt::format("{} and run.equilibrate cannot be combined; {}", effect.title, effect.why_not_equilibrate));
 }
 
 void check_collision(const Collision& collision) {
@@ -22,6 +39,7 @@ void check_collision(const Collision& collision) {
 void check_gravity(const Scene& scene) {
   if (!scene.effects.gravity) return;
   const Gravity& gravity = *scene.effects.gravity;
+  require_pair("gravity.acceleration", gravity.acceleration, keys::acceleration_example);
   for (int axis = 0; axis < 2; ++axis) {
     if (!scene.box.periodic(axis) || gravity.acceleration[axis] == 0.0) continue;
     throw Refusal(
@@ -33,18 +51,13 @@ void check_gravity(const Scene& scene) {
 }
 
 void check_shear(const Scene& scene) {
-  const Effects& effects = scene.effects;
-  if (!effects.shear) return;
+  if (!scene.effects.shear) return;
   for (int axis = 0; axis < 2; ++axis) {
     if (scene.box.periodic(axis)) continue;
     throw Refusal("shear", fmt::format("[shear] moves periodic images past each other, but {} has walls; take boundary = "
                                        "\"periodic\", or remove [shear]",
                                        axis_names[axis]));
   }
-  if (effects.gravity) refuse_together("shear", "[shear]", "[gravity]");
-  if (!effects.obstacles.empty()) refuse_together("shear", "[shear]", "[[obstacles]]");
-  if (effects.growth) refuse_together("shear", "[shear]", "[growth]");
-  if (effects.square_well) refuse_together("shear", "[shear]", "[square_well]");
 }
 
 /// The fraction of half the box by which a well must end before the middle between two images of a disk: more than the rounding
@@ -64,7 +77,6 @@ void check_square_well(const Scene& scene) {
                     "above 1, such as {}",
                     well.width, keys::well_width.example));
   if (well.depth == 0.0) return;
-  if (scene.effects.growth && scene.effects.growth->rate > 0.0) refuse_together("square_well", "[square_well]", "[growth]");
   const Radii radii = radii_of(scene);
   const double reach = well.width * 2.0 * radii.largest;
   for (int axis = 0; axis < 2; ++axis) {
@@ -90,8 +102,10 @@ void check_effects(const Scene& scene) {
   check_collision(scene.effects.collision);
   check_gravity(scene);
   check_shear(scene);
+  check_exclusions(scene.effects);
   check_square_well(scene);
   check_walls(scene);
+  check_equilibration(scene);
   check_growth(scene);
 }
 

@@ -2,6 +2,7 @@
 
 #include "scene/checks.hpp"
 #include "scene/growth_room.hpp"
+#include "scene/number_keys.hpp"
 #include "scene/wall_names.hpp"
 
 #include <fmt/format.h>
@@ -13,11 +14,6 @@ namespace carom::detail {
 namespace {
 
 void check_company(const Scene& scene) {
-  if (scene.run.equilibrate) {
-    throw Refusal("growth",
-                  "[growth] and run.equilibrate cannot be combined; grow the disks in a run of their own, and equilibrate in one "
-                  "that starts from what they have grown to");
-  }
   for (std::size_t w = 0; w < scene.effects.walls.size(); ++w) {
     const WallProperties& wall = scene.effects.walls[w];
     const char* kind = wall.mass ? "piston" : wall.velocity.value_or(0.0) != 0.0 ? "moving wall" : nullptr;
@@ -72,9 +68,15 @@ void check_time(const Scene& scene, const Growth& growth) {
 
 }  // namespace
 
+std::string ends_of_growth(const char* has) {
+  return fmt::format("growth.until has {}; give exactly one, {{ packing_fraction = 0.84 }} or {{ pressure = 1e6 }}", has);
+}
+
 void check_growth(const Scene& scene) {
   if (!scene.effects.growth) return;
   const Growth& growth = *scene.effects.growth;
+  require("growth.until", growth.packing_fraction, keys::until_fraction);
+  require("growth.until", growth.reduced_pressure, keys::until_pressure);
   if (growth.packing_fraction && growth.reduced_pressure)
     throw Refusal("growth.until", ends_of_growth("both packing_fraction and pressure"));
   if (growth.packing_fraction && scene.disk_count() > 0) check_target(scene, growth);

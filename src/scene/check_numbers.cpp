@@ -2,6 +2,7 @@
 // read.
 
 #include "scene/checks.hpp"
+#include "scene/effect_traits.hpp"
 #include "scene/number_keys.hpp"
 #include "scene/wall_names.hpp"
 
@@ -16,15 +17,6 @@
 namespace carom::detail {
 namespace {
 
-/// Checks a number of the key `key` in its table; does nothing where the number is absent.
-void require(const std::string& table, const std::optional<double>& value, const NumberKey& key) {
-  if (value && !key.holds(*value)) refuse_number(fmt::format("{}.{}", table, key.name), *value, key);
-}
-void require_pair(const std::string& path, const Eigen::Vector2d& pair, std::string_view example) {
-  if (pair.allFinite()) return;
-  const int axis = std::isfinite(pair[0]) ? 1 : 0;
-  refuse_number(fmt::format("{}.{}", path, axis), pair[axis], {"", example});
-}
 void require_pairs(const std::string& path, const std::vector<Eigen::Vector2d>& pairs, std::string_view example) {
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if (!pairs[i].allFinite()) require_pair(fmt::format("{}.{}", path, i), pairs[i], example);
@@ -87,36 +79,14 @@ void check_wall(const std::string& path, const WallProperties& wall) {
   require(path, wall.load, keys::piston_load);
 }
 
-void check_obstacle(const std::string& path, const Obstacle& obstacle) {
-  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
-    require_pair(path + ".disk.centre", disk->centre, keys::disk_example);
-    require(path + ".disk", disk->radius, keys::obstacle_radius);
-  } else {
-    require_pair(path + ".segment.from", std::get<SegmentObstacle>(obstacle.shape).from, keys::segment_example);
-    require_pair(path + ".segment.to", std::get<SegmentObstacle>(obstacle.shape).to, keys::segment_example);
-  }
-}
-
 void check_numbers_of(const Effects& effects) {
   require("collision", effects.collision.restitution, keys::restitution);
   require("collision", effects.collision.roughness, keys::roughness);
   require("collision.elastic_below", effects.collision.elastic_below, keys::elastic_below);
-  if (effects.gravity) require_pair("gravity.acceleration", effects.gravity->acceleration, keys::acceleration_example);
   for (std::size_t w = 0; w < effects.walls.size(); ++w) check_wall(fmt::format("walls.{}", wall_names[w]), effects.walls[w]);
-  for (std::size_t k = 0; k < effects.obstacles.size(); ++k) check_obstacle(fmt::format("obstacles.{}", k), effects.obstacles[k]);
-  if (const auto& growth = effects.growth) {
-    require("growth", growth->rate, keys::growth_rate);
-    require("growth.until", growth->packing_fraction, keys::until_fraction);
-    require("growth.until", growth->reduced_pressure, keys::until_pressure);
-  }
-  if (const auto& thermostat = effects.thermostat) {
-    require("thermostat", thermostat->temperature, keys::bath_temperature);
-    require("thermostat", thermostat->rate, keys::bath_rate);
-  }
-  if (effects.shear) require("shear", effects.shear->rate, keys::shear_rate);
-  if (const auto& well = effects.square_well) {
-    require("square_well", well->width, keys::well_width);
-    require("square_well", well->depth, keys::well_depth);
+  for (const EffectTraits& effect : all_effects()) {
+    if (!effect.is_present(effects)) continue;
+    for (const EffectNumber& number : effect.numbers) require(std::string(effect.name), number.value(effects), *number.key);
   }
 }
 

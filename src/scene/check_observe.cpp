@@ -1,6 +1,7 @@
 // Checks of [observe]: which observables have no meaning in a scene, and why.
 
 #include "scene/checks.hpp"
+#include "scene/effect_traits.hpp"
 #include "scene/known_keys.hpp"
 #include "scene/number_keys.hpp"
 #include "scene/observables_known.hpp"
@@ -22,32 +23,14 @@ bool one_of(std::string_view name, std::initializer_list<std::string_view> names
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool acts(const std::optional<Thermostat>& effect) { return effect && effect->rate > 0.0; }
-bool acts(const std::optional<Growth>& effect) { return effect && effect->rate > 0.0; }
-bool acts(const std::optional<Shear>& effect) { return effect && effect->rate != 0.0; }
-
-/// Returns what changes velocities between collisions, so that the velocities before a collision are unknown; empty where nothing
-/// does.
-std::string_view between_collisions(const Effects& effects) {
-  if (acts(effects.thermostat)) return "[thermostat]";
-  if (acts(effects.growth)) return "[growth]";
-  if (acts(effects.shear)) return "[shear]";
-  return {};
-}
-
 /// Green and Kubo's formulas are about smooth disks that keep their energy and momentum.
 std::string_view what_spoils_transport(const Scene& scene) {
   const Effects& effects = scene.effects;
   if (!scene.box.periodic(0) || !scene.box.periodic(1)) return "walls take momentum; take boundary = \"periodic\"";
-  if (!effects.obstacles.empty()) return "obstacles take momentum; remove [[obstacles]]";
   if (effects.collision.rule == CollisionRule::reversal)
     return "the rule \"reversal\" does not keep angular momentum, and its gas has no viscosity in that sense; take rule = "
            "\"specular\"";
-  if (effects.collision.restitution.value_or(1.0) != 1.0) return "restitution takes energy; remove it";
-  if (effects.collision.roughness.value_or(-1.0) != -1.0)
-    return "rough disks carry momentum and heat in their spin; remove roughness";
-  if (effects.square_well && effects.square_well->depth != 0.0) return "wells carry energy of their own; remove [square_well]";
-  return {};
+  return first_reason(effects, &EffectTraits::why_no_transport);
 }
 
 bool equal_masses(const Scene& scene) {
@@ -96,11 +79,11 @@ void check_disks(const Scene& scene, const ObservableRequest& request) {
 
 void check_collisions(const Scene& scene, const ObservableRequest& request) {
   if (!one_of(request.name, {"free_flight", "viscosity", "heat_conductivity"})) return;
-  const std::string_view what = between_collisions(scene.effects);
-  if (what.empty()) return;
-  refuse_observable(request, fmt::format("follows disks from collision to collision, and {} changes their velocities in between; "
-                                         "remove one of the two",
-                                         what));
+  for (const EffectTraits& effect : all_effects())
+    if (effect.changes_velocities_in_flight && effect.acts(scene.effects))
+      refuse_observable(request, fmt::format("follows disks from collision to collision, and {} changes their velocities in "
+                                             "between; remove one of the two",
+                                             effect.title));
 }
 
 void check_structure(const Scene& scene, const ObservableRequest& request) {
@@ -109,11 +92,8 @@ void check_structure(const Scene& scene, const ObservableRequest& request) {
     refuse_observable(request,
                       "is that of a uniform system, and walls disturb it; take boundary = \"periodic\", or observe "
                       "density_profile");
-  if (acts(scene.effects.shear))
-    refuse_observable(request,
-                      "is that of a fluid at rest, and under [shear] images slide past each other; remove one of the two");
-  if (acts(scene.effects.growth))
-    refuse_observable(request, "is that of disks that keep their size, and [growth] changes it; remove one of the two");
+  if (const std::string_view why = first_reason(scene.effects, &EffectTraits::why_no_structure); !why.empty())
+    refuse_observable(request, std::string(why));
   if (!request.range) return;
   const double diameter = mean_diameter(scene);
   const double half = 0.5 * scene.box.lengths().minCoeff() / diameter;
@@ -134,8 +114,9 @@ void check_observe(const Scene& scene) {
     if (request.every) check_step(scene, fmt::format("observe.{}.every", request.name), *request.every);
     if (request.name == "wall_fluxes" && scene.box.periodic(0) && scene.box.periodic(1))
       refuse_observable(request, "asks what goes through walls, and this box is periodic; remove it, or give an axis walls");
-    if (one_of(request.name, {"mean_square_displacement", "velocity_autocorrelation"}) && acts(scene.effects.shear))
-      refuse_observable(request, "follows disks through a fluid at rest, and [shear] carries them along; remove one of the two");
+    if (const std::string_view why = first_reason(scene.effects, &EffectTraits::why_no_displacements);
+        !why.empty() && one_of(request.name, {"mean_square_displacement", "velocity_autocorrelation"}))
+      refuse_observable(request, std::string(why));
     if (!one_of(request.name, {"viscosity", "heat_conductivity"})) continue;
     if (const std::string_view why = what_spoils_transport(scene); !why.empty())
       refuse_observable(request, fmt::format("has no meaning here: {}", why));

@@ -19,6 +19,16 @@ void require_inside(const Box& box, const Eigen::Vector2d& point, const std::str
   }
 }
 
+void check_numbers_of(const Obstacle& obstacle, const std::string& path) {
+  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
+    require_pair(path + ".disk.centre", disk->centre, keys::disk_example);
+    require(path + ".disk", disk->radius, keys::obstacle_radius);
+  } else {
+    require_pair(path + ".segment.from", std::get<SegmentObstacle>(obstacle.shape).from, keys::segment_example);
+    require_pair(path + ".segment.to", std::get<SegmentObstacle>(obstacle.shape).to, keys::segment_example);
+  }
+}
+
 /// Through a periodic edge a disk may stick out, but not so far that it meets its own image.
 void check_disk(const Box& box, const DiskObstacle& disk, const std::string& path) {
   require_inside(box, disk.centre, path, ".disk.centre");
@@ -54,6 +64,7 @@ void check_obstacles(const Scene& scene) {
   if (obstacles.empty()) return;
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     const std::string path = fmt::format("obstacles.{}", o);
+    check_numbers_of(obstacles[o], path);
     if (const auto* disk = std::get_if<DiskObstacle>(&obstacles[o].shape)) check_disk(scene.box, *disk, path);
     if (const auto* segment = std::get_if<SegmentObstacle>(&obstacles[o].shape)) check_segment(scene.box, *segment, path);
   }

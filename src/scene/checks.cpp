@@ -42,8 +42,4 @@ std::string unequal_counts(const std::string& path, std::int64_t count, std::siz
   return fmt::format("{} is {}, but positions has {}; make them agree, or leave count out", path, count, positions);
 }
 
-std::string ends_of_growth(const char* has) {
-  return fmt::format("growth.until has {}; give exactly one, {{ packing_fraction = 0.84 }} or {{ pressure = 1e6 }}", has);
-}
-
 }  // namespace carom::detail

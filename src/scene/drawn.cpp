@@ -1,5 +1,7 @@
 #include "scene/drawn.hpp"
 
+#include "scene/effect_traits.hpp"
+
 #include <algorithm>
 #include <variant>
 
@@ -28,9 +30,7 @@ bool start_is_drawn(const Scene& scene) {
 }
 
 bool run_is_drawn(const Scene& scene) {
-  const auto& walls = scene.effects.walls;
-  const bool thermal = std::any_of(walls.begin(), walls.end(), [](const auto& wall) { return wall.temperature.has_value(); });
-  return start_is_drawn(scene) || thermal || (scene.effects.thermostat && scene.effects.thermostat->rate > 0.0);
+  return start_is_drawn(scene) || detail::any_acting(scene.effects, &detail::EffectTraits::draws_random_numbers);
 }
 
 }  // namespace carom

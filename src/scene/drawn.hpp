@@ -8,7 +8,7 @@ namespace carom {
 /// Returns whether places or velocities of some disk are drawn at random, so that another seed gives another start.
 [[nodiscard]] bool start_is_drawn(const Scene& scene);
 
-/// Returns whether a run of the scene draws anything: its start, velocities at thermal walls, or those that a thermostat gives.
+/// Returns whether a run of the scene draws anything: its start, or what an effect draws (EffectTraits::draws_random_numbers).
 [[nodiscard]] bool run_is_drawn(const Scene& scene);
 
 }  // namespace carom

@@ -16,7 +16,7 @@ inline constexpr double room_left = 0x1p-16;
 [[nodiscard]] inline double growth_room(const Box& box, int axis, double radius) {
   return box.lengths()[axis] * (box.periodic(axis) ? 1.0 : 1.0 - room_left) / (2.0 * radius);
 }
-/// Returns the least growth room along both axes.
+/// Returns the smaller growth_room() along both axes.
 [[nodiscard]] inline double growth_room(const Box& box, double radius) {
   return std::min(growth_room(box, 0, radius), growth_room(box, 1, radius));
 }

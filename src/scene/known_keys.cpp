@@ -2,6 +2,7 @@
 
 #include "scene/known_keys.hpp"
 
+#include "scene/effect_traits.hpp"
 #include "scene/excerpt.hpp"
 #include "scene/foreign_words.hpp"
 #include "scene/observables_known.hpp"
@@ -21,9 +22,9 @@ namespace {
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 /// Returns the table to which a key belongs, for keys that are in the wrong table rather than misspelt; empty for others.
-std::string_view home_of(std::string_view key) {
+std::string home_of(std::string_view key) {
   using Home = std::pair<std::string_view, std::string_view>;
-  static constexpr std::array<Home, 48> homes = {{{"grid", "a sweep, which carom sweep runs"},
+  static constexpr std::array<Home, 41> homes = {{{"grid", "a sweep, which carom sweep runs"},
                                                   {"points", "a sweep, which carom sweep runs"},
                                                   {"seeds", "a sweep, which carom sweep runs"},
                                                   {"x", "[box]"},
@@ -41,20 +42,14 @@ std::string_view home_of(std::string_view key) {
                                                   {"restitution", "[collision] or a wall in [walls]"},
                                                   {"roughness", "[collision]"},
                                                   {"elastic_below", "[collision]"},
-                                                  {"acceleration", "[gravity]"},
                                                   {"left", "[walls]"},
                                                   {"right", "[walls]"},
                                                   {"bottom", "[walls]"},
                                                   {"top", "[walls]"},
                                                   {"load", "a wall in [walls]"},
-                                                  {"until", "[growth]"},
-                                                  {"rate", "[growth], [thermostat] or [shear]"},
-                                                  {"disk", "[[obstacles]]"},
-                                                  {"segment", "[[obstacles]]"},
                                                   {"centre", "a disk in [[obstacles]]"},
                                                   {"from", "a segment in [[obstacles]]"},
                                                   {"to", "a segment in [[obstacles]]"},
-                                                  {"depth", "[square_well]"},
                                                   {"time", "[run]"},
                                                   {"collisions", "[run]"},
                                                   {"sample_every", "[run]"},
@@ -69,11 +64,13 @@ std::string_view home_of(std::string_view key) {
                                                   {"events", "[output]"},
                                                   {"unwrapped", "[output]"},
                                                   {"uniform", "velocities = { ... }"},
-                                                  {"speed", "velocities = { ... }"},
-                                                  {"temperature", "velocities = { ... }, a wall in [walls] or [thermostat]"}}};
+                                                  {"speed", "velocities = { ... }"}}};
   const auto home = std::find_if(homes.begin(), homes.end(), [&](const Home& entry) { return entry.first == key; });
-  if (home != homes.end()) return home->second;
-  return find_observable(key) != nullptr ? "[observe]" : std::string_view();
+  if (home != homes.end()) return std::string(home->second);
+  const std::string tables = tables_with_key(key);
+  if (key == "temperature") return "velocities = { ... }, a wall in [walls] or " + tables;
+  if (!tables.empty()) return tables;
+  return find_observable(key) != nullptr ? "[observe]" : "";
 }
 
 /// Returns whether a user of another program might look here for all that its input file had. A radius in [[obstacles]] is
@@ -133,7 +130,7 @@ std::string unknown_key_sentence(std::string_view key, std::string_view path, st
   // One edit away from a key of this table is a slip of the finger, whatever the word means elsewhere: [[disk]] for [[disks]].
   const std::string_view near = nearest_word(key, known);
   if (takes_foreign_words(path) && !meant_by(key).empty()) return fmt::format("{}; {}", problem, meant_by(key));
-  const std::string_view home = !near.empty() && edit_distance(key, near) == 1 ? std::string_view() : home_of(key);
+  const std::string home = !near.empty() && edit_distance(key, near) == 1 ? std::string() : home_of(key);
   if (!home.empty()) return fmt::format("{}; it belongs to {}", problem, home);
   if (key == "title") return problem + "; it belongs to the top of the file, before the first [table]";
   if (!near.empty()) return fmt::format("{}; did you mean \"{}\"?", problem, near);

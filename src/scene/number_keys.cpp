@@ -37,4 +37,14 @@ void refuse_number(const std::string& path, double value, const NumberKey& key) 
   throw Refusal(path, fmt::format("{} is a floating-point number ({}); it must be {}", path, number_text(value), key.expected()));
 }
 
+void require(const std::string& table, const std::optional<double>& value, const NumberKey& key) {
+  if (value && !key.holds(*value)) refuse_number(fmt::format("{}.{}", table, key.name), *value, key);
+}
+
+void require_pair(const std::string& path, const Eigen::Vector2d& pair, std::string_view example) {
+  if (pair.allFinite()) return;
+  const int axis = std::isfinite(pair[0]) ? 1 : 0;
+  refuse_number(fmt::format("{}.{}", path, axis), pair[axis], {"", example});
+}
+
 }  // namespace carom::detail

@@ -5,6 +5,7 @@
 #include <carom/scene.hpp>
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -26,6 +27,11 @@ struct NumberKey {
 
 /// Throws Refusal for a number at `path` that is out of its range.
 [[noreturn]] void refuse_number(const std::string& path, double value, const NumberKey& key);
+
+/// Throws Refusal where a number of `table` is out of the range of its key; one that is absent is in range.
+void require(const std::string& table, const std::optional<double>& value, const NumberKey& key);
+/// Throws Refusal where a component of the pair at `path` is not finite.
+void require_pair(const std::string& path, const Eigen::Vector2d& pair, std::string_view example);
 
 namespace keys {
 

@@ -1,9 +1,12 @@
-// The tables of effects that are a number or two: [gravity], [growth], [thermostat], [shear] and [square_well].
+// The tables of effects.
 
 #include "scene/checks.hpp"
+#include "scene/effect_traits.hpp"
 #include "scene/read_tables.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace carom::detail {
 namespace {
@@ -23,36 +26,15 @@ void read_end(const toml::table& node, Growth& growth) {
   if (!growth.packing_fraction && !growth.reduced_pressure) throw Refusal(table.path(), ends_of_growth("neither of its keys"));
 }
 
-Growth read_growth(const toml::table& node) {
-  const TableReader table(node, "growth", {"rate", "until"});
-  Growth growth;
-  growth.where = table.where();
-  growth.rate = table.required_number(keys::growth_rate);
-  if (const toml::table* until = table.table("until", "{ packing_fraction = 0.84 }")) read_end(*until, growth);
-  return growth;
-}
-
-Thermostat read_thermostat(const toml::table& node) {
-  const TableReader table(node, "thermostat", {"temperature", "rate"});
-  Thermostat thermostat;
-  thermostat.where = table.where();
-  thermostat.temperature = table.required_number(keys::bath_temperature);
-  thermostat.rate = table.required_number(keys::bath_rate);
-  return thermostat;
-}
-
-Shear read_shear(const toml::table& node) {
-  const TableReader table(node, "shear", {"rate"});
-  return {table.required_number(keys::shear_rate), table.where()};
-}
-
-SquareWell read_square_well(const toml::table& node) {
-  const TableReader table(node, "square_well", {"width", "depth"});
-  SquareWell well;
-  well.where = table.where();
-  well.width = table.required_number(keys::well_width);
-  well.depth = table.required_number(keys::well_depth);
-  return well;
+/// A table of an effect that is a number or two, and what it has besides.
+void read_numbers(const toml::table& node, const EffectTraits& effect, Effects& effects) {
+  std::vector<std::string_view> keys;
+  for (const EffectNumber& number : effect.numbers) keys.push_back(number.key->name);
+  keys.insert(keys.end(), effect.other_keys.begin(), effect.other_keys.end());
+  const TableReader table(node, std::string(effect.name), keys);
+  for (const EffectNumber& number : effect.numbers) number.set(effects, table.required_number(*number.key));
+  if (std::ranges::find(effect.other_keys, "until") == effect.other_keys.end()) return;
+  if (const toml::table* until = table.table("until", "{ packing_fraction = 0.84 }")) read_end(*until, *effects.growth);
 }
 
 }  // namespace
@@ -65,10 +47,11 @@ void read_effects(const TableReader& scene, Effects& effects) {
   read("gravity", effects.gravity, read_gravity);
   read("walls", effects.walls, read_walls);
   if (const toml::node* obstacles = scene.find("obstacles")) effects.obstacles = read_obstacles(*obstacles);
-  read("growth", effects.growth, read_growth);
-  read("thermostat", effects.thermostat, read_thermostat);
-  read("shear", effects.shear, read_shear);
-  read("square_well", effects.square_well, read_square_well);
+  for (const EffectTraits& effect : all_effects()) {
+    if (effect.numbers.empty()) continue;
+    if (const toml::table* table = scene.table(effect.name, fmt::format("[{}]", effect.name)))
+      read_numbers(*table, effect, effects);
+  }
 }
 
 }  // namespace carom::detail

@@ -2,6 +2,7 @@
 
 #include "scene/resolved_effects.hpp"
 
+#include "scene/effect_traits.hpp"
 #include "scene/number_text.hpp"
 #include "scene/wall_names.hpp"
 
@@ -16,9 +17,9 @@ namespace {
 
 std::string pair(const Eigen::Vector2d& value) { return fmt::format("[{}, {}]", number_text(value.x()), number_text(value.y())); }
 
-std::string line(const char* key, double value) { return fmt::format("{} = {}\n", key, number_text(value)); }
+std::string line(std::string_view key, double value) { return fmt::format("{} = {}\n", key, number_text(value)); }
 
-std::string line(const char* key, const std::optional<double>& value) { return value ? line(key, *value) : std::string(); }
+std::string line(std::string_view key, const std::optional<double>& value) { return value ? line(key, *value) : std::string(); }
 
 std::string collision(const Collision& collision) {
   std::string text =
@@ -57,14 +58,10 @@ std::string obstacle(const Obstacle& obstacle) {
   return fmt::format("\n[[obstacles]]\nsegment = {{ from = {}, to = {} }}\n", pair(segment.from), pair(segment.to));
 }
 
-std::string growth(const Growth& growth) {
-  std::string text = "\n[growth]\n" + line("rate", growth.rate);
-  const auto until = [&](const char* key, double value) {
-    text += fmt::format("until = {{ {} = {} }}\n", key, number_text(value));
-  };
-  if (growth.packing_fraction) until("packing_fraction", *growth.packing_fraction);
-  if (growth.reduced_pressure) until("pressure", *growth.reduced_pressure);
-  return text;
+std::string until(const Growth& growth) {
+  const auto end = [](const char* key, double value) { return fmt::format("until = {{ {} = {} }}\n", key, number_text(value)); };
+  if (growth.packing_fraction) return end("packing_fraction", *growth.packing_fraction);
+  return growth.reduced_pressure ? end("pressure", *growth.reduced_pressure) : std::string();
 }
 
 }  // namespace
@@ -73,14 +70,12 @@ std::string effects_toml(const Effects& effects) {
   std::string text = collision(effects.collision);
   if (effects.gravity) text += fmt::format("\n[gravity]\nacceleration = {}\n", pair(effects.gravity->acceleration));
   text += walls(effects.walls);
-  if (effects.growth) text += growth(*effects.growth);
   for (const Obstacle& each : effects.obstacles) text += obstacle(each);
-  if (effects.thermostat) {
-    text += "\n[thermostat]\n" + line("temperature", effects.thermostat->temperature) + line("rate", effects.thermostat->rate);
-  }
-  if (effects.shear) text += "\n[shear]\n" + line("rate", effects.shear->rate);
-  if (effects.square_well) {
-    text += "\n[square_well]\n" + line("width", effects.square_well->width) + line("depth", effects.square_well->depth);
+  for (const EffectTraits& effect : all_effects()) {
+    if (effect.numbers.empty() || !effect.is_present(effects)) continue;
+    text += fmt::format("\n[{}]\n", effect.name);
+    for (const EffectNumber& number : effect.numbers) text += line(number.key->name, number.value(effects));
+    if (effect.name == "growth") text += until(*effects.growth);
   }
   return text;
 }

@@ -3,6 +3,7 @@
 #include <carom/scene.hpp>
 
 #include "scene/checks.hpp"
+#include "scene/effect_traits.hpp"
 #include "scene/overrides.hpp"
 #include "scene/read_tables.hpp"
 #include "scene/text_file.hpp"
@@ -49,11 +50,17 @@ std::vector<detail::DisksDraft> read_all_disks(const detail::TableReader& scene,
   return disks;
 }
 
-const std::vector<std::string_view> tables = {"title",     "box",   "disks",      "collision",   "gravity", "walls",  "growth",
-                                              "obstacles", "shear", "thermostat", "square_well", "run",     "output", "observe"};
+/// The keys of a whole scene: the tables of effects are those of the traits, and those that have a reader of their own.
+std::vector<std::string_view> tables() {
+  std::vector<std::string_view> names = {"title", "box", "disks", "collision", "walls", "run", "output", "observe"};
+  for (const detail::EffectTraits& effect : detail::all_effects())
+    if (effect.title == fmt::format("[{}]", effect.name) || effect.title == fmt::format("[[{}]]", effect.name))
+      names.push_back(effect.name);
+  return names;
+}
 
 void read_document(const toml::table& document, const std::string& directory, detail::SceneDraft& draft) {
-  const detail::TableReader reader(document, "", tables);
+  const detail::TableReader reader(document, "", tables());
   Scene& scene = draft.scene;
   scene.title = reader.string("title", "title = \"Disks in a box\"").value_or("");
   draft.box = detail::read_box(require_table(reader, "box", "give limits x and y, and the boundary"));

@@ -6,6 +6,7 @@
 #include "core/instant.hpp"
 #include "engine/note_listener.hpp"
 
+#include <carom/simulation.hpp>
 #include <carom/state.hpp>
 
 #include <Eigen/Core>
@@ -18,6 +19,7 @@
 #include <cstdlib>
 #endif
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -42,10 +44,10 @@ class AnyEngine {
   [[nodiscard]] virtual bool cooled() const { return false; }
   /// jammed() because velocities would not be finite: in half a sentence, empty where that is not so.
   [[nodiscard]] virtual std::string fault() const { return {}; }
-  /// Disks that grew have reached the packing fraction or pressure at which they were to end: run_until returns false from then
-  /// on.
-  [[nodiscard]] virtual bool grown() const { return false; }
-  /// When grown() or jammed() will be true at the latest, as far as the rate of growth tells.
+  /// An effect has brought the run to its end, such as disks that have grown to the packing fraction asked for: the reason, which
+  /// run_until returns false for from then on; empty before.
+  [[nodiscard]] virtual std::optional<StopReason> ended() const { return std::nullopt; }
+  /// The latest time at which disks that grow will have ended the run or be jammed().
   [[nodiscard]] virtual Instant grown_at() const { return forever; }
   [[nodiscard]] virtual Instant now() const = 0;
   /// Rounds sums, which takes a microsecond; counts() does not.

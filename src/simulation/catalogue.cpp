@@ -80,8 +80,8 @@ std::string why_chosen(const EngineEntry& entry, const Scene& scene, const Disks
 
 std::unique_ptr<AnyEngine> make_engine(const EngineEntry& entry, const Scene& scene, const Disks& disks, State start) {
   std::unique_ptr<AnyEngine> engine = entry.make(scene, disks, std::move(start));
-  if (!DrivenEngine::needed_by(scene.effects)) return engine;
-  return std::make_unique<DrivenEngine>(std::move(engine), scene, disks);
+  if (DrivenEngine::needed_by(scene.effects)) return std::make_unique<DrivenEngine>(std::move(engine), scene, disks);
+  return engine;
 }
 
 }  // namespace carom::detail

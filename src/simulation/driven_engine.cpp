@@ -28,20 +28,18 @@ Instant ratio(double a, double b) {
   return Instant::sum(quotient, std::fma(-quotient, b, a) / b);
 }
 
-double rate_of(const std::optional<Growth>& growth) { return growth ? growth->rate : 0.0; }
-
 }  // namespace
 
 bool DrivenEngine::needed_by(const Effects& effects) {
-  return rate_of(effects.growth) > 0.0 || (effects.thermostat && effects.thermostat->rate > 0.0);
+  return effects.growth_rate() > 0.0 || effects.bath_temperature().has_value();
 }
 
 DrivenEngine::DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene, Disks disks)
-    : engine_(std::move(engine)),
+    : WrappedEngine(std::move(engine)),
       disks_(std::move(disks)),
       andersen_(scene.effects.thermostat, static_cast<std::int32_t>(disks_.count()), scene.run.seed),
       spinning_(scene.effects.collision.roughness.has_value()),
-      growth_rate_(rate_of(scene.effects.growth)),
+      growth_rate_(scene.effects.growth_rate()),
       packing_fraction_(scene.packing_fraction()),
       keeps_energy_(growth_rate_ > 0.0 && !andersen_.acts()),
       between_stock_(std::max<std::uint64_t>(1, disks_.count() / 2)),

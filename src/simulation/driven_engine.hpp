@@ -5,8 +5,8 @@
 
 #include "core/exact_sum.hpp"
 #include "effects/andersen.hpp"
-#include "simulation/any_engine.hpp"
 #include "simulation/pressure_window.hpp"
+#include "simulation/wrapped_engine.hpp"
 
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
@@ -21,9 +21,9 @@
 
 namespace carom::detail {
 
-class DrivenEngine final : public AnyEngine {
+class DrivenEngine final : public WrappedEngine {
  public:
-  /// Whether anything in the scene drives an engine; a thermostat or growth at rate 0 does not.
+  /// Whether anything in the scene drives an engine; what has the rate 0 does not.
   [[nodiscard]] static bool needed_by(const Effects& effects);
 
   /// `engine` runs the scene with these disks and knows by itself how they grow.
@@ -33,28 +33,15 @@ class DrivenEngine final : public AnyEngine {
   [[nodiscard]] bool idle() const override;
   /// Or one of them fills the box.
   [[nodiscard]] bool jammed() const override { return filled_ || engine_->jammed(); }
-  [[nodiscard]] std::vector<std::int32_t> slow() const override { return engine_->slow(); }
-  [[nodiscard]] bool cooled() const override { return engine_->cooled(); }
-  [[nodiscard]] std::string fault() const override { return engine_->fault(); }
-  [[nodiscard]] bool grown() const override { return grown_; }
+  [[nodiscard]] std::optional<StopReason> ended() const override {
+    return grown_ ? std::optional(StopReason::grown) : std::nullopt;
+  }
   [[nodiscard]] Instant grown_at() const override { return std::min(end_, full_); }
-  [[nodiscard]] Instant now() const override { return engine_->now(); }
   [[nodiscard]] Totals totals() const override;
   [[nodiscard]] const Counts& counts() const override { return counts_; }
   [[nodiscard]] State state() const override;
   void look_at_velocities(State& state) const override;
-  double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
-    return engine_->set_velocity(i, v, spin);
-  }
-  void scale_velocities(double factor) override { engine_->scale_velocities(factor); }
-  void set_back(const Instant& time) override { engine_->set_back(time); }
   void reset_clock() override;
-  void record_events(bool on) override { engine_->record_events(on); }
-  void take_events(std::vector<Event>& events) override { engine_->take_events(events); }
-  [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap) const override {
-    return engine_->check_invariants(tolerated_overlap);
-  }
-  [[nodiscard]] double deepest_overlap() const override { return engine_->deepest_overlap(); }
   [[nodiscard]] std::size_t bytes() const override;
   void save(SavingArchive& archive) const override;
   void load(LoadingArchive& archive) override;
@@ -82,7 +69,6 @@ class DrivenEngine final : public AnyEngine {
   void rescale(const Energy& energy);
   void count();
 
-  std::unique_ptr<AnyEngine> engine_;
   Disks disks_;
   Andersen andersen_;
   bool spinning_;
@@ -93,7 +79,7 @@ class DrivenEngine final : public AnyEngine {
 
   double growth_rate_;
   double start_scale_ = 1.0;        ///< when the clock stood at 0
-  double end_scale_ = 0.0;          ///< at which growth ends; 0 where no packing fraction is asked for
+  double end_scale_ = 0.0;          ///< at which disks have grown enough; 0 where no packing fraction is asked for
   double end_pressure_ = 0.0;       ///< the same for the reduced pressure
   double packing_fraction_;         ///< at scale 1
   Instant end_ = forever;           ///< when end_scale_ is reached

@@ -16,7 +16,7 @@ namespace detail {
 /// Why run_until returned false where no limit was reached; empty where the engine can go on.
 [[nodiscard]] inline std::optional<StopReason> why_stopped(const AnyEngine& engine, const Effects& effects) {
   if (!engine.fault().empty()) return StopReason::invalid_state;
-  if (engine.grown()) return StopReason::grown;
+  if (const auto reason = engine.ended()) return reason;
   if (engine.cooled()) return StopReason::cooled;
   if (engine.jammed()) return effects.dissipate() ? StopReason::collapsed : StopReason::jammed;
   return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <carom/simulation.hpp>
 
+#include "scene/effect_traits.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/standstill.hpp"
@@ -63,9 +64,8 @@ std::vector<Event> Simulation::take_events() { return parts_->engine->take_event
 void Simulation::take_events(std::vector<Event>& events) { parts_->engine->take_events(events); }
 bool Simulation::tells_collisions() const {
   const Effects& effects = parts_->scene.effects;
-  const bool falls = effects.gravity && !effects.gravity->acceleration.isZero(0.0);
-  const bool sheared = effects.shear && effects.shear->rate != 0.0;
-  return parts_->engine->tells_collisions() && velocities_tell_contacts(effects) && !falls && !sheared;
+  return parts_->engine->tells_collisions() && velocities_tell_contacts(effects) &&
+         !detail::any_acting(effects, &detail::EffectTraits::bends_paths);
 }
 std::vector<std::string> Simulation::check_invariants(double tolerated_overlap) const {
   std::vector<std::string> faults = parts_->engine->check_invariants(tolerated_overlap);

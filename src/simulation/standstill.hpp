@@ -61,14 +61,14 @@ class Standstill {
   /// can tell. Disks that grow have jammed when they have less room than contact is known to, some hundred times as much.
   [[nodiscard]] double least_way() const { return grows() ? 0x1p-40 : 0x1p-50; }
   /// How many times more often than not the time per event must have fallen below this share of what it was before. Where disks
-  /// have ever less room it falls to a half or a quarter, if they do not find some; in a gas that shear heats up, whose speed
+  /// have ever less room it falls to a half or a quarter, if they do not find some; in a gas that a flow heats up, whose speed
   /// grows as the time, to 0.71.
   static constexpr std::uint64_t quickened_marks = 6;
   static constexpr double quickened_pace = 2.0 / 3.0;
   /// A run that would come to its end with fewer events is left to do so: in a week or two.
   static constexpr double most_events = 1e12;
 
-  [[nodiscard]] bool grows() const { return effects_.growth && effects_.growth->rate > 0.0; }
+  [[nodiscard]] bool grows() const { return effects_.growth_rate() > 0.0; }
   [[nodiscard]] bool has_moving_walls() const {
     return std::ranges::any_of(effects_.walls, [](const WallProperties& wall) { return wall.velocity.value_or(0.0) != 0.0; });
   }

@@ -62,8 +62,8 @@ namespace carom::theory {
 [[nodiscard]] double instantaneous_viscosity(double eta, std::int64_t disks);
 [[nodiscard]] double instantaneous_conductivity(double eta, std::int64_t disks);
 
-/// Returns the growth of the diffusion coefficient D(t) of disks in a square periodic box between two times by the slow modes of
-/// the fluid: shear waves and sound carry the velocity of a disk. It is the integral of the sum over the wave vectors k of the
+/// Returns the increase of the diffusion coefficient D(t) of disks in a square periodic box between two times by the slow modes
+/// of the fluid: shear waves and sound carry the velocity of a disk. It is the integral of the sum over the wave vectors k of the
 /// box,
 ///   C(t) = kT / (2 m N) sum of exp(-(D + nu) k^2 t) + cos(c k t) exp(-(D + Gamma) k^2 t),
 /// with Enskog's D, viscosity and conductivity. For a large box and late times C(t) approaches the tail kT / (8 pi rho m (D + nu)

@@ -21,8 +21,11 @@ inline constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
 
 /// No effect but the collision rule.
 template <class Rule>
-inline const Effects rule_only{
-    {Rule::exchanges_velocities ? CollisionRule::reversal : CollisionRule::specular, {}, {}, {}}, {}, {}, {}, {}, {}, {}, {}};
+inline const Effects rule_only = [] {
+  Effects effects;
+  effects.collision.rule = Rule::exchanges_velocities ? CollisionRule::reversal : CollisionRule::specular;
+  return effects;
+}();
 
 struct System {
   Box box;

@@ -1,5 +1,9 @@
 #include "studies/sweep/units.hpp"
 
+#include "scene/effect_traits.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <span>
@@ -14,7 +18,7 @@ struct UnitOf {
 };
 
 /// The first that fits.
-constexpr std::array<UnitOf, 21> of_numbers = {{{"time", "time", "time"},
+constexpr std::array<UnitOf, 19> of_numbers = {{{"time", "time", "time"},
                                                 {"energy.", "drift", ""},
                                                 {"energy.", "unexplained", ""},
                                                 {"energy.", "", "energy"},
@@ -30,13 +34,11 @@ constexpr std::array<UnitOf, 21> of_numbers = {{{"time", "time", "time"},
                                                 {"walls.", ".velocity", "length / time"},
                                                 {"dissipated", "dissipated", "energy"},
                                                 {"obstacles.", "", "mass length / time"},
-                                                {"thermostat.", ".energy", "energy"},
-                                                {"growth.", ".energy", "energy"},
-                                                {"shear.", ".energy", "energy"},
+                                                {"", ".energy", "energy"},
                                                 {"shear.pressure_xy", "", "energy / area"},
                                                 {"shear.", ".viscosity", "mass / time"}}};
 
-constexpr std::array<UnitOf, 23> of_keys = {{{"box.x", "", "length"},
+constexpr std::array<UnitOf, 18> of_keys = {{{"box.x", "", "length"},
                                              {"box.y", "", "length"},
                                              {"disks.", ".radius", "length"},
                                              {"disks.", ".mass", "mass"},
@@ -50,11 +52,6 @@ constexpr std::array<UnitOf, 23> of_keys = {{{"box.x", "", "length"},
                                              {"walls.", ".mass", "mass"},
                                              {"walls.", ".load", "energy / area"},
                                              {"obstacles.", "", "length"},
-                                             {"growth.", ".rate", "1 / time"},
-                                             {"thermostat.", ".temperature", "energy"},
-                                             {"thermostat.", ".rate", "1 / time"},
-                                             {"shear.", ".rate", "1 / time"},
-                                             {"square_well.", ".depth", "energy"},
                                              {"run.sample_every", "sample_every", "time"},
                                              {"run.sample_log", ".block", "time"},
                                              {"run.", "time", "time"},
@@ -70,6 +67,11 @@ std::string unit_in(std::span<const UnitOf> units, std::string_view name) {
 
 std::string unit_of_number(std::string_view name) { return unit_in(of_numbers, name); }
 
-std::string unit_of_key(std::string_view key) { return unit_in(of_keys, key); }
+std::string unit_of_key(std::string_view key) {
+  for (const detail::EffectTraits& effect : detail::all_effects())
+    for (const detail::EffectNumber& number : effect.numbers)
+      if (key == fmt::format("{}.{}", effect.name, number.key->name)) return std::string(number.unit);
+  return unit_in(of_keys, key);
+}
 
 }  // namespace carom

@@ -1,0 +1,236 @@
+#include "scene/effect_traits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom::detail {
+namespace {
+
+/// Of an effect that is a table of its own: whether the scene has it.
+template <auto Table>
+bool has(const Effects& effects) {
+  return (effects.*Table).has_value();
+}
+
+/// The same at another value than 0 of the number that is 0 where the effect is neutral.
+template <auto Table, auto Member>
+bool has_other_than_zero(const Effects& effects) {
+  return has<Table>(effects) && (*(effects.*Table)).*Member != 0.0;
+}
+
+template <auto Table, auto Member>
+EffectNumber number(const NumberKey& key, std::string_view unit) {
+  return {&key, [](const Effects& effects) { return (*(effects.*Table)).*Member; },
+          [](Effects& effects, double value) {
+            auto& table = effects.*Table;
+            if (!table) table.emplace();
+            (*table).*Member = value;
+          },
+          unit};
+}
+
+template <auto Member>
+bool has_wall(const Effects& effects) {
+  return std::ranges::any_of(effects.walls, [](const WallProperties& wall) { return (wall.*Member).has_value(); });
+}
+
+template <auto Member>
+bool has_wall_other_than(const Effects& effects, double neutral) {
+  return std::ranges::any_of(effects.walls,
+                             [&](const WallProperties& wall) { return (wall.*Member).value_or(neutral) != neutral; });
+}
+
+constexpr std::string_view special_walls = "moving, thermal or inelastic walls";
+
+std::vector<EffectTraits> make_table() {
+  return {
+      {.name = "restitution",
+       .title = "restitution",
+       .absence = "loss of energy in collisions",
+       .is_present = [](const Effects& e) { return e.collision.restitution.has_value(); },
+       .acts = [](const Effects& e) { return e.collision.restitution.value_or(1.0) != 1.0; },
+       .keeps_energy = false,
+       .why_no_Z = "collisions take energy away",
+       .why_no_transport = "restitution takes energy; remove it"},
+      {.name = "roughness",
+       .title = "roughness",
+       .absence = "friction and spin",
+       .is_present = [](const Effects& e) { return e.collision.roughness.has_value(); },
+       .acts = [](const Effects& e) { return e.collision.roughness.value_or(-1.0) != -1.0; },
+       .keeps_energy = false,
+       .lets_temperature_fluctuate = true,
+       .why_no_transport = "rough disks carry momentum and heat in their spin; remove roughness"},
+      {.name = "elastic_below",
+       .title = "elastic_below",
+       .is_present = [](const Effects& e) { return e.collision.elastic_below.has_value(); },
+       .acts = [](const Effects& e) { return e.dissipate() && e.collision.elastic_below.value_or(0.0) > 0.0; }},
+      {.name = "gravity",
+       .title = "[gravity]",
+       .absence = "gravity",
+       .is_present = has<&Effects::gravity>,
+       .acts = [](const Effects& e) { return !e.acceleration().isZero(0.0); },
+       .other_keys = {"acceleration"},
+       .words =
+           [](const Effects& e) {
+             return fmt::format("acceleration ({:.6g}, {:.6g})", e.acceleration().x(), e.acceleration().y());
+           },
+       .bends_paths = true,
+       .why_no_Z = "pressure and density change with height"},
+      {.name = "inelastic_walls",
+       .title = "an inelastic wall",
+       .absence = special_walls,
+       .is_present = has_wall<&WallProperties::restitution>,
+       .acts = [](const Effects& e) { return has_wall_other_than<&WallProperties::restitution>(e, 1.0); },
+       .keeps_energy = false,
+       .why_no_Z = "walls take energy away"},
+      {.name = "thermal_walls",
+       .title = "a thermal wall",
+       .absence = special_walls,
+       .is_present = has_wall<&WallProperties::temperature>,
+       .acts = has_wall<&WallProperties::temperature>,
+       .keeps_energy = false,
+       .keeps_momentum = false,
+       .lets_temperature_fluctuate = true,
+       .draws_random_numbers = true},
+      {.name = "moving_walls",
+       .title = "a moving wall",
+       .absence = special_walls,
+       .is_present = has_wall<&WallProperties::velocity>,
+       .acts = [](const Effects& e) { return has_wall_other_than<&WallProperties::velocity>(e, 0.0); },
+       .keeps_energy = false,
+       .why_no_Z = "the area changes"},
+      {.name = "pistons",
+       .title = "a piston",
+       .absence = special_walls,
+       .is_present = has_wall<&WallProperties::mass>,
+       .acts = has_wall<&WallProperties::mass>,
+       .why_no_Z = "the area changes"},
+      {.name = "obstacles",
+       .title = "[[obstacles]]",
+       .absence = "obstacles",
+       .is_present = [](const Effects& e) { return !e.obstacles.empty(); },
+       .acts = [](const Effects& e) { return !e.obstacles.empty(); },
+       .other_keys = {"disk", "segment"},
+       .keeps_momentum = false,
+       .why_no_Z = "obstacles carry pressure and take up area",
+       .why_no_transport = "obstacles take momentum; remove [[obstacles]]"},
+      {.name = "growth",
+       .title = "[growth]",
+       .absence = "growth",
+       .is_present = has<&Effects::growth>,
+       .acts = has_other_than_zero<&Effects::growth, &Growth::rate>,
+       .numbers = {number<&Effects::growth, &Growth::rate>(keys::growth_rate, "1 / time")},
+       .other_keys = {"until"},
+       .words =
+           [](const Effects& e) {
+             std::string text = fmt::format("all radii grow at rate {:.6g} of their first size", e.growth->rate);
+             if (e.growth->packing_fraction) text += fmt::format(", until packing fraction {:.6g}", *e.growth->packing_fraction);
+             if (e.growth->reduced_pressure) text += fmt::format(", until reduced pressure {:.6g}", *e.growth->reduced_pressure);
+             return text;
+           },
+       .keeps_energy = false,
+       .changes_velocities_in_flight = true,
+       .why_not_equilibrate =
+           "grow the disks in a run of their own, and equilibrate in one that starts from what they have grown to",
+       .why_no_Z = "disks grow",
+       .why_no_structure = "is that of disks that keep their size, and [growth] changes it; remove one of the two"},
+      {.name = "thermostat",
+       .title = "[thermostat]",
+       .absence = "a thermostat",
+       .is_present = has<&Effects::thermostat>,
+       .acts = has_other_than_zero<&Effects::thermostat, &Thermostat::rate>,
+       .numbers = {number<&Effects::thermostat, &Thermostat::temperature>(keys::bath_temperature, "energy"),
+                   number<&Effects::thermostat, &Thermostat::rate>(keys::bath_rate, "1 / time")},
+       .words =
+           [](const Effects& e) {
+             return fmt::format("each disk's velocity is drawn anew at kT = {:.6g}, at rate {:.6g}", e.thermostat->temperature,
+                                e.thermostat->rate);
+           },
+       .keeps_energy = false,
+       .keeps_momentum = false,
+       .lets_temperature_fluctuate = true,
+       .changes_velocities_in_flight = true,
+       .draws_random_numbers = true,
+       .why_no_replay = "the thermostat changes velocities between collisions, which the event log does not hold"},
+      {.name = "shear",
+       .title = "[shear]",
+       .absence = "shear",
+       .is_present = has<&Effects::shear>,
+       .acts = has_other_than_zero<&Effects::shear, &Shear::rate>,
+       .numbers = {number<&Effects::shear, &Shear::rate>(keys::shear_rate, "1 / time")},
+       .words = [](const Effects& e) { return fmt::format("the flow is v_x = {:.6g} y (Lees-Edwards)", e.shear->rate); },
+       .excludes = {{"gravity", true}, {"obstacles", true}, {"growth", true}, {"square_well", true}},
+       .keeps_energy = false,
+       .changes_velocities_in_flight = true,
+       .bends_paths = true,
+       .why_no_Z = "shear heats the disks",
+       .why_no_replay = "under shear disks change their velocity at the edges of the box, which the event log does not hold",
+       .why_no_structure = "is that of a fluid at rest, and under [shear] images slide past each other; remove one of the two",
+       .why_no_displacements = "follows disks through a fluid at rest, and [shear] carries them along; remove one of the two"},
+      {.name = "square_well",
+       .title = "[square_well]",
+       .absence = "attraction at a distance",
+       .is_present = has<&Effects::square_well>,
+       .acts = has_other_than_zero<&Effects::square_well, &SquareWell::depth>,
+       .numbers = {number<&Effects::square_well, &SquareWell::width>(keys::well_width, ""),
+                   number<&Effects::square_well, &SquareWell::depth>(keys::well_depth, "energy")},
+       .words =
+           [](const Effects& e) {
+             const SquareWell& well = *e.square_well;
+             return fmt::format("{} {:.6g} from one to {:.6g} diameters apart",
+                                well.depth < 0.0 ? "a repulsive shoulder of height" : "an attractive well of depth",
+                                std::abs(well.depth), well.width);
+           },
+       .excludes = {{"growth"}},
+       .lets_temperature_fluctuate = true,
+       .why_no_transport = "wells carry energy of their own; remove [square_well]"},
+  };
+}
+
+}  // namespace
+
+const std::vector<EffectTraits>& all_effects() {
+  static const std::vector<EffectTraits> table = make_table();
+  return table;
+}
+
+const EffectTraits& effect_named(std::string_view name) { return *std::ranges::find(all_effects(), name, &EffectTraits::name); }
+
+const EffectTraits* first_acting(const Effects& effects, bool EffectTraits::*trait) {
+  for (const EffectTraits& effect : all_effects())
+    if (effect.*trait && effect.acts(effects)) return &effect;
+  return nullptr;
+}
+
+std::string_view first_reason(const Effects& effects, std::string_view EffectTraits::*reason) {
+  for (const EffectTraits& effect : all_effects())
+    if (!(effect.*reason).empty() && effect.acts(effects)) return effect.*reason;
+  return {};
+}
+
+std::string tables_with_key(std::string_view key) {
+  std::vector<std::string_view> titles;
+  for (const EffectTraits& effect : all_effects())
+    if (std::ranges::any_of(effect.numbers, [&](const EffectNumber& number) { return number.key->name == key; }) ||
+        std::ranges::find(effect.other_keys, key) != effect.other_keys.end())
+      titles.push_back(effect.title);
+  std::string text;
+  for (std::size_t k = 0; k < titles.size(); ++k)
+    text += fmt::format("{}{}", k == 0 ? "" : k + 1 == titles.size() ? " or " : ", ", titles[k]);
+  return text;
+}
+
+}  // namespace carom::detail
+
+namespace carom {
+
+Eigen::Vector2d Effects::acceleration() const { return gravity ? gravity->acceleration : Eigen::Vector2d(0.0, 0.0); }
+double Effects::growth_rate() const { return growth ? growth->rate : 0.0; }
+double Effects::shear_rate() const { return shear ? shear->rate : 0.0; }
+std::optional<double> Effects::bath_temperature() const {
+  return thermostat && thermostat->rate > 0.0 ? std::optional(thermostat->temperature) : std::nullopt;
+}
+
+}  // namespace carom

@@ -1,0 +1,78 @@
+#pragma once
+// The table of effects: what checks, reports, observables and engines have to know of each, in one row. A rule that holds for
+// several effects asks the table; only the file that carries an effect out, and the check of its numbers, name it.
+
+#include "scene/number_keys.hpp"
+
+#include <carom/effects.hpp>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace carom::detail {
+
+/// A number of an effect's table in a scene file: a key that must be there where the table is.
+struct EffectNumber {
+  const NumberKey* key;
+  double (*value)(const Effects&);      ///< requires the effect to be present
+  void (*set)(Effects&, double value);  ///< makes the effect present
+  std::string_view unit;                ///< "1 / time"; empty for a pure number
+};
+
+/// Another effect with which one cannot act together. Where `at_neutral_value`, a scene may not even name both.
+struct Exclusion {
+  std::string_view other;  ///< EffectTraits::name
+  bool at_neutral_value = false;
+};
+
+struct EffectTraits {
+  std::string_view name;               ///< in Effects::acting() and names_of(), and the place at which it is refused
+  std::string_view title;              ///< in error sentences: "[growth]", "a thermal wall"
+  std::string_view absence = {};       ///< where it is absent, in `carom check`; empty where another row speaks for it
+  bool (*is_present)(const Effects&);  ///< the scene names it
+  bool (*acts)(const Effects&);        ///< the scene names it at another value than its neutral one, which leaves the same bits
+
+  std::vector<EffectNumber> numbers = {};          ///< of the table [name], all of them required
+  std::vector<std::string_view> other_keys = {};   ///< of that table, which have readers of their own
+  std::string (*words)(const Effects&) = nullptr;  ///< what it does, with its numbers; null where collision or walls tell it
+  std::vector<Exclusion> excludes = {};            ///< effects with which it cannot be combined
+
+  bool keeps_energy = true;    ///< of disks and pistons together
+  bool keeps_momentum = true;  ///< the common motion along a periodic axis is no heat: nothing pushes disks at random
+  bool lets_temperature_fluctuate = false;  ///< kinetic energy is exchanged with a bath, spins or wells
+  bool changes_velocities_in_flight =
+      false;                          ///< between two logged events a velocity changes otherwise than by Effects::acceleration()
+  bool bends_paths = false;           ///< the velocities before and after a collision do not tell where disks touched
+  bool draws_random_numbers = false;  ///< while the run goes on
+
+  // Why something has no meaning where the effect acts; empty where it has one.
+  std::string_view why_not_equilibrate = {};  ///< what to do instead: follows "[growth] and run.equilibrate cannot be combined; "
+  std::string_view why_no_Z = {};             ///< the end of "no Z: ..."
+  std::string_view why_no_replay = {};        ///< events do not tell the trajectory: a sentence without its stop
+  std::string_view why_no_structure = {};     ///< correlations of positions: follows "observe.NAME"
+  std::string_view why_no_displacements = {};  ///< of disks in a fluid at rest: follows "observe.NAME"
+  std::string_view why_no_transport = {};      ///< Green-Kubo and Einstein-Helfand: follows "observe.NAME has no meaning here: "
+};
+
+/// All effects beyond the collision rule and hard walls, in the order in which people are told of them.
+[[nodiscard]] const std::vector<EffectTraits>& all_effects();
+
+/// The row of a name. Requires that there is one.
+[[nodiscard]] const EffectTraits& effect_named(std::string_view name);
+
+/// The first effect that acts and has a trait: `first_acting(effects, &EffectTraits::draws_random_numbers)`; null where none
+/// does.
+[[nodiscard]] const EffectTraits* first_acting(const Effects& effects, bool EffectTraits::*trait);
+[[nodiscard]] inline bool any_acting(const Effects& effects, bool EffectTraits::*trait) {
+  return first_acting(effects, trait) != nullptr;
+}
+
+/// The sentence of the first effect that acts and has one; empty where none has.
+[[nodiscard]] std::string_view first_reason(const Effects& effects, std::string_view EffectTraits::*reason);
+
+/// The titles of the effects whose table has a key, "[square_well] or [growth]"; empty where none has.
+[[nodiscard]] std::string tables_with_key(std::string_view key);
+
+}  // namespace carom::detail

@@ -1,0 +1,45 @@
+#pragma once
+// An engine that stands in front of another one and changes some of its answers; all others are handed on.
+
+#include "simulation/any_engine.hpp"
+
+namespace carom::detail {
+
+class WrappedEngine : public AnyEngine {
+ public:
+  explicit WrappedEngine(std::unique_ptr<AnyEngine> engine) : engine_(std::move(engine)) {}
+
+  bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
+    return engine_->run_until(target, pair_limit, event_limit);
+  }
+  [[nodiscard]] bool idle() const override { return engine_->idle(); }
+  [[nodiscard]] bool jammed() const override { return engine_->jammed(); }
+  [[nodiscard]] std::vector<std::int32_t> slow() const override { return engine_->slow(); }
+  [[nodiscard]] bool cooled() const override { return engine_->cooled(); }
+  [[nodiscard]] std::string fault() const override { return engine_->fault(); }
+  [[nodiscard]] Instant now() const override { return engine_->now(); }
+  [[nodiscard]] Totals totals() const override { return engine_->totals(); }
+  [[nodiscard]] const Counts& counts() const override { return engine_->counts(); }
+  [[nodiscard]] State state() const override { return engine_->state(); }
+  void look_at_velocities(State& state) const override { engine_->look_at_velocities(state); }
+  double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
+    return engine_->set_velocity(i, v, spin);
+  }
+  void scale_velocities(double factor) override { engine_->scale_velocities(factor); }
+  void set_back(const Instant& time) override { engine_->set_back(time); }
+  void reset_clock() override { engine_->reset_clock(); }
+  void record_events(bool on) override { engine_->record_events(on); }
+  void take_events(std::vector<Event>& events) override { engine_->take_events(events); }
+  [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap) const override {
+    return engine_->check_invariants(tolerated_overlap);
+  }
+  [[nodiscard]] double deepest_overlap() const override { return engine_->deepest_overlap(); }
+  [[nodiscard]] std::size_t bytes() const override { return engine_->bytes(); }
+  void save(SavingArchive& archive) const override { engine_->save(archive); }
+  void load(LoadingArchive& archive) override { engine_->load(archive); }
+
+ protected:
+  std::unique_ptr<AnyEngine> engine_;
+};
+
+}  // namespace carom::detail

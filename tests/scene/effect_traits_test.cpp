@@ -1,0 +1,85 @@
+// The table of effects: what its rows promise each other and the scene.
+
+#include "scene/effect_traits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace carom::test {
+namespace {
+
+using detail::all_effects;
+using detail::EffectNumber;
+using detail::EffectTraits;
+
+TEST(EffectTraits, HasOneRowForEachName) {
+  std::set<std::string_view> names;
+  for (const EffectTraits& effect : all_effects()) EXPECT_TRUE(names.insert(effect.name).second) << effect.name;
+}
+
+TEST(EffectTraits, ExcludesEffectsThatThereAre) {
+  for (const EffectTraits& effect : all_effects())
+    for (const detail::Exclusion& exclusion : effect.excludes) {
+      EXPECT_NE(exclusion.other, effect.name);
+      EXPECT_EQ(detail::effect_named(exclusion.other).name, exclusion.other);
+    }
+}
+
+TEST(EffectTraits, FindsNothingInASceneThatNamesNothing) {
+  const Effects none;
+  for (const EffectTraits& effect : all_effects()) {
+    EXPECT_FALSE(effect.is_present(none)) << effect.name;
+    EXPECT_FALSE(effect.acts(none)) << effect.name;
+  }
+  EXPECT_TRUE(none.neutral());
+  EXPECT_EQ(names_of(none, false).size(), 1U);
+}
+
+TEST(EffectTraits, SetsAndTellsTheNumbersOfATable) {
+  for (const EffectTraits& effect : all_effects()) {
+    if (effect.numbers.empty()) continue;
+    SCOPED_TRACE(effect.name);
+    Effects effects;
+    for (const EffectNumber& number : effect.numbers) number.set(effects, 0.0);
+    EXPECT_TRUE(effect.is_present(effects));
+    EXPECT_FALSE(effect.acts(effects));
+    EXPECT_TRUE(effects.neutral());
+    double value = 1.0;
+    for (const EffectNumber& number : effect.numbers) number.set(effects, value += 1.0);
+    value = 1.0;
+    for (const EffectNumber& number : effect.numbers) EXPECT_EQ(number.value(effects), value += 1.0) << number.key->name;
+    EXPECT_TRUE(effect.acts(effects));
+    EXPECT_EQ(effects.acting(), std::vector<std::string>{std::string(effect.name)});
+    EXPECT_EQ(names_of(effects, false).back(), effect.name);
+    ASSERT_NE(effect.words, nullptr);
+    EXPECT_FALSE(effect.words(effects).empty());
+  }
+}
+
+TEST(EffectTraits, KnowsWhichTablesHaveAKey) {
+  EXPECT_EQ(detail::tables_with_key("rate"), "[growth], [thermostat] or [shear]");
+  EXPECT_EQ(detail::tables_with_key("depth"), "[square_well]");
+  EXPECT_EQ(detail::tables_with_key("until"), "[growth]");
+  EXPECT_EQ(detail::tables_with_key("mass"), "");
+}
+
+TEST(EffectTraits, TellsTheFirstThatActs) {
+  Effects effects;
+  effects.shear = Shear{};
+  effects.thermostat = Thermostat{1.0, 0.0, {}};
+  EXPECT_EQ(detail::first_acting(effects, &EffectTraits::changes_velocities_in_flight), nullptr);
+  EXPECT_EQ(detail::first_reason(effects, &EffectTraits::why_no_Z), "");
+  effects.shear->rate = 0.5;
+  EXPECT_EQ(detail::first_acting(effects, &EffectTraits::changes_velocities_in_flight)->title, "[shear]");
+  EXPECT_EQ(detail::first_reason(effects, &EffectTraits::why_no_Z), "shear heats the disks");
+  EXPECT_FALSE(detail::any_acting(effects, &EffectTraits::draws_random_numbers));
+  effects.thermostat->rate = 0.5;
+  EXPECT_TRUE(detail::any_acting(effects, &EffectTraits::draws_random_numbers));
+}
+
+}  // namespace
+}  // namespace carom::test
