@@ -96,6 +96,11 @@ struct SquareWell {
   Location where;
 };
 
+/// Every velocity decays as dv/dt = -rate v: the [drag] table.
+struct Drag {
+  double rate = 0.0;  ///< 1 / time, >= 0; neutral: 0
+};
+
 /// All effects of a scene.
 struct Effects {
   Collision collision;
@@ -106,6 +111,7 @@ struct Effects {
   std::optional<Thermostat> thermostat;
   std::optional<Shear> shear;
   std::optional<SquareWell> square_well;
+  std::optional<Drag> drag;
 
   /// Returns whether nothing acts but the collision rule and hard walls at rest: every other effect is absent or at its neutral
   /// value.
@@ -125,6 +131,8 @@ struct Effects {
   [[nodiscard]] double shear_rate() const;
   /// Returns kT of the bath that redraws velocities; empty without a bath.
   [[nodiscard]] std::optional<double> bath_temperature() const;
+  /// Returns the rate at which all velocities decay; 1 / time, 0 without drag.
+  [[nodiscard]] double drag_rate() const;
 };
 
 /// Returns whether the total momentum along `axis` is conserved: the axis is periodic, and nothing but other disks (no

@@ -39,11 +39,13 @@ enum class StopReason {
   /// 1e-15. Or collisions alone were asked for, and disks move together 2^14 times as fast as against each other.
   cooled,
   grown,          ///< the packing fraction or pressure up to which disks were to grow was reached
+  at_rest,        ///< drag has stopped the disks: what is left of the way of each is 2^-52 of it
   no_collisions,  ///< only a number of collisions was asked for, and no pair will ever (or seems ever to) collide
   invalid_state,  ///< check_invariants() found a fault, or a number is not finite: RunResult::faults says which
 };
 
-/// "time", "collisions", "interrupted", "jammed", "collapsed", "overheated", "cooled", "grown", "no_collisions", "invalid_state"
+/// "time", "collisions", "interrupted", "jammed", "collapsed", "overheated", "cooled", "grown", "at_rest",
+/// "no_collisions", "invalid_state"
 std::string to_string(StopReason reason);
 
 /// The method that exact events replace: move by v dt, look for contacts, move on.
@@ -63,7 +65,7 @@ class Simulation {
   [[nodiscard]] const std::string& engine()
       const;  ///< the name of the engine that the catalogue chose, or of a fixed-step method
   [[nodiscard]] std::optional<double> time_step() const;  ///< dt of a fixed-step method; nothing where events are exact
-  /// Why that engine, in half a sentence: "the scene asks for friction"; empty for a fixed-step method.
+  /// Why that engine, in half a sentence: "the scene asks for drag"; empty for a fixed-step method.
   [[nodiscard]] const std::string& engine_reason() const;
   /// Memory that the engine or method holds, without disks().
   [[nodiscard]] std::size_t bytes() const;

@@ -4,6 +4,7 @@
 // inside whose well.
 
 #include "core/running_totals.hpp"
+#include "effects/drag.hpp"
 #include "effects/impact.hpp"
 #include "effects/reversal.hpp"
 #include "effects/rough.hpp"
@@ -33,7 +34,8 @@ class AnyImpact {
         last_(elastic_below_ > 0 && effects.dissipate() ? disks : 0, -infinity<Real>),
         wells_(effects.square_well, disks),
         by_rule_alone_(turn_ == 1 && roughness_ == -1 && last_.empty()),
-        sheared_(effects.shear_rate() != 0.0) {}
+        sheared_(effects.shear_rate() != 0.0),
+        drag_(effects.drag_rate()) {}
 
   /// A disk as it takes part in a collision.
   struct Body {
@@ -46,7 +48,7 @@ class AnyImpact {
   /// Disks i and j meet at separation r = r_i - r_j at time `now`, at their hard cores or at the edge of their well. `expansion`:
   /// of their contact distance. Changes velocities and keeps count. Returns InelasticResult::smallness.
   Real meet(const Vec2<Real>& r, Real expansion, const Body& i, const Body& j, Real now, RunningTotals& totals) {
-    const Real before = i.v.x();
+    const Real before = i.v.x(), slowed = drag_.at(now);
     InelasticResult<Real> impact;
     if (wells_.present() && wells_.at_edge(r, i.radius + j.radius)) {
       ++totals.well;
@@ -55,10 +57,10 @@ class AnyImpact {
       ++totals.pair;
       if (owing_) settle(i, j);
       impact = by_rule_alone_ && expansion == 0 ? InelasticResult<Real>{collide(r, i, j)} : collide(r, expansion, i, j, now);
-      if (impact.lost != 0) totals.dissipated.add(static_cast<double>(impact.lost));
+      if (impact.lost != 0) totals.dissipated.add(static_cast<double>(slowed * slowed * impact.lost));
       if (expansion > 0) totals.growth_energy.add(static_cast<double>(impact.energy + impact.lost));
     }
-    totals.virial.add(static_cast<double>(impact.virial));
+    totals.virial.add(static_cast<double>(slowed * impact.virial));
     if (sheared_) totals.virial_yx.add(static_cast<double>(r.y() * i.mass * (i.v.x() - before)));
     return impact.smallness;
   }
@@ -80,7 +82,11 @@ class AnyImpact {
   /// The clock's zero moves to `now`.
   void rebase(Real now) {
     for (Real& t : last_) t -= now;
+    drag_.rebase(now);
   }
+
+  /// True velocities over those that the engine computes with.
+  [[nodiscard]] Real slowed(Real now) const { return drag_.at(now); }
 
   [[nodiscard]] bool spinning() const { return !spins_.empty(); }
   [[nodiscard]] Real& spin(std::int32_t i) { return spins_[static_cast<std::size_t>(i)]; }
@@ -93,7 +99,7 @@ class AnyImpact {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(spins_, last_, wells_, owed_, owing_);
+    archive(spins_, last_, wells_, owed_, owing_, drag_);
   }
 
  private:
@@ -136,6 +142,7 @@ class AnyImpact {
   bool owing_ = false;
   bool by_rule_alone_;  ///< at a hard core
   bool sheared_;
+  DragFactor<Real> drag_;
 };
 
 }  // namespace carom

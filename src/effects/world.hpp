@@ -4,6 +4,7 @@
 
 #include "core/running_totals.hpp"
 #include "core/sides.hpp"
+#include "effects/drag.hpp"
 #include "effects/gravity.hpp"
 #include "effects/obstacles.hpp"
 #include "effects/rebound.hpp"
@@ -61,6 +62,7 @@ struct AnyWorld {
         walls(box, effects.walls, seed),
         obstacles(box, effects.obstacles),
         sliding(box, effects.shear, start.shear_displacement),
+        drag_(effects.drag_rate()),
         scale_(start.scale),
         growth_(effects.growth_rate()) {
     walls.start_from(start.walls);
@@ -80,20 +82,20 @@ struct AnyWorld {
 
   /// A disk meets a wall or an obstacle: changes its velocity and keeps count. Returns Walls::Hit::smallness.
   double meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double now, RunningTotals& totals) {
-    const double expansion = growth_ * disk.radius / scale(now);
+    const double expansion = growth_ * disk.radius / scale(now), slowed = drag_.at(now);
     if (what <= first_obstacle) {
       ++totals.obstacle;
       const Vec2<double> normal = obstacles.from_nearest_point(first_obstacle - what, disk.r);
       const auto bounce = bounce_off<double>(normal, v, falling.g, disk.mass, disk.radius, expansion);
-      for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(bounce.impulse[k]);
+      for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(slowed * bounce.impulse[k]);
       if (bounce.energy != 0.0) totals.growth_energy.add(bounce.energy);
       return infinity<double>;
     }
     const Wall wall = static_cast<Wall>(what);
     ++totals.wall;
     const auto hit = walls.meet(wall, v, falling.g, disk.mass, disk.radius, expansion, disk.elastic, now);
-    totals.wall_impulse[index_of(wall)].add(hit.impulse);
-    totals.wall_energy[index_of(wall)].add(hit.energy);
+    totals.wall_impulse[index_of(wall)].add(slowed * hit.impulse);
+    totals.wall_energy[index_of(wall)].add(slowed * slowed * hit.energy);
     return hit.smallness;
   }
   /// A piston, whose motion a contact changes.
@@ -103,13 +105,14 @@ struct AnyWorld {
   void rebase(double now) {
     walls.rebase(now);
     sliding.rebase(now);
+    drag_.rebase(now);
     scale_ += growth_ * now;
   }
   [[nodiscard]] std::size_t bytes() const { return obstacles.bytes(); }
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(walls, sliding, scale_, growth_);
+    archive(walls, sliding, drag_, scale_, growth_);
   }
 
   Falling<double> falling;
@@ -118,6 +121,7 @@ struct AnyWorld {
   SlidingImages<double> sliding;
 
  private:
+  DragFactor<double> drag_;
   double scale_;
   double growth_;
 };

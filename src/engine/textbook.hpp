@@ -135,8 +135,9 @@ class TextbookEngine {
     const Vec2<Real> before = a.v;
     ++totals_.wall;
     const auto hit = walls_.meet(wall, a.v, falling_.g, a.mass, a.radius, a.radius * growth_, impact_.rests(i, now_), now_);
-    totals_.wall_impulse[index_of(wall)].add(static_cast<double>(hit.impulse));
-    totals_.wall_energy[index_of(wall)].add(static_cast<double>(hit.energy));
+    const Real slowed = impact_.slowed(now_);
+    totals_.wall_impulse[index_of(wall)].add(static_cast<double>(slowed * hit.impulse));
+    totals_.wall_energy[index_of(wall)].add(static_cast<double>(slowed * slowed * hit.energy));
     stall_.record_loss(hit.smallness, {i});
     if (!a.v.allFinite()) return fail_after_hit(i, before);
     impact_.touched(i, now_);
@@ -172,7 +173,8 @@ class TextbookEngine {
     ++totals_.obstacle;
     const Vec2<Real> normal = obstacles_.from_nearest_point(obstacle, a.r);
     const auto bounce = bounce_off<Real>(normal, a.v, falling_.g, a.mass, a.radius, a.radius * growth_);
-    for (int k = 0; k < 2; ++k) totals_.obstacle_impulse[static_cast<std::size_t>(k)].add(static_cast<double>(bounce.impulse[k]));
+    for (int k = 0; k < 2; ++k)
+      totals_.obstacle_impulse[static_cast<std::size_t>(k)].add(static_cast<double>(impact_.slowed(now_) * bounce.impulse[k]));
     totals_.growth_energy.add(static_cast<double>(bounce.energy));
     if (!a.v.allFinite()) return fail_after_hit(i, before);
     impact_.touched(i, now_);

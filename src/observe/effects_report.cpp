@@ -2,11 +2,13 @@
 
 #include "observe/any_wall.hpp"
 #include "observe/geometry.hpp"
+#include "observe/mechanics.hpp"
 #include "scene/effect_traits.hpp"
 #include "scene/wall_names.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace carom {
@@ -28,12 +30,18 @@ WallReport wall_report(const Scene& scene, const Totals& totals, const State& en
   return wall;
 }
 
-std::optional<double> energy_given(const Effects& effects, const Totals& totals) {
+/// Without collisions that take energy, drag alone has brought it to exp(-2 rate t) of what it was.
+double energy_lost_to_drag(double rate, const Disks& disks, const State& end) {
+  return kinetic_energy(disks, end) * std::expm1(2.0 * rate * end.time);
+}
+
+std::optional<double> energy_given(const Effects& effects, const Disks& disks, const Totals& totals, const State& end) {
   const auto gives = [&](const detail::EffectTraits& effect) { return !effect.keeps_energy && effect.is_present(effects); };
   if (std::ranges::none_of(detail::all_effects(), gives) || gives_untold(effects)) return std::nullopt;
   double given = totals.kick_energy + totals.growth_energy + totals.shear_energy - totals.dissipated;
   for (std::size_t side = 0; side < 4; ++side)
     if (!effects.walls[side].mass) given -= totals.wall_energy[side];
+  given -= energy_lost_to_drag(effects.drag_rate(), disks, end);
   return given;
 }
 
@@ -52,7 +60,9 @@ bool gives_untold(const Effects& effects) {
   const auto takes_or_heats = [](const WallProperties& wall) {
     return wall.mass && (wall.restitution.value_or(1.0) != 1.0 || wall.temperature);
   };
-  return (growing && effects.collision.roughness.value_or(-1.0) != -1.0) || any_wall(effects, takes_or_heats);
+  const bool slowed = effects.drag_rate() > 0.0;
+  return (slowed && effects.dissipate()) || (growing && effects.collision.roughness.value_or(-1.0) != -1.0) ||
+         any_wall(effects, takes_or_heats);
 }
 
 EffectsReport effects_report(const Scene& scene, const Disks& disks, const Totals& totals, const State& end) {
@@ -70,7 +80,7 @@ EffectsReport effects_report(const Scene& scene, const Disks& disks, const Total
         .scale = end.scale, .packing_fraction = packing_fraction(scene.box, disks, end), .energy = totals.growth_energy};
   if (effects.shear) report.shear = shear_report(scene, totals, end);
   if (effects.square_well) report.bonds = end.bonds;
-  report.energy_given = energy_given(effects, totals);
+  report.energy_given = energy_given(effects, disks, totals, end);
   return report;
 }
 

@@ -12,7 +12,7 @@ namespace carom {
 /// Returns the collision, and each effect beside it: a subject and what is said of it.
 [[nodiscard]] SummaryRows words_of(const Effects& effects);
 
-/// Returns the effects that the scene does not simulate, as part of a sentence: "friction and spin, obstacles"; empty where there
+/// Returns the effects that the scene does not simulate, as part of a sentence: "friction and spin, drag"; empty where there
 /// are none.
 [[nodiscard]] std::string absent(const Effects& effects);
 

@@ -103,6 +103,8 @@ std::string why_stopped(const RunReport& report, const Scene* scene) {
       return report.of_effects.growth
                  ? fmt::format("grown as far as asked, to packing fraction {:.5g}", report.of_effects.growth->packing_fraction)
                  : "grown as far as asked";
+    case StopReason::at_rest:
+      return "at rest: drag has stopped the disks, and nothing will happen any more; no run under this drag gets farther";
     case StopReason::invalid_state:
       return report.faults.empty() ? "stopped: an invariant of the engine is broken" : "stopped: " + report.faults.front();
     case StopReason::no_collisions:

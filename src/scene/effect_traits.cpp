@@ -42,6 +42,8 @@ bool has_wall_other_than(const Effects& effects, double neutral) {
                              [&](const WallProperties& wall) { return (wall.*Member).value_or(neutral) != neutral; });
 }
 
+constexpr NumberKey drag_rate{"rate", "rate = 0.5", Range::zero_or_more};
+
 constexpr std::string_view special_walls = "moving, thermal or inelastic walls";
 
 std::vector<EffectTraits> make_table() {
@@ -186,6 +188,28 @@ std::vector<EffectTraits> make_table() {
        .excludes = {{"growth"}},
        .lets_temperature_fluctuate = true,
        .why_no_transport = "wells carry energy of their own; remove [square_well]"},
+      {.name = "drag",
+       .title = "[drag]",
+       .absence = "drag",
+       .is_present = has<&Effects::drag>,
+       .acts = has_other_than_zero<&Effects::drag, &Drag::rate>,
+       .numbers = {number<&Effects::drag, &Drag::rate>(drag_rate, "1 / time")},
+       .words = [](const Effects& e) { return fmt::format("dv/dt = -{:.6g} v between collisions", e.drag->rate); },
+       .excludes = {{"roughness"},
+                    {"elastic_below"},
+                    {"gravity"},
+                    {"thermal_walls"},
+                    {"moving_walls"},
+                    {"pistons"},
+                    {"growth"},
+                    {"thermostat"},
+                    {"shear"},
+                    {"square_well"}},
+       .keeps_energy = false,
+       .changes_velocities_in_flight = true,
+       .why_not_equilibrate = "equilibrate in a run without drag, and start one with drag from where it ends",
+       .why_no_Z = "drag takes energy away",
+       .why_no_replay = "drag changes velocities between collisions, which the event log does not hold"},
   };
 }
 
@@ -229,6 +253,7 @@ namespace carom {
 Eigen::Vector2d Effects::acceleration() const { return gravity ? gravity->acceleration : Eigen::Vector2d(0.0, 0.0); }
 double Effects::growth_rate() const { return growth ? growth->rate : 0.0; }
 double Effects::shear_rate() const { return shear ? shear->rate : 0.0; }
+double Effects::drag_rate() const { return drag ? drag->rate : 0.0; }
 std::optional<double> Effects::bath_temperature() const {
   return thermostat && thermostat->rate > 0.0 ? std::optional(thermostat->temperature) : std::nullopt;
 }

@@ -29,7 +29,7 @@ struct Exclusion {
 
 struct EffectTraits {
   std::string_view name;               ///< in Effects::acting() and names_of(), and the place at which it is refused
-  std::string_view title;              ///< in error sentences: "[growth]", "a thermal wall"
+  std::string_view title;              ///< in error sentences: "[drag]", "a thermal wall"
   std::string_view absence = {};       ///< where it is absent, in `carom check`; empty where another row speaks for it
   bool (*is_present)(const Effects&);  ///< the scene names it
   bool (*acts)(const Effects&);        ///< the scene names it at another value than its neutral one, which leaves the same bits
@@ -48,10 +48,10 @@ struct EffectTraits {
   bool draws_random_numbers = false;  ///< while the run goes on
 
   // Why something has no meaning where the effect acts; empty where it has one.
-  std::string_view why_not_equilibrate = {};  ///< what to do instead: follows "[growth] and run.equilibrate cannot be combined; "
-  std::string_view why_no_Z = {};             ///< the end of "no Z: ..."
-  std::string_view why_no_replay = {};        ///< events do not tell the trajectory: a sentence without its stop
-  std::string_view why_no_structure = {};     ///< correlations of positions: follows "observe.NAME"
+  std::string_view why_not_equilibrate = {};   ///< what to do instead: follows "[drag] and run.equilibrate cannot be combined; "
+  std::string_view why_no_Z = {};              ///< the end of "no Z: ..."
+  std::string_view why_no_replay = {};         ///< events do not tell the trajectory: a sentence without its stop
+  std::string_view why_no_structure = {};      ///< correlations of positions: follows "observe.NAME"
   std::string_view why_no_displacements = {};  ///< of disks in a fluid at rest: follows "observe.NAME"
   std::string_view why_no_transport = {};      ///< Green-Kubo and Einstein-Helfand: follows "observe.NAME has no meaning here: "
 };
@@ -72,7 +72,7 @@ struct EffectTraits {
 /// The sentence of the first effect that acts and has one; empty where none has.
 [[nodiscard]] std::string_view first_reason(const Effects& effects, std::string_view EffectTraits::*reason);
 
-/// The titles of the effects whose table has a key, "[square_well] or [growth]"; empty where none has.
+/// The titles of the effects whose table has a key, "[square_well] or [drag]"; empty where none has.
 [[nodiscard]] std::string tables_with_key(std::string_view key);
 
 }  // namespace carom::detail

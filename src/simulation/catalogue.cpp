@@ -1,6 +1,7 @@
 #include "simulation/catalogue.hpp"
 
 #include "core/real.hpp"
+#include "simulation/drag_engine.hpp"
 #include "simulation/driven_engine.hpp"
 
 #include <carom/simulation.hpp>
@@ -81,6 +82,7 @@ std::string why_chosen(const EngineEntry& entry, const Scene& scene, const Disks
 std::unique_ptr<AnyEngine> make_engine(const EngineEntry& entry, const Scene& scene, const Disks& disks, State start) {
   std::unique_ptr<AnyEngine> engine = entry.make(scene, disks, std::move(start));
   if (DrivenEngine::needed_by(scene.effects)) return std::make_unique<DrivenEngine>(std::move(engine), scene, disks);
+  if (const double rate = scene.effects.drag_rate(); rate > 0.0) return std::make_unique<DragEngine>(std::move(engine), rate);
   return engine;
 }
 

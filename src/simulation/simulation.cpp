@@ -123,6 +123,8 @@ std::string to_string(StopReason reason) {
       return "cooled";
     case StopReason::grown:
       return "grown";
+    case StopReason::at_rest:
+      return "at_rest";
     case StopReason::no_collisions:
       return "no_collisions";
     case StopReason::invalid_state:

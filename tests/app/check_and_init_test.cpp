@@ -50,7 +50,7 @@ TEST(CheckCommand, DescribesEachEffectAndNamesTheAbsent) {
               AllOf(HasSubstr("; restitution 0.9\n"), HasSubstr("  gravity     acceleration (0, -1)\n"),
                     HasSubstr("  wall        left: velocities drawn anew at kT = 2\n"),
                     HasSubstr("  wall        top: restitution 0.8\n"), HasSubstr("  obstacles   1 fixed disk\n"),
-                    HasSubstr("  without     friction and spin, growth, a thermostat, shear, attraction at a distance\n")));
+                    HasSubstr("  without     friction and spin, growth, a thermostat, shear, attraction at a distance, drag\n")));
 }
 
 TEST(CheckCommand, SaysWhichEngineRunsTheSceneAndWhyAndHowMuchMemoryItTakes) {
