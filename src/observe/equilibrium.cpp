@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace carom {
@@ -19,6 +20,21 @@ bool has_walls_of_different_temperature(const Effects& effects) {
     first = wall.temperature;
   }
   return false;
+}
+
+struct Masses {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+};
+
+Masses masses_of(const Scene& scene) {
+  Masses masses;
+  for (const Species& species : scene.species)
+    for (std::int64_t i = 0; i < (species.masses.empty() ? std::min<std::int64_t>(species.count, 1) : species.count); ++i) {
+      masses.least = std::min(masses.least, species.mass_of(i));
+      masses.most = std::max(masses.most, species.mass_of(i));
+    }
+  return masses;
 }
 
 }  // namespace
@@ -37,14 +53,19 @@ std::string_view why_errors_are_of_one_start(const Scene& scene) {
   Effects others = scene.effects;
   others.obstacles.clear();  // they turn velocities, and change no speed
   if (others.collision.rule != CollisionRule::reversal || temperature_fluctuates(others) || !why_no_Z(others).empty()) return {};
-  std::optional<double> mass;
-  for (const Species& species : scene.species)
-    for (std::int64_t i = 0; i < (species.masses.empty() ? std::min<std::int64_t>(species.count, 1) : species.count); ++i) {
-      if (mass.value_or(species.mass_of(i)) != species.mass_of(i)) return {};
-      mass = species.mass_of(i);
-    }
+  if (const Masses masses = masses_of(scene); masses.least != masses.most) return {};
   return "disks of equal mass only exchange velocities under reversal: errors are those within this run, not those between "
          "starts";
+}
+
+std::string_view why_error_of_Z_is_lower_bound(const Scene& scene, double collisions_per_disk) {
+  constexpr double blocks = 32.0;
+  const Masses masses = masses_of(scene);
+  const double sum = masses.least + masses.most;
+  const double share = 2.0 * (masses.least / sum) * (masses.most / sum);
+  if (masses.least == masses.most || temperature_fluctuates(scene.effects) || collisions_per_disk * share >= blocks) return {};
+  return "the lightest and heaviest disks exchange energy more slowly than this run tells errors: the error of Z is a lower "
+         "bound";
 }
 
 }  // namespace carom

@@ -158,7 +158,7 @@ SummaryRows rows_of_results(const RunReport& report, const Scene* scene) {
                                         : fmt::format("{:.5g}", reduced)});
   }
   if (!report.note_on_errors.empty() && (report.Z_error || !report.observables.empty()))
-    rows.push_back({"errors", "of this start", report.note_on_errors});
+    rows.push_back({"errors", "of this run", report.note_on_errors});
   return rows;
 }
 

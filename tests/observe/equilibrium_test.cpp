@@ -68,6 +68,21 @@ TEST(Equilibrium, ErrorsAreOfOneStartWhereReversalExchangesVelocities) {
   EXPECT_FALSE(is_silent([](Scene& s) { s.species.front().masses = {1.5, 1.5, 1.5, 1.5}; }));
 }
 
+TEST(Equilibrium, TheErrorOfZIsALowerBoundWhereMassesExchangeEnergyMoreSlowlyThanBlocksLast) {
+  Scene scene = mixture_scene(64, 0.3, Boundary::periodic);
+  const auto is_lower_bound = [&](double mass, double collisions_per_disk) {
+    scene.species.front().mass = mass * scene.species.back().mass;
+    return !why_error_of_Z_is_lower_bound(scene, collisions_per_disk).empty();
+  };
+  EXPECT_FALSE(is_lower_bound(1.0, 1.0)) << "equal masses have one mean energy";
+  EXPECT_TRUE(is_lower_bound(3.0, 85.0)) << "3/8 of the difference passes at a collision: 85.3 are 32 times as many as 8/3";
+  EXPECT_FALSE(is_lower_bound(3.0, 86.0));
+  EXPECT_TRUE(is_lower_bound(1000.0, 10'000.0));
+  EXPECT_FALSE(is_lower_bound(1e-3, 20'000.0)) << "whichever of the species is the heavier";
+  scene.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.5, .where = {}};
+  EXPECT_FALSE(is_lower_bound(1000.0, 10'000.0)) << "the bath gives each its energy";
+}
+
 TEST(Equilibrium, OutOfItThereIsNoZ) {
   EXPECT_THAT(why_no_Z(with([](Effects& e) { e.collision.restitution = 0.9; })), HasSubstr("collisions"));
   EXPECT_THAT(why_no_Z(with([](Effects& e) { e.collision.roughness = 0.5; })), HasSubstr("collisions"));
