@@ -9,7 +9,7 @@ namespace carom {
 /// Archives a frame without its pointers, which are those of the engine that reads.
 template <class Archive>
 void serialize(Archive& archive, PredictionFrame& frame) {
-  archive(frame.unit, frame.steps, frame.sigma, frame.half_width, frame.edge_step, frame.scale, frame.growth, frame.well);
+  archive(frame.unit, frame.steps, frame.sigma, frame.half_width, frame.edge_step, frame.scale, frame.expansion, frame.well);
   archive(frame.sliding.displacement, frame.sliding.speed, frame.sliding.inner);
 }
 
