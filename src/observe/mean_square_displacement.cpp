@@ -57,6 +57,9 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
       for (Column* column : {&square, &error, &diffusion, &its_error}) table.columns.push_back(std::move(*column));
     }
     found.note = MultipleTau::note_on_errors(all);
+    if (!run_.scene.box.periodic(0) || !run_.scene.box.periodic(1))
+      found.note +=
+          std::string(found.note.empty() ? "" : "; ") + "between walls errors at long lags are up to 1.3 times too large";
     if (table.columns.empty())
       found.note = "the run is too short";
     else

@@ -77,8 +77,7 @@ void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
     if (const std::optional<double> error = series.standard_error())
       report_.Z_error = fluctuates ? *error : *error / (2.0 * disks * temperature);
     if (report_.note_on_errors.empty())
-      report_.note_on_errors =
-          why_error_of_Z_is_lower_bound(simulation_.scene(), 2.0 * static_cast<double>(report_.totals.pair) / disks);
+      report_.note_on_errors = why_error_of_Z_is_off(simulation_.scene(), 2.0 * static_cast<double>(report_.totals.pair) / disks);
     report_.reduced_pressure = 4.0 * report_.packing_fraction / std::numbers::pi * *report_.Z;
   }
 }

@@ -109,6 +109,19 @@ TEST(ObservedCorrelations, FreeDisksGoAsTheSquareOfTime) {
   EXPECT_EQ(o.value("velocity_autocorrelation", "initial_slope"), 0.0);
 }
 
+TEST(ObservedCorrelations, DisplacementsBetweenWallsSayThatTheirErrorsAreTooLarge) {
+  const auto note_in = [](const std::string& boundary) {
+    const Scene scene =
+        parse_scene("[box]\nx = [0.0, 8.0]\ny = [0.0, 8.0]\nboundary = \"" + boundary +
+                    "\"\n[[disks]]\nradius = 0.5\nmass = 1.0\npositions = [[1.0, 1.0], [2.0, 3.0]]\n"
+                    "velocities = [[1.0, 0.5], [-1.0, 0.5]]\n[collision]\nrule = \"specular\"\n[run]\ntime = 50.0\n"
+                    "[observe]\nmean_square_displacement = { every = 0.25 }\n");
+    return observe(scene, 0.25).of("mean_square_displacement").note;
+  };
+  EXPECT_NE(note_in("walls").find("between walls"), std::string::npos);
+  EXPECT_EQ(note_in("periodic").find("between walls"), std::string::npos);
+}
+
 TEST(ObservedCorrelations, CommonMotionDoesNotCount) {
   // One velocity for all: nothing diffuses. Drifts of 1 over 50 leave rounding of 1e-14 of that.
   const Scene scene = parse_scene(

@@ -72,7 +72,7 @@ TEST(Equilibrium, TheErrorOfZIsALowerBoundWhereMassesExchangeEnergyMoreSlowlyTha
   Scene scene = mixture_scene(64, 0.3, Boundary::periodic);
   const auto is_lower_bound = [&](double mass, double collisions_per_disk) {
     scene.species.front().mass = mass * scene.species.back().mass;
-    return !why_error_of_Z_is_lower_bound(scene, collisions_per_disk).empty();
+    return !why_error_of_Z_is_off(scene, collisions_per_disk).empty();
   };
   EXPECT_FALSE(is_lower_bound(1.0, 1.0)) << "equal masses have one mean energy";
   EXPECT_TRUE(is_lower_bound(3.0, 85.0)) << "3/8 of the difference passes at a collision: 85.3 are 32 times as many as 8/3";
@@ -81,6 +81,11 @@ TEST(Equilibrium, TheErrorOfZIsALowerBoundWhereMassesExchangeEnergyMoreSlowlyTha
   EXPECT_FALSE(is_lower_bound(1e-3, 20'000.0)) << "whichever of the species is the heavier";
   scene.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.5, .where = {}};
   EXPECT_FALSE(is_lower_bound(1000.0, 10'000.0)) << "the bath gives each its energy";
+}
+
+TEST(Equilibrium, TheErrorOfZIsTooLargeInACrystal) {
+  EXPECT_THAT(std::string(why_error_of_Z_is_off(gas_scene(64, 0.73, Boundary::periodic), 1e6)), HasSubstr("too large"));
+  EXPECT_THAT(std::string(why_error_of_Z_is_off(gas_scene(64, 0.71, Boundary::periodic), 1e6)), IsEmpty());
 }
 
 TEST(Equilibrium, OutOfItThereIsNoZ) {
