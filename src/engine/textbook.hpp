@@ -12,15 +12,14 @@
 // does, what the sides of the box are, obstacles, wells. At its neutral value each leaves the bits as they are.
 
 #include "core/contact_time.hpp"
-#include "core/domain.hpp"
 #include "core/instant.hpp"
 #include "effects/any_impact.hpp"
 #include "effects/gravity.hpp"
 #include "effects/obstacles.hpp"
-#include "effects/shear.hpp"
 #include "effects/walls.hpp"
 #include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
+#include "engine/edges.hpp"
 #include "engine/epoch.hpp"
 #include "engine/stall_detector.hpp"
 #include "neighbours/cell_grid.hpp"
@@ -69,12 +68,33 @@ class TextbookEngine {
   }
 
   /// Nothing will ever happen again. (Images that slide may hit what is at rest, however late.)
-  [[nodiscard]] bool idle() const { return queue_.empty() || (queue_.next().time == infinity<Real> && !sliding_.present()); }
+  [[nodiscard]] bool idle() const { return queue_.empty() || (queue_.next().time == infinity<Real> && !edges_.sheared()); }
 
   /// Whether the engine can go no further, and why.
   [[nodiscard]] const StallDetector& stall() const { return stall_; }
 
  private:
+  struct Record;
+  struct Plan;
+
+  /// The time at which disk i and the image of disk j `shift` box lengths away meet, at their hard cores or the edge of their
+  /// well; infinity for never. It is the same whichever is called i, and whenever it is asked.
+  [[nodiscard]] Real pair_time(std::int32_t i, std::int32_t j, const Winding& shift) const {
+    const Record &a = record(i), &b = record(j);
+    const Real t = std::max(a.t, b.t);
+    const Vec2<Real> r = separation(a, b, t, shift), v = edges_.relative_velocity(velocity(a, t) - velocity(b, t), shift);
+    const Real sigma = a.radius + b.radius;
+    if (impact_.wells().present()) {
+      const SquareWells<Real>& wells = impact_.wells();
+      const bool bound = wells.inside(i, j) && edges_.domain().nearest(r);  // a well reaches less than half the box
+      return t + wells.next_time(bound, r, v, sigma);
+    }
+    return t + contact_time<Real>(r, v, sigma * (scale_ + growth_ * t), sigma * growth_);
+  }
+  [[nodiscard]] Vec2<Real> separation(const Record& a, const Record& b, Real t, const Winding& shift) const {
+    return edges_.separation(position(a, t) - position(b, t), shift, t);
+  }
+
   /// The next event of all.
   void step() {
     const QueuedEvent<Real> event = queue_.next();
@@ -84,8 +104,8 @@ class TextbookEngine {
       cross_cell(event.disk);
     } else if (event.higher <= first_obstacle) {
       hit_obstacle(event.disk, first_obstacle - event.higher);
-    } else if (event.higher < 0 && sliding_.present()) {
-      cross_sliding_edge(event.disk, static_cast<Wall>(event.higher));
+    } else if (event.higher < 0 && edges_.sheared()) {
+      cross_edge(event.disk, static_cast<Wall>(event.higher));
     } else if (event.higher < 0) {
       hit_wall(event.disk, static_cast<Wall>(event.higher));
     } else if (is_stale(event.disk)) {
@@ -108,16 +128,13 @@ class TextbookEngine {
     Record& a = record(i);
     Record& b = record(j);
     const Vec2<Real> r = separation(a, b, now_, shift), before_a = a.v, before_b = b.v;
-    const Real image_speed = Real(shift[1]) * sliding_.speed();
-    b.v[0] += image_speed;  // as the image that i meets
-    const Real image_before = b.v[0];
+    const Real image_before = edges_.enter_image(shift, b.v);
     count_contact<Real>(r, a.v - b.v, radius_at(a, now_) + radius_at(b, now_), (a.radius + b.radius) * growth_, totals_.numerics);
     last_collision_.count(now_, totals_.numerics);
     stall_.record_loss(impact_.meet(r, (a.radius + b.radius) * growth_, {i, a.mass, radius_at(a, now_), a.v},
                                     {j, b.mass, radius_at(b, now_), b.v}, now_, totals_),
                        {i, j});
-    if (image_speed != 0) totals_.shear_energy.add(static_cast<double>(b.mass * (image_before - b.v[0]) * image_speed));
-    b.v[0] -= image_speed;
+    edges_.leave_image(shift, b.mass, image_before, b.v, totals_);
     if (!a.v.allFinite() || !b.v.allFinite()) {
       a.v = before_a, b.v = before_b;
       return stall_.fail(fmt::format("disks {} and {}: their velocities would not be finite after their collision", i, j));
@@ -147,20 +164,12 @@ class TextbookEngine {
     predict(i);
   }
 
-  /// A disk leaves a sheared box above or below, and comes back on the other side as one of the images there.
-  void cross_sliding_edge(std::int32_t i, Wall edge) {
+  /// A disk leaves the box past an edge where images slide, and comes back on the other side as one of them.
+  void cross_edge(std::int32_t i, Wall edge) {
     bring_to_now(i);
     Record& a = record(i);
-    const Real up = is_upper(edge) ? 1 : -1;
-    const Real before = a.v.squaredNorm();
     ++totals_.other;
-    a.r.y() = is_upper(edge) ? domain_.lower.y() : domain_.upper.y();
-    a.r.x() -= up * sliding_.displacement(now_);
-    a.v.x() -= up * sliding_.speed();
-    totals_.shear_energy.add(static_cast<double>(a.mass * (a.v.squaredNorm() - before)) / 2);
-    images_.col(i) += domain_.wrap(a.r);
-    images_(0, i) += (is_upper(edge) ? 1 : -1) * sliding_.whole_lengths(now_);
-    images_(1, i) += is_upper(edge) ? 1 : -1;
+    images_.col(i) += edges_.cross(is_upper(edge), a.mass, a.r, a.v, now_, totals_);
     grid_.move(i, a.r);
     predict(i);
   }
@@ -224,7 +233,7 @@ class TextbookEngine {
                                        : grid_.next_crossing(i, a.r, a.v, falling_.g, a.t);
     mine.boundary = {};
     for (int axis = 0; axis < 2; ++axis)
-      if (!domain_.periodic[axis])
+      if (!edges_.domain().periodic[axis])
         for (const bool upper : {false, true}) consider_wall(i, wall_of(axis, upper));
     if (obstacles_.empty()) return;
     Real until = std::min(mine.crossing.time, mine.boundary.time);
@@ -241,15 +250,14 @@ class TextbookEngine {
     const int axis = axis_of(wall);
     const Real sign = is_upper(wall) ? 1 : -1;
     const Real outward = sign * velocity(a, t)[axis], g = sign * falling_.g[axis], expansion = a.radius * growth_;
-    if (sliding_.present()) {  // no wall: the disk's centre leaves the box
-      const Real r = position(a, t)[axis];
-      const Real leaves = t + fall_time<Real>(is_upper(wall) ? domain_.upper[axis] - r : r - domain_.lower[axis], -outward, 0);
+    if (edges_.sheared()) {  // no wall: the disk's centre leaves the box
+      const Real leaves = t + edges_.time_to_edge(is_upper(wall), position(a, t), outward);
       if (leaves < first.time) first = {leaves, wall};
       return;
     }
     if (walls_.recedes(wall, outward, g, expansion, t)) return;
     const Real r = position(a, t)[axis], radius = radius_at(a, t);
-    const Real room = is_upper(wall) ? (domain_.upper[axis] - radius) - r : r - (domain_.lower[axis] + radius);
+    const Real room = is_upper(wall) ? (edges_.domain().upper[axis] - radius) - r : r - (edges_.domain().lower[axis] + radius);
     const Real time = t + walls_.contact(wall, room, outward, g, expansion, t);
     if (time < first.time) first = {time, wall};
   }
@@ -310,7 +318,7 @@ class TextbookEngine {
     epoch_ = instant(now_);
     walls_.rebase(now_);
     impact_.rebase(now_);
-    sliding_.rebase(now_);
+    edges_.rebase(now_);
     scale_ += growth_ * now_;
     now_ = 0;
     const double speed = rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; });
@@ -398,35 +406,10 @@ class TextbookEngine {
   [[nodiscard]] Vec2<Real> velocity(const Record& a, Real t) const { return falling_.velocity(a.v, t - a.t); }
   [[nodiscard]] Real radius_at(const Record& a, Real t) const { return a.radius * (scale_ + growth_ * t); }
 
-  [[nodiscard]] Vec2<Real> separation(const Record& a, const Record& b, Real t, const Winding& shift) const {
-    Vec2<Real> r = position(a, t) - position(b, t);
-    if (shift[0] != 0) r[0] -= Real(shift[0]) * domain_.length[0];
-    if (shift[1] != 0) r[1] -= Real(shift[1]) * domain_.length[1];
-    if (shift[1] != 0 && sliding_.present()) r[0] -= Real(shift[1]) * sliding_.displacement(t);
-    return r;
-  }
-
-  /// When the two records meet; the same whichever is called i, and whenever it is asked.
   [[nodiscard]] Winding nearest_image(std::int32_t i, std::int32_t j) const;
   /// How far disk i reaches beyond the walls across an axis; negative where it does not.
   [[nodiscard]] Real beyond_walls(std::int32_t i, int axis) const;
   [[nodiscard]] Real overlap_with(std::int32_t i, std::int32_t j, const Winding& image) const;
-  [[nodiscard]] Real pair_time(std::int32_t i, std::int32_t j, const Winding& shift) const {
-    const Record &a = record(i), &b = record(j);
-    const Real t = std::max(a.t, b.t);
-    const Vec2<Real> r = separation(a, b, t, shift);
-    Vec2<Real> v = velocity(a, t) - velocity(b, t);
-    if (shift[1] != 0) v[0] -= Real(shift[1]) * sliding_.speed();
-    const Real sigma = a.radius + b.radius;
-    if (impact_.wells().present()) {
-      const SquareWells<Real>& wells = impact_.wells();
-      const bool bound =
-          wells.inside(i, j) && domain_.nearest(r);  // a well reaches less than half the box: no other image is inside
-      return t + wells.next_time(bound, r, v, sigma);
-    }
-    return t + contact_time<Real>(r, v, sigma * (scale_ + growth_ * t), sigma * growth_);
-  }
-
   /// Rewrites the record of disk i at the present moment, inside the box. Plans that know the old record become stale.
   Winding bring_to_now(std::int32_t i) {
     Record& a = record(i);
@@ -435,7 +418,7 @@ class TextbookEngine {
     a.r = r;
     a.t = now_;
     ++a.collisions;
-    const Winding winding = domain_.wrap(a.r);
+    const Winding winding = edges_.domain().wrap(a.r);
     grid_.refold(i, winding);
     images_.col(i) += winding;
     return winding;
@@ -458,11 +441,10 @@ class TextbookEngine {
   [[nodiscard]] const Plan& plan(std::int32_t i) const { return plans_[static_cast<std::size_t>(i)]; }
 
   Box box_;
-  Domain<Real> domain_;  ///< of the box as it was at the start
+  Edges<Real> edges_;
   Falling<Real> falling_;
   Walls<Real> walls_;
   Obstacles<Real> obstacles_;
-  SlidingImages<Real> sliding_;
   AnyImpact<Real> impact_;
   Real scale_ = 1;   ///< of all radii, when the epoch began
   Real growth_ = 0;  ///< of the scale, per time
@@ -520,7 +502,7 @@ class TextbookEngine {
     const double before = kinetic_energy(i);
     const Vec2<Real> as_it_was = a.v;
     a.v = v.cast<Real>();
-    a.v[0] += sliding_.flow(a.r[1]);
+    a.v[0] += edges_.flow(a.r[1]);
     if (!a.v.allFinite()) fail_after_hit(i, as_it_was);
     if (impact_.spinning()) impact_.spin(i) = Real(spin);
     const double gained = kinetic_energy(i) - before;

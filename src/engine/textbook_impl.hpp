@@ -11,25 +11,18 @@
 
 namespace carom {
 
-/// A sheared box repeats along x only, as far as cells and coordinates are concerned: effects/shear.hpp does the rest.
-inline Box without_images_above(Box box) {
-  box.boundary[1] = Boundary::walls;
-  return box;
-}
-
 template <class Real>
 TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const State& start, const Effects& effects,
                                      std::uint64_t seed)
-    : box_(SlidingImages<Real>::acts(effects.shear) ? without_images_above(box) : box),
-      domain_(box_),
+    : box_(box),
+      edges_(box, effects, start.shear_displacement),
       falling_(effects.gravity),
       walls_(box, effects.walls, seed),
       obstacles_(box, effects.obstacles),
-      sliding_(box, effects.shear, start.shear_displacement),
       impact_(effects, disks.count()),
       scale_(Real(start.scale)),
       growth_(effects.growth ? Real(effects.growth->rate) : Real(0)),
-      grid_(domain_, Real(1), 0),
+      grid_(edges_.domain(), Real(1), 0),
       records_(disks.count()),
       plans_(disks.count()),
       images_(Images::Zero(2, static_cast<Eigen::Index>(disks.count()))),
@@ -68,10 +61,10 @@ void TextbookEngine<Real>::find_wells() {
 
 template <class Real>
 void TextbookEngine<Real>::suit_grid() {
-  if (sliding_.present()) {
-    if (grid_.disks() != records_.size()) grid_ = CellGrid<Real>(domain_, 2 * Real(largest_radius_), records_.size());
-    const Real from = sliding_.displacement(0), to = sliding_.displacement(epoch_length_ < infinity<Real> ? epoch_length_ : 0);
-    grid_.slide(std::min(from, to), std::max(from, to));
+  if (edges_.sheared()) {
+    if (grid_.disks() != records_.size()) grid_ = CellGrid<Real>(edges_.domain(), 2 * Real(largest_radius_), records_.size());
+    const auto [from, to] = edges_.slide(epoch_length_ < infinity<Real> ? epoch_length_ : 0);
+    grid_.slide(from, to);
     return;
   }
   const bool same = growth_ == 0 && !walls_.any_moves() && grid_.disks() == records_.size();
@@ -99,13 +92,13 @@ State TextbookEngine<Real>::state() const {
   if (wide) state.remainders.resize(2, count());
   for (std::int32_t i = 0; i < count(); ++i) {
     Vec2<Real> r = position(record(i), now_);
-    state.images.col(i) = images_.col(i) + domain_.wrap(r);
+    state.images.col(i) = images_.col(i) + edges_.domain().wrap(r);
     state.positions.col(i) = r.template cast<double>();
     for (int a = 0; a < 2; ++a) {  // rounding to double may reach the upper edge, which is the next box's lower one
-      if (!domain_.periodic[a] || state.positions(a, i) < static_cast<double>(domain_.upper[a])) continue;
-      state.positions(a, i) = static_cast<double>(domain_.lower[a]);
+      if (!edges_.domain().periodic[a] || state.positions(a, i) < static_cast<double>(edges_.domain().upper[a])) continue;
+      state.positions(a, i) = static_cast<double>(edges_.domain().lower[a]);
       ++state.images(a, i);
-      r[a] -= domain_.length[a];
+      r[a] -= edges_.domain().length[a];
     }
     if (wide) state.remainders.col(i) = (r - state.positions.col(i).template cast<Real>()).template cast<double>();
     state.velocities.col(i) = velocity(record(i), now_).template cast<double>();
@@ -117,7 +110,7 @@ State TextbookEngine<Real>::state() const {
   state.scale = static_cast<double>(scale_ + growth_ * now_);
   state.walls = walls_.states(now_);
   state.bonds = impact_.wells().pairs();
-  if (sliding_.present()) state.shear_displacement = static_cast<double>(sliding_.reduced(now_));
+  if (edges_.sheared()) state.shear_displacement = edges_.displacement(now_);
   return state;
 }
 
@@ -128,17 +121,14 @@ Real TextbookEngine<Real>::suitable_epoch_length() const {
                                 static_cast<double>(walls_.fastest(0)));
   const double pull = std::max(static_cast<double>(falling_.g.cwiseAbs().maxCoeff()), static_cast<double>(walls_.strongest()));
   const double length = shortened_epoch(epoch_length(spacing, speed), spacing, pull);
-  if (sliding_.speed() != 0) {  // images slide by one contact distance at most
-    using std::abs;
-    return std::min<Real>(Real(length), 2 * Real(largest_radius_) / abs(sliding_.speed()));
-  }
+  if (edges_.sheared()) return edges_.time_to_slide(2 * Real(largest_radius_), Real(length));  // by one contact distance
   return growth_ > 0 ? std::min<Real>(Real(length), scale_ / (64 * growth_)) : Real(length);
 }
 
 template <class Real>
 template <class Archive>
 void TextbookEngine<Real>::serialize(Archive& archive) {
-  archive(walls_, sliding_, impact_, scale_, growth_, grid_, records_, plans_, images_, epoch_, now_, epoch_length_, stall_,
+  archive(walls_, edges_, impact_, scale_, growth_, grid_, records_, plans_, images_, epoch_, now_, epoch_length_, stall_,
           common_motion_, totals_, last_collision_);
   if constexpr (Archive::is_loading::value) fill_queue();
 }
@@ -146,17 +136,7 @@ void TextbookEngine<Real>::serialize(Archive& archive) {
 /// Of j, seen from i.
 template <class Real>
 Winding TextbookEngine<Real>::nearest_image(std::int32_t i, std::int32_t j) const {
-  Vec2<Real> apart = position(record(i), now_) - position(record(j), now_);
-  Winding nearest = Winding::Zero();
-  using std::floor;
-  if (sliding_.present()) {
-    nearest[1] = static_cast<std::int64_t>(floor(apart[1] / domain_.length[1] + Real(0.5)));
-    apart[0] -= Real(nearest[1]) * sliding_.displacement(now_);
-  }
-  for (int axis = 0; axis < 2; ++axis) {
-    if (domain_.periodic[axis]) nearest[axis] = static_cast<std::int64_t>(floor(apart[axis] / domain_.length[axis] + Real(0.5)));
-  }
-  return nearest;
+  return edges_.nearest_image(position(record(i), now_) - position(record(j), now_), now_);
 }
 
 /// Length; negative where there is a gap.
@@ -169,11 +149,11 @@ Real TextbookEngine<Real>::overlap_with(std::int32_t i, std::int32_t j, const Wi
 
 template <class Real>
 Real TextbookEngine<Real>::beyond_walls(std::int32_t i, int axis) const {
-  if (domain_.periodic[axis] || sliding_.present()) return -infinity<Real>;
+  if (!edges_.walled(axis)) return -infinity<Real>;
   const Record& a = record(i);
   const Real r = position(a, now_)[axis], radius = radius_at(a, now_);
-  return std::max<Real>(domain_.lower[axis] + radius - r - walls_.displacement(wall_of(axis, false), now_),
-                        r - domain_.upper[axis] + radius - walls_.displacement(wall_of(axis, true), now_));
+  return std::max<Real>(edges_.domain().lower[axis] + radius - r - walls_.displacement(wall_of(axis, false), now_),
+                        r - edges_.domain().upper[axis] + radius - walls_.displacement(wall_of(axis, true), now_));
 }
 
 template <class Real>
@@ -199,8 +179,8 @@ std::vector<std::string> TextbookEngine<Real>::check_invariants(double tolerated
   // more at every epoch, which each rescaling of velocities begins: a disk that is too slow to move by that stays where it is and
   // grows.
   const Real epochs = growth_ > 0 ? Real(static_cast<double>(totals_.numerics.epochs)) : Real(0);
-  const Real rounding =
-      (16 + epochs / 2) * epsilon<Real> * std::max(domain_.lower.cwiseAbs().maxCoeff(), domain_.upper.cwiseAbs().maxCoeff());
+  const Real rounding = (16 + epochs / 2) * epsilon<Real> *
+                        std::max(edges_.domain().lower.cwiseAbs().maxCoeff(), edges_.domain().upper.cwiseAbs().maxCoeff());
   for (std::int32_t i = 0; i < count(); ++i) {
     const Record& a = record(i);
     const Vec2<Real> r = position(a, now_);
@@ -210,10 +190,10 @@ std::vector<std::string> TextbookEngine<Real>::check_invariants(double tolerated
     for (int axis = 0; axis < 2; ++axis) {
       const Real slack = grid_.width()[axis] / 256;
       const Real beyond = std::max<Real>(from[axis] - r[axis], r[axis] - from[axis] - grid_.width()[axis]);
-      if (beyond > slack && domain_.periodic[axis])
+      if (beyond > slack && edges_.domain().periodic[axis])
         faults.push_back(fmt::format("disk {}: outside its cell along axis {}", i, axis));
       const Real out = beyond_walls(i, axis);
-      if (out > Real(tolerated_overlap) * radius_at(a, now_) + tolerance * domain_.length[axis] + rounding)
+      if (out > Real(tolerated_overlap) * radius_at(a, now_) + tolerance * edges_.domain().length[axis] + rounding)
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", i, static_cast<double>(out), axis));
     }
   }
