@@ -1,29 +1,29 @@
 #pragma once
 // The engine that runs scenes: the same physics as engine/textbook.hpp, several times faster. Read from run_until() downwards.
 //
-// Where it gains: a disk is a line in space and time that nothing but its own collisions changes (core/flight.hpp);
+// Where it gains: a disk is a line in space and time that nothing but its own collisions changes (engine/flight_frame.hpp);
 // neighbours are known from lists that change only when a disk leaves its neighbourhood (neighbours/neighbour_lists.hpp); one
 // disk is predicted against eight neighbours at a time (core/prediction.hpp); the next event comes from a calendar in O(1), which
-// also shows the events after it, so that their data can be fetched ahead (queue/calendar_queue.hpp), or where disks are few from
+// also shows the events after it, so that their data can be asked for ahead (engine/prefetcher.hpp), or where disks are few from
 // a tournament without branches (queue/tournament_queue.hpp).
 //
-// Every disk has one plan: the earliest collision that it foresaw when it was last predicted, and when it leaves its
-// neighbourhood or meets a wall. Of two partners the one predicted last foresees the collision; a plan whose partner has collided
+// Every disk has one plan (engine/plans.hpp): the earliest collision that its last prediction found, and when it leaves its
+// neighbourhood or meets a wall. Of two partners the one predicted last knows of the collision; a plan whose partner has collided
 // since is stale and made anew when its time comes.
 //
-// Three slots say what acts: Impact (what two disks do to each other), World (what else there is round them) and Layout (what a
-// disk carries). Uniform gravity costs nothing where disks meet: lines are drawn in a frame that falls with the disks from the
-// epoch on, in which they are straight, and only walls and obstacles are looked for along the parabola.
+// Disks are known by their slots, indices in the order of memory, which keeps neighbours in the box near each other; ids_ has the
+// ids that the world knows. Three parameters say what acts: Impact (what two disks do to each other), World (what else there is
+// round them) and Layout (what a disk carries). Uniform gravity costs nothing where disks meet: lines are drawn in a frame that
+// falls with the disks from the epoch on, in which they are straight, and only walls and obstacles are looked for along the
+// parabola.
 //
-// engine_impl.hpp has the functions that are only declared here: how an engine begins, epochs, neighbourhoods and lists, plans
-// where there is more than hard walls, boxes whose images slide, what is seen from outside, invariants, checkpoints.
+// engine_impl.hpp has the functions that are only declared here: how an engine begins, epochs, neighbour lists, plans where there
+// is more than hard walls, sheared boxes, what is seen from outside, invariants, checkpoints.
 
 #include "core/instant.hpp"
 #include "core/large_memory.hpp"
 #include "core/prediction.hpp"
-#include "core/prefetch.hpp"
 #include "core/sides.hpp"
-#include "core/sliding_separation.hpp"
 #include "core/vec2.hpp"
 #include "effects/any_impact.hpp"
 #include "effects/elastic.hpp"
@@ -31,26 +31,26 @@
 #include "engine/collision_recorder.hpp"
 #include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
-#include "engine/epoch.hpp"
+#include "engine/disk_sizes.hpp"
 #include "engine/flight_frame.hpp"
+#include "engine/flight_limits.hpp"
 #include "engine/layout.hpp"
 #include "engine/plans.hpp"
+#include "engine/prefetcher.hpp"
 #include "engine/stall_detector.hpp"
 #include "neighbours/neighbour_lists.hpp"
 #include "neighbours/neighbourhood_tuning.hpp"
 #include "queue/future_event_list.hpp"
+#include "queue/queue_pacing.hpp"
 
-#include <carom/collisions.hpp>
 #include <carom/state.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace carom {
@@ -60,15 +60,12 @@ class Engine {
   using Line = typename Layout::Line;
 
  public:
-  /// Whether this engine can run these disks: periodic boxes must be wide enough for the nearest image to be the only one that a
-  /// disk can meet, disks not so small that the resolution of neighbourhoods would show, and slots the right ones.
-  [[nodiscard]] static bool covers(const Box& box, const Disks& disks, const Effects& effects = {}) {
-    return why_not(box, disks, effects).empty();
-  }
-  /// Why it cannot, in half a sentence; empty where it can.
+  /// Why this engine cannot run these disks, in half a sentence; empty where it can. Periodic boxes must be wide enough for the
+  /// nearest image to be the only one that a disk can meet, disks not so small that the resolution of neighbourhoods would show,
+  /// and the three parameters the right ones.
   [[nodiscard]] static std::string why_not(const Box& box, const Disks& disks, const Effects& effects = {});
 
-  /// Requires covers(box, disks, effects), disks inside the box, radii and masses > 0, everything finite. `seed`: of the random
+  /// Requires an empty why_not(), disks inside the box, radii and masses > 0, everything finite. `seed` is that of the random
   /// numbers that effects draw.
   Engine(const Box& box, const Disks& disks, State start, const Effects& effects = {}, std::uint64_t seed = 1);
   Engine(const Engine&) = delete;
@@ -82,7 +79,7 @@ class Engine {
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
     double end = target.since<double>(epoch_);
     for (; totals_.pair < pair_limit && event_limit > 0 && !stall_.jammed(); --event_limit) {
-      const auto [time, disk] = queue_.next(plans_, [this](std::int64_t span) { look_ahead(span); });
+      const auto [time, disk] = queue_.next(plans_, [this](std::int64_t span) { prefetch_calendar(span); });
       if (time <= end && time < epoch_length_) [[likely]] {
         step(disk, time);
         if (now_ == 0.0) end = target.since<double>(epoch_);  // a new epoch may have begun
@@ -111,11 +108,11 @@ class Engine {
     const Plan& mine = plans_[i];
     if (mine.edge_first()) {
       queue_.pop(plans_);
-      prefetch_next();
+      prefetcher_.next();
       mine.edge == neighbourhood_edge ? leave_neighbourhood(i) : hit(i, mine.edge);
     } else if (plans_.is_stale(mine)) {
       queue_.pop(plans_);
-      prefetch_next();
+      prefetcher_.next();
       ++totals_.stale;
       predict(i);
     } else {
@@ -133,22 +130,22 @@ class Engine {
     if (const std::int32_t above = flight_.boxes_above(i, j); above == 0) [[likely]]
       exchange(flight_.separation(a, b, now_), i, va, j, vb);
     else
-      meet_across_edge(i, va, j, vb, above);
+      meet_across_sheared_edge(i, va, j, vb, above);
     plans_[i].last_collided = plans_[j].last_collided = ++stamp_;
     if (recorder_.active()) recorder_.record(now_, i, j, before_a, before_b, va, vb);
-    if (outruns_epoch(va) || outruns_epoch(vb)) [[unlikely]]
-      return begin_epoch_between(i, va, j, vb);
+    if (limits_.exceeded_by(va) || limits_.exceeded_by(vb)) [[unlikely]]
+      return begin_epoch_early(i, va, j, vb);
 
     CollidedPair pair;
     pair.disk[0] = i, pair.disk[1] = j;
     pair.around[0] = surroundings(i), pair.around[1] = surroundings(j);
-    looks_ += more_looks(pair.around[0].count) + more_looks(pair.around[1].count);
+    tuning_.count_examined(pair.around[0].count, pair.around[1].count);
     queue_.pop(plans_, j);  // not earlier: all up to here goes on while the predictions before still wait for their results
-    prefetch_next();
+    prefetcher_.next();
     kernel_.turn_and_predict(lines_.data(), frame_, pair, now_, va[0], va[1], vb[0], vb[1]);
     if (pair.wrapped != 0) [[unlikely]]
       flight_.count_images(pair);
-    prefetch_partner_of_next();
+    prefetcher_.partner_of_next();
     plan_ahead(i, pair.ahead[0]);
     plan_ahead(j, pair.ahead[1]);
     queue_.push(plans_, i, plans_.time(i), j, plans_.time(j));
@@ -176,7 +173,7 @@ class Engine {
   /// A disk meets a wall or an obstacle.
   void hit(std::int32_t i, std::int32_t what) {
     if constexpr (!World::plain)
-      if (world_.sheared()) return cross_sliding_edge(i, is_upper(static_cast<Wall>(what)) ? 1 : -1);
+      if (world_.sheared()) return cross_sheared_edge(i, is_upper(static_cast<Wall>(what)) ? 1 : -1);
     const Line& a = line(i);
     Vec2<double> v = flight_.velocity(a, now_);
     const Visitor visitor{flight_.place(a, now_), layout_.mass(a), layout_.radius(a) * world_.scale(now_),
@@ -195,8 +192,8 @@ class Engine {
   void turn(std::int32_t i, const Vec2<double>& v) {
     plans_[i].last_collided = ++stamp_;
     const Vec2<double> along = flight_.line_velocity(v, now_);
-    if (outruns_epoch(along)) [[unlikely]]
-      return begin_epoch_between(i, along, i, along);
+    if (limits_.exceeded_by(along)) [[unlikely]]
+      return begin_epoch_early(i, along, i, along);
     flight_.turn(i, line(i), v, now_);
     predict(i);
     if (stamp_ == last_stamp) [[unlikely]]
@@ -207,6 +204,7 @@ class Engine {
   /// planned with others stays as it is.
   void leave_neighbourhood(std::int32_t i) {
     ++totals_.other;
+    tuning_.count_left();
     const NeighbourhoodCentre centre = neighbourhood_around(i, now_);
     const auto fresh = lists_.move_neighbourhood(i, centre);
     if (world_.sheared()) flight_.height(i) = centre.y;
@@ -222,9 +220,10 @@ class Engine {
   }
 
   /// Disk i meets the image of disk j that lies `above` boxes above it, past an edge where images slide.
-  [[gnu::noinline]] void meet_across_edge(std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb, std::int32_t above);
+  [[gnu::noinline]] void meet_across_sheared_edge(std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb,
+                                                  std::int32_t above);
   /// A disk leaves the box upwards (1) or downwards (-1) past images that slide, and comes back as its own image.
-  [[gnu::noinline]] void cross_sliding_edge(std::int32_t i, std::int32_t up);
+  [[gnu::noinline]] void cross_sheared_edge(std::int32_t i, std::int32_t up);
 
   // -------------------------------------------------------------------------------------------------- prediction
 
@@ -247,16 +246,10 @@ class Engine {
     plans_[i].edge_time = leaving_time;
     plans_[i].edge = neighbourhood_edge;
     if constexpr (World::plain) {
-      if (walled_ && !far_from_walls(i)) plan_hard_wall(i);
-    } else if (!bare_ && !(world_.obstacles.empty() && far_from_walls(i))) {
+      if (walled_ && !limits_.far_from_walls(lists_.centre(i))) plan_hard_wall(i);
+    } else if (bounded_ && !(world_.obstacles.empty() && limits_.far_from_walls(lists_.centre(i)))) {
       plan_world(i);
     }
-  }
-
-  /// Whether a disk leaves its neighbourhood before it can meet a wall.
-  [[nodiscard]] bool far_from_walls(std::int32_t i) const {
-    const NeighbourhoodCentre centre = lists_.centre(i);
-    return std::abs(std::int64_t{centre.x}) < clear_[0] && std::abs(std::int64_t{centre.y}) < clear_[1];
   }
 
   /// Puts the next contact with a wall in the place of the edge of the neighbourhood where it comes first.
@@ -279,7 +272,7 @@ class Engine {
   [[gnu::noinline]] void plan_world(std::int32_t i);
 
   /// Puts the edge past which images slide in the place of the edge of the neighbourhood where it comes first.
-  [[gnu::noinline]] void plan_sliding_edge(std::int32_t i);
+  [[gnu::noinline]] void plan_sheared_edge(std::int32_t i);
 
   /// A wall or obstacle at one time with a lower partner comes second: it will be found again after the collision.
   void resolve_wall_pair_tie(std::int32_t i) {
@@ -298,92 +291,50 @@ class Engine {
     return ahead.pair_time < never && id(ahead.partner) < id(plans_[i].partner);
   }
 
-  // ------------------------------------------------------------------------------------------------------- time
+  // ------------------------------------------------------------------------------------------------ epochs and lists
 
-  /// A new zero for the loop's clock at time `now`: every line starts there, every plan counts from there. Short times keep
-  /// their digits, and no line gets so long that coordinates wrap unseen.
+  /// Makes time `now` the epoch: every line starts there, every plan counts from there. Short times keep their digits, and no
+  /// line gets so long that coordinates wrap unseen.
   [[gnu::noinline]] void begin_epoch(double now);
-  /// The same in the middle of a collision after which a disk is too fast for its line to be drawn from the old epoch. Velocities
-  /// are those of lines. The two may be one and the same disk.
-  [[gnu::noinline, gnu::cold]] void begin_epoch_between(std::int32_t i, const Vec2<double>& va, std::int32_t j,
-                                                        const Vec2<double>& vb);
-  /// The velocities of two disks, who may be one and the same, would not be finite: they keep those that they have, and the run
-  /// ends.
+  /// Begins an epoch in the middle of a collision after which a disk is too fast for its line to be drawn from the old one.
+  /// Velocities are those of lines. i and j may be the same disk.
+  [[gnu::noinline, gnu::cold]] void begin_epoch_early(std::int32_t i, const Vec2<double>& va, std::int32_t j,
+                                                      const Vec2<double>& vb);
+  /// Ends the run because the velocities of i and j, which may be the same disk, would not be finite: they keep those that they
+  /// have.
   void fail_between(std::int32_t i, std::int32_t j);
-  /// Lets every line start, and every plan and stamp count, at `now`: all have collided by stamp 1, plans found stale have 0.
+  /// Lets lines, plans and stamps count from `now`.
   void rebase(double now);
-  void start_queue();
-  /// What an epoch begins with once everything counts from it.
-  void go_on();
-  /// The frame of the lines has fallen far: it goes back to the box, with new lists.
-  void draw_up_frame();
-  /// The sides of the box have moved out so far that coordinates get short of room.
-  void widen();
-  /// Empty lists, for disks as large as they will be at the end of the epoch.
-  void make_lists();
-  /// Whether disks will be larger at the end of the epoch than those that lists are for.
-  [[nodiscard]] bool outgrow_lists() const {
-    return world_.expansion() > 0.0 && !(epoch_length_ < never && world_.scale(epoch_length_) <= listed_scale_);
-  }
-  /// New lists for disks that have grown, and new plans with them.
-  void list_larger();
-  /// Images are where they are now, and will slide until the end of the epoch: disks near them have other neighbours.
-  void slide_images();
-  /// Lists and predictions know how images slide.
-  void note_slide();
-  void leave_room_to_slide(const std::vector<NeighbourhoodCentre>& centres);
-  /// Of neighbourhoods, for disks of the size that lists are for.
-  [[nodiscard]] double suitable_half_width() const { return HalfWidthSearch::first_half_width(sigma_ * listed_scale_, area_); }
-  /// Who begins inside whose well.
-  void find_wells();
-  /// As long as the lines may become as the disks move now, rounded down to a power of two.
+  /// Makes everything anew that an epoch needs after rebase().
+  void replan();
   void choose_epoch_length();
-  [[nodiscard]] double longest_by_world() const;
-  /// What rounding has left of it is to be given back where disks lose energy.
-  void look_after_momentum();
-  /// Chooses the width of neighbourhoods by the work done since the last choice.
-  void tune_neighbourhoods(double elapsed);
-  /// New neighbourhoods round all disks, and new lists. The plans must be made anew as well.
-  void rebuild(double half_width);
-  void predict_all();
-  /// A length for the first spans of the queue.
+  [[nodiscard]] double longest_epoch_of_world() const;
+  void reset_falling_frame();
+  void widen_coordinates();
+  void restore_momentum();
+  void start_queue();
   [[nodiscard]] double first_span() const;
 
-  /// A disk so fast that its line could wrap before the epoch ends, or whose velocity is no number.
-  [[nodiscard]] bool outruns_epoch(const Vec2<double>& v) const {
-    return !(std::abs(v[0]) <= speed_limit_[0]) || !(std::abs(v[1]) <= speed_limit_[1]);
-  }
+  void make_lists();
+  [[nodiscard]] double suitable_half_width() const;
+  [[nodiscard]] bool outgrow_lists() const;
+  void list_larger();
+  void tune_neighbourhoods(double elapsed);
+  void rebuild(double half_width);
+  void predict_all();
+  void find_wells();
 
-  // ----------------------------------------------------------------------------------------------- disks in flight
+  void update_shear();
+  void follow_shear();
+  void leave_room_for_shear(const std::vector<NeighbourhoodCentre>& centres);
 
-  /// Between two and eight there is no difference in speed; fewer take more memory.
-  static constexpr double pushed_per_span = 6.0;
-  /// By how much of their size disks may grow until they need new lists. More makes lists longer, less has them made more often.
-  static constexpr double list_margin = 1.0 / 64.0;
-  /// At which an epoch ends, if it has not before.
+  // ------------------------------------------------------------------------------------------------ small things
+
+  /// The stamp at which an epoch ends, if it has not before.
   static constexpr std::uint32_t last_stamp = 0xFFFFFFFF;
   static constexpr double never = infinity<double>;
 
-  /// At the beginning of an epoch.
-  [[nodiscard]] Vec2<double> momentum(const Line& a) const { return layout_.mass(a) * Vec2<double>(a.v[0], a.v[1]); }
-  [[nodiscard]] double contact_distance(std::int32_t i, std::int32_t j) const {
-    return (layout_.radius(line(i)) + layout_.radius(line(j))) * world_.scale(now_);
-  }
-  /// How far disk i reaches beyond the walls across an axis; negative where it does not.
-  [[nodiscard]] double beyond_walls(std::int32_t i, int axis) const;
-  void check_pair(std::int32_t i, std::int32_t j, double tolerated_overlap, std::vector<std::string>& faults) const;
-
-  /// A neighbourhood round where disk i is at a time, somewhat ahead of it.
-  [[nodiscard]] NeighbourhoodCentre neighbourhood_around(std::int32_t i, double when) const {
-    const Line& a = line(i);
-    const double fastest = std::max(std::abs(a.v[0]), std::abs(a.v[1]));
-    const double ahead = fastest > 0.0 ? neighbourhood_lead * lists_.half_width() / fastest : 0.0;
-    return flight_.neighbourhood_centre(i, a, when, ahead);
-  }
-
-  /// At four neighbours each, after the first eight.
-  [[nodiscard]] static std::uint32_t more_looks(std::uint32_t neighbours) { return (std::max(neighbours, 8U) - 5U) / 4U; }
-
+  [[nodiscard]] NeighbourhoodCentre neighbourhood_around(std::int32_t i, double when) const;
   [[nodiscard]] Surroundings surroundings(std::int32_t i) const {
     const NeighbourhoodCentre centre = lists_.centre(i);
     return {{centre.x, centre.y}, lists_.ids(i), lists_.count(i)};
@@ -393,28 +344,15 @@ class Engine {
     kernel_.predict(lines_.data(), frame_, i, around, now_, ahead);
     return ahead;
   }
-  /// Disk i against disk j alone.
-  [[nodiscard]] Prediction predicted_against(std::int32_t i, std::int32_t j) const {
-    const std::int32_t alone[8] = {j, i, i, i, i, i, i, i};
-    return predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, alone, 1});
-  }
+  /// The prediction of disk i against disk j alone.
+  [[nodiscard]] Prediction predicted_against(std::int32_t i, std::int32_t j) const;
   [[nodiscard, gnu::noinline, gnu::cold]] std::int32_t lowest_of_tied(std::int32_t i, const Prediction& ahead) const;
+  void prefetch_calendar(std::int64_t span) const;
 
-  [[gnu::noinline]] void look_ahead(std::int64_t span) const;
-  /// Fetches what the next event will need first.
-  void prefetch_next() const {
-    if (!queue_.foresees()) return;
-    const std::int32_t i = queue_.foreseen();
-    prefetch(&plans_[i]), prefetch_disk(i);
-  }
-  /// And what follows from that.
-  void prefetch_partner_of_next() const {
-    if (!queue_.foresees()) return;
-    const std::int32_t i = queue_.foreseen(), j = plans_[i].partner < 0 ? i : plans_[i].partner;
-    prefetch(&plans_[j]), prefetch_disk(j);
-    for (int n = 0; n < 8 && fetching_neighbours_; ++n) prefetch(&line(lists_.ids(i)[n]));
-  }
-  void prefetch_disk(std::int32_t i) const { prefetch(&line(i)), lists_.prefetch_list(i); }
+  [[nodiscard]] Vec2<double> momentum(const Line& a) const { return layout_.mass(a) * Vec2<double>(a.v[0], a.v[1]); }
+  [[nodiscard]] double contact_distance(std::int32_t i, std::int32_t j) const;
+  [[nodiscard]] double beyond_walls(std::int32_t i, int axis) const;
+  void check_pair(std::int32_t i, std::int32_t j, double tolerated_overlap, std::vector<std::string>& faults) const;
 
   [[nodiscard]] Instant instant(double t) const { return epoch_.plus(t); }
   [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(lines_.size()); }
@@ -422,110 +360,79 @@ class Engine {
   [[nodiscard]] const Line& line(std::int32_t i) const { return lines_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] std::int32_t id(std::int32_t i) const { return ids_[static_cast<std::size_t>(i)]; }
 
-  /// By how much of its half-width a new neighbourhood lies ahead of the disk. Between a quarter and three quarters there is
-  /// little difference; dilute gases gain from more.
-  static constexpr double neighbourhood_lead = 0.5;
-
   Layout layout_;
   Impact impact_;
   World world_;
   FlightFrame<Line, World> flight_;
   PredictionFrame frame_;
   const PredictionKernel<Line>& kernel_;
+
   LargeVector<Line> lines_;
-  LargeVector<std::int32_t> ids_;  ///< what the world calls them: the engine keeps neighbours near each other in memory
+  LargeVector<std::int32_t> ids_;
   Plans plans_;
   NeighbourLists lists_;
   FutureEventList<Plans> queue_;
+  std::vector<std::int32_t> slot_of_id_;  ///< once set_velocity() is called
 
   Instant epoch_;  ///< the loop's zero of time
   double now_ = 0.0;
   double epoch_length_ = 0.0;
-  std::uint32_t stamp_ = 1;     ///< counts collisions with disks and walls since the epoch began; what was before has 0 or 1
-  std::vector<double> radius_;  ///< in the order of memory, where lists have to be made for larger disks; else empty
-  std::vector<std::int32_t> places_;  ///< of the disks by id, once anybody asks
-  double spacing_;                    ///< root of the area per disk
-  double mean_speed_ = 0.0;           ///< mean of |v_x| + |v_y| when the epoch began
-  double reach_ = 0.0;                ///< the largest distance at which two disks notice each other
-  double largest_contact_ = 0.0;      ///< the largest contact distance, at scale 1
-  double sigma_ = 0.0;                ///< mean diameter, at scale 1
-  double area_ = 0.0;                 ///< per disk, where most of them were at the start
-  double listed_scale_ = 1.0;         ///< of the radii for which lists are made
-  double way_ = 0.0;                  ///< that images may slide in an epoch
-  double travel_[2] = {};             ///< the longest that a line may be along each axis
-  std::int64_t clear_[2] = {};  ///< centres of neighbourhoods nearer than this to the middle are too far from any wall to matter
-  double speed_limit_[2] = {};  ///< with which a line stays shorter than that until the epoch ends
-  double span_ = 0.0;           ///< of the queue
-  std::uint64_t begun_with_ = 0;  ///< events that the queue got at the beginning of the epoch
-  bool busy_ = true;              ///< the epoch before had a new event for every fourth disk or more
+  std::uint32_t stamp_ = 1;  ///< counts collisions with disks and walls since the epoch began; what was before has 0 or 1
+  double mean_speed_ = 0.0;  ///< mean of |v_x| + |v_y| when the epoch began
+  FlightLimits limits_;
+  DiskSizes sizes_;
   bool walled_;
-  bool bare_;                         ///< no walls, no obstacles, no images that slide
-  bool fetching_ = false;             ///< the data do not fit the second-level cache
-  bool fetching_neighbours_ = false;  ///< they do not fit half of it
+  bool bounded_;  ///< by walls, obstacles or images that slide
 
-  HalfWidthSearch tuner_;
-  double widest_ = never;      ///< that a neighbourhood may be
-  bool settling_ = true;       ///< the neighbourhoods are too new for their work to be judged
-  double travelled_ = 0.0;     ///< since the width of neighbourhoods was last looked at: mean path of a disk
-  std::uint64_t left_ = 0;     ///< totals_.other at that time
-  std::uint64_t changed_ = 0;  ///< lists_.changes() at that time
-  std::uint64_t looks_ = 0;    ///< since then: more_looks() of those who collided
-
+  NeighbourhoodTuning tuning_;
+  QueuePacing pacing_;
+  Prefetcher<Line> prefetcher_;
   StallDetector stall_;
   CommonMotion<double> common_motion_;
+  CollisionRecorder recorder_;
   RunningTotals totals_;
   LastInstant last_collision_;
-  CollisionRecorder recorder_;
 
  public:
-  // ------------------------------------------------------------------------------------- for those who look on
+  // ---------------------------------------------------------------------------------------------- seen from outside
 
   [[nodiscard]] Instant now() const { return instant(now_); }
   [[nodiscard]] Totals totals() const { return totals_.rounded(); }
   [[nodiscard]] const Counts& counts() const { return totals_; }
   [[nodiscard]] std::size_t disk_count() const { return lines_.size(); }
+  /// The ids of disks by slot.
+  [[nodiscard]] std::span<const std::int32_t> ids() const { return ids_; }
 
   /// The state at now(), computed on the side: nothing in the engine changes.
   [[nodiscard]] State state() const;
-  /// Time, velocities, scale and walls of state(); the rest is left as it is.
+  /// Puts time, velocities, scale and walls of state() in their place in `state`; the rest is left as it is.
   void look_at_velocities(State& state) const;
 
   /// Puts the clock back to an earlier time, since which nothing has happened.
   void set_back(const Instant& time) { now_ = time.since<double>(epoch_); }
-
   /// Makes now the zero of time and forgets the totals.
-  void reset_clock() {
-    begin_epoch(now_);
-    recorder_.begin_epoch(epoch_ = Instant{});
-    left_ -= totals_.other;                                            // wraps, as the difference to it will
-    const std::uint64_t longest_list = totals_.numerics.longest_list;  // of now, not of the time before
-    totals_ = RunningTotals{};
-    totals_.numerics.longest_list = longest_list;
-  }
-
-  /// Something from outside gives disk i a new velocity and, where disks spin, a new spin. Returns the energy that it gained.
+  void reset_clock();
+  /// Gives disk i a new velocity and, where disks spin, a new spin. Returns the energy that it gained.
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin);
-  /// All velocities and spins become `factor` times what they are.
+  /// Multiplies all velocities and spins by `factor`.
   void scale_velocities(double factor);
 
   void record_events(bool on) { recorder_.log_events(on); }
   void take_events(std::vector<Event>& events) { recorder_.take_events(events); }
   /// What is written down of events, for the log and for a listener.
   [[nodiscard]] CollisionRecorder& recorder() { return recorder_; }
-  /// What the world calls the disks, by their places in notes.
-  [[nodiscard]] std::span<const std::int32_t> ids() const { return ids_; }
 
-  /// Bytes of all that has an entry per disk.
+  /// The memory of all that has an entry per disk, in bytes.
   [[nodiscard]] std::size_t bytes() const;
-
-  /// All that decides how the run goes on, for core/archive.hpp. Requires all events to have been taken.
+  /// Writes or reads all that decides how the run goes on, for core/archive.hpp. Requires all events to have been taken.
   template <class Archive>
   void serialize(Archive& archive);
 
-  /// One sentence for every way in which the plan differs from what an exhaustive search finds, and for every pair that overlaps
-  /// by more of its contact distance than is tolerated.
+  /// One sentence for every way in which plans differ from what an exhaustive search finds, and for every pair that overlaps by
+  /// more of its contact distance than is tolerated.
   [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap = 0.0) const;
-  /// Of any pair, over its contact distance, and of any disk that touches a wall, over its radius; 0 where none overlaps.
+  /// The deepest overlap of any pair, over its contact distance, and of any disk that touches a wall, over its radius; 0 where
+  /// none overlaps.
   [[nodiscard]] double deepest_overlap() const;
 };
 

@@ -17,17 +17,15 @@ template <class Impact, class Layout, class World>
 template <class Archive>
 void Engine<Impact, Layout, World>::serialize(Archive& archive) {
   archive(flight_, frame_, impact_, world_);
-  archive(lines_, plans_, ids_, radius_, lists_, queue_);
+  archive(lines_, plans_, ids_, sizes_, lists_, queue_);
   archive(epoch_, now_, epoch_length_, stamp_, stall_, common_motion_, last_collision_, totals_);
-  archive(mean_speed_, reach_, area_, listed_scale_, way_, span_, begun_with_);
-  for (int k = 0; k < 2; ++k) archive(travel_[k], clear_[k], speed_limit_[k]);
-  archive(tuner_, widest_, settling_, travelled_, left_, changed_, looks_, busy_);
+  archive(mean_speed_, limits_, tuning_, pacing_);
   if constexpr (Archive::is_loading::value) {
     recorder_.begin_epoch(epoch_);
     if constexpr (!Impact::plain)
       if (impact_.wells().present()) frame_.inside = impact_.wells().table();
     frame_.sliding.heights = flight_.heights();
-    places_.clear();
+    slot_of_id_.clear();
   }
 }
 

@@ -8,34 +8,10 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <numbers>
-#if defined(__unix__)
-#include <unistd.h>
-#endif
 
 namespace carom {
 
 namespace detail {
-
-/// Of any two disks.
-inline double largest_contact_distance(const Disks& disks) {
-  double largest = 0.0, second = 0.0;
-  for (const double radius : disks.radius) {
-    second = std::max(second, std::min(radius, largest));
-    largest = std::max(largest, radius);
-  }
-  return largest + second;
-}
-
-/// Of the disks' radii, times the width of their wells: as large as they may become in a run.
-inline double largest_scale(const Box& box, const Disks& disks, const Effects& effects) {
-  double scale = effects.square_well && effects.square_well->depth != 0.0 ? effects.square_well->width : 1.0;
-  if (!effects.growth || effects.growth->rate == 0.0) return scale;
-  double squares = 0.0;
-  for (const double radius : disks.radius) squares += radius * radius;
-  const double fraction = std::numbers::pi * squares / box.area();
-  return scale * std::sqrt(effects.growth->packing_fraction.value_or(1.0) / fraction);  // no disks fill more than the box
-}
 
 template <class Line>
 const PredictionKernel<Line>& kernel_for(const Effects& effects) {
@@ -47,16 +23,6 @@ const PredictionKernel<Line>& kernel_for(const Effects& effects) {
   return prediction_kernel<Line>(falling ? Contact::falling : Contact::hard);
 }
 
-/// How many second-level caches so many bytes would fill.
-inline double second_level_caches(std::size_t bytes) {
-#if defined(_SC_LEVEL2_CACHE_SIZE)
-  const long size = sysconf(_SC_LEVEL2_CACHE_SIZE);
-#else
-  const long size = 0;
-#endif
-  return static_cast<double>(bytes) / static_cast<double>(size > 0 ? size : 1L << 20);
-}
-
 }  // namespace detail
 
 template <class Impact, class Layout, class World>
@@ -65,7 +31,7 @@ std::string Engine<Impact, Layout, World>::why_not(const Box& box, const Disks& 
   if ((Impact::plain || World::plain) && !acting.empty()) return fmt::format("the scene asks for {}", fmt::join(acting, ", "));
   if (disks.count() == 0) return "";
   const double smallest = *std::min_element(disks.radius.begin(), disks.radius.end());
-  const double reach = detail::largest_contact_distance(disks) * detail::largest_scale(box, disks, effects);
+  const double reach = largest_contact_distance(disks) * largest_scale(box, disks, effects);
   for (int k = 0; k < 2; ++k) {
     const FixedAxis axis = fixed_axis(box, k, disks.count());
     if (axis.periodic && axis.upper - axis.lower < 2.5 * reach)
@@ -95,24 +61,23 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       lines_(disks.count()),
       plans_(disks.count(), ids_),
       lists_(flight_.axis(0), flight_.axis(1), {}),
-      spacing_(mean_spacing(box, disks.count())),
+      sizes_(box, disks),
       walled_(!box.periodic(0) || !box.periodic(1)),
-      bare_(!walled_ && effects.obstacles.empty() && !SlidingImages<double>::acts(effects.shear)),
+      bounded_(walled_ || !effects.obstacles.empty() || world_.sheared()),
+      prefetcher_(lines_, ids_, plans_, lists_, queue_),
       stall_(effects, disks.count()),
       common_motion_(box, effects),
       recorder_(ids_, world_.g()) {
   detail::OrderInSpace order = detail::order_in_space(flight_.axis(0), flight_.axis(1), start);
   ids_ = std::move(order.ids);
-  radius_ = detail::in_order(disks.radius, ids_);
+  sizes_.radius = detail::in_order(disks.radius, ids_);
   for (std::int32_t i = 0; i < count(); ++i) {
     Line& a = line(i);
     layout_.furnish(a, disks, static_cast<std::size_t>(id(i)));
     flight_.begin(i, a, start, id(i), layout_.radius(a) * world_.scale(0.0));
   }
 
-  sigma_ = disks.mean_diameter();
-  area_ = order.area;
-  largest_contact_ = detail::largest_contact_distance(disks);
+  sizes_.area = order.area;
   if constexpr (!Impact::plain) {
     if (impact_.wells().present()) {
       frame_.well = impact_.wells().reach();
@@ -125,21 +90,18 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   frame_.expansion = world_.expansion();
   make_lists();
   if constexpr (!World::plain)
-    if (world_.sheared()) note_slide();
-  if (World::plain) radius_ = std::vector<double>();  // nothing will ask for them again; {} alone would keep the memory
-  start = State{};                                    // makes room for what follows
-  double half_width = std::min(suitable_half_width(), widest_);
-  for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sigma_; rebuild(half_width)) half_width *= 0.7;
+    if (world_.sheared()) update_shear();
+  if (World::plain) sizes_.radius = std::vector<double>();  // nothing will ask for them again; {} alone would keep the memory
+  start = State{};                                          // makes room for what follows
+  double half_width = std::min(suitable_half_width(), sizes_.widest_neighbourhood);
+  for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sizes_.mean_diameter; rebuild(half_width))
+    half_width *= 0.7;
   find_wells();
   if (common_motion_.present()) common_motion_.begin(lines_, [this](const Line& a) { return momentum(a); });
   choose_epoch_length();
   predict_all();
   begin_epoch(0.0);
-  // Looking ahead costs 5 to 15 per cent where the data fit the second-level cache and gains 20 to 60 where they are many times
-  // larger. It pays from about three times its size on: much of the data is rarely used.
-  const double caches = detail::second_level_caches(bytes());
-  fetching_ = caches > 3.0;
-  fetching_neighbours_ = caches > 0.5;
+  prefetcher_.suit(bytes());
 }
 
 template <class Impact, class Layout, class World>

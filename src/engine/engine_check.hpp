@@ -2,6 +2,7 @@
 // What must hold in the fast engine at any time: nobody overlaps, everybody is in his neighbourhood and on the right lists, no
 // collision is overlooked, and the queue knows every event.
 
+#include "core/sliding_separation.hpp"
 #include "engine/engine.hpp"
 
 #include <fmt/format.h>
@@ -52,6 +53,7 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants(double 
   return faults;
 }
 
+/// How far disk i reaches beyond the walls across an axis; negative where it does not.
 template <class Impact, class Layout, class World>
 double Engine<Impact, Layout, World>::beyond_walls(std::int32_t i, int axis) const {
   if (flight_.axis(axis).periodic) return -never;
@@ -90,7 +92,7 @@ void Engine<Impact, Layout, World>::check_pair(std::int32_t i, std::int32_t j, d
   const auto [r, v] = approach(frame_, line(i), line(j), flight_.boxes_above(i, j), now_);
   const double overlap = sigma - r.norm();
   // Separations are known to 4 u times the way since the epoch: docs/numerics.md.
-  const double rounding = 4.0 * epsilon<double> * (travel_[0] + travel_[1]);
+  const double rounding = 4.0 * epsilon<double> * (limits_.longest_line[0] + limits_.longest_line[1]);
   if (overlap > (tolerated_overlap + 1e-12) * sigma + rounding)
     faults.push_back(fmt::format("disks {} and {} overlap by {}", id(i), id(j), overlap));
   const double meeting = predicted_against(i, j).pair_time;
@@ -100,9 +102,14 @@ void Engine<Impact, Layout, World>::check_pair(std::int32_t i, std::int32_t j, d
   // Times of close pairs are uncertain; how deep they would be in each other by then is not.
   const double nearest = std::clamp(-r.dot(v) / v.squaredNorm(), 0.0, planned - now_);
   const double depth = sigma - (r + nearest * v).norm();
-  if (depth > 1e-12 * (sigma + travel_[0] + travel_[1]))
+  if (depth > 1e-12 * (sigma + limits_.longest_line[0] + limits_.longest_line[1]))
     faults.push_back(
         fmt::format("disks {} and {} would be {} deep in each other before either has an event planned", id(i), id(j), depth));
+}
+
+template <class Impact, class Layout, class World>
+double Engine<Impact, Layout, World>::contact_distance(std::int32_t i, std::int32_t j) const {
+  return (layout_.radius(line(i)) + layout_.radius(line(j))) * world_.scale(now_);
 }
 
 }  // namespace carom

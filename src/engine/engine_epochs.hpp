@@ -3,7 +3,7 @@
 // made anew when the next begins.
 
 #include "engine/engine.hpp"
-#include "engine/engine_begin.hpp"
+#include "engine/epoch.hpp"
 
 #include <fmt/format.h>
 
@@ -15,35 +15,31 @@ namespace carom {
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::begin_epoch(double now) {
   rebase(now);
-  look_after_momentum();
-  if constexpr (!World::plain) draw_up_frame(), widen();
+  restore_momentum();
+  if constexpr (!World::plain) reset_falling_frame(), widen_coordinates();
   if (now > 0.0) tune_neighbourhoods(now);
   choose_epoch_length();
-  if constexpr (!World::plain) slide_images();
+  if constexpr (!World::plain) follow_shear();
   if (outgrow_lists())
     list_larger();
   else if (world_.falls())
     predict_all();  // the frame starts from rest again, and disks leave their neighbourhoods at other times
-  // Too few events tell nothing: an epoch may have been cut short.
-  const std::uint64_t pushed = queue_.pushed() - begun_with_;
-  const bool enough = pushed > lines_.size() / 4 + 16;
-  if (enough) span_ = pushed_per_span * now / static_cast<double>(pushed);
-  if (now > 0.0) busy_ = enough;
+  pacing_.judge(now, queue_.pushed(), lines_.size());
   start_queue();
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::begin_epoch_between(std::int32_t i, const Vec2<double>& va, std::int32_t j,
-                                                        const Vec2<double>& vb) {
+void Engine<Impact, Layout, World>::begin_epoch_early(std::int32_t i, const Vec2<double>& va, std::int32_t j,
+                                                      const Vec2<double>& vb) {
   if (!va.allFinite() || !vb.allFinite()) return fail_between(i, j);
   const Vec2<double> fallen = world_.g() * now_;
   rebase(now_);
   ++totals_.numerics.outrun;
   for (int k = 0; k < 2; ++k) line(i).v[k] = va[k] + fallen[k], line(j).v[k] = vb[k] + fallen[k];
-  if (world_.expansion() > 0.0 || world_.falls()) return go_on();
-  if constexpr (!World::plain) widen();
+  if (world_.expansion() > 0.0 || world_.falls()) return replan();
+  if constexpr (!World::plain) widen_coordinates();
   choose_epoch_length();
-  if constexpr (!World::plain) slide_images();
+  if constexpr (!World::plain) follow_shear();
   for (const std::int32_t k : {i, j}) plan_ahead(k, predicted(k, surroundings(k)));
   start_queue();
 }
@@ -57,17 +53,17 @@ void Engine<Impact, Layout, World>::fail_between(std::int32_t i, std::int32_t j)
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::look_after_momentum() {
+void Engine<Impact, Layout, World>::restore_momentum() {
   if constexpr (!Impact::plain)
     if (common_motion_.present()) impact_.owe(common_motion_.owed(lines_, [this](const Line& a) { return momentum(a); }));
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::go_on() {
-  if constexpr (!World::plain) draw_up_frame(), widen();
+void Engine<Impact, Layout, World>::replan() {
+  if constexpr (!World::plain) reset_falling_frame(), widen_coordinates();
   choose_epoch_length();
   if (outgrow_lists()) list_larger();
-  if constexpr (!World::plain) slide_images();
+  if constexpr (!World::plain) follow_shear();
   predict_all();
   start_queue();
 }
@@ -96,37 +92,37 @@ void Engine<Impact, Layout, World>::choose_epoch_length() {
       fastest[k] = std::max(fastest[k], std::abs(a.v[k]));
       speeds.add(std::abs(a.v[k]));
     }
-  stall_.check_speeds(is_too_slow<double>(std::max(fastest[0], fastest[1]), sigma_));
+  stall_.check_speeds(is_too_slow<double>(std::max(fastest[0], fastest[1]), sizes_.mean_diameter));
   const double sum = speeds.value();
   if (!(sum < never)) stall_.fail("a velocity is not finite");
   mean_speed_ = sum / static_cast<double>(std::max(count(), 1));
   // Rounding x + v t moves a disk by 2^-53 of the way since the epoch: some spacings for most, never more than the room
   // that coordinates have, were the fastest to become somewhat faster.
-  double longest = 4.0 * spacing_ / mean_speed_;
-  for (int k = 0; k < 2; ++k) longest = std::min(longest, travel_[k] / (1.2 * fastest[k]));
-  if constexpr (!World::plain) longest = std::min(longest, longest_by_world());
+  double longest = 4.0 * sizes_.spacing / mean_speed_;
+  for (int k = 0; k < 2; ++k) longest = std::min(longest, limits_.longest_line[k] / (1.2 * fastest[k]));
+  if constexpr (!World::plain) longest = std::min(longest, longest_epoch_of_world());
   epoch_length_ = longest < 0x1p1000 ? std::ldexp(1.0, std::ilogb(longest)) : never;
   frame_.edge_step = epoch_length_ < never ? 0x1p-20 * epoch_length_ : 0.0;
-  for (int k = 0; k < 2; ++k) speed_limit_[k] = epoch_length_ < never ? travel_[k] / epoch_length_ : 0.0;
+  limits_.suit_epoch(epoch_length_);
 }
 
 /// How long an epoch may be for what disks and walls will do that they do not do yet.
 template <class Impact, class Layout, class World>
-double Engine<Impact, Layout, World>::longest_by_world() const {
+double Engine<Impact, Layout, World>::longest_epoch_of_world() const {
   double longest = never;
   const double pull = std::max(world_.g().cwiseAbs().maxCoeff(), world_.walls.strongest());
-  if (pull > 0.0) longest = std::sqrt(8.0 * spacing_ / pull);
-  if (world_.walls.fastest(0.0) > 0.0) longest = std::min(longest, 4.0 * spacing_ / world_.walls.fastest(0.0));
+  if (pull > 0.0) longest = std::sqrt(8.0 * sizes_.spacing / pull);
+  if (world_.walls.fastest(0.0) > 0.0) longest = std::min(longest, 4.0 * sizes_.spacing / world_.walls.fastest(0.0));
   if (world_.expansion() > 0.0) longest = std::min(longest, world_.scale(0.0) / (64.0 * world_.expansion()));
-  if (world_.sheared()) longest = std::min(longest, way_ / std::abs(world_.sliding.speed()));
+  if (world_.sheared()) longest = std::min(longest, limits_.shear_displacement / std::abs(world_.sliding.speed()));
   return longest;
 }
 
 /// The frame of the lines falls on from epoch to epoch, with the neighbourhoods in it. Before it leaves the box behind it is
 /// drawn up. Everybody is to be predicted anew then.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::draw_up_frame() {
-  if (!flight_.has_fallen(4.0 * spacing_)) return;
+void Engine<Impact, Layout, World>::reset_falling_frame() {
+  if (!flight_.has_fallen(4.0 * sizes_.spacing)) return;
   flight_.reset_fall(lines_);
   rebuild(frame_.half_width);
 }
@@ -134,7 +130,7 @@ void Engine<Impact, Layout, World>::draw_up_frame() {
 /// A line has the length of the box and some spacings of room on either side. When walls have used up half of that, coordinates
 /// are made coarser: by a power of two, so that nothing but their last digits changes.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::widen() {
+void Engine<Impact, Layout, World>::widen_coordinates() {
   bool wider = false;
   for (int k = 0; k < 2; ++k) {
     if (flight_.axis(k).periodic) continue;
@@ -142,7 +138,7 @@ void Engine<Impact, Layout, World>::widen() {
         std::max(world_.walls.displacement(wall_of(k, false), 0.0), world_.walls.displacement(wall_of(k, true), 0.0));
     const double length = flight_.length(k);
     const double range = 0x1p63 * flight_.axis(k).unit;  // from the middle
-    if (4.0 * (length / 2.0 + out + free_path * spacing_) <= range * 2.0) continue;
+    if (4.0 * (length / 2.0 + out + free_path * sizes_.spacing) <= range * 2.0) continue;
     flight_.coarsen(k, lines_);
     frame_.unit[k] = flight_.axis(k).unit;
     frame_.steps[k] = flight_.axis(k).steps;
@@ -150,7 +146,7 @@ void Engine<Impact, Layout, World>::widen() {
   }
   if (!wider) return;
   list_larger();
-  widen();
+  widen_coordinates();
 }
 
 /// Everybody anew.
@@ -161,10 +157,10 @@ void Engine<Impact, Layout, World>::predict_all() {
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::start_queue() {
-  if (span_ == 0.0) span_ = first_span();
-  queue_.start(span_, lines_.size(), epoch_length_, fetching_, busy_);
+  if (pacing_.span() == 0.0) pacing_.set_span(first_span());
+  queue_.start(pacing_.span(), lines_.size(), epoch_length_, prefetcher_.looks_ahead(), pacing_.busy());
   for (std::int32_t i = 0; i < count(); ++i) schedule(i);
-  begun_with_ = queue_.pushed();
+  pacing_.begin(queue_.pushed());
 }
 
 /// From the times of the first events: half of them come within the median.

@@ -2,60 +2,62 @@
 // Lists of neighbours for disks of the size that they have, and how wide neighbourhoods are.
 
 #include "engine/engine.hpp"
-#include "engine/engine_begin.hpp"
 
 #include <cmath>
 
 namespace carom {
 
+/// Empty lists, for disks as large as they will be at the end of the epoch.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::make_lists() {
-  listed_scale_ = world_.scale(epoch_length_ < never ? epoch_length_ : 0.0);
-  if (world_.expansion() > 0.0) listed_scale_ *= 1.0 + list_margin;
-  const double factor = listed_scale_ * frame_.well;
-  reach_ = largest_contact_ * factor;
-  std::vector<double> radius = radius_;
+  sizes_.listed_scale = world_.scale(epoch_length_ < never ? epoch_length_ : 0.0);
+  if (world_.expansion() > 0.0)
+    sizes_.listed_scale *= 1.0 + 1.0 / 64.0;  // more makes lists longer, less has them made more often
+  const double factor = sizes_.listed_scale * frame_.well;
+  sizes_.reach = sizes_.largest_contact * factor;
+  std::vector<double> radius = sizes_.radius;
   for (double& one : radius) one *= factor;
   lists_ = NeighbourLists(flight_.axis(0), flight_.axis(1), radius);
-  widest_ = std::max(flight_.length(0), flight_.length(1));  // that neighbourhood holds the box
+  sizes_.widest_neighbourhood = std::max(flight_.length(0), flight_.length(1));  // that neighbourhood holds the box
   for (int k = 0; k < 2; ++k)
-    if (flight_.axis(k).periodic) widest_ = std::min(widest_, (flight_.length(k) / 2.0 - reach_) / 6.0);
+    if (flight_.axis(k).periodic)
+      sizes_.widest_neighbourhood = std::min(sizes_.widest_neighbourhood, (flight_.length(k) / 2.0 - sizes_.reach) / 6.0);
 }
 
+/// New lists for disks that have grown, and new plans with them.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::list_larger() {
   const double before = suitable_half_width();
   make_lists();
   // Disks that have grown have less room, and want narrower neighbourhoods.
-  rebuild(std::min(frame_.half_width * (suitable_half_width() / before), widest_));
+  rebuild(std::min(frame_.half_width * (suitable_half_width() / before), sizes_.widest_neighbourhood));
   predict_all();
-  settling_ = true;
-  travelled_ = 0.0;
+  tuning_.restart();
 }
 
+/// The half-width for disks of the size that lists are for.
+template <class Impact, class Layout, class World>
+double Engine<Impact, Layout, World>::suitable_half_width() const {
+  return HalfWidthSearch::first_half_width(sizes_.mean_diameter * sizes_.listed_scale, sizes_.area);
+}
+
+/// Whether disks will be larger at the end of the epoch than those that lists are for.
+template <class Impact, class Layout, class World>
+bool Engine<Impact, Layout, World>::outgrow_lists() const {
+  return world_.expansion() > 0.0 && !(epoch_length_ < never && world_.scale(epoch_length_) <= sizes_.listed_scale);
+}
+
+/// Chooses the half-width by what neighbourhoods have cost since the last choice.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::tune_neighbourhoods(double elapsed) {
-  travelled_ += mean_speed_ * elapsed;
-  const std::uint64_t left = totals_.other - left_;
-  if (settling_) {  // after all neighbourhoods were made at once, nobody leaves for a while
-    if (travelled_ < 4.0 * lists_.half_width()) return;
-    settling_ = false;
-  } else {
-    if (travelled_ < 4.0 * spacing_ || left + looks_ < 4000) return;
-    const double work = HalfWidthSearch::work(left, lists_.changes() - changed_, looks_) / travelled_;
-    const double half_width = std::min(tuner_.next(lists_.half_width(), work), widest_);
-    settling_ = half_width != lists_.half_width();
-    if (settling_) {
-      rebuild(half_width);
-      predict_all();
-    }
-  }
-  travelled_ = 0.0;
-  left_ = totals_.other;
-  changed_ = lists_.changes();
-  looks_ = 0;
+  const double half_width =
+      tuning_.next(lists_.half_width(), sizes_.widest_neighbourhood, mean_speed_ * elapsed, sizes_.spacing, lists_.changes());
+  if (half_width == lists_.half_width()) return;
+  rebuild(half_width);
+  predict_all();
 }
 
+/// New neighbourhoods round all disks, and new lists. The plans must be made anew as well.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::rebuild(double half_width) {
   frame_.half_width = half_width;
@@ -72,14 +74,24 @@ void Engine<Impact, Layout, World>::rebuild(double half_width) {
   for (int k = 0; k < 2; ++k) {
     const double length = flight_.length(k);
     // A sixteenth of the neighbourhood is far more than any rounding of the time at which it is left.
-    const double clear = world_.still() ? length / 2.0 - largest_contact_ - half_width * (1.0 + 1.0 / 16.0) : 0.0;
-    clear_[k] =
+    const double clear = world_.still() ? length / 2.0 - sizes_.largest_contact - half_width * (1.0 + 1.0 / 16.0) : 0.0;
+    limits_.clear_of_walls[k] =
         flight_.axis(k).periodic ? INT64_MAX : static_cast<std::int64_t>(std::max(clear, 0.0) / (flight_.axis(k).unit * 0x1p32));
-    travel_[k] =
-        flight_.axis(k).periodic ? (length / 2.0 - reach_ - 4.0 * half_width) / 2.0 : length / 2.0 + free_path * spacing_;
+    limits_.longest_line[k] = flight_.axis(k).periodic ? (length / 2.0 - sizes_.reach - 4.0 * half_width) / 2.0
+                                                       : length / 2.0 + free_path * sizes_.spacing;
   }
   if constexpr (!World::plain)
-    if (world_.sheared()) leave_room_to_slide(centres);
+    if (world_.sheared()) leave_room_for_shear(centres);
+}
+
+/// A neighbourhood round where disk i is at a time, ahead of it by half of its half-width. Between a quarter and three quarters
+/// there is little difference; dilute gases gain from more.
+template <class Impact, class Layout, class World>
+NeighbourhoodCentre Engine<Impact, Layout, World>::neighbourhood_around(std::int32_t i, double when) const {
+  const Line& a = line(i);
+  const double fastest = std::max(std::abs(a.v[0]), std::abs(a.v[1]));
+  const double ahead = fastest > 0.0 ? 0.5 * lists_.half_width() / fastest : 0.0;
+  return flight_.neighbourhood_centre(i, a, when, ahead);
 }
 
 }  // namespace carom

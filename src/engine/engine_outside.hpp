@@ -47,19 +47,28 @@ void Engine<Impact, Layout, World>::look_at_velocities(State& state) const {
 }
 
 template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::reset_clock() {
+  begin_epoch(now_);
+  recorder_.begin_epoch(epoch_ = Instant{});
+  const std::uint64_t longest_list = totals_.numerics.longest_list;  // of now, not of the time before
+  totals_ = RunningTotals{};
+  totals_.numerics.longest_list = longest_list;
+}
+
+template <class Impact, class Layout, class World>
 std::size_t Engine<Impact, Layout, World>::bytes() const {
-  return lines_.capacity() * sizeof(Line) + plans_.bytes() + (ids_.capacity() + places_.capacity()) * sizeof(std::int32_t) +
+  return lines_.capacity() * sizeof(Line) + plans_.bytes() + (ids_.capacity() + slot_of_id_.capacity()) * sizeof(std::int32_t) +
          flight_.bytes() + lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() +
-         radius_.capacity() * sizeof(double);
+         sizes_.radius.capacity() * sizeof(double);
 }
 
 template <class Impact, class Layout, class World>
 double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eigen::Vector2d& v, double spin) {
-  if (places_.empty()) {
-    places_.resize(lines_.size());
-    for (std::int32_t i = 0; i < count(); ++i) places_[static_cast<std::size_t>(id(i))] = i;
+  if (slot_of_id_.empty()) {
+    slot_of_id_.resize(lines_.size());
+    for (std::int32_t i = 0; i < count(); ++i) slot_of_id_[static_cast<std::size_t>(id(i))] = i;
   }
-  const std::int32_t i = places_[static_cast<std::size_t>(disk)];
+  const std::int32_t i = slot_of_id_[static_cast<std::size_t>(disk)];
   const double mass = layout_.mass(line(i));
   Vec2<double> to = v;
   if constexpr (!World::plain)
@@ -82,7 +91,7 @@ void Engine<Impact, Layout, World>::scale_velocities(double factor) {
     for (int k = 0; k < 2; ++k) a.v[k] *= factor;
   if constexpr (!Impact::plain)
     for (std::int32_t i = 0; i < count() && impact_.spinning(); ++i) impact_.spin(i) *= factor;
-  go_on();
+  replan();
 }
 
 }  // namespace carom

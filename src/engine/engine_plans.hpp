@@ -9,7 +9,7 @@ namespace carom {
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::plan_world(std::int32_t i) {
-  if (world_.sheared()) return plan_sliding_edge(i);
+  if (world_.sheared()) return plan_sheared_edge(i);
   const Line& a = line(i);
   Plan& mine = plans_[i];
   const double radius = layout_.radius(a) * world_.scale(now_), expansion = layout_.radius(a) * world_.expansion();
@@ -54,38 +54,15 @@ std::int32_t Engine<Impact, Layout, World>::lowest_of_tied(std::int32_t i, const
   return lowest;
 }
 
-/// Fetches what the events of the spans to come will need, in three stages: plans; lines and lists; what the lists name.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::look_ahead(std::int64_t span) const {
-  if (!fetching_) return;
-  queue_.calendar().prefetch_span(span + 7);
-  for (const std::int32_t i : queue_.calendar().ids_of(span + 5)) prefetch_early(&plans_[i]);
-  for (const std::int32_t i : queue_.calendar().ids_of(span + 4)) {
-    const auto prefetch_disk = [this](std::int32_t k) {
-      prefetch_early(&line(k));
-      lists_.prefetch_list_early(k);
-    };
-    prefetch_disk(i);
-    if (plans_[i].pair_time < plans_[i].edge_time) {
-      prefetch_early(&plans_[plans_[i].partner]);
-      prefetch_disk(plans_[i].partner);
-    }
-  }
-  for (const std::int32_t i : queue_.calendar().ids_of(span + 2)) {
-    if (queue_.calendar().span_of(plans_.time(i)) != span + 2) continue;
-    const auto prefetch_neighbours = [this](std::int32_t k) {
-      const std::int32_t* ids = lists_.ids(k);
-      for (int n = 0; n < 8; ++n)
-        prefetch_early(&line(ids[n]));  // so many there always are, and no end of a loop to be guessed wrong
-      for (std::uint32_t n = 8, all = std::min(lists_.count(k), 16U); n < all; ++n) prefetch_early(&line(ids[n]));
-    };
-    if (plans_[i].pair_time < plans_[i].edge_time) {
-      prefetch_neighbours(i), prefetch_neighbours(plans_[i].partner);
-    } else {
-      prefetch_early(&ids_[static_cast<std::size_t>(i)]);  // decides ties, which times in steps often are
-      lists_.prefetch_cells(i, neighbourhood_around(i, plans_[i].edge_time));
-    }
-  }
+Prediction Engine<Impact, Layout, World>::predicted_against(std::int32_t i, std::int32_t j) const {
+  const std::int32_t alone[8] = {j, i, i, i, i, i, i, i};
+  return predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, alone, 1});
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::prefetch_calendar(std::int64_t span) const {
+  prefetcher_.calendar(span, [this](std::int32_t i, double when) { return neighbourhood_around(i, when); });
 }
 
 }  // namespace carom

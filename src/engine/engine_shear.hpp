@@ -7,6 +7,7 @@
 // that image is displaced and how fast it slides. Disks far from the edges know nothing of all this. In every epoch images slide
 // on from where they have come to, and neighbourhoods near an edge are neighbours of all that will slide past them in it.
 
+#include "core/sliding_separation.hpp"
 #include "engine/engine.hpp"
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 namespace carom {
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::note_slide() {
+void Engine<Impact, Layout, World>::update_shear() {
   const double length = flight_.length(0), displacement = world_.sliding.displacement(0.0);
   frame_.sliding.displacement = flight_.axis(0).steps_of(displacement < length / 2.0 ? displacement : displacement - length);
   frame_.sliding.speed = world_.sliding.speed();
@@ -26,26 +27,26 @@ void Engine<Impact, Layout, World>::note_slide() {
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::slide_images() {
+void Engine<Impact, Layout, World>::follow_shear() {
   if (!world_.sheared()) return;
-  note_slide();
+  update_shear();
   for (std::int32_t i = 0; i < count(); ++i)
     if (std::abs(std::int64_t{flight_.height(i)}) >= lists_.inner()) plan_ahead(i, predicted(i, surroundings(i)));
 }
 
 /// Of the half box within which nearest images are right, lines and the slide of images share what neighbourhoods leave.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::leave_room_to_slide(const std::vector<NeighbourhoodCentre>& centres) {
+void Engine<Impact, Layout, World>::leave_room_for_shear(const std::vector<NeighbourhoodCentre>& centres) {
   for (std::int32_t i = 0; i < count(); ++i) flight_.height(i) = centres[static_cast<std::size_t>(i)].y;
-  way_ = travel_[0];
-  travel_[0] /= 2.0;
+  limits_.shear_displacement = limits_.longest_line[0];
+  limits_.longest_line[0] /= 2.0;
   const double clear = flight_.length(1) / 2.0 - frame_.half_width * (1.0 + 1.0 / 16.0);
-  clear_[1] = static_cast<std::int64_t>(std::max(clear, 0.0) / (flight_.axis(1).unit * 0x1p32));
+  limits_.clear_of_walls[1] = static_cast<std::int64_t>(std::max(clear, 0.0) / (flight_.axis(1).unit * 0x1p32));
   frame_.sliding.inner = lists_.inner();
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::plan_sliding_edge(std::int32_t i) {
+void Engine<Impact, Layout, World>::plan_sheared_edge(std::int32_t i) {
   const Line& a = line(i);
   Plan& mine = plans_[i];
   const double v = a.v[1];
@@ -58,8 +59,8 @@ void Engine<Impact, Layout, World>::plan_sliding_edge(std::int32_t i) {
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::meet_across_edge(std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb,
-                                                     std::int32_t above) {
+void Engine<Impact, Layout, World>::meet_across_sheared_edge(std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb,
+                                                             std::int32_t above) {
   const Line &a = line(i), &b = line(j);
   const double image_speed = above * frame_.sliding.speed;
   vb[0] += image_speed;
@@ -70,14 +71,14 @@ void Engine<Impact, Layout, World>::meet_across_edge(std::int32_t i, Vec2<double
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::cross_sliding_edge(std::int32_t i, std::int32_t up) {
+void Engine<Impact, Layout, World>::cross_sheared_edge(std::int32_t i, std::int32_t up) {
   Line& a = line(i);
   const double before = a.v[0];
   flight_.cross_sheared_edge(i, a, up, frame_.sliding.displacement, world_.sliding.whole_lengths(now_));
   a.v[0] -= up * world_.sliding.speed();
   totals_.shear_energy.add(layout_.mass(a) * (a.v[0] * a.v[0] - before * before) / 2.0);
   leave_neighbourhood(i);
-  if (const Vec2<double> v(a.v[0], a.v[1]); outruns_epoch(v)) begin_epoch_between(i, v, i, v);
+  if (const Vec2<double> v(a.v[0], a.v[1]); limits_.exceeded_by(v)) begin_epoch_early(i, v, i, v);
 }
 
 }  // namespace carom

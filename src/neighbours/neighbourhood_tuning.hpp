@@ -3,6 +3,7 @@
 // width depends on density, on how the disks are spread, and changes while a system melts, clusters or is compressed; so it is
 // found, and found again, by trying. What counts is work, not seconds: the same run takes the same decisions on every machine.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -81,6 +82,69 @@ class HalfWidthSearch {
   double factor_ = step;
   bool improved_ = false;
   int settled_for_ = 0;
+};
+
+/// What neighbourhoods of one width have cost.
+struct TuningCounters {
+  std::uint64_t neighbourhoods_left = 0;
+  std::uint64_t groups_examined = 0;  ///< by predictions after collisions: of four neighbours each, after the first eight
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(neighbourhoods_left, groups_examined);
+  }
+};
+
+/// Counts what neighbourhoods cost while a run goes on, and judges their half-width when enough has been counted.
+class NeighbourhoodTuning {
+ public:
+  void count_left() { ++counters_.neighbourhoods_left; }
+  /// Counts the predictions of two disks that have so many neighbours.
+  void count_examined(std::uint32_t neighbours_a, std::uint32_t neighbours_b) {
+    counters_.groups_examined += groups(neighbours_a) + groups(neighbours_b);
+  }
+
+  /// Begins anew: all neighbourhoods have just been made, and no disk leaves its own for a while.
+  void restart() {
+    settling_ = true;
+    travelled_ = 0.0;
+  }
+
+  /// The half-width to go on with, at most `widest`, after disks have gone the mean path `path` (length) since the last call with
+  /// neighbourhoods of this one. `spacing` is that of disks, `list_changes` counts the changes of neighbour lists so far. It
+  /// requires neighbourhoods to be made anew where it differs.
+  [[nodiscard]] double next(double half_width, double widest, double path, double spacing, std::uint64_t list_changes) {
+    travelled_ += path;
+    double to = half_width;
+    if (settling_) {
+      if (travelled_ < 4.0 * half_width) return half_width;
+      settling_ = false;
+    } else {
+      const auto [left, examined] = counters_;
+      if (travelled_ < 4.0 * spacing || left + examined < 4000) return half_width;
+      const double work = HalfWidthSearch::work(left, list_changes - changes_before_, examined) / travelled_;
+      to = std::min(search_.next(half_width, work), widest);
+      settling_ = to != half_width;
+    }
+    travelled_ = 0.0;
+    counters_ = {};
+    changes_before_ = list_changes;
+    return to;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(search_, settling_, travelled_, counters_, changes_before_);
+  }
+
+ private:
+  [[nodiscard]] static std::uint32_t groups(std::uint32_t neighbours) { return (std::max(neighbours, 8U) - 5U) / 4U; }
+
+  HalfWidthSearch search_;
+  bool settling_ = true;    ///< the neighbourhoods are too new for their cost to be judged
+  double travelled_ = 0.0;  ///< mean path of a disk since the half-width was last judged
+  TuningCounters counters_;
+  std::uint64_t changes_before_ = 0;  ///< list changes when it was last judged
 };
 
 }  // namespace carom

@@ -56,6 +56,53 @@ TEST(HalfWidthSearch, TakesASystemThatChangesByItselfForNoGainOfItsOwn) {
   EXPECT_LE(std::abs(std::log(width)), 2.0 * std::log(step) * 1.001);
 }
 
+TEST(NeighbourhoodTuning, JudgesAWidthAfterFourSpacingsAndFourThousandCountsAndNotBefore) {
+  constexpr double half_width = 0.5, widest = 10.0, spacing = 1.0;
+  NeighbourhoodTuning tuning;
+  // All neighbourhoods are new: the first four half-widths of the way are not counted.
+  EXPECT_EQ(tuning.next(half_width, widest, 1.9, spacing, 0), half_width);
+  EXPECT_EQ(tuning.next(half_width, widest, 0.2, spacing, 0), half_width);
+  for (int n = 0; n < 3999; ++n) tuning.count_left();
+  EXPECT_EQ(tuning.next(half_width, widest, 5.0, spacing, 0), half_width) << "too few counts";
+  tuning.count_left();
+  EXPECT_EQ(tuning.next(half_width, widest, 0.0, spacing, 0), half_width * step);
+  // The same anew, for the trial: the way is too short at first.
+  const double trial = half_width * step;
+  EXPECT_EQ(tuning.next(trial, widest, 4.0 * trial, spacing, 0), trial);
+  for (int n = 0; n < 2000; ++n) tuning.count_examined(13, 9);  // of four neighbours each, two groups and one
+  EXPECT_EQ(tuning.next(trial, widest, 3.9, spacing, 0), trial);
+  EXPECT_EQ(tuning.next(trial, widest, 0.2, spacing, 0), half_width) << "back, to measure the first width again";
+}
+
+TEST(NeighbourhoodTuning, ChoosesWhatASearchWithTheWorkOfAllCountsChooses) {
+  constexpr double widest = 1.6, path = 8.0, spacing = 1.0;
+  NeighbourhoodTuning tuning;
+  HalfWidthSearch search;
+  double width = 1.0;
+  std::uint64_t changes = 0;
+  bool settling = true;
+  for (int round = 0; round < 60; ++round) {
+    if (settling) {
+      tuning.count_left();  // which is forgotten
+      EXPECT_EQ(tuning.next(width, widest, 4.0 * width, spacing, ++changes), width);
+    }
+    const auto left = static_cast<std::uint64_t>(4000.0 / width), gone = 3 * left,
+               pairs = static_cast<std::uint64_t>(3000.0 * width);
+    for (std::uint64_t n = 0; n < left; ++n) tuning.count_left();
+    for (std::uint64_t n = 0; n < pairs; ++n) tuning.count_examined(13, 9);  // of four neighbours each, two groups and one
+    changes += gone;
+    const double expected = std::min(search.next(width, HalfWidthSearch::work(left, gone, 3 * pairs) / path), widest);
+    const double next = tuning.next(width, widest, path, spacing, changes);
+    ASSERT_EQ(next, expected) << round;
+    settling = next != width;
+    width = next;
+    if (round == 30) {  // as after disks have grown
+      tuning.restart();
+      settling = true;
+    }
+  }
+}
+
 TEST(HalfWidthSearch, MovesByOneStepAtATime) {
   HalfWidthSearch tuner;
   double width = 10.0;

@@ -1,0 +1,58 @@
+#pragma once
+// How large disks are and how much room they have, for the neighbour lists of a run in which they may grow.
+
+#include "engine/flight_frame.hpp"
+
+#include <carom/effects.hpp>
+#include <carom/state.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+namespace carom {
+
+/// The largest contact distance of any two disks.
+inline double largest_contact_distance(const Disks& disks) {
+  double largest = 0.0, second = 0.0;
+  for (const double radius : disks.radius) {
+    second = std::max(second, std::min(radius, largest));
+    largest = std::max(largest, radius);
+  }
+  return largest + second;
+}
+
+/// By how much contact distances may grow in a run: disks until they fill the box, times the width of their wells.
+inline double largest_scale(const Box& box, const Disks& disks, const Effects& effects) {
+  double scale = effects.square_well && effects.square_well->depth != 0.0 ? effects.square_well->width : 1.0;
+  if (!effects.growth || effects.growth->rate == 0.0) return scale;
+  double squares = 0.0;
+  for (const double radius : disks.radius) squares += radius * radius;
+  const double fraction = std::numbers::pi * squares / box.area();
+  return scale * std::sqrt(effects.growth->packing_fraction.value_or(1.0) / fraction);  // no disks fill more than the box
+}
+
+struct DiskSizes {
+  DiskSizes(const Box& box, const Disks& disks)
+      : spacing(mean_spacing(box, disks.count())),
+        mean_diameter(disks.mean_diameter()),
+        largest_contact(largest_contact_distance(disks)) {}
+
+  double spacing;                     ///< root of the area per disk
+  double mean_diameter;               ///< at scale 1
+  double largest_contact;             ///< the largest contact distance, at scale 1
+  double area = 0.0;                  ///< per disk, where most of them were at the start
+  std::vector<double> radius;         ///< by slot, where lists have to be made for larger disks; else empty
+  double listed_scale = 1.0;          ///< of the radii for which lists are made
+  double reach = 0.0;                 ///< the largest distance at which two disks act on each other, at that scale
+  double widest_neighbourhood = 0.0;  ///< the largest half-width for which nearest images are right
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(area, radius, listed_scale, reach, widest_neighbourhood);
+  }
+};
+
+}  // namespace carom

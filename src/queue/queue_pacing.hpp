@@ -1,0 +1,41 @@
+#pragma once
+// How wide the spans of the calendar should be, and whether many events are to be expected, by what the last epoch brought.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace carom {
+
+class QueuePacing {
+ public:
+  /// The length of a span; 0 before the first call of set_span() or judge().
+  [[nodiscard]] double span() const { return span_; }
+  void set_span(double span) { span_ = span; }
+  /// Whether the last epoch had a new event for every fourth disk or more.
+  [[nodiscard]] bool busy() const { return busy_; }
+
+  /// Counts events from here: the queue has been filled, and `pushed` counts the events that it ever got.
+  void begin(std::uint64_t pushed) { begun_with_ = pushed; }
+  /// Judges the time `elapsed` since begin(): `pushed` counts now the events that the queue ever got.
+  void judge(double elapsed, std::uint64_t pushed, std::size_t disks) {
+    const std::uint64_t events = pushed - begun_with_;
+    const bool enough = events > disks / 4 + 16;  // too few tell nothing: an epoch may have been cut short
+    if (enough) span_ = events_per_span * elapsed / static_cast<double>(events);
+    if (elapsed > 0.0) busy_ = enough;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(span_, begun_with_, busy_);
+  }
+
+ private:
+  /// Between two and eight there is no difference in speed; fewer take more memory.
+  static constexpr double events_per_span = 6.0;
+
+  double span_ = 0.0;
+  std::uint64_t begun_with_ = 0;
+  bool busy_ = true;
+};
+
+}  // namespace carom

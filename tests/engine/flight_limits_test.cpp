@@ -1,0 +1,42 @@
+// How far disks may fly in an epoch.
+
+#include "engine/flight_limits.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace carom::test {
+namespace {
+
+TEST(FlightLimits, ALineIsTooLongBeyondItsSpeedUntilTheEpochEnds) {
+  FlightLimits limits;
+  limits.longest_line[0] = 8.0;
+  limits.longest_line[1] = 2.0;
+  limits.suit_epoch(4.0);
+  EXPECT_FALSE(limits.exceeded_by({2.0, -0.5}));
+  EXPECT_TRUE(limits.exceeded_by({-2.1, 0.0}));
+  EXPECT_TRUE(limits.exceeded_by({0.0, 0.6}));
+  EXPECT_TRUE(limits.exceeded_by({std::numeric_limits<double>::quiet_NaN(), 0.0}));
+  EXPECT_TRUE(limits.exceeded_by({0.0, std::numeric_limits<double>::infinity()}));
+}
+
+TEST(FlightLimits, AnEpochWithoutEndIsOneInWhichNothingMoves) {
+  FlightLimits limits;
+  limits.longest_line[0] = limits.longest_line[1] = 8.0;
+  limits.suit_epoch(std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(limits.exceeded_by({0.0, 0.0}));
+  EXPECT_TRUE(limits.exceeded_by({1e-300, 0.0}));
+}
+
+TEST(FlightLimits, NeighbourhoodsNearAnyWallAreNotFarFromAll) {
+  FlightLimits limits;
+  limits.clear_of_walls[0] = 100;
+  limits.clear_of_walls[1] = INT64_MAX;
+  EXPECT_TRUE(limits.far_from_walls({99, INT32_MIN}));
+  EXPECT_FALSE(limits.far_from_walls({-100, 0}));
+  EXPECT_FALSE(limits.far_from_walls({INT32_MIN, 0}));
+}
+
+}  // namespace
+}  // namespace carom::test
