@@ -15,7 +15,7 @@ namespace {
 class CollisionRate final : public SavedObservable<CollisionRate> {
  public:
   CollisionRate(const ObservableRequest& request, const ObservedRun& run)
-      : run_(run), step_(run.step(request)), kinds_(run.species_count()) {
+      : SavedObservable(request, run), kinds_(run.species_count()) {
     by_species_ = kinds_ > 1 && run.collisions_known && !is_driven(run.scene.effects);
     if (!by_species_) return;
     counts_.assign(kinds_ * kinds_, 0.0);
@@ -23,8 +23,6 @@ class CollisionRate final : public SavedObservable<CollisionRate> {
     rates_.resize(kinds_ * kinds_);
   }
 
-  [[nodiscard]] std::string name() const override { return "collision_rate"; }
-  [[nodiscard]] double step() const override { return step_; }
   [[nodiscard]] bool looks_at_velocities_alone() const override { return true; }
   [[nodiscard]] bool follows_collisions() const override { return by_species_; }
 
@@ -77,8 +75,6 @@ class CollisionRate final : public SavedObservable<CollisionRate> {
     found.scalars.push_back(std::move(scalar));
   }
 
-  ObservedRun run_;
-  double step_;
   std::size_t kinds_;
   bool by_species_;
   std::vector<double> counts_, before_;  ///< of collisions of one disk of the first species with one of the second

@@ -16,16 +16,12 @@ namespace {
 class DensityProfile final : public SavedObservable<DensityProfile> {
  public:
   DensityProfile(const ObservableRequest& request, const ObservedRun& run)
-      : run_(run),
-        step_(run.step(request)),
+      : SavedObservable(request, run),
         axis_(request.axis.value_or(1)),
         bins_(static_cast<std::size_t>(request.bins.value_or(100))),
         width_(run.scene.box.lengths()[axis_] / static_cast<double>(bins_)),
         kinds_(run.species_count() > 1 ? 1 + run.species_count() : 1),
         densities_(kinds_, BlockedColumn(bins_)) {}
-
-  [[nodiscard]] std::string name() const override { return "density_profile"; }
-  [[nodiscard]] double step() const override { return step_; }
 
   void sample(const State& state, const Totals&) override {
     std::vector<double> counts(kinds_ * bins_);
@@ -60,8 +56,6 @@ class DensityProfile final : public SavedObservable<DensityProfile> {
   }
 
  private:
-  ObservedRun run_;
-  double step_;
   int axis_;
   std::size_t bins_;
   double width_;

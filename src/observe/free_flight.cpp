@@ -72,7 +72,8 @@ class FlightHistogram {
 class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower {
  public:
   FreeFlight(const ObservableRequest& request, const ObservedRun& run)
-      : times_(static_cast<std::size_t>(request.bins.value_or(100)), longest * scale(run)),
+      : SavedObservable(request, run),
+        times_(static_cast<std::size_t>(request.bins.value_or(100)), longest * scale(run)),
         paths_(static_cast<std::size_t>(request.bins.value_or(100)), longest * scale(run) * speed(run)),
         bins_{1.0 / times_.width(), 1.0 / paths_.width(), static_cast<double>(request.bins.value_or(100))},
         why_no_path_(why_no_path(run.scene.effects)) {
@@ -85,7 +86,6 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
     last_.assign(ids_.size() + 1, never);
   }
 
-  [[nodiscard]] std::string name() const override { return "free_flight"; }
   [[nodiscard]] bool follows_collisions() const override { return true; }
 
   void collisions(std::span<const PairCollision> collisions) override {

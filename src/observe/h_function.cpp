@@ -20,7 +20,7 @@ namespace {
 
 class HFunction final : public SavedObservable<HFunction> {
  public:
-  HFunction(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request)) {
+  HFunction(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run) {
     for (std::size_t s = 0; s < run.species_count(); ++s) {
       double mass = 0.0, count = 0.0;
       for (std::size_t i = 0; i < run.disks.count(); ++i)
@@ -30,8 +30,6 @@ class HFunction final : public SavedObservable<HFunction> {
     }
   }
 
-  [[nodiscard]] std::string name() const override { return "h_function"; }
-  [[nodiscard]] double step() const override { return step_; }
   [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
 
   void sample(const State& state, const Totals&) override {
@@ -111,8 +109,6 @@ class HFunction final : public SavedObservable<HFunction> {
     stride_ *= 2;
   }
 
-  ObservedRun run_;
-  double step_;
   std::vector<double> thermal_;  ///< velocity, of each species
   std::uint64_t calls_ = 0, stride_ = 1;
   std::vector<double> times_, values_, errors_;

@@ -84,14 +84,10 @@ std::vector<std::complex<double>> local_order(const Box& box, const Eigen::Matri
 class Hexatic final : public SavedObservable<Hexatic> {
  public:
   Hexatic(const ObservableRequest& request, const ObservedRun& run)
-      : run_(run),
-        step_(run.step(request)),
+      : SavedObservable(request, run),
         range_(request.range.value_or(10.0) * run.mean_diameter),
         correlation_(static_cast<std::size_t>(request.bins.value_or(100))),
         width_(range_ / static_cast<double>(correlation_.size())) {}
-
-  [[nodiscard]] std::string name() const override { return "hexatic"; }
-  [[nodiscard]] double step() const override { return step_; }
 
   void sample(const State& state, const Totals&) override {
     const std::vector<std::complex<double>> psi = local_order(run_.scene.box, state.positions);
@@ -118,10 +114,10 @@ class Hexatic final : public SavedObservable<Hexatic> {
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
-    put(found, "local", local_);
-    put(found, "local_square", local_square_);
-    put(found, "global", global_);
-    put(found, "global_square", global_square_);
+    put(found, {.name = "local"}, local_);
+    put(found, {.name = "local_square"}, local_square_);
+    put(found, {.name = "global"}, global_);
+    put(found, {.name = "global_square"}, global_square_);
     Table table{.name = "hexatic_correlation"};
     Column middles{"r", "length", {}};
     for (std::size_t b = 0; b < correlation_.size(); ++b) middles.values.push_back((static_cast<double>(b) + 0.5) * width_);
@@ -137,15 +133,7 @@ class Hexatic final : public SavedObservable<Hexatic> {
   }
 
  private:
-  void put(Measurement& found, const char* name, const Blocking& series) const {
-    Scalar scalar{.name = name};
-    series.fill(scalar, step_);
-    if (!scalar.value) scalar.note = "nothing was measured";
-    found.scalars.push_back(std::move(scalar));
-  }
-
-  ObservedRun run_;
-  double step_, range_;
+  double range_;
   BlockedColumn correlation_;
   double width_;
   Blocking local_, local_square_, global_, global_square_;

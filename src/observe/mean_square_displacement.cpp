@@ -16,15 +16,12 @@ namespace {
 
 class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplacement> {
  public:
-  MeanSquareDisplacement(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request)) {
+  MeanSquareDisplacement(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run) {
     for (std::size_t s = 0; s < run.species_count(); ++s) {
       tracked_.emplace_back(run, s);
       ladders_.emplace_back(tracked_.back().channels(), MultipleTau::Pairs::squared_differences);
     }
   }
-
-  [[nodiscard]] std::string name() const override { return "mean_square_displacement"; }
-  [[nodiscard]] double step() const override { return step_; }
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Vector2d drift = state.time * kept_velocity(run_, state);
@@ -73,8 +70,6 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
   }
 
  private:
-  ObservedRun run_;
-  double step_;
   std::vector<TrackedDisks> tracked_;
   std::vector<MultipleTau> ladders_;
 };

@@ -40,7 +40,7 @@ double speed_factor(double d) { return d > 0.0 ? std::sqrt(0.5 * d) * boost::mat
 
 class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
  public:
-  Pressure(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request)) {
+  Pressure(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run) {
     const Effects& effects = run.scene.effects;
     follows_ = run.collisions_known && !is_driven(effects) && run.disks.count() > 0;
     equal_ = all_equal(run.disks.radius) && all_equal(run.disks.mass);
@@ -51,8 +51,6 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     has_Z_walls_ = why_no_walls().empty();
   }
 
-  [[nodiscard]] std::string name() const override { return "pressure"; }
-  [[nodiscard]] double step() const override { return step_; }
   [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared() && !has_Z_walls_; }
   [[nodiscard]] bool follows_collisions() const override { return follows_; }
 
@@ -182,8 +180,6 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     return {};
   }
 
-  ObservedRun run_;
-  double step_;
   bool follows_, equal_, equal_radii_;
   double freedom_;
   std::string_view why_no_Z_;

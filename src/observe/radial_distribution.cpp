@@ -65,8 +65,7 @@ class Contact {
 class RadialDistribution final : public SavedObservable<RadialDistribution> {
  public:
   RadialDistribution(const ObservableRequest& request, const ObservedRun& run)
-      : run_(run),
-        step_(run.step(request)),
+      : SavedObservable(request, run),
         range_(request.range.value_or(5.0) * run.mean_diameter),
         width_(range_ / static_cast<double>(request.bins.value_or(250))),
         kinds_(run.species_count()),
@@ -77,13 +76,11 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
     if (kinds_ > 1) partial_.resize(kinds_ * kinds_, BlockedColumn(g_.size()));
   }
 
-  [[nodiscard]] std::string name() const override { return "radial_distribution"; }
   /// Distance, in diameters, up to which g is smooth: it jumps at the edge of a well.
   static double smooth_until(const ObservedRun& run) {
     const auto& well = run.scene.effects.square_well;
     return well && well->depth != 0.0 ? std::min(1.25, well->width) : 1.25;
   }
-  [[nodiscard]] double step() const override { return step_; }
 
   void sample(const State& state, const Totals&) override {
     for (std::vector<double>& column : counts_) std::fill(column.begin(), column.end(), 0.0);
@@ -148,8 +145,7 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
     return a > b ? 0.0 : a == b ? 0.5 * first * (first - 1.0) : first * second;
   }
 
-  ObservedRun run_;
-  double step_, range_, width_;
+  double range_, width_;
   std::size_t kinds_;
   BlockedColumn g_;
   std::vector<BlockedColumn> partial_;

@@ -1,12 +1,16 @@
 #pragma once
-// An observable that can be written down in the middle of a run and read back.
+// What all observables of the catalogue have in common: name and step, results with their errors, and that they can be written
+// down in the middle of a run and read back.
 
 #include "core/archive.hpp"
+#include "observe/observed_run.hpp"
 
 #include <carom/observe.hpp>
 
 #include <istream>
 #include <ostream>
+#include <string>
+#include <utility>
 
 namespace carom {
 
@@ -15,6 +19,12 @@ namespace carom {
 template <class Self>
 class SavedObservable : public Observable {
  public:
+  SavedObservable(const ObservableRequest& request, const ObservedRun& run)
+      : run_(run), step_(run.step(request)), name_(request.name) {}
+
+  [[nodiscard]] std::string name() const final { return name_; }
+  [[nodiscard]] double step() const override { return step_; }
+
   void save(std::ostream& out) const final {
     SavingArchive archive(out);
     archive(static_cast<const Self&>(*this));
@@ -23,6 +33,22 @@ class SavedObservable : public Observable {
     LoadingArchive archive(in);
     archive(static_cast<Self&>(*this));
   }
+
+ protected:
+  /// Adds a number to the results, as `series.fill(scalar, step, more...)` gives it, or `otherwise` as its note.
+  template <class Series, class... More>
+  void put(Measurement& found, Scalar scalar, const Series& series, const char* otherwise = "nothing was measured",
+           More... more) const {
+    series.fill(scalar, step_, more...);
+    if (!scalar.value) scalar.note = otherwise;
+    found.scalars.push_back(std::move(scalar));
+  }
+
+  ObservedRun run_;
+  double step_;
+
+ private:
+  std::string name_;
 };
 
 }  // namespace carom

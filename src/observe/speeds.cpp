@@ -60,8 +60,7 @@ class Distribution {
 class Speeds final : public SavedObservable<Speeds> {
  public:
   Speeds(const ObservableRequest& request, const ObservedRun& run)
-      : run_(run),
-        step_(run.step(request)),
+      : SavedObservable(request, run),
         kinds_(run.species_count() > 1 ? 1 + run.species_count() : 1),
         speeds_(static_cast<std::size_t>(request.bins.value_or(100)), 5.0 * std::sqrt(energy(run) / lightest(run)), kinds_),
         energies_(static_cast<std::size_t>(request.bins.value_or(100)), 12.5 * energy(run), kinds_) {
@@ -70,8 +69,6 @@ class Speeds final : public SavedObservable<Speeds> {
       for (const Species& species : run.scene.species) disks_.push_back(static_cast<double>(species.count));
   }
 
-  [[nodiscard]] std::string name() const override { return "speeds"; }
-  [[nodiscard]] double step() const override { return step_; }
   [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
 
   void sample(const State& state, const Totals&) override {
@@ -113,8 +110,6 @@ class Speeds final : public SavedObservable<Speeds> {
     energies_.add(kind, energy);
   }
 
-  ObservedRun run_;
-  double step_;
   std::size_t kinds_;
   Distribution speeds_, energies_;
   std::vector<double> disks_;

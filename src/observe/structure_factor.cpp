@@ -58,13 +58,9 @@ std::vector<Shell> shells_up_to(double largest, const Eigen::Vector2d& lengths) 
 class StructureFactor final : public SavedObservable<StructureFactor> {
  public:
   StructureFactor(const ObservableRequest& request, const ObservedRun& run)
-      : run_(run),
-        step_(run.step(request)),
+      : SavedObservable(request, run),
         shells_(shells_up_to(request.largest.value_or(20.0) / run.mean_diameter, run.scene.box.lengths())),
         values_(shells_.size()) {}
-
-  [[nodiscard]] std::string name() const override { return "structure_factor"; }
-  [[nodiscard]] double step() const override { return step_; }
 
   void sample(const State& state, const Totals&) override {
     const double count = static_cast<double>(run_.disks.count());
@@ -107,8 +103,6 @@ class StructureFactor final : public SavedObservable<StructureFactor> {
   }
 
  private:
-  ObservedRun run_;
-  double step_;
   std::vector<Shell> shells_;
   BlockedColumn values_;
 };

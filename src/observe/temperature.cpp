@@ -14,10 +14,8 @@ namespace {
 class Temperature final : public SavedObservable<Temperature> {
  public:
   Temperature(const ObservableRequest& request, const ObservedRun& run)
-      : run_(run), step_(run.step(request)), species_(run.species_count() > 1 ? run.species_count() : 0) {}
+      : SavedObservable(request, run), species_(run.species_count() > 1 ? run.species_count() : 0) {}
 
-  [[nodiscard]] std::string name() const override { return "temperature"; }
-  [[nodiscard]] double step() const override { return step_; }
   [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
 
   void sample(const State& state, const Totals&) override {
@@ -43,11 +41,13 @@ class Temperature final : public SavedObservable<Temperature> {
   }
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
+    const char* const none = "there is no degree of freedom, or no sample";
     Measurement found{.name = name()};
-    put(found, "kT", all_);
-    put(found, "kT_x", x_);
-    put(found, "kT_y", y_);
-    for (std::size_t s = 0; s < species_.size(); ++s) put(found, "kT" + run_.suffix(s), species_[s]);
+    put(found, {.name = "kT", .unit = "energy"}, all_, none);
+    put(found, {.name = "kT_x", .unit = "energy"}, x_, none);
+    put(found, {.name = "kT_y", .unit = "energy"}, y_, none);
+    for (std::size_t s = 0; s < species_.size(); ++s)
+      put(found, {.name = "kT" + run_.suffix(s), .unit = "energy"}, species_[s], none);
     return found;
   }
 
@@ -57,15 +57,6 @@ class Temperature final : public SavedObservable<Temperature> {
   }
 
  private:
-  void put(Measurement& found, const std::string& name, const Blocking& series) const {
-    Scalar scalar{.name = name, .unit = "energy"};
-    series.fill(scalar, step_);
-    if (!scalar.value) scalar.note = "there is no degree of freedom, or no sample";
-    found.scalars.push_back(std::move(scalar));
-  }
-
-  ObservedRun run_;
-  double step_;
   Blocking all_, x_, y_;
   std::vector<Blocking> species_;
 };

@@ -66,7 +66,7 @@ bool flows_steadily(const Blocking& flux) {
 }  // namespace
 
 Transport::Transport(const ObservableRequest& request, const ObservedRun& run, TransportCoefficient coefficient)
-    : run_(run), coefficient_(std::move(coefficient)), step_(run.step(request)) {}
+    : SavedObservable(request, run), coefficient_(std::move(coefficient)) {}
 
 void Transport::start(const State& state) {
   const Eigen::Vector2d common = common_velocity(run_, state);

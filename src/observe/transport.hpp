@@ -33,7 +33,7 @@ class Transport final : public SavedObservable<Transport>, public FluxFollower {
  public:
   Transport(const ObservableRequest& request, const ObservedRun& run, TransportCoefficient coefficient);
 
-  [[nodiscard]] std::string name() const override { return coefficient_.name; }
+  [[nodiscard]] double step() const override { return 0.0; }  ///< no samples: it takes its own steps, by the clock
   [[nodiscard]] bool follows_collisions() const override { return true; }
   void start(const State& state) override;
   void ask(FluxSums& sums) override { sums.*coefficient_.sum = &sum_; }
@@ -49,9 +49,7 @@ class Transport final : public SavedObservable<Transport>, public FluxFollower {
  private:
   void tick(double time);
 
-  ObservedRun run_;
   TransportCoefficient coefficient_;
-  double step_;
   double kT_ = 0.0;
   double next_ = step_;
   std::uint64_t ticks_ = 0;

@@ -20,11 +20,7 @@ namespace {
 class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrelation> {
  public:
   VelocityAutocorrelation(const ObservableRequest& request, const ObservedRun& run)
-      : run_(run),
-        step_(run.step(request)),
-        slopes_(run.species_count()),
-        changes_(run.species_count()),
-        noted_(run.species_count()) {
+      : SavedObservable(request, run), slopes_(run.species_count()), changes_(run.species_count()), noted_(run.species_count()) {
     const Effects& effects = run.scene.effects;
     const bool curved = !effects.acceleration().isZero(0.0);
     follows_ = run.collisions_known && !curved && !is_driven(effects) && run.keeps_momentum(0) && run.keeps_momentum(1);
@@ -36,8 +32,6 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
     before_.resize(tracked_.size());
   }
 
-  [[nodiscard]] std::string name() const override { return "velocity_autocorrelation"; }
-  [[nodiscard]] double step() const override { return step_; }
   [[nodiscard]] bool follows_collisions() const override { return follows_; }
 
   void collisions(std::span<const PairCollision> collisions) override {
@@ -130,8 +124,6 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
     for (Column* column : {&values, &errors, &diffusion, &its_errors}) table.columns.push_back(std::move(*column));
   }
 
-  ObservedRun run_;
-  double step_;
   bool follows_;
   std::vector<TrackedDisks> tracked_;
   std::vector<MultipleTau> instants_, means_;

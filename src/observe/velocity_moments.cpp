@@ -15,10 +15,8 @@ namespace {
 class VelocityMoments final : public SavedObservable<VelocityMoments> {
  public:
   VelocityMoments(const ObservableRequest& request, const ObservedRun& run)
-      : run_(run), step_(run.step(request)), species_(run.species_count()) {}
+      : SavedObservable(request, run), species_(run.species_count()) {}
 
-  [[nodiscard]] std::string name() const override { return "velocity_moments"; }
-  [[nodiscard]] double step() const override { return step_; }
   [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
 
   void sample(const State& state, const Totals&) override {
@@ -50,17 +48,18 @@ class VelocityMoments final : public SavedObservable<VelocityMoments> {
   }
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
+    const char* const none = "nothing moves, or nothing was measured";
     Measurement found{.name = name()};
     for (std::size_t s = 0; s < species_.size(); ++s) {
       const Series& series = species_[s];
-      put(found, "speed" + run_.suffix(s), "length / time", series.speed);
-      put(found, "v2" + run_.suffix(s), "length^2 / time^2", series.second);
-      put(found, "v4" + run_.suffix(s), "length^4 / time^4", series.fourth);
-      put(found, "vx3" + run_.suffix(s), "length^3 / time^3", series.x3);
-      put(found, "vy3" + run_.suffix(s), "length^3 / time^3", series.y3);
-      put_kurtosis(found, "kurtosis" + run_.suffix(s), series.kurtosis);
-      put_kurtosis(found, "kurtosis_x" + run_.suffix(s), series.kurtosis_x);
-      put_kurtosis(found, "kurtosis_y" + run_.suffix(s), series.kurtosis_y);
+      put(found, {.name = "speed" + run_.suffix(s), .unit = "length / time"}, series.speed);
+      put(found, {.name = "v2" + run_.suffix(s), .unit = "length^2 / time^2"}, series.second);
+      put(found, {.name = "v4" + run_.suffix(s), .unit = "length^4 / time^4"}, series.fourth);
+      put(found, {.name = "vx3" + run_.suffix(s), .unit = "length^3 / time^3"}, series.x3);
+      put(found, {.name = "vy3" + run_.suffix(s), .unit = "length^3 / time^3"}, series.y3);
+      put(found, {.name = "kurtosis" + run_.suffix(s)}, series.kurtosis, none, 1.0, 0.0, 2);
+      put(found, {.name = "kurtosis_x" + run_.suffix(s)}, series.kurtosis_x, none, 1.0, 0.0, 2);
+      put(found, {.name = "kurtosis_y" + run_.suffix(s)}, series.kurtosis_y, none, 1.0, 0.0, 2);
     }
     return found;
   }
@@ -84,22 +83,6 @@ class VelocityMoments final : public SavedObservable<VelocityMoments> {
     }
   };
 
-  void put(Measurement& found, std::string name, const char* unit, const Blocking& series) const {
-    Scalar scalar{.name = std::move(name), .unit = unit};
-    series.fill(scalar, step_);
-    if (!scalar.value) scalar.note = "nothing was measured";
-    found.scalars.push_back(std::move(scalar));
-  }
-
-  void put_kurtosis(Measurement& found, std::string name, const Blocking& series) const {
-    Scalar scalar{.name = std::move(name)};
-    series.fill(scalar, step_, 1.0, 0.0, 2);
-    if (!scalar.value) scalar.note = "nothing moves, or nothing was measured";
-    found.scalars.push_back(std::move(scalar));
-  }
-
-  ObservedRun run_;
-  double step_;
   std::vector<Series> species_;
 };
 

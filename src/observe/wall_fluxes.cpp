@@ -17,10 +17,7 @@ namespace {
 
 class WallFluxes final : public SavedObservable<WallFluxes> {
  public:
-  WallFluxes(const ObservableRequest& request, const ObservedRun& run) : run_(run), step_(run.step(request)) {}
-
-  [[nodiscard]] std::string name() const override { return "wall_fluxes"; }
-  [[nodiscard]] double step() const override { return step_; }
+  WallFluxes(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run) {}
 
   void sample(const State& state, const Totals& totals) override {
     const Eigen::Vector2d lengths = box_of(run_.scene.box, state).lengths();
@@ -43,8 +40,8 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
     Measurement found{.name = name()};
     for (std::size_t side = 0; side < 4; ++side) {
       if (run_.scene.box.periodic(side < 2 ? 0 : 1)) continue;
-      put(found, std::string("momentum_") + wall_names[side], "energy / area", momentum_[side]);
-      put(found, std::string("energy_") + wall_names[side], "energy / (length time)", energy_[side]);
+      put(found, {.name = std::string("momentum_") + wall_names[side], .unit = "energy / area"}, momentum_[side]);
+      put(found, {.name = std::string("energy_") + wall_names[side], .unit = "energy / (length time)"}, energy_[side]);
     }
     return found;
   }
@@ -68,16 +65,7 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
     }
     return parts;
   }
-  template <class Series>
-  void put(Measurement& found, std::string name, const char* unit, const Series& series) const {
-    Scalar scalar{.name = std::move(name), .unit = unit};
-    series.fill(scalar, step_);
-    if (!scalar.value) scalar.note = "nothing was measured";
-    found.scalars.push_back(std::move(scalar));
-  }
 
-  ObservedRun run_;
-  double step_;
   double time_ = 0.0;
   Eigen::Vector2d lengths_ = Eigen::Vector2d::Zero();
   std::array<double, 4> impulse_{}, energies_{}, bounded_{};
