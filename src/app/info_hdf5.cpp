@@ -2,7 +2,7 @@
 
 #include "app/info_parts.hpp"
 #include "app/info_sweep.hpp"
-#include "io/h5md_groups.hpp"
+#include "io/h5md_parts.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/output_error.hpp"
 

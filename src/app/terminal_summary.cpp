@@ -3,7 +3,7 @@
 
 #include "app/terminal_summary.hpp"
 
-#include "pages/horizon_sentence.hpp"
+#include "pages/horizon_words.hpp"
 #include "pages/summary_rows.hpp"
 #include "scene/drawn.hpp"
 #include "terminal/observed_lines.hpp"

@@ -1,5 +1,6 @@
 #include "io/checkpoint.hpp"
 
+#include "io/h5md_parts.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/hdf5_stream.hpp"
 #include "io/output_error.hpp"
@@ -62,10 +63,7 @@ void write_facts(hid_t file, const CheckpointFacts& facts) {
   const Hdf5Id group = detail::create_group(file, "run");
   const hid_t run = group.get();
   detail::write_attribute(run, "format", checkpoint_format);
-  detail::write_attribute(run, "version", build_info().version);
-  detail::write_attribute(run, "commit", build_info().commit);
-  detail::write_attribute(run, "compiler", build_info().compiler);
-  detail::write_attribute(run, "flags", build_info().flags);
+  detail::write_build(run);
   detail::write_attribute(run, "resolved_scene", facts.provenance.resolved_scene);
   detail::write_attribute(run, "scene_source", facts.scene_source);
   detail::write_attribute(run, "scene", facts.scene_text);

@@ -1,6 +1,6 @@
 #include "io/finished_run.hpp"
 
-#include "io/h5md_groups.hpp"
+#include "io/h5md_parts.hpp"
 
 #include <nlohmann/json.hpp>
 

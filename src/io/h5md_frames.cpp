@@ -3,7 +3,7 @@
 
 #include "io/h5md_frames.hpp"
 
-#include "io/frame_layout.hpp"
+#include "io/h5md_parts.hpp"
 #include "observe/geometry.hpp"
 
 #include <fmt/format.h>

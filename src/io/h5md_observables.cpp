@@ -1,6 +1,6 @@
 #include "io/h5md_observables.hpp"
 
-#include "io/frame_layout.hpp"
+#include "io/h5md_parts.hpp"
 #include "observe/any_wall.hpp"
 #include "observe/energy.hpp"
 #include "observe/geometry.hpp"

@@ -3,8 +3,7 @@
 #include "io/h5md_writer.hpp"
 
 #include "core/archive.hpp"
-#include "io/h5md_measurements.hpp"
-#include "io/h5md_parameters.hpp"
+#include "io/h5md_parts.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "io/run_reader.hpp"
 
 #include "io/finished_run.hpp"
-#include "io/h5md_groups.hpp"
+#include "io/h5md_parts.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -3,8 +3,8 @@
 #include "io/run_record.hpp"
 
 #include "io/finished_run.hpp"
-#include "io/h5md_groups.hpp"
-#include "io/summary_reader.hpp"
+#include "io/h5md_parts.hpp"
+#include "io/summary.hpp"
 
 #include <nlohmann/json.hpp>
 

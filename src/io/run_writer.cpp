@@ -4,7 +4,7 @@
 
 #include "core/archive.hpp"
 #include "io/hdf5_file.hpp"
-#include "io/observable_tables.hpp"
+#include "io/observable_output.hpp"
 #include "io/summary.hpp"
 #include "io/text_file.hpp"
 

@@ -6,7 +6,7 @@
 #include "io/effects_json.hpp"
 #include "io/horizon_json.hpp"
 #include "io/json_number.hpp"
-#include "io/observables_json.hpp"
+#include "io/observable_output.hpp"
 #include "simulation/all_events.hpp"
 
 namespace carom {

@@ -1,4 +1,4 @@
-#include "io/summary_reader.hpp"
+#include "io/summary.hpp"
 
 #include "io/horizon_json.hpp"
 #include "io/json_number.hpp"

@@ -4,6 +4,8 @@
 // All text is plain text: it is escaped, so scene titles and paths may hold anything. Text between `backquotes` in a
 // paragraph or a caption is set as code. Every member has a default, so that designated initialisers name what they need.
 
+#include <carom/version.hpp>
+
 #include <string>
 #include <utility>
 #include <variant>
@@ -91,6 +93,9 @@ struct KeyNumber {
   std::string label = {};
 };
 
+/// Names and values that say where results come from.
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
 struct Page {
   std::string generator = {};  ///< the command that makes such pages, near the beginning of the file; empty: nothing is said
   std::string title = {};
@@ -98,8 +103,11 @@ struct Page {
   std::string lead = {};  ///< the answer in a few sentences
   std::vector<KeyNumber> key_numbers = {};
   std::vector<Section> sections = {};
-  std::vector<std::pair<std::string, std::string>> facts = {};  ///< the sources of the results, at the foot of the page
+  Facts facts = {};  ///< the sources of the results, at the foot of the page
 };
+
+/// Adds the program that made the results, and its compiler.
+void add_build(Facts& facts, const BuildInfo& build = build_info());
 
 /// Returns the page as one HTML file, about 1.2 MB and its numbers. Throws std::invalid_argument where lengths differ that must
 /// not, a group is negative, or an id is unfit or there twice.

@@ -2,8 +2,8 @@
 
 #include "pages/player_data.hpp"
 
-#include "pages/exact_run.hpp"
 #include "pages/player_parts.hpp"
+#include "pages/replay.hpp"
 
 #include <algorithm>
 

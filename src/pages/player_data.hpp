@@ -7,7 +7,7 @@
 // Without the log they are samples with positions in 16 bits, at most 2^-17 of the extent of the box away from the true ones: a
 // hundredth of a pixel, if the box is a thousand pixels wide.
 
-#include "pages/exact_run.hpp"
+#include "pages/replay.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -4,6 +4,8 @@
 
 #include "scene/effect_traits.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -24,6 +26,17 @@ std::string why_no_replay(const Scene& scene) {
     return "velocities of growing disks are rescaled by an energy that spins are part of, which the event log does not hold";
   return {};
 }
+
+namespace {
+
+std::string why_not_by_its_kind(const RunReader& run, std::uint64_t most_events, std::string_view holder) {
+  if (!run.has_event_log()) return "the run kept no event log (carom run --events)";
+  if (run.events() > most_events)
+    return fmt::format("its {} events are more than the {} that {}", run.events(), most_events, holder);
+  return why_no_replay(run.scene());
+}
+
+}  // namespace
 
 Replay::Replay(const Scene& scene, const Disks& disks, const State& start, VelocityDigits digits)
     : disks_(&disks), digits_(digits) {
@@ -120,6 +133,23 @@ double distance_from_samples(const Scene& scene, Replay replay, const std::vecto
     }
   }
   return farthest;
+}
+
+ExactRun read_exactly(const RunReader& run, std::uint64_t most_events, std::string_view holder) {
+  ExactRun exact;
+  exact.start = run.sample(0);
+  exact.why_not = why_not_by_its_kind(run, most_events, holder);
+  if (!exact.exact()) return exact;
+  const Scene& scene = run.scene();
+  exact.events = run.event_log();
+  exact.distance = distance_from_samples(scene, Replay(scene, run.disks(), exact.start), exact.events, run.samples(),
+                                         [&](std::uint64_t k) { return run.sample(k); });
+  if (!(exact.distance <= replay_tolerance * scene.box.lengths().maxCoeff())) {
+    exact.why_not =
+        fmt::format("the collisions in its log do not lead to its samples (they are up to {:.2g} apart)", exact.distance);
+    exact.events = {};
+  }
+  return exact;
 }
 
 }  // namespace carom

@@ -3,6 +3,8 @@
 // log names. What the log does not name but follows from it, the motion of pistons and the rescaling of growing disks, is made up
 // here. The player does the same arithmetic in the browser.
 
+#include "io/run_reader.hpp"
+
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
 
@@ -10,6 +12,8 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace carom {
@@ -61,5 +65,20 @@ class Replay {
 /// returns them by their number.
 [[nodiscard]] double distance_from_samples(const Scene& scene, Replay replay, const std::vector<Event>& events,
                                            std::uint64_t samples, const std::function<State(std::uint64_t)>& sample);
+
+/// The largest distance of an exact replay from the run's samples, over the longer side of the box.
+inline constexpr double replay_tolerance = 1e-6;
+
+struct ExactRun {
+  State start;  ///< the first sample
+  std::vector<Event> events;
+  double distance = 0.0;  ///< largest distance from the samples that it was compared with
+  std::string why_not;    ///< half a sentence where the run cannot be replayed; then there are no events
+  [[nodiscard]] bool exact() const { return why_not.empty(); }
+};
+
+/// `holder` ends the sentence about a log of more than `most_events`: "a page can hold". Throws OutputError where the run cannot
+/// be read.
+[[nodiscard]] ExactRun read_exactly(const RunReader& run, std::uint64_t most_events, std::string_view holder);
 
 }  // namespace carom

@@ -1,9 +1,7 @@
-#include "pages/report_accuracy.hpp"
+#include "pages/report_parts.hpp"
 
 #include "observe/observed_run.hpp"
-#include "pages/horizon_sentence.hpp"
-#include "pages/horizon_table.hpp"
-#include "pages/report_parts.hpp"
+#include "pages/horizon_words.hpp"
 #include "pages/summary_rows.hpp"
 #include "text/numbers.hpp"
 

@@ -3,7 +3,6 @@
 #include "io/run_reader.hpp"
 #include "pages/observable_plots.hpp"
 #include "pages/player_page.hpp"
-#include "pages/report_accuracy.hpp"
 #include "pages/report_parts.hpp"
 #include "pages/run_theory.hpp"
 #include "pages/scene_words.hpp"
@@ -193,8 +192,7 @@ Page report_page(const RunRecord& record, const std::optional<PlayerData>& playe
   if (!report.observables.empty()) page.sections.push_back(observed(report, theory));
   page.facts = {{"Scene", report.scene}, {"Seed", std::to_string(report.seed)}, {"Command", record.command_line}};
   if (record.source) page.facts.emplace_back("Again", how_again(report));
-  page.facts.emplace_back("Program", fmt::format("carom {} (commit {})", record.build.version, record.build.commit));
-  page.facts.emplace_back("Compiler", fmt::format("{}; {}", record.build.compiler, record.build.flags));
+  add_build(page.facts, record.build);
   return page;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Blocks that several sections of a report are made of.
+// Parts of a report: blocks that several of its sections have, and the section on accuracy.
 
 #include "io/run_record.hpp"
 #include "pages/page.hpp"
@@ -17,5 +17,8 @@ namespace carom {
 
 /// Returns the plots of quantities that change from sample to sample: temperature, packing fraction, kinds of energy, bonds.
 [[nodiscard]] std::vector<Plot> plots_over_time(const RunRecord::Source& source);
+
+/// Returns the section on how exact the run was: energy, momentum and overlap beside what rounding explains, and near misses.
+[[nodiscard]] Section accuracy_section(const RunRecord& record);
 
 }  // namespace carom

@@ -4,7 +4,6 @@
 
 #include "io/hand_made_run.hpp"
 #include "io/summary.hpp"
-#include "io/summary_reader.hpp"
 #include "support/recorded_run.hpp"
 #include "support/temporary_directory.hpp"
 

@@ -1,7 +1,7 @@
 // Horizons: their order, their growth by e-foldings, and scenes in which there is nothing to part.
 
 #include "studies/horizon/horizon.hpp"
-#include "pages/horizon_sentence.hpp"
+#include "pages/horizon_words.hpp"
 #include "studies/horizon/difference.hpp"
 #include "support/scene_files.hpp"
 #include "support/systems.hpp"

@@ -2,8 +2,7 @@
 
 #include "studies/analysis/command.hpp"
 #include "io/build_json.hpp"
-#include "io/observable_tables.hpp"
-#include "io/observables_json.hpp"
+#include "io/observable_output.hpp"
 #include "io/run_directory.hpp"
 #include "studies/analysis/analysis.hpp"
 #include "studies/study_directory.hpp"

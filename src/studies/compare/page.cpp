@@ -1,14 +1,12 @@
 #include "studies/compare/page.hpp"
 
-#include "pages/horizon_sentence.hpp"
-#include "pages/horizon_table.hpp"
+#include "pages/horizon_words.hpp"
 #include "studies/compare/answers.hpp"
 #include "studies/compare/plots.hpp"
 #include "studies/compare/sentences.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <carom/version.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -155,10 +153,9 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
     page.sections.back().blocks.insert(page.sections.back().blocks.begin() + 1, Paragraph{left_out(comparison)});
   page.facts = {{"Scene", scene.source},
                 {"Command", command_line},
-                {"Program", fmt::format("carom {} (commit {}; {}; {})", build_info().version, build_info().commit,
-                                        build_info().compiler, build_info().flags)},
                 {"Seeds", plan.seeds.size() == 1 ? fmt::format("{}", plan.seeds.front())
                                                  : fmt::format("{} to {}", plan.seeds.front(), plan.seeds.back())}};
+  add_build(page.facts);
   return page;
 }
 

@@ -2,11 +2,10 @@
 
 #include "studies/compare/side_by_side_page.hpp"
 
+#include "pages/page.hpp"
 #include "pages/player_page.hpp"
 #include "pages/player_parts.hpp"
 #include "text/numbers.hpp"
-
-#include <carom/version.hpp>
 
 #include <fmt/format.h>
 
@@ -132,14 +131,13 @@ std::string side_by_side_page(const SideBySide& shown, const Scene& scene, const
   json["lyapunov"] = nullptr;
   if (lyapunov && lyapunov->is_chaotic()) json["lyapunov"] = {{"perTime", lyapunov->per_time}};
   json["words"] = words_of(shown, scene, lyapunov);
-  const BuildInfo& build = build_info();
-  json["facts"] = Json::array({{"Units", "those of the scene; distances in mean diameters"},
-                               {"Scene", scene.source},
-                               {"Seed", std::to_string(scene.run.seed)},
-                               {"Exact side", shown.engine + " engine"},
-                               {"Command", command_line},
-                               {"Program", fmt::format("carom {} (commit {})", build.version, build.commit)},
-                               {"Compiler", fmt::format("{}; {}", build.compiler, build.flags)}});
+  Facts facts = {{"Units", "those of the scene; distances in mean diameters"},
+                 {"Scene", scene.source},
+                 {"Seed", std::to_string(scene.run.seed)},
+                 {"Exact side", shown.engine + " engine"},
+                 {"Command", command_line}};
+  add_build(facts);
+  json["facts"] = facts;
   json["columns"] = columns.list();
   return player_page({.description = json.dump(-1, ' ', false, Json::error_handler_t::replace), .columns = columns.take_bytes()},
                      {side_by_side_mark, "Exact events and fixed steps", "side_by_side/side_by_side.html",

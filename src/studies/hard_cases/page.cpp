@@ -2,8 +2,6 @@
 
 #include "studies/hard_cases/table.hpp"
 
-#include <carom/version.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,9 +36,8 @@ Page hard_case_page(std::span<const HardCase> cases, std::span<const CaseVerdict
       if (one.family == family) section.blocks.emplace_back(Listing{one.name, one.text});
     page.sections.push_back(std::move(section));
   }
-  page.facts = {{"Command", command_line},
-                {"Program", fmt::format("carom {} (commit {}; {}; {})", build_info().version, build_info().commit,
-                                        build_info().compiler, build_info().flags)}};
+  page.facts = {{"Command", command_line}};
+  add_build(page.facts);
   return page;
 }
 

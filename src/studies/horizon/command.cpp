@@ -3,7 +3,7 @@
 #include "studies/horizon/command.hpp"
 #include "io/build_json.hpp"
 #include "io/horizon_json.hpp"
-#include "pages/horizon_sentence.hpp"
+#include "pages/horizon_words.hpp"
 #include "studies/horizon/method.hpp"
 #include "studies/horizon/text.hpp"
 

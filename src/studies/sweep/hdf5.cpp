@@ -2,10 +2,9 @@
 
 #include "studies/sweep/hdf5.hpp"
 
+#include "io/h5md_parts.hpp"
 #include "io/hdf5_handle.hpp"
 #include "studies/sweep/values.hpp"
-
-#include <carom/version.hpp>
 
 #include <cstdint>
 #include <limits>
@@ -103,10 +102,7 @@ void write_runs(hid_t file, const Sweep& sweep, const SweepResults& results) {
 
 void write_provenance(hid_t file, const Sweep& sweep, const SweepResults& results) {
   write_attribute(file, "creator", std::string("carom"));
-  write_attribute(file, "version", build_info().version);
-  write_attribute(file, "commit", build_info().commit);
-  write_attribute(file, "compiler", build_info().compiler);
-  write_attribute(file, "flags", build_info().flags);
+  detail::write_build(file);
   if (!results.versions.empty()) write_attribute(file, "runs_by", results.versions);
   write_attribute(file, "sweep", sweep.text);
   write_attribute(file, "sweep_source", sweep.source);

@@ -3,7 +3,6 @@
 #include "theory/equation_of_state.hpp"
 
 #include <fmt/format.h>
-#include <carom/version.hpp>
 
 #include <algorithm>
 #include <array>
@@ -148,11 +147,8 @@ Page validation_page(const Validation& validation, const std::string& command_li
     }
     page.sections.push_back(std::move(section));
   }
-  const BuildInfo& build = build_info();
-  page.facts = {
-      {"Command", command_line},
-      {"Seed", std::to_string(validation.options.seed)},
-      {"Program", fmt::format("carom {} (commit {}; {}; {})", build.version, build.commit, build.compiler, build.flags)}};
+  page.facts = {{"Command", command_line}, {"Seed", std::to_string(validation.options.seed)}};
+  add_build(page.facts);
   return page;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-// A horizon in one honest sentence.
+// A horizon in one sentence, and as a table of a page.
 
 #include "observe/horizon_report.hpp"
+#include "pages/page.hpp"
 
 #include <string>
 
@@ -13,5 +14,8 @@ namespace carom {
 
 /// Returns text such as "double precision", "113 bits", ... in a row of that many bits.
 [[nodiscard]] std::string precision_name(int bits);
+
+/// `which` says whose horizon it is, "for the first seed", where that needs to be said.
+[[nodiscard]] TextTable horizon_table(const Horizon& horizon, const std::string& which = {});
 
 }  // namespace carom

@@ -1,10 +1,14 @@
 #pragma once
-// Tables of observables as files of comma-separated values, one per table: a comment with the units, a heading, rows.
+// The results of observables in files: the key `observables` of summary.json, and tables of comma-separated values, each with a
+// comment with the units, a heading and rows.
+
+#include "io/json_number.hpp"
 
 #include <carom/observe.hpp>
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace carom {
 
@@ -18,3 +22,9 @@ namespace carom {
 void write_table(const std::filesystem::path& path, const Table& table);
 
 }  // namespace carom
+
+namespace carom::detail {
+
+[[nodiscard]] Json observables_json(const std::vector<Measurement>& observables);
+
+}  // namespace carom::detail
