@@ -8,6 +8,7 @@
 #include "scene/drawn.hpp"
 #include "terminal/observed_lines.hpp"
 #include "text/numbers.hpp"
+#include "text/table.hpp"
 #include "text/units.hpp"
 
 #include <fmt/format.h>
@@ -20,12 +21,15 @@ namespace carom::cli {
 
 namespace {
 
-std::string lines_of(const SummaryRows& rows) {
-  std::string text;
-  for (const SummaryRow& row : rows)
-    text += row.remark.empty() ? fmt::format("  {:<18}{}\n", row.quantity, row.value)
-                               : fmt::format("  {:<18}{:<19} {}\n", row.quantity, row.value, row.remark);
-  return text;
+std::string lines_of(const RunReport& report, const Scene& scene) {
+  TerminalTable table("lll");
+  for (const SummaryRows& rows :
+       {rows_of_what_happened(report, &scene), rows_of_accuracy(report), rows_of_results(report, &scene)}) {
+    for (const SummaryRow& row : rows)
+      row.remark.empty() ? table.add({row.quantity, row.value}) : table.add({row.quantity, row.value, row.remark});
+    table.add({});
+  }
+  return table.text();
 }
 
 std::string heading(const RunReport& report, const Scene& scene) {
@@ -38,7 +42,8 @@ std::string heading(const RunReport& report, const Scene& scene) {
 
 /// One line per observable: its first number.
 std::string what_was_observed(const RunReport& report) {
-  std::string text;
+  if (report.observables.empty()) return {};
+  TerminalTable table("ll");
   for (const Measurement& measured : report.observables) {
     const auto known = std::find_if(measured.scalars.begin(), measured.scalars.end(),
                                     [](const Scalar& scalar) { return scalar.value.has_value(); });
@@ -47,10 +52,9 @@ std::string what_was_observed(const RunReport& report) {
       words = known->name + " " + number_words(*known);
       if (!known->unit.empty()) words += fmt::format(" ({})", unit_words(known->unit));
     }
-    text += fmt::format("  {:<26}{}\n", measured.name, words);
+    table.add({measured.name, words});
   }
-  if (text.empty()) return text;
-  return "Observed, averages with their standard errors, in scene units (all of them in summary.json)\n" + text + "\n";
+  return "Observed, averages with their standard errors, in scene units (all of them in summary.json)\n" + table.text() + "\n";
 }
 
 std::string how_far_to_trust(const RunReport& report) { return report.horizon ? sentence_of(*report.horizon) + "\n\n" : ""; }
@@ -91,8 +95,7 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
 }  // namespace
 
 std::string terminal_summary(const RunReport& report, const Scene& scene, const Results& results) {
-  return heading(report, scene) + lines_of(rows_of_what_happened(report, &scene)) + "\n" + lines_of(rows_of_accuracy(report)) +
-         "\n" + lines_of(rows_of_results(report, &scene)) + "\n" + what_was_observed(report) + how_far_to_trust(report) +
+  return heading(report, scene) + lines_of(report, scene) + what_was_observed(report) + how_far_to_trust(report) +
          where_the_files_are(results) + what_to_try_next(report, scene, results);
 }
 

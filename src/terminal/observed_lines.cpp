@@ -1,6 +1,7 @@
 #include "terminal/observed_lines.hpp"
 
 #include "text/numbers.hpp"
+#include "text/table.hpp"
 #include "text/units.hpp"
 
 #include <fmt/format.h>
@@ -32,16 +33,18 @@ std::string observed_lines(const std::vector<Measurement>& observables, const Sc
   for (const Measurement& measured : observables) {
     text += heading(measured, scene);
     if (!measured.note.empty()) text += fmt::format("  {}\n", measured.note);
+    TerminalTable table("lll");
     for (const Scalar& scalar : measured.scalars) {
-      if (!scalar.value) text += fmt::format("  {:<26}{}\n", scalar.name, scalar.note);
-      if (scalar.value && scalar.unit.empty()) text += fmt::format("  {:<26}{}\n", scalar.name, number_words(scalar));
+      if (!scalar.value) table.add({scalar.name, scalar.note});
+      if (scalar.value && scalar.unit.empty()) table.add({scalar.name, number_words(scalar)});
       if (scalar.value && !scalar.unit.empty())
-        text += fmt::format("  {:<26}{:<24}({})\n", scalar.name, number_words(scalar), unit_words(scalar.unit));
+        table.add({scalar.name, number_words(scalar), fmt::format("({})", unit_words(scalar.unit))});
     }
-    for (const Table& table : measured.tables) {
-      const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
-      text += fmt::format("  {:<26}a table of {}\n", table.name, counted(rows, "row"));
+    for (const Table& one : measured.tables) {
+      const std::size_t rows = one.columns.empty() ? 0 : one.columns.front().values.size();
+      table.add({one.name, "a table of " + counted(rows, "row")});
     }
+    text += table.text();
   }
   return text;
 }

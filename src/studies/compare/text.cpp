@@ -3,6 +3,7 @@
 #include "studies/compare/answers.hpp"
 #include "studies/compare/sentences.hpp"
 #include "text/numbers.hpp"
+#include "text/table.hpp"
 
 #include <fmt/format.h>
 
@@ -27,33 +28,31 @@ std::string bias_in_percent(const Estimate& bias) {
   return std::isfinite(bias.error) ? fmt::format("{} ± {:.2f}", value, 100.0 * bias.error) : value;
 }
 
-std::string row(const MethodSummary& s, const ComparePlan& plan, const MethodSummary* exact) {
+void put(TerminalTable& table, const MethodSummary& s, const ComparePlan& plan, const MethodSummary* exact) {
   std::string Z;
   if (s.Z && exact != nullptr && exact->Z && exact->Z->value > 0.0)
     Z = s.method.name == exact->method.name ? fmt::format("Z = {:.4g}", s.Z->value) : s.Z_bias ? bias_in_percent(*s.Z_bias) : "";
   const bool counted = s.counts.has_value();
-  return fmt::format("  {:<21}{:>10}  {:>11}  {:>9}  {:>15}  {:>8}  {:>9}\n", s.method.name,
-                     s.method.exact() ? "" : fmt::format("{:.2g}", plan.in_free_times(s.method.dt)),
-                     fmt::format("{:.1e}", s.error.median), duration(s.seconds_early), Z,
-                     counted ? percent_of(s.counts->missed_fraction(), s.counts->collisions()) : "",
-                     counted ? percent_of(s.counts->repeated_fraction(), s.counts->reversals()) : "");
+  table.add({s.method.name, s.method.exact() ? "" : fmt::format("{:.2g}", plan.in_free_times(s.method.dt)),
+             fmt::format("{:.1e}", s.error.median), duration(s.seconds_early), Z,
+             counted ? percent_of(s.counts->missed_fraction(), s.counts->collisions()) : "",
+             counted ? percent_of(s.counts->repeated_fraction(), s.counts->reversals()) : ""});
 }
 
-std::string table(const Comparison& comparison) {
+std::string table_of(const Comparison& comparison) {
   const std::vector<MethodSummary> summaries = summaries_of(comparison);
   const MethodSummary* exact = nullptr;
   for (const MethodSummary& summary : summaries)
     if (summary.method.name == comparison.plan.horizon.engine) exact = &summary;
-  std::string text = fmt::format("  {:<21}{:>10}  {:>11}  {:>9}  {:>15}  {:>8}  {:>9}\n", "", "dt / mean", "error /", "processor",
-                                 "bias of Z", "missed", "repeated");
-  text += fmt::format("  {:<21}{:>10}  {:>11}  {:>9}  {:>15}  {:>8}  {:>9}\n", "method", "free time", "diameter", "time", "%",
-                      "%", "%");
+  TerminalTable table("lrrrrrr");
+  table.add({"", "dt / mean", "error /", "processor", "bias of Z", "missed", "repeated"});
+  table.add({"method", "free time", "diameter", "time", "%", "%", "%"});
   for (const MethodSummary& summary : summaries)
-    if (summary.method.exact()) text += row(summary, comparison.plan, exact);
+    if (summary.method.exact()) put(table, summary, comparison.plan, exact);
   for (const std::string& method : fixed_step_names())
     for (const MethodSummary& summary : summaries)
-      if (summary.method.name == method) text += row(summary, comparison.plan, exact);
-  return text;
+      if (summary.method.name == method) put(table, summary, comparison.plan, exact);
+  return table.text();
 }
 
 /// What stands in the columns of the table.
@@ -71,13 +70,11 @@ std::string legend(const ComparePlan& plan) {
 
 std::string time_to_Z(const Answers& answers) {
   if (answers.time_to_Z.empty()) return "";
-  std::string text = "\n  processor time to know Z = PA/(NkT) to\n";
-  for (const TimeToZ& one : answers.time_to_Z) {
-    text +=
-        fmt::format("  {:>5} %  {:<22}{}\n", 100.0 * one.accuracy, one.method,
-                    one.seconds ? duration(*one.seconds) + (one.dt ? fmt::format(", dt = {:.2g}", *one.dt) : "") : one.remark);
-  }
-  return text;
+  TerminalTable table("rll");
+  for (const TimeToZ& one : answers.time_to_Z)
+    table.add({fmt::format("{} %", 100.0 * one.accuracy), one.method,
+               one.seconds ? duration(*one.seconds) + (one.dt ? fmt::format(", dt = {:.2g}", *one.dt) : "") : one.remark});
+  return "\n  processor time to know Z = PA/(NkT) to\n" + table.text();
 }
 
 }  // namespace
@@ -93,7 +90,7 @@ std::string compare_text(const Comparison& comparison, const Scene& scene, bool 
         scene.title.empty() ? scene.source : scene.title, counted(static_cast<std::uint64_t>(scene.disk_count()), "disk"),
         scene.packing_fraction(), starts_words(plan), plan.early_time(), plan.in_free_times(plan.early_time()),
         plan.mean_free_time);
-    text += table(comparison) + "\n" + legend(plan);
+    text += table_of(comparison) + "\n" + legend(plan);
     if (!comparison.left_out.empty())
       text += fmt::format("  left out, as longer than {}: {} (--longest allows more)\n", duration(plan.longest),
                           counted(comparison.left_out.size(), "slow run"));

@@ -3,6 +3,7 @@
 #include "core/nearest_image.hpp"
 #include "observe/energy.hpp"
 #include "observe/overlap.hpp"
+#include "text/table.hpp"
 
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
@@ -137,24 +138,23 @@ std::string steps_markdown(std::span<const StepTrial> trials, const std::string&
 }
 
 std::string steps_table(std::span<const StepTrial> trials) {
-  constexpr const char* line = "{:<38} {:>9} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9}  {}\n";
-  std::string text = fmt::format(fmt::runtime(line), "case", "dt", "collisions", "found", "missed", "repeated", "deepest",
-                                 "off by", "dt/10", "energy", "");
+  TerminalTable table("lrrrrrrrrrl");
+  table.add({"case", "dt", "collisions", "found", "missed", "repeated", "deepest", "off by", "dt/10", "energy", ""});
   const auto count = [](std::uint64_t n) { return fmt::format("{}", n); };
   const auto number = [](double x) { return fmt::format("{:.2g}", x); };
   std::size_t ran = 0, fine = 0;
   for (const StepTrial& t : trials) {
     if (!t.not_run.empty()) {
-      text += fmt::format("{:<38} not run: {}\n", t.name, t.not_run);
+      table.add({t.name, "not run: " + t.not_run});
       continue;
     }
     ++ran;
     if (t.faults().front() == "held") ++fine;
-    text += fmt::format(fmt::runtime(line), t.name, number(t.dt), count(t.exact_collisions), count(t.counts.found),
-                        count(t.counts.missed), count(t.counts.repeated), number(t.counts.deepest), number(t.error),
-                        number(t.finer_error), number(t.energy), faults_of(t));
+    table.add({t.name, number(t.dt), count(t.exact_collisions), count(t.counts.found), count(t.counts.missed),
+               count(t.counts.repeated), number(t.counts.deepest), number(t.error), number(t.finer_error), number(t.energy),
+               faults_of(t)});
   }
-  return text + fmt::format("\n{} cases run, {} held. Depths and distances in diameters.\n", ran, fine);
+  return table.text() + fmt::format("\n{} cases run, {} held. Depths and distances in diameters.\n", ran, fine);
 }
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 #include "studies/horizon/text.hpp"
 
 #include "text/numbers.hpp"
+#include "text/table.hpp"
 
 #include <fmt/format.h>
 
@@ -25,15 +26,14 @@ std::string exponent(const Horizon& horizon) {
                      in_any_unit(lambda.per_collision, lambda.per_collision_error), grouped(lambda.collisions));
 }
 
-std::string row(const HorizonRow& one) {
+void put(TerminalTable& table, const HorizonRow& one) {
   const std::string about = one.estimated ? "~" : "";
   const std::string never = one.against.empty() ? "?" : "to the end";
-  return fmt::format("  {:<22}{:>4}  {:>10}  {:>10}  {:>12}  {:>9}  {:>9}  {:>6}\n", one.engine, one.bits,
-                     one.time ? about + fmt::format("{:.4g}", *one.time) : never,
-                     one.collisions_per_disk.value_or(0.0) > 0.0 ? about + fmt::format("{:.1f}", *one.collisions_per_disk) : "",
-                     one.first_difference ? grouped(one.first_difference->index + 1) : "",
-                     one.first_difference ? fmt::format("{:.4g}", one.first_difference->time) : "",
-                     one.seconds > 0.0 ? duration(one.seconds) : "", one.price > 0.0 ? fmt::format("{:.2g}", one.price) : "");
+  table.add({one.engine, fmt::format("{}", one.bits), one.time ? about + fmt::format("{:.4g}", *one.time) : never,
+             one.collisions_per_disk.value_or(0.0) > 0.0 ? about + fmt::format("{:.1f}", *one.collisions_per_disk) : "",
+             one.first_difference ? grouped(one.first_difference->index + 1) : "",
+             one.first_difference ? fmt::format("{:.4g}", one.first_difference->time) : "",
+             one.seconds > 0.0 ? duration(one.seconds) : "", one.price > 0.0 ? fmt::format("{:.2g}", one.price) : ""});
 }
 
 }  // namespace
@@ -49,17 +49,17 @@ Horizon horizon_with_progress(const Scene& scene, const State& start, HorizonOpt
 }
 
 std::string horizon_table(const Horizon& horizon, const Scene& scene) {
-  std::string text = fmt::format(
+  const std::string text = fmt::format(
       "{}\n{}, packing fraction {:.4g}; seed {}, run by {}; compared up to t = {:.4g} "
       "(scene units)\n\n",
       scene.title.empty() ? scene.source : scene.title, counted(static_cast<std::uint64_t>(scene.disk_count()), "disk"),
       scene.packing_fraction(), scene.run.seed, horizon.engine, horizon.time);
-  text += fmt::format("  {:<22}{:>4}  {:>24}  {:>21}  {:>17}\n", "", "",
-                      fmt::format("right to {:g} diameters", horizon.tolerance), "first other event", "price");
-  text += fmt::format("  {:<22}{:>4}  {:>10}  {:>10}  {:>12}  {:>9}  {:>9}  {:>6}\n", "engine", "bits", "until t", "coll./disk",
-                      "event", "at t", "time", "ratio");
-  for (const HorizonRow& one : horizon.rows) text += row(one);
-  return text + "\n" + exponent(horizon);
+  TerminalTable table("lrrrrrrr");
+  table.add({"", "", "right", "collisions", "first other", "", "processor", "price"});
+  table.add({"engine", "bits", "until t", "per disk", "event", "at t", "time", "ratio"});
+  for (const HorizonRow& one : horizon.rows) put(table, one);
+  return fmt::format("{}{}\n  right: every disk within {:g} diameters\n\n{}", text, table.text(), horizon.tolerance,
+                     exponent(horizon));
 }
 
 }  // namespace carom::cli

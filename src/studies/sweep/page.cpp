@@ -1,7 +1,7 @@
 #include "studies/sweep/page.hpp"
 
 #include "studies/sweep/plots.hpp"
-#include "studies/sweep/words.hpp"
+#include "studies/sweep/values.hpp"
 #include "text/numbers.hpp"
 #include "text/units.hpp"
 

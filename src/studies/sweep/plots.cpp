@@ -3,7 +3,6 @@
 #include "studies/sweep/names.hpp"
 #include "studies/sweep/units.hpp"
 #include "studies/sweep/values.hpp"
-#include "studies/sweep/words.hpp"
 #include "text/units.hpp"
 
 #include <fmt/format.h>

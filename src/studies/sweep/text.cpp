@@ -1,13 +1,15 @@
 #include "studies/sweep/text.hpp"
 
-#include "studies/sweep/words.hpp"
+#include "studies/sweep/values.hpp"
 #include "text/numbers.hpp"
+#include "text/table.hpp"
 #include "text/units.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace carom::cli {
 
@@ -30,37 +32,20 @@ std::vector<std::size_t> shown_columns(const Sweep& sweep, const SweepResults& r
   return columns;
 }
 
-/// The first column to the left, the others to the right, as wide as they need.
-std::string aligned(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  const auto width = [](const std::string& text) {
-    return fmt::formatted_size("{}", text) -
-           static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) == 0x80; }));
-  };
-  for (const auto& row : rows)
-    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width(row[k]));
-  std::string text;
-  for (const auto& row : rows) {
-    std::string line = "  " + row.front() + std::string(widths.front() - width(row.front()), ' ');
-    for (std::size_t k = 1; k < row.size(); ++k) line += "   " + std::string(widths[k] - width(row[k]), ' ') + row[k];
-    text += line + "\n";
-  }
-  return text;
-}
-
 std::string table_of(const Sweep& sweep, const SweepResults& results) {
   const std::vector<std::size_t> columns = shown_columns(sweep, results);
-  std::vector<std::vector<std::string>> rows = {{"point"}};
-  for (const std::size_t k : columns) rows.front().push_back(results.numbers[k]);
-  const bool has_units = std::any_of(columns.begin(), columns.end(), [&](std::size_t k) { return !results.units[k].empty(); });
-  if (has_units) rows.push_back({"in scene units"});
-  for (const std::size_t k : columns)
-    if (has_units) rows.back().push_back(unit_words(results.units[k]));
-  for (std::size_t point = 0; point < std::min(most_points, sweep.points.size()); ++point) {
-    rows.push_back({sweep.points[point].name});
-    for (const std::size_t k : columns) rows.back().push_back(average_words(results.averages[point][k]));
-  }
-  std::string text = aligned(rows);
+  TerminalTable table("l" + std::string(columns.size(), 'r'));
+  const auto put = [&](const std::string& name, const auto& cell_of) {
+    std::vector<std::string> cells = {name};
+    for (const std::size_t k : columns) cells.push_back(cell_of(k));
+    table.add(std::move(cells));
+  };
+  put("point", [&](std::size_t k) { return results.numbers[k]; });
+  if (std::any_of(columns.begin(), columns.end(), [&](std::size_t k) { return !results.units[k].empty(); }))
+    put("in scene units", [&](std::size_t k) { return unit_words(results.units[k]); });
+  for (std::size_t point = 0; point < std::min(most_points, sweep.points.size()); ++point)
+    put(sweep.points[point].name, [&](std::size_t k) { return average_words(results.averages[point][k]); });
+  std::string text = table.text();
   if (sweep.points.size() > most_points) text += fmt::format("  and {} more in sweep.csv\n", sweep.points.size() - most_points);
   return text;
 }

@@ -1,7 +1,12 @@
 #include "studies/sweep/values.hpp"
 
+#include "text/numbers.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace carom {
 
@@ -20,6 +25,14 @@ bool is_numeric(const Sweep& sweep, std::size_t key) {
 std::string plain_value(const std::string& value) {
   const bool is_plain_string = value.size() >= 2 && value.front() == '"' && value.find('\\') == std::string::npos;
   return is_plain_string ? value.substr(1, value.size() - 2) : value;
+}
+
+bool differ(double a, double b) { return std::abs(a - b) > 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+std::string average_words(const SeedAverage& average) {
+  if (!average.mean) return "–";
+  const bool has_error = average.error && differ(*average.mean, *average.mean + *average.error);
+  return has_error ? with_error(*average.mean, *average.error) : fmt::format("{:.6g}", *average.mean);
 }
 
 }  // namespace carom

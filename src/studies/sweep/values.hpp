@@ -1,6 +1,7 @@
 #pragma once
-// The values of a sweep's keys, as tables and plots show them.
+// The values of a sweep's keys and numbers, as tables, plots and the terminal show them.
 
+#include "studies/sweep/results.hpp"
 #include "studies/sweep/sweep.hpp"
 
 #include <cstddef>
@@ -15,5 +16,11 @@ namespace carom {
 [[nodiscard]] bool is_numeric(const Sweep& sweep, std::size_t key);
 /// Returns a string without the quotes that TOML needs; other values as they are.
 [[nodiscard]] std::string plain_value(const std::string& value);
+
+/// Returns whether two numbers differ by more than rounding leaves: a part in 10^9 of the larger.
+[[nodiscard]] bool differ(double a, double b);
+
+/// Returns text such as "1.0970 ± 0.0041", "50", or a dash where there is none.
+[[nodiscard]] std::string average_words(const SeedAverage& average);
 
 }  // namespace carom
