@@ -3,7 +3,6 @@
 
 #include "engine/flight_frame.hpp"
 
-#include <carom/effects.hpp>
 #include <carom/state.hpp>
 
 #include <algorithm>

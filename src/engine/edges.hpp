@@ -11,7 +11,6 @@
 #include "effects/shear.hpp"
 
 #include <carom/box.hpp>
-#include <carom/effects.hpp>
 #include <carom/state.hpp>
 
 #include <algorithm>
@@ -37,12 +36,12 @@ class Edges {
 
   // Images: `shift` counts the box lengths from a disk to its image.
 
-  /// The distance to a disk from the image of another at time t; `r` is the distance from that other itself.
-  [[nodiscard]] Vec2<Real> separation(Vec2<Real> r, const Winding& shift, Real t) const {
+  /// Turns r, the distance to a disk from another at time t, into that from the image of the other. In place, as the functions
+  /// below: a vector that is passed on by value is copied by way of memory.
+  void take_image(const Winding& shift, Real t, Vec2<Real>& r) const {
     if (shift[0] != 0) r[0] -= Real(shift[0]) * domain_.length[0];
     if (shift[1] != 0) r[1] -= Real(shift[1]) * domain_.length[1];
     if (shift[1] != 0 && sheared()) r[0] -= Real(shift[1]) * images_.displacement(t);
-    return r;
   }
   /// Gives v, the velocity of a disk, the value that its image has. Returns the component along x then.
   Real enter_image(const Winding& shift, Vec2<Real>& v) const { return v[0] += image_speed(shift); }
@@ -53,10 +52,9 @@ class Edges {
     if (speed != 0) totals.shear_energy.add(static_cast<double>(mass * (before - v[0]) * speed));
     v[0] -= speed;
   }
-  /// The velocity of a disk against the image of another; `v` is that against the other itself.
-  [[nodiscard]] Vec2<Real> relative_velocity(Vec2<Real> v, const Winding& shift) const {
+  /// Turns v, the velocity of a disk against another, into that against the image of the other.
+  void take_image_velocity(const Winding& shift, Vec2<Real>& v) const {
     if (shift[1] != 0) v[0] -= image_speed(shift);
-    return v;
   }
   /// The shift of the nearest image at time t of a disk that is `apart` from another.
   [[nodiscard]] Winding nearest_image(Vec2<Real> apart, Real t) const {

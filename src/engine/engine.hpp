@@ -108,11 +108,11 @@ class Engine {
     const Plan& mine = plans_[i];
     if (mine.edge_first()) {
       queue_.pop(plans_);
-      prefetcher_.next();
+      prefetcher_.next(data());
       mine.edge == neighbourhood_edge ? leave_neighbourhood(i) : hit(i, mine.edge);
     } else if (plans_.is_stale(mine)) {
       queue_.pop(plans_);
-      prefetcher_.next();
+      prefetcher_.next(data());
       ++totals_.stale;
       predict(i);
     } else {
@@ -141,11 +141,11 @@ class Engine {
     pair.around[0] = surroundings(i), pair.around[1] = surroundings(j);
     tuning_.count_examined(pair.around[0].count, pair.around[1].count);
     queue_.pop(plans_, j);  // not earlier: all up to here goes on while the predictions before still wait for their results
-    prefetcher_.next();
+    prefetcher_.next(data());
     kernel_.turn_and_predict(lines_.data(), frame_, pair, now_, va[0], va[1], vb[0], vb[1]);
     if (pair.wrapped != 0) [[unlikely]]
       flight_.count_images(pair);
-    prefetcher_.partner_of_next();
+    prefetcher_.partner_of_next(data());
     plan_ahead(i, pair.ahead[0]);
     plan_ahead(j, pair.ahead[1]);
     queue_.push(plans_, i, plans_.time(i), j, plans_.time(j));
@@ -347,7 +347,8 @@ class Engine {
   /// The prediction of disk i against disk j alone.
   [[nodiscard]] Prediction predicted_against(std::int32_t i, std::int32_t j) const;
   [[nodiscard, gnu::noinline, gnu::cold]] std::int32_t lowest_of_tied(std::int32_t i, const Prediction& ahead) const;
-  void prefetch_calendar(std::int64_t span) const;
+  [[gnu::noinline]] void prefetch_calendar(std::int64_t span) const;
+  [[nodiscard]] PrefetchedData<Line> data() const { return {lines_, ids_, plans_, lists_, queue_}; }
 
   [[nodiscard]] Vec2<double> momentum(const Line& a) const { return layout_.mass(a) * Vec2<double>(a.v[0], a.v[1]); }
   [[nodiscard]] double contact_distance(std::int32_t i, std::int32_t j) const;
@@ -386,7 +387,7 @@ class Engine {
 
   NeighbourhoodTuning tuning_;
   QueuePacing pacing_;
-  Prefetcher<Line> prefetcher_;
+  Prefetcher prefetcher_;
   StallDetector stall_;
   CommonMotion<double> common_motion_;
   CollisionRecorder recorder_;

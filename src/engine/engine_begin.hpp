@@ -64,7 +64,6 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       sizes_(box, disks),
       walled_(!box.periodic(0) || !box.periodic(1)),
       bounded_(walled_ || !effects.obstacles.empty() || world_.sheared()),
-      prefetcher_(lines_, ids_, plans_, lists_, queue_),
       stall_(effects, disks.count()),
       common_motion_(box, effects),
       recorder_(ids_, world_.g()) {

@@ -62,7 +62,8 @@ Prediction Engine<Impact, Layout, World>::predicted_against(std::int32_t i, std:
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::prefetch_calendar(std::int64_t span) const {
-  prefetcher_.calendar(span, [this](std::int32_t i, double when) { return neighbourhood_around(i, when); });
+  if (prefetcher_.looks_ahead())
+    prefetcher_.calendar(data(), span, [this](std::int32_t i, double when) { return neighbourhood_around(i, when); });
 }
 
 }  // namespace carom

@@ -82,7 +82,9 @@ class TextbookEngine {
   [[nodiscard]] Real pair_time(std::int32_t i, std::int32_t j, const Winding& shift) const {
     const Record &a = record(i), &b = record(j);
     const Real t = std::max(a.t, b.t);
-    const Vec2<Real> r = separation(a, b, t, shift), v = edges_.relative_velocity(velocity(a, t) - velocity(b, t), shift);
+    const Vec2<Real> r = separation(a, b, t, shift);
+    Vec2<Real> v = velocity(a, t) - velocity(b, t);
+    edges_.take_image_velocity(shift, v);
     const Real sigma = a.radius + b.radius;
     if (impact_.wells().present()) {
       const SquareWells<Real>& wells = impact_.wells();
@@ -92,7 +94,9 @@ class TextbookEngine {
     return t + contact_time<Real>(r, v, sigma * (scale_ + growth_ * t), sigma * growth_);
   }
   [[nodiscard]] Vec2<Real> separation(const Record& a, const Record& b, Real t, const Winding& shift) const {
-    return edges_.separation(position(a, t) - position(b, t), shift, t);
+    Vec2<Real> r = position(a, t) - position(b, t);
+    edges_.take_image(shift, t, r);
+    return r;
   }
 
   /// The next event of all.

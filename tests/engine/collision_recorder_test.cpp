@@ -84,8 +84,9 @@ TEST(CollisionRecorder, AListenerHearsEveryCollisionOnceInOrderAndWithItsEpochWh
     recorder.begin_epoch({500.0, 0.0});
     EXPECT_EQ(heard, 500);
     for (int k = 500; k < 1000; ++k) record(recorder, k);
-    recorder.listen({});
+    recorder.hand_over();
     EXPECT_EQ(heard, 1000);
+    recorder.listen({});
     EXPECT_FALSE(recorder.active());
     EXPECT_TRUE(taken_from(recorder).empty());
   }

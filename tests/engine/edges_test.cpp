@@ -27,6 +27,15 @@ Effects sheared() {
   return effects;
 }
 
+V separation(const Edges<double>& edges, V r, const Winding& shift, double t) {
+  edges.take_image(shift, t, r);
+  return r;
+}
+V relative_velocity(const Edges<double>& edges, V v, const Winding& shift) {
+  edges.take_image_velocity(shift, v);
+  return v;
+}
+
 /// Images one by one: the displacement and speed of those `shift` boxes away, by definition.
 V image_of(const V& r, const Winding& shift, double displacement, double t) {
   return r + V(10.0 * static_cast<double>(shift[0]) + (displacement + 2.0 * t) * static_cast<double>(shift[1]),
@@ -40,8 +49,8 @@ TEST(Edges, SeparationsAndVelocitiesAreThoseOfTheImageByDefinition) {
     for (const std::int64_t y : {-1, 0, 1})
       for (const double t : {0.0, 0.25, 2.0}) {
         const Winding shift(x, y);
-        EXPECT_EQ(edges.separation(a - b, shift, t), a - image_of(b, shift, 3.0, t));
-        EXPECT_EQ(edges.relative_velocity(V(1.0, 2.0), shift), V(1.0 - 2.0 * static_cast<double>(y), 2.0));
+        EXPECT_EQ(separation(edges, a - b, shift, t), a - image_of(b, shift, 3.0, t));
+        EXPECT_EQ(relative_velocity(edges, V(1.0, 2.0), shift), V(1.0 - 2.0 * static_cast<double>(y), 2.0));
       }
 }
 
@@ -50,10 +59,10 @@ TEST(Edges, TheNearestImageIsTheNearestOfAll) {
     const Edges<double> edges(box(), effects, effects.shear ? 3.0 : 0.0);
     for (int k = 0; k < 200; ++k) {
       const V apart(std::fmod(7.77 * k, 10.0) - 5.0, std::fmod(3.21 * k, 4.0) - 2.0);
-      const double t = 0.01 * k, found = edges.separation(apart, edges.nearest_image(apart, t), t).norm();
+      const double t = 0.01 * k, found = separation(edges, apart, edges.nearest_image(apart, t), t).norm();
       if (found > 1.9) continue;  // farther apart than half the box is high, images may be as near in the one way as in the other
       for (const std::int64_t x : {-2, -1, 0, 1, 2})
-        for (const std::int64_t y : {-1, 0, 1}) EXPECT_LE(found, edges.separation(apart, Winding(x, y), t).norm() + 1e-14);
+        for (const std::int64_t y : {-1, 0, 1}) EXPECT_LE(found, separation(edges, apart, Winding(x, y), t).norm() + 1e-14);
     }
   }
 }
