@@ -3,6 +3,8 @@
 
 #include "io/output_error.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -37,6 +39,16 @@ auto as_usage_error(Action action) -> decltype(action()) {
     return action();
   } catch (const OutputError& error) {
     throw UsageError(error.what());
+  }
+}
+
+/// Reads `text`, which was given for `option`, by `read`. Its std::invalid_argument becomes a UsageError that names both.
+template <class Read>
+auto read_option(const char* option, const std::string& text, Read read) -> decltype(read(text)) {
+  try {
+    return read(text);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("{} {}: {}", option, text, error.what()));
   }
 }
 

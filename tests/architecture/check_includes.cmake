@@ -18,9 +18,10 @@ set(observe_may_use simulation effects neighbours scene core)
 set(theory_may_use simulation scene core)
 set(io_may_use observe theory simulation scene core)
 set(pages_may_use io observe theory simulation scene text core)
+set(runner_may_use pages io observe simulation scene text core)
 set(terminal_may_use io observe simulation scene text core)
 set(studies_may_use terminal pages io observe theory simulation neighbours scene text core)
-set(app_may_use studies terminal pages io observe theory simulation scene text core)
+set(app_may_use studies terminal runner pages io observe theory simulation scene text core)
 set(public_may_use nothing)  # include/carom/: the installed headers see nothing of src/
 
 # The room that a public header speaks for. One that is not named here is for the program and for other projects alone.

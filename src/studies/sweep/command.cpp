@@ -16,7 +16,7 @@
 #include "studies/sweep/tables.hpp"
 #include "studies/sweep/text.hpp"
 #include "studies/sweep/threads.hpp"
-#include "terminal/durations.hpp"
+#include "text/durations.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
@@ -139,7 +139,7 @@ void warn_of_absent_numbers(const Sweep& sweep, const SweepResults& results) {
 ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invocation, SweepServer* server) {
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const int threads = threads_for(options, server != nullptr);
-  if (!options.checkpoint_every.empty()) (void)saving_plan(options.checkpoint_every);
+  if (!options.checkpoint_every.empty()) (void)read_option("--checkpoint-every", options.checkpoint_every, saving_plan);
   const Sweep sweep = load_sweep(options.path);
   const fs::path path = directory_for(options);
   if (options.list) {

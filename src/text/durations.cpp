@@ -1,17 +1,14 @@
-#include "terminal/durations.hpp"
-
-#include "terminal/command.hpp"
-
-#include <fmt/format.h>
+#include "text/durations.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
-namespace carom::cli {
+namespace carom {
 
 namespace {
 
@@ -47,7 +44,7 @@ std::optional<double> clock_time(std::string_view text) {
   return std::nullopt;
 }
 
-std::optional<double> seconds_in(std::string_view text) {
+std::optional<double> sum_of_parts(std::string_view text) {
   if (text.find(':') != std::string_view::npos) return clock_time(text);
   const bool alone = text.find_first_not_of("0123456789.") == std::string_view::npos;
   double seconds = 0.0;
@@ -65,22 +62,21 @@ std::optional<double> seconds_in(std::string_view text) {
 
 }  // namespace
 
-double seconds_of(const std::string& option, const std::string& text) {
-  const std::optional<double> seconds = seconds_in(text);
-  if (!seconds || !(*seconds > 0.0))
-    throw UsageError(fmt::format("{} {}: give a length of time such as 90s, 10min, 1h30min or 01:30:00", option, text));
+double seconds_in(const std::string& text) {
+  const std::optional<double> seconds = sum_of_parts(text);
+  if (!seconds || !(*seconds > 0.0)) throw std::invalid_argument("give a length of time such as 90s, 10min, 1h30min or 01:30:00");
   return *seconds;
 }
 
 SavingPlan saving_plan(const std::string& text) {
   constexpr std::string_view word = "collisions";
-  if (!text.ends_with(word)) return {.seconds = seconds_of("--checkpoint-every", text), .collisions = {}};
+  if (!text.ends_with(word)) return {.seconds = seconds_in(text), .collisions = {}};
   std::string_view rest = std::string_view(text).substr(0, text.size() - word.size());
   const std::optional<double> count = take_number(rest);
   if (!count || rest.find_first_not_of(' ') != std::string_view::npos || !(*count >= 1.0) || *count > 9e18 ||
       std::floor(*count) != *count)
-    throw UsageError(fmt::format("--checkpoint-every {}: give a whole number of collisions, such as \"1e8 collisions\"", text));
+    throw std::invalid_argument("give a whole number of collisions, such as \"1e8 collisions\"");
   return {.seconds = {}, .collisions = static_cast<std::uint64_t>(*count)};
 }
 
-}  // namespace carom::cli
+}  // namespace carom

@@ -5,10 +5,11 @@
 #include <optional>
 #include <string>
 
-namespace carom::cli {
+namespace carom {
 
-/// "90", "90s", "10min", "1h30min", "2d", or "HH:MM:SS" as batch systems have it. Throws UsageError that begins with `option`.
-[[nodiscard]] double seconds_of(const std::string& option, const std::string& text);
+/// Returns the seconds of "90", "90s", "10min", "1h30min", "2d", or "HH:MM:SS" as batch systems have it. Throws
+/// std::invalid_argument where the text is no positive length of time; what() says what to give.
+[[nodiscard]] double seconds_in(const std::string& text);
 
 /// When a run is saved while it goes on: after so much real time, or after so many collisions of pairs; one of the two.
 struct SavingPlan {
@@ -16,7 +17,7 @@ struct SavingPlan {
   std::optional<std::uint64_t> collisions;
 };
 
-/// "10min" or "1e8 collisions". Throws UsageError.
+/// Returns the plan that "10min" or "1e8 collisions" asks for. Throws std::invalid_argument as above.
 [[nodiscard]] SavingPlan saving_plan(const std::string& text);
 
-}  // namespace carom::cli
+}  // namespace carom

@@ -1,0 +1,177 @@
+#include "runner/runner.hpp"
+
+#include "core/state_archive.hpp"
+#include "io/partial_file.hpp"
+#include "pages/report_page.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point began) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
+}  // namespace
+
+Runner::Runner(Simulation& simulation, const RunDirectory& directory, Provenance provenance, RunnerOptions options,
+               const Checkpoint* from)
+    : simulation_(simulation),
+      scene_(simulation.scene()),
+      directory_(directory),
+      provenance_(std::move(provenance)),
+      options_(std::move(options)),
+      from_(from),
+      measurements_(simulation),
+      saved_collisions_(simulation.totals().pair) {
+  if (options_.checkpoint_every) plan_ = saving_plan(*options_.checkpoint_every);
+  if (from != nullptr) {
+    read(*from);
+    extended_ = from->facts().finished;
+  } else {
+    observation_.emplace(simulation_);
+    writer_.emplace(directory_, scene_, simulation_.disks(), provenance_);
+  }
+}
+
+RunnerOutcome Runner::run(const RunnerHooks& hooks) {
+  const RunResult result = simulate(hooks);
+  RunnerOutcome outcome{.report = measurements_.report(result, wall_seconds()), .files = {}, .report_failed = {}};
+  outcome.report.observables = observation_->results();
+  if (options_.verify_every > 0) outcome.report.verification = {options_.verify_every, result.verified, result.faults};
+  if (start_ && hooks.complete && result.stopped != StopReason::interrupted) hooks.complete(outcome.report, *start_);
+  outcome.files = writer_->finish(outcome.report);
+  if (saved_) outcome.files.emplace_back(checkpoint_name);
+  if (options_.report) write_report(outcome);
+  return outcome;
+}
+
+RunResult Runner::simulate(const RunnerHooks& hooks) {
+  RunHooks schedule;
+  schedule.verify_every = options_.verify_every;
+  schedule.start = [&](const State& start) {
+    measurements_.start(start);
+    writer_->start(start, observation_->reference_temperature());
+    if (options_.keep_start) start_ = start;
+  };
+  schedule.sample = [&](std::uint64_t k, const State& state) {
+    measurements_.sample(state);
+    writer_->sample(k, state, simulation_.totals());
+  };
+  if (scene_.output.events) schedule.events = [&](std::span<const Event> events) { writer_->events(events); };
+  schedule.block = [&](const Progress& progress) { measurements_.block(progress); };
+  schedule.proceed = [&](const Progress& progress) {
+    stopped_ = hooks.proceed && !hooks.proceed(progress);
+    return !stopped_;
+  };
+  schedule.checkpoint = [&](const SavingMoment& moment) {
+    if (is_due(moment)) save(moment, hooks);
+  };
+  const bool beside = options_.threads ? *options_.threads > 1 : std::thread::hardware_concurrency() > 1;
+  beside ? observation_->attach_beside(schedule) : observation_->attach(schedule);
+  schedule.grids.insert(schedule.grids.end(), hooks.grids.begin(), hooks.grids.end());
+  std::istringstream saved_schedule(schedule_);
+  if (from_ != nullptr) schedule.resume = &saved_schedule;
+  const RunResult result = run_schedule(simulation_, schedule);
+  if (hooks.ended) hooks.ended({simulation_.time(), simulation_.totals(), result.loop_seconds, !result.measured});
+  return result;
+}
+
+/// Returns the wall time of the whole run, all its parts together.
+double Runner::wall_seconds() const {
+  return (from_ != nullptr ? from_->facts().wall_seconds : 0.0) + seconds_since(options_.began);
+}
+
+/// A run that is stopped is always saved; others as the plan says, and then at their end too.
+bool Runner::is_due(const SavingMoment& moment) const {
+  if (moment.ended) return stopped_ || plan_;
+  if (extended_ && !saved_) return true;  // another end is known from now on
+  if (!plan_) return false;
+  if (plan_->seconds) return seconds_since(last_saved_) >= *plan_->seconds;
+  const std::uint64_t collisions = moment.progress.totals.pair;
+  return collisions < saved_collisions_ || collisions - saved_collisions_ >= *plan_->collisions;
+}
+
+void Runner::save(const SavingMoment& moment, const RunnerHooks& hooks) {
+  const CheckpointFacts facts{.provenance = provenance_,
+                              .scene_source = scene_.source,
+                              .scene_text = scene_.text,
+                              .overrides = scene_.overrides,
+                              .time = moment.progress.time,
+                              .collisions = moment.progress.totals.pair,
+                              .finished = moment.ended && !stopped_,
+                              .wall_seconds = wall_seconds(),
+                              .verify = options_.verify_every,
+                              .checkpoint_every = options_.checkpoint_every.value_or(""),
+                              .report = options_.report};
+  std::vector<CheckpointPart> parts = {{"simulation", [&](std::ostream& out) { simulation_.save(out); }},
+                                       {"schedule", moment.save},
+                                       {"measurements",
+                                        [&](std::ostream& out) {
+                                          SavingArchive archive(out);
+                                          archive(measurements_);
+                                        }},
+                                       {"observables", [&](std::ostream& out) { observation_->save(out); }},
+                                       {"files", [&](std::ostream& out) { writer_->save(out); }}};
+  if (start_)
+    parts.push_back({"start", [&](std::ostream& out) {
+                       SavingArchive archive(out);
+                       archive(*start_);
+                     }});
+  last_saved_ = Clock::now();
+  saved_collisions_ = moment.progress.totals.pair;
+  try {
+    write_checkpoint(directory_, facts, simulation_.state(), parts);
+    saved_ = true;
+  } catch (const OutputError& error) {  // the run may still come to its end
+    if (hooks.warn) hooks.warn(fmt::format("{}; the run goes on unsaved", error.what()));
+  }
+}
+
+/// The files come last: what is wrong with anything else is found before they are cut back.
+void Runner::read(const Checkpoint& from) {
+  from.read("measurements", [&](std::istream& in) {
+    LoadingArchive archive(in);
+    archive(measurements_);
+  });
+  from.read("observables", [&](std::istream& in) { observation_.emplace(simulation_, in); });
+  if (provenance_.resolved_scene != from.facts().provenance.resolved_scene) provenance_.resolved_scene = scene_with_steps();
+  from.read("schedule", [&](std::istream& in) { schedule_.assign(std::istreambuf_iterator<char>(in), {}); });
+  if (from.has("start"))
+    from.read("start", [&](std::istream& in) {
+      LoadingArchive archive(in);
+      archive(start_.emplace());
+    });
+  from.read("files", [&](std::istream& in) { writer_.emplace(directory_, scene_, simulation_.disks(), provenance_, in); });
+}
+
+/// Observables keep the steps that followed from the end which the run began with; from another end others would follow.
+std::string Runner::scene_with_steps() const {
+  Scene scene = scene_;
+  const std::vector<double> steps = observation_->steps();
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    if (steps[k] > 0.0) scene.observe[k].every = steps[k];
+  return resolved_toml(scene);
+}
+
+/// Makes the page from the files of the finished run. A failure leaves them as they are.
+void Runner::write_report(RunnerOutcome& outcome) const {
+  constexpr const char* name = "report.html";
+  try {
+    PartialFile file(directory_.final_name(name));
+    file.write(report_of(directory_.path()).html);
+    file.publish();
+    outcome.files.emplace_back(name);
+  } catch (const std::exception& error) {
+    outcome.report_failed = error.what();
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,101 @@
+#pragma once
+// One run with its files: from its start, or from a checkpoint, to its summary and its page. Nothing is printed, and nothing ends
+// the program: the caller is told what happens, and says when to stop.
+
+#include "io/checkpoint.hpp"
+#include "io/provenance.hpp"
+#include "io/run_directory.hpp"
+#include "io/run_writer.hpp"
+#include "observe/run_measurements.hpp"
+#include "observe/run_report.hpp"
+#include "text/durations.hpp"
+
+#include <carom/observe.hpp>
+#include <carom/simulation.hpp>
+#include <carom/state.hpp>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+struct RunnerOptions {
+  std::optional<std::string> checkpoint_every =
+      {};                           ///< as saving_plan() reads it; absent: a run that is stopped is saved, no other
+  std::uint64_t verify_every = 0;   ///< events from one check of the invariants to the next; 0: no checks
+  std::optional<int> threads = {};  ///< 2: observables on one of their own; absent: where there is a second processor
+  bool report = false;              ///< make the page of the run too
+  bool keep_start = false;          ///< keep the start of the measured run for RunnerHooks::complete
+  std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();  ///< wall time counts from here
+};
+
+/// What the caller of a Runner is told and decides. Each function may be empty.
+struct RunnerHooks {
+  std::function<bool(const Progress& progress)> proceed =
+      {};                                                    ///< several times a second; false stops the run, which is then saved
+  std::function<void(const Progress& progress)> ended = {};  ///< after the last event, before the files are completed
+  /// Adds to the report of a run that was not stopped, before it is written. `start` is that of the measured run. Is called only
+  /// with RunnerOptions::keep_start.
+  std::function<void(RunReport& report, const State& start)> complete = {};
+  std::function<void(const std::string& sentence)> warn = {};  ///< what went wrong without ending the run
+  std::vector<SamplingGrid> grids = {};                        ///< RunHooks::grids
+};
+
+struct RunnerOutcome {
+  RunReport report;
+  std::vector<std::string> files;            ///< names in the directory, in the order in which they were completed
+  std::optional<std::string> report_failed;  ///< the sentence where RunnerOptions::report was asked for and failed
+};
+
+class Runner {
+ public:
+  /// Opens all files. `simulation` is at its start, or as `from` has it; all arguments but the options must live as long as this.
+  /// Throws OutputError where a file cannot be written, std::invalid_argument where saving_plan() does.
+  Runner(Simulation& simulation, const RunDirectory& directory, Provenance provenance, RunnerOptions options,
+         const Checkpoint* from = nullptr);
+
+  /// Runs the scene's schedule, saves the run as the options say, and writes all files. Call it once. Throws OutputError where a
+  /// file cannot be written; saved() then says whether the run can go on from a checkpoint.
+  [[nodiscard]] RunnerOutcome run(const RunnerHooks& hooks = {});
+
+  /// Whether there is a checkpoint of this run.
+  [[nodiscard]] bool saved() const { return saved_ || from_ != nullptr; }
+  /// Whether run() has saved it.
+  [[nodiscard]] bool saved_now() const { return saved_; }
+  [[nodiscard]] const Provenance& provenance() const { return provenance_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] RunResult simulate(const RunnerHooks& hooks);
+  [[nodiscard]] double wall_seconds() const;
+  [[nodiscard]] bool is_due(const SavingMoment& moment) const;
+  void save(const SavingMoment& moment, const RunnerHooks& hooks);
+  void read(const Checkpoint& from);
+  [[nodiscard]] std::string scene_with_steps() const;
+  void write_report(RunnerOutcome& outcome) const;
+
+  Simulation& simulation_;
+  const Scene& scene_;
+  const RunDirectory& directory_;
+  Provenance provenance_;
+  const RunnerOptions options_;
+  const Checkpoint* from_;
+  std::optional<SavingPlan> plan_;
+  RunMeasurements measurements_;
+  std::optional<Observation> observation_;
+  std::optional<RunWriter> writer_;
+  std::optional<State> start_;  ///< of the measured run, where it will be wanted
+  std::string schedule_;        ///< as a checkpoint has it
+  Clock::time_point last_saved_ = Clock::now();
+  std::uint64_t saved_collisions_;
+  bool stopped_ = false;
+  bool saved_ = false;
+  bool extended_ = false;  ///< the run had come to its end before
+};
+
+}  // namespace carom
