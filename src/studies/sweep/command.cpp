@@ -21,8 +21,6 @@
 
 #include <fmt/format.h>
 
-#include <oneapi/tbb/info.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -30,6 +28,7 @@
 #include <future>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 
 namespace carom::cli {
@@ -42,7 +41,7 @@ int threads_for(const SweepCommandOptions& options, bool of_several) {
   constexpr int most = 4096;
   if (options.threads && (*options.threads < 1 || *options.threads > most))
     throw UsageError(fmt::format("--threads {}: it can be 1 to {}", *options.threads, most));
-  return options.threads.value_or(of_several ? 1 : tbb::info::default_concurrency());
+  return options.threads.value_or(of_several ? 1 : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
 }
 
 fs::path directory_for(const SweepCommandOptions& options) {
@@ -157,7 +156,7 @@ ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invoc
   {
     SweepProgress progress(mode, sweep.run_count(), sweep.run_count() - runs.size());
     Desk desk(sweep, path, runs, stop, progress, options.checkpoint_every);
-    run_all(desk, threads, server, stop, progress);
+    run_all(desk, std::min(threads, std::max(1, static_cast<int>(runs.size()))), server, stop, progress);
   }
   const SweepResults results = collect(sweep, path);
   write_product(directory, "runs.csv", runs_csv(sweep, results));
