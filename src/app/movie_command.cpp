@@ -3,13 +3,14 @@
 #include "app/info_parts.hpp"
 #include "app/movie_plan.hpp"
 #include "io/partial_file.hpp"
-#include "io/run_reader.hpp"
 #include "pages/playback.hpp"
 #include "terminal/command.hpp"
 #include "terminal/progress.hpp"
 #include "terminal/reading_process.hpp"
 #include "terminal/signals.hpp"
 #include "text/numbers.hpp"
+
+#include <carom/io/run_reader.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,19 +1,13 @@
 #pragma once
 // The error that is thrown when a file cannot be written or read, and its sentences.
 
+#include <carom/io/output_error.hpp>
+
 #include <cstdint>
 #include <filesystem>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 
 namespace carom {
-
-/// A file of a run cannot be written or read. what() is one sentence: the path, the system's reason, what to do.
-class OutputError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 namespace detail {
 

@@ -1,9 +1,10 @@
 // A run directory from the reader's side.
 
-#include "io/run_reader.hpp"
+#include <carom/io/run_reader.hpp>
 
 #include "io/finished_run.hpp"
 #include "io/h5md_parts.hpp"
+#include "io/hdf5_handle.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -44,7 +45,7 @@ RunReader::RunReader(const fs::path& directory) : path_(directory / "trajectory.
         directory.string()));
   read_summary(directory);
   guarded([&] {
-    file_ = detail::open_trajectory(path_);
+    file_ = std::make_shared<const detail::Hdf5Id>(detail::open_trajectory(path_));
     read_trajectory();
     read_scene();
   });
@@ -64,37 +65,37 @@ void RunReader::read_summary(const fs::path& directory) {
 
 std::vector<double> RunReader::rows(const std::string& dataset, std::uint64_t first, std::uint64_t count,
                                     std::uint64_t row_size) const {
-  std::vector<double> values = detail::read_rows(file_.get(), dataset, first, count);
+  std::vector<double> values = detail::read_rows(file_->get(), dataset, first, count);
   if (values.size() != count * row_size) throw Hdf5Error(dataset + " has another shape than it should");
   return values;
 }
 
 void RunReader::read_trajectory() {
-  const std::vector<hsize_t> extents = detail::extents_of(file_.get(), particles + "/position/value");
+  const std::vector<hsize_t> extents = detail::extents_of(file_->get(), particles + "/position/value");
   if (extents.size() != 3 || extents[2] != 3) throw Hdf5Error("there is no position/value of three dimensions");
-  samples_ = std::min<std::uint64_t>(extents[0], detail::extents_of(file_.get(), particles + "/position/time").at(0));
+  samples_ = std::min<std::uint64_t>(extents[0], detail::extents_of(file_->get(), particles + "/position/time").at(0));
   const std::uint64_t count = extents[1];
   disks_.radius = rows(particles + "/radius", 0, count, 1);
   disks_.mass = rows(particles + "/mass", 0, count, 1);
   for (const double species : rows(particles + "/species", 0, count, 1))
     disks_.species.push_back(static_cast<std::int32_t>(species));
-  const std::vector<hsize_t> events = detail::extents_of(file_.get(), "/events/time");
+  const std::vector<hsize_t> events = detail::extents_of(file_->get(), "/events/time");
   has_event_log_ = !events.empty();
   if (has_event_log_) events_ = events[0];
 }
 
 /// The box and what acts, from the text that the run was made from.
 void RunReader::read_scene() {
-  const auto text = [&](const char* name) { return detail::read_string_attribute(file_.get(), parameters, name); };
+  const auto text = [&](const char* name) { return detail::read_string_attribute(file_->get(), parameters, name); };
   resolved_scene_ = text("resolved_scene");
   scene_ = detail::scene_of(resolved_scene_, path_);
   title_ = text("title");
-  species_names_ = detail::read_strings_attribute(file_.get(), parameters, "species_names");
+  species_names_ = detail::read_strings_attribute(file_->get(), parameters, "species_names");
   for (const std::int32_t species : disks_.species)
     if (species < 0 || static_cast<std::size_t>(species) >= species_names_.size())
       throw Hdf5Error("a disk belongs to a species without a name");
   facts_.insert(facts_.begin(), {{"Scene", text("scene_source")},
-                                 {"Seed", std::to_string(detail::read_unsigned_attribute(file_.get(), parameters, "seed"))},
+                                 {"Seed", std::to_string(detail::read_unsigned_attribute(file_->get(), parameters, "seed"))},
                                  {"Engine", text("engine")},
                                  {"Command", text("command_line")},
                                  {"Carom", fmt::format("{} (commit {})", text("version"), text("commit"))}});
@@ -153,7 +154,7 @@ State RunReader::sample(std::uint64_t k) const {
 
 std::vector<double> RunReader::observable(const std::string& name, std::uint64_t k, std::uint64_t row_size) const {
   const std::string dataset = "/observables/" + name + "/value";
-  if (detail::extents_of(file_.get(), dataset).empty()) return {};
+  if (detail::extents_of(file_->get(), dataset).empty()) return {};
   return rows(dataset, k, 1, row_size);
 }
 
@@ -186,7 +187,7 @@ State RunReader::start() const {
   return guarded([&] {
     const auto count = static_cast<Eigen::Index>(disks_.count());
     const auto columns = [&](const std::string& dataset) {
-      if (detail::extents_of(file_.get(), dataset).empty())
+      if (detail::extents_of(file_->get(), dataset).empty())
         throw OutputError(fmt::format(
             "{}: an earlier version wrote this file, without the start of its event log; run the scene again", path_.string()));
       const std::vector<double> values = rows(dataset, 0, disks_.count(), 2);
@@ -203,7 +204,7 @@ State RunReader::start() const {
 
 double RunReader::reference_temperature() const {
   return guarded([&] {
-    const std::vector<double> kT = detail::read_numbers_attribute(file_.get(), parameters, "reference_temperature");
+    const std::vector<double> kT = detail::read_numbers_attribute(file_->get(), parameters, "reference_temperature");
     if (kT.size() != 1)
       throw OutputError(fmt::format(
           "{}: an earlier version wrote this file, without the temperature that observables refer to; run the scene again",

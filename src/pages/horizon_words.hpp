@@ -1,8 +1,8 @@
 #pragma once
 // A horizon in one sentence, and as a table of a page.
 
+#include <carom/pages/page.hpp>
 #include "observe/horizon_report.hpp"
-#include "pages/page.hpp"
 
 #include <string>
 

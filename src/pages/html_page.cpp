@@ -2,8 +2,9 @@
 
 #include "pages/embedded_files.hpp"
 #include "pages/html_text.hpp"
-#include "pages/page.hpp"
 #include "pages/plot_json.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <fmt/format.h>
 

@@ -1,8 +1,9 @@
 #pragma once
 // The tables of [observe] as plots, with error bars and what theory says of them.
 
-#include "pages/page.hpp"
 #include "pages/run_theory.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <vector>
 

@@ -1,8 +1,9 @@
 #pragma once
 // A recorded run at any time: exactly, from its events, where it kept them; else on straight lines from sample to sample.
 
-#include "io/run_reader.hpp"
 #include "pages/moment.hpp"
+
+#include <carom/io/run_reader.hpp>
 
 #include <cstdint>
 #include <memory>

@@ -1,9 +1,10 @@
 #pragma once
 // The description and the columns of a player, in the parts that its kinds share.
 
-#include "io/run_reader.hpp"
 #include "pages/number_columns.hpp"
 #include "pages/replay.hpp"
+
+#include <carom/io/run_reader.hpp>
 
 #include <cstddef>
 #include <cstdint>

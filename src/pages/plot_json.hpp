@@ -1,7 +1,7 @@
 #pragma once
 // A plot as JSON: what the scripts of the page draw it from, and what other programs may read out of the page.
 
-#include "pages/page.hpp"
+#include <carom/pages/page.hpp>
 
 #include <string>
 

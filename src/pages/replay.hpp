@@ -3,7 +3,7 @@
 // log names. What the log does not name but follows from it, the motion of pistons and the rescaling of growing disks, is made up
 // here. The player does the same arithmetic in the browser.
 
-#include "io/run_reader.hpp"
+#include <carom/io/run_reader.hpp>
 
 #include <carom/scene.hpp>
 #include <carom/state.hpp>

@@ -1,6 +1,5 @@
 #include "pages/report_page.hpp"
 
-#include "io/run_reader.hpp"
 #include "pages/observable_plots.hpp"
 #include "pages/player_page.hpp"
 #include "pages/report_parts.hpp"
@@ -10,6 +9,8 @@
 #include "text/numbers.hpp"
 #include "text/units.hpp"
 #include "theory/equation_of_state.hpp"
+
+#include <carom/io/run_reader.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,8 +3,9 @@
 // run itself to watch. Made from the files of the run alone.
 
 #include "io/run_record.hpp"
-#include "pages/page.hpp"
 #include "pages/player_data.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <optional>
 #include <string>

@@ -2,8 +2,9 @@
 // Parts of a report: blocks that several of its sections have, and the section on accuracy.
 
 #include "io/run_record.hpp"
-#include "pages/page.hpp"
 #include "pages/summary_row.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <string>
 #include <vector>

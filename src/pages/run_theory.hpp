@@ -4,7 +4,8 @@
 // verdict; `carom validate` gives those.
 
 #include "io/run_record.hpp"
-#include "pages/page.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <optional>
 #include <string>

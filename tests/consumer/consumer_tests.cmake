@@ -1,28 +1,45 @@
-# Installs the built package below the build directory, and builds and runs the library example of docs/ with it. Then the example
-# compiles against Carom's sources; and, with the label slow, is built with them and run. The .deb is unpacked and used. ctest --build-and-test configures, builds
-# and runs a project as one test.
+# Installs the built package below the build directory, and builds and runs the examples of docs/ with it, the library's one where neither
+# HDF5 nor Cairo is to be found. Then that example compiles against Carom's sources; and, with the label slow, is built with them and
+# run. The .deb is unpacked and used. ctest --build-and-test configures, builds and runs a project as one test.
 set(consumer_directory ${PROJECT_BINARY_DIR}/consumer)
 set(consumer_scene ${PROJECT_SOURCE_DIR}/docs/scenes/box.toml)
+set(consumer_run ${consumer_directory}/run)
 set(consumer_options -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER})
+set(without_cairo -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
+set(without_either -DCMAKE_DISABLE_FIND_PACKAGE_HDF5=ON ${without_cairo})
 
 add_test(NAME package.install COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${consumer_directory}/prefix)
 set_tests_properties(package.install PROPERTIES FIXTURES_SETUP carom_installed LABELS package)
+add_test(NAME package.run COMMAND carom_cli run ${consumer_scene} --quiet --force --out ${consumer_run})
+set_tests_properties(package.run PROPERTIES FIXTURES_SETUP carom_run LABELS package)
 
-function(add_consumer_test name)
+function(add_consumer_test name argument pattern) # OPTIONS of the project...
   add_test(NAME package.${name}
            COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${consumer_directory}/${name}
                    --build-generator ${CMAKE_GENERATOR} --build-target consumer
                    --build-options ${consumer_options} ${ARGN}
-                   --test-command ${consumer_directory}/${name}/consumer ${consumer_scene})
-  # The first and the last line that the example prints: it has read the scene, and it has come to its end.
-  set_tests_properties(package.${name} PROPERTIES LABELS package PASS_REGULAR_EXPRESSION "disks at time 1\n.*disk 0 is at" TIMEOUT 900)
+                   --test-command ${consumer_directory}/${name}/consumer ${argument})
+  set_tests_properties(package.${name} PROPERTIES LABELS package PASS_REGULAR_EXPRESSION "${pattern}" TIMEOUT 900)
 endfunction()
 
-add_consumer_test(find_package -DCMAKE_PREFIX_PATH=${consumer_directory}/prefix -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}")
-set_tests_properties(package.find_package PROPERTIES FIXTURES_REQUIRED carom_installed)
+set(installed -DCMAKE_PREFIX_PATH=${consumer_directory}/prefix -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}")
+# The first and the last line that the example prints: it has read the scene, and it has come to its end.
+set(whole_example "disks at time 1\n.*disk 0 is at")
+add_consumer_test(find_package ${consumer_scene} "${whole_example}" ${installed} ${without_either})
+add_consumer_test(find_component_io ${consumer_run} "disks, [0-9]+ samples to time.*disk 0 is at" ${installed} ${without_cairo}
+                  -DCAROM_COMPONENT=io)
+add_consumer_test(find_component_pages ${consumer_scene} "<title>One disk</title>" ${installed} -DCAROM_COMPONENT=pages)
+foreach(name find_package find_component_io find_component_pages)
+  set_tests_properties(package.${name} PROPERTIES FIXTURES_REQUIRED "carom_installed;carom_run")
+endforeach()
+add_test(NAME package.refuses_unknown_component
+         COMMAND ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_SOURCE_DIR}/consumer -B ${consumer_directory}/unknown -G ${CMAKE_GENERATOR}
+                 ${consumer_options} ${installed} -DCAROM_COMPONENT=films)
+set_tests_properties(package.refuses_unknown_component PROPERTIES LABELS package FIXTURES_REQUIRED carom_installed
+                     PASS_REGULAR_EXPRESSION "has no component films")
 
-set(from_sources -DCAROM_SOURCE_DIRECTORY=${PROJECT_SOURCE_DIR} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0)
-add_consumer_test(add_subdirectory ${from_sources})
+set(from_sources -DCAROM_SOURCE_DIRECTORY=${PROJECT_SOURCE_DIR} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 ${without_either})
+add_consumer_test(add_subdirectory ${consumer_scene} "${whole_example}" ${from_sources})
 set_tests_properties(package.add_subdirectory PROPERTIES LABELS slow PROCESSORS 2)
 
 add_test(NAME package.compiles_from_sources

@@ -34,7 +34,7 @@ foreach(library libc6 libhdf5)
 endforeach()
 run(output dpkg-deb --extract ${packages} tree)
 
-foreach(file include/carom/carom.hpp share/carom/scenes/box.toml lib/libcarom.a lib/cmake/carom/caromConfig.cmake)
+foreach(file include/carom/carom.hpp share/carom/scenes/box.toml lib/libcarom.a lib/libcarom_io.a lib/libcarom_pages.a lib/cmake/carom/caromConfig.cmake)
   if(NOT EXISTS ${SCRATCH}/tree/usr/${file})
     message(FATAL_ERROR "the package has no /usr/${file}")
   endif()

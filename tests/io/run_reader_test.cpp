@@ -1,10 +1,10 @@
 // Runs read back: what the engine had is what the reader gives, and every kind of directory that is no finished run is refused in
 // one sentence.
 
-#include "io/run_reader.hpp"
-
 #include "support/child_process.hpp"
 #include "support/recorded_run.hpp"
+
+#include <carom/io/run_reader.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // Pages in a real browser: every plot is drawn with its points, nothing goes wrong, and what goes wrong is seen.
 
-#include "pages/page.hpp"
-
-#include "pages/sample_page.hpp"
 #include "support/browser.hpp"
+#include "pages/sample_page.hpp"
 #include "support/child_process.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

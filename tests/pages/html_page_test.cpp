@@ -1,10 +1,10 @@
 // A page as text: what it contains, what it cannot contain.
 
-#include "pages/page.hpp"
-
 #include "pages/embedded_files.hpp"
 #include "pages/html_text.hpp"
 #include "pages/sample_page.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 // Finds the plots of a page.
 
-#include "pages/page.hpp"
+#include <carom/pages/page.hpp>
 
 #include <string>
 #include <variant>

@@ -2,7 +2,7 @@
 // A page with everything that a page can have: six methods in a log-log plot, bands, error bars, marks, gaps, an empty plot, a
 // table and a listing. The numbers look like a comparison of methods but come from formulas.
 
-#include "pages/page.hpp"
+#include <carom/pages/page.hpp>
 
 #include <fmt/format.h>
 

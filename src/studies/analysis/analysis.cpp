@@ -1,9 +1,10 @@
 #include "studies/analysis/analysis.hpp"
 
-#include "io/run_reader.hpp"
 #include "observe/observable_group.hpp"
 #include "observe/observables.hpp"
 #include "simulation/sampling_times.hpp"
+
+#include <carom/io/run_reader.hpp>
 
 #include <fmt/format.h>
 

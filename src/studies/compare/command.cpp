@@ -2,7 +2,6 @@
 // when it is finished, so that an interrupted study goes on where it was.
 
 #include "studies/compare/command.hpp"
-#include "pages/page.hpp"
 #include "studies/compare/compare.hpp"
 #include "studies/compare/files.hpp"
 #include "studies/compare/page.hpp"
@@ -13,6 +12,7 @@
 #include "terminal/signals.hpp"
 
 #include <fmt/format.h>
+#include <carom/pages/page.hpp>
 #include <carom/simulation.hpp>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #pragma once
 // The page of carom compare: error against cost.
 
-#include "pages/page.hpp"
 #include "studies/compare/comparison.hpp"
 
+#include <carom/pages/page.hpp>
 #include <carom/scene.hpp>
 
 #include <string>

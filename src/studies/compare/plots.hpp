@@ -2,9 +2,10 @@
 // The plots of a comparison.
 
 #include "pages/method_names.hpp"
-#include "pages/page.hpp"
 #include "studies/compare/answers.hpp"
 #include "studies/compare/comparison.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "studies/compare/side_by_side_page.hpp"
 
-#include "pages/page.hpp"
+#include <carom/pages/page.hpp>
 #include "pages/player_page.hpp"
 #include "pages/player_parts.hpp"
 #include "text/numbers.hpp"

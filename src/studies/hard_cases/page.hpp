@@ -1,8 +1,9 @@
 #pragma once
 // The verdicts on hard cases as a page.
 
-#include "pages/page.hpp"
 #include "studies/hard_cases/hard_case.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <span>
 #include <string>

@@ -3,7 +3,6 @@
 // only state is the files that are there.
 
 #include "studies/sweep/command.hpp"
-#include "pages/page.hpp"
 #include "studies/study_directory.hpp"
 #include "studies/sweep/directory_lock.hpp"
 #include "studies/sweep/hdf5.hpp"
@@ -18,6 +17,8 @@
 #include "studies/sweep/threads.hpp"
 #include "text/durations.hpp"
 #include "text/numbers.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <fmt/format.h>
 

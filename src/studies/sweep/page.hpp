@@ -1,8 +1,9 @@
 #pragma once
 // A sweep's results as a page: every number against every swept key, with error bars; tables; what has failed.
 
-#include "pages/page.hpp"
 #include "studies/sweep/results.hpp"
+
+#include <carom/pages/page.hpp>
 
 namespace carom {
 

@@ -1,8 +1,9 @@
 #pragma once
 // The plots of a sweep.
 
-#include "pages/page.hpp"
 #include "studies/sweep/results.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <cstddef>
 #include <vector>

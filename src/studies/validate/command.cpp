@@ -2,7 +2,6 @@
 // is on the disk when it is finished, so that an interrupted validation goes on where it was.
 
 #include "studies/validate/command.hpp"
-#include "pages/page.hpp"
 #include "studies/study_directory.hpp"
 #include "studies/validate/files.hpp"
 #include "studies/validate/page.hpp"
@@ -10,6 +9,8 @@
 #include "terminal/progress.hpp"
 #include "terminal/signals.hpp"
 #include "text/numbers.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <fmt/format.h>
 

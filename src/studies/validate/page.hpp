@@ -1,8 +1,9 @@
 #pragma once
 // The page of a validation: every check, plots of theory against measurement, the scenes that were run.
 
-#include "pages/page.hpp"
 #include "studies/validate/validation.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <string>
 

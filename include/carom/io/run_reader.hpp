@@ -2,20 +2,23 @@
 // Reads back what `carom run` has written: a finished run directory with its trajectory.h5md. Everything that can be wrong with
 // it is said in one sentence that names the path.
 
-#include "io/hdf5_handle.hpp"
-#include "io/output_error.hpp"
-
+#include <carom/io/output_error.hpp>
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace carom {
+
+namespace detail {
+class Hdf5Id;
+}
 
 class RunReader {
  public:
@@ -66,7 +69,7 @@ class RunReader {
   [[nodiscard]] std::vector<double> observable(const std::string& name, std::uint64_t k, std::uint64_t row_size) const;
 
   std::filesystem::path path_;  ///< path of the trajectory
-  detail::Hdf5Id file_;
+  std::shared_ptr<const detail::Hdf5Id> file_;
   Scene scene_;
   std::string resolved_scene_;
   Disks disks_;
