@@ -229,6 +229,8 @@ std::string name_of(const Columns& columns, const Column& column, bool alone) {
   return words;
 }
 
+constexpr int line_group = 6;  // the colour of theory
+
 Plot plot_of(const Frame& frame, const Table& table, const RunTheory& theory) {
   Plot plot{.id = frame.id, .title = frame.title, .caption = frame.caption, .x = {.log = frame.log_x}, .y = {.log = frame.log_y}};
   std::vector<Series> lines;
@@ -242,10 +244,17 @@ Plot plot_of(const Frame& frame, const Table& table, const RunTheory& theory) {
       if (plot.series.empty()) {
         plot.x.title = with_unit(frame.x, x->unit);
         plot.y.title = with_unit(frame.y, column->unit);
-        plot.marks = theory.marks(table, column->name);
+        for (const TheoryMark& mark : theory.marks(table, column->name))
+          plot.marks.push_back(
+              {.axis = mark.on_first_column ? Mark::Across::x : Mark::Across::y, .value = mark.value, .label = mark.label});
       }
       plot.series.push_back(series_of(table, *x, *column, name_of(columns, *column, found.size() == 1), group));
-      for (Series& law : theory.curves(table, column->name)) {
+      for (TheoryCurve& curve : theory.curves(table, column->name)) {
+        Series law{.name = std::move(curve.name),
+                   .x = std::move(curve.x),
+                   .y = std::move(curve.y),
+                   .style = curve.dashed ? Style::dashed : Style::line,
+                   .group = line_group};
         if (found.size() > 1) {
           law.group = group;
           law.name += ", " + plot.series.back().name;

@@ -1,7 +1,7 @@
 #pragma once
 // The tables of [observe] as plots, with error bars and what theory says of them.
 
-#include "pages/run_theory.hpp"
+#include "theory/run_theory.hpp"
 
 #include <carom/pages/page.hpp>
 

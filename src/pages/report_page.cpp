@@ -3,7 +3,6 @@
 #include "pages/observable_plots.hpp"
 #include "pages/player_page.hpp"
 #include "pages/report_parts.hpp"
-#include "pages/run_theory.hpp"
 #include "pages/scene_words.hpp"
 #include "pages/summary_rows.hpp"
 #include "text/numbers.hpp"
@@ -174,9 +173,14 @@ Section observed(const RunReport& report, const RunTheory& theory) {
 
 }  // namespace
 
+RunTheory theory_of(const RunRecord& record) {
+  if (!record.source) return {record.report, std::nullopt};
+  return {record.report, TheorySource{record.source->scene, record.source->disks, record.source->species.size()}};
+}
+
 Page report_page(const RunRecord& record, const std::optional<PlayerData>& player) {
   const RunReport& report = record.report;
-  const RunTheory theory(record);
+  const RunTheory theory = theory_of(record);
   Page page{.generator = "carom report",
             .title = report.title.empty() ? report.scene : report.title,
             .subtitle = fmt::format("{}, packing fraction {:.4g}; {}; seed {}, {} {}; numbers in scene units",

@@ -4,6 +4,7 @@
 
 #include "io/run_record.hpp"
 #include "pages/player_data.hpp"
+#include "theory/run_theory.hpp"
 
 #include <carom/pages/page.hpp>
 
@@ -15,6 +16,9 @@ namespace carom {
 
 /// The mark near the beginning of every report, by which it is told from other files.
 inline constexpr std::string_view report_mark = "<meta name=\"generator\" content=\"carom report\">";
+
+/// Returns what theory says of a run that was read back; `record` must live as long as that.
+[[nodiscard]] RunTheory theory_of(const RunRecord& record);
 
 /// `player` is empty where the run kept no samples.
 [[nodiscard]] Page report_page(const RunRecord& record, const std::optional<PlayerData>& player);

@@ -4,7 +4,6 @@
 
 #include "pages/page_parts.hpp"
 #include "pages/plot_json.hpp"
-#include "pages/run_theory.hpp"
 #include "support/child_process.hpp"
 #include "support/recorded_run.hpp"
 
@@ -181,7 +180,7 @@ TEST_F(ReportPage, TheoryIsLeftOutWhereItIsOfAnotherScene) {
                        {"box.boundary=\"" + boundary + "\"", "disks.0.positions=\"random\""}),
            directory.path() / "run");
     const RunRecord read = read_run_record(directory.path() / "run");
-    const RunTheory theory(read);
+    const RunTheory theory = theory_of(read);
     EXPECT_FALSE(theory.Z()) << table;
     EXPECT_FALSE(theory.of("pressure", "Z")) << table;
     const Page page = report_page(read, std::nullopt);

@@ -3,9 +3,10 @@
 // where the theory holds in this scene: equal elastic disks in equilibrium, and nothing else that acts. Nothing here is a
 // verdict; `carom validate` gives those.
 
-#include "io/run_record.hpp"
+#include "observe/run_report.hpp"
 
-#include <carom/pages/page.hpp>
+#include <carom/observe.hpp>
+#include <carom/scene.hpp>
 
 #include <optional>
 #include <string>
@@ -18,9 +19,31 @@ struct Expected {
   std::string source;  ///< a few words: the source of the theory
 };
 
+/// A curve that a theory gives for a column of a table. It is dashed where it is an approximation or stands beside a better one.
+struct TheoryCurve {
+  std::string name;
+  bool dashed = false;
+  std::vector<double> x = {}, y = {};
+};
+
+/// A value that a column comes to, or a place on its first column.
+struct TheoryMark {
+  bool on_first_column = false;
+  double value = 0.0;
+  std::string label;
+};
+
+/// The scene of a run that is read back, and its disks.
+struct TheorySource {
+  const Scene& scene;
+  const Disks& disks;
+  std::size_t species = 1;
+};
+
 class RunTheory {
  public:
-  explicit RunTheory(const RunRecord& record);
+  /// `report` and what `source` refers to must live as long as this. Without a source there is no theory.
+  RunTheory(const RunReport& report, std::optional<TheorySource> source);
 
   /// Returns the expected value of a number of [observe].
   [[nodiscard]] std::optional<Expected> of(const std::string& observable, const std::string& scalar) const;
@@ -29,9 +52,9 @@ class RunTheory {
   [[nodiscard]] const std::string& why_not_Z() const { return why_not_Z_; }  ///< a sentence
 
   /// Lines that belong to a column of a table ("density", "density_small", "diffusion", ...).
-  [[nodiscard]] std::vector<Series> curves(const Table& table, const std::string& column) const;
+  [[nodiscard]] std::vector<TheoryCurve> curves(const Table& table, const std::string& column) const;
   /// Values that it comes to.
-  [[nodiscard]] std::vector<Mark> marks(const Table& table, const std::string& column) const;
+  [[nodiscard]] std::vector<TheoryMark> marks(const Table& table, const std::string& column) const;
 
  private:
   /// Disks of one mass.
@@ -44,12 +67,12 @@ class RunTheory {
   void find_Z();
   [[nodiscard]] std::vector<Kind> kinds(const std::string& suffix) const;
   [[nodiscard]] double velocity_density(const Kind& kind, double x, bool of_energy) const;
-  [[nodiscard]] std::vector<Series> velocity_curves(const Table& table, const std::string& column) const;
-  [[nodiscard]] std::vector<Series> flight_curves(const Table& table) const;
-  [[nodiscard]] std::vector<Series> density_curves(const Table& table) const;
+  [[nodiscard]] std::vector<TheoryCurve> velocity_curves(const Table& table, const std::string& column) const;
+  [[nodiscard]] std::vector<TheoryCurve> flight_curves(const Table& table) const;
+  [[nodiscard]] std::vector<TheoryCurve> density_curves(const Table& table) const;
 
   const RunReport& report_;
-  const RunRecord::Source* source_;
+  std::optional<TheorySource> source_;
   bool is_plain_ = false;   ///< equal disks, periodic, nothing acts but the rule
   bool is_smooth_ = false;  ///< and the rule is specular
   Velocities velocities_ = Velocities::unknown;

@@ -1,4 +1,4 @@
-#include "pages/run_theory.hpp"
+#include "theory/run_theory.hpp"
 
 #include "observe/equilibrium.hpp"
 #include "observe/observed_run.hpp"
@@ -24,7 +24,6 @@ constexpr double pi = std::numbers::pi;
 constexpr double densest_fluid = 0.69;
 constexpr double densest_finite = 0.63;
 constexpr int line_points = 200;
-constexpr int line_group = 6;
 
 bool all_equal(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
@@ -39,19 +38,12 @@ std::vector<double> steps_over(const Table& table) {
   return steps;
 }
 
-Series line(std::string name, Style style = Style::line) {
-  return {.name = std::move(name), .style = style, .group = line_group};
-}
-
 }  // namespace
 
-RunTheory::RunTheory(const RunRecord& record)
-    : report_(record.report),
-      source_(record.source ? &*record.source : nullptr),
-      kT_(record.report.temperature_mean),
-      eta_(record.report.packing_fraction) {
-  if (source_ != nullptr && source_->disks.count() != static_cast<std::size_t>(report_.disks)) source_ = nullptr;
-  if (source_ == nullptr) {
+RunTheory::RunTheory(const RunReport& report, std::optional<TheorySource> source)
+    : report_(report), kT_(report.temperature_mean), eta_(report.packing_fraction) {
+  if (source && source->disks.count() == static_cast<std::size_t>(report.disks)) source_.emplace(*source);
+  if (!source_) {
     why_not_Z_ = "Whether the equation of state is of this scene is not known: its disks are in no file of the run.";
     return;
   }
@@ -127,15 +119,15 @@ double RunTheory::velocity_density(const Kind& kind, double x, bool of_energy) c
   return of_energy ? law.energy_density(x, mean) : law.speed_density(x, 2.0 * mean / kind.mass);
 }
 
-std::vector<Series> RunTheory::velocity_curves(const Table& table, const std::string& column) const {
+std::vector<TheoryCurve> RunTheory::velocity_curves(const Table& table, const std::string& column) const {
   if (velocities_ == Velocities::unknown) return {};
   constexpr std::size_t most_kinds = 50;  // of masses; each is a term of every point
   const std::vector<Kind> all = kinds(column.substr(std::string("density").size()));
   if (all.empty() || all.size() > most_kinds) return {};
   double disks = 0.0;
   for (const Kind& kind : all) disks += kind.count;
-  Series law =
-      line(velocities_ == Velocities::fixed_energy ? fmt::format("law for {} disks", report_.disks) : "Maxwell and Boltzmann");
+  TheoryCurve law{.name = velocities_ == Velocities::fixed_energy ? fmt::format("law for {} disks", report_.disks)
+                                                                  : std::string("Maxwell and Boltzmann")};
   for (const double x : steps_over(table)) {
     double density = 0.0;
     for (const Kind& kind : all) density += kind.count / disks * velocity_density(kind, x, table.name == "energies");
@@ -145,14 +137,14 @@ std::vector<Series> RunTheory::velocity_curves(const Table& table, const std::st
   return {law};
 }
 
-std::vector<Series> RunTheory::flight_curves(const Table& table) const {
+std::vector<TheoryCurve> RunTheory::flight_curves(const Table& table) const {
   if (!is_smooth_ || eta_ > densest_finite) return {};
   const double free_time = unit_of_time_ / theory::disk_collision_rate(eta_, report_.disks);
   const double free_path = free_time * std::sqrt(kT_ / mass_);  // thermal velocities times mean free times
   const bool of_times = table.name == "free_times";
   const double scale = of_times ? free_time : free_path;
   const double mean = of_times ? 1.0 : std::sqrt(0.5 * pi);
-  Series law = line("dilute gas, speeds told apart"), plain = line("exponential", Style::dashed);
+  TheoryCurve law{.name = "dilute gas, speeds told apart"}, plain{.name = "exponential", .dashed = true};
   for (const double x : steps_over(table)) {
     const double s = x / scale;
     law.x.push_back(x);
@@ -163,7 +155,7 @@ std::vector<Series> RunTheory::flight_curves(const Table& table) const {
   return {law, plain};
 }
 
-std::vector<Series> RunTheory::density_curves(const Table& table) const {
+std::vector<TheoryCurve> RunTheory::density_curves(const Table& table) const {
   const Scene& scene = source_->scene;
   const int axis = table.columns.front().name == "x" ? 0 : 1;
   const int across = 1 - axis;
@@ -172,7 +164,7 @@ std::vector<Series> RunTheory::density_curves(const Table& table) const {
   const bool periodic = scene.box.periodic(axis), falls = scene.effects.acceleration()[axis] != 0.0;
   if (periodic && scene.effects.obstacles.empty()) {
     const double density = static_cast<double>(report_.disks) / scene.box.area();
-    Series uniform = line("uniform");
+    TheoryCurve uniform{.name = "uniform"};
     uniform.x = {scene.box.lower[axis], scene.box.upper[axis]};
     uniform.y = {density, density};
     return {uniform};
@@ -188,7 +180,7 @@ std::vector<Series> RunTheory::density_curves(const Table& table) const {
                                                         static_cast<double>(report_.disks) / width, radius, height, steps);
   const double area = pi * radius * radius;
   if (!(density.front() * area <= densest_fluid)) return {};  // no fluid at the floor
-  Series law = line("hydrostatics");
+  TheoryCurve law{.name = "hydrostatics"};
   for (std::size_t k = 0; k < steps; ++k) {
     const double above = radius + height * (static_cast<double>(k) + 0.5) / static_cast<double>(steps);
     law.x.push_back(g < 0.0 ? scene.box.lower[axis] + above : scene.box.upper[axis] - above);
@@ -197,14 +189,14 @@ std::vector<Series> RunTheory::density_curves(const Table& table) const {
   return {law};
 }
 
-std::vector<Series> RunTheory::curves(const Table& table, const std::string& column) const {
-  if (source_ == nullptr || table.columns.empty()) return {};
+std::vector<TheoryCurve> RunTheory::curves(const Table& table, const std::string& column) const {
+  if (!source_ || table.columns.empty()) return {};
   if (table.name == "speeds" || table.name == "energies") return velocity_curves(table, column);
   if (table.name == "free_times" || table.name == "free_paths") return flight_curves(table);
   if (table.name == "density_profile" && column == "density") return density_curves(table);
   if (!is_smooth_ || eta_ > densest_fluid) return {};
   const double D = theory::enskog_diffusion(eta_) * sigma_ * sigma_ / unit_of_time_;
-  Series law = line("Enskog", Style::dashed);
+  TheoryCurve law{.name = "Enskog", .dashed = true};
   if (table.name == "velocity_autocorrelation" && column == "correlation") {
     const double square = 2.0 * kT_ / mass_ * (1.0 - 1.0 / static_cast<double>(report_.disks));
     const double rate = kT_ / (mass_ * D);
@@ -226,8 +218,8 @@ std::vector<Series> RunTheory::curves(const Table& table, const std::string& col
   return {};
 }
 
-std::vector<Mark> RunTheory::marks(const Table& table, const std::string& column) const {
-  if (source_ == nullptr) return {};
+std::vector<TheoryMark> RunTheory::marks(const Table& table, const std::string& column) const {
+  if (!source_) return {};
   if (table.name == "h_function") {
     for (const Measurement& measured : report_.observables)
       for (const Scalar& scalar : measured.scalars)
@@ -235,7 +227,7 @@ std::vector<Mark> RunTheory::marks(const Table& table, const std::string& column
           return {{.value = *scalar.value, .label = "Maxwell"}};
     return {};
   }
-  if (table.name == "radial_distribution" && is_plain_) return {{.axis = Mark::Across::x, .value = sigma_, .label = "contact"}};
+  if (table.name == "radial_distribution" && is_plain_) return {{.on_first_column = true, .value = sigma_, .label = "contact"}};
   if (table.name == "structure_factor" && is_plain_ && eta_ <= densest_fluid)
     return {{.value = theory::structure_factor_at_zero(eta_), .label = "S(0), equation of state"}};
   if (!is_smooth_ || eta_ > densest_fluid) return {};
@@ -248,7 +240,7 @@ std::vector<Mark> RunTheory::marks(const Table& table, const std::string& column
 
 std::optional<Expected> RunTheory::of(const std::string& observable, const std::string& scalar) const {
   const std::string name = observable + "." + scalar;
-  if (velocities_ == Velocities::fixed_energy && observable == "velocity_moments" && source_->species.size() == 1 &&
+  if (velocities_ == Velocities::fixed_energy && observable == "velocity_moments" && source_->species == 1 &&
       all_equal(source_->disks.mass)) {
     const theory::Microcanonical law(report_.disks, keeps_momentum_);
     const double square = 2.0 * kT_ / mass_ * (keeps_momentum_ ? 1.0 - 1.0 / static_cast<double>(report_.disks) : 1.0);
