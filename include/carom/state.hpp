@@ -70,18 +70,18 @@ struct Event {
   Eigen::Vector2d partner_velocity = Eigen::Vector2d::Zero();  ///< of `partner`, just after; zero for a wall
 };
 
-/// How hard a run was on the arithmetic: near misses since the start of the measured run. None of them is an error; u is the unit
-/// of rounding of the engine's numbers.
+/// Near misses of the arithmetic, counted since the start of the measured run. None of them is an error; large counts mean that
+/// rounding decided much of the run. u is the unit roundoff of the engine's numbers, sigma the contact distance of a pair.
 struct Numerics {
-  std::uint64_t at_once = 0;       ///< collisions at the very instant of the one before
-  std::uint64_t overlapping = 0;   ///< pairs that overlapped by more than 32 u sigma when they met: late, or so from the start
-  double deepest_overlap = 0.0;    ///< of any pair counted here, over the contact distance: rounding where `overlapping` is 0
-  std::uint64_t grazing = 0;       ///< pairs that met with a discriminant within rounding of 0: they might as well have missed
-  std::uint64_t receding = 0;      ///< pairs that met, and receded already by rounding: nothing was exchanged
-  std::uint64_t epochs = 0;        ///< new zeros of the engine's clock
-  std::uint64_t outrun = 0;        ///< those begun early, for a disk suddenly too fast for the epoch
-  std::uint64_t lists_made = 0;    ///< times that all lists of neighbours, or all cells, were made anew
-  std::uint64_t longest_list = 0;  ///< of neighbours, of any disk at the last time that lists were made; 0 where there are none
+  std::uint64_t simultaneous = 0;      ///< collisions at exactly the time of the collision before
+  std::uint64_t overlapping = 0;       ///< pairs that overlapped by more than 32 u sigma when they collided
+  double deepest_overlap = 0.0;        ///< largest overlap of a colliding pair, over sigma; rounding if `overlapping` is 0
+  std::uint64_t grazing = 0;           ///< collisions whose discriminant was 0 to rounding: rounding decided that they happen
+  std::uint64_t already_receding = 0;  ///< collisions in which rounding had the pair recede: no momentum was exchanged
+  std::uint64_t epochs = 0;            ///< epochs: times at which the engine's clock was set to zero again
+  std::uint64_t early_epochs = 0;      ///< epochs begun early because a disk had become too fast for the current one
+  std::uint64_t list_rebuilds = 0;     ///< times that all neighbour lists, or all cells, were built anew
+  std::uint64_t longest_neighbour_list = 0;  ///< neighbours of one disk, at most, at the last rebuild; 0 without lists
 };
 
 /// The numbers of events since the start of the measured run, by kind. Always kept, at no cost that can be measured.

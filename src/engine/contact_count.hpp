@@ -23,7 +23,7 @@ template <class Real>
   numerics.overlapping += overlap > 16.0 * static_cast<double>(epsilon<Real>);
   numerics.deepest_overlap = std::max(numerics.deepest_overlap, overlap);
   numerics.grazing += grazes;
-  numerics.receding += rv >= 0;
+  numerics.already_receding += rv >= 0;
 }
 
 }  // namespace detail
@@ -46,7 +46,7 @@ class LastInstant {
   void count(Real now, Numerics& numerics) {
     const double time = static_cast<double>(now);
     if (time == time_) [[unlikely]]
-      ++numerics.at_once;
+      ++numerics.simultaneous;
     time_ = time;
   }
   /// The clock's zero has moved.

@@ -34,7 +34,7 @@ void Engine<Impact, Layout, World>::begin_epoch_early(std::int32_t i, const Vec2
   if (!va.allFinite() || !vb.allFinite()) return fail_between(i, j);
   const Vec2<double> fallen = world_.g() * now_;
   rebase(now_);
-  ++totals_.numerics.outrun;
+  ++totals_.numerics.early_epochs;
   for (int k = 0; k < 2; ++k) line(i).v[k] = va[k] + fallen[k], line(j).v[k] = vb[k] + fallen[k];
   if (world_.expansion() > 0.0 || world_.falls()) return replan();
   if constexpr (!World::plain) widen_coordinates();

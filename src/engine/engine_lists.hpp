@@ -61,13 +61,13 @@ void Engine<Impact, Layout, World>::tune_neighbourhoods(double elapsed) {
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::rebuild(double half_width) {
   frame_.half_width = half_width;
-  ++totals_.numerics.lists_made;
+  ++totals_.numerics.list_rebuilds;
   std::vector<NeighbourhoodCentre> centres(lines_.size());
   for (std::int32_t i = 0; i < count(); ++i) centres[static_cast<std::size_t>(i)] = neighbourhood_around(i, now_);
   lists_.rebuild(half_width, centres);
-  totals_.numerics.longest_list = 0;
+  totals_.numerics.longest_neighbour_list = 0;
   for (std::int32_t i = 0; i < count(); ++i)
-    totals_.numerics.longest_list = std::max<std::uint64_t>(totals_.numerics.longest_list, lists_.count(i));
+    totals_.numerics.longest_neighbour_list = std::max<std::uint64_t>(totals_.numerics.longest_neighbour_list, lists_.count(i));
 
   // Nearest images are right as long as a pair that may meet is less than half a box apart, now and along its lines back
   // to the epoch. What the neighbourhoods leave of that belongs to the two lines.

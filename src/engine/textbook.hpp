@@ -333,7 +333,7 @@ class TextbookEngine {
     suit_grid();
     last_collision_.rebase();
     ++totals_.numerics.epochs;
-    ++totals_.numerics.lists_made;
+    ++totals_.numerics.list_rebuilds;
     grid_.clear();
     for (std::int32_t i = 0; i < count(); ++i) grid_.insert(i, record(i).r);
     for (std::int32_t i = 0; i < count(); ++i) make_plan(i);
@@ -350,7 +350,7 @@ class TextbookEngine {
 
   /// A disk has outrun the epoch.
   void begin_epoch_early() {
-    ++totals_.numerics.outrun;
+    ++totals_.numerics.early_epochs;
     begin_epoch(now_);
   }
 

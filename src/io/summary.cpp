@@ -68,10 +68,15 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
                           {"bottom", number(totals.wall_impulse[2])},
                           {"top", number(totals.wall_impulse[3])}};
   const Numerics& numerics = totals.numerics;
-  json["numerics"] = {
-      {"at_once", numerics.at_once}, {"overlapping", numerics.overlapping}, {"deepest_overlap", number(numerics.deepest_overlap)},
-      {"grazing", numerics.grazing}, {"receding", numerics.receding},       {"epochs", numerics.epochs},
-      {"outrun", numerics.outrun},   {"lists_made", numerics.lists_made},   {"longest_list", numerics.longest_list}};
+  json["numerics"] = {{"simultaneous", numerics.simultaneous},
+                      {"overlapping", numerics.overlapping},
+                      {"deepest_overlap", number(numerics.deepest_overlap)},
+                      {"grazing", numerics.grazing},
+                      {"already_receding", numerics.already_receding},
+                      {"epochs", numerics.epochs},
+                      {"early_epochs", numerics.early_epochs},
+                      {"list_rebuilds", numerics.list_rebuilds},
+                      {"longest_neighbour_list", numerics.longest_neighbour_list}};
   detail::add_effects(json, report);
   if (!report.observables.empty()) json["observables"] = detail::observables_json(report.observables);
   if (report.verification)

@@ -41,15 +41,15 @@ Totals totals_in(const Json& json) {
   const char* const sides[] = {"left", "right", "bottom", "top"};
   for (std::size_t side = 0; side < 4; ++side) totals.wall_impulse[side] = finite_in(json.at("wall_impulse").at(sides[side]));
   const Json& numerics = json.at("numerics");
-  totals.numerics = {.at_once = count_in(numerics, "at_once"),
+  totals.numerics = {.simultaneous = count_in(numerics, "simultaneous"),
                      .overlapping = count_in(numerics, "overlapping"),
                      .deepest_overlap = finite_in(numerics.at("deepest_overlap")),
                      .grazing = count_in(numerics, "grazing"),
-                     .receding = count_in(numerics, "receding"),
+                     .already_receding = count_in(numerics, "already_receding"),
                      .epochs = count_in(numerics, "epochs"),
-                     .outrun = count_in(numerics, "outrun"),
-                     .lists_made = count_in(numerics, "lists_made"),
-                     .longest_list = count_in(numerics, "longest_list")};
+                     .early_epochs = count_in(numerics, "early_epochs"),
+                     .list_rebuilds = count_in(numerics, "list_rebuilds"),
+                     .longest_neighbour_list = count_in(numerics, "longest_neighbour_list")};
   return totals;
 }
 

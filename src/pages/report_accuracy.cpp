@@ -79,19 +79,21 @@ std::string what_rounding_allows(const RunReport& report) {
 
 TextTable numerics_table(const Numerics& numerics) {
   const auto count = [](std::uint64_t value) { return grouped(value); };
-  TextTable table{.title = "Near misses", .columns = {"what", "times", "meaning"}};
+  TextTable table{.title = "Near misses of the arithmetic", .columns = {"kind", "number", "meaning"}};
   table.rows = {
-      {"ties", count(numerics.at_once), "collisions at the very instant of the one before"},
+      {"simultaneous", count(numerics.simultaneous), "collisions at exactly the time of the collision before"},
       {"overlapping", count(numerics.overlapping),
        numerics.overlapping == 0
-           ? "pairs that overlapped by more than rounding when they met"
-           : fmt::format("pairs that overlapped by more than rounding when they met, by up to {:.1e}", numerics.deepest_overlap)},
-      {"grazing", count(numerics.grazing), "pairs that met and might as well have missed, as far as rounding tells"},
-      {"receding", count(numerics.receding), "pairs that met and receded already, by rounding: nothing was exchanged"},
-      {"outrun", count(numerics.outrun), "times that a disk was suddenly too fast for the clock's epoch"},
-      {"epochs", count(numerics.epochs), "new zeros of the engine's clock"},
-      {"lists made", count(numerics.lists_made), "times that all lists of neighbours, or all cells, were made anew"}};
-  table.caption = "None of them is an error; where the first four are many, it was a hard run for the arithmetic.";
+           ? "pairs that overlapped by more than rounding when they collided"
+           : fmt::format(
+                 "pairs that overlapped by more than rounding when they collided, by up to {:.1e} of their contact distance",
+                 numerics.deepest_overlap)},
+      {"grazing", count(numerics.grazing), "collisions that rounding decided: the pair might as well have passed"},
+      {"already receding", count(numerics.already_receding), "collisions without exchange: rounding had the pair recede already"},
+      {"epochs", count(numerics.epochs), "times at which the engine's clock was set to zero again"},
+      {"early epochs", count(numerics.early_epochs), "epochs begun early because a disk had become too fast"},
+      {"list rebuilds", count(numerics.list_rebuilds), "times that all neighbour lists, or all cells, were built anew"}};
+  table.caption = "None of these is an error. Where the first four are many, rounding decided much of this run.";
   return table;
 }
 

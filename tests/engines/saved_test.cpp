@@ -45,7 +45,7 @@ void expect_same_totals(const Totals& a, const Totals& b) {
   EXPECT_EQ(a.virial_yx, b.virial_yx);
   EXPECT_EQ(a.obstacle_impulse, b.obstacle_impulse);
   EXPECT_EQ(a.numerics.epochs, b.numerics.epochs);
-  EXPECT_EQ(a.numerics.lists_made, b.numerics.lists_made);
+  EXPECT_EQ(a.numerics.list_rebuilds, b.numerics.list_rebuilds);
 }
 
 void expect_same_events(const std::vector<Event>& a, const std::vector<Event>& b) {

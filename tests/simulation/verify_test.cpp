@@ -138,7 +138,8 @@ TEST(Numerics, ThreeRowsThatCollideAtOneInstantAreTies) {
     disks.push_back({{6.0, y}, {-1.0, 0.0}});
   }
   const Scene scene = scene_of(box_of(8.0, 8.0, Boundary::walls), disks);
-  for (const char* engine : {"fast", "general", "textbook"}) EXPECT_EQ(numerics_of(scene, engine, 2.0).at_once, 2U) << engine;
+  for (const char* engine : {"fast", "general", "textbook"})
+    EXPECT_EQ(numerics_of(scene, engine, 2.0).simultaneous, 2U) << engine;
 }
 
 TEST(Numerics, APassAtExactlyOneDiameterGrazes) {
@@ -168,12 +169,13 @@ TEST(Numerics, ADiskSuddenlyMuchFasterOutrunsItsEpoch) {
   const Scene scene =
       scene_of(box_of(64.0, 4.0, Boundary::walls),
                {{{20.0, 2.0}, {1.0, 0.0}, 0.5, 1e8}, {{32.0, 2.0}, {5.0, 0.0}, 0.5, 1e-4}, {{44.0, 2.0}, {-1.0, 0.0}, 0.5, 1e8}});
-  for (const char* engine : {"fast", "general", "textbook"}) EXPECT_GT(numerics_of(scene, engine, 10.99).outrun, 0U) << engine;
+  for (const char* engine : {"fast", "general", "textbook"})
+    EXPECT_GT(numerics_of(scene, engine, 10.99).early_epochs, 0U) << engine;
 }
 
 TEST(Numerics, LongestListIsKnownFromTheStart) {
-  EXPECT_GE(make_simulation(thousand_collisions(), "fast").totals().numerics.longest_list, 6U);
-  EXPECT_EQ(make_simulation(thousand_collisions(), "textbook").totals().numerics.longest_list, 0U);
+  EXPECT_GE(make_simulation(thousand_collisions(), "fast").totals().numerics.longest_neighbour_list, 6U);
+  EXPECT_EQ(make_simulation(thousand_collisions(), "textbook").totals().numerics.longest_neighbour_list, 0U);
 }
 
 }  // namespace
