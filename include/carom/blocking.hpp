@@ -1,20 +1,23 @@
 #pragma once
-// Standard errors of means over correlated samples: blocking after Flyvbjerg & Petersen, J. Chem. Phys. 91, 461 (1989), done
-// while the samples come in, in memory that grows with the logarithm of their number.
+// Standard errors of means over correlated samples, by blocking after Flyvbjerg & Petersen, J. Chem. Phys. 91, 461 (1989).
+// Samples are blocked as they come in; memory grows with the logarithm of their number.
 //
-// Neighbouring samples are joined again and again; the variance of the mean, as the blocks of each length tell it, grows with the
-// length until blocks are longer than correlations, and stays from there on. The length that is taken is the shortest B with
-// B^3 > 2 n s^2, n samples, s = (variance told by these blocks) / (variance told by single samples): there what is left of the
-// correlations and the noise of few blocks are about equal (Lee, Conduit, Nemec, Lopez Rios & Drummond, Phys. Rev. E 83, 066706
-// (2011)). Where correlations lower the variance, as of what walls or energy keep within bounds, what short blocks tell too much
-// is (1 - s) / s times as large as the rest, so that 1 / s takes the place of s.
+// Pairs of neighbouring samples are averaged into blocks, again and again. The variance of the mean that is estimated from blocks
+// of one length grows with that length until blocks are longer than correlations, and is constant from there on. The length that
+// is used is the shortest B with B^3 > 2 n g^2, where n is the number of samples and g = (variance estimated from these blocks) /
+// (variance estimated from single samples): there the bias by remaining correlations and the noise of few blocks are about equal
+// (Lee, Conduit, Nemec, Lopez Rios & Drummond, Phys. Rev. E 83, 066706 (2011)). Where correlations lower the variance, as for
+// quantities that walls or energy keep within bounds, the relative bias of short blocks is (1 - g) / g, and 1 / g takes the place
+// of g.
 //
-// What reaches from one block into the next is added as for correlations that fall exponentially: the variance is divided by
-// 1 - (s - 1) / 2 B.
+// Correlations from one block into the next are added as if they fell exponentially: the variance is divided by
+// 1 - (g - 1) / 2 B.
 //
-// What is known of correlations beforehand, as that windows of one lag overlap, blocks need not find: docs/observables.md.
+// Correlations that are known beforehand, such as those of overlapping windows of one lag, need not be found by blocks:
+// docs/observables.md.
 //
-// A sample may carry a weight: the mean is then <x> / <w>, a ratio, and its error that of x - mean * w; or <x> / <w>^p likewise.
+// A sample may carry a weight w. The mean is then the ratio <x> / <w>, and its error is that of x - mean * w; likewise for
+// <x> / <w>^p.
 
 #include <carom/observe.hpp>
 
@@ -26,44 +29,51 @@
 
 namespace carom {
 
+/// The mean of a series of correlated samples, with its standard error. Samples are equidistant in time (or in number of
+/// collisions); memory is O(log n).
 class Blocking {
  public:
+  /// Adds the next sample `x` of the series, with its weight.
   void add(double x, double weight = 1.0);
 
   struct Estimate {
-    double mean = 0.0;
-    std::optional<double> error;  ///< of the mean; absent with fewer than 16 samples, or 8 that do not overlap
-    /// Samples that count as one independent one, at least 1; absent where blocks never became long enough. `error` is then a
-    /// lower bound.
-    std::optional<double> inefficiency;
-    /// Where it is absent: whether the longest blocks tell more than twice the variance that the shortest tell, so that there are
-    /// correlations indeed.
+    double mean = 0.0;            ///< <x> / <w>^power, in the unit of the samples
+    std::optional<double> error;  ///< standard error of `mean`; absent with fewer than 16 samples, or 8 that do not overlap
+    /// Statistical inefficiency g = n var(mean) / var(x), at least 1: n correlated samples are worth n / g independent ones. It
+    /// is absent where no blocks are long enough; `error` is then a lower bound.
+    std::optional<double> statistical_inefficiency;
+    /// Whether correlations were found but no blocks are long enough for them: the longest blocks estimate more than twice the
+    /// variance that the shortest do. False where `statistical_inefficiency` is present.
     bool lower_bound = false;
   };
-  /// <x> / <w>^power. Nothing without samples, or where all weights are zero.
+  /// Estimates <x> / <w>^power. Returns nothing without samples, or where all weights are zero.
   [[nodiscard]] std::optional<Estimate> estimate(int power = 1) const { return estimate(levels_, power); }
 
-  /// Blocks of 2^level samples; sums of squares are about the mean of all blocks.
+  /// Sums over all blocks of 2^level samples. Sums of squares are about the mean of all blocks.
   struct Level {
-    std::uint64_t blocks = 0;
-    double mean_x = 0.0, mean_w = 0.0;
-    double xx = 0.0, xw = 0.0, ww = 0.0;
+    std::uint64_t blocks = 0;                 ///< number of whole blocks
+    double mean_x = 0.0, mean_w = 0.0;        ///< means over them
+    double xx = 0.0, xw = 0.0, ww = 0.0;      ///< sums of products of deviations from these means
     double waiting_x = 0.0, waiting_w = 0.0;  ///< the block that has no partner yet
+    /// Adds one block.
     void add(double x, double w);
+    /// Returns the variance of the mean of x - ratio * w, as these blocks estimate it; requires two blocks.
     [[nodiscard]] double variance_of_mean(double ratio) const;
   };
-  /// The same from levels that were gathered elsewhere. `known`: correlation of samples 1, 2, 3, ... apart, 0 beyond, that there
-  /// is whatever blocks tell. What blocks of B samples tell is then multiplied by (variance of the mean) / (what they tell of it
-  /// on average), both as they would be if that were all.
+  /// Estimates <x> / <w>^power from levels that were gathered elsewhere. `known` holds the correlations of samples 1, 2, 3, ...
+  /// apart (0 beyond) that are there whatever the blocks find. The variance that blocks of B samples estimate is then multiplied
+  /// by (variance of the mean) / (its expected estimate from such blocks), both for these correlations alone.
   [[nodiscard]] static std::optional<Estimate> estimate(std::span<const Level> levels, int power = 1,
                                                         std::span<const double> known = {});
 
+  /// Returns the number of samples.
   [[nodiscard]] std::uint64_t samples() const { return levels_.empty() ? 0 : levels_.front().blocks; }
 
-  /// offset + factor <x> / <w>^power with its error and decorrelation time. `step`: time between samples.
+  /// Sets value, error and integrated correlation time of `scalar` to those of offset + factor <x> / <w>^power. `step` is the
+  /// time between samples. Where no blocks are long enough, the note says that the error is a lower bound.
   void fill(Scalar& scalar, double step, double factor = 1.0, double offset = 0.0, int power = 1) const;
 
-  /// For archives in cereal's manner.
+  /// Saves or loads all samples, with an archive in the manner of cereal.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(levels_);

@@ -33,8 +33,10 @@ struct Scalar {
   std::string unit = {};  ///< in the scene's units: "energy", "1 / time"; empty for a pure number
   Average average = Average::time;
   std::optional<double> value = {};
-  std::optional<double> error = {};               ///< standard error; absent where the run is too short to tell
-  std::optional<double> decorrelation_time = {};  ///< after which a sample tells something new
+  std::optional<double> error = {};  ///< standard error; absent where the run is too short to tell
+  /// Integral of the normalised autocorrelation function of the samples over positive times: a run of length T has
+  /// T / (2 integrated_correlation_time) independent samples. Absent where the run is too short; `error` is then a lower bound.
+  std::optional<double> integrated_correlation_time = {};
   std::string note = {};
 };
 

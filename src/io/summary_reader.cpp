@@ -110,7 +110,7 @@ Scalar scalar_in(const std::string& name, const Json& json) {
           .average = json.at("average").get<std::string>() == "time" ? Average::time : Average::collisions,
           .value = number_in(json.at("value")),
           .error = number_in(json.at("error")),
-          .decorrelation_time = number_in(json.at("decorrelation_time")),
+          .integrated_correlation_time = number_in(json.at("integrated_correlation_time")),
           .note = json.value("note", "")};
 }
 

@@ -27,7 +27,7 @@ double variance_of_mean_of(std::uint64_t count, std::span<const double> correlat
 /// twice.
 double left_across_blocks(double s, double of_block) { return 1.0 / (1.0 - std::clamp(0.5 * (s - 1.0) * of_block, 0.0, 0.5)); }
 
-/// Whether blocks of `length` among n samples are long enough for an inefficiency of s.
+/// Whether blocks of `length` among n samples are long enough for a statistical inefficiency of s.
 bool long_enough(double length, double n, double s) {
   const double slowness = std::max(s, 1.0 / s);
   return length * length * length > 2.0 * n * slowness * slowness;
@@ -92,7 +92,7 @@ std::optional<Blocking::Estimate> Blocking::estimate(std::span<const Level> leve
     estimate.error = std::sqrt(variance) / std::abs(scale);
     estimate.lower_bound = told > 2.0 * first;
     if (!long_enough(length, n, s)) continue;
-    estimate.inefficiency = std::max(1.0, s);
+    estimate.statistical_inefficiency = std::max(1.0, s);
     estimate.lower_bound = false;
     break;
   }
@@ -104,10 +104,10 @@ void Blocking::fill(Scalar& scalar, double step, double factor, double offset, i
   if (!found) return;
   scalar.value = offset + factor * found->mean;
   if (found->error) scalar.error = std::abs(factor) * *found->error;
-  if (found->inefficiency) scalar.decorrelation_time = step * *found->inefficiency;
+  if (found->statistical_inefficiency) scalar.integrated_correlation_time = 0.5 * step * *found->statistical_inefficiency;
   // What is conserved scatters by rounding alone, which need not look like noise.
   const bool conserved = found->error && *found->error <= 1e-13 * std::abs(found->mean);
-  if (found->error && !found->inefficiency && !conserved && scalar.note.empty())
+  if (found->error && !found->statistical_inefficiency && !conserved && scalar.note.empty())
     scalar.note = "the run is too short for its correlations: the error is a lower bound";
 }
 

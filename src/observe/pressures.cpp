@@ -71,7 +71,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
       reduced = {.name = "reduced",
                  .value = factor * *Z.value,
                  .error = Z.error ? std::optional(factor * *Z.error) : std::nullopt,
-                 .decorrelation_time = Z.decorrelation_time};
+                 .integrated_correlation_time = Z.integrated_correlation_time};
     } else {
       reduced.note = Z.note;
     }

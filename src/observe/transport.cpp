@@ -41,7 +41,8 @@ Scalar coefficient(std::string name, const std::string& unit, double step, doubl
   const double lag = row->integral ? row->lag + 0.5 * row->width : row->lag;
   scalar.value = factor * found.mean;
   scalar.error = factor * *found.error;
-  if (found.inefficiency) scalar.decorrelation_time = step * row->width * *found.inefficiency;
+  if (found.statistical_inefficiency)
+    scalar.integrated_correlation_time = 0.5 * step * row->width * *found.statistical_inefficiency;
   scalar.note = at_lag(step * lag);
   if (found.lower_bound) scalar.note += "; the run is too short for its correlations: the error is a lower bound";
   return scalar;
@@ -60,7 +61,7 @@ double sound_time(const ObservedRun& run) {
 /// By more than five standard errors.
 bool flows_steadily(const Blocking& flux) {
   const std::optional<Blocking::Estimate> found = flux.estimate();
-  return found && found->error && found->inefficiency && std::abs(found->mean) > 5.0 * *found->error;
+  return found && found->error && found->statistical_inefficiency && std::abs(found->mean) > 5.0 * *found->error;
 }
 
 }  // namespace

@@ -23,9 +23,13 @@ using ::testing::HasSubstr;
 std::vector<Measurement> hand_made() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Measurement measured{.name = "flights"};
-  measured.scalars = {
-      {.name = "mean", .unit = "time", .average = Average::collisions, .value = 0.5, .error = 0.25, .decorrelation_time = 2.0},
-      {.name = "other", .note = "there is none"}};
+  measured.scalars = {{.name = "mean",
+                       .unit = "time",
+                       .average = Average::collisions,
+                       .value = 0.5,
+                       .error = 0.25,
+                       .integrated_correlation_time = 2.0},
+                      {.name = "other", .note = "there is none"}};
   measured.tables = {{.name = "free_times",
                       .average = Average::collisions,
                       .columns = {{"middle", "time", {0.25, 0.75}}, {"density", "1 / time", {1.0 / 3.0, nan}}}}};
@@ -35,11 +39,12 @@ std::vector<Measurement> hand_made() {
 
 TEST(ObservablesOutput, JsonCarriesValueErrorAndWhatTheAverageIsOver) {
   const Json json = detail::observables_json(hand_made());
-  EXPECT_EQ(json["flights"]["mean"],
-            (Json{{"value", 0.5}, {"error", 0.25}, {"decorrelation_time", 2.0}, {"average", "collisions"}, {"unit", "time"}}));
+  EXPECT_EQ(
+      json["flights"]["mean"],
+      (Json{{"value", 0.5}, {"error", 0.25}, {"integrated_correlation_time", 2.0}, {"average", "collisions"}, {"unit", "time"}}));
   EXPECT_EQ(json["flights"]["other"], (Json{{"value", nullptr},
                                             {"error", nullptr},
-                                            {"decorrelation_time", nullptr},
+                                            {"integrated_correlation_time", nullptr},
                                             {"average", "time"},
                                             {"note", "there is none"}}));
   EXPECT_EQ(json["flights"]["note"], "by hand");

@@ -79,9 +79,9 @@ TEST(BlockedRows, AreTheBlocksOfAllStoredSamples) {
         ASSERT_EQ(found->error.has_value(), expected->error.has_value());
         if (!found->error) continue;
         EXPECT_NEAR(*found->error / *expected->error, 1.0, 1e-9);
-        ASSERT_EQ(found->inefficiency.has_value(), expected->inefficiency.has_value());
-        if (!found->inefficiency) continue;
-        EXPECT_NEAR(*found->inefficiency / *expected->inefficiency, 1.0, 1e-9);
+        ASSERT_EQ(found->statistical_inefficiency.has_value(), expected->statistical_inefficiency.has_value());
+        if (!found->statistical_inefficiency) continue;
+        EXPECT_NEAR(*found->statistical_inefficiency / *expected->statistical_inefficiency, 1.0, 1e-9);
       }
     }
   }
@@ -97,7 +97,7 @@ TEST(BlockedRows, DoNotDependOnHowManyStepsComeTogether) {
         const auto found = blocked.estimate(k), expected = one_by_one.estimate(k);
         EXPECT_EQ(found->mean, expected->mean) << together << " of " << rows << " rows, row " << k;
         EXPECT_EQ(found->error, expected->error) << together << " of " << rows << " rows, row " << k;
-        EXPECT_EQ(found->inefficiency, expected->inefficiency);
+        EXPECT_EQ(found->statistical_inefficiency, expected->statistical_inefficiency);
       }
     }
   }

@@ -84,21 +84,28 @@ TEST(Blocking, TellsTheErrorWhereCorrelationsLowerIt) {
   EXPECT_NEAR(sum * n / (0.09 + 2.0 / n), 1.0, 0.043 + 5.0 * 0.03);
 }
 
-TEST(Blocking, TellsHowManySamplesAreOneIndependentOne) {
+TEST(Blocking, StatisticalInefficiencyAndCorrelationTimeAreThoseOfAnAutoregressiveSeries) {
   // (1 + phi) / (1 - phi) = 9 at phi = 0.8; blocks of 256 of 65536, 256 of them: sqrt(2 / 255) = 0.089, and four series to 0.044.
   double sum = 0.0;
-  for (std::uint64_t s = 0; s < 4; ++s) sum += autoregressive(0.8, 65536, s).estimate()->inefficiency.value() / 4.0;
+  for (std::uint64_t s = 0; s < 4; ++s) {
+    const Blocking blocking = autoregressive(0.8, 65536, s);
+    const double g = blocking.estimate()->statistical_inefficiency.value();
+    sum += g / 4.0;
+    Scalar scalar{.name = "x"};
+    blocking.fill(scalar, 0.25);  // the integral of phi^|k| over k >= 0, by the rule of trapezoids, is half of g
+    EXPECT_DOUBLE_EQ(scalar.integrated_correlation_time.value(), 0.125 * g);
+  }
   EXPECT_NEAR(sum / 9.0, 1.0, 4.0 * 0.044 + 0.02);
 }
 
 TEST(Blocking, ErrorOfACorrelatedSeriesTooShortForItIsCalledALowerBound) {
   const auto found = autoregressive(0.999, 256, 1).estimate();
   ASSERT_TRUE(found && found->error);
-  EXPECT_FALSE(found->inefficiency);
+  EXPECT_FALSE(found->statistical_inefficiency);
   Scalar scalar{.name = "x"};
   autoregressive(0.999, 256, 1).fill(scalar, 0.5);
   EXPECT_NE(scalar.note.find("lower bound"), std::string::npos);
-  EXPECT_FALSE(scalar.decorrelation_time);
+  EXPECT_FALSE(scalar.integrated_correlation_time);
 }
 
 TEST(Blocking, FewSamplesHaveAMeanAndNoError) {
