@@ -64,9 +64,9 @@ void add_scene_options(CLI::App& command, SceneOptions& scene) {
   command.add_option("--set", scene.overrides, "Override one key of the scene, e.g. --set run.time=2; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--seed", scene.seed, "Seed of the random numbers; the same as --set run.seed=N")->type_name("N");
-  command.add_flag("--accept-overlap", scene.accept_overlap, "Run disks given one by one even where they overlap");
-  command.add_option("--engine", scene.engine, fmt::format("Force an engine: {}", fmt::join(engine_names(), ", ")))
+  command.add_option("--seed", scene.seed, "Seed of the random numbers: short for --set run.seed=N")->type_name("N");
+  command.add_flag("--accept-overlap", scene.accept_overlap, "Accept overlaps between disks that the scene lists one by one");
+  command.add_option("--engine", scene.engine, fmt::format("Use this engine: {}", fmt::join(engine_names(), ", ")))
       ->type_name("NAME");
 }
 
@@ -74,7 +74,7 @@ void add_output_options(CLI::App& command, SceneOptions& scene) {
   command.add_flag("--no-trajectory", scene.no_trajectory, "Do not write trajectory.h5md");
   command.add_flag("--xyz", scene.xyz, "Write trajectory.xyz too");
   command.add_flag("--csv", scene.csv, "Write samples.csv too");
-  command.add_flag("--events", scene.events, "Keep every collision, in trajectory.h5md");
+  command.add_flag("--events", scene.events, "Store every collision in trajectory.h5md");
   command.add_flag("--unwrapped", scene.unwrapped, "Let positions continue past periodic edges");
 }
 
@@ -85,7 +85,7 @@ void add_progress(CLI::App& command, std::string& when) {
 void add_threads(CLI::App& command, RunOptions& options) {
   command
       .add_option("--threads", options.threads,
-                  "1, or 2 to measure observables beside the run (default: 2 where there is a second processor)")
+                  "2 measures observables on a thread of their own, 1 does not (default: 2 where there is a second processor)")
       ->type_name("N")
       ->check(CLI::Range(1, 2));
 }
@@ -93,9 +93,10 @@ void add_threads(CLI::App& command, RunOptions& options) {
 void add_saving(CLI::App& command, RunOptions& options) {
   command
       .add_option("--checkpoint-every", options.checkpoint_every,
-                  "Save the run so often that carom resume can go on from there: 10min, or \"1e8 collisions\"; and at its end")
+                  "Save a checkpoint for carom resume at this interval, such as 10min or \"1e8 collisions\", and at the end")
       ->type_name("HOW_OFTEN");
-  command.add_option("--walltime", options.walltime, "Stop and save the run after so long: 90s, 10min, 1h30min or 01:30:00")
+  command
+      .add_option("--walltime", options.walltime, "Stop and save the run after this duration: 90s, 10min, 1h30min or 01:30:00")
       ->type_name("DURATION");
 }
 
@@ -107,9 +108,9 @@ void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
   command->add_option("--out", options->out, "Directory for the results (default: the scene's name without its ending)")
       ->type_name("DIR");
   command->add_flag("--force", options->force, "Replace the results that the directory holds");
-  command->add_flag("--json", options->json, "Print summary.json in place of the summary for people");
+  command->add_flag("--json", options->json, "Print summary.json instead of the text summary");
   command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
-  command->add_flag("-v,--verbose", options->verbose, "Say on stderr what will be simulated");
+  command->add_flag("-v,--verbose", options->verbose, "Describe the simulation on stderr first");
   command
       ->add_option("--method", options->method,
                    fmt::format("exact (from event to event), or a fixed-step method to compare with: {}",
@@ -123,9 +124,9 @@ void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
       ->type_name("K")
       ->check(countable());
   command->add_flag("--verify-horizon", options->verify_horizon,
-                    "Say too how far the trajectory can be trusted, by repeating its beginning in 24 to 113 bits");
-  command->add_flag("--report", options->report, "Make the page of the run too: report.html, as carom report does");
-  command->add_flag("--watch", options->watch, "Show the run live in the terminal; where stderr is none, the progress line");
+                    "Also measure how long the trajectory is right, by repeating its beginning in 24 to 113 bits");
+  command->add_flag("--report", options->report, "Also write report.html, as carom report does");
+  command->add_flag("--watch", options->watch, "Show the run live (a progress line where stderr is no terminal)");
   command->add_option("--pace", options->pace, "With --watch: simulated time per second (default: as fast as the machine can)")
       ->type_name("TIME");
   add_threads(*command, *options);
@@ -143,15 +144,17 @@ void add_resumption(CLI::App& program, Action& action, const Invocation& invocat
       ->type_name("RUN_DIR")
       ->required();
   CLI::Option* time = command->add_option("--time", options->time, "Simulated time at which the run is to end")->type_name("T");
-  command->add_option("--collisions", options->collisions, "Collisions of pairs, since its beginning, with which it is to end")
+  command
+      ->add_option("--collisions", options->collisions,
+                   "Number of pair collisions, from its beginning, at which the run is to end")
       ->type_name("N")
       ->check(countable())
       ->excludes(time);
   RunOptions& how = options->run;
-  command->add_flag("--json", how.json, "Print summary.json in place of the summary for people");
+  command->add_flag("--json", how.json, "Print summary.json instead of the text summary");
   command->add_flag("-q,--quiet", how.quiet, "Print no summary and no progress");
-  command->add_flag("--report", how.report, "Make the page of the run too: report.html, as carom report does");
-  command->add_flag("--watch", how.watch, "Show the run live in the terminal; where stderr is none, the progress line");
+  command->add_flag("--report", how.report, "Also write report.html, as carom report does");
+  command->add_flag("--watch", how.watch, "Show the run live (a progress line where stderr is no terminal)");
   add_threads(*command, how);
   add_saving(*command, how);
   add_progress(*command, how.progress);
@@ -161,7 +164,7 @@ void add_resumption(CLI::App& program, Action& action, const Invocation& invocat
 }
 
 void add_check(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("check", "Validate a scene and say what it will simulate");
+  CLI::App* command = program.add_subcommand("check", "Check a scene; print what it simulates and what it costs");
   const auto options = std::make_shared<CheckOptions>();
   add_scene_options(*command, options->scene);
   add_output_options(*command, options->scene);
@@ -170,31 +173,33 @@ void add_check(CLI::App& program, Action& action) {
 }
 
 void add_horizon(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("horizon", "Say how far a scene's trajectory can be trusted, in 24 to 113 bits");
+  CLI::App* command = program.add_subcommand("horizon", "Measure how long a scene's trajectory is right, in 24 to 113 bits");
   const auto options = std::make_shared<HorizonCommandOptions>();
   add_scene_options(*command, options->scene);
   command
       ->add_option("--collisions", options->collisions,
-                   "Collisions that the Lyapunov exponent is measured over (default: 500000, or 100 per disk)")
+                   "Number of collisions for the Lyapunov exponent (default: 500000, or 100 per disk)")
       ->type_name("N")
       ->check(countable());
-  command->add_flag("--json", options->json, "Print JSON in place of the table");
-  command->add_flag("-q,--quiet", options->quiet, "Print the sentence alone, and no progress");
+  command->add_flag("--json", options->json, "Print JSON instead of the table");
+  command->add_flag("-q,--quiet", options->quiet, "Print only the conclusion, and no progress");
   add_progress(*command, options->progress);
   command->callback([&action, options] { action = [options] { return horizon(*options); }; });
 }
 
 void add_compare(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("compare", "Say what accuracy costs: exact events against fixed steps, on one page");
+  CLI::App* command = program.add_subcommand("compare", "Compare error and cost of exact events and fixed time steps");
   const auto options = std::make_shared<CompareCommandOptions>();
   add_scene_options(*command, options->scene);
   command->add_option("--out", options->out, "Directory for the results (default: the scene's name and -compare)")
       ->type_name("DIR");
-  command->add_option("--dt", options->dts, "Time steps in place of three per decade about the mean free time; may be repeated")
+  command
+      ->add_option("--dt", options->dts,
+                   "A time step to compare (default: three per decade about the mean free time); may be repeated")
       ->type_name("DT")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--seeds", options->seeds, "How many starts: the scene's seed and those after it (default: 8)")
+  command->add_option("--seeds", options->seeds, "Number of starts: the scene's seed and those after it (default: 8)")
       ->type_name("N");
   command
       ->add_option(
@@ -203,59 +208,59 @@ void add_compare(CLI::App& program, Action& action, const Invocation& invocation
       ->type_name("SECONDS");
   command
       ->add_option("--play", options->play,
-                   fmt::format("Make side_by_side.html too, first of all: a fixed-step method ({}; default guarded) beside exact "
-                               "events, to watch; given after SCENE. DT is one of the study's where it is left out",
+                   fmt::format("Also write side_by_side.html: a fixed-step method ({}; default guarded) beside exact events, "
+                               "to watch. Give it after SCENE; without DT it is one of the study's",
                                fmt::join(fixed_step_names(), ", ")))
       ->type_name("[METHOD[:DT]]")
       ->expected(0, 1);
-  command->add_flag("--no-costs", options->no_costs, "Leave out cost against size and against packing fraction");
+  command->add_flag("--no-costs", options->no_costs, "Do not measure cost against size and packing fraction");
   command->add_flag("--force", options->force, "Replace the results that the directory holds");
-  command->add_flag("--resume", options->resume, "Go on with an interrupted comparison, keeping its finished points");
-  command->add_flag("--json", options->json, "Print compare.json in place of the table");
-  command->add_flag("-q,--quiet", options->quiet, "Print the answer alone, and no progress");
+  command->add_flag("--resume", options->resume, "Continue an interrupted comparison");
+  command->add_flag("--json", options->json, "Print compare.json instead of the table");
+  command->add_flag("-q,--quiet", options->quiet, "Print only the conclusions, and no progress");
   add_progress(*command, options->progress);
   command->callback([&action, options, invocation] { action = [options, invocation] { return compare(*options, invocation); }; });
 }
 
 void add_sweep(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("sweep", "Run a scene over a grid or list of changes and seeds, into one table");
+  CLI::App* command = program.add_subcommand("sweep", "Run a scene with many values and seeds; collect the results in one table");
   const auto options = std::make_shared<SweepCommandOptions>();
   command->add_option("sweep", options->path, "The sweep file (TOML)")->required()->type_name("SWEEP");
   command->add_option("--out", options->out, "Directory for the results (default: the sweep file's name without its ending)")
       ->type_name("DIR");
   command
       ->add_option("--threads", options->threads,
-                   "Runs at a time (default: one per processor; under mpirun one per process, of which each has so many)")
+                   "Number of runs at a time, under mpirun per process (default: one per processor, under mpirun one)")
       ->type_name("N");
   command
       ->add_option("--checkpoint-every", options->checkpoint_every,
-                   "Save runs every so often, such as 10min or \"1e8 collisions\"; they are saved on Ctrl-C, SIGTERM, SIGHUP, "
-                   "SIGXCPU and SIGUSR1 in any case")
+                   "Save checkpoints of the runs at this interval, such as 10min or \"1e8 collisions\". Ctrl-C, SIGTERM, SIGHUP, "
+                   "SIGXCPU and SIGUSR1 always save them")
       ->type_name("WHEN");
   command->add_flag("--force", options->force, "Replace runs that were made with another scene");
-  command->add_flag("--list", options->list, "Print the commands of the runs that are still to do, and run nothing");
+  command->add_flag("--list", options->list, "Print the commands of all unfinished runs, and run nothing");
   command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
   add_progress(*command, options->progress);
   command->callback([&action, options, invocation] { action = [options, invocation] { return sweep(*options, invocation); }; });
 }
 
 void add_validate(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("validate", "Hold the engine against kinetic theory and the literature");
+  CLI::App* command = program.add_subcommand("validate", "Compare the engine with kinetic theory and the literature");
   const auto options = std::make_shared<ValidateCommandOptions>();
   command->add_flag("--quick", options->quick, "Under three minutes on one core; the default");
   command->add_flag("--full", options->full,
-                    "Twenty times the collisions, and the transition from liquid to hexatic: up to two hours");
-  command->add_option("--seed", options->seed, "Seed of everything random (default: 1)")->type_name("N");
-  command->add_option("--only", options->only, "Run this trial alone; may be repeated")
+                    "Twenty times as many collisions, and the liquid-hexatic transition: up to two hours");
+  command->add_option("--seed", options->seed, "Seed of all random numbers (default: 1)")->type_name("N");
+  command->add_option("--only", options->only, "Run only this trial; may be repeated")
       ->type_name("TRIAL")
       ->allow_extra_args(false);
   command->add_option("--out", options->out, "Directory for the results (default: validation)")->type_name("DIR");
-  command->add_flag("--list", options->list, "Name the trials, and run none");
+  command->add_flag("--list", options->list, "List the trials and run none");
   command->add_flag("--force", options->force, "Replace the results that the directory holds");
-  command->add_flag("--resume", options->resume, "Go on with an interrupted validation, keeping its finished trials");
-  command->add_flag("--json", options->json, "Print validation.json in place of the text");
-  command->add_flag("--markdown", options->markdown, "Print the tables of docs/validation.md in place of the text");
-  command->add_flag("-q,--quiet", options->quiet, "Print the verdict alone, and no progress");
+  command->add_flag("--resume", options->resume, "Continue an interrupted validation");
+  command->add_flag("--json", options->json, "Print validation.json instead of the text");
+  command->add_flag("--markdown", options->markdown, "Print the tables of docs/validation.md instead of the text");
+  command->add_flag("-q,--quiet", options->quiet, "Print only the verdict, and no progress");
   add_progress(*command, options->progress);
   command->callback(
       [&action, options, invocation] { action = [options, invocation] { return validate(*options, invocation); }; });
@@ -264,7 +269,7 @@ void add_validate(CLI::App& program, Action& action, const Invocation& invocatio
 void add_init(CLI::App& program, Action& action, const Invocation& invocation) {
   CLI::App* command = program.add_subcommand("init", "Write a commented scene to start from");
   const auto options = std::make_shared<InitOptions>();
-  command->add_option("preset", options->preset, "Which one (default: box)")->type_name("PRESET");
+  command->add_option("preset", options->preset, "Name of the preset (default: box)")->type_name("PRESET");
   command->add_option("-o,--output", options->file, "The file to write (default: PRESET.toml; - for standard output)")
       ->type_name("FILE");
   command->add_flag("--force", options->force, "Replace the file if it exists");
@@ -273,17 +278,17 @@ void add_init(CLI::App& program, Action& action, const Invocation& invocation) {
 }
 
 void add_info(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("info", "Say what a file or a run directory holds");
+  CLI::App* command = program.add_subcommand("info", "Describe a file or run directory");
   const auto options = std::make_shared<InfoOptions>();
   command->add_option("file", options->file, "A trajectory, table, summary, scene or run directory")
       ->required()
       ->type_name("FILE");
-  command->add_flag("--reproduce", options->reproduce, "Of a run directory: print the commands that make the run again");
+  command->add_flag("--reproduce", options->reproduce, "Print the commands that repeat the run of this directory");
   command->callback([&action, options, invocation] { action = [options, invocation] { return info(*options, invocation); }; });
 }
 
 void add_verify(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("verify", "Run a finished run's scene again and compare the two to the last bit");
+  CLI::App* command = program.add_subcommand("verify", "Repeat a finished run and compare the results to the last bit");
   const auto options = std::make_shared<VerifyOptions>();
   command->add_option("directory", options->directory, "The directory that carom run has written")
       ->required()
@@ -293,7 +298,7 @@ void add_verify(CLI::App& program, Action& action, const Invocation& invocation)
 }
 
 void add_play(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("play", "Write a page that replays a run, exactly where it kept its events");
+  CLI::App* command = program.add_subcommand("play", "Write a page that replays a run (exactly, if its events are stored)");
   const auto options = std::make_shared<PlayOptions>();
   command->add_option("directory", options->directory, "The directory that carom run has written")
       ->required()
@@ -304,26 +309,26 @@ void add_play(CLI::App& program, Action& action) {
 }
 
 void add_analyze(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("analyze", "Measure observables of a finished run from what it has kept");
+  CLI::App* command =
+      program.add_subcommand("analyze", "Measure observables of a finished run from its stored samples and events");
   const auto options = std::make_shared<AnalyzeOptions>();
   command->add_option("directory", options->directory, "The directory that carom run has written")
       ->required()
       ->type_name("RUN_DIR");
   command
       ->add_option("observables", options->observables,
-                   "Keys of the table [observe], with settings as there (default: those of the run's scene)")
+                   "Observables with settings, as in the table [observe] (default: those of the run's scene)")
       ->type_name("NAME[={ every = 0.1 }]");
   command->add_option("--out", options->out, "Directory for the results (default: RUN_DIR-analysis)")->type_name("DIR");
   command->add_flag("--force", options->force, "Replace results that are there");
-  command->add_flag("--json", options->json, "Print JSON in place of the table");
+  command->add_flag("--json", options->json, "Print JSON instead of the table");
   command->add_flag("-q,--quiet", options->quiet, "Print no table and no progress");
   add_progress(*command, options->progress);
   command->callback([&action, options, invocation] { action = [options, invocation] { return analyze(*options, invocation); }; });
 }
 
 void add_report(CLI::App& program, Action& action) {
-  CLI::App* command =
-      program.add_subcommand("report", "Write the page of a run: what happened, what it measured, and the run to watch");
+  CLI::App* command = program.add_subcommand("report", "Write one page about a run: events, accuracy, observables and a replay");
   const auto options = std::make_shared<ReportOptions>();
   command->add_option("directory", options->directory, "The directory that carom run has written")
       ->required()
@@ -339,9 +344,7 @@ void add_movie(CLI::App& program, Action& action) {
   command->add_option("directory", options->directory, "The directory that carom run has written")
       ->required()
       ->type_name("RUN_DIR");
-  command
-      ->add_option("-o,--output", options->output,
-                   "The file to write; its ending says what it is: mp4, webm, gif, png, svg or pdf")
+  command->add_option("-o,--output", options->output, "The file to write, ending in .mp4, .webm, .gif, .png, .svg or .pdf")
       ->required()
       ->type_name("FILE");
   command->add_flag("--force", options->force, "Replace the file if it exists");
@@ -357,31 +360,31 @@ void add_movie(CLI::App& program, Action& action) {
   command
       ->add_option(
           "--colour,--color", options->colour,
-          "Colour disks by speed, species, collisions or id, or plain (default: species where there are several, else speed)")
+          "Colour disks by speed, species, collisions or id, or plain (default: by species if there are several, else by speed)")
       ->type_name("WHAT");
   command->add_option("--trails", options->trails, "Draw the paths of the last TIME of simulated time")->type_name("TIME");
-  command->add_option("--trails-of", options->trails_of, "Draw those of this species alone")->type_name("SPECIES");
+  command->add_option("--trails-of", options->trails_of, "Draw only the paths of this species")->type_name("SPECIES");
   command->add_flag("--velocities", options->velocities, "Draw velocities as arrows");
-  command->add_flag("--dark", options->dark, "Dark paper");
-  command->add_flag("--bare", options->bare, "No clock, and no key to the colours");
+  command->add_flag("--dark", options->dark, "Dark background");
+  command->add_flag("--bare", options->bare, "No clock and no colour legend");
   command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
   add_progress(*command, options->progress);
   command->callback([&action, options] { action = [options] { return movie(*options); }; });
 }
 
 void add_bench(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("bench", "Measure how fast this machine is, with both engines side by side");
+  CLI::App* command = program.add_subcommand("bench", "Measure the speed of both engines on this machine");
   const auto options = std::make_shared<BenchOptions>();
-  command->add_flag("--json", options->json, "Print JSON in place of the table");
+  command->add_flag("--json", options->json, "Print JSON instead of the table");
   command->add_flag("--effects", options->effects, "Measure what each effect costs, at its neutral value and where it acts");
-  command->add_flag("--large", options->large, "Measure a million disks too, which takes some minutes");
-  command->add_option("--disks", options->disks, "How many disks, in place of 1000, 10000 and 100000; may be repeated")
+  command->add_flag("--large", options->large, "Also measure a million disks, which takes some minutes");
+  command->add_option("--disks", options->disks, "Number of disks (default: 1000, 10000 and 100000); may be repeated")
       ->type_name("N")
       ->allow_extra_args(false);
   command
       ->add_option(
           "--collisions", options->collisions,
-          "Collisions that the textbook engine does in a turn (default: 200000, or one per disk); the fast one does four "
+          "Collisions per measurement of the textbook engine (default: 200000, or one per disk); the fast engine makes four "
           "times as many")
       ->type_name("N")
       ->check(countable());
@@ -389,22 +392,22 @@ void add_bench(CLI::App& program, Action& action) {
 }
 
 void add_hardcases(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("hardcases", "Run the corpus of hard cases and say of each whether it holds");
+  CLI::App* command = program.add_subcommand("hardcases", "Run the corpus of hard cases and report which hold");
   const auto options = std::make_shared<HardCasesOptions>();
-  command->add_option("cases", options->cases, "Cases by name, or files of your own (default: all that do not take long)")
+  command->add_option("cases", options->cases, "Names of cases, or files of your own (default: all that do not take long)")
       ->type_name("CASE|FILE.toml");
-  command->add_option("--family", options->family, fmt::format("One family: {}", fmt::join(hard_case_families(), ", ")))
+  command->add_option("--family", options->family, fmt::format("Run only this family: {}", fmt::join(hard_case_families(), ", ")))
       ->type_name("FAMILY");
-  command->add_option("--engine", options->engine, "One engine alone, in place of all that cover a case")->type_name("NAME");
-  command->add_flag("--long", options->takes_long, "Run those that take minutes too");
+  command->add_option("--engine", options->engine, "Run only this engine (default: all that cover a case)")->type_name("NAME");
+  command->add_flag("--long", options->takes_long, "Also run cases that take minutes");
   command->add_flag("--list", options->list, "List the cases");
   command->add_option("--show", options->show, "Print the text of a case")->type_name("CASE");
-  command->add_flag("--json", options->json, "Print JSON in place of the table");
-  command->add_flag("--markdown", options->markdown, "Print Markdown in place of the table");
-  command->add_option("--page", options->page, "Write the result as one HTML page too")->type_name("FILE.html");
+  command->add_flag("--json", options->json, "Print JSON instead of the table");
+  command->add_flag("--markdown", options->markdown, "Print Markdown instead of the table");
+  command->add_option("--page", options->page, "Also write the result as one HTML page")->type_name("FILE.html");
   command
       ->add_option("--method", options->method,
-                   fmt::format("Say what a fixed-step method makes of the cases: {}", fmt::join(fixed_step_names(), ", ")))
+                   fmt::format("Run the cases by a fixed-step method instead: {}", fmt::join(fixed_step_names(), ", ")))
       ->type_name("NAME");
   command->add_option("--dt", options->dt, "Its time step (default: the fastest disk goes a twentieth of the smallest diameter)")
       ->type_name("DT");
@@ -412,7 +415,7 @@ void add_hardcases(CLI::App& program, Action& action, const Invocation& invocati
       [&action, options, invocation] { action = [options, invocation] { return hardcases(*options, invocation); }; });
 }
 
-/// Asked for when the program is installed, and not listed.
+/// Adds the commands that print the manual page and the completion, which the installation uses and --help does not list.
 void add_manual(CLI::App& program, Action& action) {
   const auto print = [&](const std::string& name, const std::string& what, auto text) {
     CLI::App* command = program.add_subcommand(name, what)->group("");
@@ -478,9 +481,9 @@ Action parse_arguments(int argc, char** argv) {
   program.set_version_flag("--version", version());
   program.require_subcommand(1);
   add_run(program, action, invocation);
-  add_resumption(program, action, invocation, "resume", "Go on with a run that was interrupted or killed, to the same bits",
+  add_resumption(program, action, invocation, "resume", "Continue a run that was interrupted or killed, to the same bits",
                  &resume);
-  add_resumption(program, action, invocation, "extend", "Go on with a run that has come to its end, to a later one", &extend);
+  add_resumption(program, action, invocation, "extend", "Continue a finished run to a later end", &extend);
   add_check(program, action);
   add_horizon(program, action);
   add_compare(program, action, invocation);

@@ -1,4 +1,5 @@
-// carom check SCENE: reads a scene, draws its initial state, and says what would be simulated, by which engine, and at what cost.
+// carom check SCENE: reads a scene, draws its initial state, and prints what would be simulated, by which engine, and at what
+// cost.
 
 #include "app/commands.hpp"
 #include "app/expected_cost.hpp"
@@ -19,7 +20,7 @@ namespace carom::cli {
 
 namespace {
 
-// Beyond this the draw takes longer than one waits for a check.
+// Drawing more disks than this takes longer than a user waits for a check.
 constexpr std::int64_t most_disks_drawn = 1'000'000;
 
 // Three coordinates of position and of velocity, and three image flags, for one disk in one frame.
@@ -30,10 +31,11 @@ std::string start_and_engine(const Scene& scene, const Simulation& simulation) {
   const auto bytes = static_cast<double>(simulation.bytes());
   const double disks = std::max(1.0, static_cast<double>(scene.disk_count()));
   return fmt::format(
-      "  start       {}: every disk has its place, {}; kT = {:.4g}\n"
-      "  engine      {}: {}; {}, {:.0f} bytes per disk\n",
-      start_is_drawn(scene) ? "drawn" : "given", scene.run.accept_overlap ? "overlaps are accepted" : "none overlap", kT,
-      simulation.engine(), simulation.engine_reason(), size(bytes), bytes / disks);
+      "  start       {}; {}; kT = {:.4g}\n"
+      "  engine      {}: {}; {} of memory, {:.0f} bytes per disk\n",
+      start_is_drawn(scene) ? "drawn at random" : "given",
+      scene.run.accept_overlap ? "overlaps are accepted" : "no disks overlap", kT, simulation.engine(),
+      simulation.engine_reason(), size(bytes), bytes / disks);
 }
 
 std::string files(const Scene& scene) {
@@ -51,7 +53,7 @@ std::string files(const Scene& scene) {
   if (scene.output.xyz && sampled) text += ", trajectory.xyz";
   if (scene.output.csv && sampled) text += ", samples.csv";
   if (!scene.observe.empty()) text += ", tables of observables";
-  if (scene.output.events) text += "; every collision is kept";
+  if (scene.output.events) text += "; all collisions are stored";
   return text + "\n";
 }
 
@@ -69,11 +71,11 @@ ExitCode check(const CheckOptions& options) {
   const std::string start =
       trial ? start_and_engine(scene, trial->simulation())
             : fmt::format("  start       not drawn: more than {} disks; `carom run` draws them\n", grouped(most_disks_drawn));
-  fmt::print("{}: this scene is right{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
+  fmt::print("{} is a valid scene{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
   fmt::print("{}{}", describe(scene), start);
   if (trial) fmt::print("  cost        {}\n", words(trial->run()));
   fmt::print("{}", files(scene));
-  if (const std::string missing = absent(scene.effects); !missing.empty()) fmt::print("  without     {}\n", missing);
+  if (const std::string missing = absent(scene.effects); !missing.empty()) fmt::print("\nNot simulated: {}.\n", missing);
   return exit_done;
 }
 

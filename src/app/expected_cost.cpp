@@ -168,19 +168,19 @@ std::string words(const ExpectedCost& cost) {
     return collisions < 1e6 ? counted(static_cast<std::uint64_t>(std::llround(collisions)), "collision")
                             : fmt::format("{:.3g} million collisions", collisions / 1e6);
   };
-  const std::string with = cost.observables > 0 ? fmt::format(", with {},", counted(cost.observables, "observable")) : "";
+  const std::string with = cost.observables > 0 ? fmt::format(" with {}", counted(cost.observables, "observable")) : "";
   if (cost.whole)
-    return fmt::format("{}{} and {} on this machine (a trial ran to the end)", duration(*cost.seconds), with,
+    return fmt::format("{}{} on this machine for {} (a trial run reached the end)", duration(*cost.seconds), with,
                        number_of(*cost.collisions));
   const std::string trial = cost.trial_collisions > 0
-                                ? fmt::format("a trial of {}: {} collisions per second", duration(cost.trial_seconds),
+                                ? fmt::format("a trial run of {}: {} collisions per second", duration(cost.trial_seconds),
                                               rate(static_cast<double>(cost.trial_collisions) / cost.trial_seconds))
-                                : fmt::format("a trial of {} had no collision", duration(cost.trial_seconds));
+                                : fmt::format("a trial run of {} had no collision", duration(cost.trial_seconds));
   if (!cost.came_to_rest.empty())
     return fmt::format("unknown: {} by time {:.4g} ({})", cost.came_to_rest, cost.trial_time, trial);
   if (!cost.seconds) return fmt::format("unknown ({})", trial);
-  return fmt::format("{} {}{} and {}{} on this machine ({})", cost.at_least ? "at least" : "about", duration(*cost.seconds), with,
-                     number_of(*cost.collisions), cost.by_theory ? ", as kinetic theory has it," : "", trial);
+  return fmt::format("{} {}{} on this machine for {}{} ({})", cost.at_least ? "at least" : "about", duration(*cost.seconds), with,
+                     number_of(*cost.collisions), cost.by_theory ? " by kinetic theory" : "", trial);
 }
 
 }  // namespace carom::cli

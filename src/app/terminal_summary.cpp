@@ -1,5 +1,5 @@
-// What a run has shown, for the person who started it: what was simulated, what happened, how exact it was, what it
-// measured, where the files are, and what to try next.
+// The summary of a run on the terminal: what was simulated, what happened, how exact it was, what it measured, where the files
+// are, and what to try next.
 
 #include "app/terminal_summary.hpp"
 
@@ -40,14 +40,14 @@ std::string heading(const RunReport& report, const Scene& scene) {
                      (report.time_step ? "method " : "engine ") + method_words(report.engine, report.time_step));
 }
 
-/// One line per observable: its first number.
+/// Returns one line per observable, with its first number.
 std::string what_was_observed(const RunReport& report) {
   if (report.observables.empty()) return {};
   TerminalTable table("ll");
   for (const Measurement& measured : report.observables) {
     const auto known = std::find_if(measured.scalars.begin(), measured.scalars.end(),
                                     [](const Scalar& scalar) { return scalar.value.has_value(); });
-    std::string words = measured.tables.empty() ? measured.note : "in a table of its own";
+    std::string words = measured.tables.empty() ? measured.note : fmt::format("in observe_{}.csv", measured.tables.front().name);
     if (known != measured.scalars.end()) {
       words = known->name + " " + number_words(*known);
       if (!known->unit.empty()) words += fmt::format(" ({})", unit_words(known->unit));
@@ -72,7 +72,8 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
   const std::filesystem::path here = std::filesystem::absolute(results.directory / "").lexically_normal().parent_path();
   const std::string elsewhere = std::filesystem::proximate(here).string();
   std::string text = "\nTry next\n";
-  if (report.time_step) text += fmt::format("  {} --out {}   # the same, exactly\n", rerun, shell_quoted(elsewhere + "-exact"));
+  if (report.time_step)
+    text += fmt::format("  {} --out {}   # the same scene by exact events\n", rerun, shell_quoted(elsewhere + "-exact"));
   for (const std::string& file : results.files) {
     const std::string name = std::filesystem::path(file).filename().string();
     if (name != "trajectory.h5md") continue;
@@ -86,7 +87,7 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
     text += fmt::format("  {} --set collision.rule=specular --out {}   # smooth hard disks\n", rerun,
                         shell_quoted(elsewhere + "-specular"));
   } else if (run_is_drawn(scene)) {
-    text += fmt::format("  {} --seed {} --out {}   # another start\n", rerun, scene.run.seed == 1 ? 2 : 1,
+    text += fmt::format("  {} --seed {} --out {}   # another seed\n", rerun, scene.run.seed == 1 ? 2 : 1,
                         shell_quoted(elsewhere + "-again"));
   }
   return text + fmt::format("  {} init --list   # other scenes to start from\n", results.program);

@@ -54,8 +54,7 @@ std::string_view why_errors_are_of_one_start(const Scene& scene) {
   others.obstacles.clear();  // they turn velocities, and change no speed
   if (others.collision.rule != CollisionRule::reversal || temperature_fluctuates(others) || !why_no_Z(others).empty()) return {};
   if (const Masses masses = masses_of(scene); masses.least != masses.most) return {};
-  return "disks of equal mass only exchange velocities under reversal: errors are those within this run, not those between "
-         "starts";
+  return "under reversal, disks of equal mass only exchange velocities: errors hold within this run, not between starts";
 }
 
 std::string_view why_error_of_Z_is_off(const Scene& scene, double collisions_per_disk) {

@@ -15,10 +15,10 @@ namespace {
 
 std::string digits(double value) { return fmt::format("{:.5g}", value); }
 
-/// What the disks got: "gave energy 3.2", "took energy 0.1".
+/// Returns the energy that disks gained from an effect, in words: "supplied energy 3.2", "removed energy 0.1".
 std::string gain(double energy) {
-  if (energy == 0.0) return "gave no energy";
-  return fmt::format("{} energy {:.5g}", energy > 0.0 ? "gave" : "took", std::abs(energy));
+  if (energy == 0.0) return "exchanged no energy";
+  return fmt::format("{} energy {:.5g}", energy > 0.0 ? "supplied" : "removed", std::abs(energy));
 }
 
 SummaryRow row_of_wall(const WallReport& wall) {
@@ -40,15 +40,15 @@ void put_walls(SummaryRows& rows, const RunReport& report, const Scene& scene) {
 
 void put_shear(SummaryRows& rows, const ShearReport& shear) {
   rows.push_back({"strain", digits(shear.strain), gain(shear.energy)});
-  if (shear.viscosity) rows.push_back({"viscosity", digits(*shear.viscosity), "- P_xy / rate, mean over the run"});
+  if (shear.viscosity) rows.push_back({"viscosity", digits(*shear.viscosity), "-P_xy / rate, mean over the run"});
 }
 
 }  // namespace
 
 SummaryRows rows_of_events(const RunReport& report) {
   SummaryRows rows;
-  if (report.of_effects.obstacles) rows.push_back({"obstacles hit", grouped(report.totals.obstacle)});
-  if (report.of_effects.thermostat) rows.push_back({"thermostat kicks", grouped(report.totals.kicks)});
+  if (report.of_effects.obstacles) rows.push_back({"obstacle hits", grouped(report.totals.obstacle)});
+  if (report.of_effects.thermostat) rows.push_back({"thermostat events", grouped(report.totals.kicks)});
   return rows;
 }
 
@@ -57,11 +57,11 @@ SummaryRow row_of_energy(const RunReport& report) {
   const auto unexplained = report.unexplained_energy_drift();
   if (!unexplained)
     return {"energy", energy,
-            report.relative_energy_drift() == 0.0 ? "no drift in any digit"
+            report.relative_energy_drift() == 0.0 ? "conserved to every digit"
                                                   : fmt::format("relative drift {:.1e}", report.relative_energy_drift())};
-  const std::string left = *unexplained == 0.0 ? "" : fmt::format(" to within {:.1e} of it", std::abs(*unexplained));
+  const std::string left = *unexplained == 0.0 ? "exactly" : fmt::format("to {:.1e} of it", std::abs(*unexplained));
   return {"energy", energy,
-          fmt::format("{:.6g} at the start; what came and went accounts for the change{}", report.energy_initial, left)};
+          fmt::format("{:.6g} at the start; supplied and lost energy account for the change {}", report.energy_initial, left)};
 }
 
 SummaryRows rows_of_effects(const RunReport& report, const Scene* scene) {
@@ -71,17 +71,19 @@ SummaryRows rows_of_effects(const RunReport& report, const Scene* scene) {
     rows.push_back({quantity, std::move(value), std::move(remark)});
   };
   if (effects.spin_temperature) put("spin temperature", digits(*effects.spin_temperature), "kT of rotation");
-  if (effects.dissipated) put("dissipated", digits(*effects.dissipated), "energy, by collisions of disks");
+  if (effects.dissipated) put("dissipated", digits(*effects.dissipated), "energy lost in collisions of disks");
   if (scene != nullptr) put_walls(rows, report, *scene);
   if (effects.packing_fraction_end) put("packing fraction", digits(*effects.packing_fraction_end), "at the end");
   if (effects.obstacles)
-    put("obstacles took", fmt::format("({:.5g}, {:.5g})", effects.obstacles->x(), effects.obstacles->y()), "momentum");
+    put("obstacle momentum", fmt::format("({:.5g}, {:.5g})", effects.obstacles->x(), effects.obstacles->y()),
+        "transferred by disks");
   if (effects.thermostat) put("thermostat", gain(effects.thermostat->energy));
   if (effects.growth)
-    put("grown to", fmt::format("packing {:.5g}", effects.growth->packing_fraction),
-        fmt::format("radii {:.5g} times those at the start; {}", effects.growth->scale, gain(effects.growth->energy)));
+    put("packing fraction", digits(effects.growth->packing_fraction),
+        fmt::format("at the end; radii {:.5g} times those at the start; growth {}", effects.growth->scale,
+                    gain(effects.growth->energy)));
   if (effects.shear) put_shear(rows, *effects.shear);
-  if (effects.bonds) put("bonds", grouped(*effects.bonds), "pairs inside each other's well, at the end");
+  if (effects.bonds) put("bonds", grouped(*effects.bonds), "pairs within each other's well at the end");
   return rows;
 }
 

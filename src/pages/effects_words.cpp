@@ -1,4 +1,4 @@
-// Says what each effect of a scene does, with its numbers.
+// Describes each effect of a scene in words, with its numbers.
 
 #include "pages/effects_words.hpp"
 
@@ -19,12 +19,12 @@ namespace {
 
 std::string words(const Collision& collision) {
   std::string text = collision.rule == CollisionRule::reversal
-                         ? "reversal: the whole relative velocity turns round, in the centre-of-mass frame"
-                         : "specular: the relative velocity along the line of centres turns round";
+                         ? "reversal: a collision reverses the whole relative velocity"
+                         : "specular: a collision reverses the relative velocity along the line of centres";
   if (collision.restitution) text += fmt::format("; restitution {:.6g}", *collision.restitution);
-  if (collision.roughness) text += fmt::format("; roughness {:.6g}, so that disks spin", *collision.roughness);
+  if (collision.roughness) text += fmt::format("; roughness {:.6g}: disks spin", *collision.roughness);
   if (collision.elastic_below) {
-    text += fmt::format("; elastic within time {:.6g} of a partner's last collision", *collision.elastic_below);
+    text += fmt::format("; elastic within time {:.6g} of the last collision of either disk", *collision.elastic_below);
   }
   return text;
 }
@@ -32,7 +32,7 @@ std::string words(const Collision& collision) {
 std::string words(const WallProperties& wall, int axis) {
   std::vector<std::string> parts;
   if (wall.mass) parts.push_back(fmt::format("a free piston of mass {:.6g} under load {:.6g}", *wall.mass, *wall.load));
-  if (wall.temperature) parts.push_back(fmt::format("velocities drawn anew at kT = {:.6g}", *wall.temperature));
+  if (wall.temperature) parts.push_back(fmt::format("thermal, kT = {:.6g}", *wall.temperature));
   if (wall.restitution) parts.push_back(fmt::format("restitution {:.6g}", *wall.restitution));
   if (wall.velocity) parts.push_back(fmt::format("moves at {:.6g} in {}", *wall.velocity, axis == 0 ? "x" : "y"));
   return fmt::format("{}", fmt::join(parts, ", "));

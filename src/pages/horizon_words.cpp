@@ -13,10 +13,10 @@ namespace {
 std::string place(double time, double collisions_per_disk) {
   if (!(collisions_per_disk > 0.0)) return fmt::format("t = {:.4g}", time);
   const int decimals = collisions_per_disk < 9.95 ? 1 : 0;
-  return fmt::format("t = {:.4g}, {:.{}f} collisions per disk", time, collisions_per_disk, decimals);
+  return fmt::format("t = {:.4g} ({:.{}f} collisions per disk)", time, collisions_per_disk, decimals);
 }
 
-/// Why nothing is known beyond the end of the comparison.
+/// Returns up to where the trajectory is right for certain, and why the comparison ended there.
 std::string why_ended(const Horizon& horizon) {
   const std::string where = place(horizon.time, horizon.collisions_per_disk);
   switch (horizon.ended) {
@@ -27,11 +27,11 @@ std::string why_ended(const Horizon& horizon) {
         return fmt::format("to the end of the run and beyond, at least until {}", where);
       return "to the end of the run, " + where;
     case HorizonEnd::limit:
-      return fmt::format("at least until {}, where the limit of work ended the comparison", where);
+      return fmt::format("at least until {}, where the comparison reached its limit of work", where);
     case HorizonEnd::interrupted:
       return fmt::format("at least until {}, where the comparison was interrupted", where);
     case HorizonEnd::stuck:
-      return fmt::format("at least until {}, where disks without room collided without end", where);
+      return fmt::format("at least until {}, where jammed disks collided without end", where);
   }
   return "";
 }
@@ -43,14 +43,15 @@ double cost_of(const HorizonRow& dear, const HorizonRow* cheap) {
 /// A ratio to two digits.
 std::string times(double ratio) { return fmt::format("{:.{}f} times", ratio, ratio < 9.95 ? 1 : 0); }
 
-/// " at 25 times the cost": of the same engine in double precision, and of the engine that runs the scene.
+/// Returns the cost of the best precision relative to the same engine in double precision, and to the engine that runs the scene:
+/// ", at 25 times the cost". Empty where it was not measured.
 std::string price(const Horizon& horizon, const HorizonRow& own, const HorizonRow& best) {
   const double of_own = cost_of(best, &own);
   if (!(of_own > 0.0)) return "";
-  if (own.engine != "fast") return fmt::format(" at {} the cost", times(of_own));
+  if (own.engine != "fast") return fmt::format(", at {} the cost", times(of_own));
   const double of_double = cost_of(best, horizon.row("textbook"));
-  return fmt::format(" at {} the cost of the same engine in double precision, {} that of the fast one", times(of_double),
-                     times(of_own));
+  return fmt::format(", at {} the cost of the same engine in double precision and {} the cost of the fast engine",
+                     times(of_double), times(of_own));
 }
 
 std::string how_far_the_best(const Horizon& horizon, const HorizonRow& own) {
@@ -58,8 +59,8 @@ std::string how_far_the_best(const Horizon& horizon, const HorizonRow& own) {
   const HorizonRow& best = horizon.rows.back();
   if (best.bits <= own.bits) return "";
   const std::string with = precision_name(best.bits);
-  if (!best.time) return fmt::format("; {} carry it {}{}", with, why_ended(horizon), price(horizon, own, best));
-  return fmt::format("; {} carry it to about {},{}", with, place(*best.time, best.collisions_per_disk.value_or(0.0)),
+  if (!best.time) return fmt::format(" With {} it is right {}{}.", with, why_ended(horizon), price(horizon, own, best));
+  return fmt::format(" With {} it is right until about {}{}.", with, place(*best.time, best.collisions_per_disk.value_or(0.0)),
                      price(horizon, own, best));
 }
 
@@ -74,7 +75,7 @@ std::string precision_name(int bits) {
 std::string sentence_of(const Horizon& horizon) {
   const HorizonRow* own = horizon.row(horizon.engine);
   if (own == nullptr || (horizon.ended == HorizonEnd::interrupted && horizon.time == 0.0))
-    return "Interrupted before anything was compared: nothing is known of how far this trajectory can be trusted.";
+    return "The comparison was interrupted at its start: the horizon of this trajectory is unknown.";
   const std::string in = fmt::format("{} {}", own->bits == 24 || own->bits == 53 ? "In" : "With", precision_name(own->bits));
   const std::string right = fmt::format("this trajectory is right to {:g} diameters", horizon.tolerance);
   if (!own->time) return fmt::format("{} {} {}.", in, right, why_ended(horizon));
@@ -83,9 +84,7 @@ std::string sentence_of(const Horizon& horizon) {
   std::string text = fmt::format("{} {} until {}", in, right, until);
   if (horizon.run_time && *own->time >= *horizon.run_time)
     text = fmt::format("{} {} to the end of the run, t = {:.4g}, and would be until {}", in, right, *horizon.run_time, until);
-  std::string further = how_far_the_best(horizon, *own);
-  if (further.ends_with(',')) further.pop_back();
-  return text + further + ".";
+  return text + "." + how_far_the_best(horizon, *own);
 }
 
 TextTable horizon_table(const Horizon& horizon, const std::string& which) {

@@ -29,12 +29,12 @@ std::string value_or_range(double same, const std::vector<double>& each) {
 }
 
 std::string words(const Positions& positions) {
-  return std::visit(Overloaded{[](const RandomPositions&) { return std::string("at random places"); },
+  return std::visit(Overloaded{[](const RandomPositions&) { return std::string("at random positions"); },
                                [](const SquareLattice&) { return std::string("on a square lattice"); },
                                [](const HexagonalLattice&) { return std::string("on a hexagonal lattice"); },
-                               [](const GrownPositions&) { return std::string("at random places, grown to their size"); },
-                               [](const ListedPositions&) { return std::string("at the places listed"); },
-                               [](const FilePositions& file) { return fmt::format("at the places in {}", file.path); }},
+                               [](const GrownPositions&) { return std::string("at random positions, grown to their size"); },
+                               [](const ListedPositions&) { return std::string("at the positions listed"); },
+                               [](const FilePositions& file) { return fmt::format("at the positions in {}", file.path); }},
                     positions);
 }
 
@@ -43,7 +43,7 @@ std::string words(const Velocities& velocities) {
       Overloaded{[](const AtRest&) { return std::string("at rest"); },
                  [](const UniformVelocities& v) { return fmt::format("velocities uniform in [-{0:.6g}, {0:.6g}]", v.maximum); },
                  [](const MaxwellVelocities& v) { return fmt::format("Maxwell velocities at kT = {:.6g}", v.temperature); },
-                 [](const FixedSpeed& v) { return fmt::format("all at speed {:.6g}", v.speed); },
+                 [](const FixedSpeed& v) { return fmt::format("all with speed {:.6g}", v.speed); },
                  [](const ListedVelocities&) { return std::string("with the velocities listed"); },
                  [](const FileVelocities&) { return std::string("with the velocities of that file"); }},
       velocities);
@@ -64,13 +64,13 @@ std::string words(const Run& run) {
   std::string text;
   if (run.equilibrate) {
     text = run.equilibrate->time
-               ? fmt::format("equilibrate for time {:.6g}, then ", *run.equilibrate->time)
-               : fmt::format("equilibrate for {:.6g} collisions per disk, then ", *run.equilibrate->collisions_per_disk);
+               ? fmt::format("equilibrate for time {:.6g}, then measure ", *run.equilibrate->time)
+               : fmt::format("equilibrate for {:.6g} collisions per disk, then measure ", *run.equilibrate->collisions_per_disk);
   }
   text += "until ";
   if (run.time) text += fmt::format("time {:.6g}", *run.time);
   if (run.time && run.collisions) text += " or ";
-  if (run.collisions) text += counted(*run.collisions, "collision") + " of pairs";
+  if (run.collisions) text += counted(*run.collisions, "pair collision");
   if (run.is_sampled()) text += ", samples " + sampling_words(run);
   return text + fmt::format("; seed {}", run.seed);
 }
@@ -106,7 +106,7 @@ SummaryRows words_of(const Scene& scene) {
       {"box", fmt::format("{}; packing fraction {:.4g}", words(scene.box, scene.effects.walls), scene.packing_fraction())});
   for (const SummaryRow& row : words_of(scene.effects)) rows.push_back(row);
   rows.push_back({"run", words(scene.run)});
-  if (!scene.observe.empty()) rows.push_back({"measures", words(scene.observe)});
+  if (!scene.observe.empty()) rows.push_back({"observables", words(scene.observe)});
   return rows;
 }
 

@@ -41,16 +41,17 @@ std::string why_there_is_no_Z(const RunReport& report, const Scene* scene) {
   if (scene != nullptr)
     if (const std::string_view reason = why_no_Z(scene->effects); !reason.empty()) return std::string(reason);
   if (report.totals.pair == 0) return "no pair of disks has collided";
-  return report.measured && scene != nullptr && temperature_fluctuates(scene->effects) ? "no samples tell the mean temperature"
-                                                                                       : "nothing was measured";
+  return report.measured && scene != nullptr && temperature_fluctuates(scene->effects)
+             ? "the mean temperature is unknown without samples"
+             : "nothing was measured";
 }
 
-/// Common motion is no heat along axes that keep it.
+/// Returns which part of the kinetic energy is counted as heat: centre-of-mass motion is not, along axes that conserve momentum.
 std::string what_temperature_counts(const Scene* scene) {
   if (scene == nullptr) return "kinetic";
   const bool x = keeps_momentum(scene->box, scene->effects, 0), y = keeps_momentum(scene->box, scene->effects, 1);
-  if (x && y) return "kinetic, without common motion";
-  if (x || y) return x ? "kinetic, without common motion along x" : "kinetic, without common motion along y";
+  if (x && y) return "kinetic, without centre-of-mass motion";
+  if (x || y) return x ? "kinetic, without centre-of-mass motion along x" : "kinetic, without centre-of-mass motion along y";
   return "kinetic";
 }
 
@@ -67,7 +68,7 @@ bool has_filled_the_box(const RunReport& report, const Scene& scene) {
 std::string samples_remark(const RunReport& report, const Scene* scene) {
   if (scene == nullptr) return "";
   if (scene->run.is_sampled()) return sampling_words(scene->run);
-  return report.samples == 0 ? "none asked for" : "";
+  return report.samples == 0 ? "none requested" : "";
 }
 
 }  // namespace
@@ -75,12 +76,12 @@ std::string samples_remark(const RunReport& report, const Scene* scene) {
 std::string why_stopped(const RunReport& report, const Scene* scene) {
   switch (report.stopped) {
     case StopReason::time:
-      return "as asked";
+      return "as requested";
     case StopReason::collisions:
-      return fmt::format("after the {} collisions asked for",
+      return fmt::format("after {} pair collisions, as requested",
                          grouped(scene != nullptr ? scene->run.collisions.value_or(report.totals.pair) : report.totals.pair));
     case StopReason::interrupted:
-      return report.measured ? "interrupted here; everything up to here is saved" : "interrupted while still equilibrating";
+      return report.measured ? "interrupted; everything up to here is saved" : "interrupted during equilibration";
     case StopReason::jammed:
       if (scene != nullptr && has_filled_the_box(report, *scene))
         return "jammed: the largest disk has grown until it fills the box; end before that, or take a larger box";
@@ -88,28 +89,26 @@ std::string why_stopped(const RunReport& report, const Scene* scene) {
                          named(report.stopped_disks, "disks that"));
     case StopReason::collapsed:
       return fmt::format(
-          "collapsed: {} collide{} at ever shorter intervals and time stands still; give collision.elastic_below, such as {{ "
-          "time = "
-          "1e-6 }}, to go on",
+          "collapsed: {} collide{} at ever shorter intervals and time stands still; give collision.elastic_below, such as "
+          "{{ time = 1e-6 }}, to go on",
           named(report.stopped_disks, "inelastic disks"), report.stopped_disks.size() == 1 ? "s" : "");
     case StopReason::overheated:
-      return "overheated: disks become faster and faster, and time all but stands still; take the energy away that they get, "
-             "with "
-             "[thermostat] or restitution, or end before that";
+      return "overheated: disks become faster and faster, and time hardly advances; remove energy with [thermostat] or "
+             "restitution, or end the run earlier";
     case StopReason::cooled:
-      return "cooled: inelastic disks move too slowly against each other to be followed any further; where they move on "
-             "together, leave that out of the start";
+      return "cooled: the relative velocities of inelastic disks are too small to compute with; remove any common motion of the "
+             "disks from the start";
     case StopReason::grown:
       return report.of_effects.growth
-                 ? fmt::format("grown as far as asked, to packing fraction {:.5g}", report.of_effects.growth->packing_fraction)
-                 : "grown as far as asked";
+                 ? fmt::format("grown to packing fraction {:.5g}, as requested", report.of_effects.growth->packing_fraction)
+                 : "grown, as requested";
     case StopReason::at_rest:
-      return "at rest: drag has stopped the disks, and nothing will happen any more; no run under this drag gets farther";
+      return "at rest: drag has stopped the disks; a run with this drag cannot go further";
     case StopReason::invalid_state:
       return report.faults.empty() ? "stopped: an invariant of the engine is broken" : "stopped: " + report.faults.front();
     case StopReason::no_collisions:
-      return report.measured ? "stopped: no pair of disks collides any more"
-                             : "stopped while equilibrating: no pair of disks collides";
+      return report.measured ? "stopped: no pair of disks will collide again"
+                             : "stopped during equilibration: no pair of disks collides";
   }
   return "";
 }
@@ -119,7 +118,8 @@ SummaryRows rows_of_what_happened(const RunReport& report, const Scene* scene) {
   SummaryRows rows = {
       {"time", fmt::format("{:.6g}", report.time), why_stopped(report, scene)},
       {"pair collisions", grouped(totals.pair),
-       report.collisions_per_second() > 0.0 ? fmt::format("{} per second", rate(report.collisions_per_second())) : ""},
+       report.collisions_per_second() > 0.0 ? fmt::format("{} per second of the event loop", rate(report.collisions_per_second()))
+                                            : ""},
       {"wall collisions", grouped(totals.wall)}};
   append(rows, rows_of_events(report));
   if (totals.pair > 0 && report.disks > 0) {
@@ -128,10 +128,9 @@ SummaryRows rows_of_what_happened(const RunReport& report, const Scene* scene) {
         {"mean free time", fmt::format("{:.4g}", report.time / per_disk), fmt::format("{:.4g} collisions per disk", per_disk)});
   }
   rows.push_back({"samples", grouped(report.samples), samples_remark(report, scene)});
-  if (!report.state_hash.empty())
-    rows.push_back({"state hash", report.state_hash, "the same for every run that ends in the same bits"});
+  if (!report.state_hash.empty()) rows.push_back({"state hash", report.state_hash, "runs with this hash ended in the same bits"});
   rows.push_back(
-      {"took", duration(report.wall_seconds), fmt::format("{} of it in the event loop", duration(report.loop_seconds))});
+      {"elapsed", duration(report.wall_seconds), fmt::format("of which the event loop took {}", duration(report.loop_seconds))});
   return rows;
 }
 
@@ -150,9 +149,9 @@ SummaryRows rows_of_results(const RunReport& report, const Scene* scene) {
   if (!report.Z) rows.push_back({"Z = PA/(NkT)", "none", why_there_is_no_Z(report, scene)});
   if (report.Z)
     rows.push_back({"Z = PA/(NkT)", report.Z_error ? with_error(*report.Z, *report.Z_error) : fmt::format("{:.5g}", *report.Z),
-                    report.Z_error ? "from the momentum transfer" : "the run is too short to tell an error"});
+                    report.Z_error ? "from momentum transfer" : "the run is too short for an error"});
   if (report.reduced_pressure) {
-    const double reduced = *report.reduced_pressure;  // in proportion to Z, and so is its error
+    const double reduced = *report.reduced_pressure;  // proportional to Z, and so is its error
     rows.push_back({"P sigma^2/kT", report.Z_error && *report.Z != 0.0
                                         ? with_error(reduced, *report.Z_error * reduced / *report.Z)
                                         : fmt::format("{:.5g}", reduced)});

@@ -50,7 +50,7 @@ std::vector<EffectTraits> make_table() {
   return {
       {.name = "restitution",
        .title = "restitution",
-       .absence = "loss of energy in collisions",
+       .absence = "inelastic collisions",
        .is_present = [](const Effects& e) { return e.collision.restitution.has_value(); },
        .acts = [](const Effects& e) { return e.collision.restitution.value_or(1.0) != 1.0; },
        .keeps_energy = false,
@@ -58,7 +58,7 @@ std::vector<EffectTraits> make_table() {
        .why_no_transport = "restitution takes energy; remove it"},
       {.name = "roughness",
        .title = "roughness",
-       .absence = "friction and spin",
+       .absence = "rough disks with spin",
        .is_present = [](const Effects& e) { return e.collision.roughness.has_value(); },
        .acts = [](const Effects& e) { return e.collision.roughness.value_or(-1.0) != -1.0; },
        .keeps_energy = false,
@@ -120,14 +120,14 @@ std::vector<EffectTraits> make_table() {
        .why_no_transport = "obstacles take momentum; remove [[obstacles]]"},
       {.name = "growth",
        .title = "[growth]",
-       .absence = "growth",
+       .absence = "growing disks",
        .is_present = has<&Effects::growth>,
        .acts = has_other_than_zero<&Effects::growth, &Growth::rate>,
        .numbers = {number<&Effects::growth, &Growth::rate>(keys::growth_rate, "1 / time")},
        .other_keys = {"until"},
        .words =
            [](const Effects& e) {
-             std::string text = fmt::format("all radii grow at rate {:.6g} of their first size", e.growth->rate);
+             std::string text = fmt::format("all radii grow as radius (1 + {:.6g} t)", e.growth->rate);
              if (e.growth->packing_fraction) text += fmt::format(", until packing fraction {:.6g}", *e.growth->packing_fraction);
              if (e.growth->reduced_pressure) text += fmt::format(", until reduced pressure {:.6g}", *e.growth->reduced_pressure);
              return text;
@@ -147,8 +147,8 @@ std::vector<EffectTraits> make_table() {
                    number<&Effects::thermostat, &Thermostat::rate>(keys::bath_rate, "1 / time")},
        .words =
            [](const Effects& e) {
-             return fmt::format("each disk's velocity is drawn anew at kT = {:.6g}, at rate {:.6g}", e.thermostat->temperature,
-                                e.thermostat->rate);
+             return fmt::format("each velocity is redrawn from the Maxwell distribution at kT = {:.6g}, at rate {:.6g}",
+                                e.thermostat->temperature, e.thermostat->rate);
            },
        .keeps_energy = false,
        .keeps_momentum = false,
@@ -173,7 +173,7 @@ std::vector<EffectTraits> make_table() {
        .why_no_displacements = "follows disks through a fluid at rest, and [shear] carries them along; remove one of the two"},
       {.name = "square_well",
        .title = "[square_well]",
-       .absence = "attraction at a distance",
+       .absence = "square wells",
        .is_present = has<&Effects::square_well>,
        .acts = has_other_than_zero<&Effects::square_well, &SquareWell::depth>,
        .numbers = {number<&Effects::square_well, &SquareWell::width>(keys::well_width, ""),
@@ -181,7 +181,7 @@ std::vector<EffectTraits> make_table() {
        .words =
            [](const Effects& e) {
              const SquareWell& well = *e.square_well;
-             return fmt::format("{} {:.6g} from one to {:.6g} diameters apart",
+             return fmt::format("{} {:.6g} at distances from 1 to {:.6g} diameters",
                                 well.depth < 0.0 ? "a repulsive shoulder of height" : "an attractive well of depth",
                                 std::abs(well.depth), well.width);
            },

@@ -40,17 +40,17 @@ TEST_F(TerminalSummary, WallsThatTheSceneNamesTellPressureAndHeat) {
       {.name = "top", .momentum = 60.0, .energy = 1.0, .force = 12.0, .pressure = {}, .end = WallState{15.0, 0.5}});
   report_.of_effects.packing_fraction_end = 0.125;
   report_.Z.reset();
-  EXPECT_THAT(text(), AllOf(ContainsRegex("bottom wall +pressure 2 +gave energy 3\n"),
-                            ContainsRegex("top wall +force 12 +took energy 1; now at 15, velocity 0.5\n"),
+  EXPECT_THAT(text(), AllOf(ContainsRegex("bottom wall +pressure 2 +supplied energy 3\n"),
+                            ContainsRegex("top wall +force 12 +removed energy 1; now at 15, velocity 0.5\n"),
                             ContainsRegex("packing fraction +0.125 +at the end"),
                             ContainsRegex("Z = PA/\\(NkT\\) +none +the area changes")));
 }
 
 TEST_F(TerminalSummary, TemperatureIsWithoutCommonMotionWhereDisksKeepIt) {
   scene_.box.boundary = {Boundary::periodic, Boundary::periodic};
-  EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic, without common motion\n"));
+  EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic, without centre-of-mass motion\n"));
   scene_.box.boundary[1] = Boundary::walls;
-  EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic, without common motion along x\n"));
+  EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic, without centre-of-mass motion along x\n"));
   scene_.effects.walls[2].temperature = 2.0;  // it gives and takes momentum along itself too
   EXPECT_THAT(text(), ContainsRegex("temperature kT .* kinetic\n"));
 }
@@ -67,17 +67,18 @@ TEST_F(TerminalSummary, EveryEffectHasARow) {
   effects.shear = {
       .strain = 2.5, .energy = 30.0, .pressure_xy_of_collisions = -0.5, .pressure_xy_of_flight = -0.25, .viscosity = 1.5};
   effects.bonds = 31;
-  EXPECT_THAT(text(), AllOf(ContainsRegex("obstacles hit +1,234"), ContainsRegex("thermostat kicks +4,321"),
+  EXPECT_THAT(text(), AllOf(ContainsRegex("obstacle hits +1,234"), ContainsRegex("thermostat events +4,321"),
                             ContainsRegex("spin temperature +1.25"), ContainsRegex("dissipated +0.5"),
-                            ContainsRegex("obstacles took +\\(1.5, -2\\)"), ContainsRegex("thermostat +took energy 10\n")));
-  EXPECT_THAT(text(),
-              AllOf(ContainsRegex("grown to +packing 0.75 +radii 1.5 times those at the start; gave energy 20"),
-                    ContainsRegex("strain +2.5 +gave energy 30"), ContainsRegex("viscosity +1.5"), ContainsRegex("bonds +31")));
+                            ContainsRegex("obstacle momentum +\\(1.5, -2\\)"), ContainsRegex("thermostat +removed energy 10\n")));
+  EXPECT_THAT(
+      text(),
+      AllOf(ContainsRegex("packing fraction +0.75 +at the end; radii 1.5 times those at the start; growth supplied energy 20"),
+            ContainsRegex("strain +2.5 +supplied energy 30"), ContainsRegex("viscosity +1.5"), ContainsRegex("bonds +31")));
 }
 
 TEST_F(TerminalSummary, EnergyThatWasGivenIsToldFromEnergyThatWasLost) {
   report_.of_effects.energy_given = 0.5;  // from 32 to 32.5
-  EXPECT_THAT(text(), HasSubstr("32 at the start; what came and went accounts for the change\n"));
+  EXPECT_THAT(text(), HasSubstr("32 at the start; supplied and lost energy account for the change exactly\n"));
 }
 
 TEST_F(TerminalSummary, ReasonsToStopAreSentences) {
@@ -85,13 +86,13 @@ TEST_F(TerminalSummary, ReasonsToStopAreSentences) {
   EXPECT_THAT(text(), HasSubstr("elastic_below"));
   report_.stopped = StopReason::grown;
   report_.of_effects.growth = {.scale = 1.5, .packing_fraction = 0.75, .energy = 20.0};
-  EXPECT_THAT(text(), HasSubstr("grown as far as asked, to packing fraction 0.75"));
+  EXPECT_THAT(text(), HasSubstr("grown to packing fraction 0.75, as requested"));
 }
 
 TEST_F(TerminalSummary, WithoutZItSaysWhy) {
   report_.Z.reset();
   scene_.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0, .where = {}};
-  EXPECT_THAT(text(), HasSubstr("no samples tell the mean temperature"));
+  EXPECT_THAT(text(), HasSubstr("the mean temperature is unknown without samples"));
   report_.totals.pair = 0;
   EXPECT_THAT(text(), HasSubstr("no pair of disks has collided"));
   scene_.effects.gravity = Gravity{.acceleration = {0.0, -1.0}, .where = {}};

@@ -17,7 +17,7 @@ std::string two_digits(double value) {
 }
 
 std::string starts_words(const ComparePlan& plan) {
-  if (!plan.drawn) return "1 start, as nothing of it is drawn";
+  if (!plan.drawn) return "1 start, which contains nothing random";
   return fmt::format("{} start{}", plan.seeds.size(), plan.seeds.size() == 1 ? "" : "s");
 }
 
@@ -36,34 +36,35 @@ std::string what_it_costs(const ComparePlan& plan, const std::vector<MethodSumma
   const std::string when =
       fmt::format("after {} (t = {:.4g})", collisions_per_disk(plan.in_free_times(plan.early_time())), plan.early_time());
   if (!was_run(summaries, "grid"))
-    return fmt::format(
-        "The exact engine is right to {:.1e} diameters {}; no fixed step was run, as each would have taken too long.",
-        answers.exact_error, when);
+    return fmt::format("The exact engine is right to {:.1e} diameters {}. No fixed step was run: each would have taken too long.",
+                       answers.exact_error, when);
   if (!answers.to_millionth)
     return fmt::format(
-        "The exact engine is right to {:.1e} diameters {}; too few of the steps that were run have errors between 1e-11 and 0.03 "
-        "diameters there to say what a finer one would cost.",
+        "The exact engine is right to {:.1e} diameters {}. Too few of the steps that were run have errors between 1e-11 and 0.03 "
+        "diameters there to extrapolate the cost of a finer one.",
         answers.exact_error, when);
   const double ratio = answers.to_millionth->seconds / answers.exact_seconds;
   return fmt::format(
-      "To reach an error of 1e-6 diameters {} the fixed step would need {} times the time of the exact engine, which is right to "
-      "{:.1e} diameters there{}.",
-      when, two_digits(ratio), answers.exact_error,
+      "For an error of 1e-6 diameters {} the fixed step needs {} times the processor time of the exact engine{}. The exact "
+      "engine "
+      "is right to {:.1e} diameters there.",
+      when, two_digits(ratio),
       answers.to_millionth->extrapolated
-          ? fmt::format(" (dt = {:.1e}, smaller than those run: extrapolated with the first order that the points show)",
-                        answers.to_millionth->dt)
-          : "");
+          ? fmt::format(" (extrapolated at first order to dt = {:.1e}, smaller than those run)", answers.to_millionth->dt)
+          : "",
+      answers.exact_error);
 }
 
-/// Errors above this are of disks that have lost each other: the trajectory is gone.
+/// Error, in diameters, above which the trajectory counts as lost.
 constexpr double lost = 0.3;
 
 std::string where_it_is_cheaper(const ComparePlan& plan, const std::vector<MethodSummary>& summaries, const Answers& answers) {
   if (!was_run(summaries, "grid")) return "";
   if (answers.crossover_error && *answers.crossover_error < lost)
     return fmt::format(
-        "For an answer cruder than {} diameters the fixed step is the cheaper way (dt above {:.2g} mean free times, with the "
-        "grid); for anything finer the exact engine is.",
+        "The fixed step is cheaper for errors above {} diameters (dt above {:.2g} mean free times, with the grid). The exact "
+        "engine "
+        "is cheaper for smaller errors.",
         two_digits(*answers.crossover_error), plan.in_free_times(*answers.crossover_dt));
   if (answers.crossover_error)
     return fmt::format(
@@ -74,8 +75,8 @@ std::string where_it_is_cheaper(const ComparePlan& plan, const std::vector<Metho
   for (const MethodSummary& summary : summaries)
     if (summary.method.name == "grid") cheapest = std::min(cheapest, summary.seconds_early);
   if (cheapest < answers.exact_seconds)
-    return "At every dt that was run the fixed step is cheaper than the exact engine, and none of them reaches its accuracy.";
-  return "At no dt that was run is the fixed step cheaper than the exact engine, however crude the answer.";
+    return "The fixed step is cheaper than the exact engine at every dt that was run, and less accurate at each.";
+  return "The exact engine is cheaper than the fixed step at every dt that was run.";
 }
 
 std::string what_the_naive_does(const std::vector<MethodSummary>& summaries, const Answers& answers) {
@@ -88,17 +89,14 @@ std::string what_the_naive_does(const std::vector<MethodSummary>& summaries, con
   }
   if (exact == nullptr || naive == nullptr || !exact->Z || !naive->counts) return "";
   const double repeated = naive->counts->repeated_fraction();
-  const std::string energy =
-      naive->energy_drift > 0.0 ? fmt::format("changed by {:.0e}", naive->energy_drift) : "not changed in any digit";
+  const std::string energy = naive->energy_drift > 0.0 ? fmt::format("changed by {:.0e}", naive->energy_drift) : "not changed";
   const bool differs = naive->Z_bias && std::abs(naive->Z_bias->value) > 2.0 * naive->Z_bias->error;
   if (!differs && repeated < 0.01) return "";
   return fmt::format(
-      "The naive method with dt = {:.2g} has Z = {:.4g} where the exact engine has {:.4g}{}; its energy has {}, which tells "
-      "nothing of that.",
+      "The naive method with dt = {:.2g} has Z = {:.4g} where the exact engine has {:.4g}{}. Its energy has {}: conservation of "
+      "energy does not show such errors.",
       naive->method.dt, naive->Z->value, exact->Z->value,
-      repeated > 0.0 ? fmt::format(", and {} % of its reversals repeat one that was already done", two_digits(100.0 * repeated))
-                     : "",
-      energy);
+      repeated > 0.0 ? fmt::format("; {} % of its reversals repeat an earlier one", two_digits(100.0 * repeated)) : "", energy);
 }
 
 std::string what_pressure_costs(const Answers& answers) {
@@ -113,8 +111,9 @@ std::string what_pressure_costs(const Answers& answers) {
   };
   const auto percent = ratio(0.01), thousandth = ratio(0.001);
   if (!percent || !thousandth) return "";
-  return fmt::format("To know Z to 1 % the fixed step takes {} times as long as the exact engine, to 0.1 % {} times.",
-                     two_digits(*percent), two_digits(*thousandth));
+  return fmt::format(
+      "For Z to 1 % the fixed step needs {} times the processor time of the exact engine, for Z to 0.1 % {} times.",
+      two_digits(*percent), two_digits(*thousandth));
 }
 
 }  // namespace
@@ -126,8 +125,7 @@ std::vector<std::string> compare_sentences(const Comparison& comparison, const s
                                         where_it_is_cheaper(comparison.plan, summaries, answers),
                                         what_the_naive_does(summaries, answers), what_pressure_costs(answers)};
   if (!comparison.plan.drawn)
-    sentences.emplace_back(
-        "Nothing of this scene's start is drawn, so there is one start, and no error bar tells what of a bias is chance.");
+    sentences.emplace_back("This scene's start contains nothing random. There is one start, and a bias has no error bar.");
   std::erase(sentences, "");
   return sentences;
 }

@@ -14,15 +14,15 @@ namespace carom::cli {
 
 namespace {
 
-/// In per cent, as the heading says.
+/// Returns a fraction in per cent, to two digits.
 std::string percent(double fraction) {
   return fraction < 0.0995 ? fmt::format("{:.2g}", 100.0 * fraction) : fmt::format("{:.0f}", 100.0 * fraction);
 }
 
-/// Of so many events; a fraction of a handful says nothing.
+/// Returns a fraction of `events` in per cent; empty below 20 events, where it would mean little.
 std::string percent_of(double fraction, std::uint64_t events) { return events < 20 ? "" : percent(fraction); }
 
-/// Of a single start no error is known.
+/// Returns a bias in per cent, with its error where there are several starts.
 std::string bias_in_percent(const Estimate& bias) {
   const std::string value = fmt::format("{:+.2f}", 100.0 * bias.value);
   return std::isfinite(bias.error) ? fmt::format("{} ± {:.2f}", value, 100.0 * bias.error) : value;
@@ -55,17 +55,18 @@ std::string table_of(const Comparison& comparison) {
   return table.text();
 }
 
-/// What stands in the columns of the table.
+/// Returns the meaning of the table's columns, one line each.
 std::string legend(const ComparePlan& plan) {
-  const std::string bars =
-      plan.seeds.size() > 1 ? fmt::format(", ± its standard error over the {} starts", plan.seeds.size()) : "";
+  const std::size_t starts = plan.seeds.size();
   return fmt::format(
-      "  error: distance of the disks from where 113 bits have them at t = {:.4g}, root mean square, in mean diameters ({:.4g})\n"
-      "  processor time: until then\n"
-      "  bias of Z: difference from the exact engine{}{}\n"
-      "  missed: pairs that came into contact and left it without a collision, of all collisions that there were\n"
-      "  repeated: reversals of a pair that was reversed already in the same encounter, of all reversals\n",
-      plan.early_time(), plan.sigma, plan.seeds.size() > 1 ? ", start by start" : "", bars);
+      "  error: root-mean-square distance from the 113-bit positions at t = {:.4g}, in mean diameters ({:.4g})\n"
+      "  processor time: time to reach t = {:.4g}\n"
+      "  bias of Z: Z minus that of the exact engine{}\n"
+      "  missed: pairs that touched and parted without a collision, in per cent of all collisions that should happen\n"
+      "  repeated: reversals of a pair that was already reversed in the same encounter, in per cent of all reversals\n",
+      plan.early_time(), plan.sigma, plan.early_time(),
+      starts > 1 ? fmt::format(" from the same start, in per cent, ± its standard error over {} starts", starts)
+                 : ", in per cent");
 }
 
 std::string time_to_Z(const Answers& answers) {
@@ -92,7 +93,7 @@ std::string compare_text(const Comparison& comparison, const Scene& scene, bool 
         plan.mean_free_time);
     text += table_of(comparison) + "\n" + legend(plan);
     if (!comparison.left_out.empty())
-      text += fmt::format("  left out, as longer than {}: {} (--longest allows more)\n", duration(plan.longest),
+      text += fmt::format("  left out, because longer than {}: {} (--longest raises the limit)\n", duration(plan.longest),
                           counted(comparison.left_out.size(), "slow run"));
     text += time_to_Z(answers) + "\n";
   }

@@ -107,7 +107,7 @@ struct Best {
 TimeToZ guarded(const std::string& method, double accuracy, const std::vector<const MethodSummary*>& steps, const Exact& exact) {
   TimeToZ row{method, accuracy, std::nullopt, std::nullopt, ""};
   const std::optional<BiasLaw> law = bias_law(steps, exact);
-  if (!law) return row.remark = "not known: too few steps whose bias is proportional to dt", row;
+  if (!law) return row.remark = "unknown: too few time steps have a bias proportional to dt", row;
   Best best{exact, steps, accuracy, row};
   for (double bias = 0.02 * accuracy; bias < 0.99 * accuracy; bias *= 1.02) {
     const double dt = std::min(bias / std::max(std::abs(law->slope), 1e-300), law->up_to);
@@ -121,10 +121,10 @@ TimeToZ naive(const std::string& method, double accuracy, const std::vector<cons
   TimeToZ row{method, accuracy, std::nullopt, std::nullopt, ""};
   Best{exact, steps, accuracy, row}.consider_as_run(0.0);
   if (row.seconds) return row;
-  row.remark = "never: its bias is larger at every dt that was run";
+  row.remark = "never: the bias is larger at every dt that was run";
   for (const auto* step : steps)
     if (step->Z_bias && std::abs(step->Z_bias->value) < accuracy + 2.0 * step->Z_bias->error)
-      row.remark = "not known: its bias and its chance cannot be told apart in these runs";
+      row.remark = "unknown: these runs are too short to tell bias from noise";
   return row;
 }
 

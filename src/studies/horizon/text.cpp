@@ -19,7 +19,7 @@ std::string in_any_unit(double value, std::optional<double> error) {
 }
 
 std::string exponent(const Horizon& horizon) {
-  if (!horizon.lyapunov) return "Lyapunov exponent: none, disks collide too rarely to tell\n";
+  if (!horizon.lyapunov) return "Lyapunov exponent: unknown, disks collide too rarely\n";
   const Lyapunov& lambda = *horizon.lyapunov;
   return fmt::format("Lyapunov exponent: {} per time, {} per collision of a disk, over {} collisions\n",
                      in_any_unit(lambda.per_time, lambda.per_time_error),
