@@ -86,13 +86,13 @@ struct Numerics {
 
 /// The numbers of events since the start of the measured run, by kind. Always kept, at no cost that can be measured.
 struct Counts {
-  std::uint64_t pair = 0;      ///< collisions of two disks
-  std::uint64_t wall = 0;      ///< collisions with a wall
-  std::uint64_t other = 0;     ///< bookkeeping, no physics: cell crossings of an engine, steps of a fixed-step method
-  std::uint64_t stale = 0;     ///< predictions that another collision had overtaken
-  std::uint64_t obstacle = 0;  ///< collisions with an obstacle
-  std::uint64_t well = 0;      ///< passages of the edge of a square well, or bounces there
-  std::uint64_t kicks = 0;     ///< velocities redrawn by a thermostat
+  std::uint64_t pair = 0;        ///< collisions of two disks
+  std::uint64_t wall = 0;        ///< collisions with a wall
+  std::uint64_t other = 0;       ///< bookkeeping, no physics: cell crossings of an engine, steps of a fixed-step method
+  std::uint64_t stale = 0;       ///< predictions that another collision had overtaken
+  std::uint64_t obstacle = 0;    ///< collisions with an obstacle
+  std::uint64_t well = 0;        ///< passages of the edge of a square well, or bounces there
+  std::uint64_t thermostat = 0;  ///< velocities redrawn by a thermostat
   Numerics numerics;
 };
 
@@ -107,10 +107,10 @@ struct Totals : Counts {
   /// sum over wall collisions of the energy that the wall took, for left, right, bottom, top: heat and work; this and the
   /// energies below in mass length^2 / time^2
   std::array<double, 4> wall_energy{};
-  double dissipated = 0.0;     ///< energy that collisions of pairs took away, as surfaces see it that grow
-  double kick_energy = 0.0;    ///< energy that the thermostat gave
-  double growth_energy = 0.0;  ///< energy that growing surfaces gave, less what the rescaling of velocities took
-  double shear_energy = 0.0;   ///< energy that disks gained across the edges of a sheared box
+  double dissipated = 0.0;         ///< energy that collisions of pairs took away, as surfaces see it that grow
+  double thermostat_energy = 0.0;  ///< energy that the thermostat gave
+  double growth_energy = 0.0;      ///< energy that growing surfaces gave, less what the rescaling of velocities took
+  double shear_energy = 0.0;       ///< energy that disks gained across the edges of a sheared box
   /// sum over pair collisions of r_y times the impulse along x, momentum along x that goes across y: mass length^2 / time; kept
   /// where the box is sheared
   double virial_yx = 0.0;

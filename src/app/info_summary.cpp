@@ -30,9 +30,9 @@ std::string wall_pressures(const Json& walls) {
 /// One line for each effect that has something to tell.
 std::string lines_of_effects(const Json& json) {
   std::string text;
-  if (json.at("energy").contains("given"))
-    text += info_line("given", fmt::format("energy {}, unexplained {}", text_of(json.at("energy").at("given")),
-                                           text_of(json.at("energy").at("unexplained"))));
+  if (json.at("energy").contains("supplied"))
+    text += info_line("supplied", fmt::format("energy {}, unaccounted {}", text_of(json.at("energy").at("supplied")),
+                                              text_of(json.at("energy").at("unaccounted"))));
   if (json.at("temperature").contains("spin_mean"))
     text += info_line("spin", fmt::format("temperature {}", text_of(json.at("temperature").at("spin_mean"))));
   if (json.contains("walls")) {
@@ -41,11 +41,12 @@ std::string lines_of_effects(const Json& json) {
   }
   if (json.contains("dissipated")) text += info_line("dissipated", fmt::format("energy {}", text_of(json.at("dissipated"))));
   if (json.contains("thermostat"))
-    text += info_line("thermostat", fmt::format("{} kicks, energy {}", text_of(json.at("thermostat").at("kicks")),
+    text += info_line("thermostat", fmt::format("{} events, energy {}", text_of(json.at("thermostat").at("events")),
                                                 text_of(json.at("thermostat").at("energy"))));
   if (json.contains("growth"))
-    text += info_line("grown", fmt::format("radii to {} times, packing fraction {}", text_of(json.at("growth").at("scale")),
-                                           text_of(json.at("growth").at("packing_fraction"))));
+    text += info_line(
+        "grown", fmt::format("radii {} times those at the start, packing fraction {}", text_of(json.at("growth").at("scale")),
+                             text_of(json.at("growth").at("packing_fraction"))));
   if (json.contains("shear"))
     text += info_line("shear", fmt::format("strain {}, viscosity {}", text_of(json.at("shear").at("strain")),
                                            text_of(json.at("shear").at("viscosity"))));
@@ -58,7 +59,7 @@ std::string events_line(const Json& events) {
   std::string text = fmt::format("{} pair, {} wall", text_of(events.at("pair")), text_of(events.at("wall")));
   if (events.contains("obstacle")) text += fmt::format(", {} obstacle", text_of(events.at("obstacle")));
   if (events.contains("well")) text += fmt::format(", {} at the edge of wells", text_of(events.at("well")));
-  if (events.contains("kicks")) text += fmt::format(", {} kicks", text_of(events.at("kicks")));
+  if (events.contains("thermostat")) text += fmt::format(", {} thermostat", text_of(events.at("thermostat")));
   return text;
 }
 

@@ -35,9 +35,9 @@ Json json_of(const Eigen::Vector2d& value) { return vector(value); }
 
 void add_effects(Json& summary, const RunReport& report) {
   const EffectsReport& effects = report.of_effects;
-  if (effects.energy_given) {
-    summary["energy"]["given"] = number(effects.energy_given);
-    summary["energy"]["unexplained"] = number(report.unexplained_energy_drift());
+  if (effects.energy_supplied) {
+    summary["energy"]["supplied"] = number(effects.energy_supplied);
+    summary["energy"]["unaccounted"] = number(report.unaccounted_energy_drift());
   }
   if (effects.energies_end)
     summary["energy"]["parts"] = {{"kinetic", number(effects.energies_end->kinetic)},

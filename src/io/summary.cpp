@@ -22,7 +22,7 @@ Json events_json(const RunReport& report) {
   Json json = {{"pair", totals.pair}, {"wall", totals.wall}, {"other", totals.other}, {"stale", totals.stale}};
   if (report.of_effects.obstacles) json["obstacle"] = totals.obstacle;
   if (report.of_effects.bonds) json["well"] = totals.well;
-  if (report.of_effects.thermostat) json["kicks"] = totals.kicks;
+  if (report.of_effects.thermostat) json["thermostat"] = totals.thermostat;
   json["total"] = detail::all_events(totals);
   return json;
 }

@@ -36,7 +36,7 @@ Totals totals_in(const Json& json) {
   totals.stale = events.at("stale").get<std::uint64_t>();
   totals.obstacle = count_in(events, "obstacle");
   totals.well = count_in(events, "well");
-  totals.kicks = count_in(events, "kicks");
+  totals.thermostat = count_in(events, "thermostat");
   totals.virial = finite_in(json.at("virial"));
   const char* const sides[] = {"left", "right", "bottom", "top"};
   for (std::size_t side = 0; side < 4; ++side) totals.wall_impulse[side] = finite_in(json.at("wall_impulse").at(sides[side]));
@@ -72,7 +72,7 @@ void read(const Json& json, Eigen::Vector2d& value) { value = vector_in(json); }
 EffectsReport effects_in(const Json& json) {
   EffectsReport effects;
   const Json& energy = json.at("energy");
-  effects.energy_given = number_in(energy, "given");
+  effects.energy_supplied = number_in(energy, "supplied");
   if (energy.contains("parts")) {
     const Json& parts = energy.at("parts");
     effects.energies_end = {.kinetic = finite_in(parts.at("kinetic")),
@@ -99,8 +99,8 @@ std::optional<double> energy_scale_in(const RunReport& report, const Json& energ
   const double change = report.energy_final - report.energy_initial;
   const double drift = finite_in(energy.at("relative_drift"));
   if (change != 0.0 && drift != 0.0) return change / drift;
-  const double unexplained = number_in(energy, "unexplained").value_or(0.0);
-  if (unexplained != 0.0) return std::abs((change - report.of_effects.energy_given.value_or(0.0)) / unexplained);
+  const double unexplained = number_in(energy, "unaccounted").value_or(0.0);
+  if (unexplained != 0.0) return std::abs((change - report.of_effects.energy_supplied.value_or(0.0)) / unexplained);
   return {};
 }
 

@@ -35,10 +35,10 @@ double energy_lost_to_drag(double rate, const Disks& disks, const State& end) {
   return kinetic_energy(disks, end) * std::expm1(2.0 * rate * end.time);
 }
 
-std::optional<double> energy_given(const Effects& effects, const Disks& disks, const Totals& totals, const State& end) {
+std::optional<double> energy_supplied(const Effects& effects, const Disks& disks, const Totals& totals, const State& end) {
   const auto gives = [&](const detail::EffectTraits& effect) { return !effect.keeps_energy && effect.is_present(effects); };
   if (std::ranges::none_of(detail::all_effects(), gives) || gives_untold(effects)) return std::nullopt;
-  double given = totals.kick_energy + totals.growth_energy + totals.shear_energy - totals.dissipated;
+  double given = totals.thermostat_energy + totals.growth_energy + totals.shear_energy - totals.dissipated;
   for (std::size_t side = 0; side < 4; ++side)
     if (!effects.walls[side].mass) given -= totals.wall_energy[side];
   given -= energy_lost_to_drag(effects.drag_rate(), disks, end);
@@ -74,13 +74,13 @@ EffectsReport effects_report(const Scene& scene, const Disks& disks, const Total
   if (has_more_than_kinetic_energy(effects)) report.energies_end = energies_of(scene.box, effects, disks, end);
   if (effects.collision.restitution || effects.collision.roughness) report.dissipated = totals.dissipated;
   if (!effects.obstacles.empty()) report.obstacles = totals.obstacle_impulse;
-  if (effects.thermostat) report.thermostat = {.kicks = totals.kicks, .energy = totals.kick_energy};
+  if (effects.thermostat) report.thermostat = {.events = totals.thermostat, .energy = totals.thermostat_energy};
   if (effects.growth)
     report.growth = {
         .scale = end.scale, .packing_fraction = packing_fraction(scene.box, disks, end), .energy = totals.growth_energy};
   if (effects.shear) report.shear = shear_report(scene, totals, end);
   if (effects.square_well) report.bonds = end.bonds;
-  report.energy_given = energy_given(effects, disks, totals, end);
+  report.energy_supplied = energy_supplied(effects, disks, totals, end);
   return report;
 }
 

@@ -27,8 +27,8 @@ struct WallReport {
 };
 
 struct ThermostatReport {
-  std::uint64_t kicks = 0;
-  double energy = 0.0;  ///< given to the disks
+  std::uint64_t events = 0;  ///< velocities redrawn
+  double energy = 0.0;       ///< given to the disks
 };
 
 struct GrowthReport {
@@ -59,7 +59,7 @@ struct EffectsReport {
 
   /// Energy that disks and pistons got from outside, less what they lost; where anything gives or takes any. Empty too where
   /// gives_untold().
-  std::optional<double> energy_given;
+  std::optional<double> energy_supplied;
 };
 
 /// Calls visit(section, part, numbers) for each part that is a section of summary.json of its own; numbers(*part, put) calls
@@ -68,7 +68,7 @@ template <class Report, class Visit>
 void visit_sections(Report& report, Visit&& visit) {
   visit("obstacles", report.obstacles, [](auto& momentum, auto&& put) { put("momentum", momentum); });
   visit("thermostat", report.thermostat, [](auto& part, auto&& put) {
-    put("kicks", part.kicks);
+    put("events", part.events);
     put("energy", part.energy);
   });
   visit("growth", report.growth, [](auto& part, auto&& put) {

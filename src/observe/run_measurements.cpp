@@ -118,7 +118,7 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   report_.stopped_disks = result.stopped_disks;
   report_.faults = result.faults;
   report_.of_effects = effects_report(scene, disks, report_.totals, state);
-  if (!result.measured) report_.of_effects.energy_given.reset();  // totals began before the initial energy did
+  if (!result.measured) report_.of_effects.energy_supplied.reset();  // totals began before the initial energy did
   finish_samples(state);
   measure_Z(result, temperature);
   return report_;

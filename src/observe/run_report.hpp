@@ -74,10 +74,10 @@ struct RunReport {
   }
   /// The part of that which nothing explains: (final - initial - given) / the larger of initial and final. Empty where nothing
   /// gives or takes energy, and relative_energy_drift says it all.
-  [[nodiscard]] std::optional<double> unexplained_energy_drift() const {
-    if (!of_effects.energy_given) return std::nullopt;
+  [[nodiscard]] std::optional<double> unaccounted_energy_drift() const {
+    if (!of_effects.energy_supplied) return std::nullopt;
     const double scale = std::max(energy_scale.value_or(energy_initial), std::abs(energy_final));
-    return scale == 0.0 ? 0.0 : (energy_final - energy_initial - *of_effects.energy_given) / scale;
+    return scale == 0.0 ? 0.0 : (energy_final - energy_initial - *of_effects.energy_supplied) / scale;
   }
   [[nodiscard]] double collisions_per_second() const {
     return loop_seconds > 0.0 ? static_cast<double>(totals.pair) / loop_seconds : 0.0;

@@ -48,13 +48,13 @@ void put_shear(SummaryRows& rows, const ShearReport& shear) {
 SummaryRows rows_of_events(const RunReport& report) {
   SummaryRows rows;
   if (report.of_effects.obstacles) rows.push_back({"obstacle hits", grouped(report.totals.obstacle)});
-  if (report.of_effects.thermostat) rows.push_back({"thermostat events", grouped(report.totals.kicks)});
+  if (report.of_effects.thermostat) rows.push_back({"thermostat events", grouped(report.totals.thermostat)});
   return rows;
 }
 
 SummaryRow row_of_energy(const RunReport& report) {
   const std::string energy = fmt::format("{:.6g}", report.energy_final);
-  const auto unexplained = report.unexplained_energy_drift();
+  const auto unexplained = report.unaccounted_energy_drift();
   if (!unexplained)
     return {"energy", energy,
             report.relative_energy_drift() == 0.0 ? "conserved to every digit"

@@ -64,7 +64,7 @@ std::string what_rounding_allows(const RunReport& report) {
       rounding_of(report));
   // What goes and comes is added up collision by collision, and each addition rounds a sum as large as the energy itself.
   const std::string account =
-      report.of_effects.energy_given
+      report.of_effects.energy_supplied
           ? fmt::format(
                 "; the account of the energy that came and went is a sum of as many terms, right to some u √n = "
                 "{:.1e}",
@@ -110,7 +110,7 @@ Section accuracy_section(const RunRecord& record) {
     section.blocks.emplace_back(Paragraph{sentence_of(*report.horizon)});
     section.blocks.emplace_back(horizon_table(*report.horizon));
   }
-  if (!report.of_effects.energy_given && record.source) {
+  if (!report.of_effects.energy_supplied && record.source) {
     Plot plot = energy_plot(*record.source);
     if (!plot.series.empty()) section.blocks.emplace_back(std::move(plot));
   }

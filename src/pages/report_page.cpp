@@ -36,7 +36,7 @@ std::vector<KeyNumber> key_numbers(const RunReport& report) {
     numbers.push_back({text.substr(0, text.find(' ')),
                        report.Z_error ? fmt::format("Z = P A / (N kT), ± {:.2g}", *report.Z_error) : "Z = P A / (N kT)"});
   }
-  const std::optional<double> unexplained = report.unexplained_energy_drift();
+  const std::optional<double> unexplained = report.unaccounted_energy_drift();
   const double drift = std::abs(unexplained.value_or(report.relative_energy_drift()));
   numbers.push_back({drift == 0.0 ? "0" : fmt::format("{:.1e}", drift),
                      unexplained ? "of the energy, that nothing explains" : "relative drift of energy"});

@@ -8,7 +8,7 @@
 namespace carom::detail {
 
 [[nodiscard]] inline std::uint64_t all_events(const Counts& counts) {
-  return counts.pair + counts.wall + counts.other + counts.stale + counts.obstacle + counts.well + counts.kicks;
+  return counts.pair + counts.wall + counts.other + counts.stale + counts.obstacle + counts.well + counts.thermostat;
 }
 
 }  // namespace carom::detail

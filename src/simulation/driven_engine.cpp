@@ -219,15 +219,15 @@ void DrivenEngine::rescale(const Energy& now) {
 
 Totals DrivenEngine::totals() const {
   Totals totals = engine_->totals();
-  totals.kicks += counted_kicks_;
-  totals.kick_energy += kick_energy_.value();
+  totals.thermostat += counted_kicks_;
+  totals.thermostat_energy += kick_energy_.value();
   totals.growth_energy += rescaling_energy_.value();
   return totals;
 }
 
 void DrivenEngine::count() {
   counts_ = engine_->counts();
-  counts_.kicks += counted_kicks_;
+  counts_.thermostat += counted_kicks_;
 }
 
 }  // namespace carom::detail

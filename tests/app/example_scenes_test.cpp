@@ -33,7 +33,7 @@ TEST_P(ExampleScene, RunsToItsEndWithoutOverlap) {
   EXPECT_GT(summary["overlap"]["checked"].get<std::uint64_t>(), 0U);
   // Rounding of a few 1e5 events at 1e-16 each, all that nothing gave or took.
   const nlohmann::json& energy = summary["energy"];
-  EXPECT_LT(std::abs(energy.value("unexplained", energy["relative_drift"].get<double>())), 1e-12);
+  EXPECT_LT(std::abs(energy.value("unaccounted", energy["relative_drift"].get<double>())), 1e-12);
   // Time, or a number of collisions; a ball that bounces ever lower stops the clock, and growth stops where it was told to.
   const std::string stopped = summary["stopped"];
   const std::map<std::string, std::string> others = {{"bouncing_ball", "collapsed"}};

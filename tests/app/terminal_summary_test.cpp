@@ -58,11 +58,11 @@ TEST_F(TerminalSummary, TemperatureIsWithoutCommonMotionWhereDisksKeepIt) {
 TEST_F(TerminalSummary, EveryEffectHasARow) {
   EffectsReport& effects = report_.of_effects;
   report_.totals.obstacle = 1234;
-  report_.totals.kicks = 4321;
+  report_.totals.thermostat = 4321;
   effects.spin_temperature = 1.25;
   effects.dissipated = 0.5;
   effects.obstacles = Eigen::Vector2d(1.5, -2.0);
-  effects.thermostat = {.kicks = 4321, .energy = -10.0};
+  effects.thermostat = {.events = 4321, .energy = -10.0};
   effects.growth = {.scale = 1.5, .packing_fraction = 0.75, .energy = 20.0};
   effects.shear = {
       .strain = 2.5, .energy = 30.0, .pressure_xy_of_collisions = -0.5, .pressure_xy_of_flight = -0.25, .viscosity = 1.5};
@@ -77,7 +77,7 @@ TEST_F(TerminalSummary, EveryEffectHasARow) {
 }
 
 TEST_F(TerminalSummary, EnergyThatWasGivenIsToldFromEnergyThatWasLost) {
-  report_.of_effects.energy_given = 0.5;  // from 32 to 32.5
+  report_.of_effects.energy_supplied = 0.5;  // from 32 to 32.5
   EXPECT_THAT(text(), HasSubstr("32 at the start; supplied and lost energy account for the change exactly\n"));
 }
 

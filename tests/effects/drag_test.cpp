@@ -150,7 +150,7 @@ TEST(Drag, TakesEnergyTwiceAsFastAsSpeed) {
       const State state = simulation.state();
       const double now = kinetic_energy(simulation.disks(), state);
       EXPECT_NEAR(now / before, std::exp(-0.4 * time), 1e-13 * std::exp(-0.4 * time));
-      const auto given = effects_report(scene, simulation.disks(), simulation.totals(), state).energy_given;
+      const auto given = effects_report(scene, simulation.disks(), simulation.totals(), state).energy_supplied;
       ASSERT_TRUE(given);
       EXPECT_NEAR(now - before, *given, 1e-13 * before);
     }

@@ -61,7 +61,7 @@ TEST_P(EnginesScene, RunsWithASoundPlanAndItsEnergyAccountedFor) {
   const auto faults = simulation.check_invariants();
   EXPECT_TRUE(faults.empty()) << faults.front();
   const Totals& totals = simulation.totals();
-  const double given = effects_report(scene, simulation.disks(), totals, simulation.state()).energy_given.value_or(0.0);
+  const double given = effects_report(scene, simulation.disks(), totals, simulation.state()).energy_supplied.value_or(0.0);
   const Energies after = energies();
   // Each collision rounds the energy of two disks a few times: less than 1e-15 of the whole, even were they all the energy and
   // every rounding of one sign.

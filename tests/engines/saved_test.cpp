@@ -34,12 +34,12 @@ void expect_same_totals(const Totals& a, const Totals& b) {
   EXPECT_EQ(a.stale, b.stale) << "bookkeeping";
   EXPECT_EQ(a.obstacle, b.obstacle);
   EXPECT_EQ(a.well, b.well);
-  EXPECT_EQ(a.kicks, b.kicks);
+  EXPECT_EQ(a.thermostat, b.thermostat);
   EXPECT_EQ(a.virial, b.virial);
   EXPECT_EQ(a.wall_impulse, b.wall_impulse);
   EXPECT_EQ(a.wall_energy, b.wall_energy);
   EXPECT_EQ(a.dissipated, b.dissipated);
-  EXPECT_EQ(a.kick_energy, b.kick_energy);
+  EXPECT_EQ(a.thermostat_energy, b.thermostat_energy);
   EXPECT_EQ(a.growth_energy, b.growth_energy);
   EXPECT_EQ(a.shear_energy, b.shear_energy);
   EXPECT_EQ(a.virial_yx, b.virial_yx);

@@ -89,12 +89,12 @@ TEST(EnginesShear, HaveTheSameEventsWithEverythingElseThatMayAct) {
 /// That both are the same, `tolerance` relative to `scale`.
 void expect_same_totals(const Totals& found, const Totals& expected, double tolerance) {
   EXPECT_EQ(found.pair, expected.pair);
-  EXPECT_EQ(found.kicks, expected.kicks);
+  EXPECT_EQ(found.thermostat, expected.thermostat);
   const double scale = expected.virial;
   EXPECT_NEAR(found.virial, expected.virial, tolerance * scale);
   EXPECT_NEAR(found.virial_yx, expected.virial_yx, tolerance * scale);
   EXPECT_NEAR(found.dissipated, expected.dissipated, tolerance * scale);
-  EXPECT_NEAR(found.kick_energy, expected.kick_energy, tolerance * scale);
+  EXPECT_NEAR(found.thermostat_energy, expected.thermostat_energy, tolerance * scale);
   EXPECT_NEAR(found.shear_energy, expected.shear_energy, tolerance * scale);
 }
 
@@ -174,8 +174,8 @@ TEST(EnginesShear, KeepWhatTheyKnowOfEnergyOverManyBoxLengthsOfDisplacement) {
   const Totals& totals = engine->totals();
   ASSERT_GT(totals.pair, 5000u);
   // Every collision and every kick rounds energies of the order of the whole a few times: 1e-15 of it.
-  const double events = static_cast<double>(totals.pair + totals.other + totals.kicks);
-  EXPECT_NEAR(kinetic() - before, totals.shear_energy + totals.kick_energy, events * 1e-15 * kinetic());
+  const double events = static_cast<double>(totals.pair + totals.other + totals.thermostat);
+  EXPECT_NEAR(kinetic() - before, totals.shear_energy + totals.thermostat_energy, events * 1e-15 * kinetic());
   // Each of some 10,000 epochs rounds the displacement twice, to 1e-15 of the box.
   EXPECT_NEAR(engine->state().shear_displacement, 2.0, 1e-10);
 }

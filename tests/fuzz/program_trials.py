@@ -324,8 +324,8 @@ def energy_and_momentum(trial, file):
     if "growth" in tables:
         scale = summary["growth"]["scale"]
         turnover += (bounces + events["pair"]) * 4.0 * masses.max() * (2.0 * radii.max() * scale * number(tables["growth"]["rate"])) ** 2
-    if "given" in energy or not gives:
-        change = energy["final"] - energy["initial"] - energy.get("given", 0.0)
+    if "supplied" in energy or not gives:
+        change = energy["final"] - energy["initial"] - energy.get("supplied", 0.0)
         expect(abs(change) <= 1e-11 * turnover + slack, f"energy changed by {change:.3g} of {turnover:.3g} unexplained ({slack:.3g} for weights)")
     thermal = any("temperature" in wall for wall in tables.get("walls", {}).values())
     _, _, periodic = box_of(trial, file, 0) if len(file["particles/trajectory/box/edges/value"]) else (0, 0, boundary_words(file))

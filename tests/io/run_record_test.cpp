@@ -36,12 +36,12 @@ RunReport with_effects() {
   effects.spin_temperature = 1.25;
   effects.dissipated = 0.5;
   effects.obstacles = Eigen::Vector2d(1.5, -2.0);
-  effects.thermostat = {.kicks = 4321, .energy = -10.0};
+  effects.thermostat = {.events = 4321, .energy = -10.0};
   effects.growth = {.scale = 1.5, .packing_fraction = 0.75, .energy = 20.0};
   effects.shear = {
       .strain = 2.5, .energy = 30.0, .pressure_xy_of_collisions = -0.5, .pressure_xy_of_flight = {}, .viscosity = 1.5};
   effects.bonds = 31;
-  effects.energy_given = 0.25;
+  effects.energy_supplied = 0.25;
   return report;
 }
 
@@ -69,9 +69,9 @@ TEST(RunReportOf, DriftsAreRelativeToWhatTheyWereRelativeTo) {
   report.energy_scale = 700.0;  // the parts cancel; energy goes from 32 to 32.5
   const RunReport read = run_report_of(json_of(report));
   EXPECT_DOUBLE_EQ(read.relative_energy_drift(), 0.5 / 700.0);
-  EXPECT_DOUBLE_EQ(read.unexplained_energy_drift().value(), 0.25 / 700.0);
+  EXPECT_DOUBLE_EQ(read.unaccounted_energy_drift().value(), 0.25 / 700.0);
   report.energy_final = report.energy_initial;
-  EXPECT_DOUBLE_EQ(run_report_of(json_of(report)).unexplained_energy_drift().value(), -0.25 / 700.0);
+  EXPECT_DOUBLE_EQ(run_report_of(json_of(report)).unaccounted_energy_drift().value(), -0.25 / 700.0);
 }
 
 TEST(RunReportOf, EveryReasonToStopIsKnown) {

@@ -89,7 +89,7 @@ RunReport report_with_effects() {
   RunReport report = report_of(scene_of(2, 2));
   report.totals.obstacle = 30;
   report.totals.well = 5;
-  report.totals.kicks = 7;
+  report.totals.thermostat = 7;
   EffectsReport& effects = report.of_effects;
   effects.walls.push_back({.name = "bottom", .momentum = 40.0, .energy = 3.0, .force = 8.0, .pressure = 2.0, .end = {}});
   effects.walls.push_back(
@@ -99,12 +99,12 @@ RunReport report_with_effects() {
   effects.spin_temperature = 1.25;
   effects.dissipated = 0.5;
   effects.obstacles = Eigen::Vector2d(1.5, -2.0);
-  effects.thermostat = {.kicks = 7, .energy = 10.0};
+  effects.thermostat = {.events = 7, .energy = 10.0};
   effects.growth = {.scale = 1.5, .packing_fraction = 0.75, .energy = 20.0};
   effects.shear = {
       .strain = 2.5, .energy = 30.0, .pressure_xy_of_collisions = -0.5, .pressure_xy_of_flight = -0.25, .viscosity = 1.5};
   effects.bonds = 3;
-  effects.energy_given = 0.25;
+  effects.energy_supplied = 0.25;
   return report;
 }
 
@@ -116,15 +116,15 @@ TEST(Summary, EveryEffectHasItsKeyAfterThoseOfEveryRun) {
                   "events", "wall_seconds", "collisions_per_second", "energy", "momentum", "temperature", "pressure", "overlap",
                   "stopped", "title", "loop_seconds", "virial", "wall_impulse", "numerics", "walls", "packing_fraction_end",
                   "dissipated", "obstacles", "thermostat", "growth", "shear", "square_well", "command_line", "resolved_scene"));
-  EXPECT_THAT(keys_of(json["events"]), ElementsAre("pair", "wall", "other", "stale", "obstacle", "well", "kicks", "total"));
-  EXPECT_THAT(keys_of(json["energy"]), ElementsAre("initial", "final", "relative_drift", "given", "unexplained", "parts"));
+  EXPECT_THAT(keys_of(json["events"]), ElementsAre("pair", "wall", "other", "stale", "obstacle", "well", "thermostat", "total"));
+  EXPECT_THAT(keys_of(json["energy"]), ElementsAre("initial", "final", "relative_drift", "supplied", "unaccounted", "parts"));
   EXPECT_THAT(keys_of(json["temperature"]), ElementsAre("mean", "spin_mean"));
 }
 
 TEST(Summary, EffectsTellWhatTheyGaveAndTook) {
   const Json json = summary_of(report_with_effects());
   EXPECT_EQ(json["events"]["total"], 1000 + 20 + 300 + 4 + 30 + 5 + 7);
-  EXPECT_EQ(json["energy"]["unexplained"], (32.5 - 32.0 - 0.25) / 32.5);
+  EXPECT_EQ(json["energy"]["unaccounted"], (32.5 - 32.0 - 0.25) / 32.5);
   EXPECT_EQ(json["energy"]["parts"], (Json{{"kinetic", 20.0}, {"spin", 2.5}, {"potential", 7.0}, {"pistons", 3.0}}));
   EXPECT_EQ(json["walls"]["bottom"], (Json{{"momentum", 40.0}, {"energy", 3.0}, {"force", 8.0}, {"pressure", 2.0}}));
   EXPECT_EQ(
@@ -134,7 +134,7 @@ TEST(Summary, EffectsTellWhatTheyGaveAndTook) {
   EXPECT_EQ(json["packing_fraction_end"], 0.3);
   EXPECT_EQ(json["dissipated"], 0.5);
   EXPECT_EQ(json["obstacles"], (Json{{"momentum", {1.5, -2.0}}}));
-  EXPECT_EQ(json["thermostat"], (Json{{"kicks", 7}, {"energy", 10.0}}));
+  EXPECT_EQ(json["thermostat"], (Json{{"events", 7}, {"energy", 10.0}}));
   EXPECT_EQ(json["growth"], (Json{{"scale", 1.5}, {"packing_fraction", 0.75}, {"energy", 20.0}}));
   EXPECT_EQ(
       json["shear"],

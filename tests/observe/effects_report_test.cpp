@@ -20,8 +20,8 @@ class EffectsOfARun : public ::testing::Test {
     totals_.wall_impulse = {0.0, 0.0, 40.0, 60.0};
     totals_.wall_energy = {0.0, 0.0, 3.0, -1.0};
     totals_.dissipated = 0.5;
-    totals_.kicks = 7;
-    totals_.kick_energy = 10.0;
+    totals_.thermostat = 7;
+    totals_.thermostat_energy = 10.0;
     totals_.growth_energy = 20.0;
     totals_.shear_energy = 30.0;
     totals_.virial_yx = -25.0;
@@ -46,7 +46,7 @@ TEST_F(EffectsOfARun, WithoutEffectsThereAreOnlyTheWalls) {
   EXPECT_EQ(r.walls[0].pressure, 2.0);
   EXPECT_FALSE(r.walls[0].end);
   EXPECT_FALSE(r.packing_fraction_end || r.energies_end || r.dissipated || r.obstacles || r.thermostat || r.growth || r.shear ||
-               r.bonds || r.energy_given);
+               r.bonds || r.energy_supplied);
 }
 
 TEST_F(EffectsOfARun, NoTimeGivesNoForce) {
@@ -88,7 +88,7 @@ TEST_F(EffectsOfARun, EachEffectTellsWhatItDid) {
   EXPECT_EQ(r.dissipated, 0.5);
   EXPECT_EQ(*r.obstacles, Eigen::Vector2d(1.5, -2.0));
   ASSERT_TRUE(r.thermostat && r.growth && r.shear && r.energies_end);
-  EXPECT_EQ(r.thermostat->kicks, 7u);
+  EXPECT_EQ(r.thermostat->events, 7u);
   EXPECT_EQ(r.thermostat->energy, 10.0);
   EXPECT_EQ(r.growth->scale, 1.5);
   EXPECT_EQ(r.growth->energy, 20.0);
@@ -102,29 +102,29 @@ TEST_F(EffectsOfARun, EachEffectTellsWhatItDid) {
 
 TEST_F(EffectsOfARun, EnergyGivenIsThatOfBathsLessWhatWasLost) {
   scene_.effects.collision.restitution = 0.9;
-  EXPECT_EQ(report().energy_given, 10.0 + 20.0 + 30.0 - 0.5 - 3.0 + 1.0);
+  EXPECT_EQ(report().energy_supplied, 10.0 + 20.0 + 30.0 - 0.5 - 3.0 + 1.0);
 }
 
 TEST_F(EffectsOfARun, WhatAPistonTakesStaysInTheTotal) {
   scene_.effects.walls[2].mass = 10.0;
   scene_.effects.walls[3].velocity = 0.5;
-  EXPECT_EQ(report().energy_given, 10.0 + 20.0 + 30.0 - 0.5 + 1.0);
+  EXPECT_EQ(report().energy_supplied, 10.0 + 20.0 + 30.0 - 0.5 + 1.0);
   scene_.effects.walls[2].restitution = 0.5;
-  EXPECT_FALSE(report().energy_given) << "its loss and its work are one number";
+  EXPECT_FALSE(report().energy_supplied) << "its loss and its work are one number";
   scene_.effects.walls[2].restitution = 1.0;
-  EXPECT_EQ(report().energy_given, 10.0 + 20.0 + 30.0 - 0.5 + 1.0) << "it loses nothing";
+  EXPECT_EQ(report().energy_supplied, 10.0 + 20.0 + 30.0 - 0.5 + 1.0) << "it loses nothing";
 }
 
 TEST_F(EffectsOfARun, NeutralValuesTakeNothingFromTheReport) {
   scene_.box.boundary[0] = Boundary::walls;
   scene_.effects.growth = Growth{.rate = 0.1, .packing_fraction = {}, .reduced_pressure = {}, .where = {}};
   const EffectsReport plain = report();
-  ASSERT_TRUE(plain.energy_given && plain.walls[0].pressure);
+  ASSERT_TRUE(plain.energy_supplied && plain.walls[0].pressure);
   scene_.effects.collision.restitution = 1.0;
   scene_.effects.collision.roughness = -1.0;
   scene_.effects.walls[0].restitution = 1.0;
   scene_.effects.walls[3].velocity = 0.0;
-  EXPECT_EQ(report().energy_given, plain.energy_given);
+  EXPECT_EQ(report().energy_supplied, plain.energy_supplied);
   EXPECT_TRUE(report().packing_fraction_end) << "a key is there where the scene names its effect";
   for (std::size_t side = 0; side < 4; ++side) EXPECT_EQ(report().walls[side].pressure, plain.walls[side].pressure) << side;
 }
@@ -132,14 +132,14 @@ TEST_F(EffectsOfARun, NeutralValuesTakeNothingFromTheReport) {
 TEST_F(EffectsOfARun, AnEnergyChangeThatWasGivenIsExplained) {
   scene_.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0, .where = {}};
   RunReport r = report_of(scene_);
-  EXPECT_FALSE(r.unexplained_energy_drift());
-  r.of_effects.energy_given = 4.0;
+  EXPECT_FALSE(r.unaccounted_energy_drift());
+  r.of_effects.energy_supplied = 4.0;
   r.energy_initial = 16.0;
   r.energy_final = 20.0;
   EXPECT_EQ(r.relative_energy_drift(), 0.25);
-  EXPECT_EQ(r.unexplained_energy_drift(), 0.0);
+  EXPECT_EQ(r.unaccounted_energy_drift(), 0.0);
   r.energy_final = 32.0;
-  EXPECT_EQ(r.unexplained_energy_drift(), 12.0 / 32.0);
+  EXPECT_EQ(r.unaccounted_energy_drift(), 12.0 / 32.0);
 }
 
 TEST_F(EffectsOfARun, DriftIsRelativeToWhatMayCancel) {

@@ -91,7 +91,7 @@ TEST(SweepUnits, AreThoseOfTheTablesInTheDocs) {
                                                            {"pressure.Z", ""},
                                                            {"events.pair", ""},
                                                            {"walls.left.pressure", "energy / area"},
-                                                           {"thermostat.kicks", ""},
+                                                           {"thermostat.thermostat", ""},
                                                            {"thermostat.energy", "energy"},
                                                            {"shear.pressure_xy.flight", "energy / area"},
                                                            {"shear.strain", ""}};

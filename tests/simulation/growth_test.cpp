@@ -150,8 +150,8 @@ TEST(Growth, LeavesTheTemperatureToAThermostatWhereThereIsOne) {
   EXPECT_EQ(simulation.run_until(1e6), StopReason::grown);
   const Totals& totals = simulation.totals();
   EXPECT_GT(totals.growth_energy, 0.0) << "nothing was taken from it";
-  EXPECT_NEAR(kinetic_energy(simulation.disks(), simulation.state()), before + totals.growth_energy + totals.kick_energy,
-              2e-15 * static_cast<double>(totals.pair + totals.kicks) * before);
+  EXPECT_NEAR(kinetic_energy(simulation.disks(), simulation.state()), before + totals.growth_energy + totals.thermostat_energy,
+              2e-15 * static_cast<double>(totals.pair + totals.thermostat) * before);
 }
 
 TEST(Growth, LeavesTheSameBitsWhereverOneStops) {

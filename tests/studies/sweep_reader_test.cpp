@@ -154,11 +154,11 @@ TEST_F(SweepReader, ATableHasNumbersThatSummariesHave) {
 
 TEST_F(SweepReader, ATableHasNumbersThatSomePointOfThisVerySweepHas) {
   // Walls and thermostats are known, and this gas has neither.
-  for (const char* name : {"walls.left.force", "thermostat.kicks", "events.kicks", "growth.scale", "overlap.start"})
+  for (const char* name : {"walls.left.force", "thermostat.thermostat", "events.thermostat", "growth.scale", "overlap.start"})
     EXPECT_THAT(files_.refusal(scene_line + "table = [\"time\", \"" + name + "\"]\n"),
                 StartsWith(std::string("sweep.toml:2:18: table.1 is \"") + name + "\", and no run has that number"))
         << name;
-  const std::string kicks = scene_line + "table = [\"thermostat.kicks\"]\n";
+  const std::string kicks = scene_line + "table = [\"thermostat.events\"]\n";
   EXPECT_EQ(files_.refusal(kicks + "[set]\nthermostat = { temperature = 1.0, rate = 0.0 }\n"), "");
   EXPECT_EQ(files_.refusal(kicks + "[[points]]\nname = \"a\"\n[[points]]\nname = \"b\"\n"
                                    "thermostat = { temperature = 1.0, rate = 0.1 }\n"),

@@ -123,9 +123,9 @@ inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_
   if (!fighter.complaint.empty()) return fighter;
 
   const Totals& totals = running->totals();
-  const double given = effects_report(scene, disks, totals, running->state()).energy_given.value_or(0.0);
+  const double given = effects_report(scene, disks, totals, running->state()).energy_supplied.value_or(0.0);
   const double change = energies(running->state()).total() - before.total() - given;
-  double turnover = largest + std::abs(totals.dissipated) + std::abs(totals.kick_energy) + std::abs(totals.growth_energy) +
+  double turnover = largest + std::abs(totals.dissipated) + std::abs(totals.thermostat_energy) + std::abs(totals.growth_energy) +
                     std::abs(totals.shear_energy) + pumped(scene, disks, totals);
   for (const double energy : totals.wall_energy) turnover += std::abs(energy);
   if (totals.well > 0) turnover += std::abs(scene.effects.square_well->depth);  // in and out again between two looks

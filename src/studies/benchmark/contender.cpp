@@ -100,7 +100,7 @@ double Contender::energy_drift() const { return run_up_drift_ + std::abs(energy_
 double Contender::energy_balance() const {
   const Scene& scene = simulation_.scene();
   const State state = simulation_.state();
-  const double given = effects_report(scene, simulation_.disks(), totals(), state).energy_given.value_or(0.0);
+  const double given = effects_report(scene, simulation_.disks(), totals(), state).energy_supplied.value_or(0.0);
   return total_energy(scene.box, scene.effects, simulation_.disks(), state) - given;
 }
 

@@ -114,7 +114,7 @@ void check_conservation(const HardCase& hard_case, const EngineRun& run, Checks&
   checks.push_back(within("overlap", run, run.overlap, widened(expect.overlap, run)));
   checks.back().invariant = true;
   if (expect.energy) {
-    const double drift = run.report.unexplained_energy_drift().value_or(run.report.relative_energy_drift());
+    const double drift = run.report.unaccounted_energy_drift().value_or(run.report.relative_energy_drift());
     checks.push_back(within("energy", run, std::abs(drift), widened(*expect.energy, run)));
   }
   if (expect.momentum) {

@@ -20,7 +20,7 @@ struct UnitOf {
 /// The first that fits.
 constexpr std::array<UnitOf, 19> of_numbers = {{{"time", "time", "time"},
                                                 {"energy.", "drift", ""},
-                                                {"energy.", "unexplained", ""},
+                                                {"energy.", "unaccounted", ""},
                                                 {"energy.", "", "energy"},
                                                 {"momentum.", "", "mass length / time"},
                                                 {"temperature.", "", "energy"},
