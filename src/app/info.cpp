@@ -58,10 +58,10 @@ bool begins_like_hdf5(const fs::path& path) {
 
 std::string describe_scene(const fs::path& path) {
   const Scene scene = load_scene(path.string());
-  std::string text = fmt::format("{}: a scene for Carom{}{}\n", path.string(), scene.title.empty() ? "" : ", ", scene.title);
+  std::string text = fmt::format("{}: scene{}{}\n", path.string(), scene.title.empty() ? "" : ", ", scene.title);
   for (const Species& species : scene.species)
     text += detail::info_line("disks", fmt::format("{} {}", species.count, species.name));
-  text += detail::info_line("packing", fmt::format("fraction {:.4g}", scene.packing_fraction()));
+  text += detail::info_line("density", fmt::format("packing fraction {:.4g}", scene.packing_fraction()));
   text += detail::info_line("collisions", scene.effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular");
   const std::vector<std::string> effects = names_of(scene.effects, !scene.box.periodic(0) || !scene.box.periodic(1));
   if (effects.size() > 1)
@@ -79,8 +79,8 @@ std::string describe_checkpoint(const fs::path& path) {
   if (const std::string damage = checkpoint_damage(path); !damage.empty())
     throw OutputError(fmt::format("{}: this checkpoint is damaged: {}", path.string(), damage));
   const CheckpointFacts facts = checkpoint_facts(path);
-  std::string text = fmt::format("{}: a checkpoint of a run{}\n", path.string(),
-                                 facts.finished ? " that has come to its end" : ", from which carom resume goes on");
+  std::string text = fmt::format("{}: checkpoint of a run{}\n", path.string(),
+                                 facts.finished ? " that has ended" : " that carom resume can continue");
   text += detail::info_line("time", fmt::format("{}", facts.time));
   text += detail::info_line("collisions", fmt::format("{}", facts.collisions));
   text += detail::info_line("engine", facts.provenance.engine);
@@ -127,10 +127,8 @@ std::string describe_content(const fs::path& path) {
   if (ending == ".toml") return describe_scene(path);
   if (begins_like_checkpoint(path)) return describe_checkpoint(path);
   if (ending == ".h5md" || ending == ".h5")
-    throw OutputError(
-        fmt::format("{}: this is no HDF5 file, whatever its name says: it does not begin like one; it may be cut "
-                    "short, or another program's",
-                    path.string()));
+    throw OutputError(fmt::format(
+        "{}: this is not an HDF5 file, although its name says so; it may be cut short, or another program's", path.string()));
   throw OutputError(
       fmt::format("{}: Carom does not know this kind of file; it describes directories of runs and sweeps, "
                   ".h5md, .xyz, .csv, summary.json, sweep.h5 and scenes (.toml)",
@@ -159,8 +157,7 @@ std::string describe_file(const fs::path& path) {
         fmt::format("{}: this file is empty; the run that should have written it did not get that far", path.string()));
   std::string text = describe_content(path);
   text += detail::info_line("size", detail::size_text(size));
-  if (path.extension() == partial_ending)
-    text += detail::info_line("state", "incomplete: its run still goes on, or was ended from outside");
+  if (path.extension() == partial_ending) text += detail::info_line("state", "incomplete: the run has not ended, or was killed");
   return text;
 }
 

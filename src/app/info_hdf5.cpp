@@ -1,4 +1,4 @@
-// What an HDF5 file of Carom holds: a trajectory.h5md, or the sweep.h5 of a sweep.
+// Describes an HDF5 file of Carom: a trajectory.h5md, or the sweep.h5 of a sweep.
 
 #include "app/info_parts.hpp"
 #include "app/info_sweep.hpp"
@@ -8,8 +8,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <carom/state.hpp>
+
+#include <Eigen/Core>
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace carom::detail {
@@ -52,6 +57,28 @@ std::string sampling(hid_t file) {
   return {};
 }
 
+/// The state hash of the last sample, which is that of the run where it ended with a sample. Empty for positions that were
+/// unwrapped: they are other bits than those of the state.
+std::string last_state_hash(hid_t file, hsize_t samples, hsize_t disks) {
+  if (samples == 0 || read_string_attribute(file, parameters, "positions") != "wrapped") return {};
+  const auto last = [&](const std::string& dataset) { return read_rows(file, dataset, samples - 1, 1); };
+  const std::vector<double> position = last(particles + "/position/value"), velocity = last(particles + "/velocity/value");
+  State state;
+  state.time = last(particles + "/position/time").at(0);
+  state.positions.resize(2, static_cast<Eigen::Index>(disks));
+  state.velocities.resize(2, static_cast<Eigen::Index>(disks));
+  for (std::size_t i = 0; i < disks; ++i) {
+    state.positions.col(static_cast<Eigen::Index>(i)) << position.at(3 * i), position.at(3 * i + 1);
+    state.velocities.col(static_cast<Eigen::Index>(i)) << velocity.at(3 * i), velocity.at(3 * i + 1);
+  }
+  if (!extents_of(file, "/observables/spin/value").empty()) {
+    const std::vector<double> spins = last("/observables/spin/value");
+    if (spins.size() != disks) throw Hdf5Error("there is not one spin per disk");
+    state.spins = Eigen::Map<const Eigen::VectorXd>(spins.data(), static_cast<Eigen::Index>(disks));
+  }
+  return state_hash(state);
+}
+
 /// "kinetic_energy, temperature, spin", by name
 std::string observables_line(hid_t file) { return fmt::format("{}", fmt::join(members_of(file, "/observables"), ", ")); }
 
@@ -80,10 +107,12 @@ std::string described(hid_t file) {
     line += sampling(file);
   }
   text += info_line("samples", line);
+  if (const std::string hash = last_state_hash(file, samples, disks); !hash.empty())
+    text += info_line("state hash", hash + ", of the last sample");
   text += info_line("observables", observables_line(file));
   if (samples > 0 && !extents_of(file, "/observables/scale/value").empty())
-    text += info_line("grown", fmt::format("radii to {} times those in the file",
-                                           read_rows(file, "/observables/scale/value", samples - 1, 1).at(0)));
+    text += info_line("growth", fmt::format("radii {} times those in the file",
+                                            read_rows(file, "/observables/scale/value", samples - 1, 1).at(0)));
   const std::vector<hsize_t> events = extents_of(file, "/events/time");
   if (!events.empty()) text += info_line("events", fmt::format("{} in /events", counted(events[0], "collision")));
   return text;

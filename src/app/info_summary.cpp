@@ -1,4 +1,4 @@
-// What a summary.json says, or the compare.json of a comparison.
+// Describes the summary.json of a run, or the compare.json of a comparison.
 
 #include "app/info_parts.hpp"
 #include "io/output_error.hpp"
@@ -18,7 +18,7 @@ std::string text_of(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.is_null() ? "none" : value.dump();
 }
 
-/// "left 2.5, right 2.5", where walls are and have a pressure
+/// Returns the pressures on all walls that have one: "left 2.5, right 2.5".
 std::string wall_pressures(const Json& walls) {
   std::string text;
   for (const auto& [name, wall] : walls.items())
@@ -27,7 +27,7 @@ std::string wall_pressures(const Json& walls) {
   return text;
 }
 
-/// One line for each effect that has something to tell.
+/// Returns one line for each effect that has a result.
 std::string lines_of_effects(const Json& json) {
   std::string text;
   if (json.at("energy").contains("supplied"))
@@ -45,7 +45,7 @@ std::string lines_of_effects(const Json& json) {
                                                 text_of(json.at("thermostat").at("energy"))));
   if (json.contains("growth"))
     text += info_line(
-        "grown", fmt::format("radii {} times those at the start, packing fraction {}", text_of(json.at("growth").at("scale")),
+        "growth", fmt::format("radii {} times those at the start, packing fraction {}", text_of(json.at("growth").at("scale")),
                              text_of(json.at("growth").at("packing_fraction"))));
   if (json.contains("shear"))
     text += info_line("shear", fmt::format("strain {}, viscosity {}", text_of(json.at("shear").at("strain")),
@@ -54,7 +54,7 @@ std::string lines_of_effects(const Json& json) {
   return text;
 }
 
-/// "1000 pair, 20 wall", and what else happened
+/// Returns the numbers of events by kind: "1000 pair, 20 wall".
 std::string events_line(const Json& events) {
   std::string text = fmt::format("{} pair, {} wall", text_of(events.at("pair")), text_of(events.at("wall")));
   if (events.contains("obstacle")) text += fmt::format(", {} obstacle", text_of(events.at("obstacle")));

@@ -49,8 +49,7 @@ std::string sweep_lines(hid_t file) {
   if (failed > 0.0) of_runs += fmt::format(", {} failed", failed);
   text += info_line("runs", of_runs);
   text += info_line("numbers", fmt::format("{}", fmt::join(members_of(file, "/points/mean"), ", ")));
-  if (finished + failed < static_cast<double>(runs))
-    text += info_line("state", "incomplete: the command that began it goes on from there");
+  if (finished + failed < static_cast<double>(runs)) text += info_line("state", "incomplete: the same command continues it");
   return text;
 }
 
@@ -84,8 +83,7 @@ std::string describe_runs_of_sweep(const fs::path& path) {
   if (begun == 0) return {};
   std::string text = fmt::format("{}: runs of a sweep, without its tables\n", path.string());
   text += info_line("runs", fmt::format("{} begun, {} with results", begun, finished));
-  return text +
-         info_line("state", "incomplete: the sweep still goes on, or was ended from outside; its command goes on from there");
+  return text + info_line("state", "incomplete: the sweep has not ended, or was killed; the same command continues it");
 }
 
 }  // namespace carom::detail

@@ -155,7 +155,7 @@ TEST_F(ScenesSweep, InfoTellsOfASweepThatWasKilled) {
   const Outcome killed = carom({"info", "gas-sweep"});
   EXPECT_EQ(killed.exit_code, 0) << killed.err;
   EXPECT_THAT(killed.out, AllOf(StartsWith("gas-sweep: runs of a sweep, without its tables\n"),
-                                HasSubstr(" 6 begun, 5 with results\n"), HasSubstr("goes on from there")));
+                                HasSubstr(" 6 begun, 5 with results\n"), HasSubstr("the same command continues it")));
 }
 
 TEST_F(SweepCommand, WhatIsWrongIsSaidBeforeAnythingRuns) {

@@ -24,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string refusal_to_describe(const fs::path& path) {
   try {
@@ -64,6 +65,21 @@ TEST_F(Info, DescribesATrajectory) {
                           HasSubstr("9 collisions in /events"), HasSubstr("size")));
 }
 
+TEST_F(Info, TheStateHashOfATrajectoryIsThatOfItsLastSample) {
+  EXPECT_THAT(describe_file(out_ / "trajectory.h5md"),
+              HasSubstr("state hash  " + state_hash(state_at(5, scene_)) + ", of the last sample\n"));
+  const auto described = [&](const std::string& name, const Scene& scene) {
+    RunWriter writer(RunDirectory(temporary_.path() / name, false), scene, disks_of(scene), provenance());
+    for (std::uint64_t k = 0; k < 3; ++k) writer.sample(k, state_with_effects_at(k, scene), {});
+    writer.finish(report_of(scene));
+    return describe_file(temporary_.path() / name / "trajectory.h5md");
+  };
+  Scene rough = scene_with_effects(3, 2);
+  EXPECT_THAT(described("rough", rough), HasSubstr("state hash  " + state_hash(state_with_effects_at(2, rough))));
+  rough.output.unwrapped = true;
+  EXPECT_THAT(described("unwrapped", rough), Not(HasSubstr("state hash")));
+}
+
 TEST_F(Info, DescribesExtendedXyz) {
   EXPECT_THAT(describe_file(out_ / "trajectory.xyz"),
               AllOf(HasSubstr("extended XYZ"), HasSubstr("4 0 0 0 2.5 0 0 0 0.06 from (-1 10 -0.03)"), HasSubstr("T F F"),
@@ -96,7 +112,7 @@ TEST_F(Info, DescribesARunDirectoryWithoutASample) {
 
 TEST_F(Info, DescribesAScene) {
   EXPECT_THAT(describe_file(fs::path(CAROM_SOURCE_DIR) / "docs/scenes/box.toml"),
-              AllOf(HasSubstr("a scene for Carom, Disks in a square box"), HasSubstr("64 gas"), HasSubstr("reversal")));
+              AllOf(HasSubstr("scene, Disks in a square box"), HasSubstr("64 gas"), HasSubstr("reversal")));
 }
 
 TEST_F(Info, DescribesWhatEffectsLeftInAllFiles) {
@@ -111,10 +127,10 @@ TEST_F(Info, DescribesWhatEffectsLeftInAllFiles) {
   writer.finish(report);
   EXPECT_THAT(describe_file(out / "trajectory.h5md"),
               AllOf(HasSubstr("effects     specular, walls, restitution, roughness"),
-                    HasSubstr("4 x 2.5 from (-1, 10); x periodic, y walls; at the end 4 x 5.5"), HasSubstr("radii to 1.25 times"),
+                    HasSubstr("4 x 2.5 from (-1, 10); x periodic, y walls; at the end 4 x 5.5"), HasSubstr("radii 1.25 times"),
                     HasSubstr("bonds, kinetic_energy, packing_fraction"), HasSubstr("spin, ")));
   EXPECT_THAT(describe_file(out / "summary.json"),
-              AllOf(HasSubstr("temperature 1.25"), HasSubstr("dissipated"), HasSubstr("grown       radii to 1.25 times"),
+              AllOf(HasSubstr("temperature 1.25"), HasSubstr("dissipated"), HasSubstr("growth      radii 1.25 times"),
                     HasSubstr("bonds       8"), HasSubstr("pressure on bottom ")));
   EXPECT_THAT(describe_file(out / "samples.csv"), AllOf(HasSubstr("vx,vy,spin"), HasSubstr("5, from time 0 to 0.4")));
 }
@@ -181,7 +197,7 @@ TEST_F(Info, EmptyFilesAreNamedAsEmpty) {
 TEST_F(Info, ForeignFilesAreNamedAsSuch) {
   const fs::path directory = temporary_.path();
   write_text(directory / "t.h5md", "not HDF5 at all");
-  EXPECT_THAT(refusal_to_describe(directory / "t.h5md"), HasSubstr("no HDF5 file"));
+  EXPECT_THAT(refusal_to_describe(directory / "t.h5md"), HasSubstr("not an HDF5 file"));
   write_text(directory / "t.xyz", "3\ncomment\nC 0 0 0\nC 0 0 0\nC 0 0 0\n");
   EXPECT_THAT(refusal_to_describe(directory / "t.xyz"), HasSubstr("not extended XYZ as Carom writes it"));
   write_text(directory / "t.csv", "a,b\n1,2\n");
