@@ -39,7 +39,7 @@ Scene scene_with(const std::vector<std::string>& observables, double packing_fra
 std::vector<Measurement> observe(Simulation& simulation, bool beside) {
   Observation observation(simulation);
   RunHooks hooks;
-  beside ? observation.attach_beside(hooks) : observation.attach(hooks);
+  beside ? observation.attach_on_thread(hooks) : observation.attach(hooks);
   run_schedule(simulation, hooks);
   return observation.results();
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What a simulation holds at one instant, and what it has counted on the way there: plain data, in double
-// precision whatever the engine computes with.
+// The state of a simulation at one instant, and what it has counted since its start: plain data, in double precision whatever the
+// precision of the engine.
 
 #include <Eigen/Core>
 
@@ -12,62 +12,66 @@
 
 namespace carom {
 
-/// The properties of the disks that no event changes. One entry per disk; a disk's id is its index.
+/// The constant properties of the disks. Every list has one entry per disk; the id of a disk is its index.
 struct Disks {
   std::vector<double> radius;         ///< length, > 0
   std::vector<double> mass;           ///< mass, > 0
   std::vector<std::int32_t> species;  ///< index into Scene::species
 
+  /// Returns the number of disks.
   [[nodiscard]] std::size_t count() const { return radius.size(); }
-  [[nodiscard]] double total_mass() const;     ///< to u + 2^-104 count() of it, u = 2^-53
-  [[nodiscard]] double mean_diameter() const;  ///< length; to u count() of it; 0 without disks
+  /// Returns the sum of all masses, right to a relative error of u + 2^-104 count(), u = 2^-53.
+  [[nodiscard]] double total_mass() const;
+  /// Returns the mean diameter, a length, right to a relative error of u count(); 0 without disks.
+  [[nodiscard]] double mean_diameter() const;
 };
 
-/// How many box lengths each disk has travelled past the periodic edges. Column i belongs to disk i.
+/// The number of box lengths that each disk has travelled past the periodic edges. Column i belongs to disk i.
 using Images = Eigen::Matrix<std::int64_t, 2, Eigen::Dynamic>;
 
-/// One side of the box at one instant.
+/// Position and velocity of one wall at one instant.
 struct WallState {
-  double position = 0.0;  ///< along its axis; length
+  double position = 0.0;  ///< coordinate along its normal; length
   double velocity = 0.0;  ///< along +x or +y, whichever side it is; length / time
 };
 
-/// Positions and velocities of all disks at one instant. Column i belongs to disk i. What comes after the remainders is there
-/// for scenes with effects; in others it stays as it is here.
+/// The state of all disks at one instant. Column i belongs to disk i. The members after `remainders` are set in scenes with the
+/// effects that need them; in other scenes they keep the values below.
 struct State {
   double time = 0.0;            ///< since the start of the measured run
   Eigen::Matrix2Xd positions;   ///< 2 x N; length; on periodic axes inside [lower, upper)
   Eigen::Matrix2Xd velocities;  ///< 2 x N; length / time
   Images images;                ///< 2 x N; the unwrapped position is positions + images * box length (0 on walled axes)
-  Eigen::Matrix2Xd
-      remainders;  ///< 2 x N; length; exact position minus `positions`; 2 x 0 where the engine knows no more than doubles hold
+  /// 2 x N; length; exact position minus `positions`. It is 2 x 0 where the engine knows no more than doubles hold.
+  Eigen::Matrix2Xd remainders;
 
-  Eigen::VectorXd spins;            ///< N angular velocities, 1 / time, counter-clockwise; of length 0 where disks are smooth
+  Eigen::VectorXd spins;            ///< N angular velocities, 1 / time, counter-clockwise; length 0 where disks are smooth
   double scale = 1.0;               ///< radii are scale * Disks::radius
   std::vector<WallState> walls;     ///< left, right, bottom, top; empty where none of them moves
-  std::uint64_t bonds = 0;          ///< pairs inside each other's square well
-  double shear_displacement = 0.0;  ///< of the images above against those below, in [0, length along x)
+  std::uint64_t bonds = 0;          ///< number of pairs within each other's square well
+  double shear_displacement = 0.0;  ///< offset of the images above from those below, in [0, length along x)
 };
 
-/// The fingerprint of a state: 16 hexadecimal digits, FNV-1a of 64 bits over the time, and of each disk in turn its position, its
-/// velocity and, where there are spins, its spin, as IEEE doubles of 8 bytes, the least significant first. Two runs that end with
-/// the same digits have ended in the same bits; where one bit differs, the digits differ.
+/// Returns the hash of a state: 16 hexadecimal digits, FNV-1a of 64 bits over the time and, for each disk in turn, its position,
+/// velocity and (where there is any) spin, as IEEE doubles of 8 bytes, least significant byte first. Runs that end with equal
+/// hashes have ended in the same bits.
 [[nodiscard]] std::string state_hash(const State& state);
 
-/// What a disk hits where it does not hit another disk. The values stand in the place of a partner's id.
+/// The walls of the box. Their values stand for the partner's id in an event.
 enum Wall : std::int32_t { wall_left = -1, wall_right = -2, wall_bottom = -3, wall_top = -4 };
 
-/// The same for obstacle k of the scene: -1000 - k.
+/// The partner's id in an event with obstacle k of the scene is first_obstacle - k.
 inline constexpr std::int32_t first_obstacle = -1000;
 
-/// One collision, as the event log keeps it.
+/// One collision in the event log.
 struct Event {
-  double time = 0.0;            ///< since the start of the measured run, rounded to double
-  double time_remainder = 0.0;  ///< exact time minus `time`; their unevaluated sum is good to twice the digits
-  std::int32_t disk = 0;        ///< the lower id of a pair
-  std::int32_t partner = 0;     ///< the higher id of a pair, or a Wall, or first_obstacle - k
-  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();          ///< of `disk`, just after
-  Eigen::Vector2d partner_velocity = Eigen::Vector2d::Zero();  ///< of `partner`, just after; zero for a wall
+  double time = 0.0;                                   ///< since the start of the measured run, rounded to double
+  double time_remainder = 0.0;                         ///< exact time minus `time`; their unevaluated sum has twice the digits
+  std::int32_t disk = 0;                               ///< id of the disk, the lower id of a pair
+  std::int32_t partner = 0;                            ///< the higher id of a pair, or a Wall, or first_obstacle - k
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< velocity of `disk` just after
+  Eigen::Vector2d partner_velocity =
+      Eigen::Vector2d::Zero();  ///< velocity of `partner` just after; zero for a wall or an obstacle
 };
 
 /// Near misses of the arithmetic, counted since the start of the measured run. None of them is an error; large counts mean that
@@ -84,37 +88,35 @@ struct Numerics {
   std::uint64_t longest_neighbour_list = 0;  ///< neighbours of one disk, at most, at the last rebuild; 0 without lists
 };
 
-/// The numbers of events since the start of the measured run, by kind. Always kept, at no cost that can be measured.
+/// Numbers of events since the start of the measured run, by kind. Engines always keep them, at no measurable cost.
 struct Counts {
   std::uint64_t pair = 0;        ///< collisions of two disks
   std::uint64_t wall = 0;        ///< collisions with a wall
-  std::uint64_t other = 0;       ///< bookkeeping, no physics: cell crossings of an engine, steps of a fixed-step method
-  std::uint64_t stale = 0;       ///< predictions that another collision had overtaken
+  std::uint64_t other = 0;       ///< bookkeeping without physics: cell crossings of an engine, steps of a fixed-step method
+  std::uint64_t stale = 0;       ///< stale predictions: another collision had overtaken them
   std::uint64_t obstacle = 0;    ///< collisions with an obstacle
-  std::uint64_t well = 0;        ///< passages of the edge of a square well, or bounces there
+  std::uint64_t well = 0;        ///< passages of the edge of a square well, and bounces there
   std::uint64_t thermostat = 0;  ///< velocities redrawn by a thermostat
   Numerics numerics;
 };
 
-/// Counts and sums over all events since the start of the measured run. The sums are those of their terms without any rounding on
-/// the way, rounded once: they do not depend on the order in which events are added.
+/// Counts and sums over all events since the start of the measured run. Each sum is exact until it is rounded once at the end: it
+/// does not depend on the order of events.
 struct Totals : Counts {
-  /// sum over pair collisions of sigma_ij * (normal impulse): mass length^2 / time; the virial of the hard-disk force
+  /// Sum of sigma_ij * (normal impulse) over pair collisions: the virial of the hard-disk force; mass length^2 / time.
   double virial = 0.0;
-  /// sum over wall collisions of the impulse that the wall took, outward positive, for left, right, bottom, top; mass length /
-  /// time
+  /// Impulse that disks gave to the walls left, right, bottom, top, outward positive; mass length / time.
   std::array<double, 4> wall_impulse{};
-  /// sum over wall collisions of the energy that the wall took, for left, right, bottom, top: heat and work; this and the
-  /// energies below in mass length^2 / time^2
+  /// Energy, as heat and work, that disks gave to the walls left, right, bottom, top. All energies are in mass length^2 / time^2.
   std::array<double, 4> wall_energy{};
-  double dissipated = 0.0;         ///< energy that collisions of pairs took away, as surfaces see it that grow
-  double thermostat_energy = 0.0;  ///< energy that the thermostat gave
-  double growth_energy = 0.0;      ///< energy that growing surfaces gave, less what the rescaling of velocities took
-  double shear_energy = 0.0;       ///< energy that disks gained across the edges of a sheared box
-  /// sum over pair collisions of r_y times the impulse along x, momentum along x that goes across y: mass length^2 / time; kept
-  /// where the box is sheared
+  double dissipated = 0.0;         ///< energy lost in pair collisions; for growing disks in the frame of their surfaces
+  double thermostat_energy = 0.0;  ///< energy that disks gained from the thermostat
+  double growth_energy = 0.0;      ///< energy that disks gained from growing surfaces, less that removed by rescaling velocities
+  double shear_energy = 0.0;       ///< energy that disks gained at the edges of a sheared box
+  /// Sum over pair collisions of r_y times the impulse along x: momentum along x transferred along y; mass length^2 / time. It is
+  /// kept only where the box is sheared.
   double virial_yx = 0.0;
-  Eigen::Vector2d obstacle_impulse = Eigen::Vector2d::Zero();  ///< that the obstacles took; mass length / time
+  Eigen::Vector2d obstacle_impulse = Eigen::Vector2d::Zero();  ///< impulse that disks gave to obstacles; mass length / time
 };
 
 }  // namespace carom

@@ -56,7 +56,7 @@ Invocation invocation_of(int argc, char** argv) {
   return invocation;
 }
 
-/// Of a count: the parser would take -1 for 2^64 - 1.
+/// Accepts numbers from 0 on: the parser would take -1 for 2^64 - 1.
 CLI::Validator countable() { return CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description(""); }
 
 void add_scene_options(CLI::App& command, SceneOptions& scene) {
@@ -450,7 +450,8 @@ void require_known_command(const CLI::App& program, const std::string& word) {
   throw UsageError(fmt::format("{}: there is no such command; {}", word, instead));
 }
 
-/// The same for its options: the parser says what was not expected, and not what is.
+/// Throws UsageError for options that a command does not have, with the nearest that it has: the parser names only the unknown
+/// one.
 void require_known_options(const CLI::App& program, int argc, char** argv) {
   if (program.get_subcommands().empty()) return;
   const CLI::App* command = program.get_subcommands().front();

@@ -19,11 +19,11 @@ namespace carom::cli {
 
 namespace {
 
-/// After which it is to stop. It is asked every tenth of a second and so ends at 0.2 s: long enough for some hundred thousand
+/// Length of the trial run. It is checked every tenth of a second and so ends at 0.2 s: long enough for some hundred thousand
 /// collisions, short enough not to be noticed.
 constexpr double trial_seconds = 0.15;
 
-/// Up to here the disks are a fluid, and how often they collide is known.
+/// Largest packing fraction at which the disks are a fluid with a known collision rate.
 constexpr double densest_known = 0.69;
 
 constexpr double latest = 1e15;  // later than any run gets to
@@ -57,7 +57,7 @@ std::vector<Part> parts_of(const Scene& scene) {
   return parts;
 }
 
-/// The same scene with nothing but its motion: no samples are taken, and what would be equilibrated is run like the rest.
+/// Returns the scene with its motion alone: without samples, and with equilibration as part of the run.
 Scene trial_of(const Scene& scene) {
   Scene trial = scene;
   double time = 0.0, collisions = 0.0;
@@ -80,13 +80,13 @@ bool fills_the_box(const Species& species) {
   return spread && species.radii.empty() && species.masses.empty();
 }
 
-/// Pair collisions per time of a gas of which theory knows: smooth hard disks and nothing else, spread over a periodic box. Empty
-/// for any other scene.
+/// Returns the number of pair collisions per time by kinetic theory, for smooth hard disks and nothing else, spread over a
+/// periodic box. Empty for any other scene.
 std::optional<double> rate_by_theory(const Scene& scene, double kT) {
   const bool smooth = scene.effects.collision.rule == CollisionRule::specular && scene.effects.neutral();
   const bool periodic = scene.box.periodic(0) && scene.box.periodic(1);
   const bool uniform = std::all_of(scene.species.begin(), scene.species.end(), fills_the_box);
-  // In a system of few disks the rate differs by about 1/N of itself.
+  // With few disks the rate differs by about 1/N of itself.
   if (!smooth || !periodic || !uniform || scene.disk_count() < 100 || !(kT > 0.0)) return std::nullopt;
   if (scene.packing_fraction() > densest_known) return std::nullopt;
   std::vector<theory::Component> gas;
@@ -108,7 +108,7 @@ void Trial::observe(ExpectedCost& cost, const State& start, double equilibrated,
   Simulation simulation = make_simulation(scene, start, engine_);
   Observation observation(simulation);
   RunHooks hooks;
-  observation.attach_beside(hooks);
+  observation.attach_on_thread(hooks);
   const auto began = std::chrono::steady_clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(); };
   hooks.proceed = [&](const Progress&) { return seconds() < trial_seconds; };

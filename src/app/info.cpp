@@ -1,4 +1,4 @@
-// Finds out what a file is, and lets the part that knows this kind describe it.
+// Determines the kind of a file and has it described.
 
 #include "app/info.hpp"
 

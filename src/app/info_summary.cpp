@@ -46,7 +46,7 @@ std::string lines_of_effects(const Json& json) {
   if (json.contains("growth"))
     text += info_line(
         "growth", fmt::format("radii {} times those at the start, packing fraction {}", text_of(json.at("growth").at("scale")),
-                             text_of(json.at("growth").at("packing_fraction"))));
+                              text_of(json.at("growth").at("packing_fraction"))));
   if (json.contains("shear"))
     text += info_line("shear", fmt::format("strain {}, viscosity {}", text_of(json.at("shear").at("strain")),
                                            text_of(json.at("shear").at("viscosity"))));

@@ -13,7 +13,7 @@ constexpr std::uint64_t least_samples = 16;
 /// Below this many blocks their scatter says little: the error has an error of 1 / sqrt(2 (n - 1)), a quarter at 8.
 constexpr std::uint64_t least_blocks = 8;
 
-/// Of the mean of `count` samples, over that of one.
+/// Returns the variance of the mean of `count` samples over that of one sample.
 double variance_of_mean_of(std::uint64_t count, std::span<const double> correlation) {
   const double n = static_cast<double>(count);
   double sum = 1.0;
@@ -22,9 +22,9 @@ double variance_of_mean_of(std::uint64_t count, std::span<const double> correlat
   return sum / n;
 }
 
-/// Correlations that fall exponentially and raise the variance by s make blocks of B tell 1 - (s - 1) / 2 B of it: what reaches
-/// from one block into the next is missing. `of_block` is 1 / B, or the like of samples whose correlations are known. At most
-/// twice.
+/// Returns the factor by which the variance from blocks of B samples is too small for correlations that fall exponentially with
+/// statistical inefficiency s: 1 / (1 - (s - 1) / 2 B), which counts the correlations between blocks; at most 2. `of_block` is 1
+/// / B, or the variance of the mean of a block where correlations are known.
 double left_across_blocks(double s, double of_block) { return 1.0 / (1.0 - std::clamp(0.5 * (s - 1.0) * of_block, 0.0, 0.5)); }
 
 /// Whether blocks of `length` among n samples are long enough for a statistical inefficiency of s.
@@ -105,7 +105,7 @@ void Blocking::fill(Scalar& scalar, double step, double factor, double offset, i
   scalar.value = offset + factor * found->mean;
   if (found->error) scalar.error = std::abs(factor) * *found->error;
   if (found->statistical_inefficiency) scalar.integrated_correlation_time = 0.5 * step * *found->statistical_inefficiency;
-  // What is conserved scatters by rounding alone, which need not look like noise.
+  // A conserved quantity scatters by rounding alone, which need not look like noise.
   const bool conserved = found->error && *found->error <= 1e-13 * std::abs(found->mean);
   if (found->error && !found->statistical_inefficiency && !conserved && scalar.note.empty())
     scalar.note = "the run is too short for its correlations: the error is a lower bound";

@@ -1,4 +1,4 @@
-// How often a disk collides with others per time, of all disks and by pairs of species. Averages over time.
+// Collision rates of a disk: with all disks, and by pairs of species. Averages over time.
 
 #include "observe/blocking.hpp"
 #include "observe/observables.hpp"

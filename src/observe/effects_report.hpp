@@ -1,5 +1,5 @@
 #pragma once
-// What the effects of a scene have done in a run: what they gave, took and measured. Each part is there only where the scene
+// The results of the effects of a scene in a run: energies, momenta and measurements. Each part is there only where the scene
 // names its effect.
 
 #include "observe/energy.hpp"
@@ -57,7 +57,7 @@ struct EffectsReport {
   std::optional<ShearReport> shear;
   std::optional<std::uint64_t> bonds;  ///< at the end
 
-  /// Energy that disks and pistons got from outside, less what they lost; where anything gives or takes any. Empty too where
+  /// Energy supplied to disks and pistons, less that lost. Empty where no effect supplies or removes energy, and where
   /// gives_untold().
   std::optional<double> energy_supplied;
 };
@@ -86,12 +86,12 @@ void visit_sections(Report& report, Visit&& visit) {
   visit("square_well", report.bonds, [](auto& bonds, auto&& put) { put("bonds", bonds); });
 }
 
-/// Whether energy comes or goes that nobody counts: a piston that is inelastic or warm does not tell what it took from what it
-/// lost, and disks that spin and grow gain moment of inertia in flight.
+/// Returns whether energy comes or goes that is not counted: a piston that is inelastic or thermal does not separate the energy
+/// that it received from that which was lost, and disks that spin and grow gain moment of inertia in flight.
 [[nodiscard]] bool gives_untold(const Effects& effects);
 
-/// From the totals of a run and its last state. What only samples tell (spin_temperature, pressure_xy_of_flight, viscosity) is
-/// left empty.
+/// Returns the report from the totals of a run and its last state. Results that need samples (spin_temperature,
+/// pressure_xy_of_flight, viscosity) are left empty.
 [[nodiscard]] EffectsReport effects_report(const Scene& scene, const Disks& disks, const Totals& totals, const State& end);
 
 }  // namespace carom

@@ -26,7 +26,7 @@ class Observation::Driver {
       for (Observable* observable : observables) observable->sample(state, totals);
     });
   }
-  void attach_beside(RunHooks& hooks) {
+  void attach_on_thread(RunHooks& hooks) {
     if (group_.empty()) return;
     try {
       thread_.emplace(group_);
@@ -52,7 +52,7 @@ class Observation::Driver {
 
  private:
   [[nodiscard]] bool is_told() const { return group_.follows_collisions() && group_.run().collisions_told; }
-  /// `follower` follows events, or hears of collisions where the simulation tells of them.
+  /// `follower` receives events, or collisions where the simulation records them.
   template <class Follower, class Sample>
   void attach(RunHooks& hooks, Follower& follower, Sample sample) {
     if (group_.empty()) return;
@@ -73,7 +73,7 @@ class Observation::Driver {
       };
     steps_ = group_.by_step();
     for (const auto& [step, observables] : steps_) {
-      const bool velocities_alone = std::ranges::all_of(observables, &Observable::looks_at_velocities_alone);
+      const bool velocities_alone = std::ranges::none_of(observables, &Observable::needs_positions);
       hooks.grids.push_back(
           {step,
            [sample, &of = observables](std::uint64_t, const State& state, const Totals& totals) { sample(of, state, totals); },
@@ -104,7 +104,7 @@ void Observation::save(std::ostream& out) const {
   driver_->group().save(out);
 }
 void Observation::attach(RunHooks& hooks) { driver_->attach(hooks); }
-void Observation::attach_beside(RunHooks& hooks) { driver_->attach_beside(hooks); }
+void Observation::attach_on_thread(RunHooks& hooks) { driver_->attach_on_thread(hooks); }
 std::vector<Measurement> Observation::results() { return driver_->results(); }
 
 }  // namespace carom

@@ -18,7 +18,7 @@
 
 namespace carom {
 
-/// What check_invariants() found in a run that was to be verified.
+/// The result of check_invariants() in a run with --verify.
 struct Verification {
   std::uint64_t every = 0;  ///< events from one check to the next
   std::uint64_t checks = 0;
@@ -60,7 +60,7 @@ struct RunReport {
   std::vector<std::int32_t> stopped_disks;  ///< RunResult::stopped_disks
   std::vector<std::string> faults;          ///< RunResult::faults
   EffectsReport of_effects;
-  std::string note_on_errors;                ///< what errors of Z and of observables do not tell; empty where that is nothing
+  std::string note_on_errors;                ///< remark on the errors of Z and of observables; empty where there is none
   std::vector<Measurement> observables;      ///< what the scene's [observe] table asked for
   std::optional<Verification> verification;  ///< where it was asked for
   std::optional<Horizon> horizon;            ///< of the start of the measured run, where it was asked for

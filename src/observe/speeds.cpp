@@ -1,4 +1,4 @@
-// How speeds and kinetic energies are distributed: densities over samples, per species too where there are several. Averages over
+// Distributions of speeds and kinetic energies: densities over samples, also per species where there are several. Averages over
 // time.
 
 #include "observe/blocking.hpp"
@@ -26,7 +26,7 @@ class Distribution {
     if (bin < static_cast<double>(bins_)) counts_[kind * bins_ + static_cast<std::size_t>(bin)] += 1.0;
     if (kind == 0) (bin < static_cast<double>(bins_) ? within_ : beyond_) += 1.0;
   }
-  /// Of all disks at all times.
+  /// Returns the fraction of all disks at all times that was beyond the histogram.
   [[nodiscard]] double share_beyond() const { return beyond_ > 0.0 ? beyond_ / (within_ + beyond_) : 0.0; }
   void end_sample(const std::vector<double>& disks) {
     for (std::size_t kind = 0; kind < shares_.size(); ++kind)
@@ -85,7 +85,7 @@ class Speeds final : public SavedObservable<Speeds> {
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
-    // In equilibrium one in e^12.5 = 270,000.
+    // In equilibrium the fraction is one in e^12.5 = 270,000.
     if (const double beyond = std::max(speeds_.share_beyond(), energies_.share_beyond()); beyond > 1e-3)
       found.note =
           fmt::format("{:.2g} % are beyond the histograms, which are scaled with the temperature of the start", 100.0 * beyond);
@@ -100,7 +100,7 @@ class Speeds final : public SavedObservable<Speeds> {
   }
 
  private:
-  /// What histograms are scaled with: one disk in e^12.5 has more than 12.5 kT.
+  /// The energy by which histograms are scaled: one disk in e^12.5 has more than 12.5 kT.
   static double energy(const ObservedRun& run) { return run.temperature > 0.0 ? run.temperature : 1.0; }
   static double lightest(const ObservedRun& run) {
     return run.disks.count() == 0 ? 1.0 : *std::min_element(run.disks.mass.begin(), run.disks.mass.end());

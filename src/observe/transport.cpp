@@ -58,7 +58,7 @@ double sound_time(const ObservedRun& run) {
   return speed > 0.0 ? 0.5 * run.scene.box.lengths().minCoeff() / speed : std::numeric_limits<double>::infinity();
 }
 
-/// By more than five standard errors.
+/// Returns whether the mean flux differs from 0 by more than five standard errors.
 bool flows_steadily(const Blocking& flux) {
   const std::optional<Blocking::Estimate> found = flux.estimate();
   return found && found->error && found->statistical_inefficiency && std::abs(found->mean) > 5.0 * *found->error;

@@ -26,8 +26,8 @@ double collisions_of(const RunReport& report) {
   return static_cast<double>(report.totals.pair + report.totals.wall + report.totals.obstacle);
 }
 
-/// Each of n collisions rounds what two of N disks have by some u. At random that adds up to some u sqrt(n) of one disk; the sum
-/// over all disks, by which it is told, is itself rounded by some u sqrt(N) of one.
+/// Returns the relative change of energy that rounding explains. Each of n collisions rounds the energy of two of N disks by some
+/// u; at random that adds up to some u sqrt(n) of one disk. The sum over all disks is itself rounded by some u sqrt(N) of one.
 double rounding_of(const RunReport& report) {
   const auto disks = static_cast<double>(std::max<std::int64_t>(1, report.disks));
   return 4.0 * unit_of(report) * std::sqrt(collisions_of(report) + disks) / disks;
@@ -62,7 +62,7 @@ std::string what_rounding_allows(const RunReport& report) {
       "change of energy, and of momentum over √(2 M E), that of all disks flying one way, of the order of 4 u √n / N = {:.1e}",
       grouped(report.totals.pair + report.totals.wall + report.totals.obstacle), is_single ? "2⁻²⁴" : "2⁻⁵³",
       rounding_of(report));
-  // What goes and comes is added up collision by collision, and each addition rounds a sum as large as the energy itself.
+  // Supplied and lost energy is added up collision by collision, and each addition rounds a sum as large as the energy itself.
   const std::string account =
       report.of_effects.energy_supplied
           ? fmt::format(

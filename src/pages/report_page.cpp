@@ -39,14 +39,14 @@ std::vector<KeyNumber> key_numbers(const RunReport& report) {
   const std::optional<double> unexplained = report.unaccounted_energy_drift();
   const double drift = std::abs(unexplained.value_or(report.relative_energy_drift()));
   numbers.push_back({drift == 0.0 ? "0" : fmt::format("{:.1e}", drift),
-                     unexplained ? "of the energy, that nothing explains" : "relative drift of energy"});
+                     unexplained ? "of the energy, unaccounted for" : "relative drift of energy"});
   if (report.overlap_checked > 0)
     numbers.push_back({report.max_relative_overlap == 0.0 ? "none" : fmt::format("{:.1e}", report.max_relative_overlap),
                        "worst overlap, in diameters"});
   return numbers;
 }
 
-/// How to make the same run again, wherever the scene's own file has gone.
+/// Returns how to repeat the run, even where the scene's own file is gone.
 std::string how_again(const RunReport& report) {
   const std::string how =
       report.time_step ? fmt::format("--method {} --dt {}", report.engine, *report.time_step) : "--engine " + report.engine;
@@ -162,7 +162,7 @@ Section observed(const RunReport& report, const RunTheory& theory) {
   TextTable numbers = table_of_numbers(report, theory);
   if (!numbers.rows.empty()) section.blocks.emplace_back(std::move(numbers));
   for (const Measurement& measured : report.observables) {
-    // What holds of all stands with the summary.
+    // The note on all observables is part of the summary.
     if (!measured.note.empty() && measured.note != report.note_on_errors)
       section.blocks.emplace_back(Paragraph{fmt::format("`{}`: {}.", measured.name, measured.note)});
     for (const Table& table : measured.tables)

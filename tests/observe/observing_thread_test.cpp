@@ -28,7 +28,7 @@ TEST(ObservingThread, GivesTheSameNumbersToTheLastBit) {
     Simulation simulation = make_simulation(scene);
     Observation observation(simulation);
     RunHooks hooks;
-    beside ? observation.attach_beside(hooks) : observation.attach(hooks);
+    beside ? observation.attach_on_thread(hooks) : observation.attach(hooks);
     run_schedule(simulation, hooks);
     EXPECT_GT(simulation.totals().pair, 40'000U);
     return observation.results();
@@ -41,8 +41,8 @@ TEST(ObservingThread, SeveralSeeTheSameCollisions) {
   Simulation simulation = make_simulation(scene);
   Observation beside(simulation), also_beside(simulation), in_the_run(simulation);
   RunHooks hooks;
-  beside.attach_beside(hooks);  // collisions are written where this one wants them
-  also_beside.attach_beside(hooks);
+  beside.attach_on_thread(hooks);  // collisions are written where this one wants them
+  also_beside.attach_on_thread(hooks);
   in_the_run.attach(hooks);
   run_schedule(simulation, hooks);
   const std::vector<Measurement> expected = in_the_run.results();
@@ -57,7 +57,7 @@ TEST(ObservingThread, IsSavedWithAllThatWasHandedOver) {
     Observation observation(simulation);
     std::string all;
     RunHooks hooks;
-    beside ? observation.attach_beside(hooks) : observation.attach(hooks);
+    beside ? observation.attach_on_thread(hooks) : observation.attach(hooks);
     hooks.checkpoint = [&](const SavingMoment& moment) {
       if (!moment.ended && (!all.empty() || moment.progress.totals.pair < 2000)) return;
       std::ostringstream out;
@@ -93,7 +93,7 @@ TEST(ObservingThread, WhatAnObservableThrowsComesOut) {
     Observation observation(simulation);
     observation.add(std::make_unique<Failing>(at));
     RunHooks hooks;
-    observation.attach_beside(hooks);
+    observation.attach_on_thread(hooks);
     const auto run_and_tell = [&] {
       run_schedule(simulation, hooks);
       (void)observation.results();
@@ -107,7 +107,7 @@ TEST(ObservingThread, WhatWasThrownComesOutAsOftenAsOneTries) {
   Observation observation(simulation);
   observation.add(std::make_unique<Failing>(0));
   RunHooks hooks;
-  observation.attach_beside(hooks);
+  observation.attach_on_thread(hooks);
   for (int time = 0; time < 10; ++time) {
     simulation.reset_clock();
     EXPECT_THROW(run_schedule(simulation, hooks); (void)observation.results(), std::runtime_error) << time;
@@ -118,7 +118,7 @@ TEST(ObservingThread, ARunThatEndsEarlyLeavesNobodyWaiting) {
   Simulation simulation = make_simulation(parse_scene(small_fluid(everything)));
   Observation observation(simulation);
   RunHooks hooks;
-  observation.attach_beside(hooks);
+  observation.attach_on_thread(hooks);
   hooks.proceed = [](const Progress&) -> bool { throw std::runtime_error("stopped"); };
   hooks.block = [](const Progress&) { throw std::runtime_error("stopped"); };
   EXPECT_THROW(run_schedule(simulation, hooks), std::runtime_error);

@@ -21,7 +21,7 @@ namespace {
 /// Later than any run gets to.
 constexpr double end_of_time = 1e15;
 
-/// Up to here the disks are a fluid, and the first order in 1/N of its pressure is known.
+/// Largest packing fraction at which the disks are a fluid whose pressure is known to first order in 1/N.
 constexpr double densest_fluid = 0.63;
 
 /// Relative. Rounding adds up as a random walk: after 1e8 collisions to some 1e4 of 2^-53 of one disk's energy.

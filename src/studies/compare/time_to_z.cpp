@@ -13,7 +13,7 @@ struct Exact {
   double collisions_per_time = 0.0;
 };
 
-/// From all exact double-precision runs of the engine that runs the scene.
+/// Returns the statistics of all exact double-precision runs of the engine that runs the scene.
 std::optional<Exact> exact_of(const Comparison& comparison) {
   std::vector<double> Z;
   double pairs = 0.0, time = 0.0;
@@ -40,7 +40,7 @@ std::vector<const MethodSummary*> with_pressure(const std::vector<MethodSummary>
   return steps;
 }
 
-/// Where collisions still transfer nearly what they should, a bias is proportional to dt: up to a tenth of Z - 1.
+/// Largest bias, over Z - 1, that counts as proportional to dt: collisions then still transfer nearly the right momentum.
 constexpr double lawful_share = 0.1;
 
 /// The bias of Z of the guarded methods: slope times dt up to the largest dt for which that holds.
