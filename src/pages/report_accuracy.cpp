@@ -49,7 +49,7 @@ SummaryRow momentum_row(const RunRecord& record) {
     const bool is_kept = run.keeps_momentum(axis) && !driven;
     parts.push_back(is_kept
                         ? fmt::format("relative change along {} {:.1e}", name, scale > 0.0 ? std::abs(change[axis]) / scale : 0.0)
-                        : fmt::format("not kept along {}", name));
+                        : fmt::format("not conserved along {}", name));
   }
   return {"momentum", now, fmt::format("{}", fmt::join(parts, ", "))};
 }
@@ -57,21 +57,19 @@ SummaryRow momentum_row(const RunRecord& record) {
 std::string what_rounding_allows(const RunReport& report) {
   const bool is_single = unit_of(report) > 1e-10;
   const std::string text = fmt::format(
-      "Each of n = {} collisions rounds the velocities of two of the N disks by some u = {}. At random that adds up to a "
+      "Each of n = {} collisions rounds the velocities of two of the N disks by some u = {}. At random this adds up to a "
       "relative "
-      "change of energy, and of momentum over √(2 M E), that of all disks flying one way, of the order of 4 u √n / N = {:.1e}",
+      "change of energy, and of momentum over √(2 M E) (that of all disks moving one way), of the order of 4 u √n / N = {:.1e}",
       grouped(report.totals.pair + report.totals.wall + report.totals.obstacle), is_single ? "2⁻²⁴" : "2⁻⁵³",
       rounding_of(report));
   // Supplied and lost energy is added up collision by collision, and each addition rounds a sum as large as the energy itself.
   const std::string account =
       report.of_effects.energy_supplied
-          ? fmt::format(
-                "; the account of the energy that came and went is a sum of as many terms, right to some u √n = "
-                "{:.1e}",
-                unit_of(report) * std::sqrt(collisions_of(report)))
+          ? fmt::format("; the energy supplied and lost is a sum of as many terms, right to some u √n = {:.1e}",
+                        unit_of(report) * std::sqrt(collisions_of(report)))
           : "";
   if (report.time_step)
-    return text + account + ". Fixed steps keep energy as well as events do; overlap and pressure tell what they miss.";
+    return text + account + ". Fixed steps conserve energy as well as events do; overlap and pressure show what they miss.";
   return text + account +
          (is_single ? ". In single precision, rounding makes disks overlap by up to some 1e-3 of their contact distance."
                     : ". Rounding makes disks overlap by up to some 1e-12 of their contact distance.");
@@ -103,7 +101,7 @@ Section accuracy_section(const RunRecord& record) {
   const RunReport& report = record.report;
   SummaryRows rows = rows_of_accuracy(report);
   rows.insert(rows.begin() + 1, momentum_row(record));
-  Section section{.heading = "How exact it is", .blocks = {table_of_rows(rows, {}), Paragraph{what_rounding_allows(report)}}};
+  Section section{.heading = "Accuracy", .blocks = {table_of_rows(rows, {}), Paragraph{what_rounding_allows(report)}}};
   if (report.verification)
     for (const std::string& fault : report.verification->faults) section.blocks.emplace_back(Paragraph{fault});
   if (report.horizon) {

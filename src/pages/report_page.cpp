@@ -51,17 +51,18 @@ std::string how_again(const RunReport& report) {
   const std::string how =
       report.time_step ? fmt::format("--method {} --dt {}", report.engine, *report.time_step) : "--engine " + report.engine;
   return fmt::format(
-      "carom run again.toml {}, with the scene with every default (above) saved as again.toml; carom verify with "
-      "the run's directory does it and compares",
+      "save the scene with every default (above) as again.toml and run: carom run again.toml {}. carom verify RUN_DIR does this "
+      "and "
+      "compares the results",
       how);
 }
 
 Section simulated(const RunRecord& record) {
-  Section section{.heading = "What was simulated"};
+  Section section{.heading = "Scene"};
   if (!record.source) {
-    section.blocks.emplace_back(Paragraph{fmt::format(
-        "The run's files do not hold its scene, because an earlier version wrote them; it was `{}`, and called for: {}.",
-        record.report.scene, fmt::join(record.report.effects, ", "))});
+    section.blocks.emplace_back(Paragraph{
+        fmt::format("The run's files do not hold its scene, because an earlier version wrote them. It was `{}`, with {}.",
+                    record.report.scene, fmt::join(record.report.effects, ", "))});
     return section;
   }
   const RunRecord::Source& source = *record.source;
@@ -75,31 +76,30 @@ Section simulated(const RunRecord& record) {
   section.blocks.emplace_back(std::move(table));
   if (!source.text.empty()) section.blocks.emplace_back(Listing{"The scene as it was written", source.text});
   if (!source.overrides.empty())
-    section.blocks.emplace_back(
-        Listing{"What the command line changed in it", fmt::format("{}\n", fmt::join(source.overrides, "\n"))});
-  section.blocks.emplace_back(Listing{"The scene with every default: saved as a file, it runs as it is", source.resolved});
+    section.blocks.emplace_back(Listing{"Changes by the command line", fmt::format("{}\n", fmt::join(source.overrides, "\n"))});
+  section.blocks.emplace_back(Listing{"The scene with every default (a complete scene file)", source.resolved});
   return section;
 }
 
 Section happened(const RunRecord& record) {
-  Section section{.heading = "What happened",
+  Section section{.heading = "Run",
                   .blocks = {table_of_rows(rows_of_what_happened(record.report, scene_of(record)), {}),
-                             table_of_rows(rows_of_results(record.report, scene_of(record)), "What it measured")}};
+                             table_of_rows(rows_of_results(record.report, scene_of(record)), "Results")}};
   if (record.source)
     for (Plot& plot : plots_over_time(*record.source)) section.blocks.emplace_back(std::move(plot));
   return section;
 }
 
 Section watch(const RunRecord& record, const std::optional<PlayerData>& player) {
-  Section section{.heading = "The run"};
+  Section section{.heading = "Replay"};
   if (!player) {
     section.blocks.emplace_back(Paragraph{
-        record.has_trajectory ? "The run kept no samples, so there is nothing to watch: give it run.sample_every."
-                              : "The run kept no trajectory, so there is nothing to watch: give it run.sample_every, and do "
-                                "not switch its trajectory off."});
+        record.has_trajectory ? "The run stored no samples, so there is no replay. Run it with run.sample_every."
+                              : "The run stored no trajectory, so there is no replay. Run it with run.sample_every, and do not "
+                                "switch its trajectory off."});
     return section;
   }
-  section.blocks.emplace_back(EmbeddedPage{"The run, replayed", player_page(*player)});
+  section.blocks.emplace_back(EmbeddedPage{"Replay of the run", player_page(*player)});
   return section;
 }
 
@@ -116,7 +116,7 @@ Plot plot_of_Z(const RunReport& report) {
   }
   return {.id = "pressure",
           .title = "Pressure and the equation of state",
-          .caption = "The line is that of the fluid of infinitely many disks.",
+          .caption = "The line is the equation of state of infinitely many disks.",
           .x = {.title = "packing fraction"},
           .y = {.title = "Z = P A / (N kT)", .log = true},
           .series = {law, measured}};
@@ -130,7 +130,7 @@ Section pressure(const RunReport& report, const RunTheory& theory) {
     section.blocks.emplace_back(Paragraph{fmt::format("Z = {}. {}", Z, theory.why_not_Z())});
     return section;
   }
-  std::string text = fmt::format("Z = {}, from the momentum that collisions handed over. {}: {:.6g}", Z, law->source, law->value);
+  std::string text = fmt::format("Z = {}, from momentum transfer in collisions. {}: {:.6g}", Z, law->source, law->value);
   if (report.Z_error && *report.Z_error > 0.0)
     text += fmt::format(", {:.1f} standard errors away", std::abs(*report.Z - law->value) / *report.Z_error);
   section.blocks.emplace_back(Paragraph{text + "."});
@@ -141,14 +141,15 @@ Section pressure(const RunReport& report, const RunTheory& theory) {
 TextTable table_of_numbers(const RunReport& report, const RunTheory& theory) {
   TextTable table{
       .title = "Numbers",
-      .columns = {"observable", "number", "value ± standard error", "theory", "whose", "unit (of the scene)", "remark"},
-      .caption = "Averages over time, or where it says so over collisions. Theory stands where it is of this scene."};
+      .columns = {"observable", "number", "value ± standard error", "theory", "source", "unit (of the scene)", "remark"},
+      .caption =
+          "Averages are over time, or over collisions where the remark says so. Theory is given where it applies to this scene."};
   for (const Measurement& measured : report.observables) {
     for (const Scalar& scalar : measured.scalars) {
       const auto expected = theory.of(measured.name, scalar.name);
       std::string remark = scalar.note;
       if (scalar.average == Average::collisions) remark = remark.empty() ? "over collisions" : "over collisions; " + remark;
-      if (scalar.value && !scalar.error) remark += remark.empty() ? "no error known" : "; no error known";
+      if (scalar.value && !scalar.error) remark += remark.empty() ? "no error" : "; no error";
       table.rows.push_back({measured.name, scalar.name, scalar.value ? value_text(*scalar.value, scalar.error) : "–",
                             expected ? fmt::format("{:.5g}", expected->value) : "", expected ? expected->source : "",
                             unit_words(scalar.unit), remark});
@@ -158,7 +159,7 @@ TextTable table_of_numbers(const RunReport& report, const RunTheory& theory) {
 }
 
 Section observed(const RunReport& report, const RunTheory& theory) {
-  Section section{.heading = "What was observed"};
+  Section section{.heading = "Observables"};
   TextTable numbers = table_of_numbers(report, theory);
   if (!numbers.rows.empty()) section.blocks.emplace_back(std::move(numbers));
   for (const Measurement& measured : report.observables) {
@@ -187,11 +188,11 @@ Page report_page(const RunRecord& record, const std::optional<PlayerData>& playe
                                     counted(static_cast<std::uint64_t>(report.disks), "disk"), report.packing_fraction,
                                     fmt::join(report.effects, ", "), report.seed, report.time_step ? "method" : "engine",
                                     method_words(report.engine, report.time_step)),
-            .lead = fmt::format("The run ended at time {:.6g}, {}. It took {}.", report.time,
+            .lead = fmt::format("The run ended at time {:.6g}: {}. It took {}.", report.time,
                                 why_stopped(report, scene_of(record)), duration(report.wall_seconds)),
             .key_numbers = key_numbers(report)};
   if (!report.measured)
-    page.lead += " The run ended before anything was measured; its clock and counts are of the equilibration.";
+    page.lead += " The run ended before anything was measured; its clock and counts are those of the equilibration.";
   page.sections = {simulated(record), happened(record), watch(record, player), accuracy_section(record)};
   if (report.Z) page.sections.push_back(pressure(report, theory));
   if (!report.observables.empty()) page.sections.push_back(observed(report, theory));

@@ -52,8 +52,8 @@ Plot energy_plot(const RunRecord::Source& source) {
   const std::vector<double>* energy = sampled(source, "total_energy");
   if (energy == nullptr) energy = sampled(source, "kinetic_energy");
   Plot plot{.id = "energy",
-            .title = "Energy, as far as it changes",
-            .caption = "(E(t) - E(0)) / E(0) at the samples: nothing but rounding.",
+            .title = "Change of energy",
+            .caption = "(E(t) - E(0)) / E(0) at the samples; it should be rounding only.",
             .x = {.title = with_unit("time", "time")},
             .y = {.title = "relative change"}};
   if (energy == nullptr || energy->size() < 2 || energy->front() == 0.0) return plot;
@@ -67,14 +67,14 @@ std::vector<Plot> plots_over_time(const RunRecord::Source& source) {
   std::vector<Plot> plots = {
       plot_of(source, "temperature", "Temperature", "kT (energy in scene units)",
               {{"temperature", "of velocities"}, {"spin_temperature", "of spins"}}),
-      plot_of(source, "energies-over-time", "Energy, by kind", "energy (scene units)",
+      plot_of(source, "energies-over-time", "Energy by kind", "energy (scene units)",
               {{"kinetic_energy", "kinetic"},
                {"spin_energy", "of spins"},
                {"potential_energy", "potential"},
                {"piston_energy", "of pistons"},
-               {"total_energy", "all"}}),
+               {"total_energy", "total"}}),
       plot_of(source, "packing-fraction", "Packing fraction", "packing fraction", {{"packing_fraction", "packing fraction"}}),
-      plot_of(source, "bonds", "Bonds", "pairs inside each other's well", {{"bonds", "bonds"}})};
+      plot_of(source, "bonds", "Bonds", "pairs within each other's well", {{"bonds", "bonds"}})};
   std::erase_if(plots, [](const Plot& plot) { return plot.series.empty(); });
   if (sampled(source, "total_energy") == nullptr)  // kinetic energy is the temperature over again
     std::erase_if(plots, [](const Plot& plot) { return plot.id == "energies-over-time"; });

@@ -76,7 +76,7 @@ void RunTheory::find_Z() {
   } else if (eta_ <= densest_fluid) {
     Z_ = {theory::kolafa_rottner(eta_), "Kolafa & Rottner, infinitely many disks"};
   } else {
-    why_not_Z_ = "No theory stands beside it: the equation of state of the fluid ends at a packing fraction of 0.70.";
+    why_not_Z_ = "No theory is given: the equation of state of the fluid ends at a packing fraction of 0.70.";
   }
 }
 

@@ -100,7 +100,7 @@ TEST_F(CompareCommand, WritesPageTablesAndPointsAndPrintsTheAnswerAndKeepsWhatIs
   for (const json& sentence : all["sentences"]) EXPECT_THAT(outcome.out, HasSubstr(sentence.get<std::string>() + "\n"));
   EXPECT_EQ(lines_of(text_of(file("gas-compare/compare.csv"))).size(), 1U + 10U);
   EXPECT_EQ(lines_of(text_of(file("gas-compare/points.jsonl"))).size(), 1U + 10U);
-  EXPECT_THAT(text_of(file("gas-compare/report.html")), HasSubstr("<title>What accuracy costs: A dozen disks</title>"));
+  EXPECT_THAT(text_of(file("gas-compare/report.html")), HasSubstr("<title>Error and cost: A dozen disks</title>"));
   const Outcome info = run_carom(directory_.path(), {"info", "gas-compare/compare.json"});
   EXPECT_EQ(info.exit_code, 0) << info.err;
   EXPECT_THAT(info.out, AllOf(HasSubstr("comparison of methods"), HasSubstr(all["sentences"][0].get<std::string>())));
@@ -126,8 +126,8 @@ TEST_F(CompareCommand, AStartThatIsNotDrawnIsRunOnceAndTheTableHasNoErrors) {
   const Outcome outcome = compare({"--seeds", "8", "--dt", "0.02", "--set", "disks.0.positions=[[1,1],[3,1.2],[2,3]]", "--set",
                                    "disks.0.count=3", "--set", "disks.0.velocities=[[1,0],[-1,0],[0,-1]]"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("; 1 start, as nothing of it is drawn;"), HasSubstr("no error bar tells"),
-                                 Not(HasSubstr("±")), Not(HasSubstr(" ns")), Not(HasSubstr("to know Z"))));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("; 1 start, which contains nothing random;"), HasSubstr("a bias has no error bar"),
+                                 Not(HasSubstr("±")), Not(HasSubstr(" ns")), Not(HasSubstr("processor time for Z"))));
   EXPECT_EQ(json::parse(text_of(file("gas-compare/compare.json")))["runs"].size(), 4U + 3U);
   EXPECT_THAT(text_of(file("gas-compare/report.html")), Not(HasSubstr("± nan")));
 }
@@ -135,8 +135,9 @@ TEST_F(CompareCommand, AStartThatIsNotDrawnIsRunOnceAndTheTableHasNoErrors) {
 TEST_F(CompareCommand, TheTableSaysWhatItsColumnsAre) {
   const Outcome outcome = compare({"--seeds", "2", "--dt", "0.02"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* words : {"in mean diameters (1)", "  missed: pairs that came into", "  repeated: reversals of a pair",
-                            "± its standard error over the 2 starts"})
+  for (const char* words :
+       {"bias of Z    missed   repeated", "          %         %          %", "in mean diameters (1)",
+        "  missed: pairs that touched", "  repeated: reversals of a pair", "± its standard error over the 2 starts"})
     EXPECT_THAT(outcome.out, HasSubstr(words));
   EXPECT_THAT(outcome.out, ::testing::ContainsRegex(" bias of Z +missed +repeated\n .* % +% +%\n"));
   EXPECT_THAT(outcome.out, Not(HasSubstr("sigma")));

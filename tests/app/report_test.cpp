@@ -76,8 +76,7 @@ TEST_F(ReportCommand, TellsTheHorizonThatTheRunWasAskedFor) {
   const std::size_t from = outcome.out.find("In double precision this trajectory");
   ASSERT_NE(from, std::string::npos);
   const std::string sentence = outcome.out.substr(from, outcome.out.find('\n', from) - from);
-  EXPECT_THAT(text_of(file("gas/report.html")),
-              AllOf(HasSubstr(sentence), HasSubstr("How far the exact trajectory can be trusted")));
+  EXPECT_THAT(text_of(file("gas/report.html")), AllOf(HasSubstr(sentence), HasSubstr("Horizon of the trajectory")));
 }
 
 TEST_F(ReportCommand, AlsoOfFixedSteps) {

@@ -122,7 +122,7 @@ TEST_F(ScenesSweep, ARunThatFailsIsListedAndStopsNoOther) {
   EXPECT_EQ(outcome.err, "carom: gas-sweep.toml: 1 of 6 runs failed, as runs.csv says; the same command tries them again\n");
   EXPECT_EQ(finished_runs(), 5);
   EXPECT_THAT(results()["runs.csv"], HasSubstr("radius=0.2/seed=1,failed,,"));
-  EXPECT_THAT(results()["report.html"], HasSubstr("What failed"));
+  EXPECT_THAT(results()["report.html"], HasSubstr("Failed runs"));
   fs::remove(obstacle);
   EXPECT_EQ(sweep({"-q"}).exit_code, 0);
   const Bytes mended = results();

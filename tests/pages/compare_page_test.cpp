@@ -127,7 +127,7 @@ TEST(ComparePage, CostsAreThereWhereTheyWereMeasuredAndInOrder) {
 TEST(ComparePage, EnergyHasAPlotWhereItHasChangedAndASentenceWhereItHasNot) {
   Comparison comparison = KnownLaws{}.comparison();
   const Scene scene = dozen_scene();
-  EXPECT_THAT(html_page(compare_page(comparison, scene, "")), HasSubstr("has changed it in any digit"));
+  EXPECT_THAT(html_page(compare_page(comparison, scene, "")), HasSubstr("no method changed it at any time step"));
   comparison.runs[1].energy_drift = 3e-16;
   EXPECT_THAT(ids_of(compare_page(comparison, scene, "")), Contains("energy"));
 }
@@ -140,7 +140,7 @@ TEST(ComparePage, TheTableHasARowForEveryMethodAndStepAndNamesWhatWasLeftOut) {
   const TextTable& table = table_of(page, "Every method and step");
   EXPECT_EQ(table.rows.size(), 1U + 2U * laws.dts.size());
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
-  const TextTable& to_Z = table_of(page, "Time to know Z");
+  const TextTable& to_Z = table_of(page, "Processor time for Z");
   EXPECT_EQ(to_Z.rows.size(), 3U);
   for (const auto& row : to_Z.rows) EXPECT_EQ(row.size(), to_Z.columns.size());
   const std::string html = html_page(page);
@@ -161,7 +161,7 @@ TEST(BrowserComparePage, DrawsEveryPlotOfARealComparisonWhateverItsTitle) {
   const std::string dom = dump_dom(directory.file("report.html"));
   EXPECT_THAT(dom.substr(0, dom.find("<head>")), HasSubstr("data-errors=\"\""));
   EXPECT_THAT(dom.substr(0, dom.find("<head>")), HasSubstr("data-plots=\"10\""));
-  EXPECT_THAT(dom, HasSubstr("<h1>What accuracy costs: &lt;/script&gt;&lt;script&gt;document.title='taken'"));
+  EXPECT_THAT(dom, HasSubstr("<h1>Error and cost: &lt;/script&gt;&lt;script&gt;document.title='taken'"));
   EXPECT_THAT(dom, Not(HasSubstr("<title>taken")));
   for (const Plot& plot : plots_of(page)) {
     const std::size_t figure = dom.find("id=\"plot-" + plot.id + "\"");

@@ -97,7 +97,7 @@ TEST(BrowserReport, WhatGoesWrongInThePlayerIsSaidOnThePage) {
                               "frame.contentDocument.body.append(script);\n"
                               "await new Promise((done) => setTimeout(done, 100));\n");
   EXPECT_EQ(data(visit, "exact"), "false");
-  EXPECT_THAT(data(visit, "errors"), HasSubstr("The run, replayed: Uncaught ReferenceError: nonsense is not defined"));
+  EXPECT_THAT(data(visit, "errors"), HasSubstr("Replay of the run: Uncaught ReferenceError: nonsense is not defined"));
 }
 
 TEST(BrowserReport, ANarrowFrameIsAsHighAsAllOfThePlayer) {

@@ -109,14 +109,13 @@ const Series* series_of(const Page& page, const std::string& plot_id, const std:
 TEST_F(ReportPage, HasASectionForEachPartOfTheRun) {
   const Page page = report_page(recorded(fluid), std::nullopt);
   EXPECT_EQ(page.title, "<b>A fluid</b> & \"more\"");
-  EXPECT_THAT(headings_of(page), ElementsAre("What was simulated", "What happened", "The run", "How exact it is", "Pressure"));
-  EXPECT_THAT(words_of(page, "What was simulated"),
+  EXPECT_THAT(headings_of(page), ElementsAre("Scene", "Run", "Replay", "Accuracy", "Pressure"));
+  EXPECT_THAT(words_of(page, "Scene"),
               AllOf(HasSubstr("disks | 40"), HasSubstr("[0, 10] x [0, 10], periodic"), HasSubstr("collisions | specular"),
                     HasSubstr("run | until time 20"), HasSubstr("as it was written: " + fluid)));
-  EXPECT_THAT(words_of(page, "What happened"),
-              AllOf(HasSubstr("time | 20 | as requested"), HasSubstr("samples | 41 | every 0.5")));
-  EXPECT_THAT(words_of(page, "How exact it is"),
-              AllOf(HasSubstr("energy | "), HasSubstr("relative change along x "), HasSubstr("u √n / N"), HasSubstr("ties | ")));
+  EXPECT_THAT(words_of(page, "Run"), AllOf(HasSubstr("time | 20 | as requested"), HasSubstr("samples | 41 | every 0.5")));
+  EXPECT_THAT(words_of(page, "Accuracy"), AllOf(HasSubstr("energy | "), HasSubstr("relative change along x "),
+                                                HasSubstr("u √n / N"), HasSubstr("simultaneous | ")));
   EXPECT_THAT(words_of(page, "Pressure"), HasSubstr("Kolafa & Rottner, N = 40"));
   EXPECT_THAT(ids_of(page), Contains("pressure"));
 }
@@ -128,7 +127,7 @@ TEST_F(ReportPage, HasAPlotForEveryTableThatWasAskedFor) {
                             "hexatic-correlation", "density-profile", "mean-square-displacement", "diffusion-from-displacement",
                             "velocity-autocorrelation", "diffusion-from-velocity", "viscosity", "viscosity-correlation",
                             "heat-conductivity", "heat-correlation", "h-function"}));
-  const std::string numbers = words_of(page, "What was observed");
+  const std::string numbers = words_of(page, "Observables");
   EXPECT_THAT(numbers, AllOf(HasSubstr("temperature | kT | "), HasSubstr("pressure | Z_rate | "),
                              HasSubstr("velocity_moments | kurtosis | "), HasSubstr("heat_conductivity | green_kubo | ")));
   for (const Plot& plot : plots_of(page)) {
@@ -201,7 +200,7 @@ TEST_F(ReportPage, WithoutATrajectoryThereIsNothingToWatchAndTheRestStays) {
   std::filesystem::remove(run_ / "trajectory.h5md");
   const ReportFile file = report_of(run_);
   EXPECT_THAT(file.html,
-              AllOf(HasSubstr("The run kept no trajectory"), HasSubstr("Kolafa &amp; Rottner, N = 40"),
+              AllOf(HasSubstr("The run stored no trajectory"), HasSubstr("Kolafa &amp; Rottner, N = 40"),
                     HasSubstr("The scene with every default"), Not(HasSubstr("as it was written")), Not(HasSubstr("<iframe"))));
   EXPECT_THAT(file.player, HasSubstr("nothing to watch"));
 }
@@ -211,7 +210,7 @@ TEST_F(ReportPage, ARunWhoseSceneIsInNoFileHasAPageThatSaysSo) {
   read.source.reset();
   read.has_trajectory = false;
   const Page page = report_page(read, std::nullopt);
-  EXPECT_THAT(words_of(page, "What was simulated"), HasSubstr("do not hold its scene"));
+  EXPECT_THAT(words_of(page, "Scene"), HasSubstr("do not hold its scene"));
   EXPECT_THAT(words_of(page, "Pressure"), HasSubstr("is not known"));
 }
 
@@ -220,7 +219,8 @@ TEST_F(ReportPage, WithoutSamplesThereIsNothingToWatch) {
   unsampled.erase(unsampled.find("sample_every"));
   record(parse_scene(unsampled + "[observe]\ntemperature = true\n", "fluid.toml"), run_);
   const ReportFile file = report_of(run_);
-  EXPECT_THAT(file.html, AllOf(HasSubstr("The run kept no samples"), HasSubstr("as it was written"), Not(HasSubstr("<iframe"))));
+  EXPECT_THAT(file.html,
+              AllOf(HasSubstr("The run stored no samples"), HasSubstr("as it was written"), Not(HasSubstr("<iframe"))));
 }
 
 TEST_F(ReportPage, HoldsThePlayerAndItsOwnMarkFirst) {
@@ -229,13 +229,13 @@ TEST_F(ReportPage, HoldsThePlayerAndItsOwnMarkFirst) {
   EXPECT_EQ(file.player, "with an exact replay");
   EXPECT_LT(file.html.find(report_mark), 512U);
   EXPECT_THAT(file.html,
-              AllOf(HasSubstr("<iframe title=\"The run, replayed\" srcdoc=\"<!doctype html>"), Not(HasSubstr("<b>A fluid"))));
+              AllOf(HasSubstr("<iframe title=\"Replay of the run\" srcdoc=\"<!doctype html>"), Not(HasSubstr("<b>A fluid"))));
   EXPECT_EQ(report_of(run_).html, file.html) << "made from the files alone";
 }
 
 TEST_F(ReportPage, SaysHowFarTheTrajectoryCanBeTrustedWhereTheRunAsked) {
   RunRecord read = recorded(fluid);
-  EXPECT_THAT(words_of(report_page(read, std::nullopt), "How exact it is"), Not(HasSubstr("this trajectory is right")));
+  EXPECT_THAT(words_of(report_page(read, std::nullopt), "Accuracy"), Not(HasSubstr("this trajectory is right")));
   Horizon horizon;
   horizon.tolerance = 1e-3;
   horizon.sigma = 1.0;
@@ -245,7 +245,7 @@ TEST_F(ReportPage, SaysHowFarTheTrajectoryCanBeTrustedWhereTheRunAsked) {
   horizon.ended = HorizonEnd::parted;
   read.report.horizon = horizon;
   EXPECT_THAT(
-      words_of(report_page(read, std::nullopt), "How exact it is"),
+      words_of(report_page(read, std::nullopt), "Accuracy"),
       AllOf(
           HasSubstr("In double precision this trajectory is right to 0.001 diameters until t = 12.25 (40 collisions per disk)."),
           HasSubstr("24 | 3.5 | 7 | – |"), HasSubstr("53 | 12.25 | 40 | – |")));
@@ -256,7 +256,7 @@ TEST_F(ReportPage, SaysHowToMakeTheRunAgain) {
   const auto again = std::find_if(page.facts.begin(), page.facts.end(), [](const auto& fact) { return fact.first == "Again"; });
   ASSERT_NE(again, page.facts.end());
   EXPECT_THAT(again->second, HasSubstr("carom run again.toml --engine fast, "));
-  EXPECT_THAT(words_of(page, "What was simulated"), HasSubstr("seed = 7"));
+  EXPECT_THAT(words_of(page, "Scene"), HasSubstr("seed = 7"));
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ TEST(SweepPage, LeavesOutNumbersThatAreTheSameEverywhereAndListsWhatFailed) {
   const Page page = sweep_page(sweep, results_of(sweep));
   std::vector<std::string> headings;
   for (const Section& section : page.sections) headings.push_back(section.heading);
-  EXPECT_THAT(headings, ElementsAre("pressure.Z", "All numbers", "What failed", "What was asked for"));
+  EXPECT_THAT(headings, ElementsAre("pressure.Z", "All numbers", "Failed runs", "Sweep and scene"));
   EXPECT_THAT(std::get<TextTable>(page.sections[2].blocks[0]).rows,
               ElementsAre(ElementsAre("\"periodic\"0.1/seed=2", "no room")));
   EXPECT_THAT(page.lead, HasSubstr("7 of 8 runs are finished, 1 failed."));

@@ -127,7 +127,7 @@ TEST(Compare, OfASceneThatDrawsNothingOneStartIsRunAndNoErrorGiven) {
   }
   const Answers answers = answers_of(comparison);
   EXPECT_TRUE(answers.time_to_Z.empty());
-  EXPECT_THAT(answers.sentences.back(), testing::HasSubstr("there is one start, and no error bar"));
+  EXPECT_THAT(answers.sentences.back(), testing::HasSubstr("There is one start, and a bias has no error bar"));
   EXPECT_THAT(compare_json(comparison, scene, "carom"), testing::HasSubstr("\"drawn\": false"));
   scene.species.front().velocities = MaxwellVelocities{1.0};
   EXPECT_EQ(plan_of(scene).seeds.size(), 2U) << "velocities are drawn";

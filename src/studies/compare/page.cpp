@@ -40,10 +40,11 @@ TextTable table_of(const Comparison& comparison, const std::vector<MethodSummary
       .columns = {"method", "dt (scene units)", "dt / mean free time", "error / diameter", "processor time", "Z", "missed",
                   "repeated", "spurious", "deepest overlap / diameter"},
       .caption =
-          "Error in mean diameters, root mean square over the disks, and processor time until then, when methods are compared: "
-          "medians over the starts. Z = PA/(NkT), with its standard error where there are several starts. Missed: of all "
-          "collisions that there were; repeated and spurious: of all reversals. A dash: not measured, because the run was cut "
-          "short or the method is exact."};
+          "Error: root-mean-square distance of the disks from the 113-bit trajectory, in mean diameters, at the time of "
+          "comparison. "
+          "Processor time: until then. Both are medians over the starts. Z = PA/(NkT), with its standard error where there are "
+          "several starts. Missed: in per cent of all collisions that should happen. Repeated and spurious: in per cent of all "
+          "reversals. A dash: not measured, because the run was cut short or the method is exact."};
   for (const MethodSummary& s : summaries) {
     const auto counted = [&](double (StepCounts::*fraction)() const, std::uint64_t (StepCounts::*of)() const) {
       return s.counts ? percent_of((*s.counts.*fraction)(), (*s.counts.*of)()) : "–";
@@ -61,9 +62,9 @@ TextTable table_of(const Comparison& comparison, const std::vector<MethodSummary
 
 TextTable time_to_Z_table(const Answers& answers) {
   TextTable table{
-      .title = "Time to know Z",
+      .title = "Processor time for Z",
       .columns = {"method", "to 1 %", "to 0.1 %"},
-      .caption = "Processor time until bias and chance together are that small; fixed steps at the dt for which it is shortest."};
+      .caption = "Processor time until bias and statistical error together are so small; for fixed steps with the best dt."};
   for (const TimeToZ& row : answers.time_to_Z) {
     const std::string cell =
         row.seconds ? seconds_text(*row.seconds) + (row.dt ? fmt::format(" (dt = {:.2g})", *row.dt) : "") : row.remark;
@@ -81,7 +82,7 @@ std::vector<KeyNumber> key_numbers(const Comparison& comparison, const Answers& 
   std::vector<KeyNumber> numbers;
   if (answers.to_millionth)
     numbers.push_back({two_digits(answers.to_millionth->seconds / answers.exact_seconds) + " ×",
-                       "the time of the exact engine, for fixed steps right to 10⁻⁶ diameters"});
+                       "the processor time of the exact engine: fixed steps right to 10⁻⁶ diameters"});
   numbers.push_back(
       {fmt::format("{:.1e}", answers.exact_error),
        fmt::format("diameters: error of the exact engine after {:.2g} collisions per disk, in {}",
@@ -91,8 +92,7 @@ std::vector<KeyNumber> key_numbers(const Comparison& comparison, const Answers& 
         {fmt::format("{:.2f} ± {:.2f}", answers.order->value, answers.order->error), "order of the fixed step, fitted"});
   const HorizonRow* row = comparison.plan.horizon.row(comparison.plan.horizon.engine);
   if (row != nullptr && row->collisions_per_disk)
-    numbers.push_back(
-        {fmt::format("{:.0f}", *row->collisions_per_disk), "collisions per disk, then chaos has outgrown double precision"});
+    numbers.push_back({fmt::format("{:.0f}", *row->collisions_per_disk), "collisions per disk: horizon of double precision"});
   return numbers;
 }
 
@@ -100,7 +100,7 @@ std::vector<Block> costs(const Comparison& comparison, const Answers& answers, c
   std::vector<Block> blocks;
   if (!answers.time_to_Z.empty()) blocks.emplace_back(time_to_Z_table(answers));
   if (comparison.costs.empty()) return blocks;
-  blocks.emplace_back(Paragraph{"The scene at other sizes and densities: the same species in the same shares, in equilibrium."});
+  blocks.emplace_back(Paragraph{"The same species in the same proportions at other sizes and densities, in equilibrium."});
   blocks.emplace_back(cost_against_size(comparison, scene.packing_fraction()));
   blocks.emplace_back(cost_against_density(comparison));
   return blocks;
@@ -110,14 +110,14 @@ Block energy_block(const Comparison& comparison, const std::vector<MethodSummary
   const bool changed = std::any_of(summaries.begin(), summaries.end(),
                                    [](const MethodSummary& s) { return !s.method.exact() && s.energy_drift > 0.0; });
   if (changed) return energy_of_steps(comparison, summaries);
-  return Paragraph{"Energy tells nothing of these faults: no method has changed it in any digit, whatever its step."};
+  return Paragraph{"Energy does not show these errors: no method changed it at any time step."};
 }
 
 std::string left_out(const Comparison& comparison) {
   std::vector<std::string> names;
   for (const LeftOut& one : comparison.left_out)
     names.push_back(fmt::format("{} with dt = {:.2g} (about {})", one.method.name, one.method.dt, seconds_text(one.seconds)));
-  return fmt::format("Not run, as longer than {}: {}.", seconds_text(comparison.plan.longest), fmt::join(names, ", "));
+  return fmt::format("Not run, because longer than {}: {}.", seconds_text(comparison.plan.longest), fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -126,7 +126,7 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
   const ComparePlan& plan = comparison.plan;
   const Answers answers = answers_of(comparison);
   const std::vector<MethodSummary> summaries = summaries_of(comparison);
-  Page page{.title = "What accuracy costs: " + (scene.title.empty() ? scene.source : scene.title),
+  Page page{.title = "Error and cost: " + (scene.title.empty() ? scene.source : scene.title),
             .subtitle = fmt::format("{} disks, packing fraction {:.4g}, {} rule; {}; mean free time {:.4g} (scene units)",
                                     scene.disk_count(), scene.packing_fraction(),
                                     scene.effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular",
@@ -134,20 +134,21 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
             .lead = fmt::format("{}", fmt::join(answers.sentences, " ")),
             .key_numbers = key_numbers(comparison, answers)};
   page.sections = {
-      {"Work and precision",
-       {Paragraph{"The same start, advanced by exact events and by fixed steps. Until chaos has made every error large, an error "
-                  "tells of the method: methods are compared there."},
+      {"Error against processor time",
+       {Paragraph{"One start, advanced by exact events and by fixed steps. The methods are compared early, before chaos makes "
+                  "every error "
+                  "large."},
         work_precision(comparison, summaries), Paragraph{answers.sentences.empty() ? "" : answers.sentences.front()}}},
-      {"How errors grow",
+      {"Error against time",
        {error_in_time(comparison), horizon_table(plan.horizon, "for the first seed"), Paragraph{sentence_of(plan.horizon)}}},
-      {"What fixed steps do to collisions", {faults_of_steps(comparison, summaries), overlap_of_steps(comparison, summaries)}},
-      {"What they do to averages",
+      {"Errors of fixed steps: collisions", {faults_of_steps(comparison, summaries), overlap_of_steps(comparison, summaries)}},
+      {"Errors of fixed steps: averages",
        {bias_of(comparison, summaries, "bias-z", "Z", &MethodSummary::Z_bias),
         bias_of(comparison, summaries, "bias-rate", "the collision rate", &MethodSummary::rate_bias),
         bias_of(comparison, summaries, "bias-path", "the mean free path", &MethodSummary::path_bias),
         energy_block(comparison, summaries)}}};
   if (std::vector<Block> blocks = costs(comparison, answers, scene); !blocks.empty())
-    page.sections.push_back({"What an average costs", std::move(blocks)});
+    page.sections.push_back({"Cost of an average", std::move(blocks)});
   page.sections.push_back({"All numbers", {table_of(comparison, summaries), Listing{"The scene", resolved_toml(scene)}}});
   if (!comparison.left_out.empty())
     page.sections.back().blocks.insert(page.sections.back().blocks.begin() + 1, Paragraph{left_out(comparison)});

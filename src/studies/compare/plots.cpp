@@ -72,13 +72,14 @@ Series dashed_line(const Comparison& comparison, const std::string& name, Functi
 
 Plot error_in_time(const Comparison& comparison) {
   const ComparePlan& plan = comparison.plan;
-  Plot plot{.id = "error-in-time",
-            .title = "Error against time",
-            .caption =
-                "Root mean square distance of the disks from where 113 bits have them, in mean diameters: median over the starts "
-                "and, shaded, the middle half of them.",
-            .x = {.title = "time (mean free times = collisions per disk)"},
-            .y = {.title = "rms error of position (diameters)", .log = true}};
+  Plot plot{
+      .id = "error-in-time",
+      .title = "Error against time",
+      .caption =
+          "Root-mean-square distance of the disks from the 113-bit trajectory, in mean diameters: median over the starts, and "
+          "shaded the middle half of them.",
+      .x = {.title = "time (mean free times = collisions per disk)"},
+      .y = {.title = "rms error of position (diameters)", .log = true}};
   for (const Method& method : methods_of(comparison)) {
     if (!speaks_for_others(plan, method)) continue;
     Series series{.name = method.exact() ? name_of(method.name) : fmt::format("{}, dt = {:.2g}", method.name, method.dt),
@@ -98,7 +99,7 @@ Plot error_in_time(const Comparison& comparison) {
     plot.series.push_back(std::move(series));
   }
   plot.marks = {
-      {.axis = Mark::Across::x, .value = plan.in_free_times(plan.early_time()), .label = "methods are compared here"},
+      {.axis = Mark::Across::x, .value = plan.in_free_times(plan.early_time()), .label = "time of comparison"},
       {.axis = Mark::Across::y, .value = plan.horizon.tolerance, .label = fmt::format("{:g} diameters", plan.horizon.tolerance)}};
   const HorizonRow* row = plan.horizon.row(plan.horizon.engine);
   if (row == nullptr || !row->time) return plot;
@@ -113,15 +114,14 @@ Plot error_in_time(const Comparison& comparison) {
 
 Plot work_precision(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
   const ComparePlan& plan = comparison.plan;
-  Plot plot{
-      .id = "work-precision",
-      .title = "Work and precision",
-      .caption = fmt::format(
-          "Error after {:.2g} collisions per disk against the processor time it took, medians over the starts; bars span the "
-          "middle half of them. Down is better, left is better. Every point of a fixed-step method is one dt.",
-          plan.in_free_times(plan.early_time())),
-      .x = {.title = "processor time (s)", .log = true},
-      .y = {.title = "rms error of position (diameters)", .log = true}};
+  Plot plot{.id = "work-precision",
+            .title = "Error against processor time",
+            .caption = fmt::format("Error after {:.2g} collisions per disk against the processor time until then: medians over "
+                                   "the starts, with bars over the "
+                                   "middle half of them. Lower left is better. Every point of a fixed-step method is one dt.",
+                                   plan.in_free_times(plan.early_time())),
+            .x = {.title = "processor time (s)", .log = true},
+            .y = {.title = "rms error of position (diameters)", .log = true}};
   std::vector<std::string> names;
   for (const MethodSummary& summary : summaries)
     if (std::find(names.begin(), names.end(), summary.method.name) == names.end()) names.push_back(summary.method.name);
@@ -155,16 +155,15 @@ Plot work_precision(const Comparison& comparison, const std::vector<MethodSummar
 }
 
 Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
-  Plot plot{.id = "faults",
-            .title = "Missed, repeated and spurious collisions",
-            .caption =
-                "Missed: pairs that came into contact and left it without a reversal, of all collisions that there were. "
-                "Repeated: reversals "
-                "within an encounter that was already reversed; spurious: encounters that began with a pair already parting; "
-                "both of all "
-                "reversals. None is not drawn. Guarded and grid are one trajectory.",
-            .x = {.title = in_free_times, .log = true},
-            .y = {.title = "fraction of collisions or reversals", .log = true}};
+  Plot plot{
+      .id = "faults",
+      .title = "Missed, repeated and spurious collisions",
+      .caption =
+          "Missed: pairs that touched and parted without a reversal, over all collisions that should happen. Repeated: further "
+          "reversals within an encounter; spurious: reversals of a pair that was already receding; both over all reversals. Zero "
+          "is not drawn. Guarded and grid have one trajectory.",
+      .x = {.title = in_free_times, .log = true},
+      .y = {.title = "fraction of collisions or reversals", .log = true}};
   const auto add = [&](const std::string& what, double (StepCounts::*fraction)() const, Style style) {
     for (Series& series : over_steps(comparison, summaries, [&](const MethodSummary& s) -> std::optional<Estimate> {
            if (!s.counts || (*s.counts.*fraction)() == 0.0) return std::nullopt;
@@ -180,7 +179,7 @@ Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSumma
   add("repeated", &StepCounts::repeated_fraction, Style::dashed);
   add("spurious", &StepCounts::spurious_fraction, Style::points);
   if (comparison.plan.thermal_speed == 0.0) return plot;
-  plot.caption += " The black dashed line is the isolated pair of a dilute gas.";
+  plot.caption += " The black dashed line is theory for an isolated pair in a dilute gas.";
   const double speed = comparison.plan.thermal_speed / comparison.plan.sigma;
   plot.series.push_back(dashed_line(comparison, "missed by guarded steps, isolated pair", [&](double dt) {
     return theory::missed_fraction(speed * dt, theory::Notices::approaching);
@@ -189,12 +188,11 @@ Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSumma
 }
 
 Plot overlap_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
-  Plot plot{
-      .id = "overlap",
-      .title = "How deep disks are in each other",
-      .caption = "Mean depth at the moment a collision is found, and the deepest overlap of any pair at any step, in diameters.",
-      .x = {.title = in_free_times, .log = true},
-      .y = {.title = "overlap (diameters)", .log = true}};
+  Plot plot{.id = "overlap",
+            .title = "Overlap",
+            .caption = "Mean overlap when a collision is found, and the deepest overlap of any pair at any step, in diameters.",
+            .x = {.title = in_free_times, .log = true},
+            .y = {.title = "overlap (diameters)", .log = true}};
   const auto add = [&](const std::string& what, auto depth, Style style) {
     for (Series& series : over_steps(comparison, summaries, [&](const MethodSummary& s) -> std::optional<Estimate> {
            if (!s.counts || s.counts->found == 0) return std::nullopt;
@@ -210,7 +208,7 @@ Plot overlap_of_steps(const Comparison& comparison, const std::vector<MethodSumm
   add(
       "deepest", [](const StepCounts& counts) { return counts.deepest; }, Style::points);
   if (comparison.plan.thermal_speed == 0.0) return plot;
-  plot.caption += " The dashed line is the mean of an isolated pair.";
+  plot.caption += " The dashed line is theory for the mean of an isolated pair.";
   const double speed = comparison.plan.thermal_speed / comparison.plan.sigma;
   plot.series.push_back(
       dashed_line(comparison, "mean, isolated pair", [&](double dt) { return theory::mean_depth(speed * dt); }));
@@ -219,13 +217,14 @@ Plot overlap_of_steps(const Comparison& comparison, const std::vector<MethodSumm
 
 Plot bias_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries, const std::string& id,
              const std::string& what, std::optional<Estimate> MethodSummary::*bias) {
-  Plot plot{.id = id,
-            .title = fmt::format("Bias of {}", what),
-            .caption = comparison.plan.seeds.size() > 1
-                           ? "Relative difference from the exact engine, start by start, with standard errors over the starts."
-                           : "Relative difference from the exact engine from this one start, which tells no error.",
-            .x = {.title = in_free_times, .log = true},
-            .y = {.title = fmt::format("relative bias of {}", what)}};
+  Plot plot{
+      .id = id,
+      .title = fmt::format("Bias of {}", what),
+      .caption = comparison.plan.seeds.size() > 1
+                     ? "Relative difference from the exact engine from the same start, with standard errors over the starts."
+                     : "Relative difference from the exact engine from this one start; it has no error bar.",
+      .x = {.title = in_free_times, .log = true},
+      .y = {.title = fmt::format("relative bias of {}", what)}};
   plot.series = over_steps(comparison, summaries, [&](const MethodSummary& s) { return s.*bias; });
   plot.marks = {{.axis = Mark::Across::y, .value = 0.0, .label = "exact"}};
   return plot;
@@ -233,10 +232,11 @@ Plot bias_of(const Comparison& comparison, const std::vector<MethodSummary>& sum
 
 Plot energy_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
   Plot plot{.id = "energy",
-            .title = "Energy tells nothing of these faults",
+            .title = "Energy does not show these errors",
             .caption =
-                "Largest relative change of the energy over the starts. A collision rule conserves energy whether or not there "
-                "was a collision, so this stays at rounding while everything else is wrong. No change at all is not drawn.",
+                "Largest relative change of the energy over the starts. A reversal conserves energy whether or not there was a "
+                "collision, "
+                "so this stays at rounding while the trajectory is wrong. Zero is not drawn.",
             .x = {.title = in_free_times, .log = true},
             .y = {.title = "relative change of energy", .log = true}};
   plot.series = over_steps(comparison, summaries, [](const MethodSummary& s) {

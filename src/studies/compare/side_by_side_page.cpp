@@ -75,7 +75,7 @@ std::string energy_words(const SideBySide& shown) {
   const std::string changes = fmt::format("{:.1g} of it on the exact side and {:.1g} on the other", shown.energy_change_exact,
                                           shown.energy_change_stepped);
   if (shown.energy_change_stepped < 1e-9)
-    return "Energy is kept: the largest change is " + changes + ". It tells nothing of overlaps and distances.";
+    return "Energy is conserved: the largest change is " + changes + ". It does not show overlaps and distances.";
   return "Energy changes, by up to " + changes + ".";
 }
 

@@ -53,21 +53,20 @@ std::string lead_of(const Sweep& sweep, const SweepResults& results) {
   std::string text = fmt::format("{} of {} runs are finished", grouped(finished), grouped(sweep.run_count()));
   if (failed > 0) text += fmt::format(", {} failed", grouped(failed));
   text += ".";
-  if (sweep.seeds.size() > 1)
-    text += " Numbers are means over the seeds of a point, with the standard error that their scatter tells.";
+  if (sweep.seeds.size() > 1) text += " Numbers are means over the seeds of a point, with the standard error from their scatter.";
   return text;
 }
 
 }  // namespace
 
 Page sweep_page(const Sweep& sweep, const SweepResults& results) {
-  Page page{.generator = "carom sweep",
-            .title = fmt::format("Sweep: {}", sweep.source),
-            .subtitle =
-                fmt::format("{} of {}, {} each; {}", counted(sweep.points.size(), "point"), sweep.scene_path,
-                            counted(sweep.seeds.size(), "seed"),
-                            sweep.keys.empty() ? "nothing changed but the seed" : fmt::format("{}", fmt::join(sweep.keys, ", "))),
-            .lead = lead_of(sweep, results)};
+  Page page{
+      .generator = "carom sweep",
+      .title = fmt::format("Sweep: {}", sweep.source),
+      .subtitle = fmt::format("{} of {}, {} each; {}", counted(sweep.points.size(), "point"), sweep.scene_path,
+                              counted(sweep.seeds.size(), "seed"),
+                              sweep.keys.empty() ? "only the seed changes" : fmt::format("{}", fmt::join(sweep.keys, ", "))),
+      .lead = lead_of(sweep, results)};
   constexpr std::size_t most_plotted = 40;
   std::size_t plotted = 0;
   for (std::size_t k = 0; k < results.numbers.size() && plotted < most_plotted; ++k) {
@@ -79,8 +78,8 @@ Page sweep_page(const Sweep& sweep, const SweepResults& results) {
     ++plotted;
   }
   page.sections.push_back({"All numbers", tables_of(sweep, results)});
-  if (results.count(RunState::failed) > 0) page.sections.push_back({"What failed", {failures_of(sweep, results)}});
-  page.sections.push_back({"What was asked for", {Listing{"The sweep", sweep.text}, Listing{"The scene", sweep.scene_text}}});
+  if (results.count(RunState::failed) > 0) page.sections.push_back({"Failed runs", {failures_of(sweep, results)}});
+  page.sections.push_back({"Sweep and scene", {Listing{"The sweep", sweep.text}, Listing{"The scene", sweep.scene_text}}});
   page.facts = {{"Sweep", sweep.source},
                 {"Scene", sweep.scene_path},
                 {"Page by", fmt::format("carom {} (commit {})", build_info().version, build_info().commit)}};

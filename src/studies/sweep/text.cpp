@@ -66,7 +66,7 @@ std::string failures_of(const Sweep& sweep, const SweepResults& results) {
 std::string sweep_text(const Sweep& sweep, const SweepResults& results, const std::filesystem::path& directory) {
   const char* over = sweep.seeds.size() == 1 ? ""
                      : sweep.drawn           ? "; means and standard errors over seeds"
-                                             : "; nothing of them is drawn, so that every seed gives the same run";
+                                             : "; they contain nothing random, so every seed gives the same run";
   return fmt::format("{}: {} with {} each{}\n{}{}\nFiles in {}: {}\n", sweep.scene_path, counted(sweep.points.size(), "point"),
                      counted(sweep.seeds.size(), "seed"), over, table_of(sweep, results), failures_of(sweep, results),
                      directory.string(), fmt::join(sweep_products, ", "));

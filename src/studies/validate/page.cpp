@@ -25,34 +25,35 @@ struct TrialPlot {
 };
 constexpr std::array<TrialPlot, 15> trial_plots = {{
     {"speeds-periodic", "Maxwell and Boltzmann", "Speeds in a periodic box", "speed (v_T)", "density",
-     "Two gases that started far from equilibrium, after fifty collisions per disk, and the law for 64 disks."},
+     "Two gases that started far from equilibrium, after fifty collisions per disk, beside the law for 64 disks."},
     {"speeds-walls", "Maxwell and Boltzmann", "Speeds between walls", "speed (v_T)", "density",
-     "The same between walls, which do not keep momentum."},
+     "Two such gases between walls, which do not conserve momentum."},
     {"h-theorem", "Maxwell and Boltzmann", "Boltzmann's H", "time", "H",
      "Mean over runs that began with all disks equally fast; the line is H of Maxwell's distribution in the same bins."},
     {"speeds-reversal", "the reversal rule", "Speeds under reversal", "speed (v_T)", "density",
-     "Equal masses exchange velocities: the distribution stays as it was, whatever the law of equilibrium says."},
+     "Equal masses exchange velocities, so the distribution of speeds never changes."},
     {"equation-of-state", "equation of state", "Z against packing fraction", "packing fraction", "Z",
      "Errors are smaller than the points; the line is Kolafa and Rottner's, for infinitely many disks.", true},
-    {"equation-of-state-residual", "equation of state", "What is left", "packing fraction", "difference (parts in a thousand)",
-     "Measured less expected, with the first term in 1/N up to 0.63."},
+    {"equation-of-state-residual", "equation of state", "Residual", "packing fraction", "difference (parts in a thousand)",
+     "Measured minus expected, with the first term in 1/N up to 0.63."},
     {"rate-by-speed", "collisions", "Collisions by speed", "speed (v_T)", "rate / mean rate",
-     "Fast disks collide more often; the line is kinetic theory's."},
-    {"impact-parameter", "collisions", "Impact parameter", "b / sigma", "density", "As likely anywhere."},
-    {"free-times", "collisions", "Flights that last longer than t", "t (mean free times)", "share",
+     "Fast disks collide more often; the line is kinetic theory."},
+    {"impact-parameter", "collisions", "Impact parameter", "b / sigma", "density", "Every impact parameter is equally likely."},
+    {"free-times", "collisions", "Flights that last longer than t", "t (mean free times)", "fraction",
      "A mixture of exponentials, one for each speed.", true},
     {"transport", "transport", "Transport over Enskog", "packing fraction", "measured / Enskog",
-     "Enskog's theory leaves correlations out; by how much it is off is physics, and not judged."},
+     "Enskog's theory neglects correlations. The deviation is physics, and no verdict is given."},
     {"diffusion", "transport", "D(t) over Enskog", "t (mean free times)", "D(t) / Enskog",
-     "In two dimensions D grows with the logarithm of time. Beyond the time that sound takes to the middle of the box it is that "
-     "of the box."},
+     "In two dimensions D grows with the logarithm of time. Beyond the time that sound takes to the middle of the box it depends "
+     "on "
+     "the box."},
     {"haff", "cooling, weight and walls", "Cooling", "time", "(T(0) / T)^1/2",
      "Haff's law is a straight line. In the larger box shear waves grow, and the gas cools more slowly."},
-    {"barometer", "cooling, weight and walls", "A gas with weight", "height", "disks in a layer", "Layers of height 5.", true},
+    {"barometer", "cooling, weight and walls", "Barometric law", "height", "disks in a layer", "Layers of height 5.", true},
     {"wall-pressure", "cooling, weight and walls", "Pressure on walls", "N^-1/2", "Z from walls",
-     "Walls add terms of 1 / sqrt N; the fit comes to the fluid's Z."},
+     "Walls add terms of order 1 / sqrt N; the fit extrapolates to the fluid's Z."},
     {"speeds-fixed-steps", "fixed steps", "Speeds under fixed steps", "speed (v_T)", "density",
-     "The same start, advanced in steps."},
+     "One start, advanced in fixed steps."},
 }};
 
 std::string group_of(const TrialResult& result) {
@@ -121,15 +122,15 @@ TextTable table_of(const TrialResult& result) {
 
 Page validation_page(const Validation& validation, const std::string& command_line) {
   const std::size_t failed = validation.failed();
-  Page page{.title = "Validation",
-            .subtitle = summary_of(validation),
-            .lead =
-                "Every check holds a number that this program has measured against theory or the literature. It holds where the "
-                "two are within five standard errors of each other, and an allowance where the theory itself has a small error, "
-                "which is named. z is the whole difference in standard errors, without any allowance. Negative controls "
-                "must fail: they show that the check could tell. Approximate theories, and what fixed steps make of the same "
-                "questions, are shown and not judged.",
-            .key_numbers = {{fmt::format("{} of {}", validation.checks() - failed, validation.checks()), "checks hold"}}};
+  Page page{
+      .title = "Validation",
+      .subtitle = summary_of(validation),
+      .lead =
+          "Each check compares a number that this program measured with theory or the literature. It holds if the two differ by "
+          "at most five standard errors, plus a named allowance where the theory itself has a small error. z is the difference "
+          "in standard errors, without the allowance. Negative controls must fail: they show that the check can detect a wrong "
+          "law. Approximate theories and the results of fixed steps are shown without a verdict.",
+      .key_numbers = {{fmt::format("{} of {}", validation.checks() - failed, validation.checks()), "checks hold"}}};
   std::vector<std::string> groups;
   for (const TrialResult& result : validation.results)
     if (groups.empty() || groups.back() != group_of(result)) groups.push_back(group_of(result));
