@@ -41,7 +41,7 @@ std::string version() {
   return fmt::format("carom {} (commit {}; {}; {})", build.version, build.commit, build.compiler, build.flags);
 }
 
-/// The program's name as the user typed it, or where that is a long path, its path from here.
+/// Returns the program's name as the user typed it, or where that is a long path, its path from here.
 Invocation invocation_of(int argc, char** argv) {
   Invocation invocation{.program = argc > 0 ? argv[0] : "carom", .command_line = ""};
   for (int i = 0; i < argc; ++i) invocation.command_line += (i > 0 ? " " : "") + shell_quoted(argv[i]);

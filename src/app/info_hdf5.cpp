@@ -46,7 +46,7 @@ std::string box_line(hid_t file, hsize_t samples) {
   return fmt::format("{} x {} from ({}, {}); {}", edges.at(0), edges.at(4), origin[0], origin[1], text);
 }
 
-/// ", every 0.5"
+/// Returns text such as ", every 0.5"
 std::string sampling(hid_t file) {
   const auto numbers = [&](const char* name) { return read_numbers_attribute(file, parameters, name); };
   if (const std::vector<double> step = numbers("sample_every"); step.size() == 1) return fmt::format(", every {}", step[0]);
@@ -57,8 +57,8 @@ std::string sampling(hid_t file) {
   return {};
 }
 
-/// The state hash of the last sample, which is that of the run where it ended with a sample. Empty for positions that were
-/// unwrapped: they are other bits than those of the state.
+/// Returns the state hash of the last sample, which is that of the run where it ended with a sample. Empty for positions that
+/// were unwrapped: they are other bits than those of the state.
 std::string last_state_hash(hid_t file, hsize_t samples, hsize_t disks) {
   if (samples == 0 || read_string_attribute(file, parameters, "positions") != "wrapped") return {};
   const auto last = [&](const std::string& dataset) { return read_rows(file, dataset, samples - 1, 1); };
@@ -79,7 +79,7 @@ std::string last_state_hash(hid_t file, hsize_t samples, hsize_t disks) {
   return state_hash(state);
 }
 
-/// "kinetic_energy, temperature, spin", by name
+/// Returns text such as "kinetic_energy, temperature, spin", by name
 std::string observables_line(hid_t file) { return fmt::format("{}", fmt::join(members_of(file, "/observables"), ", ")); }
 
 std::string described(hid_t file) {

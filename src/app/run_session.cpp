@@ -27,9 +27,9 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point began) { return std::chrono::duration<double>(Clock::now() - began).count(); }
 
-/// The largest relative overlap that rounding explains. Double precision stays below 1e-12 in a box of ordinary size; the
-/// thousandfold leaves room for boxes of many thousand diameters, and a real fault is far above it. Single precision has
-/// half the digits.
+/// Returns the largest relative overlap that rounding explains. Double precision stays below 1e-12 in a box of ordinary size; the
+/// thousandfold leaves room for boxes of many thousand diameters, and a real fault is far above it. Single precision has half the
+/// digits.
 double tolerated_overlap(const std::string& engine) { return engine.find("float") != std::string::npos ? 1e-3 : 1e-9; }
 
 /// Overlap is what fixed steps are known for; it is reported, and no failure.
@@ -50,7 +50,7 @@ ExitCode exit_code_of(const RunReport& report) {
   return interrupted || report.stopped == StopReason::interrupted ? exit_interrupted : exit_done;
 }
 
-/// The live picture that --watch asks for, where the terminal can show it.
+/// Returns the live picture that --watch asks for, where the terminal can show it.
 std::optional<LiveView> live_view(const RunOptions& options, const Simulation& simulation) {
   std::optional<LiveView> view;
   if (!options.watch) return view;

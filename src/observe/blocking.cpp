@@ -27,7 +27,7 @@ double variance_of_mean_of(std::uint64_t count, std::span<const double> correlat
 /// / B, or the variance of the mean of a block where correlations are known.
 double left_across_blocks(double s, double of_block) { return 1.0 / (1.0 - std::clamp(0.5 * (s - 1.0) * of_block, 0.0, 0.5)); }
 
-/// Whether blocks of `length` among n samples are long enough for a statistical inefficiency of s.
+/// Returns whether blocks of `length` among n samples are long enough for a statistical inefficiency of s.
 bool long_enough(double length, double n, double s) {
   const double slowness = std::max(s, 1.0 / s);
   return length * length * length > 2.0 * n * slowness * slowness;

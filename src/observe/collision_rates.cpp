@@ -77,7 +77,7 @@ class CollisionRate final : public SavedObservable<CollisionRate> {
 
   std::size_t kinds_;
   bool by_species_;
-  std::vector<double> counts_, before_;  ///< of collisions of one disk of the first species with one of the second
+  std::vector<double> counts_, before_;  ///< number of collisions of one disk of the first species with one of the second
   std::uint64_t pairs_ = 0;
   double time_ = 0.0;
   Blocking all_;

@@ -23,7 +23,7 @@ struct WallReport {
   double energy = 0.0;             ///< given to it: heat and work
   std::optional<double> force;     ///< momentum / time; empty at time 0
   std::optional<double> pressure;  ///< force / length; empty where other walls change the length
-  std::optional<WallState> end;    ///< of a wall that moves
+  std::optional<WallState> end;    ///< state of a moving wall at the end
 };
 
 struct ThermostatReport {
@@ -46,16 +46,16 @@ struct ShearReport {
 };
 
 struct EffectsReport {
-  std::vector<WallReport> walls;               ///< of axes with walls, whatever their kind
-  std::optional<double> packing_fraction_end;  ///< where walls move
-  std::optional<Energies> energies_end;        ///< where there is more than kinetic energy
+  std::vector<WallReport> walls;               ///< all walls of the box, whatever their kind
+  std::optional<double> packing_fraction_end;  ///< packing fraction at the end, where walls move
+  std::optional<Energies> energies_end;        ///< energies at the end, where there is more than kinetic energy
   std::optional<double> spin_temperature;      ///< mean over samples, or of the final state where there are none
-  std::optional<double> dissipated;            ///< by collisions of pairs
+  std::optional<double> dissipated;            ///< energy lost in pair collisions
   std::optional<Eigen::Vector2d> obstacles;    ///< momentum given to them
   std::optional<ThermostatReport> thermostat;
   std::optional<GrowthReport> growth;
   std::optional<ShearReport> shear;
-  std::optional<std::uint64_t> bonds;  ///< at the end
+  std::optional<std::uint64_t> bonds;  ///< number of bonds at the end
 
   /// Energy supplied to disks and pistons, less that lost. Empty where no effect supplies or removes energy, and where
   /// gives_untold().

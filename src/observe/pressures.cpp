@@ -35,7 +35,7 @@ using carom::serialize;
 
 constexpr const char* no_log = "the run kept no collisions (--events)";
 
-/// c above; 1 for many.
+/// Returns c above; 1 for many.
 double speed_factor(double d) { return d > 0.0 ? std::sqrt(0.5 * d) * boost::math::tgamma_delta_ratio(0.5 * d, 0.5) : 1.0; }
 
 class Pressure final : public SavedObservable<Pressure>, public FluxFollower {

@@ -22,7 +22,7 @@ namespace carom {
 struct Verification {
   std::uint64_t every = 0;  ///< events from one check to the next
   std::uint64_t checks = 0;
-  std::vector<std::string> faults;  ///< of the last check, which ended the run; empty where all is well
+  std::vector<std::string> faults;  ///< faults found by the last check, which ended the run; empty where there are none
 };
 
 struct RunReport {
@@ -31,7 +31,7 @@ struct RunReport {
   std::uint64_t seed = 1;
   std::string engine;                ///< or the fixed-step method
   std::optional<double> time_step;   ///< dt of a fixed-step method; empty where events are exact
-  std::vector<std::string> effects;  ///< what acts beyond free flight: "specular", "walls", ...
+  std::vector<std::string> effects;  ///< names of all effects: "specular", "walls", ...
   std::int64_t disks = 0;
   double packing_fraction = 0.0;
 
@@ -39,10 +39,10 @@ struct RunReport {
   std::string state_hash;  ///< carom::state_hash() of the final state
   std::uint64_t samples = 0;
   Totals totals;
-  double wall_seconds = 0.0;  ///< of the whole run, from scene to files
-  double loop_seconds = 0.0;  ///< of the event loop alone
+  double wall_seconds = 0.0;  ///< elapsed time of the whole run, from scene to files
+  double loop_seconds = 0.0;  ///< seconds in the event loop alone
 
-  double energy_initial = 0.0;  ///< of disks and pistons together: see observe/energy.hpp
+  double energy_initial = 0.0;  ///< energy of disks and pistons together: see observe/energy.hpp
   double energy_final = 0.0;
   std::optional<double> energy_scale;  ///< sum of the sizes of its parts, where there is more than kinetic energy
   Eigen::Vector2d momentum_initial = Eigen::Vector2d::Zero();
@@ -55,25 +55,25 @@ struct RunReport {
 
   double max_relative_overlap = 0.0;       ///< largest (sigma_ij - |r_ij|) / sigma_ij over all checked states, >= 0
   std::uint64_t overlap_checked = 0;       ///< number of states checked
-  std::optional<double> overlap_at_start;  ///< the same of the start alone, where the scene accepts an overlap there
+  std::optional<double> overlap_at_start;  ///< largest relative overlap of the start, where the scene accepts overlaps
   StopReason stopped = StopReason::time;
   std::vector<std::int32_t> stopped_disks;  ///< RunResult::stopped_disks
   std::vector<std::string> faults;          ///< RunResult::faults
   EffectsReport of_effects;
   std::string note_on_errors;                ///< remark on the errors of Z and of observables; empty where there is none
-  std::vector<Measurement> observables;      ///< what the scene's [observe] table asked for
-  std::optional<Verification> verification;  ///< where it was asked for
-  std::optional<Horizon> horizon;            ///< of the start of the measured run, where it was asked for
+  std::vector<Measurement> observables;      ///< results of the scene's [observe] table
+  std::optional<Verification> verification;  ///< present where it was requested
+  std::optional<Horizon> horizon;            ///< horizon from the start of the measured run, where it was requested
   bool measured = true;  ///< false where the run ended while it was still equilibrating: clock and totals are of that part
 
-  /// (final - initial) / initial, 0 where the initial energy is 0. Where potential energy may cancel kinetic energy it is
+  /// Returns (final - initial) / initial, 0 where the initial energy is 0. Where potential energy may cancel kinetic energy it is
   /// relative to energy_scale.
   [[nodiscard]] double relative_energy_drift() const {
     const double scale = energy_scale.value_or(energy_initial);
     return scale == 0.0 ? 0.0 : (energy_final - energy_initial) / scale;
   }
-  /// The part of that which nothing explains: (final - initial - given) / the larger of initial and final. Empty where nothing
-  /// gives or takes energy, and relative_energy_drift says it all.
+  /// Returns the part of the change that is unaccounted for: (final - initial - supplied) / the larger of initial and final.
+  /// Empty where no effect supplies or removes energy; relative_energy_drift() is then the whole error.
   [[nodiscard]] std::optional<double> unaccounted_energy_drift() const {
     if (!of_effects.energy_supplied) return std::nullopt;
     const double scale = std::max(energy_scale.value_or(energy_initial), std::abs(energy_final));

@@ -21,7 +21,7 @@ std::string at_lag(double lag) {
   return text;
 }
 
-/// The last row that `until` allows and whose error is known; null where there is none.
+/// Returns the last row that `until` allows and whose error is known; null where there is none.
 const MultipleTau::Row* longest_row(const std::vector<MultipleTau::Row>& rows, double until) {
   const MultipleTau::Row* best = nullptr;
   for (const MultipleTau::Row& row : rows) {

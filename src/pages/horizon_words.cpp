@@ -40,7 +40,7 @@ double cost_of(const HorizonRow& dear, const HorizonRow* cheap) {
   return cheap != nullptr && cheap->seconds > 0.0 ? dear.seconds / cheap->seconds : 0.0;
 }
 
-/// A ratio to two digits.
+/// Returns a ratio to two digits.
 std::string times(double ratio) { return fmt::format("{:.{}f} times", ratio, ratio < 9.95 ? 1 : 0); }
 
 /// Returns the cost of the best precision relative to the same engine in double precision, and to the engine that runs the scene:

@@ -196,7 +196,7 @@ const Column* column_of(const Table& table, std::string_view name) {
 
 bool is_error(const Column& column) { return column.name.ends_with("_error"); }
 
-/// "density", "density_small", but not "density_error".
+/// Returns text such as "density", "density_small", but not "density_error".
 std::vector<const Column*> with_species(const Table& table, std::string_view base) {
   std::vector<const Column*> found;
   for (const Column& column : table.columns) {

@@ -75,7 +75,7 @@ std::string words(const Run& run) {
   return text + fmt::format("; seed {}", run.seed);
 }
 
-/// "temperature, radial_distribution every 0.5"
+/// Returns text such as "temperature, radial_distribution every 0.5"
 std::string words(const std::vector<ObservableRequest>& requests) {
   std::string text;
   for (const ObservableRequest& request : requests) {

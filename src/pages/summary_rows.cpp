@@ -17,7 +17,7 @@ namespace carom {
 
 namespace {
 
-/// "disk 3", "disks 0, 1 and 2", "disks 0, 1, 2, 3 and 12 more"
+/// Returns text such as "disk 3", "disks 0, 1 and 2", "disks 0, 1, 2, 3 and 12 more"
 std::string named(const std::vector<std::int32_t>& disks, const char* otherwise) {
   constexpr std::size_t most = 5;
   if (disks.empty()) return otherwise;

@@ -25,8 +25,8 @@ std::vector<Method> methods_of(const Comparison& comparison) {
   return methods;
 }
 
-/// A curve for every dt of every method would hide all: of the grid method one step per decade, of the naive one a coarse and a
-/// fine one.
+/// Returns whether to draw this curve. Curves for every dt would hide each other: of the grid method one step per decade is
+/// drawn, of the naive one a coarse and a fine one.
 bool speaks_for_others(const ComparePlan& plan, const Method& method) {
   if (method.exact()) return true;
   const auto rung = std::find(plan.dts.begin(), plan.dts.end(), method.dt) - plan.dts.begin();
@@ -34,7 +34,7 @@ bool speaks_for_others(const ComparePlan& plan, const Method& method) {
   return (method.name == "grid" && rung % 3 == 1) || (method.name == "naive" && (rung == 4 || rung == 10));
 }
 
-/// A series per fixed-step method over dt, of what `value` says; points for which it says nothing are left out.
+/// Returns a series per fixed-step method over dt, of what `value` says; points for which it says nothing are left out.
 template <class Value>
 std::vector<Series> over_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries, Value value) {
   std::vector<Series> all;
@@ -55,7 +55,7 @@ std::vector<Series> over_steps(const Comparison& comparison, const std::vector<M
   return all;
 }
 
-/// A function of dt in scene units, as a dashed line over the ladder.
+/// Returns a function of dt in scene units, as a dashed line over the ladder.
 template <class Function>
 Series dashed_line(const Comparison& comparison, const std::string& name, Function function) {
   Series line{.name = name, .style = Style::dashed, .group = 6};

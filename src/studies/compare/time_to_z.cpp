@@ -49,7 +49,7 @@ struct BiasLaw {
   double up_to = 0.0;
 };
 
-/// A line through nothing, each point weighted by its error; three points at least.
+/// Fits a line through the origin, each point weighted by its error; needs three points.
 std::optional<BiasLaw> bias_law(const std::vector<const MethodSummary*>& steps, const Exact& exact) {
   double numerator = 0.0, denominator = 0.0;
   BiasLaw law;

@@ -12,7 +12,7 @@ namespace carom::cli {
 
 namespace {
 
-/// with_error(), and powers of ten where a number in units far from 1 would be all zeros.
+/// Returns with_error(), and powers of ten where a number in units far from 1 would be all zeros.
 std::string in_any_unit(double value, std::optional<double> error) {
   if (error && (std::abs(value) >= 1e6 || std::abs(value) < 1e-4)) return fmt::format("{:.3e} ± {:.1e}", value, *error);
   return with_error(value, error.value_or(0.0));
