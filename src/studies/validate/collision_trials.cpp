@@ -47,20 +47,20 @@ TrialResult rates(const std::string& trial, double eta, const Effort& effort) {
   const double expected_path = theory::mean_free_path(eta) * (theory::kolafa_rottner(eta) - 1.0) /
                                (theory::kolafa_rottner_finite(eta, disks) - 1.0) * std::sqrt(1.0 - 1.0 / disks) * ends;
   result.checks.push_back({.name = "mean free path, " + what,
-                           .theory = "1 / (2 sqrt2 rho sigma g), less what flights at the ends of the run would add",
+                           .theory = "1 / (2 sqrt2 rho sigma g), minus that of flights at the ends of the run",
                            .source = "kinetic theory; g from the equation of state",
                            .expected = expected_path,
                            .measured = path,
                            .reference_error = 1e-5 * expected_path});
   const double mean = speed.value / measured.value * ends;
   result.checks.push_back({.name = "mean free path times collisions per time, " + what,
-                           .theory = "the mean speed, less what flights at the ends of the run would add",
+                           .theory = "the mean speed, minus that of flights at the ends of the run",
                            .source = "a definition, measured in two ways",
                            .expected = mean,
                            .measured = {path.value, std::hypot(path.error, mean * measured.error / measured.value)},
                            .error_is_bound = true});
   result.checks.push_back({.name = "mean square of the impact parameter over sigma, " + what,
-                           .theory = "1/3: b is as likely anywhere from 0 to sigma",
+                           .theory = "1/3: b is uniform from 0 to sigma",
                            .source = "molecular chaos, exact in equilibrium",
                            .expected = 1.0 / 3.0,
                            .measured = [&] {
@@ -135,7 +135,7 @@ TrialResult free_times(const std::string& trial, const Effort& effort) {
     const Measured share{(1.0 + far) * low->mean - far * high->mean,
                          std::hypot((1.0 + far) * low->error.value_or(NAN), far * high->error.value_or(NAN))};
     result.checks.push_back(
-        {.name = fmt::format("share of the flights longer than {:g} mean free times, at vanishing density", longer),
+        {.name = fmt::format("fraction of flights longer than {:g} mean free times, at vanishing density", longer),
          .theory = "each speed's own exponential, over the speeds with which disks leave collisions; of flights that "
                    "begin and end within the run",
          .source = "Visco, van Wijland & Trizac, Phys. Rev. E 77, 041117 (2008)",
@@ -179,8 +179,8 @@ TrialResult mixture(const std::string& trial, const Effort& effort) {
   const Found found = run(scene, effort, result);
   const std::string what = "200 disks of radius 0.5 and 200 of 0.3, masses 1 and 0.2";
   const Measured Z = found.measured("pressure", "Z"), from_rate = found.measured("pressure", "Z_rate");
-  result.checks.push_back({.name = "Z from how often disks collide, " + what,
-                           .theory = "that from the momentum they transfer",
+  result.checks.push_back({.name = "Z from the collision rate, " + what,
+                           .theory = "Z from momentum transfer",
                            .source = "omega_ij = n_j sigma_ij g_ij sqrt(2 pi kT / mu_ij), exact for each pair of species",
                            .expected = Z.value,
                            .measured = {from_rate.value, std::hypot(Z.error, from_rate.error)},

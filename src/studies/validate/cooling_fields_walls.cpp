@@ -97,9 +97,9 @@ TrialResult haff(const std::string& trial, const Cooling& gas, const Effort& eff
     const bool control = gas.judged == Judged::disagrees;
     if (control ? k != 10 : k != 2 && k != 5 && k != 10) continue;
     result.checks.push_back(
-        {.name = fmt::format("1 / t_H of {} disks of restitution 0.95 that cool, from t = 0 to {:g}{}", disks, time,
+        {.name = fmt::format("1 / t_H of {} cooling disks of restitution 0.95, from t = 0 to {:g}{}", disks, time,
                              control ? " (must not fit)" : ""),
-         .theory = control ? fmt::format("Haff's law, which shear waves end in boxes of more than {:.0f} disks",
+         .theory = control ? fmt::format("Haff's law, which fails by shear waves in boxes of more than {:.0f} disks",
                                          theory::shear_instability(e, eta))
                            : "(1 - e^2) omega_0 / 4 (1 + 3 a2 / 16), with omega_0 and <g^3> of so many disks at fixed energy",
          .source = control ? "Brito & Ernst, Europhys. Lett. (1998), arXiv:cond-mat/9807224"
@@ -146,7 +146,7 @@ TrialResult kurtosis(const std::string& trial, const Effort& effort) {
   result.scenes.resize(1);
   const double N = disks;
   const double expected = theory::cooling_kurtosis(e) * (N - 1.0) / N;
-  result.checks.push_back({.name = "kurtosis <v^4> / <v^2>^2 of a gas of restitution 0.8 that cools evenly",
+  result.checks.push_back({.name = "kurtosis <v^4> / <v^2>^2 of a homogeneously cooling gas of restitution 0.8",
                            .theory = "2 (1 + a2) (N - 1) / N, a2 = 16 (1 - e) (1 - 2 e^2) / (57 - 25 e + 30 e^2 (1 - e))",
                            .source = "van Noije & Ernst, Granular Matter 1, 57 (1998)",
                            .expected = expected,
@@ -212,7 +212,7 @@ TrialResult barometer(const std::string& trial, const Effort& effort) {
     const auto estimate = counts[k].estimate();
     const double from = static_cast<double>(k) * layer;
     result.checks.push_back(
-        {.name = fmt::format("disks {:g} to {:g} above the floor of a gas with weight", from, from + layer),
+        {.name = fmt::format("number of disks {:g} to {:g} above the floor under gravity", from, from + layer),
          .theory = "d ln n / dy = -(m g / kT) / (Z + eta Z')",
          .source = "hydrostatics, with the equation of state",
          .expected = there,

@@ -95,12 +95,11 @@ TrialResult fluid(const std::string& trial, const Density& at, const Effort& eff
        .expected = finite,
        .measured = Z,
        .reference_error = reference_error});
-  result.checks.push_back(
-      {.name = fmt::format("Z from how often disks collide, packing fraction {:.2f}, {} disks", at.eta, at.disks),
-       .theory = "that from the momentum they transfer",
-       .source = "exact: velocities at collisions are those of equilibrium",
-       .expected = Z.value,
-       .measured = {found.measured("pressure", "Z_rate").value, difference.estimate()->error.value_or(NAN)}});
+  result.checks.push_back({.name = fmt::format("Z from the collision rate, packing fraction {:.2f}, {} disks", at.eta, at.disks),
+                           .theory = "Z from momentum transfer",
+                           .source = "exact: velocities at collisions are those of equilibrium",
+                           .expected = Z.value,
+                           .measured = {found.measured("pressure", "Z_rate").value, difference.estimate()->error.value_or(NAN)}});
   if (at.eta <= 0.2) {
     const double series = theory::virial_series(at.eta), last = 12.0 * std::pow(at.eta, 10);
     result.checks.push_back(
@@ -185,7 +184,7 @@ TrialResult transition(const std::string& trial, const theory::ReferencePressure
   });
   result.checks.push_back({.name = fmt::format("P sigma^2 / kT of {}, from a compressed liquid", what),
                            .theory = "that from a perfect lattice",
-                           .source = "equilibrium knows no start",
+                           .source = "equilibrium does not depend on the start",
                            .expected = from_lattice.value,
                            .measured = from_liquid,
                            .reference_error = from_lattice.error});

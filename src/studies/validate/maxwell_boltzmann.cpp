@@ -133,7 +133,7 @@ TrialResult h_theorem(const std::string& trial, const Effort& effort) {
     Measured change = mean_of(rise);
     // A fall is what theory says, however large.
     const double deviation = std::max(0.0, change.value / change.error);
-    result.checks.push_back({.name = fmt::format("H from t = {:.2g} to {:.2g}: how much it rises", curve.x[k - 1], curve.x[k]),
+    result.checks.push_back({.name = fmt::format("H from t = {:.2g} to {:.2g}: rise", curve.x[k - 1], curve.x[k]),
                              .theory = "at most 0",
                              .source = "Boltzmann's H-theorem",
                              .measured = change,

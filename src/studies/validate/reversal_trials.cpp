@@ -116,7 +116,7 @@ TrialResult tensor(const std::string& trial, const Effort& effort) {
   });
   const std::string what = "256 equal disks under reversal, four times as much energy along x";
   result.checks.push_back({.name = "K_x / K_y at the end over that at the start, " + what,
-                           .theory = "1: every collision keeps the tensor sum of m v_a v_b",
+                           .theory = "1: every collision conserves the tensor sum of m v_a v_b",
                            .source = "docs/model.md",
                            .expected = 1.0,
                            .measured = {ratio(found.simulation.state().velocities) / x_to_y, 0.0},
@@ -161,7 +161,7 @@ TrialResult unequal(const std::string& trial, const Effort& effort) {
   const Eigen::Vector2d end = energies(found.simulation.state(), disks);
   const std::string what = "64 disks of masses 1 and 1/4 under reversal, between walls, unequal energy along x and y";
   result.checks.push_back({.name = "K_x / K_y at the end over that at the start, " + what,
-                           .theory = "1: axes keep temperatures of their own",
+                           .theory = "1: each axis keeps its own temperature",
                            .source = "docs/model.md",
                            .expected = 1.0,
                            .measured = {end.x() / end.y() / x_to_y, 0.0},
@@ -177,7 +177,7 @@ TrialResult unequal(const std::string& trial, const Effort& effort) {
     for (const char* axis : {"x", "y"})
       result.checks.push_back(
           {.name = fmt::format("kurtosis of v_{} of the {} disks, {}", axis, species, what),
-           .theory = "3 N / (N + 2): with other masses about, each axis comes to Maxwell's law at fixed energy",
+           .theory = "3 N / (N + 2): with other masses present, each axis relaxes to Maxwell's law at fixed energy",
            .source = "m v_x^2 / 2 K_x has the distribution Beta(1/2, (N - 1)/2)",
            .expected = 3.0 * N / (N + 2.0),
            .measured = found.measured("velocity_moments", fmt::format("kurtosis_{}_{}", axis, species))});

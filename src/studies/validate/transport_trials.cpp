@@ -45,7 +45,7 @@ TrialResult instantaneous(const std::string& trial, double eta, const Effort& ef
     const double scale = square / found.column(observable, "correlation").at(0);
     const double product = scale * found.column(observable, "correlation").at(1);
     const double product_error = scale * found.column(observable, "correlation_error").at(1);
-    result.checks.push_back({.name = fmt::format("{} at once, packing fraction {:.1f}, {} disks", name, eta, disks),
+    result.checks.push_back({.name = fmt::format("instantaneous {}, packing fraction {:.1f}, {} disks", name, eta, disks),
                              .theory = formula,
                              .source = "docs/validation.md, from the pressure of Kolafa & Rottner, Mol. Phys. 104, 3435 (2006)",
                              .expected = expected,
@@ -73,7 +73,7 @@ TrialResult transport(const std::string& trial, double eta, const Effort& effort
   const auto shown = [&](const std::string& name, const char* plot, double expected, const Measured& measured,
                          const std::string& source) {
     result.checks.push_back({.name = fmt::format("{} at packing fraction {:.1f}", name, eta),
-                             .theory = "Enskog, who leaves correlations of collisions and the size of the box out",
+                             .theory = "Enskog, without correlations of collisions and the size of the box",
                              .source = source,
                              .expected = expected,
                              .measured = measured,
@@ -102,7 +102,7 @@ TrialResult transport(const std::string& trial, double eta, const Effort& effort
   result.curves.push_back(std::move(growing));
   const std::size_t row = row_at(until, 3.0 / rate);
   shown("D(t) at three mean free times", "diffusion at 3 mean free times", enskog * (1.0 - std::exp(-until[row] * rate)),
-        {D[row], error[row]}, "Chapman-Enskog; the velocity has not quite forgotten itself");
+        {D[row], error[row]}, "Chapman-Enskog; the velocity is still slightly correlated");
   return result;
 }
 
