@@ -26,6 +26,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <sstream>
@@ -430,6 +431,19 @@ void add_manual(CLI::App& program, Action& action) {
   print("completion", "Print what bash needs to complete words", [](const CLI::App& of) { return bash_completion(of); });
 }
 
+/// Sorts the commands of --help by purpose, and adds an example.
+void add_groups(CLI::App& program) {
+  const auto put = [&](const char* group, std::initializer_list<const char*> names) {
+    for (const char* name : names) program.get_subcommand(name)->group(group);
+  };
+  put("Scenes and runs", {"run", "resume", "extend", "check", "init", "info", "verify"});
+  put("Results of a run", {"analyze", "play", "report", "movie"});
+  put("Studies", {"horizon", "compare", "sweep", "bench", "hardcases", "validate"});
+  program.footer(
+      "An example:\n  carom init              writes box.toml\n  carom run box.toml      runs it and writes box/\n"
+      "  carom report box        writes box/report.html");
+}
+
 std::string nearest(const std::string& word, const std::vector<std::string>& words) {
   return std::string(detail::nearest_word(word, std::vector<std::string_view>(words.begin(), words.end())));
 }
@@ -500,6 +514,7 @@ Action parse_arguments(int argc, char** argv) {
   add_hardcases(program, action, invocation);
   add_validate(program, action, invocation);
   add_manual(program, action);
+  add_groups(program);
   if (argc > 1) require_known_command(program, argv[1]);
   try {
     if (argc == 1)

@@ -16,6 +16,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 struct WrongLine {
@@ -77,6 +78,8 @@ TEST(Usage, HelpNamesEveryCommand) {
   const Outcome outcome = run_carom(directory.path(), {"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
   for (const char* command : {"run", "check", "init", "info", "bench"}) EXPECT_THAT(outcome.out, HasSubstr(command));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\nScenes and runs:\n"), HasSubstr("\nResults of a run:\n"), HasSubstr("\nStudies:\n"),
+                                 Not(HasSubstr("\nSubcommands:")), HasSubstr("carom run box.toml")));
   EXPECT_THAT(outcome.err, IsEmpty());
 }
 
