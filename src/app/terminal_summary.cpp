@@ -54,7 +54,8 @@ std::string what_was_observed(const RunReport& report) {
     }
     table.add({measured.name, words});
   }
-  return "Observed, averages with their standard errors, in scene units (all of them in summary.json)\n" + table.text() + "\n";
+  return "Observables: the first number of each with its standard error, in scene units (summary.json has all)\n" + table.text() +
+         "\n";
 }
 
 std::string how_far_to_trust(const RunReport& report) { return report.horizon ? sentence_of(*report.horizon) + "\n\n" : ""; }

@@ -50,9 +50,9 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::reset_clock() {
   begin_epoch(now_);
   recorder_.begin_epoch(epoch_ = Instant{});
-  const std::uint64_t longest_list = totals_.numerics.longest_list;  // of now, not of the time before
+  const std::uint64_t longest_neighbour_list = totals_.numerics.longest_neighbour_list;  // of now, not of the time before
   totals_ = RunningTotals{};
-  totals_.numerics.longest_list = longest_list;
+  totals_.numerics.longest_neighbour_list = longest_neighbour_list;
 }
 
 template <class Impact, class Layout, class World>

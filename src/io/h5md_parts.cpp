@@ -80,7 +80,7 @@ void write(hid_t parent, const Scalar& scalar) {
   const Hdf5Id group = create_group(parent, scalar.name);
   write_attribute(group.get(), "value", number_or_nan(scalar.value));
   write_attribute(group.get(), "error", number_or_nan(scalar.error));
-  write_attribute(group.get(), "decorrelation_time", number_or_nan(scalar.decorrelation_time));
+  write_attribute(group.get(), "integrated_correlation_time", number_or_nan(scalar.integrated_correlation_time));
   write_attribute(group.get(), "average", average_word(scalar.average));
   if (!scalar.unit.empty()) write_attribute(group.get(), "unit", scalar.unit);
   if (!scalar.note.empty()) write_attribute(group.get(), "note", scalar.note);

@@ -41,7 +41,7 @@ namespace {
 Json json_of(const Scalar& scalar) {
   Json json = {{"value", number(scalar.value)},
                {"error", number(scalar.error)},
-               {"decorrelation_time", number(scalar.decorrelation_time)},
+               {"integrated_correlation_time", number(scalar.integrated_correlation_time)},
                {"average", average_word(scalar.average)}};
   if (!scalar.unit.empty()) json["unit"] = scalar.unit;
   if (!scalar.note.empty()) json["note"] = scalar.note;

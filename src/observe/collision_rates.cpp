@@ -23,7 +23,7 @@ class CollisionRate final : public SavedObservable<CollisionRate> {
     rates_.resize(kinds_ * kinds_);
   }
 
-  [[nodiscard]] bool looks_at_velocities_alone() const override { return true; }
+  [[nodiscard]] bool needs_positions() const override { return false; }
   [[nodiscard]] bool follows_collisions() const override { return by_species_; }
 
   void collisions(std::span<const PairCollision> collisions) override {

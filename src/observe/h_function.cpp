@@ -30,7 +30,7 @@ class HFunction final : public SavedObservable<HFunction> {
     }
   }
 
-  [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
+  [[nodiscard]] bool needs_positions() const override { return run_.sheared(); }
 
   void sample(const State& state, const Totals&) override {
     if (calls_++ % stride_ != 0) return;

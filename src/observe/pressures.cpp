@@ -51,7 +51,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     has_Z_walls_ = why_no_walls().empty();
   }
 
-  [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared() && !has_Z_walls_; }
+  [[nodiscard]] bool needs_positions() const override { return run_.sheared() || has_Z_walls_; }
   [[nodiscard]] bool follows_collisions() const override { return follows_; }
 
   void ask(FluxSums& sums) override { sums.transfer = &transfer_; }

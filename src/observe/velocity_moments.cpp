@@ -17,7 +17,7 @@ class VelocityMoments final : public SavedObservable<VelocityMoments> {
   VelocityMoments(const ObservableRequest& request, const ObservedRun& run)
       : SavedObservable(request, run), species_(run.species_count()) {}
 
-  [[nodiscard]] bool looks_at_velocities_alone() const override { return !run_.sheared(); }
+  [[nodiscard]] bool needs_positions() const override { return run_.sheared(); }
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);

@@ -89,12 +89,12 @@ std::string sentence_of(const Horizon& horizon) {
 
 TextTable horizon_table(const Horizon& horizon, const std::string& which) {
   TextTable table{
-      .title = "How far the exact trajectory can be trusted",
-      .columns = {"engine", "bits", "right until t (scene units)", "collisions per disk", "price"},
+      .title = "Horizon of the trajectory",
+      .columns = {"engine", "bits", "right until t (scene units)", "collisions per disk", "relative cost"},
       .caption = fmt::format(
-          "Until the largest distance of a disk from where the next better precision has it reaches {:g} diameters{}{}. "
-          "~: extrapolated with the Lyapunov exponent. Price: processor time over that of double precision "
-          "in the same engine.",
+          "A trajectory is right until a disk is {:g} diameters away from its position in the next better precision{}{}. ~: "
+          "extrapolated with the Lyapunov exponent. Relative cost: processor time over that of double precision in the same "
+          "engine.",
           horizon.tolerance, which.empty() ? "" : ", ", which)};
   for (const HorizonRow& row : horizon.rows) {
     const std::string about = row.estimated ? "~" : "";

@@ -75,7 +75,7 @@ RunResult Runner::simulate(const RunnerHooks& hooks) {
     if (is_due(moment)) save(moment, hooks);
   };
   const bool beside = options_.threads ? *options_.threads > 1 : std::thread::hardware_concurrency() > 1;
-  beside ? observation_->attach_beside(schedule) : observation_->attach(schedule);
+  beside ? observation_->attach_on_thread(schedule) : observation_->attach(schedule);
   schedule.grids.insert(schedule.grids.end(), hooks.grids.begin(), hooks.grids.end());
   std::istringstream saved_schedule(schedule_);
   if (from_ != nullptr) schedule.resume = &saved_schedule;

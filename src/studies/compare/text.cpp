@@ -75,7 +75,7 @@ std::string time_to_Z(const Answers& answers) {
   for (const TimeToZ& one : answers.time_to_Z)
     table.add({fmt::format("{} %", 100.0 * one.accuracy), one.method,
                one.seconds ? duration(*one.seconds) + (one.dt ? fmt::format(", dt = {:.2g}", *one.dt) : "") : one.remark});
-  return "\n  processor time to know Z = PA/(NkT) to\n" + table.text();
+  return "\n  processor time for Z = PA/(NkT) with an error of\n" + table.text();
 }
 
 }  // namespace

@@ -50,12 +50,12 @@ Horizon horizon_with_progress(const Scene& scene, const State& start, HorizonOpt
 
 std::string horizon_table(const Horizon& horizon, const Scene& scene) {
   const std::string text = fmt::format(
-      "{}\n{}, packing fraction {:.4g}; seed {}, run by {}; compared up to t = {:.4g} "
+      "{}\n{}, packing fraction {:.4g}; seed {}, engine {}; compared up to t = {:.4g} "
       "(scene units)\n\n",
       scene.title.empty() ? scene.source : scene.title, counted(static_cast<std::uint64_t>(scene.disk_count()), "disk"),
       scene.packing_fraction(), scene.run.seed, horizon.engine, horizon.time);
   TerminalTable table("lrrrrrrr");
-  table.add({"", "", "right", "collisions", "first other", "", "processor", "price"});
+  table.add({"", "", "right", "collisions", "first different", "", "processor", "price"});
   table.add({"engine", "bits", "until t", "per disk", "event", "at t", "time", "ratio"});
   for (const HorizonRow& one : horizon.rows) put(table, one);
   return fmt::format("{}{}\n  right: every disk within {:g} diameters\n\n{}", text, table.text(), horizon.tolerance,
