@@ -44,7 +44,7 @@ RunTheory::RunTheory(const RunReport& report, std::optional<TheorySource> source
     : report_(report), kT_(report.temperature_mean), eta_(report.packing_fraction) {
   if (source && source->disks.count() == static_cast<std::size_t>(report.disks)) source_.emplace(*source);
   if (!source_) {
-    why_not_Z_ = "Whether the equation of state is of this scene is not known: its disks are in no file of the run.";
+    why_not_Z_ = "No theory is given: the disks of the scene are in no file of the run.";
     return;
   }
   const Scene& scene = source_->scene;
