@@ -3,6 +3,7 @@
 #include "app/commands.hpp"
 #include "app/info_parts.hpp"
 #include "pages/report_page.hpp"
+#include "studies/horizon/page.hpp"
 #include "terminal/page_file.hpp"
 #include "terminal/reading_process.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 
 ReportFile read_report(const std::string& directory) {
   const ReadingLimit limit(directory);
-  return as_usage_error([&] { return report_of(directory); });
+  return as_usage_error([&] { return report_of(directory, horizon_blocks); });
 }
 
 }  // namespace

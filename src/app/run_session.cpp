@@ -4,6 +4,8 @@
 #include "app/terminal_summary.hpp"
 #include "io/summary.hpp"
 #include "runner/runner.hpp"
+#include "studies/horizon/json.hpp"
+#include "studies/horizon/page.hpp"
 #include "studies/horizon/text.hpp"
 #include "terminal/progress.hpp"
 #include "terminal/signals.hpp"
@@ -46,7 +48,8 @@ ExitCode exit_code_of(const RunReport& report) {
                report.scene, report.max_relative_overlap);
     return exit_invalid_state;
   }
-  const bool interrupted = report.horizon && report.horizon->ended == HorizonEnd::interrupted;
+  const std::optional<Horizon> horizon = horizon_in(report);
+  const bool interrupted = horizon && horizon->ended == HorizonEnd::interrupted;
   return interrupted || report.stopped == StopReason::interrupted ? exit_interrupted : exit_done;
 }
 
@@ -78,6 +81,7 @@ class Session {
                  .verify_every = options_.verify.value_or(0),
                  .threads = options_.threads,
                  .report = options_.report,
+                 .more_on_accuracy = horizon_blocks,
                  .keep_start = options_.verify_horizon,
                  .began = given.began},
                 given.from) {}
@@ -121,7 +125,7 @@ class Session {
       line.reset();
     };
     hooks.complete = [&](RunReport& report, const State& start) {
-      report.horizon = horizon_with_progress(scene, start, {.engine = report.engine}, mode_, stop_);
+      append(report, horizon_with_progress(scene, start, {.engine = report.engine}, mode_, stop_));
     };
     hooks.warn = [](const std::string& sentence) { fmt::print(stderr, "carom: {}\n", sentence); };
     if (view && options_.pace) hooks.grids.push_back(paced(*view, *options_.pace));

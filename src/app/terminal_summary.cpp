@@ -3,9 +3,10 @@
 
 #include "app/terminal_summary.hpp"
 
-#include "pages/horizon_words.hpp"
 #include "pages/summary_rows.hpp"
 #include "scene/drawn.hpp"
+#include "studies/horizon/json.hpp"
+#include "studies/horizon/sentence.hpp"
 #include "terminal/observed_lines.hpp"
 #include "text/numbers.hpp"
 #include "text/table.hpp"
@@ -58,7 +59,12 @@ std::string what_was_observed(const RunReport& report) {
          "\n";
 }
 
-std::string how_far_to_trust(const RunReport& report) { return report.horizon ? sentence_of(*report.horizon) + "\n\n" : ""; }
+std::string how_far_to_trust(const RunReport& report, const Scene& scene) {
+  std::optional<Horizon> horizon = horizon_in(report);
+  if (!horizon) return "";
+  horizon->run_time = scene.run.time;
+  return sentence_of(*horizon) + "\n\n";
+}
 
 std::string where_the_files_are(const Results& results) {
   std::vector<std::string> names;
@@ -97,7 +103,7 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
 }  // namespace
 
 std::string terminal_summary(const RunReport& report, const Scene& scene, const Results& results) {
-  return heading(report, scene) + lines_of(report, scene) + what_was_observed(report) + how_far_to_trust(report) +
+  return heading(report, scene) + lines_of(report, scene) + what_was_observed(report) + how_far_to_trust(report, scene) +
          where_the_files_are(results) + what_to_try_next(report, scene, results);
 }
 

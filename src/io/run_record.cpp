@@ -131,7 +131,6 @@ RunRecord read_run_record(const std::filesystem::path& directory) {
     record.source = source_in(directory / "trajectory.h5md", record.report.observables);
   else if (!resolved.empty())
     record.source = source_of(resolved, record.report.disks, directory / "summary.json");
-  if (record.report.horizon && record.source) record.report.horizon->run_time = record.source->scene.run.time;
   return record;
 }
 

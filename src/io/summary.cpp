@@ -4,7 +4,6 @@
 
 #include "io/build_json.hpp"
 #include "io/effects_json.hpp"
-#include "io/horizon_json.hpp"
 #include "io/json_number.hpp"
 #include "io/observable_output.hpp"
 #include "simulation/all_events.hpp"
@@ -82,7 +81,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   if (report.verification)
     json["verified"] = {
         {"every", report.verification->every}, {"checks", report.verification->checks}, {"faults", report.verification->faults}};
-  if (report.horizon) json["horizon"] = horizon_json(*report.horizon);
+  for (const auto& [key, text] : report.appended) json[key] = Json::parse(text);
   json["command_line"] = provenance.command_line;
   json["resolved_scene"] = provenance.resolved_scene;
   // A path or a command line need not be UTF-8, and JSON must be.

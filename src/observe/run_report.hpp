@@ -2,7 +2,6 @@
 // The result of one run in numbers: what summary.json and the terminal's summary are made of.
 
 #include "observe/effects_report.hpp"
-#include "observe/horizon_report.hpp"
 
 #include <carom/observe.hpp>
 #include <carom/simulation.hpp>
@@ -12,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,7 +63,8 @@ struct RunReport {
   std::string note_on_errors;                ///< remark on the errors of Z and of observables; empty where there is none
   std::vector<Measurement> observables;      ///< results of the scene's [observe] table
   std::optional<Verification> verification;  ///< present where it was requested
-  std::optional<Horizon> horizon;            ///< horizon from the start of the measured run, where it was requested
+  /// JSON that others add to the summary, each under its own key, such as "horizon".
+  std::map<std::string, std::string> appended;
   bool measured = true;  ///< false where the run ended while it was still equilibrating: clock and totals are of that part
 
   /// Returns (final - initial) / initial, 0 where the initial energy is 0. Where potential energy may cancel kinetic energy it is

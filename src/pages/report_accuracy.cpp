@@ -1,7 +1,6 @@
 #include "pages/report_parts.hpp"
 
 #include "observe/observed_run.hpp"
-#include "pages/horizon_words.hpp"
 #include "pages/summary_rows.hpp"
 #include "text/numbers.hpp"
 
@@ -10,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace carom {
@@ -97,17 +98,14 @@ TextTable numerics_table(const Numerics& numerics) {
 
 }  // namespace
 
-Section accuracy_section(const RunRecord& record) {
+Section accuracy_section(const RunRecord& record, std::vector<Block> more) {
   const RunReport& report = record.report;
   SummaryRows rows = rows_of_accuracy(report);
   rows.insert(rows.begin() + 1, momentum_row(record));
   Section section{.heading = "Accuracy", .blocks = {table_of_rows(rows, {}), Paragraph{what_rounding_allows(report)}}};
   if (report.verification)
     for (const std::string& fault : report.verification->faults) section.blocks.emplace_back(Paragraph{fault});
-  if (report.horizon) {
-    section.blocks.emplace_back(Paragraph{sentence_of(*report.horizon)});
-    section.blocks.emplace_back(horizon_table(*report.horizon));
-  }
+  std::move(more.begin(), more.end(), std::back_inserter(section.blocks));
   if (!report.of_effects.energy_supplied && record.source) {
     Plot plot = energy_plot(*record.source);
     if (!plot.series.empty()) section.blocks.emplace_back(std::move(plot));

@@ -179,7 +179,7 @@ RunTheory theory_of(const RunRecord& record) {
   return {record.report, TheorySource{record.source->scene, record.source->disks, record.source->species.size()}};
 }
 
-Page report_page(const RunRecord& record, const std::optional<PlayerData>& player) {
+Page report_page(const RunRecord& record, const std::optional<PlayerData>& player, const MoreOnAccuracy& more) {
   const RunReport& report = record.report;
   const RunTheory theory = theory_of(record);
   Page page{.generator = "carom report",
@@ -193,7 +193,8 @@ Page report_page(const RunRecord& record, const std::optional<PlayerData>& playe
             .key_numbers = key_numbers(report)};
   if (!report.measured)
     page.lead += " The run ended before anything was measured; its clock and counts are those of the equilibration.";
-  page.sections = {simulated(record), happened(record), watch(record, player), accuracy_section(record)};
+  page.sections = {simulated(record), happened(record), watch(record, player),
+                   accuracy_section(record, more ? more(record) : std::vector<Block>())};
   if (report.Z) page.sections.push_back(pressure(report, theory));
   if (!report.observables.empty()) page.sections.push_back(observed(report, theory));
   page.facts = {{"Scene", report.scene}, {"Seed", std::to_string(report.seed)}, {"Command", record.command_line}};
@@ -202,14 +203,14 @@ Page report_page(const RunRecord& record, const std::optional<PlayerData>& playe
   return page;
 }
 
-ReportFile report_of(const std::filesystem::path& directory) {
+ReportFile report_of(const std::filesystem::path& directory, const MoreOnAccuracy& more) {
   const RunRecord record = read_run_record(directory);
   std::optional<PlayerData> player;
   if (record.source && record.source->samples > 0) player = player_data(RunReader(directory), report_limits);
   const std::string words = !player         ? "nothing to watch: the run kept no samples"
                             : player->exact ? "with an exact replay"
                                             : "with a replay interpolated between samples: " + player->why_not;
-  return {html_page(report_page(record, player)), words};
+  return {html_page(report_page(record, player, more)), words};
 }
 
 }  // namespace carom

@@ -8,9 +8,11 @@
 
 #include <carom/pages/page.hpp>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace carom {
 
@@ -20,8 +22,11 @@ inline constexpr std::string_view report_mark = "<meta name=\"generator\" conten
 /// Returns what theory says of a run that was read back; `record` must live as long as that.
 [[nodiscard]] RunTheory theory_of(const RunRecord& record);
 
+/// Returns blocks that others add to what the page says of a run's accuracy.
+using MoreOnAccuracy = std::function<std::vector<Block>(const RunRecord& record)>;
+
 /// `player` is empty where the run kept no samples.
-[[nodiscard]] Page report_page(const RunRecord& record, const std::optional<PlayerData>& player);
+[[nodiscard]] Page report_page(const RunRecord& record, const std::optional<PlayerData>& player, const MoreOnAccuracy& more = {});
 
 /// The limits of the player in a report: it holds every event, or fewer samples than a player of its own.
 inline constexpr PlayerLimits report_limits = {.events = 1'000'000, .sample_bytes = 8'000'000};
@@ -32,6 +37,6 @@ struct ReportFile {
 };
 /// Returns the page of the run in a directory. Throws OutputError: one sentence about a directory that is no finished run, or a
 /// file of it that cannot be read.
-[[nodiscard]] ReportFile report_of(const std::filesystem::path& directory);
+[[nodiscard]] ReportFile report_of(const std::filesystem::path& directory, const MoreOnAccuracy& more = {});
 
 }  // namespace carom

@@ -19,7 +19,8 @@ namespace carom {
 /// Returns the plots of quantities that change from sample to sample: temperature, packing fraction, kinds of energy, bonds.
 [[nodiscard]] std::vector<Plot> plots_over_time(const RunRecord::Source& source);
 
-/// Returns the section on how exact the run was: energy, momentum and overlap beside what rounding explains, and near misses.
-[[nodiscard]] Section accuracy_section(const RunRecord& record);
+/// Returns the section on how exact the run was: energy, momentum and overlap beside what rounding explains, `more` that others
+/// add, and near misses.
+[[nodiscard]] Section accuracy_section(const RunRecord& record, std::vector<Block> more);
 
 }  // namespace carom

@@ -2,7 +2,6 @@
 
 #include "core/state_archive.hpp"
 #include "io/partial_file.hpp"
-#include "pages/report_page.hpp"
 
 #include <fmt/format.h>
 
@@ -166,7 +165,7 @@ void Runner::write_report(RunnerOutcome& outcome) const {
   constexpr const char* name = "report.html";
   try {
     PartialFile file(directory_.final_name(name));
-    file.write(report_of(directory_.path()).html);
+    file.write(report_of(directory_.path(), options_.more_on_accuracy).html);
     file.publish();
     outcome.files.emplace_back(name);
   } catch (const std::exception& error) {

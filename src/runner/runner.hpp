@@ -8,6 +8,7 @@
 #include "io/run_writer.hpp"
 #include "observe/run_measurements.hpp"
 #include "observe/run_report.hpp"
+#include "pages/report_page.hpp"
 #include "text/durations.hpp"
 
 #include <carom/observe.hpp>
@@ -25,11 +26,12 @@ namespace carom {
 
 struct RunnerOptions {
   std::optional<std::string> checkpoint_every =
-      {};                           ///< as saving_plan() reads it; absent: a run that is stopped is saved, no other
-  std::uint64_t verify_every = 0;   ///< events from one check of the invariants to the next; 0: no checks
-  std::optional<int> threads = {};  ///< 2: observables on one of their own; absent: where there is a second processor
-  bool report = false;              ///< make the page of the run too
-  bool keep_start = false;          ///< keep the start of the measured run for RunnerHooks::complete
+      {};                                ///< as saving_plan() reads it; absent: a run that is stopped is saved, no other
+  std::uint64_t verify_every = 0;        ///< events from one check of the invariants to the next; 0: no checks
+  std::optional<int> threads = {};       ///< 2: observables on one of their own; absent: where there is a second processor
+  bool report = false;                   ///< make the page of the run too
+  MoreOnAccuracy more_on_accuracy = {};  ///< for that page
+  bool keep_start = false;               ///< keep the start of the measured run for RunnerHooks::complete
   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();  ///< wall time counts from here
 };
 

@@ -4,6 +4,8 @@
 
 #include "pages/page_parts.hpp"
 #include "pages/plot_json.hpp"
+#include "studies/horizon/json.hpp"
+#include "studies/horizon/page.hpp"
 #include "support/child_process.hpp"
 #include "support/recorded_run.hpp"
 
@@ -243,9 +245,9 @@ TEST_F(ReportPage, SaysHowFarTheTrajectoryCanBeTrustedWhereTheRunAsked) {
   horizon.rows = {{"textbook-float", 24, "textbook", 3.5, 7.0, false, std::nullopt, 0.0, 0.0},
                   {"fast", 53, "textbook-quad", 12.25, 40.0, false, std::nullopt, 0.0, 0.0}};
   horizon.ended = HorizonEnd::parted;
-  read.report.horizon = horizon;
+  append(read.report, horizon);
   EXPECT_THAT(
-      words_of(report_page(read, std::nullopt), "Accuracy"),
+      words_of(report_page(read, std::nullopt, horizon_blocks), "Accuracy"),
       AllOf(
           HasSubstr("In double precision this trajectory is right to 0.001 diameters until t = 12.25 (40 collisions per disk)."),
           HasSubstr("24 | 3.5 | 7 | – |"), HasSubstr("53 | 12.25 | 40 | – |")));

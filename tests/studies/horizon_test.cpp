@@ -1,8 +1,8 @@
 // Horizons: their order, their growth by e-foldings, and scenes in which there is nothing to part.
 
 #include "studies/horizon/horizon.hpp"
-#include "pages/horizon_words.hpp"
 #include "studies/horizon/difference.hpp"
+#include "studies/horizon/sentence.hpp"
 #include "support/scene_files.hpp"
 #include "support/systems.hpp"
 

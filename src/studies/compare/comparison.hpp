@@ -2,8 +2,8 @@
 // The measurements of a comparison of methods, as plain data. studies/compare/compare.cpp fills it, studies/compare/files.cpp
 // stores it, and studies/compare/answers.cpp and the page read it.
 
-#include "observe/horizon_report.hpp"
 #include "studies/horizon/method.hpp"
+#include "studies/horizon/report.hpp"
 #include "studies/step_audit.hpp"
 
 #include <cstdint>

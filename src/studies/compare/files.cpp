@@ -1,8 +1,8 @@
 #include "studies/compare/files.hpp"
 
 #include "io/build_json.hpp"
-#include "io/horizon_json.hpp"
 #include "studies/compare/answers.hpp"
+#include "studies/horizon/json.hpp"
 
 #include <carom/version.hpp>
 

@@ -1,9 +1,10 @@
 #include "studies/compare/page.hpp"
 
-#include "pages/horizon_words.hpp"
 #include "studies/compare/answers.hpp"
 #include "studies/compare/plots.hpp"
 #include "studies/compare/sentences.hpp"
+#include "studies/horizon/page.hpp"
+#include "studies/horizon/sentence.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

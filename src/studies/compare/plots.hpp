@@ -1,9 +1,9 @@
 #pragma once
 // The plots of a comparison.
 
-#include "pages/method_names.hpp"
 #include "studies/compare/answers.hpp"
 #include "studies/compare/comparison.hpp"
+#include "studies/horizon/page.hpp"
 
 #include <carom/pages/page.hpp>
 

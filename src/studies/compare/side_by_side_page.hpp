@@ -1,8 +1,8 @@
 #pragma once
 // The page on which exact events and a fixed-step method fly from one start side by side: one HTML file that needs no network.
 
-#include "observe/horizon_report.hpp"
 #include "studies/compare/side_by_side.hpp"
+#include "studies/horizon/report.hpp"
 
 #include <carom/scene.hpp>
 

@@ -2,9 +2,9 @@
 
 #include "studies/horizon/command.hpp"
 #include "io/build_json.hpp"
-#include "io/horizon_json.hpp"
-#include "pages/horizon_words.hpp"
+#include "studies/horizon/json.hpp"
 #include "studies/horizon/method.hpp"
+#include "studies/horizon/sentence.hpp"
 #include "studies/horizon/text.hpp"
 
 #include <fmt/format.h>

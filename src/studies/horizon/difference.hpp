@@ -1,7 +1,7 @@
 #pragma once
 // The difference between two runs of one scene: in positions, and in the order of their events.
 
-#include "observe/horizon_report.hpp"
+#include "studies/horizon/report.hpp"
 
 #include <carom/box.hpp>
 #include <carom/state.hpp>

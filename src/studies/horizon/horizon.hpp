@@ -1,7 +1,7 @@
 #pragma once
 // The horizon of a trajectory: the same start in 24, 53, 64 and 113 bits, each compared with the next better one.
 
-#include "observe/horizon_report.hpp"
+#include "studies/horizon/report.hpp"
 
 #include <carom/scene.hpp>
 #include <carom/state.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 // The largest Lyapunov exponent of a scene: how fast two trajectories part that begin next to each other.
 
-#include "observe/horizon_report.hpp"
 #include "studies/horizon/pace.hpp"
+#include "studies/horizon/report.hpp"
 
 #include <carom/scene.hpp>
 #include <carom/state.hpp>

@@ -1,4 +1,4 @@
-#include "observe/horizon_report.hpp"
+#include "studies/horizon/report.hpp"
 
 namespace carom {
 

@@ -1,9 +1,12 @@
 #pragma once
 // A horizon as JSON: "horizon" in summary.json, and what `carom horizon --json` prints.
 
-#include "observe/horizon_report.hpp"
+#include "observe/run_report.hpp"
+#include "studies/horizon/report.hpp"
 
 #include <nlohmann/json_fwd.hpp>
+
+#include <optional>
 
 namespace carom {
 
@@ -13,5 +16,10 @@ nlohmann::ordered_json horizon_json(const Horizon& horizon);
 /// Returns the horizon from its JSON. The end of the scene's run (Horizon::run_time) is not in it: the scene has that. Throws
 /// nlohmann::json::exception where keys are missing or of another type.
 Horizon horizon_of(const nlohmann::ordered_json& json);
+
+/// Adds a horizon to the report of a run.
+void append(RunReport& report, const Horizon& horizon);
+/// Returns the horizon that was added to a report, or none. Throws OutputError where its JSON is damaged.
+std::optional<Horizon> horizon_in(const RunReport& report);
 
 }  // namespace carom

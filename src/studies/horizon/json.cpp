@@ -1,6 +1,9 @@
-#include "io/horizon_json.hpp"
+#include "studies/horizon/json.hpp"
 
 #include "io/json_number.hpp"
+#include "io/output_error.hpp"
+
+#include <fmt/format.h>
 
 #include <optional>
 
@@ -112,6 +115,18 @@ Horizon horizon_of(const Json& json) {
   horizon.timed_until = number_in(json.at("timed_until")).value_or(0.0);
   horizon.ended = end_in(json.at("ended").get<std::string>());
   return horizon;
+}
+
+void append(RunReport& report, const Horizon& horizon) { report.appended["horizon"] = horizon_json(horizon).dump(); }
+
+std::optional<Horizon> horizon_in(const RunReport& report) {
+  const auto found = report.appended.find("horizon");
+  if (found == report.appended.end()) return {};
+  try {
+    return horizon_of(Json::parse(found->second));
+  } catch (const Json::exception&) {
+    throw OutputError(fmt::format("{}: \"horizon\" in the summary of this run is damaged; run the scene again", report.scene));
+  }
 }
 
 }  // namespace carom

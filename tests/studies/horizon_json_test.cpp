@@ -1,6 +1,6 @@
 // A horizon as JSON and back.
 
-#include "io/horizon_json.hpp"
+#include "studies/horizon/json.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

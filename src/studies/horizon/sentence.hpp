@@ -1,8 +1,7 @@
 #pragma once
-// A horizon in one sentence, and as a table of a page.
+// A horizon in one honest sentence.
 
-#include <carom/pages/page.hpp>
-#include "observe/horizon_report.hpp"
+#include "studies/horizon/report.hpp"
 
 #include <string>
 
@@ -14,8 +13,5 @@ namespace carom {
 
 /// Returns text such as "double precision", "113 bits", ... in a row of that many bits.
 [[nodiscard]] std::string precision_name(int bits);
-
-/// `which` says whose horizon it is, "for the first seed", where that needs to be said.
-[[nodiscard]] TextTable horizon_table(const Horizon& horizon, const std::string& which = {});
 
 }  // namespace carom

@@ -1,6 +1,4 @@
-#include "pages/horizon_words.hpp"
-
-#include "pages/method_names.hpp"
+#include "studies/horizon/sentence.hpp"
 
 #include <fmt/format.h>
 
@@ -85,25 +83,6 @@ std::string sentence_of(const Horizon& horizon) {
   if (horizon.run_time && *own->time >= *horizon.run_time)
     text = fmt::format("{} {} to the end of the run, t = {:.4g}, and would be until {}", in, right, *horizon.run_time, until);
   return text + "." + how_far_the_best(horizon, *own);
-}
-
-TextTable horizon_table(const Horizon& horizon, const std::string& which) {
-  TextTable table{
-      .title = "Horizon of the trajectory",
-      .columns = {"engine", "bits", "right until t (scene units)", "collisions per disk", "relative cost"},
-      .caption = fmt::format(
-          "A trajectory is right until a disk is {:g} diameters away from its position in the next better precision{}{}. ~: "
-          "extrapolated with the Lyapunov exponent. Relative cost: processor time over that of double precision in the same "
-          "engine.",
-          horizon.tolerance, which.empty() ? "" : ", ", which)};
-  for (const HorizonRow& row : horizon.rows) {
-    const std::string about = row.estimated ? "~" : "";
-    table.rows.push_back({name_of(row.engine), fmt::format("{}", row.bits),
-                          row.time ? about + fmt::format("{:.4g}", *row.time) : "to the end",
-                          row.collisions_per_disk ? about + fmt::format("{:.3g}", *row.collisions_per_disk) : "–",
-                          row.price > 0.0 ? fmt::format("{:.2g}", row.price) : "–"});
-  }
-  return table;
 }
 
 }  // namespace carom
