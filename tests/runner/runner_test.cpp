@@ -46,6 +46,9 @@ seed = 7
 
 [observe]
 pressure = true
+
+[output]
+csv = true
 )");
 }
 
@@ -109,7 +112,7 @@ TEST(Runner, SavesARunThatIsStoppedAndGoesOnToTheSameBits) {
   EXPECT_TRUE(runner.saved());
   const RunnerOutcome rest = runner.run();
   EXPECT_EQ(rest.report.state_hash, whole.outcome.report.state_hash);
-  EXPECT_EQ(test::text_of(place.path() / "part/trajectory.h5md"), test::text_of(place.path() / "whole/trajectory.h5md"));
+  EXPECT_EQ(test::text_of(place.path() / "part/samples.csv"), test::text_of(place.path() / "whole/samples.csv"));
 }
 
 TEST(Runner, HandsTheStartOfTheMeasuredRunToWhoeverCompletesTheReport) {
