@@ -44,7 +44,7 @@ Change cooling(std::int64_t disks) {
 Change growing(std::int64_t disks) {
   constexpr double rate = 0.05;
   Change change{test::system_of(test::gas_scene(disks, 0.3, Boundary::periodic)), {}, {}, test::no_limit};
-  change.effects.growth = Growth{rate, {}, {}, {}};
+  change.effects.growth = Growth{.rate = rate};
   change.end = Instant{(std::sqrt(0.65 / 0.3) - 1.0) / rate, 0.0};
   return change;
 }

@@ -15,38 +15,29 @@
 
 namespace carom {
 
-/// The place of a value: a file with line and column (both from 1), or a command-line override (line 0).
-struct Location {
-  std::string source;
-  int line = 0;
-  int column = 0;
-};
-
 /// What a collision of two disks reverses: the whole relative velocity, or its component along the line of centres.
 enum class CollisionRule { reversal, specular };
 
 /// The collision of two disks: the [collision] table.
 struct Collision {
   CollisionRule rule = CollisionRule::specular;
-  std::optional<double> restitution;    ///< e in [0, 1]; neutral: 1
-  std::optional<double> roughness;      ///< beta in [-1, 1]; present: disks have spin; neutral: -1 (smooth)
-  std::optional<double> elastic_below;  ///< contact time of the TC model, >= 0; neutral: 0
+  std::optional<double> restitution = {};    ///< e in [0, 1]; neutral: 1
+  std::optional<double> roughness = {};      ///< beta in [-1, 1]; present: disks have spin; neutral: -1 (smooth)
+  std::optional<double> elastic_below = {};  ///< contact time of the TC model, >= 0; neutral: 0
 };
 
 /// Gravity, a uniform acceleration of all disks: the [gravity] table. It is zero along periodic axes.
 struct Gravity {
   Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();  ///< length / time^2; neutral: zero
-  Location where;
 };
 
 /// The properties of one wall: one key of the [walls] table. Without any of them it is a hard wall at rest.
 struct WallProperties {
-  std::optional<double> restitution;  ///< e in [0, 1]; neutral: 1
-  std::optional<double> temperature;  ///< kT > 0 of a thermal wall; it has no neutral value and excludes `restitution`
-  std::optional<double> velocity;     ///< constant velocity along +x or +y, whichever side it is; neutral: 0
-  std::optional<double> mass;         ///< mass > 0 of a piston, a wall that moves freely along its normal
-  std::optional<double> load;         ///< inward force per unit length on the piston, >= 0; present if `mass` is
-  Location where;
+  std::optional<double> restitution = {};  ///< e in [0, 1]; neutral: 1
+  std::optional<double> temperature = {};  ///< kT > 0 of a thermal wall; it has no neutral value and excludes `restitution`
+  std::optional<double> velocity = {};     ///< constant velocity along +x or +y, whichever side it is; neutral: 0
+  std::optional<double> mass = {};         ///< mass > 0 of a piston, a wall that moves freely along its normal
+  std::optional<double> load = {};         ///< inward force per unit length on the piston, >= 0; present if `mass` is
 
   /// Returns whether the scene names any property of this wall.
   [[nodiscard]] bool present() const { return restitution || temperature || velocity || mass; }
@@ -63,37 +54,30 @@ struct SegmentObstacle {
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
 };
 /// A fixed obstacle: one [[obstacles]] table.
-struct Obstacle {
-  std::variant<DiskObstacle, SegmentObstacle> shape;
-  Location where;
-};
+using Obstacle = std::variant<DiskObstacle, SegmentObstacle>;
 
 /// Growth of all radii as radius (1 + rate t), t from the start of the measured run (Lubachevsky-Stillinger): the [growth] table.
 struct Growth {
-  double rate = 0.0;                       ///< 1 / time, >= 0; neutral: 0
-  std::optional<double> packing_fraction;  ///< packing fraction at which the run ends
-  std::optional<double> reduced_pressure;  ///< reduced pressure (4 eta / pi) Z at which the run ends
-  Location where;
+  double rate = 0.0;                            ///< 1 / time, >= 0; neutral: 0
+  std::optional<double> packing_fraction = {};  ///< packing fraction at which the run ends
+  std::optional<double> reduced_pressure = {};  ///< reduced pressure (4 eta / pi) Z at which the run ends
 };
 
 /// The Andersen thermostat, which redraws the velocity of each disk from the Maxwell distribution: the [thermostat] table.
 struct Thermostat {
   double temperature = 0.0;  ///< kT > 0
   double rate = 0.0;         ///< mean number of redraws per disk and time, >= 0; neutral: 0
-  Location where;
 };
 
 /// Lees-Edwards boundaries with the flow v_x = rate y: the [shear] table.
 struct Shear {
   double rate = 0.0;  ///< 1 / time; neutral: 0
-  Location where;
 };
 
 /// A square well (depth > 0) or shoulder (depth < 0) round every disk: the [square_well] table.
 struct SquareWell {
   double width = 0.0;  ///< outer over hard diameter, > 1
   double depth = 0.0;  ///< energy; neutral: 0
-  Location where;
 };
 
 /// Every velocity decays as dv/dt = -rate v: the [drag] table.
@@ -103,15 +87,15 @@ struct Drag {
 
 /// All effects of a scene.
 struct Effects {
-  Collision collision;
-  std::optional<Gravity> gravity;
-  std::array<WallProperties, 4> walls;  ///< left, right, bottom, top
-  std::vector<Obstacle> obstacles;
-  std::optional<Growth> growth;
-  std::optional<Thermostat> thermostat;
-  std::optional<Shear> shear;
-  std::optional<SquareWell> square_well;
-  std::optional<Drag> drag;
+  Collision collision = {};
+  std::optional<Gravity> gravity = {};
+  std::array<WallProperties, 4> walls = {};  ///< left, right, bottom, top
+  std::vector<Obstacle> obstacles = {};
+  std::optional<Growth> growth = {};
+  std::optional<Thermostat> thermostat = {};
+  std::optional<Shear> shear = {};
+  std::optional<SquareWell> square_well = {};
+  std::optional<Drag> drag = {};
 
   /// Returns whether nothing acts but the collision rule and hard walls at rest: every other effect is absent or at its neutral
   /// value.

@@ -16,6 +16,13 @@
 
 namespace carom {
 
+/// The place of a value: a file with line and column (both from 1), or a command-line override (line 0).
+struct Location {
+  std::string source = {};
+  int line = 0;
+  int column = 0;
+};
+
 /// Thrown for a scene that is wrong. what() is one sentence, "file:line:column: what is wrong; what would be right", without the
 /// place where a program has made the scene.
 class SceneError : public std::runtime_error {
@@ -34,11 +41,11 @@ struct RandomPositions {};   ///< uniform without overlap, by random sequential 
 struct SquareLattice {};     ///< a rectangular lattice over the whole box
 struct HexagonalLattice {};  ///< a triangular lattice over the whole box
 struct ListedPositions {     ///< one centre per disk
-  std::vector<Eigen::Vector2d> values;
+  std::vector<Eigen::Vector2d> values = {};
 };
-struct FilePositions {  ///< the columns x, y of a file
-  std::string path;     ///< absolute; a scene's relative path is relative to the scene file
-  std::vector<Eigen::Vector2d> values;
+struct FilePositions {    ///< the columns x, y of a file
+  std::string path = {};  ///< absolute; a scene's relative path is relative to the scene file
+  std::vector<Eigen::Vector2d> values = {};
 };
 struct GrownPositions {           ///< random and dense: small disks that grew to their size while they moved and collided
   double packing_fraction = 0.0;  ///< of all disks of the scene together
@@ -55,27 +62,24 @@ struct FixedSpeed {  ///< one speed in random directions
   double speed = 0.0;
 };
 struct ListedVelocities {  ///< one velocity per disk
-  std::vector<Eigen::Vector2d> values;
+  std::vector<Eigen::Vector2d> values = {};
 };
 struct FileVelocities {  ///< the columns vx, vy of the file of positions
-  std::vector<Eigen::Vector2d> values;
+  std::vector<Eigen::Vector2d> values = {};
 };
 struct AtRest {};  ///< zero velocity
 using Velocities = std::variant<AtRest, UniformVelocities, MaxwellVelocities, FixedSpeed, ListedVelocities, FileVelocities>;
 
 /// A kind of disks: one [[disks]] table.
 struct Species {
-  std::string name;
-  std::int64_t count = 0;      ///< number of disks
-  double radius = 0.0;         ///< length, > 0; of every disk, where `radii` is empty
-  double mass = 0.0;           ///< > 0; of every disk, where `masses` is empty
-  std::vector<double> radii;   ///< one per disk, from a file; else empty
-  std::vector<double> masses;  ///< one per disk, from a file; else empty
-  Positions positions;
-  Velocities velocities;
-  Location where;             ///< place of the table in the file
-  Location positions_where;   ///< place of the key `positions`
-  Location velocities_where;  ///< place of the key `velocities`
+  std::string name = {};
+  std::int64_t count = 0;           ///< number of disks
+  double radius = 0.0;              ///< length, > 0; of every disk, where `radii` is empty
+  double mass = 0.0;                ///< > 0; of every disk, where `masses` is empty
+  std::vector<double> radii = {};   ///< one per disk, from a file; else empty
+  std::vector<double> masses = {};  ///< one per disk, from a file; else empty
+  Positions positions = {};
+  Velocities velocities = {};
 
   /// Returns radius and mass of disk i of this species, 0 <= i < count.
   [[nodiscard]] double radius_of(std::int64_t i) const { return radii.empty() ? radius : radii[static_cast<std::size_t>(i)]; }
@@ -96,17 +100,17 @@ struct SampleLog {
 
 /// How long a scene runs and what it samples: the [run] table. At least one of `time` and `collisions` is present.
 struct Run {
-  struct Equilibrate {                          ///< the run before the measured one
-    std::optional<double> collisions_per_disk;  ///< exactly one of the two is present
-    std::optional<double> time;
+  struct Equilibrate {                               ///< the run before the measured one
+    std::optional<double> collisions_per_disk = {};  ///< exactly one of the two is present
+    std::optional<double> time = {};
   };
-  std::optional<double> time;               ///< end of the measured run
-  std::optional<std::uint64_t> collisions;  ///< number of pair collisions at which it ends
+  std::optional<double> time = {};               ///< end of the measured run
+  std::optional<std::uint64_t> collisions = {};  ///< number of pair collisions at which it ends
   // At most one of these three is present. Without them there are no samples.
-  std::optional<double> sample_every;                    ///< time, > 0
-  std::optional<std::uint64_t> sample_every_collisions;  ///< number of pair collisions, > 0
-  std::optional<SampleLog> sample_log;
-  std::optional<Equilibrate> equilibrate;
+  std::optional<double> sample_every = {};                    ///< time, > 0
+  std::optional<std::uint64_t> sample_every_collisions = {};  ///< number of pair collisions, > 0
+  std::optional<SampleLog> sample_log = {};
+  std::optional<Equilibrate> equilibrate = {};
   std::uint64_t seed = 1;       ///< seed of all random numbers
   bool keep_momentum = false;   ///< whether drawn velocities stay as drawn; else their momentum and temperature are adjusted
   bool accept_overlap = false;  ///< whether disks that are given one by one may overlap each other, however deeply
@@ -131,28 +135,27 @@ struct Output {
 /// An observable that the scene asks for: one key of the [observe] table. docs/scene-format.md says which settings an observable
 /// has; these are present, except `every`, which follows from the mean free time where it is absent.
 struct ObservableRequest {
-  std::string name;                  ///< "radial_distribution"
-  std::optional<double> every;       ///< time between samples, > 0
-  std::optional<std::int64_t> bins;  ///< number of bins of its histogram, >= 2
-  std::optional<double> range;       ///< upper end of the histogram, > 0; in mean diameters for distances
-  std::optional<double> largest;     ///< largest wave number, > 0; in inverse mean diameters
-  std::optional<int> axis;           ///< 0 or 1
-  Location where;
+  std::string name = {};                  ///< "radial_distribution"
+  std::optional<double> every = {};       ///< time between samples, > 0
+  std::optional<std::int64_t> bins = {};  ///< number of bins of its histogram, >= 2
+  std::optional<double> range = {};       ///< upper end of the histogram, > 0; in mean diameters for distances
+  std::optional<double> largest = {};     ///< largest wave number, > 0; in inverse mean diameters
+  std::optional<int> axis = {};           ///< 0 or 1
 };
 
 /// All that is to be simulated.
 struct Scene {
-  std::string title;
-  Box box;
-  std::vector<Species> species;
-  Effects effects;
-  Run run;
-  Output output;
-  std::vector<ObservableRequest> observe;  ///< in the order of docs/scene-format.md
+  std::string title = {};
+  Box box = {};
+  std::vector<Species> species = {};
+  Effects effects = {};
+  Run run = {};
+  Output output = {};
+  std::vector<ObservableRequest> observe = {};  ///< in the order of docs/scene-format.md
 
-  std::string source;                  ///< the file's path, or the name given to parse_scene
-  std::string text;                    ///< the TOML text as it was read, before overrides
-  std::vector<std::string> overrides;  ///< "run.time=2", in the order in which they were applied
+  std::string source = {};                  ///< the file's path, or the name given to parse_scene
+  std::string text = {};                    ///< the TOML text as it was read, before overrides
+  std::vector<std::string> overrides = {};  ///< "run.time=2", in the order in which they were applied
 
   /// Returns the number of disks of all species.
   [[nodiscard]] std::int64_t disk_count() const;

@@ -26,11 +26,11 @@ struct ObstacleMeeting {
 inline std::vector<ObstacleBounds> bounds_of(const std::vector<Obstacle>& obstacles) {
   std::vector<ObstacleBounds> bounds;
   for (const Obstacle& obstacle : obstacles) {
-    if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
+    if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
       const Eigen::Vector2d radius = Eigen::Vector2d::Constant(disk->radius);
       bounds.push_back({disk->centre - radius, disk->centre + radius});
     } else {
-      const auto& segment = std::get<SegmentObstacle>(obstacle.shape);
+      const auto& segment = std::get<SegmentObstacle>(obstacle);
       bounds.push_back({segment.from.cwiseMin(segment.to), segment.from.cwiseMax(segment.to)});
     }
   }
@@ -66,10 +66,10 @@ class ObstacleShapes {
   ObstacleShapes(const Domain<Real>& domain, const ObstacleBins& bins, const std::vector<Obstacle>& obstacles)
       : length_(domain.length) {
     for (const Obstacle& obstacle : obstacles) {
-      if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
+      if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
         shapes_.push_back(Disk{disk->centre.cast<Real>(), Real(disk->radius)});
       } else {
-        const auto& segment = std::get<SegmentObstacle>(obstacle.shape);
+        const auto& segment = std::get<SegmentObstacle>(obstacle);
         shapes_.push_back(Segment<Real>(segment.from.cast<Real>(), segment.to.cast<Real>()));
       }
     }

@@ -1,5 +1,7 @@
 #include "observe/observables.hpp"
 
+#include "scene/refusal.hpp"
+
 namespace carom {
 
 namespace {
@@ -32,7 +34,7 @@ constexpr Entry catalogue[] = {
 MadeObservable make_observable(const ObservableRequest& request, const ObservedRun& run) {
   for (const Entry& entry : catalogue)
     if (request.name == entry.name) return entry.make(request, run);
-  throw SceneError(request.where, "there is no observable \"" + request.name + "\"");
+  throw detail::scene_error(run.scene, "observe." + request.name, "there is no observable \"" + request.name + "\"");
 }
 
 }  // namespace carom

@@ -101,11 +101,11 @@ class Drawing {
   void draw_obstacles() {
     set_colour(context_, theme_.solid);
     for (const Obstacle& obstacle : of_.scene.effects.obstacles) {
-      if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
+      if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
         for_images(disk->centre, disk->radius,
                    [&](const Eigen::Vector2d& shift) { circle(disk->centre + shift, disk->radius * at_.scale); });
         cairo_fill(context_);
-      } else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle.shape)) {
+      } else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle)) {
         for_images(segment->from, (segment->to - segment->from).norm(), [&](const Eigen::Vector2d& shift) {
           move_to(segment->from + shift);
           line_to(segment->to + shift);

@@ -39,7 +39,7 @@ std::string words(const WallProperties& wall, int axis) {
 }
 
 std::string words(const std::vector<Obstacle>& obstacles) {
-  const auto is_disk = [](const Obstacle& obstacle) { return std::holds_alternative<DiskObstacle>(obstacle.shape); };
+  const auto is_disk = [](const Obstacle& obstacle) { return std::holds_alternative<DiskObstacle>(obstacle); };
   const auto disks = static_cast<std::uint64_t>(std::count_if(obstacles.begin(), obstacles.end(), is_disk));
   const std::uint64_t segments = obstacles.size() - disks;
   std::vector<std::string> parts;

@@ -19,9 +19,9 @@ namespace {
 Json obstacles_of(const Effects& effects) {
   Json list = Json::array();
   for (const Obstacle& obstacle : effects.obstacles) {
-    if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape))
+    if (const auto* disk = std::get_if<DiskObstacle>(&obstacle))
       list.push_back({{"centre", vector(disk->centre)}, {"radius", disk->radius}});
-    else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle.shape))
+    else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle))
       list.push_back({{"from", vector(segment->from)}, {"to", vector(segment->to)}});
   }
   return list;

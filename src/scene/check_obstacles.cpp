@@ -20,12 +20,12 @@ void require_inside(const Box& box, const Eigen::Vector2d& point, const std::str
 }
 
 void check_numbers_of(const Obstacle& obstacle, const std::string& path) {
-  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
+  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
     require_pair(path + ".disk.centre", disk->centre, keys::disk_example);
     require(path + ".disk", disk->radius, keys::obstacle_radius);
   } else {
-    require_pair(path + ".segment.from", std::get<SegmentObstacle>(obstacle.shape).from, keys::segment_example);
-    require_pair(path + ".segment.to", std::get<SegmentObstacle>(obstacle.shape).to, keys::segment_example);
+    require_pair(path + ".segment.from", std::get<SegmentObstacle>(obstacle).from, keys::segment_example);
+    require_pair(path + ".segment.to", std::get<SegmentObstacle>(obstacle).to, keys::segment_example);
   }
 }
 
@@ -65,8 +65,8 @@ void check_obstacles(const Scene& scene) {
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     const std::string path = fmt::format("obstacles.{}", o);
     check_numbers_of(obstacles[o], path);
-    if (const auto* disk = std::get_if<DiskObstacle>(&obstacles[o].shape)) check_disk(scene.box, *disk, path);
-    if (const auto* segment = std::get_if<SegmentObstacle>(&obstacles[o].shape)) check_segment(scene.box, *segment, path);
+    if (const auto* disk = std::get_if<DiskObstacle>(&obstacles[o])) check_disk(scene.box, *disk, path);
+    if (const auto* segment = std::get_if<SegmentObstacle>(&obstacles[o])) check_segment(scene.box, *segment, path);
   }
   std::int64_t first_id = 0;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
@@ -76,7 +76,7 @@ void check_obstacles(const Scene& scene) {
       const auto disk = static_cast<std::int64_t>(i);
       const auto found = overlapped_obstacle(scene.box, obstacles, positions[i], species.radius_of(disk), touching);
       if (!found) continue;
-      const bool round = std::holds_alternative<DiskObstacle>(obstacles[found->obstacle].shape);
+      const bool round = std::holds_alternative<DiskObstacle>(obstacles[found->obstacle]);
       throw Refusal(
           fmt::format("disks.{}.positions.{}", s, i),
           fmt::format("disk {} overlaps obstacles.{} by {:.6g}; its centre must be at least {:.6g} from {}", first_id + disk,

@@ -59,10 +59,10 @@ void check_gap(const Scene& scene, int axis) {
 
 /// Returns the lower and upper end of an obstacle along an axis.
 Eigen::Vector2d extent(const Obstacle& obstacle, int axis) {
-  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
+  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
     return {disk->centre[axis] - disk->radius, disk->centre[axis] + disk->radius};
   }
-  const auto& segment = std::get<SegmentObstacle>(obstacle.shape);
+  const auto& segment = std::get<SegmentObstacle>(obstacle);
   return {std::min(segment.from[axis], segment.to[axis]), std::max(segment.from[axis], segment.to[axis])};
 }
 

@@ -11,8 +11,8 @@ namespace carom {
 namespace {
 
 double distance(const Obstacle& obstacle, const Eigen::Vector2d& point) {
-  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) return (point - disk->centre).norm();
-  const auto& segment = std::get<SegmentObstacle>(obstacle.shape);
+  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) return (point - disk->centre).norm();
+  const auto& segment = std::get<SegmentObstacle>(obstacle);
   return (point - nearest_on_segment<double>(segment.from, segment.to, point)).norm();
 }
 
@@ -34,7 +34,7 @@ double distance(const Box& box, const Obstacle& obstacle, const Eigen::Vector2d&
 std::optional<ObstacleOverlap> overlapped_obstacle(const Box& box, const std::vector<Obstacle>& obstacles,
                                                    const Eigen::Vector2d& position, double radius, double tolerance) {
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
-    const auto* disk = std::get_if<DiskObstacle>(&obstacles[o].shape);
+    const auto* disk = std::get_if<DiskObstacle>(&obstacles[o]);
     const double contact = radius + (disk == nullptr ? 0.0 : disk->radius);
     const double depth = contact - distance(box, obstacles[o], position);
     if (depth > tolerance * contact) return ObstacleOverlap{o, depth, contact};

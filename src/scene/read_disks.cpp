@@ -21,7 +21,6 @@ DisksDraft read_disks(const toml::table& node, const std::string& path, const st
   const TableReader table(node, path, {"name", "count", "radius", "mass", "packing_fraction", "positions", "velocities"});
   DisksDraft disks;
   disks.path = path;
-  disks.species.where = table.where();
   disks.species.name = table.string("name", "name = \"gas\"").value_or("disks" + path.substr(path.find('.') + 1));
   if (disks.species.name.empty()) {
     throw SceneError(table.where("name"), table.path("name") + " is empty; give a word or leave it out");

@@ -15,8 +15,7 @@ Gravity read_gravity(const toml::table& node) {
   const TableReader table(node, "gravity", {"acceleration"});
   const std::string_view example = keys::acceleration_example;
   return {
-      read_pair(table.require("acceleration", fmt::format("give it, such as {}", example)), table.path("acceleration"), example),
-      table.where()};
+      read_pair(table.require("acceleration", fmt::format("give it, such as {}", example)), table.path("acceleration"), example)};
 }
 
 void read_end(const toml::table& node, Growth& growth) {

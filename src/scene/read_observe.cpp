@@ -47,7 +47,6 @@ std::vector<ObservableRequest> read_observe(const toml::table& node) {
     request.bins = known.bins;
     request.largest = known.largest;
     request.axis = known.axis;
-    request.where = table.where(known.name);
     if (value->is_table()) read_settings(*value->as_table(), known, request);
     if (known.largest && !request.largest) request.largest = known.largest;
     requests.push_back(std::move(request));

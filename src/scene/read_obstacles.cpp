@@ -33,8 +33,8 @@ Obstacle read_obstacle(const toml::table& node, const std::string& path) {
                                                 disk == nullptr ? "neither disk nor segment" : "both disk and segment",
                                                 disk_example, segment_example));
   }
-  if (disk != nullptr) return {read_disk(*disk, table.path("disk")), table.where()};
-  return {read_segment(*segment, table.path("segment")), table.where()};
+  if (disk != nullptr) return read_disk(*disk, table.path("disk"));
+  return read_segment(*segment, table.path("segment"));
 }
 
 }  // namespace

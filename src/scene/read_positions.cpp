@@ -47,7 +47,6 @@ FilePositions from_file(const TableReader& table, const std::string& directory, 
   disks.species.masses = std::move(start.masses);
   if (start.has_velocities) {
     disks.species.velocities = FileVelocities{std::move(start.velocities)};
-    disks.species.velocities_where = location_of(name);
   }
   return positions;
 }
@@ -70,7 +69,6 @@ Positions from_table(const toml::table& node, const std::string& path, const std
 void read_positions(const TableReader& table, const std::string& directory, DisksDraft& disks) {
   const std::string path = table.path("positions");
   const toml::node& node = table.require("positions", fmt::format("choose {}", position_kinds));
-  disks.species.positions_where = location_of(node);
   std::optional<std::size_t> listed;
   if (const auto* name = node.as_string()) {
     disks.species.positions = named(node, name->get(), path);

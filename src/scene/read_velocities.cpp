@@ -26,7 +26,6 @@ Velocities drawn(const toml::table& node, const std::string& path) {
 void read_velocities(const TableReader& table, DisksDraft& disks) {
   const std::string path = table.path("velocities");
   const toml::node& node = table.require("velocities", fmt::format("choose {}", velocity_kinds));
-  disks.species.velocities_where = location_of(node);
   if (const auto* name = node.as_string(); name != nullptr && name->get() == "rest") {
     disks.species.velocities = AtRest{};
   } else if (const auto* list = node.as_array()) {

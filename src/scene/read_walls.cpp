@@ -11,14 +11,13 @@ namespace {
 WallProperties read_wall(const toml::table& node, const std::string& path) {
   const TableReader table(node, path, {"restitution", "temperature", "velocity", "mass", "load"});
   WallProperties wall;
-  wall.where = table.where();
   wall.restitution = table.number(keys::wall_restitution);
   wall.temperature = table.number(keys::wall_temperature);
   wall.velocity = table.number(keys::wall_velocity);
   wall.mass = table.number(keys::piston_mass);
   wall.load = table.number(keys::piston_load);
   if (node.empty()) {
-    throw SceneError(wall.where,
+    throw SceneError(table.where(),
                      fmt::format("{} says nothing; give restitution, temperature, velocity, or mass and load, or remove "
                                  "it: a wall that is not named is hard and at rest",
                                  path));

@@ -1,6 +1,8 @@
 #pragma once
 // The refusal of a scene, before the place in a file is added: the reader of files adds it, and a program has no such place.
 
+#include <carom/scene.hpp>
+
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -18,5 +20,9 @@ class Refusal : public std::runtime_error {
  private:
   std::string path_;
 };
+
+/// The error of a scene in which `path` is wrong, with the place of that key in the text that the scene was read from, where
+/// there is one.
+[[nodiscard]] SceneError scene_error(const Scene& scene, const std::string& path, const std::string& sentence);
 
 }  // namespace carom::detail

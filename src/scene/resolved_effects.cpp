@@ -51,10 +51,10 @@ std::string walls(const std::array<WallProperties, 4>& walls) {
 }
 
 std::string obstacle(const Obstacle& obstacle) {
-  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
+  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
     return fmt::format("\n[[obstacles]]\ndisk = {{ centre = {}, radius = {} }}\n", pair(disk->centre), number_text(disk->radius));
   }
-  const auto& segment = std::get<SegmentObstacle>(obstacle.shape);
+  const auto& segment = std::get<SegmentObstacle>(obstacle);
   return fmt::format("\n[[obstacles]]\nsegment = {{ from = {}, to = {} }}\n", pair(segment.from), pair(segment.to));
 }
 

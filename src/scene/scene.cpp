@@ -6,6 +6,7 @@
 #include "scene/effect_traits.hpp"
 #include "scene/overrides.hpp"
 #include "scene/read_tables.hpp"
+#include "scene/refusal.hpp"
 #include "scene/text_file.hpp"
 
 #include <fmt/format.h>
@@ -103,6 +104,13 @@ Scene scene_of(const toml::table& document, const std::string& source, const std
 }
 
 }  // namespace
+
+SceneError detail::scene_error(const Scene& scene, const std::string& path, const std::string& sentence) {
+  if (scene.text.empty()) return {{}, sentence};
+  toml::table document = parse_toml(scene.text, scene.source);
+  for (const std::string& change : scene.overrides) apply_override(document, change);
+  return {place_of(document, path), sentence};
+}
 
 SceneError::SceneError(const Location& where, const std::string& sentence)
     : std::runtime_error(located(where, sentence)), where_(where), sentence_(sentence) {}

@@ -4,6 +4,7 @@
 #include "core/random.hpp"
 #include "neighbours/disks_at_rest.hpp"
 #include "scene/obstacle_overlap.hpp"
+#include "scene/refusal.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/start.hpp"
 
@@ -83,7 +84,7 @@ class Growing {
   }
 
   bool grow_until(State& state, double packing_fraction, double speed) {
-    scene_.effects.growth = Growth{speed / diameter_, packing_fraction, jammed_pressure, {}};
+    scene_.effects.growth = Growth{speed / diameter_, packing_fraction, jammed_pressure};
     const auto engine = detail::make_engine(detail::choose_engine(scene_, disks_, "auto"), scene_, disks_, state);
     constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
     // A disk wedged between obstacles and walls, with nobody to press on, would fly to and fro ever faster.
@@ -106,7 +107,7 @@ class Growing {
     std::optional<Eigen::Matrix2Xd> positions;
     for (; !(positions = placed(state.scale)); state.scale *= shrinkage) {
       if (state.scale < 1e-3)
-        throw SceneError(where(), "there is no place for the disks among the obstacles; make either smaller");
+        throw detail::scene_error(scene_, where, "there is no place for the disks among the obstacles; make either smaller");
     }
     state.positions = std::move(*positions);
     const Eigen::Index disks = state.positions.cols();
@@ -155,13 +156,14 @@ class Growing {
   }
 
   [[noreturn]] void refuse() const {
-    throw SceneError(where(),
-                     fmt::format("the disks jam at a packing fraction of {:.4f} on their way to {:.6g}; ask for less, or for "
-                                 "positions = \"hexagonal\"",
-                                 reached_, final_fraction_));
+    throw detail::scene_error(
+        scene_, where,
+        fmt::format("the disks jam at a packing fraction of {:.4f} on their way to {:.6g}; ask for less, or for "
+                    "positions = \"hexagonal\"",
+                    reached_, final_fraction_));
   }
 
-  [[nodiscard]] const Location& where() const { return scene_.species.front().positions_where; }
+  static constexpr const char* where = "disks.0.positions";
 
   Scene scene_;  ///< nothing but its disks, its box and its obstacles
   Disks disks_;

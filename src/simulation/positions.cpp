@@ -3,6 +3,7 @@
 #include "core/random.hpp"
 #include "neighbours/disks_at_rest.hpp"
 #include "scene/obstacle_overlap.hpp"
+#include "scene/refusal.hpp"
 #include "simulation/start.hpp"
 
 #include <fmt/format.h>
@@ -84,11 +85,11 @@ class Placement {
     if (ids.empty()) return;
     double diameter = 0.0;
     for (const std::int64_t i : ids) diameter = std::max(diameter, 2.0 * disks_.radius[static_cast<std::size_t>(i)]);
-    const Location& where = scene_.species[species.front()].positions_where;
+    const std::string where = fmt::format("disks.{}.positions", species.front());
     const Lattice lattice = make(scene_.box, static_cast<std::int64_t>(ids.size()), diameter);
     if (lattice.spacing < diameter * (1.0 - accepted_overlap)) {
-      throw SceneError(
-          where,
+      throw detail::scene_error(
+          scene_, where,
           fmt::format(
               "a {} lattice of {} disks in this box has a spacing of {:.6g}, less than the diameter {:.6g}; take fewer or "
               "smaller disks{}",
@@ -98,16 +99,17 @@ class Placement {
     for (std::size_t k = 0; k < ids.size(); ++k) {
       const Eigen::Vector2d site = lattice.sites.col(static_cast<Eigen::Index>(k));
       if (const auto obstacle = upon_obstacle(ids[k], site, accepted_overlap)) {
-        throw SceneError(where,
-                         fmt::format("the {} lattice puts disk {} upon obstacles.{}; give all positions one by one, or ask for "
-                                     "\"random\"",
-                                     name, ids[k], obstacle->obstacle));
+        throw detail::scene_error(
+            scene_, where,
+            fmt::format("the {} lattice puts disk {} upon obstacles.{}; give all positions one by one, or ask for "
+                        "\"random\"",
+                        name, ids[k], obstacle->obstacle));
       }
       const auto found =
           in_place_.deepest(site, disks_.radius[static_cast<std::size_t>(ids[k])], static_cast<std::int32_t>(ids[k]));
       if (found.relative_overlap > accepted_overlap) {
-        throw SceneError(
-            where,
+        throw detail::scene_error(
+            scene_, where,
             fmt::format(
                 "the {} lattice puts disk {} upon disk {}, whose position is given elsewhere; give all positions one by one, or "
                 "ask for \"random\"",
@@ -155,8 +157,8 @@ class Placement {
       }
       if (in_place_.deepest(position, radius).disk < 0 && !upon_obstacle(i, position, 0.0)) return position;
     }
-    throw SceneError(
-        scene_.species[species].positions_where,
+    throw detail::scene_error(
+        scene_, fmt::format("disks.{}.positions", species),
         fmt::format("no room for disk {} of radius {:g} after {} random tries: the scene asks for a packing "
                     "fraction of {:.4g}, and random "
                     "placement of equal disks ends at 0.547; take fewer or smaller disks, or positions = \"hexagonal\"",

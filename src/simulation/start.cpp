@@ -1,5 +1,7 @@
 #include "simulation/start.hpp"
 
+#include "scene/refusal.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,8 +21,8 @@ void require_resolvable_scale(const Scene& scene, const Start& start) {
   const double speed = start.state.velocities.cwiseAbs().maxCoeff();
   const double heaviest = *std::max_element(start.disks.mass.begin(), start.disks.mass.end());
   if (!(heaviest * speed * static_cast<double>(start.disks.count()) < 1e150))
-    throw SceneError(
-        scene.species.front().where,
+    throw detail::scene_error(
+        scene, "disks.0",
         fmt::format(
             "the heaviest disk has mass {:g} and the fastest moves at {:g}; the square of their momentum overflows: choose "
             "other units",
@@ -28,8 +30,8 @@ void require_resolvable_scale(const Scene& scene, const Start& start) {
   const double largest = speed * scene.box.lengths().maxCoeff();
   const double smallest = speed * *std::min_element(start.disks.radius.begin(), start.disks.radius.end());
   if (speed == 0.0 || (largest < 1e150 && smallest > 1e-150)) return;
-  throw SceneError(
-      scene.species.front().velocities_where,
+  throw detail::scene_error(
+      scene, "disks.0.velocities",
       fmt::format(
           "the fastest disk moves at {:g} in a box {:g} wide, and the smallest disk has radius {:g}; products of speed and "
           "length must lie between 1e-150 and 1e150: choose other units",
@@ -39,13 +41,12 @@ void require_resolvable_scale(const Scene& scene, const Start& start) {
 /// A disk that just fits between two walls would bounce without end at one instant.
 void require_room_to_move(const Scene& scene, const Start& start) {
   for (std::size_t i = 0; i < start.disks.count(); ++i) {
-    const Species& species = scene.species[static_cast<std::size_t>(start.disks.species[i])];
     const Eigen::Vector2d velocity = start.state.velocities.col(static_cast<Eigen::Index>(i));
     for (int a = 0; a < 2; ++a) {
       const double diameter = 2.0 * start.disks.radius[i];
       if (scene.box.periodic(a) || velocity[a] == 0.0 || scene.box.lengths()[a] > diameter * (1.0 + 1e-12)) continue;
-      throw SceneError(
-          species.velocities_where,
+      throw detail::scene_error(
+          scene, fmt::format("disks.{}.velocities", start.disks.species[i]),
           fmt::format(
               "disk {} of diameter {:g} fills the box from wall to wall in {} and cannot move that way; give it more room, or no "
               "velocity there",

@@ -56,9 +56,9 @@ Box whole_box(const Scene& scene, const State& state) {
 }
 
 void draw_obstacle(DotCanvas& canvas, const Placement& place, const Obstacle& obstacle) {
-  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) {
+  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
     canvas.circle(place(disk->centre), place.length(disk->radius));
-  } else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle.shape)) {
+  } else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle)) {
     canvas.line(place(segment->from), place(segment->to));
   }
 }

@@ -91,11 +91,11 @@ TEST_F(TerminalSummary, ReasonsToStopAreSentences) {
 
 TEST_F(TerminalSummary, WithoutZItSaysWhy) {
   report_.Z.reset();
-  scene_.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0, .where = {}};
+  scene_.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0};
   EXPECT_THAT(text(), HasSubstr("the mean temperature is unknown without samples"));
   report_.totals.pair = 0;
   EXPECT_THAT(text(), HasSubstr("no pair of disks has collided"));
-  scene_.effects.gravity = Gravity{.acceleration = {0.0, -1.0}, .where = {}};
+  scene_.effects.gravity = Gravity{.acceleration = {0.0, -1.0}};
   EXPECT_THAT(text(), HasSubstr("pressure and density change with height"));
 }
 

@@ -100,10 +100,7 @@ TEST(Collapse, ComesAtAnyScaleOfSpeed) {
 }
 
 TEST(Collapse, ComesAtObstaclesToo) {
-  Obstacle disk, segment;
-  disk.shape = DiskObstacle{{0.5, 8.0}, 0.5};
-  segment.shape = SegmentObstacle{{1.0, 4.0}, {1.0, 12.0}};
-  for (const Obstacle& obstacle : {disk, segment})
+  for (const Obstacle& obstacle : {Obstacle(DiskObstacle{{0.5, 8.0}, 0.5}), Obstacle(SegmentObstacle{{1.0, 4.0}, {1.0, 12.0}})})
     for (const char* engine : all_engines) {
       Scene scene = row(3, 0.0);
       for (V& place : std::get<ListedPositions>(scene.species.front().positions).values) place.x() += 1.0;
@@ -241,7 +238,7 @@ TEST(Cooling, OfGrowingDisksLeavesTheEnergyInTheirMotionAgainstEachOther) {
   for (const char* engine : engines_with_effects) {
     Scene scene = gas_scene(16, 0.1, Boundary::periodic);
     scene.effects.collision.restitution = 0.5;
-    scene.effects.growth = Growth{1e-5, {}, {}, {}};
+    scene.effects.growth = Growth{.rate = 1e-5};
     Simulation simulation = make_simulation(scene, engine);
     ASSERT_EQ(simulation.run_until(1e4, 4000), StopReason::collisions);
     const State end = simulation.state();

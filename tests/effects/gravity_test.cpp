@@ -14,7 +14,7 @@ namespace {
 using V = Eigen::Vector2d;
 
 Scene falling(Scene scene, const V& g) {
-  scene.effects.gravity = Gravity{g, {}};
+  scene.effects.gravity = Gravity{g};
   return scene;
 }
 
@@ -160,8 +160,8 @@ std::vector<Rest> all_ways_to_rest() {
     scene.effects.obstacles = obstacles;
     return scene;
   };
-  const auto segment = [](const V& from, const V& to) { return Obstacle{SegmentObstacle{from, to}, {}}; };
-  const auto disk = [](const V& centre) { return Obstacle{DiskObstacle{centre, 0.5}, {}}; };
+  const auto segment = [](const V& from, const V& to) { return Obstacle(SegmentObstacle{from, to}); };
+  const auto disk = [](const V& centre) { return Obstacle(DiskObstacle{centre, 0.5}); };
   const V down(0.0, -2.0);
   const double half = std::sqrt(0.5);
   Scene far = one({1e6, 0.5}, down);

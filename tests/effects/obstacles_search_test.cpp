@@ -31,8 +31,8 @@ class ObstacleSearch : public ::testing::Test {
       const Eigen::Vector2d at = place(box);
       if (random() % 2 == 0)
         list.push_back(fixed_disk(at.x(), at.y(), size * between(0.1, 1.0)));
-      else if (!list.empty() && random() % 2 == 0 && std::holds_alternative<SegmentObstacle>(list.back().shape))
-        list.push_back(fixed_segment(std::get<SegmentObstacle>(list.back().shape).to, at));
+      else if (!list.empty() && random() % 2 == 0 && std::holds_alternative<SegmentObstacle>(list.back()))
+        list.push_back(fixed_segment(std::get<SegmentObstacle>(list.back()).to, at));
       else
         list.push_back(fixed_segment(at, at + arrow(size * between(0.1, 3.0))));
     }

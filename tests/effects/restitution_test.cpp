@@ -100,7 +100,7 @@ TEST(Restitution, EnergyLostIsEnergyCountedAndMomentumIsKept) {
 /// A ball of radius 0.5 falls from rest for 1 = sqrt(2 h / g), h = 2, onto a floor.
 Scene bouncing_ball(double restitution) {
   Scene scene = scene_of(box_of(4.0, 4.0, Boundary::walls), {{{2.0, 2.5}, {0.0, 0.0}}});
-  scene.effects.gravity = Gravity{{0.0, -4.0}, {}};
+  scene.effects.gravity = Gravity{{0.0, -4.0}};
   scene.effects.walls[2].restitution = restitution;
   return scene;
 }
@@ -142,7 +142,7 @@ TEST(Restitution, ABallComesToRestAtOneBounceWhateverItsNumbers) {
     const double left = 2.0 * std::sqrt(2.0 * 16 * 0x1p-53 * 4.0 / g) / (1 - e);
     Scene scene = scene_of({{0.0, floor}, {4.0, floor + 4.0}, {Boundary::walls, Boundary::walls}},
                            {{{2.0, floor + radius + height}, {0.0, 0.0}, radius}});
-    scene.effects.gravity = Gravity{{0.0, -g}, {}};
+    scene.effects.gravity = Gravity{{0.0, -g}};
     scene.effects.walls[2].restitution = e;
     for (const char* engine : engines_with_effects) {
       Simulation simulation = make_simulation(scene, engine);
@@ -240,7 +240,7 @@ TEST(Restitution, ADenseColumnCollapsesAndSaysSo) {
     std::vector<Placed> column;
     for (int k = 0; k < 10; ++k) column.push_back({{1.0, 0.75 + 1.25 * k}, {0.0, 0.0}});
     Scene scene = inelastic(scene_of(box_of(2.0, 20.0, Boundary::walls), column), 0.3);
-    scene.effects.gravity = Gravity{{0.0, -1.0}, {}};
+    scene.effects.gravity = Gravity{{0.0, -1.0}};
     scene.effects.walls[2].restitution = 0.3;
     const Ran ran = run(scene, engine, 100.0);
     EXPECT_EQ(ran.stopped, StopReason::collapsed) << engine;

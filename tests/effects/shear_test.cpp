@@ -17,7 +17,7 @@ namespace {
 Effects sheared(double rate, CollisionRule rule = CollisionRule::specular) {
   Effects effects;
   effects.collision.rule = rule;
-  effects.shear = carom::Shear{rate, {}};
+  effects.shear = carom::Shear{rate};
   return effects;
 }
 

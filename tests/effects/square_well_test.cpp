@@ -13,7 +13,7 @@ namespace {
 using V = Eigen::Vector2d;
 
 Scene with_well(Scene scene, double depth, double width = 1.5) {
-  scene.effects.square_well = SquareWell{width, depth, {}};
+  scene.effects.square_well = SquareWell{width, depth};
   return scene;
 }
 

@@ -76,7 +76,7 @@ Scene column(double elastic_below) {
   std::vector<Placed> disks;
   for (int k = 0; k < 10; ++k) disks.push_back({{1.0, 0.75 + 1.25 * k}, {0.0, 0.0}});
   Scene scene = with_tc(scene_of(box_of(2.0, 20.0, Boundary::walls), disks), 0.3, elastic_below);
-  scene.effects.gravity = Gravity{{0.0, -1.0}, {}};
+  scene.effects.gravity = Gravity{{0.0, -1.0}};
   scene.effects.walls[2].restitution = 0.3;
   return scene;
 }

@@ -65,10 +65,10 @@ std::vector<Neutral> with_neutral_effects(const Scene& scene) {
     if (!properties.velocity && !properties.mass) add("wall velocity", [&](Effects& e) { e.walls[wall].velocity = 0.0; });
   }
   if (!effects.square_well && !effects.growth && !shear)
-    add("square_well", [](Effects& e) { e.square_well = SquareWell{1.5, 0.0, {}}; });
+    add("square_well", [](Effects& e) { e.square_well = SquareWell{1.5, 0.0}; });
   if (!effects.growth && !effects.square_well && !shear) add("growth", [](Effects& e) { e.growth = Growth{}; });
   if (!effects.drag) add("drag", [](Effects& e) { e.drag = Drag{}; });
-  if (!effects.thermostat) add("thermostat", [](Effects& e) { e.thermostat = Thermostat{1.0, 0.0, {}}; });
+  if (!effects.thermostat) add("thermostat", [](Effects& e) { e.thermostat = Thermostat{1.0, 0.0}; });
   if (effects.neutral() && scene.box.periodic(0) && scene.box.periodic(1)) add("shear", [](Effects& e) { e.shear = Shear{}; });
   return all;
 }

@@ -18,7 +18,7 @@ namespace carom::test {
 namespace {
 
 Scene sheared(Scene scene, double rate) {
-  scene.effects.shear = Shear{rate, {}};
+  scene.effects.shear = Shear{rate};
   return scene;
 }
 
@@ -79,7 +79,7 @@ TEST(EnginesShear, HaveTheSameEventsWithEverythingElseThatMayAct) {
   scene.effects.collision.restitution = 0.8;
   scene.effects.collision.roughness = 0.5;
   scene.effects.collision.elastic_below = 1e-3;
-  scene.effects.thermostat = Thermostat{1.0, 0.5, {}};
+  scene.effects.thermostat = Thermostat{1.0, 0.5};
   EXPECT_GE(agreed(scene, 400), 84u);
   Scene reversal = gas_in(16.0, 12.0, 0.4, 0.3);
   reversal.effects.collision.rule = CollisionRule::reversal;
@@ -103,7 +103,7 @@ TEST(EnginesShear, EndWithTheSameTotalsAndInTheSamePlaces) {
     Scene scene = radii_one_to_four(rate);
     scene.effects.collision.restitution = 0.9;
     scene.effects.collision.roughness = 0.0;
-    scene.effects.thermostat = Thermostat{1.0, 0.5, {}};
+    scene.effects.thermostat = Thermostat{1.0, 0.5};
     const auto general = make_engine("general", scene), textbook = make_engine("textbook", scene);
     textbook->run_until(forever, 84, no_limit);
     const double time = textbook->now().high + 1e-3;  // between two events
@@ -164,7 +164,7 @@ TEST(EnginesShear, GoOnFromAStateWithItsDisplacement) {
 TEST(EnginesShear, KeepWhatTheyKnowOfEnergyOverManyBoxLengthsOfDisplacement) {
   // Images pass by more than 200 times; a strong thermostat keeps the fluid from heating up.
   Scene scene = gas_in(8.0, 8.0, 0.3, 1.0);
-  scene.effects.thermostat = Thermostat{1.0, 2.0, {}};
+  scene.effects.thermostat = Thermostat{1.0, 2.0};
   const auto engine = make_engine("general", scene);
   const auto kinetic = [&] { return engine->state().velocities.squaredNorm() / 2.0; };
   const double before = kinetic();

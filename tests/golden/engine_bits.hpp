@@ -54,11 +54,11 @@ inline std::string engine_bits() {
   const std::array<Boundary, 2> periodic = {Boundary::periodic, Boundary::periodic}, walls = {Boundary::walls, Boundary::walls};
   Effects reversal, driven, sheared;
   reversal.collision.rule = CollisionRule::reversal;
-  driven.gravity = Gravity{{0.0, -0.3}, {}};
+  driven.gravity = Gravity{{0.0, -0.3}};
   driven.collision.restitution = 0.9;
   driven.walls[0].temperature = 1.0;
   driven.walls[3].velocity = 0.01;
-  sheared.shear = Shear{.rate = 0.1, .where = {}};
+  sheared.shear = Shear{.rate = 0.1};
   std::string text;
   const auto add = [&](bool fast, const Box& box, const Effects& effects, double speed, bool mixed) {
     text += bits_of_run(fast, box, effects, speed, mixed) + "\n";

@@ -63,7 +63,7 @@ TEST_F(H5mdObservables, AreThereForWhatTheSceneNames) {
                           "scale", "spin", "spin_energy", "spin_temperature", "temperature", "total_energy", "virial",
                           "wall_energy", "wall_impulse", "walls", "well_passages"));
   Scene sheared = scene_of(2, 1);
-  sheared.effects.shear = Shear{.rate = 0.5, .where = {}};
+  sheared.effects.shear = Shear{.rate = 0.5};
   EXPECT_THAT(H5Reader(write(sheared, 2)).members("/observables"),
               ElementsAre("kinetic_energy", "pair_collisions", "shear_displacement", "temperature", "virial", "wall_energy",
                           "wall_impulse"));
@@ -132,7 +132,7 @@ TEST_F(H5mdObservables, NoDisksHaveNoSpins) {
 TEST_F(H5mdObservables, AreThoseOfTheStateWhereUnwrappedPositionsAreWritten) {
   Scene scene = scene_of(3, 2);
   scene.box.boundary = {Boundary::periodic, Boundary::periodic};
-  scene.effects.shear = Shear{.rate = 0.5, .where = {}};
+  scene.effects.shear = Shear{.rate = 0.5};
   scene.output = {.trajectory = true, .unwrapped = true};
   State state = state_at(3, scene);
   state.images.row(1).setConstant(-2);

@@ -79,12 +79,12 @@ inline Scene scene_with_effects(std::int64_t large, std::int64_t small) {
   Scene scene = scene_of(large, small);
   scene.effects.collision.restitution = 0.9;
   scene.effects.collision.roughness = 0.5;
-  scene.effects.gravity = Gravity{.acceleration = {0.0, -1.0}, .where = {}};
+  scene.effects.gravity = Gravity{.acceleration = {0.0, -1.0}};
   scene.effects.walls[2].velocity = 0.5;
   scene.effects.walls[3].mass = 8.0;
   scene.effects.walls[3].load = 0.25;
-  scene.effects.growth = Growth{.rate = 0.5, .packing_fraction = 0.8, .reduced_pressure = {}, .where = {}};
-  scene.effects.square_well = SquareWell{.width = 1.5, .depth = 2.0, .where = {}};
+  scene.effects.growth = Growth{.rate = 0.5, .packing_fraction = 0.8};
+  scene.effects.square_well = SquareWell{.width = 1.5, .depth = 2.0};
   return scene;
 }
 

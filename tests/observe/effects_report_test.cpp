@@ -78,10 +78,10 @@ TEST_F(EffectsOfARun, AWallBetweenMovingWallsHasAForceAndNoPressure) {
 TEST_F(EffectsOfARun, EachEffectTellsWhatItDid) {
   scene_.effects.collision.restitution = 0.9;
   scene_.effects.obstacles.emplace_back();
-  scene_.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0, .where = {}};
-  scene_.effects.growth = Growth{.rate = 0.1, .packing_fraction = {}, .reduced_pressure = {}, .where = {}};
-  scene_.effects.shear = Shear{.rate = 0.5, .where = {}};
-  scene_.effects.square_well = SquareWell{.width = 1.5, .depth = 2.0, .where = {}};
+  scene_.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0};
+  scene_.effects.growth = Growth{.rate = 0.1};
+  scene_.effects.shear = Shear{.rate = 0.5};
+  scene_.effects.square_well = SquareWell{.width = 1.5, .depth = 2.0};
   end_.scale = 1.5;
   end_.bonds = 3;
   const EffectsReport r = report();
@@ -117,7 +117,7 @@ TEST_F(EffectsOfARun, WhatAPistonTakesStaysInTheTotal) {
 
 TEST_F(EffectsOfARun, NeutralValuesTakeNothingFromTheReport) {
   scene_.box.boundary[0] = Boundary::walls;
-  scene_.effects.growth = Growth{.rate = 0.1, .packing_fraction = {}, .reduced_pressure = {}, .where = {}};
+  scene_.effects.growth = Growth{.rate = 0.1};
   const EffectsReport plain = report();
   ASSERT_TRUE(plain.energy_supplied && plain.walls[0].pressure);
   scene_.effects.collision.restitution = 1.0;
@@ -130,7 +130,7 @@ TEST_F(EffectsOfARun, NeutralValuesTakeNothingFromTheReport) {
 }
 
 TEST_F(EffectsOfARun, AnEnergyChangeThatWasGivenIsExplained) {
-  scene_.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0, .where = {}};
+  scene_.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0};
   RunReport r = report_of(scene_);
   EXPECT_FALSE(r.unaccounted_energy_drift());
   r.of_effects.energy_supplied = 4.0;

@@ -20,7 +20,7 @@ TEST(Energy, EffectsAtTheirNeutralValuesAddNothing) {
   Effects neutral;
   neutral.collision.roughness = -1.0;
   neutral.gravity = Gravity{};
-  neutral.square_well = SquareWell{.width = 1.5, .depth = 0.0, .where = {}};
+  neutral.square_well = SquareWell{.width = 1.5, .depth = 0.0};
   State state = unequal_pair.state;
   state.bonds = 7;
   EXPECT_EQ(total_energy(unequal_pair.box, neutral, unequal_pair.disks, state), 23.5);
@@ -38,7 +38,7 @@ TEST(Energy, ASpinningDiskIsUniform) {
 
 TEST(Energy, HeightsAreAboveTheSideToWhichGravityPoints) {
   Effects effects;
-  effects.gravity = Gravity{.acceleration = {0.0, -3.0}, .where = {}};
+  effects.gravity = Gravity{.acceleration = {0.0, -3.0}};
   EXPECT_EQ(potential_energy(unequal_pair.box, effects, unequal_pair.disks, unequal_pair.state), 3.0 * (2.0 * 1.0 + 4.0 * 7.0));
   effects.gravity->acceleration = {2.0, 0.0};
   EXPECT_EQ(potential_energy(unequal_pair.box, effects, unequal_pair.disks, unequal_pair.state), 2.0 * (2.0 * 9.0 + 4.0 * 5.0));
@@ -46,7 +46,7 @@ TEST(Energy, HeightsAreAboveTheSideToWhichGravityPoints) {
 
 TEST(Energy, FallingDisksKeepTheirTotal) {
   Effects effects;
-  effects.gravity = Gravity{.acceleration = {0.5, -0.25}, .where = {}};
+  effects.gravity = Gravity{.acceleration = {0.5, -0.25}};
   State later = unequal_pair.state;
   const double t = 0.5;
   for (Eigen::Index i = 0; i < 2; ++i) {
@@ -59,7 +59,7 @@ TEST(Energy, FallingDisksKeepTheirTotal) {
 
 TEST(Energy, EveryBondIsWorthTheDepthOfTheWell) {
   Effects effects;
-  effects.square_well = SquareWell{.width = 1.5, .depth = 2.0, .where = {}};
+  effects.square_well = SquareWell{.width = 1.5, .depth = 2.0};
   State state = unequal_pair.state;
   state.bonds = 3;
   EXPECT_EQ(potential_energy(unequal_pair.box, effects, unequal_pair.disks, state), -6.0);

@@ -47,7 +47,7 @@ TEST(Mechanics, WithoutEffectsTheTemperatureIsTheSameToTheLastBit) {
 TEST(Mechanics, CommonMotionIsHeatWhereMoreThanDisksPushesDisks) {
   const Box box = square_box(10.0, Boundary::periodic);
   Effects effects;
-  effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.0, .where = {}};
+  effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.0};
   EXPECT_EQ(kinetic_temperature(box, effects, unequal_pair.disks, unequal_pair.state),
             kinetic_temperature(box, unequal_pair.disks, unequal_pair.state));
   effects.thermostat->rate = 0.1;
@@ -66,7 +66,7 @@ TEST(Mechanics, TheFlowOfShearIsNoHeat) {
   const Box box = square_box(10.0, Boundary::periodic);
   System flowing = unequal_pair;
   Effects effects;
-  effects.shear = Shear{.rate = 0.25, .where = {}};
+  effects.shear = Shear{.rate = 0.25};
   const double at_rest = kinetic_temperature(box, flowing.disks, flowing.state);
   flowing.state.velocities.row(0) += 0.25 * flowing.state.positions.row(1);
   EXPECT_NEAR(kinetic_temperature(box, effects, flowing.disks, flowing.state), at_rest, 1e-13);
@@ -75,7 +75,7 @@ TEST(Mechanics, TheFlowOfShearIsNoHeat) {
 TEST(Mechanics, MomentumFlowIsTakenInTheFrameOfTheFlow) {
   const Box box = square_box(10.0, Boundary::periodic);
   Effects effects;
-  effects.shear = Shear{.rate = 0.5, .where = {}};
+  effects.shear = Shear{.rate = 0.5};
   System flowing = system_of(box, {{{1, 2}, {1.0, 2.0}, 0.5, 3.0}, {{5, 6}, {-1.0, -2.0}, 0.5, 3.0}});
   flowing.state.velocities.row(0) += 0.5 * flowing.state.positions.row(1);
   EXPECT_NEAR(momentum_flow_xy(box, effects, flowing.disks, flowing.state), 12.0, 1e-13);
@@ -84,11 +84,11 @@ TEST(Mechanics, MomentumFlowIsTakenInTheFrameOfTheFlow) {
 TEST(Mechanics, CommonMotionRelativeToTheFlowIsHeatWhereAThermostatPushes) {
   const Box box{{0.0, 0.0}, {10.0, 10.0}, {Boundary::periodic, Boundary::periodic}};
   Effects effects;
-  effects.shear = Shear{.rate = 0.5, .where = {}};
+  effects.shear = Shear{.rate = 0.5};
   System drifting = system_of(box, {{{1, 2}, {1.0, 2.0}, 0.5, 3.0}, {{5, 6}, {1.0, 2.0}, 0.5, 3.0}});
   drifting.state.velocities.row(0).array() += 0.5 * (drifting.state.positions.row(1).array() - 5.0);
   EXPECT_NEAR(kinetic_temperature(box, effects, drifting.disks, drifting.state), 0.0, 1e-13);
-  effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.1, .where = {}};
+  effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.1};
   // 2 disks of 3 (1 + 4) / 2 each, for 4 degrees of freedom.
   EXPECT_NEAR(kinetic_temperature(box, effects, drifting.disks, drifting.state), 7.5, 1e-13);
   EXPECT_NEAR(momentum_flow_xy(box, effects, drifting.disks, drifting.state), 12.0, 1e-13);

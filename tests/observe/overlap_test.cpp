@@ -27,7 +27,7 @@ TEST(Overlap, FindsDisksBeyondTheSceneBoxWhereWallsHaveMovedOut) {
 
 class ShearedOverlap : public ::testing::Test {
  protected:
-  ShearedOverlap() { effects_.shear = Shear{.rate = 0.5, .where = {}}; }
+  ShearedOverlap() { effects_.shear = Shear{.rate = 0.5}; }
 
   /// The deepest overlap by definition: over all images, those n boxes higher displaced by n times the shear.
   [[nodiscard]] static double by_definition(const System& s) {

@@ -134,7 +134,7 @@ TEST(RunMeasurements, BesideAHeatBathTheErrorOfZIsThatOfARatio) {
   // much of one run, in their squares, and the ratio of ten runs' to 0.11. Four standard errors.
   Scene scene = gas_scene(16, 0.1, Boundary::periodic);
   scene.effects.collision.rule = CollisionRule::specular;
-  scene.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.5, .where = {}};
+  scene.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 0.5};
   scene.run.time = 500.0;
   scene.run.sample_every = 0.5;
   scene.observe.emplace_back().name = "pressure";

@@ -16,7 +16,7 @@ namespace {
 TEST(PhysicsGravity, EnergyIsKeptTo1e10OverAMillionEvents) {
   for (const char* engine : engines_with_effects) {
     Scene scene = gas_scene(100, 0.3, Boundary::walls);
-    scene.effects.gravity = Gravity{{0.0, -0.2}, {}};
+    scene.effects.gravity = Gravity{{0.0, -0.2}};
     Simulation gas = make_simulation(scene, engine);
     const double energy = total_energy(scene.box, scene.effects, gas.disks(), gas.state());
     gas.run_until(1e9, 900'000);
@@ -34,7 +34,7 @@ TEST(PhysicsGravity, ADiluteGasFollowsTheLawOfTheBarometer) {
   constexpr double g = 0.1, radius = 0.1, width = 40.0, height = 60.0;
   Scene scene = scene_of(box_of(width, height, Boundary::periodic, Boundary::walls),
                          {species_of(200, radius, 1.0, RandomPositions{}, MaxwellVelocities{1.0})});
-  scene.effects.gravity = Gravity{{0.0, -g}, {}};
+  scene.effects.gravity = Gravity{{0.0, -g}};
   scene.effects.walls[2].temperature = 1.0;
   Simulation gas = make_simulation(scene);
   gas.run_until(500.0);

@@ -18,7 +18,7 @@ namespace {
 
 Scene wells(double depth) {
   Scene scene = gas_scene(256, 0.2, Boundary::periodic);
-  scene.effects.square_well = SquareWell{1.5, depth, {}};
+  scene.effects.square_well = SquareWell{1.5, depth};
   return scene;
 }
 
@@ -81,8 +81,8 @@ TEST(PhysicsSquareWell, TheJumpOfGAtTheEdgeIsTheBoltzmannFactor) {
 /// Every disk meets 2 sqrt(pi) n sigma g(sigma+) sqrt(kT / m) others per time at its core, exactly, whatever is round it.
 TEST(PhysicsSquareWell, ContactValueOfANarrowShoulderIsThatOfTheRate) {
   Scene scene = gas_scene(256, 0.3, Boundary::periodic);
-  scene.effects.square_well = SquareWell{1.1, -1.0, {}};
-  scene.effects.thermostat = Thermostat{1.0, 0.5, {}};
+  scene.effects.square_well = SquareWell{1.1, -1.0};
+  scene.effects.thermostat = Thermostat{1.0, 0.5};
   scene.run.time = 3000.0;
   scene.run.equilibrate = Run::Equilibrate{20.0, {}};
   ObservableRequest& request = scene.observe.emplace_back();

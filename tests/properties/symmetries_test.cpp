@@ -53,8 +53,8 @@ void for_all_velocities(Scene& scene, Change&& change) {
 template <class Change>
 void for_all_points(std::vector<Obstacle>& obstacles, Change&& change) {
   for (Obstacle& obstacle : obstacles) {
-    if (auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) change(disk->centre);
-    if (auto* segment = std::get_if<SegmentObstacle>(&obstacle.shape)) change(segment->from), change(segment->to);
+    if (auto* disk = std::get_if<DiskObstacle>(&obstacle)) change(disk->centre);
+    if (auto* segment = std::get_if<SegmentObstacle>(&obstacle)) change(segment->from), change(segment->to);
   }
 }
 
@@ -173,7 +173,7 @@ Scene in_other_units(Scene scene, int a, int b) {
   }
   for_all_points(effects.obstacles, [&](Eigen::Vector2d& point) { scale_both(point, a); });
   for (Obstacle& obstacle : effects.obstacles)
-    if (auto* disk = std::get_if<DiskObstacle>(&obstacle.shape)) scale(disk->radius, a);
+    if (auto* disk = std::get_if<DiskObstacle>(&obstacle)) scale(disk->radius, a);
   if (effects.growth) scale(effects.growth->rate, -b);
   if (effects.thermostat) scale(effects.thermostat->temperature, 2 * (a - b)), scale(effects.thermostat->rate, -b);
   if (effects.shear) scale(effects.shear->rate, -b);

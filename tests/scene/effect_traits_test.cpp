@@ -70,7 +70,7 @@ TEST(EffectTraits, KnowsWhichTablesHaveAKey) {
 TEST(EffectTraits, TellsTheFirstThatActs) {
   Effects effects;
   effects.shear = Shear{};
-  effects.thermostat = Thermostat{1.0, 0.0, {}};
+  effects.thermostat = Thermostat{1.0, 0.0};
   EXPECT_EQ(detail::first_acting(effects, &EffectTraits::changes_velocities_in_flight), nullptr);
   EXPECT_EQ(detail::first_reason(effects, &EffectTraits::why_no_Z), "");
   effects.shear->rate = 0.5;

@@ -20,12 +20,12 @@ inline bool same_bits(const Eigen::Vector2d& x, const Eigen::Vector2d& y) {
 }
 
 inline bool same_shape(const Obstacle& a, const Obstacle& b) {
-  if (a.shape.index() != b.shape.index()) return false;
-  if (const auto* disk = std::get_if<DiskObstacle>(&a.shape)) {
-    const auto& other = std::get<DiskObstacle>(b.shape);
+  if (a.index() != b.index()) return false;
+  if (const auto* disk = std::get_if<DiskObstacle>(&a)) {
+    const auto& other = std::get<DiskObstacle>(b);
     return same_bits(disk->centre, other.centre) && same_bits(disk->radius, other.radius);
   }
-  const auto &segment = std::get<SegmentObstacle>(a.shape), &other = std::get<SegmentObstacle>(b.shape);
+  const auto &segment = std::get<SegmentObstacle>(a), &other = std::get<SegmentObstacle>(b);
   return same_bits(segment.from, other.from) && same_bits(segment.to, other.to);
 }
 

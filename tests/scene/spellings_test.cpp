@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "scene/refusal.hpp"
 #include "scene/scene_texts.hpp"
 
 #include <cfloat>
@@ -158,13 +159,15 @@ TEST(Spellings, LinesMayEndAsOnWindows) {
   EXPECT_EQ(parse_scene(text).species[0].count, 10);
 }
 
-TEST(Spellings, LocationsPointIntoTheText) {
-  const Scene scene = parse_scene(std::string(small_scene), "small.toml");
-  EXPECT_EQ(scene.species[0].where.source, "small.toml");
-  EXPECT_EQ(scene.species[0].where.line, 6);
-  EXPECT_EQ(scene.species[0].positions_where.line, 10);
-  EXPECT_EQ(scene.species[0].positions_where.column, 13);
-  EXPECT_EQ(scene.species[0].velocities_where.line, 11);
+TEST(Spellings, WhatIsRefusedLaterIsStillPlacedInTheText) {
+  const Scene scene = parse_scene(std::string(small_scene), "small.toml", {"run.seed=2"});
+  const auto place = [&](const std::string& path) { return std::string(detail::scene_error(scene, path, "wrong").what()); };
+  EXPECT_EQ(place("disks.0"), "small.toml:6:1: wrong");
+  EXPECT_EQ(place("disks.0.positions"), "small.toml:10:13: wrong");
+  EXPECT_EQ(place("disks.0.positions.3"), "small.toml:10:13: wrong") << "what is not written has the place of what is";
+  EXPECT_THAT(place("disks.0.velocities"), testing::StartsWith("small.toml:11:"));
+  EXPECT_EQ(place("run.seed"), "--set run.seed=2: wrong");
+  EXPECT_STREQ(detail::scene_error(Scene{}, "disks.0", "wrong").what(), "wrong") << "no text, no place";
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ const double not_a_number = std::numeric_limits<double>::quiet_NaN(), infinite_n
 
 std::vector<Case> cases() {
   const std::string walls = "walls", periodic = "periodic";
-  const auto obstacle = [](auto shape) { return [shape](Scene& s) { s.effects.obstacles = {{shape, {}}}; }; };
+  const auto obstacle = [](auto shape) { return [shape](Scene& s) { s.effects.obstacles = {shape}; }; };
   const auto observe = [](const std::string& name) { return [name](Scene& s) { s.observe = {observable(name)}; }; };
   const auto shear = [](Scene& s) { in(s.effects.shear).rate = 0.1; };
   return {
@@ -219,7 +219,7 @@ std::vector<Case> cases() {
        {"walls.left={ velocity = 0.1 }", "obstacles=[{ disk = { centre = [-0.8, 0.0], radius = 0.1 } }]"},
        [](Scene& s) {
          s.effects.walls[0].velocity = 0.1;
-         s.effects.obstacles = {{DiskObstacle{{-0.8, 0.0}, 0.1}, {}}};
+         s.effects.obstacles = {DiskObstacle{{-0.8, 0.0}, 0.1}};
        }},
       {"ObstacleRadiusNegative",
        walls,
@@ -264,60 +264,43 @@ std::vector<Case> cases() {
       {"GrowthRateNegative",
        periodic,
        {"growth={ rate = -1.0, until = { pressure = 10.0 } }"},
-       [](Scene& s) {
-         s.effects.growth = Growth{-1.0, {}, 10.0, {}};
-       }},
+       [](Scene& s) { s.effects.growth = Growth{.rate = -1.0, .reduced_pressure = 10.0}; }},
       {"GrowthUntilTwo",
        periodic,
        {"growth={ rate = 0.1, until = { pressure = 10.0, packing_fraction = 0.5 } }"},
        [](Scene& s) {
-         s.effects.growth = Growth{0.1, 0.5, 10.0, {}};
+         s.effects.growth = Growth{0.1, 0.5, 10.0};
        }},
       {"GrowthUntilPressureZero",
        periodic,
        {"growth={ rate = 0.1, until = { pressure = 0.0 } }"},
-       [](Scene& s) {
-         s.effects.growth = Growth{0.1, {}, 0.0, {}};
-       }},
+       [](Scene& s) { s.effects.growth = Growth{.rate = 0.1, .reduced_pressure = 0.0}; }},
       {"GrowthWithoutAnEnd",
        periodic,
        {"growth.rate=0.1", "run={ collisions = 1000 }"},
-       [](Scene& s) {
-         s.effects.growth = Growth{0.1, {}, {}, {}}, s.run.time.reset(), s.run.collisions = 1000;
-       }},
+       [](Scene& s) { s.effects.growth = Growth{.rate = 0.1}, s.run.time.reset(), s.run.collisions = 1000; }},
       {"GrowthPastOne",
        periodic,
        {"growth={ rate = 0.1, until = { packing_fraction = 1.5 } }"},
-       [](Scene& s) {
-         s.effects.growth = Growth{0.1, 1.5, {}, {}};
-       }},
+       [](Scene& s) { s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 1.5}; }},
       {"GrowthPastClosePacking",
        periodic,
        {"growth={ rate = 0.1, until = { packing_fraction = 0.95 } }", "disks.1.radius=0.05"},
-       [](Scene& s) {
-         s.effects.growth = Growth{0.1, 0.95, {}, {}}, s.species[1].radius = 0.05;
-       }},
+       [](Scene& s) { s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.95}, s.species[1].radius = 0.05; }},
       {"GrowthAlreadyThere",
        periodic,
        {"growth={ rate = 0.1, until = { packing_fraction = 0.01 } }"},
-       [](Scene& s) {
-         s.effects.growth = Growth{0.1, 0.01, {}, {}};
-       }},
+       [](Scene& s) { s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.01}; }},
       {"GrowthWiderThanTheBox",
        periodic,
        {"growth={ rate = 0.1, until = { packing_fraction = 0.95 } }", "disks.0.count=1", "disks.0.radius=1e-3",
         "disks.1.positions=[[0.0, 0.0]]", "disks.1.velocities=[[0.0, 0.0]]"},
        [](Scene& s) {
-         s.effects.growth = Growth{0.1, 0.95, {}, {}};
+         s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.95};
          s.species[0].count = 1, s.species[0].radius = 1e-3, s.species[1].count = 1;
          s.species[1].positions = ListedPositions{{{0.0, 0.0}}}, s.species[1].velocities = ListedVelocities{{{0.0, 0.0}}};
        }},
-      {"GrowthFillsTheBoxInTime",
-       walls,
-       {"growth={ rate = 10.0 }"},
-       [](Scene& s) {
-         s.effects.growth = Growth{10.0, {}, {}, {}};
-       }},
+      {"GrowthFillsTheBoxInTime", walls, {"growth={ rate = 10.0 }"}, [](Scene& s) { s.effects.growth = Growth{.rate = 10.0}; }},
       {"MassTooLarge", walls, {"disks.0.mass=1e301"}, [](Scene& s) { s.species[0].mass = 1e301; }},
       {"WallRunsAway", walls, {"walls.top={ velocity = 1e100 }"}, [](Scene& s) { s.effects.walls[3].velocity = 1e100; }},
       {"LoadTooLarge",
@@ -340,13 +323,13 @@ std::vector<Case> cases() {
        periodic,
        {"thermostat={ temperature = 1.0, rate = 1e20 }"},
        [](Scene& s) {
-         s.effects.thermostat = Thermostat{1.0, 1e20, {}};
+         s.effects.thermostat = Thermostat{1.0, 1e20};
        }},
       {"WellTooDeep",
        periodic,
        {"square_well={ width = 1.5, depth = 1e305 }"},
        [](Scene& s) {
-         s.effects.square_well = SquareWell{1.5, 1e305, {}};
+         s.effects.square_well = SquareWell{1.5, 1e305};
        }},
       {"BoxFarAway",
        periodic,
@@ -364,31 +347,29 @@ std::vector<Case> cases() {
        periodic,
        {"growth={ rate = 0.1, until = { packing_fraction = 0.5 } }", "run.equilibrate={ time = 1.0 }"},
        [](Scene& s) {
-         s.effects.growth = Growth{0.1, 0.5, {}, {}}, s.run.equilibrate = Run::Equilibrate{{}, 1.0};
+         s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.5}, s.run.equilibrate = Run::Equilibrate{{}, 1.0};
        }},
       {"GrowthAndAMovingWall",
        walls,
        {"growth={ rate = 0.1, until = { packing_fraction = 0.5 } }", "walls.top={ velocity = 0.1 }"},
-       [](Scene& s) {
-         s.effects.growth = Growth{0.1, 0.5, {}, {}}, s.effects.walls[3].velocity = 0.1;
-       }},
+       [](Scene& s) { s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.5}, s.effects.walls[3].velocity = 0.1; }},
       {"GrowthAndAPiston",
        walls,
        {"growth={ rate = 0.1, until = { packing_fraction = 0.5 } }", "walls.top={ mass = 1.0, load = 1.0 }"},
        [](Scene& s) {
-         s.effects.growth = Growth{0.1, 0.5, {}, {}}, s.effects.walls[3] = {{}, {}, {}, 1.0, 1.0, {}};
+         s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.5}, s.effects.walls[3] = {.mass = 1.0, .load = 1.0};
        }},
       {"ThermostatTemperatureZero",
        periodic,
        {"thermostat={ temperature = 0.0, rate = 1.0 }"},
        [](Scene& s) {
-         s.effects.thermostat = Thermostat{0.0, 1.0, {}};
+         s.effects.thermostat = Thermostat{0.0, 1.0};
        }},
       {"ThermostatRateNegative",
        periodic,
        {"thermostat={ temperature = 1.0, rate = -1.0 }"},
        [](Scene& s) {
-         s.effects.thermostat = Thermostat{1.0, -1.0, {}};
+         s.effects.thermostat = Thermostat{1.0, -1.0};
        }},
       {"ShearOfNaN", periodic, {"shear.rate=nan"}, [](Scene& s) { in(s.effects.shear).rate = not_a_number; }},
       {"ShearBetweenWalls", walls, {"shear.rate=0.1"}, shear},
@@ -405,44 +386,42 @@ std::vector<Case> cases() {
       {"ShearWithGrowth",
        periodic,
        {"shear.rate=0.1", "growth={ rate = 0.1, until = { packing_fraction = 0.5 } }"},
-       [=](Scene& s) {
-         shear(s), s.effects.growth = Growth{0.1, 0.5, {}, {}};
-       }},
+       [=](Scene& s) { shear(s), s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.5}; }},
       {"ShearWithWells",
        periodic,
        {"shear.rate=0.1", "square_well={ width = 1.5, depth = 1.0 }"},
        [=](Scene& s) {
-         shear(s), s.effects.square_well = SquareWell{1.5, 1.0, {}};
+         shear(s), s.effects.square_well = SquareWell{1.5, 1.0};
        }},
       {"WellOfWidthOne",
        periodic,
        {"square_well={ width = 1.0, depth = 1.0 }"},
        [](Scene& s) {
-         s.effects.square_well = SquareWell{1.0, 1.0, {}};
+         s.effects.square_well = SquareWell{1.0, 1.0};
        }},
       {"WellOfOneUlp",
        periodic,
        {"square_well={ width = 1.0000000000000002, depth = 1.0 }"},
        [](Scene& s) {
-         s.effects.square_well = SquareWell{0x1.0000000000001p0, 1.0, {}};
+         s.effects.square_well = SquareWell{0x1.0000000000001p0, 1.0};
        }},
       {"WellDepthOfNaN",
        periodic,
        {"square_well={ width = 1.5, depth = nan }"},
        [](Scene& s) {
-         s.effects.square_well = SquareWell{1.5, not_a_number, {}};
+         s.effects.square_well = SquareWell{1.5, not_a_number};
        }},
       {"WellTooWide",
        periodic,
        {"square_well={ width = 5.5, depth = 1.0 }"},
        [](Scene& s) {
-         s.effects.square_well = SquareWell{5.5, 1.0, {}};
+         s.effects.square_well = SquareWell{5.5, 1.0};
        }},
       {"WellsWithGrowth",
        periodic,
        {"square_well={ width = 1.5, depth = 1.0 }", "growth={ rate = 0.1, until = { packing_fraction = 0.5 } }"},
        [](Scene& s) {
-         s.effects.square_well = SquareWell{1.5, 1.0, {}}, s.effects.growth = Growth{0.1, 0.5, {}, {}};
+         s.effects.square_well = SquareWell{1.5, 1.0}, s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.5};
        }},
       // ------------------------------------------------------------------------------------------------------ the run
       {"TimeNegative", walls, {"run.time=-1.0"}, [](Scene& s) { s.run.time = -1.0; }},
@@ -540,15 +519,13 @@ std::vector<Case> cases() {
       {"StructureAndGrowth",
        periodic,
        {"observe.hexatic=true", "growth={ rate = 0.1, until = { packing_fraction = 0.5 } }"},
-       [=](Scene& s) {
-         observe("hexatic")(s), s.effects.growth = Growth{0.1, 0.5, {}, {}};
-       }},
+       [=](Scene& s) { observe("hexatic")(s), s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.5}; }},
       {"WallFluxesOfAPeriodicBox", periodic, {"observe.wall_fluxes=true"}, observe("wall_fluxes")},
       {"FlightsAndThermostat",
        periodic,
        {"observe.free_flight=true", "thermostat={ temperature = 1.0, rate = 1.0 }"},
        [=](Scene& s) {
-         observe("free_flight")(s), s.effects.thermostat = Thermostat{1.0, 1.0, {}};
+         observe("free_flight")(s), s.effects.thermostat = Thermostat{1.0, 1.0};
        }},
       {"DisplacementAndShear",
        periodic,

@@ -37,7 +37,7 @@ TEST(ChoiceOfEngine, EffectsAtTheirNeutralValuesCallForNothing) {
 
 TEST(ChoiceOfEngine, NamesTheEffectsThatCallForTheGeneralEngine) {
   Scene scene = gas_scene(100, 0.3, Boundary::walls);
-  scene.effects.gravity = Gravity{{0.0, -1.0}, {}};
+  scene.effects.gravity = Gravity{{0.0, -1.0}};
   scene.effects.collision.restitution = 0.9;
   const Simulation simulation = make_simulation(scene);
   EXPECT_EQ(simulation.engine(), "general");
@@ -46,7 +46,7 @@ TEST(ChoiceOfEngine, NamesTheEffectsThatCallForTheGeneralEngine) {
 
 TEST(ChoiceOfEngine, TakesTheGeneralEngineForShear) {
   Scene scene = gas_scene(100, 0.3, Boundary::periodic);
-  scene.effects.shear = Shear{0.1, {}};
+  scene.effects.shear = Shear{0.1};
   const Simulation simulation = make_simulation(scene);
   EXPECT_EQ(simulation.engine(), "general");
   EXPECT_EQ(simulation.engine_reason(), "the scene asks for shear");
@@ -62,7 +62,7 @@ TEST(ChoiceOfEngine, SaysThatABoxIsTooSmall) {
 TEST(ChoiceOfEngine, SaysWhyTheOneAskedForCannotRunTheScene) {
   Scene scene = gas_scene(100, 0.3, Boundary::walls);
   EXPECT_EQ(make_simulation(scene, "textbook").engine_reason(), "it was asked for");
-  scene.effects.gravity = Gravity{{0.0, -1.0}, {}};
+  scene.effects.gravity = Gravity{{0.0, -1.0}};
   try {
     make_simulation(scene, "fast");
     FAIL() << "it was made";

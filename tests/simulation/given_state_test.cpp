@@ -79,8 +79,10 @@ TEST(GivenState, WhatEffectsGoOnFromIsFinite) {
     EXPECT_NO_THROW(make_simulation(scene, state)) << "nobody asks for it";
   };
   refused([](Scene& s) { s.effects.collision.roughness = 0.5; }, [&](State& state) { state.spins[2] = nan; });
-  refused([](Scene& s) { s.effects.growth = Growth{0.1, 0.5, {}, {}}; }, [&](State& state) { state.scale = nan; });
-  refused([](Scene& s) { s.effects.growth = Growth{0.1, 0.5, {}, {}}; }, [](State& state) { state.scale = 0.0; });
+  refused([](Scene& s) { s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.5}; },
+          [&](State& state) { state.scale = nan; });
+  refused([](Scene& s) { s.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.5}; },
+          [](State& state) { state.scale = 0.0; });
   refused([](Scene& s) { s.effects.walls[1].mass = s.effects.walls[1].load = 1.0; },
           [&](State& state) { state.walls[1].velocity = nan; });
   refused([](Scene& s) { s.effects.walls[1].velocity = 0.1; }, [&](State& state) { state.walls[1].position = nan; });

@@ -86,9 +86,9 @@ TEST(DenseStart, OwesNothingToMassesVelocitiesAndEffects) {
   other.species.front().mass = 7.0;
   other.species.front().velocities = AtRest{};
   other.effects.collision = {CollisionRule::reversal, 0.5, {}, {}};
-  other.effects.gravity = Gravity{{0.0, -1.0}, {}};
-  other.effects.thermostat = Thermostat{1.0, 1.0, {}};
-  other.effects.growth = Growth{0.1, 0.8, {}, {}};
+  other.effects.gravity = Gravity{{0.0, -1.0}};
+  other.effects.thermostat = Thermostat{1.0, 1.0};
+  other.effects.growth = Growth{.rate = 0.1, .packing_fraction = 0.8};
   EXPECT_TRUE(same_bits(draw_start(scene).state.positions, draw_start(other).state.positions));
 }
 
@@ -103,7 +103,7 @@ TEST(DenseStart, ThatWedgesADiskBetweenAWallAndAnObstacleIsRefused) {
   // Two disks of diameter 1, and a wall in the middle of a box 1.5 wide that leaves room for one of them beyond its ends.
   Scene scene = dense(2, std::numbers::pi / 2.0 / (1.5 * 3.4), Boundary::walls, Boundary::periodic);
   scene.box = Box{{-0.75, -1.7}, {0.75, 1.7}, {Boundary::walls, Boundary::periodic}};
-  scene.effects.obstacles = {{SegmentObstacle{{0.0, -1.5}, {0.0, 0.25}}, {}}};
+  scene.effects.obstacles = {SegmentObstacle{{0.0, -1.5}, {0.0, 0.25}}};
   EXPECT_THAT(refusal([&] { (void)draw_start(scene); }), HasSubstr("the disks jam at a packing fraction of 0."));
 }
 
@@ -127,7 +127,7 @@ TEST(DenseStart, IsRefusedToADiskWiderThanTheBox) {
 
 TEST(DenseStart, KeepsClearOfObstacles) {
   Scene scene = dense(100, 0.5, Boundary::periodic, Boundary::walls);
-  scene.effects.obstacles = {{DiskObstacle{{4.0, 5.0}, 1.5}, {}}, {SegmentObstacle{{8.0, 0.0}, {9.0, 7.0}}, {}}};
+  scene.effects.obstacles = {DiskObstacle{{4.0, 5.0}, 1.5}, SegmentObstacle{{8.0, 0.0}, {9.0, 7.0}}};
   expect_sound(scene);
 }
 

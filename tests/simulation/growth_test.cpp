@@ -16,7 +16,7 @@ namespace carom::test {
 namespace {
 
 Scene growing(Scene scene, double rate, std::optional<double> packing_fraction = {}, std::optional<double> pressure = {}) {
-  scene.effects.growth = Growth{rate, packing_fraction, pressure, {}};
+  scene.effects.growth = Growth{rate, packing_fraction, pressure};
   return scene;
 }
 
@@ -144,7 +144,7 @@ TEST(Growth, TellsWhatCollisionsTakeFromWhatSurfacesGive) {
 
 TEST(Growth, LeavesTheTemperatureToAThermostatWhereThereIsOne) {
   Scene scene = growing(gas_scene(36, 0.3, Boundary::periodic), 0.005, 0.5);
-  scene.effects.thermostat = Thermostat{1.0, 0.5, {}};
+  scene.effects.thermostat = Thermostat{1.0, 0.5};
   Simulation simulation = make_simulation(scene);
   const double before = kinetic_energy(simulation.disks(), simulation.state());
   EXPECT_EQ(simulation.run_until(1e6), StopReason::grown);

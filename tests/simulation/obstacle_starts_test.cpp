@@ -15,8 +15,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Obstacle disk(double x, double y, double radius) { return {DiskObstacle{{x, y}, radius}, {}}; }
-Obstacle segment(double x, double y, double to_x, double to_y) { return {SegmentObstacle{{x, y}, {to_x, to_y}}, {}}; }
+Obstacle disk(double x, double y, double radius) { return DiskObstacle{{x, y}, radius}; }
+Obstacle segment(double x, double y, double to_x, double to_y) { return SegmentObstacle{{x, y}, {to_x, to_y}}; }
 
 Scene among(const Box& box, std::vector<Obstacle> obstacles, Species species, std::uint64_t seed = 1) {
   Scene scene = scene_of(box, {std::move(species)}, seed);
@@ -70,11 +70,11 @@ RC_GTEST_PROP(PropertyObstacleStarts, RandomDisksKeepClearOfEveryImage, ()) {
         if ((k != 0 && !box.periodic(0)) || (l != 0 && !box.periodic(1))) continue;
         const Eigen::Vector2d image = r.col(i) + Eigen::Vector2d(2.0 * k, 1.0 * l);
         for (const Obstacle& obstacle : obstacles) {
-          if (const auto* round = std::get_if<DiskObstacle>(&obstacle.shape)) {
+          if (const auto* round = std::get_if<DiskObstacle>(&obstacle)) {
             RC_ASSERT((image - round->centre).norm() >= 0.17 * (1.0 - 1e-14));
             continue;
           }
-          const auto& line = std::get<SegmentObstacle>(obstacle.shape);
+          const auto& line = std::get<SegmentObstacle>(obstacle);
           for (int p = 0; p <= 1000; ++p) {
             RC_ASSERT((image - line.from - 1e-3 * p * (line.to - line.from)).norm() >= 0.02 * (1.0 - 1e-12));
           }

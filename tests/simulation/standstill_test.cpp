@@ -25,7 +25,7 @@ Scene growing_beyond_jamming() {
   Species four = species_of(4, 0.25, 1.0, ListedPositions{{{1.0, 1.0}, {3.0, 1.0}, {1.0, 3.0}, {3.0, 3.0}}},
                             ListedVelocities{{{0.1, 0.2}, {-0.3, 0.1}, {0.2, -0.1}, {-0.1, -0.2}}});
   scene.species = {four};
-  scene.effects.growth = Growth{.rate = 0.0625, .packing_fraction = {}, .reduced_pressure = {}, .where = {}};
+  scene.effects.growth = Growth{.rate = 0.0625};
   scene.run.time = 100.0;
   return scene;
 }
@@ -52,7 +52,7 @@ Scene growing_in_a_channel(Boundary across) {
   scene.box = {{0.0, 0.0}, {16.0, 3.0}, {Boundary::periodic, across}};
   scene.species = {species_of(3, 0.3, 1.0, ListedPositions{{{2.0, 1.0}, {7.0, 1.5}, {13.0, 2.0}}},
                               ListedVelocities{{{0.5, 0.25}, {-0.25, 0.5}, {-0.25, -0.75}}})};
-  scene.effects.growth = Growth{.rate = 0.05, .packing_fraction = {}, .reduced_pressure = 1e9, .where = {}};
+  scene.effects.growth = Growth{.rate = 0.05, .reduced_pressure = 1e9};
   scene.run.collisions = 1'000'000'000;
   return scene;
 }
@@ -93,7 +93,7 @@ TEST(EnginesStandstill, DisksThatGrowIntoAJamEndTheRunWhateverKeepsTheirEnergy) 
     for (const char* engine : {"general", "textbook"}) {
       Scene scene = growing_beyond_jamming();
       if (from_rest) scene.species.front().velocities = AtRest{};
-      if (!from_rest) scene.effects.thermostat = Thermostat{1.0, 0.1, {}};
+      if (!from_rest) scene.effects.thermostat = Thermostat{1.0, 0.1};
       Simulation simulation = make_simulation(scene, engine);
       EXPECT_EQ(run_schedule(simulation).stopped, StopReason::jammed) << engine << from_rest;
       EXPECT_NEAR(simulation.time(), 48.0, 1e-2) << engine << from_rest;
@@ -116,7 +116,7 @@ TEST(EnginesStandstill, AGasThatShearHeatsWithoutEndEndsTheRun) {
   for (const char* engine : {"general", "textbook"}) {
     Scene scene = gas_scene(16, 0.4, Boundary::periodic);
     scene.effects.collision.rule = CollisionRule::reversal;
-    scene.effects.shear = Shear{.rate = 1.0, .where = {}};
+    scene.effects.shear = Shear{.rate = 1.0};
     scene.run.time = 1e9;
     Simulation simulation = make_simulation(scene, engine);
     EXPECT_EQ(run_schedule(simulation).stopped, StopReason::overheated) << engine;
@@ -126,7 +126,7 @@ TEST(EnginesStandstill, AGasThatShearHeatsWithoutEndEndsTheRun) {
 /// A specular gas heats up too, but the clock goes on: its speed grows as the time.
 TEST(EnginesStandstill, AGasThatShearHeatsSteadilyGoesOn) {
   Scene scene = gas_scene(16, 0.4, Boundary::periodic);
-  scene.effects.shear = Shear{.rate = 1.0, .where = {}};
+  scene.effects.shear = Shear{.rate = 1.0};
   scene.run.time = 1e15;
   scene.run.collisions = 500'000;  // five times twice as many as the first look at the pace
   Simulation simulation = make_simulation(scene);

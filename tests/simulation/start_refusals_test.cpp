@@ -24,7 +24,7 @@ TEST(StartRefusals, EffectsOfNumbersThatAreNoneOrOutOfRange) {
   using Number = std::function<double&(Effects&)>;
   const auto within = [](auto& optional) -> double& { return optional ? *optional : optional.emplace(); };
   Scene scene = gas_scene(4, 0.1, Boundary::walls);
-  scene.effects.obstacles = {{DiskObstacle{scene.box.upper, 0.01}, {}}};
+  scene.effects.obstacles = {DiskObstacle{scene.box.upper, 0.01}};
   const std::vector<std::pair<Number, std::vector<double>>> numbers = {
       {[&](Effects& e) -> double& { return within(e.collision.restitution); }, {-0.1, 1.1}},
       {[&](Effects& e) -> double& { return within(e.collision.roughness); }, {-1.1, 1.1}},
@@ -35,26 +35,26 @@ TEST(StartRefusals, EffectsOfNumbersThatAreNoneOrOutOfRange) {
       {[&](Effects& e) -> double& { return within(e.walls[2].velocity); }, {}},
       {[&](Effects& e) -> double& { return e.walls[2].load = 1.0, within(e.walls[2].mass); }, {0.0, -1.0}},
       {[&](Effects& e) -> double& { return e.walls[2].mass = 1.0, within(e.walls[2].load); }, {-1.0}},
-      {[](Effects& e) -> double& { return std::get<DiskObstacle>(e.obstacles[0].shape).radius; }, {0.0, -1.0}},
-      {[](Effects& e) -> double& { return std::get<DiskObstacle>(e.obstacles[0].shape).centre[0]; }, {}},
+      {[](Effects& e) -> double& { return std::get<DiskObstacle>(e.obstacles[0]).radius; }, {0.0, -1.0}},
+      {[](Effects& e) -> double& { return std::get<DiskObstacle>(e.obstacles[0]).centre[0]; }, {}},
       {[](Effects& e) -> double& { return e.growth.emplace().rate; }, {-1.0}},
       {[&](Effects& e) -> double& { return within(e.growth.emplace().packing_fraction); }, {0.0, 1.1}},
       {[&](Effects& e) -> double& { return within(e.growth.emplace().reduced_pressure); }, {0.0}},
       {[](Effects& e) -> double& {
-         return e.thermostat = Thermostat{1.0, 1.0, {}}, e.thermostat->temperature;
+         return e.thermostat = Thermostat{1.0, 1.0}, e.thermostat->temperature;
        },
        {0.0, -1.0}},
       {[](Effects& e) -> double& {
-         return e.thermostat = Thermostat{1.0, 1.0, {}}, e.thermostat->rate;
+         return e.thermostat = Thermostat{1.0, 1.0}, e.thermostat->rate;
        },
        {-1.0}},
       {[](Effects& e) -> double& { return e.shear.emplace().rate; }, {}},
       {[](Effects& e) -> double& {
-         return e.square_well = SquareWell{1.5, 1.0, {}}, e.square_well->width;
+         return e.square_well = SquareWell{1.5, 1.0}, e.square_well->width;
        },
        {1.0, 0.5}},
       {[](Effects& e) -> double& {
-         return e.square_well = SquareWell{1.5, 1.0, {}}, e.square_well->depth;
+         return e.square_well = SquareWell{1.5, 1.0}, e.square_well->depth;
        },
        {}},
   };

@@ -13,7 +13,7 @@ namespace carom::test {
 namespace {
 
 Scene heated(Scene scene, double temperature, double rate) {
-  scene.effects.thermostat = Thermostat{temperature, rate, {}};
+  scene.effects.thermostat = Thermostat{temperature, rate};
   return scene;
 }
 
@@ -38,7 +38,7 @@ TEST(Thermostat, AtRateZeroLeavesTheSameBits) {
 }
 
 TEST(Thermostat, KicksAreThoseOfAPoissonProcessOfAllDisks) {
-  const Andersen andersen(Thermostat{2.0, 0.5, {}}, 10, 7);
+  const Andersen andersen(Thermostat{2.0, 0.5}, 10, 7);
   constexpr int kicks = 100'000;
   double time = 0.0, squares = 0.0;
   std::vector<int> of_disk(10);

@@ -232,14 +232,14 @@ TEST(ToldCollisions, AreNotToBeHadWhereVelocitiesDoNotTellEverything) {
   EXPECT_FALSE(tells([](Scene&) {}, "textbook"));
   EXPECT_TRUE(tells([](Scene& scene) {
     scene.effects.gravity = Gravity{};
-    scene.effects.square_well = SquareWell{1.5, 0.0, {}};
+    scene.effects.square_well = SquareWell{1.5, 0.0};
     scene.effects.collision.roughness = -1.0;
   })) << "nothing acts";
   EXPECT_FALSE(tells([](Scene& scene) { scene.effects.collision.rule = CollisionRule::reversal; }));
   EXPECT_FALSE(tells([](Scene& scene) { scene.effects.collision.roughness = 0.5; }));
-  EXPECT_FALSE(tells([](Scene& scene) { scene.effects.gravity = Gravity{{0.0, -1.0}, {}}; }));
-  EXPECT_FALSE(tells([](Scene& scene) { scene.effects.thermostat = Thermostat{1.0, 1.0, {}}; }));
-  EXPECT_FALSE(tells([](Scene& scene) { scene.effects.square_well = SquareWell{1.5, 0.1, {}}; }));
+  EXPECT_FALSE(tells([](Scene& scene) { scene.effects.gravity = Gravity{{0.0, -1.0}}; }));
+  EXPECT_FALSE(tells([](Scene& scene) { scene.effects.thermostat = Thermostat{1.0, 1.0}; }));
+  EXPECT_FALSE(tells([](Scene& scene) { scene.effects.square_well = SquareWell{1.5, 0.1}; }));
   Scene scene = gas_scene(30, 0.3, Boundary::walls);
   scene.run.collisions = 10;
   Simulation textbook = make_simulation(scene, "textbook");

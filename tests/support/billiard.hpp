@@ -10,17 +10,9 @@
 
 namespace carom::test {
 
-inline Obstacle fixed_disk(double x, double y, double radius) {
-  Obstacle obstacle;
-  obstacle.shape = DiskObstacle{{x, y}, radius};
-  return obstacle;
-}
+inline Obstacle fixed_disk(double x, double y, double radius) { return DiskObstacle{{x, y}, radius}; }
 
-inline Obstacle fixed_segment(Eigen::Vector2d from, Eigen::Vector2d to) {
-  Obstacle obstacle;
-  obstacle.shape = SegmentObstacle{from, to};
-  return obstacle;
-}
+inline Obstacle fixed_segment(Eigen::Vector2d from, Eigen::Vector2d to) { return SegmentObstacle{from, to}; }
 
 inline std::vector<Obstacle> polygon(const std::vector<Eigen::Vector2d>& corners) {
   std::vector<Obstacle> sides;
@@ -67,7 +59,7 @@ struct Billiard {
   [[nodiscard]] double clearance(const std::vector<Obstacle>& list) const {
     double least = infinity<double>;
     for (std::size_t o = 0; o < list.size(); ++o) {
-      const auto* disk = std::get_if<DiskObstacle>(&list[o].shape);
+      const auto* disk = std::get_if<DiskObstacle>(&list[o]);
       const double apart = obstacles.from_nearest_point(static_cast<std::int32_t>(o), r).norm();
       least = std::min(least, apart - radius - (disk ? disk->radius : 0.0));
     }

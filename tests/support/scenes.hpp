@@ -24,9 +24,6 @@ inline Species species_of(std::int64_t count, double radius, double mass, Positi
   species.mass = mass;
   species.positions = std::move(positions);
   species.velocities = std::move(velocities);
-  species.where = {"scene", 1, 1};
-  species.positions_where = {"scene", 2, 1};
-  species.velocities_where = {"scene", 3, 1};
   return species;
 }
 

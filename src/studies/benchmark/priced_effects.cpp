@@ -28,7 +28,7 @@ std::vector<Obstacle> pegs(const Scene& gas) {
       const double angle = 0.2618 * k;  // 15 degrees
       const Eigen::Vector2d peg = disks.col(i) + 0.62 * spacing * Eigen::Vector2d(std::cos(angle), std::sin(angle));
       if (!room(peg)) continue;
-      pegs.push_back({DiskObstacle{peg, radius}, {"bench", 0, 0}});
+      pegs.push_back(DiskObstacle{peg, radius});
       break;
     }
   }
@@ -73,7 +73,7 @@ Collision roughness(double beta) {
   return collision;
 }
 
-Gravity gravity(double downwards) { return {{0.0, -downwards}, {}}; }
+Gravity gravity(double downwards) { return {{0.0, -downwards}}; }
 
 /// Everything at its neutral value.
 Effects all_neutral(bool walled) {
@@ -82,8 +82,8 @@ Effects all_neutral(bool walled) {
   effects.collision.roughness = -1.0;
   effects.gravity = gravity(0.0);
   effects.growth = Growth{};
-  effects.thermostat = Thermostat{1.0, 0.0, {}};
-  effects.square_well = SquareWell{1.5, 0.0, {}};
+  effects.thermostat = Thermostat{1.0, 0.0};
+  effects.square_well = SquareWell{1.5, 0.0};
   if (walled)
     for (WallProperties& wall : effects.walls) wall.restitution = 1.0, wall.velocity = 0.0;
   return effects;
@@ -115,12 +115,12 @@ std::vector<PricedEffect> priced_effects(const Scene& gas) {
   pegged.obstacles = pegs(gas);
   all.push_back({"obstacles", "a small one for 100 disks", {}, pegged});
   all.push_back(
-      {"growth", "rate 0.0001 v_T/sigma", with(&Effects::growth, Growth{}), with(&Effects::growth, Growth{1e-4, {}, {}, {}})});
-  all.push_back({"thermostat", "rate 0.1 v_T/sigma", with(&Effects::thermostat, Thermostat{1.0, 0.0, {}}),
-                 with(&Effects::thermostat, Thermostat{1.0, 0.1, {}})});
-  all.push_back({"square_well", "width 1.5, depth 0.1 kT", with(&Effects::square_well, SquareWell{1.5, 0.0, {}}),
-                 with(&Effects::square_well, SquareWell{1.5, 0.1, {}})});
-  all.push_back({"shear", "rate 0.001 v_T/sigma", with(&Effects::shear, Shear{}), with(&Effects::shear, Shear{0.001, {}})});
+      {"growth", "rate 0.0001 v_T/sigma", with(&Effects::growth, Growth{}), with(&Effects::growth, Growth{.rate = 1e-4})});
+  all.push_back({"thermostat", "rate 0.1 v_T/sigma", with(&Effects::thermostat, Thermostat{1.0, 0.0}),
+                 with(&Effects::thermostat, Thermostat{1.0, 0.1})});
+  all.push_back({"square_well", "width 1.5, depth 0.1 kT", with(&Effects::square_well, SquareWell{1.5, 0.0}),
+                 with(&Effects::square_well, SquareWell{1.5, 0.1})});
+  all.push_back({"shear", "rate 0.001 v_T/sigma", with(&Effects::shear, Shear{}), with(&Effects::shear, Shear{0.001})});
   all.push_back({"all neutral together", "", all_neutral(false), {}});
   return all;
 }
