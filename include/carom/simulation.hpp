@@ -78,6 +78,8 @@ class Simulation {
 
   /// The exact state at time(), to rounding. Reading it never changes what follows.
   [[nodiscard]] State state() const;
+  /// The same into a state whose memory is used again: for loops that look often.
+  void state(State& state) const;
 
   /// Processes every event up to and including `time`. Requires time >= this->time(); an earlier time does nothing.
   /// Throws std::invalid_argument where time is not finite. The bits of the trajectory do not depend on where one stops. Stops

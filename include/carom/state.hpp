@@ -14,9 +14,9 @@ namespace carom {
 
 /// The constant properties of the disks. Every list has one entry per disk; the id of a disk is its index.
 struct Disks {
-  std::vector<double> radius;         ///< length, > 0
-  std::vector<double> mass;           ///< mass, > 0
-  std::vector<std::int32_t> species;  ///< index into Scene::species
+  std::vector<double> radius = {};         ///< length, > 0
+  std::vector<double> mass = {};           ///< mass, > 0
+  std::vector<std::int32_t> species = {};  ///< index into Scene::species
 
   /// Returns the number of disks.
   [[nodiscard]] std::size_t count() const { return radius.size(); }
@@ -38,18 +38,18 @@ struct WallState {
 /// The state of all disks at one instant. Column i belongs to disk i. The members after `remainders` are set in scenes with the
 /// effects that need them; in other scenes they keep the values below.
 struct State {
-  double time = 0.0;            ///< since the start of the measured run
-  Eigen::Matrix2Xd positions;   ///< 2 x N; length; on periodic axes inside [lower, upper)
-  Eigen::Matrix2Xd velocities;  ///< 2 x N; length / time
-  Images images;                ///< 2 x N; the unwrapped position is positions + images * box length (0 on walled axes)
+  double time = 0.0;                 ///< since the start of the measured run
+  Eigen::Matrix2Xd positions = {};   ///< 2 x N; length; on periodic axes inside [lower, upper)
+  Eigen::Matrix2Xd velocities = {};  ///< 2 x N; length / time
+  Images images = {};                ///< 2 x N; the unwrapped position is positions + images * box length (0 on walled axes)
   /// 2 x N; length; exact position minus `positions`. It is 2 x 0 where the engine knows no more than doubles hold.
-  Eigen::Matrix2Xd remainders;
+  Eigen::Matrix2Xd remainders = {};
 
-  Eigen::VectorXd spins;            ///< N angular velocities, 1 / time, counter-clockwise; length 0 where disks are smooth
-  double scale = 1.0;               ///< radii are scale * Disks::radius
-  std::vector<WallState> walls;     ///< left, right, bottom, top; empty where none of them moves
-  std::uint64_t bonds = 0;          ///< number of pairs within each other's square well
-  double shear_displacement = 0.0;  ///< offset of the images above from those below, in [0, length along x)
+  Eigen::VectorXd spins = {};         ///< N angular velocities, 1 / time, counter-clockwise; length 0 where disks are smooth
+  double scale = 1.0;                 ///< radii are scale * Disks::radius
+  std::vector<WallState> walls = {};  ///< left, right, bottom, top; empty where none of them moves
+  std::uint64_t bonds = 0;            ///< number of pairs within each other's square well
+  double shear_displacement = 0.0;    ///< offset of the images above from those below, in [0, length along x)
 };
 
 /// Returns the hash of a state: 16 hexadecimal digits, FNV-1a of 64 bits over the time and, for each disk in turn, its position,

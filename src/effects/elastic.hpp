@@ -34,6 +34,7 @@ class Elastic {
     totals.virial.add(impact.virial);
   }
 
+  [[nodiscard]] static bool spinning() { return false; }
   [[nodiscard]] static bool rests(std::int32_t /*i*/, double /*now*/) { return false; }
   static void touched(std::int32_t /*i*/, double /*now*/) {}
   static void rebase(double /*now*/) {}

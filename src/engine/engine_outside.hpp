@@ -8,8 +8,7 @@
 namespace carom {
 
 template <class Impact, class Layout, class World>
-State Engine<Impact, Layout, World>::state() const {
-  State state;
+void Engine<Impact, Layout, World>::state(State& state) const {
   look_at_velocities(state);
   state.positions.resize(2, count());
   state.images.resize(2, count());
@@ -24,14 +23,15 @@ State Engine<Impact, Layout, World>::state() const {
       state.images(k, column) = image;
     }
   }
+  state.shear_displacement = 0.0;
   if constexpr (!World::plain)
     if (world_.sheared()) state.shear_displacement = world_.sliding.reduced(now_);
+  state.bonds = 0;
+  state.spins.resize(impact_.spinning() ? count() : 0);
   if constexpr (!Impact::plain) {
     state.bonds = impact_.wells().pairs();
-    if (impact_.spinning()) state.spins.resize(count());
     for (std::int32_t i = 0; i < count() && impact_.spinning(); ++i) state.spins[id(i)] = impact_.spin(i);
   }
-  return state;
 }
 
 template <class Impact, class Layout, class World>
@@ -43,6 +43,7 @@ void Engine<Impact, Layout, World>::look_at_velocities(State& state) const {
     state.velocities.col(id(i)) << v[0], v[1];
   }
   state.scale = world_.scale(now_);
+  state.walls.clear();
   if constexpr (!World::plain) state.walls = world_.walls.states(now_);
 }
 

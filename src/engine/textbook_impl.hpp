@@ -82,14 +82,13 @@ void TextbookEngine<Real>::suit_grid() {
 }
 
 template <class Real>
-State TextbookEngine<Real>::state() const {
-  State state;
+void TextbookEngine<Real>::state(State& state) const {
   state.time = now().high;
   state.positions.resize(2, count());
   state.velocities.resize(2, count());
   state.images.resize(2, count());
   constexpr bool wide = std::numeric_limits<Real>::digits > std::numeric_limits<double>::digits;
-  if (wide) state.remainders.resize(2, count());
+  state.remainders.resize(2, wide ? count() : 0);
   for (std::int32_t i = 0; i < count(); ++i) {
     Vec2<Real> r = position(record(i), now_);
     state.images.col(i) = images_.col(i) + edges_.domain().wrap(r);
@@ -103,15 +102,12 @@ State TextbookEngine<Real>::state() const {
     if (wide) state.remainders.col(i) = (r - state.positions.col(i).template cast<Real>()).template cast<double>();
     state.velocities.col(i) = velocity(record(i), now_).template cast<double>();
   }
-  if (impact_.spinning()) {
-    state.spins.resize(count());
-    for (std::int32_t i = 0; i < count(); ++i) state.spins[i] = static_cast<double>(impact_.spin(i));
-  }
+  state.spins.resize(impact_.spinning() ? count() : 0);
+  for (std::int32_t i = 0; i < state.spins.size(); ++i) state.spins[i] = static_cast<double>(impact_.spin(i));
   state.scale = static_cast<double>(scale_ + growth_ * now_);
   state.walls = walls_.states(now_);
   state.bonds = impact_.wells().pairs();
-  if (edges_.sheared()) state.shear_displacement = edges_.displacement(now_);
-  return state;
+  state.shear_displacement = edges_.sheared() ? edges_.displacement(now_) : 0.0;
 }
 
 template <class Real>

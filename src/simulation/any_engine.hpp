@@ -53,9 +53,15 @@ class AnyEngine {
   /// Rounds sums, which takes a microsecond; counts() does not.
   [[nodiscard]] virtual Totals totals() const = 0;
   [[nodiscard]] virtual const Counts& counts() const = 0;
-  [[nodiscard]] virtual State state() const = 0;
+  /// The state at now(), into memory that is used again.
+  virtual void state(State& state) const = 0;
+  [[nodiscard]] State state() const {
+    State state;
+    this->state(state);
+    return state;
+  }
   /// Time, velocities, scale and walls of state(), into memory that is used again; the rest may be missing.
-  virtual void look_at_velocities(State& state) const { state = this->state(); }
+  virtual void look_at_velocities(State& state) const { this->state(state); }
   /// Something from outside changes how a disk moves, at now(); returns the energy that it gave. In a sheared box v is relative
   /// to the flow. Spins are left alone where disks are smooth.
   virtual double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) = 0;
@@ -130,10 +136,10 @@ class EngineAdapter final : public AnyEngine {
   [[nodiscard]] Instant now() const override { return engine_.now(); }
   [[nodiscard]] Totals totals() const override { return engine_.totals(); }
   [[nodiscard]] const Counts& counts() const override { return engine_.counts(); }
-  [[nodiscard]] State state() const override { return engine_.state(); }
+  void state(State& state) const override { engine_.state(state); }
   void look_at_velocities(State& state) const override {
     if constexpr (requires { engine_.look_at_velocities(state); }) return engine_.look_at_velocities(state);
-    state = engine_.state();
+    engine_.state(state);
   }
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
     if constexpr (requires { engine_.set_velocity(i, v, spin); }) return engine_.set_velocity(i, v, spin);

@@ -98,10 +98,9 @@ std::size_t DrivenEngine::bytes() const {
   return engine_->bytes() + sizeof(*this) + disks_.count() * (2 * sizeof(double) + sizeof(std::int32_t));
 }
 
-State DrivenEngine::state() const {
-  State state = engine_->state();
+void DrivenEngine::state(State& state) const {
+  engine_->state(state);
   if (at_end_scale_) state.scale = end_scale_;  // what was asked for, not its sum over epochs
-  return state;
 }
 
 void DrivenEngine::look_at_velocities(State& state) const {

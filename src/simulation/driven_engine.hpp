@@ -39,7 +39,8 @@ class DrivenEngine final : public WrappedEngine {
   [[nodiscard]] Instant grown_at() const override { return std::min(end_, full_); }
   [[nodiscard]] Totals totals() const override;
   [[nodiscard]] const Counts& counts() const override { return counts_; }
-  [[nodiscard]] State state() const override;
+  using AnyEngine::state;
+  void state(State& state) const override;
   void look_at_velocities(State& state) const override;
   void reset_clock() override;
   [[nodiscard]] std::size_t bytes() const override;

@@ -5,6 +5,7 @@
 
 #include "simulation/any_engine.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,13 @@ struct Simulation::Parts {
   std::unique_ptr<detail::AnyEngine> engine;
   std::string engine_reason = {};
   std::optional<double> time_step = {};  ///< of a fixed-step method
+  double smallest_radius = smallest_of(disks);
+
+  StopReason run_to(const Instant& target, std::uint64_t collision_limit);
+
+  [[nodiscard]] static double smallest_of(const Disks& disks) {
+    return disks.count() == 0 ? 0.0 : *std::min_element(disks.radius.begin(), disks.radius.end());
+  }
 };
 
 }  // namespace carom

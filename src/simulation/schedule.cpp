@@ -47,7 +47,7 @@ bool ends_by_growth(const std::optional<Growth>& growth) { return growth && grow
 
 class Schedule {
  public:
-  Schedule(const Scene& scene, detail::AnyEngine& engine, const Disks& disks, const RunHooks& hooks)
+  Schedule(const Scene& scene, detail::AnyEngine& engine, const Disks& disks, double smallest_radius, const RunHooks& hooks)
       : run_(scene.run),
         effects_(scene.effects),
         engine_(engine),
@@ -56,7 +56,7 @@ class Schedule {
         sample_collisions_(run_.sample_every_collisions.value_or(no_limit)),
         block_collisions_(std::max<std::uint64_t>(16, disks.count() / 2)),
         disks_(disks),
-        standstill_(disks, effects_),
+        standstill_(disks.count(), smallest_radius, effects_),
         moving_as_one_(scene, disks) {}
   Schedule(const Schedule&) = delete;
   Schedule& operator=(const Schedule&) = delete;
@@ -255,12 +255,11 @@ class Schedule {
     };
     const bool positions = std::ranges::any_of(
         grids_, [&](const Grid& grid) { return looks(grid) && (grid.hook == nullptr || !grid.hook->velocities_alone); });
-    State whole;
     if (positions)
-      whole = engine_.state();
+      engine_.state(whole_);
     else if (std::ranges::any_of(grids_, looks))
       engine_.look_at_velocities(moving_);
-    State& state = positions ? whole : moving_;
+    State& state = positions ? whole_ : moving_;
     state.time = when.high;  // the product itself, not what the engine's clock makes of it
     if (!is_finite(state)) return false;
     for (Grid& grid : grids_) {
@@ -291,9 +290,9 @@ class Schedule {
   bool take_counted_sample() {
     const std::uint64_t k = engine_.counts().pair / sample_collisions_;
     if (hooks_.sample) {
-      const State state = engine_.state();
-      if (!is_finite(state)) return false;
-      hooks_.sample(k, state);
+      engine_.state(whole_);
+      if (!is_finite(whole_)) return false;
+      hooks_.sample(k, whole_);
     }
     ++result_.samples;
     counted_ = k + 1;
@@ -441,7 +440,7 @@ class Schedule {
   bool ends_by_time_ = false;
   Clock::time_point last_look_ = Clock::now();
   std::vector<Grid> grids_;
-  State moving_;               ///< of samples that look at velocities alone, kept for its memory
+  State whole_, moving_;       ///< of samples, and of those that look at velocities alone; kept for their memory
   std::exception_ptr thrown_;  ///< by hooks_.collisions
   std::vector<Event> events_;  ///< kept from batch to batch for its memory
   RunResult result_;
@@ -463,7 +462,7 @@ RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   for (const SamplingGrid& grid : hooks.grids)
     if (!(grid.step > 0.0 && std::isfinite(grid.step)))
       throw std::invalid_argument("the step of a sampling grid must be positive and finite");
-  return Schedule(parts.scene, *parts.engine, parts.disks, hooks)();
+  return Schedule(parts.scene, *parts.engine, parts.disks, parts.smallest_radius, hooks)();
 }
 
 }  // namespace carom

@@ -20,19 +20,19 @@ namespace {
 /// Events between two looks at the clock: some tenths of a second.
 constexpr std::uint64_t stretch_events = 1'000'000;
 
-StopReason run_to(detail::AnyEngine& engine, const Disks& disks, const Effects& effects, const Instant& target,
-                  std::uint64_t collision_limit) {
+}  // namespace
+
+StopReason Simulation::Parts::run_to(const Instant& target, std::uint64_t collision_limit) {
   if (!std::isfinite(target.high) || !std::isfinite(target.low))
     throw std::invalid_argument("a simulation runs to a finite time only");
-  for (detail::Standstill standstill(disks, effects); !engine.run_until(target, collision_limit, stretch_events);) {
-    if (const auto reason = detail::why_stopped(engine, effects)) return *reason;
-    if (engine.counts().pair >= collision_limit) return StopReason::collisions;
-    if (const auto reason = standstill.reached(engine, {target, collision_limit})) return *reason;
+  detail::Standstill standstill(disks.count(), smallest_radius, scene.effects);
+  while (!engine->run_until(target, collision_limit, stretch_events)) {
+    if (const auto reason = detail::why_stopped(*engine, scene.effects)) return *reason;
+    if (engine->counts().pair >= collision_limit) return StopReason::collisions;
+    if (const auto reason = standstill.reached(*engine, {target, collision_limit})) return *reason;
   }
   return StopReason::time;
 }
-
-}  // namespace
 
 Simulation::Simulation(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -49,13 +49,14 @@ double Simulation::time() const { return parts_->engine->now().high; }
 Totals Simulation::totals() const { return parts_->engine->totals(); }
 const Counts& Simulation::counts() const { return parts_->engine->counts(); }
 State Simulation::state() const { return parts_->engine->state(); }
+void Simulation::state(State& state) const { parts_->engine->state(state); }
 
 StopReason Simulation::run_until(double time, std::uint64_t collision_limit) {
-  return run_to(*parts_->engine, parts_->disks, parts_->scene.effects, {time, 0.0}, collision_limit);
+  return parts_->run_to({time, 0.0}, collision_limit);
 }
 
 StopReason Simulation::run_until_sample(std::uint64_t k, double dt, std::uint64_t collision_limit) {
-  return run_to(*parts_->engine, parts_->disks, parts_->scene.effects, Instant::product(k, dt), collision_limit);
+  return parts_->run_to(Instant::product(k, dt), collision_limit);
 }
 
 void Simulation::reset_clock() { parts_->engine->reset_clock(); }

@@ -27,11 +27,9 @@ struct RunEnd {
 
 class Standstill {
  public:
-  Standstill(const Disks& disks, const Effects& effects)
-      : disks_(disks.count()),
-        smallest_(disks_ == 0 ? 0.0 : *std::min_element(disks.radius.begin(), disks.radius.end())),
-        effects_(effects),
-        mark_at_(first_mark()) {}
+  /// `smallest`: the smallest radius of the `disks`, which to find takes longer than an event.
+  Standstill(std::size_t disks, double smallest, const Effects& effects)
+      : disks_(disks), smallest_(smallest), effects_(effects), mark_at_(first_mark()) {}
 
   /// Asked now and then: why the run will not come to its end, or nothing.
   [[nodiscard]] std::optional<StopReason> reached(const AnyEngine& engine, const RunEnd& end) {

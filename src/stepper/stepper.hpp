@@ -59,9 +59,15 @@ class Stepper {
   [[nodiscard]] std::size_t bytes() const { return bodies_.bytes() + step_.bytes(); }
 
   [[nodiscard]] State state() const {
+    State state;
+    this->state(state);
+    return state;
+  }
+  /// The same into memory that is used again.
+  void state(State& state) const {
     Bodies seen = bodies_;
     const double since_step = steps_ == 0 ? 0.0 : now_.template since<double>(Instant::product(steps_ - 1, dt_));
-    State state;
+    state = {.positions = std::move(state.positions), .velocities = std::move(state.velocities)};
     state.time = now_.high;
     const auto disks = static_cast<Eigen::Index>(seen.count());
     state.positions.resize(2, disks);
@@ -73,7 +79,6 @@ class Stepper {
       state.velocities.col(column) = seen.v[i];
     }
     state.images = seen.images;
-    return state;
   }
 
   /// Puts the clock back to an earlier time, since which no step was taken.

@@ -57,6 +57,36 @@ TEST(Simulation, AnEarlierTimeDoesNothing) {
   EXPECT_TRUE(same_bits(simulation.state(), before));
 }
 
+TEST(Simulation, StatesAreTheSameInMemoryThatIsUsedAgain) {
+  Scene rich = gas_scene(16, 0.2, Boundary::walls);
+  rich.effects.collision.roughness = 0.5;
+  rich.effects.walls[1] = {.velocity = 0.1};
+  State used;
+  used.bonds = 7;
+  used.shear_displacement = 0.5;
+  const auto expect_same = [&](const Simulation& simulation) {
+    simulation.state(used);
+    const State fresh = simulation.state();
+    EXPECT_TRUE(same_bits(used, fresh));
+    EXPECT_TRUE(same_bits(used.remainders, fresh.remainders));
+    EXPECT_EQ(used.spins, fresh.spins);
+    EXPECT_EQ(used.scale, fresh.scale);
+    EXPECT_EQ(used.walls.size(), fresh.walls.size());
+    EXPECT_EQ(used.bonds, fresh.bonds);
+    EXPECT_EQ(used.shear_displacement, fresh.shear_displacement);
+  };
+  for (const std::string& engine : engine_names()) {
+    SCOPED_TRACE(engine);
+    if (engine != "fast") expect_same(make_simulation(rich, engine));
+    expect_same(make_simulation(gas_scene(16, 0.4, Boundary::walls), engine));
+    const double* memory = used.positions.data();
+    expect_same(make_simulation(gas_scene(16, 0.3, Boundary::walls), engine));
+    EXPECT_EQ(used.positions.data(), memory);
+  }
+  expect_same(make_simulation(rich, "general"));
+  expect_same(make_simulation(gas_scene(16, 0.4, Boundary::walls), FixedStep{"guarded", 0.01}));
+}
+
 TEST(Simulation, TimesThatAreNotFiniteAreRefused) {
   Simulation simulation = make_simulation(gas_scene(16, 0.4, Boundary::walls));
   const double infinite = std::numeric_limits<double>::infinity();
