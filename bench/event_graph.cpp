@@ -62,7 +62,8 @@ class Study {
     std::vector<Event> batch;
     while (done_ < events_) {
       const auto limit = static_cast<std::uint64_t>(std::min(events_, done_ + 100'000));
-      if (simulation_.run_until(1e9, limit) != StopReason::collisions) throw std::runtime_error("the run has ended early");
+      if (simulation_.run_until(1e9, {.collisions = limit}) != StopReason::collisions)
+        throw std::runtime_error("the run has ended early");
       simulation_.take_events(batch);
       for (const Event& event : batch) add(event);
     }
@@ -141,7 +142,7 @@ ordered_json heard_of(Simulation& simulation) {
   std::array<std::vector<double>, 4> times;
   simulation.record_events(false);
   for (int start = 0; start < starts; ++start) {
-    simulation.run_until(1e9, simulation.totals().pair + static_cast<std::uint64_t>(simulation.disks().count()));
+    simulation.run_until(1e9, {.collisions = simulation.totals().pair + static_cast<std::uint64_t>(simulation.disks().count())});
     for (std::size_t w = 0; w < widths.size(); ++w)
       times[w].push_back(time_until_heard_of(scene, simulation.state(), halves, 0, widths[w], end));
   }
@@ -163,7 +164,7 @@ ordered_json heard_of(Simulation& simulation) {
 ordered_json study(std::int64_t disks, double packing_fraction) {
   Simulation simulation = make_simulation(test::gas_scene(disks, packing_fraction, Boundary::periodic));
   // 20 collisions per disk leave no trace of the lattice in the fluid; at 0.7 it is slow to melt.
-  simulation.run_until(1e9, static_cast<std::uint64_t>(10 * disks));
+  simulation.run_until(1e9, {.collisions = static_cast<std::uint64_t>(10 * disks)});
   simulation.reset_clock();
   Study study(simulation);
   study.run();

@@ -61,7 +61,7 @@ void observing(benchmark::State& state, const std::vector<std::string>& observab
   const Scene scene = scene_with(observables, 0.01 * static_cast<double>(state.range(0)), state.range(1));
   const auto begun = [&] {
     Simulation simulation = make_simulation(scene);
-    simulation.run_until(1e6, collisions / 4);
+    simulation.run_until(1e6, {.collisions = collisions / 4});
     simulation.reset_clock();
     return simulation;
   };

@@ -207,9 +207,9 @@ void study(const Scene& scene, double collisions_per_disk, const std::vector<dou
     throw std::invalid_argument(
         "the scene must have a periodic box, disks of one radius, the rule \"specular\" and no other effect");
 
-  gas.run_until(1e300, static_cast<std::uint64_t>(100.0 * count));
+  gas.run_until(1e300, {.collisions = static_cast<std::uint64_t>(100.0 * count)});
   const double began = gas.time();
-  gas.run_until(1e300, static_cast<std::uint64_t>(600.0 * count));
+  gas.run_until(1e300, {.collisions = static_cast<std::uint64_t>(600.0 * count)});
   const double free_time = (gas.time() - began) * count / (2.0 * 500.0 * count);
   const double end = collisions_per_disk * free_time, long_end = collisions_for_Z * free_time;
 
@@ -220,7 +220,7 @@ void study(const Scene& scene, double collisions_per_disk, const std::vector<dou
     Scene seeded = scene;
     seeded.run.seed = scene.run.seed + k;
     Simulation equilibrating = make_simulation(seeded);
-    equilibrating.run_until(1e300, static_cast<std::uint64_t>(50.0 * count));
+    equilibrating.run_until(1e300, {.collisions = static_cast<std::uint64_t>(50.0 * count)});
     equilibrating.run_until(equilibrating.time() + 0.1 * free_time / count);  // clear of contact
     const State state = equilibrating.state();
     from.push_back({state, Reference(scene, state, end, 1, [] { return true; }),

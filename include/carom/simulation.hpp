@@ -30,6 +30,8 @@ class AnyEngine;
 enum class StopReason {
   time,         ///< the time asked for was reached
   collisions,   ///< the number of pair collisions asked for was reached
+  events,       ///< the number of events asked for was reached
+  condition,    ///< the caller's `stop_when` said stop
   interrupted,  ///< the caller's `proceed` said stop
   jammed,  ///< time has stopped: disks touch and have no room to move that numbers could tell (docs/hard-cases.md says after how
            ///< many events), or have grown until one of them fills the box
@@ -44,7 +46,7 @@ enum class StopReason {
   invalid_state,  ///< check_invariants() found a fault, or a number is not finite: RunResult::faults says which
 };
 
-/// "time", "collisions", "interrupted", "jammed", "collapsed", "overheated", "cooled", "grown", "at_rest",
+/// "time", "collisions", "events", "condition", "interrupted", "jammed", "collapsed", "overheated", "cooled", "grown", "at_rest",
 /// "no_collisions", "invalid_state"
 std::string to_string(StopReason reason);
 
@@ -52,6 +54,19 @@ std::string to_string(StopReason reason);
 struct FixedStep {
   std::string method = "guarded";  ///< a name of fixed_step_names()
   double dt = 0.0;                 ///< time, > 0
+};
+
+/// What ends Simulation::run_until() before its time. A fixed-step method knows `collisions` alone, and ends after the step that
+/// reaches them.
+struct RunLimits {
+  static constexpr auto none = std::numeric_limits<std::uint64_t>::max();
+
+  std::uint64_t collisions = none;  ///< of pairs, since the zero of time: Counts::pair
+  std::uint64_t events = none;      ///< of any kind, since the zero of time: Counts::events()
+  /// Called after every event; the run ends at the event for which it is true. It may look at the simulation, which stands at the
+  /// event, and change it as a program may between two calls of run_until(). With it the engine is entered anew for every event,
+  /// which takes several times as long.
+  std::function<bool(const Event& event)> stop_when = {};
 };
 
 class Simulation {
@@ -82,13 +97,18 @@ class Simulation {
   void state(State& state) const;
 
   /// Processes every event up to and including `time`. Requires time >= this->time(); an earlier time does nothing.
-  /// Throws std::invalid_argument where time is not finite. The bits of the trajectory do not depend on where one stops. Stops
-  /// early, at the collision itself, when totals().pair reaches `collision_limit`.
-  StopReason run_until(double time, std::uint64_t collision_limit = std::numeric_limits<std::uint64_t>::max());
+  /// Stops early, at the event itself, where a limit says so. The bits of the trajectory do not depend on where one stops. Takes
+  /// constant time beside its events. Throws std::invalid_argument where time is not finite, or the method does not know a limit.
+  StopReason run_until(double time, const RunLimits& limits = {});
 
   /// The same up to k * dt, the product taken exactly: grid times do not drift however large k is.
-  StopReason run_until_sample(std::uint64_t k, double dt,
-                              std::uint64_t collision_limit = std::numeric_limits<std::uint64_t>::max());
+  StopReason run_until_sample(std::uint64_t k, double dt, const RunLimits& limits = {});
+
+  /// Goes to the next event, if there is one up to and including `until`, and returns it: a collision with a disk, a wall or an
+  /// obstacle, the edge of a well, or a kick of the thermostat (Event::partner says which). Otherwise goes to `until`, where that
+  /// is finite, and returns nothing. So it does too where the simulation cannot go on; run_until() says why. Throws
+  /// std::logic_error for a fixed-step method, which has no events.
+  std::optional<Event> step(double until = std::numeric_limits<double>::infinity());
 
   /// Makes now the zero of time and forgets all totals. The state stays.
   void reset_clock();
@@ -208,7 +228,11 @@ struct RunHooks {
   std::function<void(const Progress& progress)> block;    ///< after about every collision per disk, at collisions
   std::vector<SamplingGrid> grids;                        ///< of equal steps the first comes first
   std::function<bool(const Progress& progress)> proceed;  ///< several times a second; false stops the run
-  std::uint64_t verify_every = 0;                         ///< events from one check_invariants() to the next; 0 for no checks
+  /// Called after every collision of the measured run, before it is handed on; the run ends at the collision for which it is
+  /// true, the same one on every machine. With it the engine is entered anew for every event, which takes several times as long.
+  /// Not for fixed-step methods.
+  std::function<bool(const Event& event)> stop_when;
+  std::uint64_t verify_every = 0;  ///< events from one check_invariants() to the next; 0 for no checks
   /// Every few thousand events, after all that has happened so far was handed on; and when the run ends.
   std::function<void(const SavingMoment& moment)> checkpoint;
   /// What SavingMoment::save() wrote: the schedule goes on from there, without `start`. Requires the grids that were there then,
@@ -229,7 +253,7 @@ struct RunResult {
 /// Runs the scene's whole schedule: equilibrate, reset the clock, then sample until time or collisions are reached.
 /// Requires a simulation at time 0, as make_simulation returns it, or with hooks.resume one that was restored to the moment at
 /// which the schedule was saved; its scene may have another end by then. Ends with event recording off.
-/// Throws SceneError where scene().run has no end.
+/// Throws SceneError where scene().run has no end, and std::invalid_argument for a hook that this simulation does not have.
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks = {});
 
 }  // namespace carom

@@ -63,6 +63,10 @@ enum Wall : std::int32_t { wall_left = -1, wall_right = -2, wall_bottom = -3, wa
 /// The partner's id in an event with obstacle k of the scene is first_obstacle - k.
 inline constexpr std::int32_t first_obstacle = -1000;
 
+/// The partner's id in an event of a thermostat, which has given the disk a new velocity, relative to the flow in a sheared box.
+/// Simulation::step() returns such events; the event log does not hold them.
+inline constexpr std::int32_t thermostat_kick = -500;
+
 /// One collision in the event log.
 struct Event {
   double time = 0.0;                                   ///< since the start of the measured run, rounded to double
@@ -98,6 +102,9 @@ struct Counts {
   std::uint64_t well = 0;        ///< passages of the edge of a square well, and bounces there
   std::uint64_t thermostat = 0;  ///< velocities redrawn by a thermostat
   Numerics numerics;
+
+  /// The number of all events that change a velocity: collisions with disks, walls and obstacles, edges of wells, and kicks.
+  [[nodiscard]] std::uint64_t events() const { return pair + wall + obstacle + well + thermostat; }
 };
 
 /// Counts and sums over all events since the start of the measured run. Each sum is exact until it is rounded once at the end: it

@@ -80,6 +80,10 @@ std::string why_stopped(const RunReport& report, const Scene* scene) {
     case StopReason::collisions:
       return fmt::format("after {} pair collisions, as requested",
                          grouped(scene != nullptr ? scene->run.collisions.value_or(report.totals.pair) : report.totals.pair));
+    case StopReason::events:
+      return "after the events asked for";
+    case StopReason::condition:
+      return "the condition of the program was met";
     case StopReason::interrupted:
       return report.measured ? "interrupted; everything up to here is saved" : "interrupted during equilibration";
     case StopReason::jammed:

@@ -7,8 +7,6 @@
 
 namespace carom::detail {
 
-[[nodiscard]] inline std::uint64_t all_events(const Counts& counts) {
-  return counts.pair + counts.wall + counts.other + counts.stale + counts.obstacle + counts.well + counts.thermostat;
-}
+[[nodiscard]] inline std::uint64_t all_events(const Counts& counts) { return counts.events() + counts.other + counts.stale; }
 
 }  // namespace carom::detail

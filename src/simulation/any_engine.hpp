@@ -79,6 +79,8 @@ class AnyEngine {
     take_events(events);
     return events;
   }
+  /// The last velocity that a thermostat has redrawn, as an event whose partner is thermostat_kick.
+  [[nodiscard]] virtual Event last_kick() const { return {}; }
   /// Whether listen() is there: engine/note_listener.hpp.
   [[nodiscard]] virtual bool tells_collisions() const { return false; }
   /// Tells of collisions of pairs from now on, all so far by each hand_over_notes(); an empty listener ends that.

@@ -179,6 +179,7 @@ void DrivenEngine::kick() {
   const Eigen::Vector2d v = andersen_.velocity(next_, disks_.mass[disk]);
   const double spin = spinning_ ? andersen_.spin(next_, moment_of_inertia(disk)) : 0.0;
   kick_energy_.add(engine_->set_velocity(next_.disk, v, spin));
+  last_kick_ = {.time = now().high, .time_remainder = now().low, .disk = next_.disk, .partner = thermostat_kick, .velocity = v};
   ++counted_kicks_;
   next_ = andersen_.kick(++kicks_);
   kick_time_ = kick_time_.plus(next_.wait);

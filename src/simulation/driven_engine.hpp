@@ -43,6 +43,7 @@ class DrivenEngine final : public WrappedEngine {
   void state(State& state) const override;
   void look_at_velocities(State& state) const override;
   void reset_clock() override;
+  [[nodiscard]] Event last_kick() const override { return last_kick_; }
   [[nodiscard]] std::size_t bytes() const override;
   void save(SavingArchive& archive) const override;
   void load(LoadingArchive& archive) override;
@@ -77,6 +78,7 @@ class DrivenEngine final : public WrappedEngine {
   std::uint64_t kicks_ = 0;  ///< ever
   Kick next_;                ///< number kicks_
   Instant kick_time_ = forever;
+  Event last_kick_;
 
   double growth_rate_;
   double start_scale_ = 1.0;        ///< when the clock stood at 0

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace carom {
 
@@ -34,7 +35,15 @@ struct Simulation::Parts {
   std::optional<double> time_step = {};  ///< of a fixed-step method
   double smallest_radius = smallest_of(disks);
 
-  StopReason run_to(const Instant& target, std::uint64_t collision_limit);
+  bool recording = false;          ///< events, for the user
+  std::vector<Event> events = {};  ///< recorded and not yet taken, before those that the engine has
+  std::vector<Event> last = {};    ///< of next_event(), kept for its memory
+
+  /// Simulation::run_until() for an exact time.
+  StopReason run_to(const Instant& target, const RunLimits& limits);
+  /// Goes to the next event, unless `target` or the limit of collisions comes first or the engine cannot go on. `arrived`:
+  /// whether it stands at the target.
+  std::optional<Event> next_event(const Instant& target, std::uint64_t collision_limit, bool& arrived);
 
   [[nodiscard]] static double smallest_of(const Disks& disks) {
     return disks.count() == 0 ? 0.0 : *std::min_element(disks.radius.begin(), disks.radius.end());

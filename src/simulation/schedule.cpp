@@ -135,7 +135,7 @@ class Schedule {
     measuring_ = true;
     next_block_ = block_collisions_;
     if (hooks_.start) hooks_.start(engine_.state());
-    record_events(static_cast<bool>(hooks_.events));
+    record_events(hooks_.events || hooks_.stop_when);
     listen();
   }
 
@@ -166,7 +166,7 @@ class Schedule {
   void restore() {
     LoadingArchive archive(*hooks_.resume);
     archive(*this);
-    engine_.record_events(recording_);
+    record_events(recording_ || (measuring_ && hooks_.stop_when));
     if (measuring_) listen();
   }
 
@@ -309,7 +309,7 @@ class Schedule {
       if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(false));
       const bool arrived = run_stretch(target, std::min(collisions, next_block_));
       if (stands_ && !recording_) record_events(true);  // to be able to say who collides without end
-      if (recording_) take_events();
+      const bool is_met = recording_ && take_events();
       hand_over_notes();
       if (hooks_.verify_every > 0 && since_verified_ >= hooks_.verify_every && !verify()) return false;
       if (engine_.counts().pair >= next_block_) {
@@ -317,6 +317,7 @@ class Schedule {
         next_block_ += block_collisions_;
       }
       if (!engine_.fault().empty()) return stop(StopReason::invalid_state);
+      if (is_met) return stop(StopReason::condition);
       if (engine_.counts().pair >= collisions) return stop(StopReason::collisions);
       if (arrived && target < forever) return true;
       if (const auto reason = detail::why_stopped(engine_, effects_)) return stop(*reason);
@@ -332,8 +333,10 @@ class Schedule {
     const std::uint64_t before = detail::all_events(engine_.counts()), epochs = engine_.counts().numerics.epochs;
     const Instant began = engine_.now();
     const auto started = Clock::now();
-    const std::uint64_t limit =
-        std::min({recording_ ? recorded_events : stretch_events, until_verified(), moving_as_one_.until_look(engine_.counts())});
+    const std::uint64_t limit = std::min({hooks_.stop_when && measuring_ ? 1
+                                          : recording_                   ? recorded_events
+                                                                         : stretch_events,
+                                          until_verified(), moving_as_one_.until_look(engine_.counts())});
     const bool arrived = engine_.run_until(target, pair_limit, limit);
     result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
     const std::uint64_t events = detail::all_events(engine_.counts()) - before;
@@ -375,16 +378,19 @@ class Schedule {
     return stop(StopReason::invalid_state);
   }
 
-  void take_events() {
+  /// Whether the condition for the end of the run is met.
+  bool take_events() {
     engine_.take_events(events_);
-    if (events_.empty()) return;
+    if (events_.empty()) return false;
     for (const Event& event : events_) {
       if (!stands_) break;
       standing_.push_back(event.disk);
       if (event.partner >= 0) standing_.push_back(event.partner);
     }
     sort_out(standing_);
+    const bool is_met = hooks_.stop_when && measuring_ && std::ranges::any_of(events_, hooks_.stop_when);
     if (hooks_.events && !equilibrating_) hooks_.events(events_);
+    return is_met;
   }
 
   void hand_over_notes() {
@@ -459,6 +465,8 @@ RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   if (!parts.scene.run.time && !parts.scene.run.collisions) throw SceneError({}, detail::endless_run);
   if (hooks.collisions && !simulation.tells_collisions())
     throw std::invalid_argument("this simulation does not tell of collisions; see Simulation::tells_collisions()");
+  if (hooks.stop_when && simulation.time_step())
+    throw std::invalid_argument("a fixed-step method ends at a time or a number of collisions of pairs only");
   for (const SamplingGrid& grid : hooks.grids)
     if (!(grid.step > 0.0 && std::isfinite(grid.step)))
       throw std::invalid_argument("the step of a sampling grid must be positive and finite");

@@ -9,6 +9,7 @@
 #include "simulation/start.hpp"
 #include "simulation/velocities_tell_contacts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -22,16 +23,44 @@ constexpr std::uint64_t stretch_events = 1'000'000;
 
 }  // namespace
 
-StopReason Simulation::Parts::run_to(const Instant& target, std::uint64_t collision_limit) {
+StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& limits) {
   if (!std::isfinite(target.high) || !std::isfinite(target.low))
     throw std::invalid_argument("a simulation runs to a finite time only");
+  if (time_step && (limits.events != RunLimits::none || limits.stop_when))
+    throw std::invalid_argument("a fixed-step method ends at a time or a number of collisions of pairs only");
   detail::Standstill standstill(disks.count(), smallest_radius, scene.effects);
-  while (!engine->run_until(target, collision_limit, stretch_events)) {
+  for (;;) {
+    const std::uint64_t happened = engine->counts().events();
+    if (happened >= limits.events) return StopReason::events;
+    bool arrived = false;
+    if (limits.stop_when) {
+      const std::optional<Event> event = next_event(target, limits.collisions, arrived);
+      if (event && limits.stop_when(*event)) return StopReason::condition;
+    } else {
+      arrived = engine->run_until(target, limits.collisions, std::min(stretch_events, limits.events - happened));
+    }
+    if (arrived) return StopReason::time;
     if (const auto reason = detail::why_stopped(*engine, scene.effects)) return *reason;
-    if (engine->counts().pair >= collision_limit) return StopReason::collisions;
-    if (const auto reason = standstill.reached(*engine, {target, collision_limit})) return *reason;
+    if (engine->counts().pair >= limits.collisions) return StopReason::collisions;
+    if (const auto reason = standstill.reached(*engine, {target, limits.collisions})) return *reason;
   }
-  return StopReason::time;
+}
+
+std::optional<Event> Simulation::Parts::next_event(const Instant& target, std::uint64_t collision_limit, bool& arrived) {
+  const Counts before = engine->counts();
+  const auto may_go_on = [&] {
+    const Counts& now = engine->counts();
+    return !arrived && now.events() == before.events() && now.pair < collision_limit &&
+           !detail::why_stopped(*engine, scene.effects);
+  };
+  if (!recording) engine->record_events(true);
+  do arrived = engine->run_until(target, collision_limit, 1);
+  while (may_go_on());
+  if (!recording) engine->record_events(false);
+  engine->take_events(last);
+  if (recording) events.insert(events.end(), last.begin(), last.end());
+  if (engine->counts().thermostat > before.thermostat) return engine->last_kick();
+  return last.empty() ? std::nullopt : std::optional(last.back());
 }
 
 Simulation::Simulation(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -51,18 +80,32 @@ const Counts& Simulation::counts() const { return parts_->engine->counts(); }
 State Simulation::state() const { return parts_->engine->state(); }
 void Simulation::state(State& state) const { parts_->engine->state(state); }
 
-StopReason Simulation::run_until(double time, std::uint64_t collision_limit) {
-  return parts_->run_to({time, 0.0}, collision_limit);
+StopReason Simulation::run_until(double time, const RunLimits& limits) { return parts_->run_to({time, 0.0}, limits); }
+
+StopReason Simulation::run_until_sample(std::uint64_t k, double dt, const RunLimits& limits) {
+  return parts_->run_to(Instant::product(k, dt), limits);
 }
 
-StopReason Simulation::run_until_sample(std::uint64_t k, double dt, std::uint64_t collision_limit) {
-  return parts_->run_to(Instant::product(k, dt), collision_limit);
+std::optional<Event> Simulation::step(double until) {
+  if (parts_->time_step) throw std::logic_error("a fixed-step method has no events to go to one by one; use run_until()");
+  if (std::isnan(until)) throw std::invalid_argument("a simulation runs to a time only, and NaN is none");
+  bool arrived = false;
+  return parts_->next_event(std::isinf(until) && until > 0.0 ? forever : Instant{until, 0.0}, RunLimits::none, arrived);
 }
 
 void Simulation::reset_clock() { parts_->engine->reset_clock(); }
-void Simulation::record_events(bool on) { parts_->engine->record_events(on); }
-std::vector<Event> Simulation::take_events() { return parts_->engine->take_events(); }
-void Simulation::take_events(std::vector<Event>& events) { parts_->engine->take_events(events); }
+void Simulation::record_events(bool on) { parts_->engine->record_events(parts_->recording = on); }
+std::vector<Event> Simulation::take_events() {
+  std::vector<Event> events;
+  take_events(events);
+  return events;
+}
+void Simulation::take_events(std::vector<Event>& events) {
+  parts_->engine->take_events(events);
+  if (parts_->events.empty()) return;
+  events.insert(events.begin(), parts_->events.begin(), parts_->events.end());
+  parts_->events.clear();
+}
 bool Simulation::tells_collisions() const {
   const Effects& effects = parts_->scene.effects;
   return parts_->engine->tells_collisions() && velocities_tell_contacts(effects) &&
@@ -112,6 +155,10 @@ std::string to_string(StopReason reason) {
       return "time";
     case StopReason::collisions:
       return "collisions";
+    case StopReason::events:
+      return "events";
+    case StopReason::condition:
+      return "condition";
     case StopReason::interrupted:
       return "interrupted";
     case StopReason::jammed:

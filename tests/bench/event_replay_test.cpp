@@ -28,7 +28,7 @@ Recorded recorded_gas(std::int64_t disks, std::uint64_t collisions) {
   Simulation simulation = make_simulation(test::gas_scene(disks, 0.4, Boundary::periodic));
   Recorded run{simulation.scene().box, simulation.state(), {}};
   simulation.record_events(true);
-  simulation.run_until(1e9, collisions);
+  simulation.run_until(1e9, {.collisions = collisions});
   run.events = simulation.take_events();
   return run;
 }

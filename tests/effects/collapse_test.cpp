@@ -240,7 +240,7 @@ TEST(Cooling, OfGrowingDisksLeavesTheEnergyInTheirMotionAgainstEachOther) {
     scene.effects.collision.restitution = 0.5;
     scene.effects.growth = Growth{.rate = 1e-5};
     Simulation simulation = make_simulation(scene, engine);
-    ASSERT_EQ(simulation.run_until(1e4, 4000), StopReason::collisions);
+    ASSERT_EQ(simulation.run_until(1e4, {.collisions = 4000}), StopReason::collisions);
     const State end = simulation.state();
     EXPECT_LT(end.velocities.rowwise().mean().cwiseAbs().maxCoeff(), 0x1p-36 * mean_speed(end)) << engine;
   }

@@ -62,7 +62,7 @@ TEST(Gravity, KeepsEnergyAndTheBalanceOfForcesToRounding) {
       Simulation simulation = make_simulation(scene, engine);
       const double energy = energy_of(simulation);
       const V momentum = total_momentum(simulation.disks(), simulation.state());
-      simulation.run_until(1e9, 85'000);
+      simulation.run_until(1e9, {.collisions = 85'000});
       EXPECT_GT(simulation.totals().pair + simulation.totals().wall, 100'000U);
       EXPECT_NEAR(energy_of(simulation) / energy, 1.0, 1e-11) << "1e-10 is the promise over 1e6 events";
       double mass = 0.0;
@@ -252,7 +252,7 @@ TEST(Gravity, AGasKeepsItsEnergyAsRoundingThatPrefersNoSideDoes) {
     Scene scene = falling(mixture_scene(16, 0.2, Boundary::walls), {0.0, -1.7});
     Simulation simulation = make_simulation(scene, engine);
     const double energy = energy_of(simulation);
-    simulation.run_until(1e9, 50'000);
+    simulation.run_until(1e9, {.collisions = 50'000});
     EXPECT_NEAR(energy_of(simulation), energy, 5.0 * std::sqrt(50'000.0) * 0x1p-53 * (6.0 * 6.0 + 1.7 * 6.0 * 4.0)) << engine;
   }
 }
@@ -311,7 +311,7 @@ TEST(Gravity, AMassRatioOf1e12StaysInTheBox) {
         {0.0, -1.0});
     Simulation simulation = make_simulation(scene, engine);
     const double energy = energy_of(simulation);
-    const StopReason stopped = simulation.run_until(2.0, 100'000);
+    const StopReason stopped = simulation.run_until(2.0, {.collisions = 100'000});
     EXPECT_TRUE(stopped == StopReason::time || stopped == StopReason::collisions) << engine << ": " << to_string(stopped);
     EXPECT_NEAR(energy_of(simulation) / energy, 1.0, 1e-10);
     EXPECT_GE(simulation.state().positions.row(1).minCoeff(), 0.5 - 1e-12);

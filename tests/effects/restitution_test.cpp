@@ -85,7 +85,7 @@ TEST(Restitution, EnergyLostIsEnergyCountedAndMomentumIsKept) {
           inelastic(mixture ? mixture_scene(64, 0.4, Boundary::periodic) : gas_scene(64, 0.4, Boundary::periodic), 0.999);
       Simulation simulation = make_simulation(scene, engine);
       const State start = simulation.state();
-      EXPECT_EQ(simulation.run_until(1e9, 100'000), StopReason::collisions);
+      EXPECT_EQ(simulation.run_until(1e9, {.collisions = 100'000}), StopReason::collisions);
       const State end = simulation.state();
       const double first = kinetic_energy(simulation.disks(), start), last = kinetic_energy(simulation.disks(), end);
       EXPECT_LT(last, 0.1 * first);

@@ -127,7 +127,7 @@ TEST(RoughDisks, EnergyLostIsEnergyCounted) {
       Simulation simulation = make_simulation(rough(mixture_scene(64, 0.4, Boundary::periodic), beta), engine);
       const double first = all_energy(simulation.disks(), simulation.state());
       const V momentum = total_momentum(simulation.disks(), simulation.state());
-      simulation.run_until(1e9, 100'000);
+      simulation.run_until(1e9, {.collisions = 100'000});
       const double last = all_energy(simulation.disks(), simulation.state());
       EXPECT_NEAR((last + simulation.totals().dissipated) / first, 1.0, 1e-12) << engine << ", beta = " << beta;
       if (std::abs(beta) == 1.0) {

@@ -123,7 +123,7 @@ TEST(SquareWell, KeepsEnergyAndMomentum) {
             with_well(mixture ? mixture_scene(64, 0.3, Boundary::periodic) : gas_scene(64, 0.3, Boundary::periodic), depth);
         Simulation simulation = make_simulation(scene, engine);
         const double energy = energy_of(simulation);
-        simulation.run_until(1e9, 10'000);
+        simulation.run_until(1e9, {.collisions = 10'000});
         EXPECT_GT(simulation.totals().pair + simulation.totals().well, 20'000U);
         EXPECT_NEAR(energy_of(simulation), energy, 1e-11 * 64)
             << "2e4 events with 1e-16 of a pair's energy each; 1e6 in tests/physics";

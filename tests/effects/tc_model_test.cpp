@@ -98,7 +98,7 @@ TEST(TcModel, EnergyLostIsEnergyCounted) {
   for (const char* engine : engines_with_effects) {
     Simulation simulation = make_simulation(with_tc(gas_scene(64, 0.4, Boundary::periodic), 0.99, 0.02), engine);
     const double first = kinetic_energy(simulation.disks(), simulation.state());
-    simulation.run_until(1e9, 100'000);
+    simulation.run_until(1e9, {.collisions = 100'000});
     const double last = kinetic_energy(simulation.disks(), simulation.state());
     EXPECT_LT(last, 0.9 * first);
     EXPECT_NEAR((last + simulation.totals().dissipated) / first, 1.0, 1e-12) << "bound as for restitution";

@@ -58,7 +58,7 @@ TEST(ThermalWalls, TakeWhatTheDisksLose) {
     Simulation simulation = make_simulation(scene, engine);
     const double energy = energy_of(simulation);
     const V momentum = total_momentum(simulation.disks(), simulation.state());
-    simulation.run_until(1e9, 80'000);
+    simulation.run_until(1e9, {.collisions = 80'000});
     const Totals& totals = simulation.totals();
     EXPECT_GT(totals.pair + totals.wall, 90'000U);
     // Sums of some 1e4 heats of size kT, each rounded at 1e4 kT.
@@ -213,7 +213,7 @@ TEST(Pistons, KeepEnergyTogetherWithTheDisksAndTheLoad) {
       Simulation simulation = make_simulation(scene, engine);
       const double energy = energy_of(simulation);
       const V momentum = total_momentum(simulation.disks(), simulation.state());
-      simulation.run_until(1e9, 15'000);
+      simulation.run_until(1e9, {.collisions = 15'000});
       EXPECT_GT(simulation.totals().pair + simulation.totals().wall, 18'000U);
       EXPECT_NEAR(energy_of(simulation), energy, 1e-10 * 25.0);
       // The load's impulse on the piston less what disks gave it is what it has: the mean pressure on it is the load.

@@ -24,7 +24,7 @@ namespace {
 
 void go_on(Simulation& simulation, double until, std::uint64_t pairs) {
   simulation.record_events(true);
-  (void)simulation.run_until(until, simulation.totals().pair + pairs);
+  (void)simulation.run_until(until, {.collisions = simulation.totals().pair + pairs});
 }
 
 void expect_same_totals(const Totals& a, const Totals& b) {

@@ -148,7 +148,7 @@ TEST(EnginesShear, GoOnFromAStateWithItsDisplacement) {
     Simulation simulation = make_simulation(scene, state, k == 0 ? "general" : "textbook");
     EXPECT_EQ(simulation.state().shear_displacement, state.shear_displacement);
     simulation.record_events(true);
-    simulation.run_until(1000.0, 64);
+    simulation.run_until(1000.0, {.collisions = 64});
     events[k] = simulation.take_events();
   }
   // Two collisions of every disk let an error of 1e-15 grow by e^6 at most.

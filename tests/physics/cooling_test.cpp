@@ -18,7 +18,7 @@ namespace {
 Simulation cooling(double packing_fraction, double restitution, std::uint64_t seed, int disks = 4900) {
   Scene scene = gas_scene(disks, packing_fraction, Boundary::periodic, seed);
   Simulation elastic = make_simulation(scene);
-  elastic.run_until(1e9, static_cast<std::uint64_t>(disks) * 10);
+  elastic.run_until(1e9, {.collisions = static_cast<std::uint64_t>(disks) * 10});
   scene.effects.collision.restitution = restitution;
   return make_simulation(scene, elastic.state());
 }
@@ -70,7 +70,7 @@ TEST(PhysicsCooling, LosesTheSameShareOfItsHeatWithEveryCollision) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Simulation gas = cooling(0.1, e, seed);
     const double start = temperature(gas);
-    gas.run_until(1e9, 4900 * 5);
+    gas.run_until(1e9, {.collisions = 4900 * 5});
     const auto pairs = static_cast<double>(gas.totals().pair);
     ratio += std::log(start / temperature(gas)) / (2 * pairs / 4900) / ((1 - e * e) / 2) / 10;
     collisions += pairs;
@@ -84,7 +84,7 @@ TEST(PhysicsRoughDisks, GiveSpinItsShare) {
   Scene scene = gas_scene(256, 0.3, Boundary::periodic);
   scene.effects.collision.roughness = 1.0;
   Simulation gas = make_simulation(scene);
-  gas.run_until(1e9, 256 * 50);
+  gas.run_until(1e9, {.collisions = 256 * 50});
   gas.reset_clock();
   BlockMeans spin(50), translation(50);
   for (int k = 1; k <= 2000; ++k) {

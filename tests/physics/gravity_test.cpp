@@ -19,7 +19,7 @@ TEST(PhysicsGravity, EnergyIsKeptTo1e10OverAMillionEvents) {
     scene.effects.gravity = Gravity{{0.0, -0.2}};
     Simulation gas = make_simulation(scene, engine);
     const double energy = total_energy(scene.box, scene.effects, gas.disks(), gas.state());
-    gas.run_until(1e9, 900'000);
+    gas.run_until(1e9, {.collisions = 900'000});
     EXPECT_GT(gas.totals().pair + gas.totals().wall, 1'000'000U);
     const double drift = total_energy(scene.box, scene.effects, gas.disks(), gas.state()) / energy - 1.0;
     RecordProperty(engine, testing::PrintToString(drift));

@@ -28,7 +28,7 @@ TEST(PhysicsSquareWell, EnergyIsKeptOverAMillionEvents) {
     Simulation gas = make_simulation(scene, engine);
     const double energy = total_energy(scene.box, scene.effects, gas.disks(), gas.state());
     const double scale = energies_of(scene.box, scene.effects, gas.disks(), gas.state()).scale();
-    while (gas.totals().pair + gas.totals().well < 1'000'000) gas.run_until(1e9, gas.totals().pair + 10'000);
+    while (gas.totals().pair + gas.totals().well < 1'000'000) gas.run_until(1e9, {.collisions = gas.totals().pair + 10'000});
     const double drift = (total_energy(scene.box, scene.effects, gas.disks(), gas.state()) - energy) / scale;
     RecordProperty(engine, testing::PrintToString(drift));
     // Every event rounds a pair's energy by some u: a random walk of 1e6 steps of 4 u / 256, with 5 deviations, and the sum that
@@ -42,7 +42,7 @@ TEST(PhysicsSquareWell, EnergyIsKeptOverAMillionEvents) {
 void expect_jump(double depth) {
   const Scene scene = wells(depth);
   Simulation gas = make_simulation(scene);
-  gas.run_until(1e9, 256 * 50);
+  gas.run_until(1e9, {.collisions = 256 * 50});
   gas.reset_clock();
   // Four shells of width 0.02 on each side.
   constexpr double width = 0.02;

@@ -29,7 +29,7 @@ TEST(Growth, TwoDisksMeetWhereTheirRadiiReachAndPartFasterByTwiceTheGrowth) {
   for (const char* engine : {"textbook", "textbook-quad"}) {
     Simulation simulation = make_simulation(scene, engine);
     simulation.record_events(true);
-    EXPECT_EQ(simulation.run_until(100.0, 1), StopReason::collisions);
+    EXPECT_EQ(simulation.run_until(100.0, {.collisions = 1}), StopReason::collisions);
     const std::vector<Event> events = simulation.take_events();
     ASSERT_EQ(events.size(), 1U);
     EXPECT_NEAR(events[0].time, 2.4, 1.1e-14);  // contact_time's bound: 16 u (|r| + sigma + (|v| + a) t), over 1 + a
@@ -110,7 +110,7 @@ TEST(Growth, KeepsTheEnergyOfTheStartAndAnHonestAccount) {
     Simulation simulation = make_simulation(scene);
     const double before = kinetic_energy(simulation.disks(), simulation.state());
     std::uint64_t pairs = 0;
-    while (simulation.run_until(1e6, pairs += 32) == StopReason::collisions) {
+    while (simulation.run_until(1e6, {.collisions = pairs += 32}) == StopReason::collisions) {
       // Just rescaled, every time. Sums of 64 squares and a factor: some 1e-15.
       ASSERT_NEAR(kinetic_energy(simulation.disks(), simulation.state()), before, 1e-14 * before);
     }
@@ -133,7 +133,7 @@ TEST(Growth, TellsWhatCollisionsTakeFromWhatSurfacesGive) {
     for (const char* engine : {"general", "textbook"}) {
       scene.effects.collision.rule = rule;
       Simulation simulation = make_simulation(scene, engine);
-      ASSERT_EQ(simulation.run_until(10.0, 1), StopReason::collisions);
+      ASSERT_EQ(simulation.run_until(10.0, {.collisions = 1}), StopReason::collisions);
       const Totals& totals = simulation.totals();
       EXPECT_NEAR(totals.dissipated, mu * (1 - e * e) * closing * closing / 2, 1e-14) << engine;
       EXPECT_NEAR(totals.growth_energy, mu * a * (1 + e) * closing, 1e-14) << engine;
@@ -160,7 +160,7 @@ TEST(Growth, LeavesTheSameBitsWhereverOneStops) {
   EXPECT_EQ(once.run_until(1e6), StopReason::grown);
   StopReason reason = StopReason::time;
   for (std::uint64_t k = 1; reason != StopReason::grown; ++k) {
-    if ((reason = often.run_until(1e6, 7 * k)) == StopReason::grown) break;
+    if ((reason = often.run_until(1e6, {.collisions = 7 * k})) == StopReason::grown) break;
     reason = often.run_until(often.time() + 0.01);
   }
   EXPECT_TRUE(same_bits(once.state(), often.state()));
@@ -215,7 +215,7 @@ TEST(PhysicsGrowth, OfAThousandDisksMakesNoOverlap) {
     std::uint64_t pairs = 0;
     StopReason reason = StopReason::collisions;
     while (reason == StopReason::collisions) {
-      reason = simulation.run_until(1e6, pairs += 20'000);
+      reason = simulation.run_until(1e6, {.collisions = pairs += 20'000});
       const State state = simulation.state();
       std::vector<double> radii = simulation.disks().radius;
       for (double& radius : radii) radius *= state.scale;

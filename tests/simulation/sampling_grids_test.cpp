@@ -131,7 +131,7 @@ TEST(SamplingGrids, CountedInCollisionsTheyAreTheStatesJustAfter) {
     hooks.sample = [&](std::uint64_t k, const State& state) {
       EXPECT_EQ(k, next++);
       EXPECT_EQ(simulation.totals().pair, k * every);
-      if (k > 0) twin.run_until(1e9, k * every);
+      if (k > 0) twin.run_until(1e9, {.collisions = k * every});
       EXPECT_TRUE(same_bits(state, twin.state())) << k;
       EXPECT_EQ(state.time, twin.time());
     };

@@ -215,7 +215,7 @@ TEST(Schedule, EquilibrationResetsClockAndTotalsAndGoesOnFromItsState) {
 
   // 2.5 collisions per disk of 16 disks are 20 collisions of two.
   Simulation counted_by_hand = make_simulation(scene);
-  counted_by_hand.run_until(1e9, 20);
+  counted_by_hand.run_until(1e9, {.collisions = 20});
   scene.run.equilibrate = {.collisions_per_disk = 2.5, .time = {}};
   Simulation by_count = make_simulation(scene);
   run_schedule(by_count);

@@ -36,11 +36,11 @@ TEST(Simulation, OneRunOrManyLeaveTheSameBits) {
 TEST(Simulation, StoppingAtEveryCollisionLeavesTheSameBits) {
   const Scene scene = mixture_scene(20, 0.5, Boundary::periodic);
   Simulation once = make_simulation(scene);
-  EXPECT_EQ(once.run_until(1e9, 500), StopReason::collisions);
+  EXPECT_EQ(once.run_until(1e9, {.collisions = 500}), StopReason::collisions);
   EXPECT_EQ(once.totals().pair, 500U);
   Simulation often = make_simulation(scene);
   for (std::uint64_t k = 1; k <= 500; ++k) {
-    EXPECT_EQ(often.run_until(1e9, k), StopReason::collisions);
+    EXPECT_EQ(often.run_until(1e9, {.collisions = k}), StopReason::collisions);
     ASSERT_EQ(often.totals().pair, k);
   }
   EXPECT_TRUE(same_bits(once.state(), often.state()));
@@ -185,8 +185,8 @@ TEST(Simulation, OneDiskInAPeriodicBoxCountsItsRounds) {
 
 TEST(Simulation, SystemsWithoutEventsStandAtTheTimeAskedFor) {
   const Species resting = species_of(4, 0.5, 1.0, SquareLattice{}, AtRest{});
-  for (const Scene& scene :
-       {scene_of(box_of(1.0, 1.0, Boundary::walls), {}), scene_of(box_of(9.0, 9.0, Boundary::periodic), {resting})}) {
+  for (const Scene& scene : {scene_of(box_of(1.0, 1.0, Boundary::walls), std::vector<Species>{}),
+                             scene_of(box_of(9.0, 9.0, Boundary::periodic), {resting})}) {
     for (const std::string& engine : engine_names()) {
       Simulation simulation = make_simulation(scene, engine);
       const State before = simulation.state();

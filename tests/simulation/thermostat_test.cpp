@@ -102,7 +102,7 @@ TEST(Thermostat, LeavesTheSameBitsWhereverOneStops) {
   Simulation once = make_simulation(scene), often = make_simulation(scene);
   once.run_until(10.0);
   for (std::uint64_t k = 1; k < 100; ++k) {
-    often.run_until(1e9, 3 * k);
+    often.run_until(1e9, {.collisions = 3 * k});
     if (often.time() > 10.0 * static_cast<double>(k) / 100.0) continue;
     often.run_until_sample(k, 0.1);
   }

@@ -94,10 +94,10 @@ TEST_P(Stepping, ResettingTheClockBetweenStepsKeepsEveryPosition) {
 
 TEST_P(Stepping, ALimitOfCollisionsEndsAfterItsStep) {
   Simulation s = make_simulation(gas_scene(100, 0.6, Boundary::periodic), step(0.01));
-  EXPECT_EQ(s.run_until(1e9, 500), StopReason::collisions);
+  EXPECT_EQ(s.run_until(1e9, {.collisions = 500}), StopReason::collisions);
   EXPECT_GE(s.totals().pair, 500U);
   EXPECT_LT(s.totals().pair, 700U);
-  EXPECT_EQ(s.run_until(1e9, 500), StopReason::collisions);
+  EXPECT_EQ(s.run_until(1e9, {.collisions = 500}), StopReason::collisions);
 }
 
 TEST_P(Stepping, TheEventLogHoldsEveryChangeOfVelocity) {

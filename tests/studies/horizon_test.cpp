@@ -367,7 +367,7 @@ TEST_P(PhysicsDoubleHorizon, IsTheKnownNumberOfCollisionsPerDisk) {
         gas_scene(64, GetParam().density * std::numbers::pi / 4.0, Boundary::periodic, static_cast<std::uint64_t>(seed));
     scene.run.time = 1.0;
     Simulation simulation = make_simulation(scene);
-    simulation.run_until(1e9, 64 * 25);
+    simulation.run_until(1e9, {.collisions = 64 * 25});
     HorizonOptions options;
     options.lyapunov_collisions = 50'000;
     const Horizon horizon = measure_horizon(scene, simulation.state(), options);

@@ -41,7 +41,7 @@ struct Ran {
 inline Ran run(const Scene& scene, const std::string& engine, double time, std::uint64_t collisions = no_limit) {
   Simulation simulation = make_simulation(scene, engine);
   simulation.record_events(true);
-  const StopReason stopped = simulation.run_until(time, collisions);
+  const StopReason stopped = simulation.run_until(time, {.collisions = collisions});
   std::vector<Event> events = simulation.take_events();
   return {std::move(simulation), std::move(events), stopped};
 }

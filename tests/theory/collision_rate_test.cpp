@@ -42,9 +42,9 @@ TEST(CollisionRate, OfAMixtureIsMetBySimulation) {
   for (const Species& species : scene.species)
     gas.push_back({static_cast<double>(species.count) / scene.box.area(), species.radius, species.mass});
   Simulation simulation = make_simulation(scene);
-  simulation.run_until(1e9, 20'000);
+  simulation.run_until(1e9, {.collisions = 20'000});
   simulation.reset_clock();
-  simulation.run_until(1e9, 60'000);
+  simulation.run_until(1e9, {.collisions = 60'000});
   const double measured = 60'000 / (simulation.time() * scene.box.area());
   // The contact values are good to one or two per cent; five standard errors of 60,000 collisions at random times are two more.
   EXPECT_NEAR(measured / theory::collision_rate(gas, 1.0), 1.0, 0.04);

@@ -52,7 +52,7 @@ Scene bench_scene(std::int64_t disks, double packing_fraction) {
 
 Contender::Contender(const Scene& scene, const std::string& engine, std::uint64_t run_up)
     : memory_before_(memory_held()), simulation_(make_simulation(scene, engine)), energy_(energy_balance()) {
-  stopped_ = simulation_.run_until(end_of_time, run_up) != StopReason::collisions;
+  stopped_ = simulation_.run_until(end_of_time, {.collisions = run_up}) != StopReason::collisions;
   run_up_drift_ = energy_drift();
   simulation_.reset_clock();
   energy_ = energy_balance();
@@ -62,7 +62,7 @@ Contender::Contender(const Scene& scene, const std::string& engine, std::uint64_
 void Contender::take_turn(std::uint64_t collisions) {
   const std::uint64_t before = totals().pair;
   const double start = processor_seconds();
-  stopped_ = simulation_.run_until(end_of_time, before + collisions) != StopReason::collisions || stopped_;
+  stopped_ = simulation_.run_until(end_of_time, {.collisions = before + collisions}) != StopReason::collisions || stopped_;
   const double seconds = std::max(processor_seconds() - start, 1.0 / static_cast<double>(CLOCKS_PER_SEC));
   rates_.push_back(static_cast<double>(totals().pair - before) / seconds);
 }

@@ -36,7 +36,7 @@ bool run_collisions(Simulation& simulation, std::uint64_t collisions, const Proc
   while (simulation.totals().pair < end) {
     if (!proceed()) return false;
     const std::uint64_t before = simulation.totals().pair;
-    simulation.run_until(1e300, std::min(end, before + 50'000));
+    simulation.run_until(1e300, {.collisions = std::min(end, before + 50'000)});
     if (simulation.totals().pair == before) return false;  // no collision to wait for
   }
   return true;

@@ -73,7 +73,7 @@ void follow(StepTrial& trial, const Scene& scene, const std::string& method, std
   const double steps = std::clamp(most_looks / (disks * disks), 10.0, most_steps);
   trial.time = std::min(scene.run.time.value_or(std::numeric_limits<double>::infinity()), steps * trial.dt);
   const auto limit = scene.run.collisions.value_or(std::numeric_limits<std::uint64_t>::max());
-  const StopReason stopped = exact.run_until(trial.time, limit);
+  const StopReason stopped = exact.run_until(trial.time, {.collisions = limit});
   if (stopped != StopReason::time && stopped != StopReason::collisions) {
     trial.not_run = to_string(stopped) + " at once";
     return;

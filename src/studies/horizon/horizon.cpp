@@ -208,7 +208,8 @@ class HorizonSearch {
         return false;
       }
       const std::uint64_t most = one.simulation.totals().pair + carom::stalled(one.simulation.disks().count());
-      const StopReason reason = k > 0 ? one.simulation.run_until_sample(k, step_, most) : one.simulation.run_until(time, most);
+      const StopReason reason = k > 0 ? one.simulation.run_until_sample(k, step_, {.collisions = most})
+                                      : one.simulation.run_until(time, {.collisions = most});
       one.stalled = reason != StopReason::time;
       if (!one.stalled || result_.rows[one.row].bits < std::numeric_limits<double>::digits) continue;
       result_.ended = HorizonEnd::stuck;

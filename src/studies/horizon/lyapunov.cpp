@@ -90,7 +90,7 @@ std::optional<Lyapunov> measure_lyapunov(const Scene& scene, const State& start,
   for (double from = 0.0; pairs < asked && from < patience;) {
     if (options.proceed && !options.proceed(static_cast<double>(pairs) / static_cast<double>(asked))) return std::nullopt;
     const double to = from + interval;
-    if (simulation.run_until(to, pairs + stalled(simulation.disks().count())) != StopReason::time) break;
+    if (simulation.run_until(to, {.collisions = pairs + stalled(simulation.disks().count())}) != StopReason::time) break;
     for (const Event& event : simulation.take_events()) flow.follow(event);
     flow.advance(to);
     const double grown = flow.norm(length, speed);
