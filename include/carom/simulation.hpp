@@ -5,6 +5,7 @@
 //   simulation.run_until(5.0);
 //   const carom::State state = simulation.state();
 
+#include <carom/collision_rule.hpp>
 #include <carom/collisions.hpp>
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
@@ -110,6 +111,35 @@ class Simulation {
   /// std::logic_error for a fixed-step method, which has no events.
   std::optional<Event> step(double until = std::numeric_limits<double>::infinity());
 
+  /// Changes what acts on the disks, while the simulation runs: from now on scene().effects is what is given. Whatever a scene
+  /// may have can be changed: the collision rule, gravity, what walls do and how they move, obstacles, growth, the thermostat,
+  /// shear, wells. The simulation goes on with the bits of make_simulation(scene(), state(), engine) for the scene as it is then;
+  /// its time, its totals and its random streams go on where they were. Walls that are told to stand still stand where they are,
+  /// and scene().box is moved there; disks that stop growing keep their size, and the radii of scene() are multiplied. When each
+  /// disk last collided (Collision::elastic_below) is forgotten. A kick of the thermostat that was to come comes when it was to
+  /// come, unless the rate is another. Takes the time of some hundred events per disk. Throws SceneError with the sentence of
+  /// check() where the scene, as it would begin now, is wrong: where an obstacle is put upon a disk, for instance;
+  /// std::invalid_argument where the engine that was asked for does not cover it; std::logic_error for a fixed-step method, and
+  /// within a hook of run_schedule(). Then nothing is changed.
+  void set_effects(const Effects& effects);
+
+  /// Gives all disks these velocities, one column per disk, and where they spin and `spins` is not empty these spins. All else
+  /// goes on as under set_effects(). The energy that it takes is counted nowhere. Throws std::invalid_argument where there is not
+  /// one finite velocity, and spin, per disk; SceneError where speeds are beyond what can be computed with; std::logic_error as
+  /// above.
+  void set_velocities(const Eigen::Matrix2Xd& velocities, const Eigen::VectorXd& spins = {});
+
+  /// Has two disks that meet do what `rule` says, in the place of all that scene().effects.collision says; an empty one brings
+  /// that back. Walls, obstacles and the edges of wells are what they were. The simulation goes on as under set_effects(). The
+  /// slow path: the function is called at every collision of a pair, from the loop of an engine with every effect. It is not to
+  /// ask the simulation anything. What it throws comes out of the run, which stands before that collision then; so does a
+  /// std::domain_error where the velocities are not finite, or leave the disks approaching each other. Observables that follow
+  /// collisions know the rules of scenes alone. Throws std::invalid_argument where disks grow, or the engine that was asked for
+  /// does not call such a rule; std::logic_error as set_effects().
+  void set_collision_rule(CollisionFunction rule);
+  /// Whether set_collision_rule() has given a rule.
+  [[nodiscard]] bool has_collision_rule() const;
+
   /// Makes now the zero of time and forgets all totals. The state stays.
   void reset_clock();
 
@@ -120,8 +150,8 @@ class Simulation {
   /// The same into a list whose memory is used again: what it held is gone.
   void take_events(std::vector<Event>& events);
 
-  /// Whether RunHooks::collisions can be asked for: the engine is "fast" or "general", disks are smooth, and nothing but events
-  /// changes velocities.
+  /// Whether RunHooks::collisions can be asked for: the engine is "fast" or "general", disks are smooth, no rule of the program
+  /// acts, and nothing but events changes velocities.
   [[nodiscard]] bool tells_collisions() const;
 
   /// Compares the engine's plan with what an exhaustive search finds. Empty when all is well; else one sentence per
@@ -167,8 +197,11 @@ Simulation make_simulation(const Scene& scene, const FixedStep& step);
 Simulation make_simulation(const Scene& scene, const State& start, const FixedStep& step);
 
 /// A simulation as it was when Simulation::save() wrote it: whatever happens from there on happens to the last bit as it would
-/// have happened there. Throws SceneError where check(scene) does. Requires the scene with which that one was made, and what the
-/// same version of the library has written: neither is checked.
+/// have happened there. `scene` is the one with which that one was made, or what Simulation::scene() was when it was saved;
+/// title, run, output and observables may differ, but for the seed. A collision rule of the program cannot be saved:
+/// set_collision_rule() must give it again before anything runs. Throws SceneError where check(scene) does, or the scene is
+/// another one, and std::runtime_error where the stream holds something else, the work of another build of the library, less than
+/// was written, or bytes that have changed since.
 Simulation restore_simulation(const Scene& scene, std::istream& in);
 
 /// "naive", "naive-edge", "guarded", "grid"

@@ -65,7 +65,7 @@ inline constexpr std::int32_t first_obstacle = -1000;
 
 /// The partner's id in an event of a thermostat, which has given the disk a new velocity, relative to the flow in a sheared box.
 /// Simulation::step() returns such events; the event log does not hold them.
-inline constexpr std::int32_t thermostat_kick = -500;
+inline constexpr std::int32_t thermostat_event = -500;
 
 /// One collision in the event log.
 struct Event {

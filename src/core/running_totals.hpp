@@ -14,8 +14,17 @@ namespace carom {
 struct RunningTotals : Counts {
   ExactSum virial, virial_yx;
   std::array<ExactSum, 4> wall_impulse, wall_energy;
-  ExactSum dissipated, growth_energy, shear_energy;
+  ExactSum dissipated, thermostat_energy, growth_energy, shear_energy;
   std::array<ExactSum, 2> obstacle_impulse;
+
+  /// Goes on from what another engine has counted. Requires nothing but new epochs and lists to have been counted here.
+  void go_on_from(const RunningTotals& before) {
+    const Numerics begun = numerics;
+    *this = before;
+    numerics.epochs += begun.epochs;
+    numerics.list_rebuilds += begun.list_rebuilds;
+    numerics.longest_neighbour_list = begun.longest_neighbour_list;
+  }
 
   /// Returns the totals so far. Takes a microsecond: not for every event.
   [[nodiscard]] Totals rounded() const {
@@ -27,6 +36,7 @@ struct RunningTotals : Counts {
       totals.wall_energy[w] = wall_energy[w].value();
     }
     totals.dissipated = dissipated.value();
+    totals.thermostat_energy = thermostat_energy.value();
     totals.growth_energy = growth_energy.value();
     totals.shear_energy = shear_energy.value();
     for (std::size_t k = 0; k < obstacle_impulse.size(); ++k)

@@ -45,6 +45,9 @@ class Andersen {
   /// Neutral at rate 0.
   [[nodiscard]] bool acts() const { return rate_ > 0.0; }
 
+  /// Of all disks together: 1 / time.
+  [[nodiscard]] double rate() const { return rate_; }
+
   /// Kick number n, from 0. Requires acts().
   [[nodiscard]] Kick kick(std::uint64_t n) const {
     RandomStream random(seed_, Stream::thermostat, n);

@@ -11,11 +11,15 @@
 #include "effects/specular.hpp"
 #include "effects/square_well.hpp"
 
+#include <carom/collision_rule.hpp>
 #include <carom/effects.hpp>
 #include <carom/state.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace carom {
@@ -33,7 +37,7 @@ class AnyImpact {
         spins_(effects.collision.roughness ? disks : 0, Real(0)),
         last_(elastic_below_ > 0 && effects.dissipate() ? disks : 0, -infinity<Real>),
         wells_(effects.square_well, disks),
-        by_rule_alone_(turn_ == 1 && roughness_ == -1 && last_.empty()),
+        by_rule_alone_(is_plain()),
         sheared_(effects.shear_rate() != 0.0),
         drag_(effects.drag_rate()) {}
 
@@ -54,15 +58,23 @@ class AnyImpact {
       ++totals.well;
       impact = {wells_.cross_edge(i.disk, j.disk, r, i.mass, i.v, j.mass, j.v)};
     } else {
-      ++totals.pair;
       if (owing_) settle(i, j);
       impact = by_rule_alone_ && expansion == 0 ? InelasticResult<Real>{collide(r, i, j)} : collide(r, expansion, i, j, now);
+      ++totals.pair;
       if (impact.lost != 0) totals.dissipated.add(static_cast<double>(slowed * slowed * impact.lost));
       if (expansion > 0) totals.growth_energy.add(static_cast<double>(impact.energy + impact.lost));
     }
     totals.virial.add(static_cast<double>(slowed * impact.virial));
     if (sheared_) totals.virial_yx.add(static_cast<double>(r.y() * i.mass * (i.v.x() - before)));
     return impact.smallness;
+  }
+
+  /// A program's own rule takes the place of the scene's; an empty one brings that back. `ids`: what the world calls the disks,
+  /// by the numbers of bodies; null where these are the same.
+  void set_rule(CollisionFunction rule, const std::int32_t* ids) {
+    own_rule_ = std::move(rule);
+    ids_ = ids;
+    by_rule_alone_ = is_plain();
   }
 
   /// The next two disks that meet get this momentum besides.
@@ -103,11 +115,15 @@ class AnyImpact {
   }
 
  private:
+  /// A share of the relative velocity, for rounding in a program's own rule.
+  static constexpr double least_parting = 1e-9;
+
   ImpactResult<Real> collide(const Vec2<Real>& r, const Body& i, const Body& j) const {
     return rule_ == CollisionRule::reversal ? carom::collide<Reversal, Real>(r, i.mass, i.v, j.mass, j.v)
                                             : carom::collide<Specular, Real>(r, i.mass, i.v, j.mass, j.v);
   }
   InelasticResult<Real> collide(const Vec2<Real>& r, Real expansion, const Body& i, const Body& j, Real now) {
+    if (own_rule_) return collide_by_own_rule(r, i, j);
     const bool elastic = rests(i.disk, now) || rests(j.disk, now);
     const Inelasticity<Real> how{elastic ? Real(1) : turn_, expansion};
     InelasticResult<Real> result = rule_ == CollisionRule::reversal
@@ -121,6 +137,49 @@ class AnyImpact {
     touched(i.disk, now);
     touched(j.disk, now);
     return result;
+  }
+
+  [[nodiscard]] bool is_plain() const { return turn_ == 1 && roughness_ == -1 && last_.empty() && !own_rule_; }
+
+  [[nodiscard]] std::int32_t id(const Body& body) const { return ids_ == nullptr ? body.disk : ids_[body.disk]; }
+
+  [[gnu::noinline, gnu::cold]] InelasticResult<Real> collide_by_own_rule(const Vec2<Real>& r, const Body& i, const Body& j) {
+    if (!(r.dot(i.v - j.v) < 0)) return {};  // they recede already, by rounding
+    const bool swapped = id(j) < id(i);
+    const Body &a = swapped ? j : i, &b = swapped ? i : j;
+    const Vec2<double> towards = (swapped ? -r : r).template cast<double>();
+    CollidingPair contact{.disk = id(a),
+                          .partner = id(b),
+                          .mass = static_cast<double>(a.mass),
+                          .partner_mass = static_cast<double>(b.mass),
+                          .radius = static_cast<double>(a.radius),
+                          .partner_radius = static_cast<double>(b.radius),
+                          .normal = towards / towards.norm(),
+                          .velocity = a.v.template cast<double>(),
+                          .partner_velocity = b.v.template cast<double>()};
+    const Eigen::Vector2d normal = contact.normal;
+    own_rule_(contact);
+    const Vec2<Real> v_a = contact.velocity.template cast<Real>(), v_b = contact.partner_velocity.template cast<Real>();
+    if (!v_a.allFinite() || !v_b.allFinite()) refuse(a, b, "gives velocities that are not finite to");
+    const Eigen::Vector2d apart = contact.velocity - contact.partner_velocity;
+    if (normal.dot(apart) < -least_parting * apart.norm()) refuse(a, b, "leaves approaching each other");
+
+    const auto energy = [&] { return (a.mass * a.v.squaredNorm() + b.mass * b.v.squaredNorm()) / 2; };
+    const Real before = energy();
+    const Vec2<Real> impulse = a.mass * (v_a - a.v) - b.mass * (v_b - b.v);  // twice, where momentum is kept
+    a.v = v_a;
+    b.v = v_b;
+    if (r.dot(i.v - j.v) < 0) detail::recede<Real>(r, i.mass, i.v, j.mass, j.v);
+    InelasticResult<Real> result;
+    result.virial = (swapped ? -r : r).dot(impulse) / 2;
+    result.energy = energy() - before;
+    result.lost = -result.energy;
+    return result;
+  }
+
+  [[noreturn]] void refuse(const Body& a, const Body& b, const char* what) const {
+    throw std::domain_error("the collision rule " + std::string(what) + " disks " + std::to_string(id(a)) + " and " +
+                            std::to_string(id(b)));
   }
 
   /// Both alike, so that nothing changes between them.
@@ -140,6 +199,8 @@ class AnyImpact {
   SquareWells<Real> wells_;
   Vec2<Real> owed_ = Vec2<Real>::Zero();  ///< momentum
   bool owing_ = false;
+  CollisionFunction own_rule_;  ///< of the program
+  const std::int32_t* ids_ = nullptr;
   bool by_rule_alone_;  ///< at a hard core
   bool sheared_;
   DragFactor<Real> drag_;

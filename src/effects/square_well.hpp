@@ -60,6 +60,18 @@ class SquareWells {
   /// Those inside the well of disk i.
   [[nodiscard]] const std::vector<std::int32_t>& of(std::int32_t i) const { return partners_[static_cast<std::size_t>(i)]; }
 
+  /// Whether a pair begins inside, at separation r.
+  [[nodiscard]] bool begins_inside(const Vec2<Real>& r, Real sigma) const {
+    const Real edge = reach() * sigma;
+    return r.squaredNorm() < edge * edge;
+  }
+  /// Whether a separation is that of the edge, to rounding: then it does not tell whether the pair is inside.
+  [[nodiscard]] bool is_edge(const Vec2<Real>& r, Real sigma) const {
+    using std::abs;
+    const Real edge = reach() * sigma;
+    return abs(r.squaredNorm() - edge * edge) <= std::max<Real>(Real(0x1p-30), 64 * epsilon<Real>) * edge * edge;
+  }
+
   /// From separation r with relative velocity v: when the pair next comes to its hard core or to the edge of its well.
   [[nodiscard]] Real next_time(bool inside, const Vec2<Real>& r, const Vec2<Real>& v, Real sigma) const {
     if (!inside) return contact_time<Real>(r, v, width_ * sigma);

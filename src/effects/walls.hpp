@@ -153,6 +153,11 @@ class Walls {
     }
   }
 
+  /// Random numbers that diffuse walls have drawn so far.
+  [[nodiscard]] std::uint64_t draws() const { return draws_; }
+  /// Goes on with the stream behind the first `draws` numbers.
+  void go_on_drawing(std::uint64_t draws) { draws_ = draws; }
+
   /// Left, right, bottom, top at time t; empty where none moves.
   [[nodiscard]] std::vector<WallState> states(Real t) const {
     std::vector<WallState> walls;

@@ -31,6 +31,7 @@
 #include "engine/collision_recorder.hpp"
 #include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
+#include "engine/continuation.hpp"
 #include "engine/disk_sizes.hpp"
 #include "engine/flight_frame.hpp"
 #include "engine/flight_limits.hpp"
@@ -422,6 +423,15 @@ class Engine {
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin);
   /// Multiplies all velocities and spins by `factor`.
   void scale_velocities(double factor);
+
+  /// A program's own collision rule: see Simulation::set_collision_rule(). Requires takes_rules.
+  static constexpr bool takes_rules = !Impact::plain;
+  void set_collision_rule(CollisionFunction rule) { impact_.set_rule(std::move(rule), ids_.data()); }
+
+  /// What an engine needs to know that takes the place of this one.
+  void leave(Continuation& continuation) const;
+  /// Takes the place of another engine. Requires an engine that has just been made.
+  void take_over(const Continuation& continuation);
 
   void record_events(bool on) { recorder_.log_events(on); }
   void take_events(std::vector<Event>& events) { recorder_.take_events(events); }

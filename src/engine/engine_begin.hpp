@@ -110,8 +110,9 @@ void Engine<Impact, Layout, World>::find_wells() {
     for (std::int32_t i = 0; i < count() && wells.present(); ++i)
       for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
         const std::int32_t j = lists_.ids(i)[n];
-        const double edge = wells.reach() * (layout_.radius(line(i)) + layout_.radius(line(j)));
-        if (i < j && flight_.separation(line(i), line(j), now_).squaredNorm() < edge * edge) wells.enter(i, j);
+        const Line &a = line(i), &b = line(j);
+        const double sigma = layout_.radius(a) + layout_.radius(b);
+        if (i < j && wells.begins_inside(flight_.separation(a, b, now_), sigma)) wells.enter(i, j);
       }
   }
 }

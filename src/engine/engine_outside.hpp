@@ -95,4 +95,40 @@ void Engine<Impact, Layout, World>::scale_velocities(double factor) {
   replan();
 }
 
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::leave(Continuation& continuation) const {
+  continuation.now = now();
+  continuation.totals = totals_;
+  if constexpr (!World::plain) continuation.wall_draws = world_.walls.draws();
+  continuation.bonds.clear();
+  if constexpr (!Impact::plain) {
+    for (std::int32_t i = 0; i < count() && impact_.wells().present(); ++i)
+      for (const std::int32_t j : impact_.wells().of(i))
+        if (id(i) < id(j)) continuation.bonds.emplace_back(id(i), id(j));
+    std::sort(continuation.bonds.begin(), continuation.bonds.end());
+  }
+}
+
+template <class Impact, class Layout, class World>
+void Engine<Impact, Layout, World>::take_over(const Continuation& continuation) {
+  recorder_.begin_epoch(epoch_ = continuation.now);
+  totals_.go_on_from(continuation.totals);
+  if constexpr (!World::plain) world_.walls.go_on_drawing(continuation.wall_draws);
+  if constexpr (!Impact::plain) {
+    auto& wells = impact_.wells();
+    bool changed = false;
+    for (std::int32_t i = 0; i < count() && wells.present(); ++i)
+      for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
+        const std::int32_t j = lists_.ids(i)[n];
+        const Line &a = line(i), &b = line(j);
+        if (i > j || !wells.is_edge(flight_.separation(a, b, now_), layout_.radius(a) + layout_.radius(b))) continue;
+        const bool bound = continuation.bound(id(i), id(j));
+        if (bound == wells.inside(i, j)) continue;
+        bound ? wells.enter(i, j) : wells.leave(i, j);
+        changed = true;
+      }
+    if (changed) predict_all(), start_queue();
+  }
+}
+
 }  // namespace carom

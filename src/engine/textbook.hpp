@@ -19,6 +19,7 @@
 #include "effects/walls.hpp"
 #include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
+#include "engine/continuation.hpp"
 #include "engine/edges.hpp"
 #include "engine/epoch.hpp"
 #include "engine/stall_detector.hpp"
@@ -359,6 +360,8 @@ class TextbookEngine {
   /// Cells for the box as it is and for disks as large as they will become in this epoch.
   void suit_grid();
   void find_wells();
+  void leave_bonds(Continuation& continuation) const;
+  void take_over_bonds(const Continuation& continuation);
 
   // ----------------------------------------------------------------------------------------------- disks in flight
 
@@ -537,6 +540,25 @@ class TextbookEngine {
       if (impact_.spinning()) impact_.spin(i) *= Real(factor);
     }
     begin_epoch(now_);
+  }
+
+  /// A program's own collision rule: see Simulation::set_collision_rule().
+  static constexpr bool takes_rules = true;
+  void set_collision_rule(CollisionFunction rule) { impact_.set_rule(std::move(rule), nullptr); }
+
+  /// What an engine needs to know that takes the place of this one.
+  void leave(Continuation& continuation) const {
+    continuation.now = now();
+    continuation.totals = totals_;
+    continuation.wall_draws = walls_.draws();
+    leave_bonds(continuation);
+  }
+  /// Takes the place of another engine. Requires an engine that has just been made.
+  void take_over(const Continuation& continuation) {
+    epoch_ = continuation.now;
+    totals_.go_on_from(continuation.totals);
+    walls_.go_on_drawing(continuation.wall_draws);
+    take_over_bonds(continuation);
   }
 
   void record_events(bool on) { recording_ = on; }

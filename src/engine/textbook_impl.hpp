@@ -54,9 +54,37 @@ void TextbookEngine<Real>::find_wells() {
   if (!wells.present()) return;
   for (std::int32_t i = 0; i < count(); ++i)
     grid_.for_neighbours(i, [&](std::int32_t j, const Winding& shift) {
-      const Real edge = wells.reach() * (record(i).radius + record(j).radius);
-      if (i < j && separation(record(i), record(j), 0, shift).squaredNorm() < edge * edge) wells.enter(i, j);
+      const Record &a = record(i), &b = record(j);
+      if (i < j && wells.begins_inside(separation(a, b, 0, shift), a.radius + b.radius)) wells.enter(i, j);
     });
+}
+
+template <class Real>
+void TextbookEngine<Real>::leave_bonds(Continuation& continuation) const {
+  continuation.bonds.clear();
+  for (std::int32_t i = 0; i < count() && impact_.wells().present(); ++i)
+    for (const std::int32_t j : impact_.wells().of(i))
+      if (i < j) continuation.bonds.emplace_back(i, j);
+  std::sort(continuation.bonds.begin(), continuation.bonds.end());
+}
+
+template <class Real>
+void TextbookEngine<Real>::take_over_bonds(const Continuation& continuation) {
+  SquareWells<Real>& wells = impact_.wells();
+  if (!wells.present()) return;
+  bool changed = false;
+  for (std::int32_t i = 0; i < count(); ++i)
+    grid_.for_neighbours(i, [&](std::int32_t j, const Winding& shift) {
+      const Record &a = record(i), &b = record(j);
+      if (i > j || !wells.is_edge(separation(a, b, 0, shift), a.radius + b.radius)) return;
+      const bool bound = continuation.bound(i, j);
+      if (bound == wells.inside(i, j)) return;
+      bound ? wells.enter(i, j) : wells.leave(i, j);
+      changed = true;
+    });
+  if (!changed) return;
+  for (std::int32_t i = 0; i < count(); ++i) make_plan(i);
+  fill_queue();
 }
 
 template <class Real>

@@ -7,6 +7,7 @@
 #include "scene/overrides.hpp"
 #include "scene/read_tables.hpp"
 #include "scene/refusal.hpp"
+#include "scene/resolved_effects.hpp"
 #include "scene/text_file.hpp"
 
 #include <fmt/format.h>
@@ -104,6 +105,15 @@ Scene scene_of(const toml::table& document, const std::string& source, const std
 }
 
 }  // namespace
+
+Effects detail::parse_effects(const std::string& text) {
+  const toml::table document = parse_toml(text, "effects");
+  const TableReader reader(document, "", tables());
+  Effects effects;
+  effects.collision = read_collision(require_table(reader, "collision", "it has the rule"));
+  read_effects(reader, effects);
+  return effects;
+}
 
 SceneError detail::scene_error(const Scene& scene, const std::string& path, const std::string& sentence) {
   if (scene.text.empty()) return {{}, sentence};

@@ -4,8 +4,10 @@
 
 #include "core/archive.hpp"
 #include "core/instant.hpp"
+#include "engine/continuation.hpp"
 #include "engine/note_listener.hpp"
 
+#include <carom/collision_rule.hpp>
 #include <carom/simulation.hpp>
 #include <carom/state.hpp>
 
@@ -70,6 +72,12 @@ class AnyEngine {
   /// Puts the clock back to an earlier time, since which nothing has happened: no event, no new epoch.
   virtual void set_back(const Instant& time) = 0;
   virtual void reset_clock() = 0;
+  /// A program's own rule for collisions of pairs. Requires an engine of the catalogue that takes them.
+  virtual void set_collision_rule(const CollisionFunction& rule) = 0;
+  /// Writes down what an engine needs to know that takes the place of this one.
+  virtual void leave(Continuation& continuation) const = 0;
+  /// Takes the place of another engine. Requires an engine that has just been made.
+  virtual void take_over(const Continuation& continuation) = 0;
   virtual void record_events(bool on) = 0;
   /// Puts the events recorded since the last call in the place of what `events` held, whose memory is used again: to get new
   /// memory for every batch takes as long as to fill it.
@@ -79,7 +87,7 @@ class AnyEngine {
     take_events(events);
     return events;
   }
-  /// The last velocity that a thermostat has redrawn, as an event whose partner is thermostat_kick.
+  /// The last velocity that a thermostat has redrawn, as an event whose partner is thermostat_event.
   [[nodiscard]] virtual Event last_kick() const { return {}; }
   /// Whether listen() is there: engine/note_listener.hpp.
   [[nodiscard]] virtual bool tells_collisions() const { return false; }
@@ -158,6 +166,18 @@ class EngineAdapter final : public AnyEngine {
     next_check_ = 0;
 #endif
   }
+  void set_collision_rule([[maybe_unused]] const CollisionFunction& rule) override {
+    if constexpr (requires { requires Engine::takes_rules; }) return engine_.set_collision_rule(rule);
+    refuse_to_be_driven();
+  }
+  void leave([[maybe_unused]] Continuation& continuation) const override {
+    if constexpr (requires { engine_.leave(continuation); }) return engine_.leave(continuation);
+    refuse_to_be_driven();
+  }
+  void take_over([[maybe_unused]] const Continuation& continuation) override {
+    if constexpr (requires { engine_.take_over(continuation); }) return engine_.take_over(continuation);
+    refuse_to_be_driven();
+  }
   void record_events(bool on) override { engine_.record_events(on); }
   void take_events(std::vector<Event>& events) override { engine_.take_events(events); }
   [[nodiscard]] bool tells_collisions() const override { return has_recorder; }
@@ -184,7 +204,7 @@ class EngineAdapter final : public AnyEngine {
   static constexpr bool stalls = requires(const Engine& engine) { engine.stall(); };
   /// Which engine runs a scene is decided before: no scene gets here.
   [[noreturn]] static void refuse_to_be_driven() {
-    throw std::logic_error("this engine does not let velocities be changed from outside");
+    throw std::logic_error("this engine does not let anything be changed from outside");
   }
 #if CAROM_CHECK_INVARIANTS
   /// Once per collision of every disk: ends the program with the first fault.

@@ -42,7 +42,7 @@ std::string why_not_single(const Scene& scene, const Disks& disks) {
 
 const std::vector<EngineEntry>& catalogue() {
   static const std::vector<EngineEntry> entries = {
-      {"fast", &why_not_fast, &make_fast},
+      {"fast", &why_not_fast, &make_fast, false},
       {"general", &why_not_general, &make_general},
       {"textbook", &never, &make_textbook<double>},
       {"textbook-float", &why_not_single, &make_textbook<float>},
@@ -52,10 +52,10 @@ const std::vector<EngineEntry>& catalogue() {
   return entries;
 }
 
-const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine) {
+const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine, bool own_rule) {
   const auto& entries = catalogue();
   if (engine == "auto") {
-    const auto covering = [&](const auto& entry) { return entry.covers(scene, disks); };
+    const auto covering = [&](const auto& entry) { return (entry.takes_rules || !own_rule) && entry.covers(scene, disks); };
     return *std::find_if(entries.begin(), entries.end(), covering);  // there is one: the textbook engine covers everything
   }
   const auto named = [&](const auto& entry) { return entry.name == engine; };
@@ -66,15 +66,23 @@ const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const s
   if (const std::string reason = entry->why_not(scene, disks); !reason.empty())
     throw std::invalid_argument(fmt::format(
         "the engine \"{}\" does not cover this scene: {}; leave the choice to carom, or take \"textbook\"", engine, reason));
+  if (own_rule && !entry->takes_rules)
+    throw std::invalid_argument(fmt::format(
+        "the engine \"{}\" does not call a collision rule of the program; leave the choice to carom, or take \"general\"",
+        engine));
   return *entry;
 }
 
-std::string why_chosen(const EngineEntry& entry, const Scene& scene, const Disks& disks, const std::string& engine) {
+std::string why_chosen(const EngineEntry& entry, const Scene& scene, const Disks& disks, const std::string& engine,
+                       bool own_rule) {
   if (engine != "auto") return "it was asked for";
   const auto& entries = catalogue();
   const auto same = [&](const auto& other) { return other.name == entry.name; };
   const auto position = std::find_if(entries.begin(), entries.end(), same);
-  if (position != entries.begin()) return std::prev(position)->why_not(scene, disks);
+  if (position != entries.begin()) {
+    std::string why = std::prev(position)->why_not(scene, disks);
+    return why.empty() && own_rule ? "a collision rule of the program acts" : why;
+  }
   return scene.box.periodic(0) && scene.box.periodic(1) ? "nothing but the collision rule acts"
                                                         : "nothing but the collision rule and hard walls acts";
 }

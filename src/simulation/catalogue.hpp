@@ -18,6 +18,8 @@ struct EngineEntry {
   std::string (*why_not)(const Scene& scene, const Disks& disks);
   std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Disks& disks, State start);
 
+  bool takes_rules = true;  ///< a program's own for collisions of pairs
+
   [[nodiscard]] bool covers(const Scene& scene, const Disks& disks) const { return why_not(scene, disks).empty(); }
 };
 
@@ -25,11 +27,12 @@ struct EngineEntry {
 const std::vector<EngineEntry>& catalogue();
 
 /// The named engine, or for "auto" the first of the catalogue that covers the scene. Throws std::invalid_argument where there is
-/// no such engine, or it does not cover the scene.
-const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine);
+/// no such engine, or it does not cover the scene. `own_rule`: whether a collision rule of the program acts.
+const EngineEntry& choose_engine(const Scene& scene, const Disks& disks, const std::string& engine, bool own_rule = false);
 
 /// Why choose_engine() chose that entry, in half a sentence: for "auto", why the one before it could not run the scene.
-std::string why_chosen(const EngineEntry& entry, const Scene& scene, const Disks& disks, const std::string& engine);
+std::string why_chosen(const EngineEntry& entry, const Scene& scene, const Disks& disks, const std::string& engine,
+                       bool own_rule = false);
 
 /// An engine of that entry, driven from outside where the scene asks for it.
 std::unique_ptr<AnyEngine> make_engine(const EngineEntry& entry, const Scene& scene, const Disks& disks, State start);

@@ -35,10 +35,9 @@ class DragEngine final : public WrappedEngine {
     return at_rest_ ? std::optional(StopReason::at_rest) : std::nullopt;
   }
   [[nodiscard]] Instant now() const override { return now_; }
-  [[nodiscard]] State state() const override {
-    State state = engine_->state();
+  void state(State& state) const override {
+    engine_->state(state);
     slow_down(state);
-    return state;
   }
   void look_at_velocities(State& state) const override {
     engine_->look_at_velocities(state);
@@ -57,6 +56,18 @@ class DragEngine final : public WrappedEngine {
     clock_zero_ = later(clock_zero_, engine_->now());
     engine_->reset_clock();
     now_ = last_event_ = {};
+  }
+  void leave(Continuation& continuation) const override {
+    engine_->leave(continuation);
+    continuation.now = now_;
+  }
+  /// Drag begins anew, on a clock s that stands at 0.
+  void take_over(const Continuation& continuation) override {
+    Continuation on_clock = continuation;
+    on_clock.now = {};
+    engine_->take_over(on_clock);
+    zero_ = {-continuation.now.high, -continuation.now.low};
+    now_ = last_event_ = continuation.now;
   }
   void take_events(std::vector<Event>& events) override {
     engine_->take_events(events);

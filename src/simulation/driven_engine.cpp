@@ -16,6 +16,12 @@ Instant moved(const Instant& time, const Instant& zero) {
   return time < forever ? time.plus(-zero.high).plus(-zero.low) : forever;
 }
 
+/// `time` after `start`, which is mostly 0.
+Instant after(const Instant& start, const Instant& time) {
+  if (!(time < forever) || !(Instant{} < start)) return time;
+  return start.plus(time.high).plus(time.low);
+}
+
 /// Of translation, that a temperature is shared among: the common motion along a periodic axis is not heat.
 double degrees_of_freedom(const Scene& scene) {
   const int conserved = (scene.box.periodic(0) ? 1 : 0) + (scene.box.periodic(1) ? 1 : 0);
@@ -110,7 +116,7 @@ void DrivenEngine::look_at_velocities(State& state) const {
 
 template <class Self, class Archive>
 void DrivenEngine::archive_all(Self& self, Archive& archive) {
-  archive(self.kicks_, self.next_, self.kick_time_, self.start_scale_, self.end_scale_, self.end_, self.grown_,
+  archive(self.kicks_, self.next_, self.kick_time_, self.start_, self.start_scale_, self.end_scale_, self.end_, self.grown_,
           self.at_end_scale_, self.full_, self.filled_);
   archive(self.stock_at_, self.window_, self.energy_at_start_, self.stretch_start_, self.stretch_pairs_, self.stretch_virial_,
           self.stretch_energy_);
@@ -134,26 +140,51 @@ void DrivenEngine::reset_clock() {
   begin();
 }
 
-/// Whatever is counted from where the clock stands at 0.
+void DrivenEngine::leave(Continuation& continuation) const {
+  engine_->leave(continuation);
+  continuation.totals.thermostat += counted_kicks_;
+  continuation.totals.thermostat_energy.add(kick_energy_);
+  continuation.totals.growth_energy.add(rescaling_energy_);
+  if (!andersen_.acts()) return;
+  continuation.kicks = kicks_ + 1;
+  continuation.pending = Continuation::Pending{andersen_.rate(), kicks_, next_, kick_time_};
+}
+
+void DrivenEngine::take_over(const Continuation& continuation) {
+  engine_->take_over(continuation);
+  if (const auto& pending = continuation.pending; pending && pending->rate == andersen_.rate()) {
+    kicks_ = pending->number;
+    next_ = pending->kick;
+    kick_time_ = pending->time;
+  } else if (andersen_.acts()) {
+    kicks_ = continuation.kicks;
+    next_ = andersen_.kick(kicks_);
+    kick_time_ = engine_->now().plus(next_.wait);
+  }
+  begin();
+}
+
+/// Whatever is counted from now on: from where the clock stands at 0, or from a change.
 void DrivenEngine::begin() {
   counted_kicks_ = 0;
   kick_energy_ = rescaling_energy_ = ExactSum{};
   if (growth_rate_ > 0.0) {
+    start_ = engine_->now();
     start_scale_ = engine_->state().scale;
-    if (end_scale_ > 0.0) end_ = ratio(std::max(0.0, end_scale_ - start_scale_), growth_rate_);
-    if (full_scale_ > 0.0) full_ = ratio(std::max(0.0, full_scale_ - start_scale_), growth_rate_);
+    if (end_scale_ > 0.0) end_ = after(start_, ratio(std::max(0.0, end_scale_ - start_scale_), growth_rate_));
+    if (full_scale_ > 0.0) full_ = after(start_, ratio(std::max(0.0, full_scale_ - start_scale_), growth_rate_));
     const Energy now = energy();
     energy_at_start_ = now.total();
-    stock_at_ = between_stock_;
-    stretch_start_ = {};
-    stretch_pairs_ = 0;
-    stretch_virial_ = 0.0;
+    stock_at_ = engine_->counts().pair + between_stock_;
+    stretch_start_ = start_;
+    stretch_pairs_ = engine_->counts().pair;
+    stretch_virial_ = engine_->totals().virial;
     stretch_energy_ = now.translation;
   }
   count();
 }
 
-double DrivenEngine::scale() const { return start_scale_ + growth_rate_ * now().high; }
+double DrivenEngine::scale() const { return start_scale_ + growth_rate_ * moved(now(), start_).high; }
 
 /// Of a uniform disk.
 double DrivenEngine::moment_of_inertia(std::size_t i) const {
@@ -179,7 +210,7 @@ void DrivenEngine::kick() {
   const Eigen::Vector2d v = andersen_.velocity(next_, disks_.mass[disk]);
   const double spin = spinning_ ? andersen_.spin(next_, moment_of_inertia(disk)) : 0.0;
   kick_energy_.add(engine_->set_velocity(next_.disk, v, spin));
-  last_kick_ = {.time = now().high, .time_remainder = now().low, .disk = next_.disk, .partner = thermostat_kick, .velocity = v};
+  last_kick_ = {.time = now().high, .time_remainder = now().low, .disk = next_.disk, .partner = thermostat_event, .velocity = v};
   ++counted_kicks_;
   next_ = andersen_.kick(++kicks_);
   kick_time_ = kick_time_.plus(next_.wait);

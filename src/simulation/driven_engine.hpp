@@ -43,6 +43,8 @@ class DrivenEngine final : public WrappedEngine {
   void state(State& state) const override;
   void look_at_velocities(State& state) const override;
   void reset_clock() override;
+  void leave(Continuation& continuation) const override;
+  void take_over(const Continuation& continuation) override;
   [[nodiscard]] Event last_kick() const override { return last_kick_; }
   [[nodiscard]] std::size_t bytes() const override;
   void save(SavingArchive& archive) const override;
@@ -81,21 +83,22 @@ class DrivenEngine final : public WrappedEngine {
   Event last_kick_;
 
   double growth_rate_;
-  double start_scale_ = 1.0;        ///< when the clock stood at 0
-  double end_scale_ = 0.0;          ///< at which disks have grown enough; 0 where no packing fraction is asked for
-  double end_pressure_ = 0.0;       ///< the same for the reduced pressure
-  double packing_fraction_;         ///< at scale 1
-  Instant end_ = forever;           ///< when end_scale_ is reached
-  double full_scale_ = 0.0;         ///< at which the largest disk fills the box
-  Instant full_ = forever;          ///< when that is reached
-  bool filled_ = false;             ///< it is
-  bool grown_ = false;              ///< the end is reached
-  bool at_end_scale_ = false;       ///< it was the packing fraction's
-  bool keeps_energy_;               ///< velocities are rescaled
-  std::uint64_t between_stock_;     ///< collisions of pairs from one look at the gas to the next
+  Instant start_{};              ///< from when disks grow and energy is kept: the zero of time, or the last change from outside
+  double start_scale_ = 1.0;     ///< at start_
+  double end_scale_ = 0.0;       ///< at which disks have grown enough; 0 where no packing fraction is asked for
+  double end_pressure_ = 0.0;    ///< the same for the reduced pressure
+  double packing_fraction_;      ///< at scale 1
+  Instant end_ = forever;        ///< when end_scale_ is reached
+  double full_scale_ = 0.0;      ///< at which the largest disk fills the box
+  Instant full_ = forever;       ///< when that is reached
+  bool filled_ = false;          ///< it is
+  bool grown_ = false;           ///< the end is reached
+  bool at_end_scale_ = false;    ///< it was the packing fraction's
+  bool keeps_energy_;            ///< velocities are rescaled
+  std::uint64_t between_stock_;  ///< collisions of pairs from one look at the gas to the next
   std::uint64_t stock_at_ = never;  ///< Totals::pair at which velocities are rescaled and the pressure is measured
   PressureWindow window_;
-  double energy_at_start_ = 0.0;  ///< kinetic, when the clock stood at 0
+  double energy_at_start_ = 0.0;  ///< kinetic, at start_
 
   /// Where the current stretch of the pressure's window began.
   Instant stretch_start_{};

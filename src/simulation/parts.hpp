@@ -24,6 +24,9 @@ namespace detail {
   return std::nullopt;
 }
 
+/// What decides how a simulation goes on from a state in this scene: what acts, the sizes of box and disks, the seed.
+[[nodiscard]] std::string lasting_text(const Scene& scene);
+
 }  // namespace detail
 
 struct Simulation::Parts {
@@ -35,10 +38,23 @@ struct Simulation::Parts {
   std::optional<double> time_step = {};  ///< of a fixed-step method
   double smallest_radius = smallest_of(disks);
 
-  bool recording = false;          ///< events, for the user
-  std::vector<Event> events = {};  ///< recorded and not yet taken, before those that the engine has
-  std::vector<Event> last = {};    ///< of next_event(), kept for its memory
+  bool recording = false;                   ///< events, for the user
+  std::vector<Event> events = {};           ///< recorded and not yet taken, before those that the engine has
+  std::vector<Event> last = {};             ///< of next_event(), kept for its memory
+  std::string engine_asked = {};            ///< "auto" or a name
+  Continuation continuation = {};           ///< what engines before this one have left, that this one does not need
+  std::optional<std::string> made_of = {};  ///< lasting_text() of the scene that it was made with, where that was changed
+  CollisionFunction rule = {};              ///< of the program
+  bool rule_missing = false;                ///< it had one when it was saved, and has not been given it again
+  bool scheduled = false;                   ///< run_schedule() is at work
 
+  /// Goes on with another engine, from this state in this scene, which has been checked. Throws as make_simulation() does from a
+  /// state; then all is as it was.
+  void go_on(Scene with, State state, CollisionFunction with_rule);
+  /// Throws std::logic_error where nothing can be changed now.
+  void require_changeable() const;
+  /// Throws std::logic_error where nothing can run.
+  void require_rule() const;
   /// Simulation::run_until() for an exact time.
   StopReason run_to(const Instant& target, const RunLimits& limits);
   /// Goes to the next event, unless `target` or the limit of collisions comes first or the engine cannot go on. `arrived`:

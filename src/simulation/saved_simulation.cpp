@@ -1,35 +1,166 @@
-// A simulation written down and brought back.
+// A simulation written down and brought back, with what tells whether both are of one kind: the build, and the scene as far as it
+// decides how the simulation goes on.
 
 #include <carom/simulation.hpp>
 
+#include "core/checked_stream.hpp"
 #include "core/state_archive.hpp"
+#include "scene/resolved_effects.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/start.hpp"
 
+#include <carom/version.hpp>
+
+#include <fmt/format.h>
+
 #include <istream>
 #include <ostream>
+#include <sstream>
+#include <string_view>
 #include <utility>
 
 namespace carom {
 
+namespace {
+
+/// The digit is that of what follows: what one has written, another must not read.
+constexpr std::string_view first_line = "carom simulation 2\n";
+
+std::string build() { return fmt::format("{} ({}, {})", build_info().version, build_info().commit, build_info().compiler); }
+
+/// Of the disks of one species, which may have grown.
+struct Sizes {
+  double radius = 0.0;
+  std::vector<double> radii = {};
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(radius, radii);
+  }
+};
+
+/// What a saved simulation was changed to since it was made.
+struct Changed {
+  std::string effects;       ///< as TOML
+  Box box;                   ///< its limits
+  std::vector<Sizes> sizes;  ///< of each species
+
+  explicit Changed(const Scene& scene = {}) : effects(detail::effects_toml(scene.effects)), box(scene.box) {
+    for (const Species& species : scene.species) sizes.push_back({species.radius, species.radii});
+  }
+  void change(Scene& scene) const {
+    scene.effects = detail::parse_effects(effects);
+    scene.box.lower = box.lower;
+    scene.box.upper = box.upper;
+    for (std::size_t s = 0; s < sizes.size(); ++s) {
+      scene.species[s].radius = sizes[s].radius;
+      scene.species[s].radii = sizes[s].radii;
+    }
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(effects, box.lower, box.upper, sizes);
+  }
+};
+
+/// The first line in which two texts differ, in one and in the other.
+std::string difference(const std::string& saved, const std::string& given) {
+  std::istringstream a(saved), b(given);
+  std::string line, other;
+  while (std::getline(a, line) && std::getline(b, other) && line == other) {
+  }
+  return fmt::format("it had \"{}\" in place of \"{}\"", line, other);
+}
+
+std::string read_first_line(std::istream& in) {
+  std::string line(first_line.size(), '\0');
+  in.read(line.data(), static_cast<std::streamsize>(line.size()));
+  return line;
+}
+
+}  // namespace
+
+std::string detail::lasting_text(const Scene& scene) {
+  Scene lasting = {.box = scene.box, .effects = scene.effects, .run = {.seed = scene.run.seed}};
+  std::uint64_t lists = first_sum;
+  for (const Species& species : scene.species) {
+    lasting.species.push_back({.count = species.count, .radius = species.radius, .mass = species.mass});
+    for (const std::vector<double>& list : {species.radii, species.masses})
+      lists = checksum(lists, reinterpret_cast<const char*>(list.data()), list.size() * sizeof(double));
+  }
+  return fmt::format("{}# checksum of radii and masses one by one: {:016x}\n", resolved_toml(lasting), lists);
+}
+
 void Simulation::save(std::ostream& out) const {
-  SavingArchive archive(out);
-  archive(parts_->engine_name, parts_->engine_reason, parts_->time_step, state());
-  parts_->engine->save(archive);
+  const Parts& parts = *parts_;
+  const std::string now = detail::lasting_text(parts.scene);
+  out.write(first_line.data(), static_cast<std::streamsize>(first_line.size()));
+  CheckedWriting checked(out);
+  std::ostream within(&checked);
+  SavingArchive archive(within);
+  archive(build(), parts.made_of.value_or(now), now, Changed(parts.scene));
+  archive(parts.engine_name, parts.engine_asked, parts.engine_reason, parts.time_step, has_collision_rule());
+  archive(parts.continuation.wall_draws, parts.continuation.kicks, state());
+  parts.engine->save(archive);
+  checked.finish();
 }
 
 /// An engine is made for the state that was saved, and then told what the state does not show.
-Simulation restore_simulation(const Scene& scene, std::istream& in) {
-  LoadingArchive archive(in);
-  std::string name, reason;
-  std::optional<double> time_step;
-  Start start{all_disks(scene), {}};
-  archive(name, reason, time_step, start.state);
-  Simulation simulation = time_step ? Simulation::begin(scene, std::move(start), FixedStep{name, *time_step})
-                                    : Simulation::begin(scene, std::move(start), name);
-  simulation.parts_->engine_reason = std::move(reason);
-  simulation.parts_->engine->load(archive);
-  return simulation;
+Simulation restore_simulation(const Scene& given, std::istream& in) {
+  const auto refuse = [](const std::string& sentence) {
+    throw std::runtime_error("the simulation cannot be restored: " + sentence);
+  };
+  if (read_first_line(in) != first_line) refuse("this does not begin like what Simulation::save() writes");
+  try {
+    CheckedReading checked(in);
+    std::istream within(&checked);
+    LoadingArchive archive(within);
+    std::string by, made_of, saved_with;
+    archive(by);
+    if (by != build())
+      refuse(fmt::format("carom {} has saved it, and only that one can go on to the last bit; this is {}", by, build()));
+    Changed changed;
+    archive(made_of, saved_with, changed);
+    const std::string text = detail::lasting_text(given);
+    // The scene of a simulation that was changed was checked then, as it would have begun there.
+    if (text != saved_with || made_of == saved_with) check(given);
+    Scene scene = given;
+    if (text != saved_with) {
+      if (text != made_of) throw SceneError({}, "the simulation was saved with another scene: " + difference(saved_with, text));
+      changed.change(scene);
+    }
+
+    std::string name, asked, reason;
+    std::optional<double> time_step;
+    bool own_rule = false;
+    std::uint64_t wall_draws = 0, kicks = 0;
+    Start start{disks_of(scene), {}};
+    archive(name, asked, reason, time_step, own_rule, wall_draws, kicks, start.state);
+    Simulation simulation = time_step ? Simulation::begin(scene, std::move(start), FixedStep{name, *time_step})
+                                      : Simulation::begin(scene, std::move(start), name);
+    Simulation::Parts& parts = *simulation.parts_;
+    parts.engine_asked = std::move(asked);
+    parts.engine_reason = std::move(reason);
+    parts.rule_missing = own_rule;
+    parts.continuation.wall_draws = wall_draws;
+    parts.continuation.kicks = kicks;
+    if (made_of != saved_with) parts.made_of = std::move(made_of);
+    parts.engine->load(archive);
+    if (!checked.at_end()) refuse("it holds more than a simulation");
+    return simulation;
+  } catch (const cereal::Exception&) {
+    refuse("it holds less than a simulation");
+  } catch (const SceneError&) {
+    throw;
+  } catch (const std::invalid_argument&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    const std::string sentence = error.what();
+    if (sentence.starts_with("the simulation cannot")) throw;
+    refuse(sentence);
+  }
+  throw std::logic_error("refuse() returns");
 }
 
 }  // namespace carom

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -388,7 +389,7 @@ class Schedule {
       if (event.partner >= 0) standing_.push_back(event.partner);
     }
     sort_out(standing_);
-    const bool is_met = hooks_.stop_when && measuring_ && std::ranges::any_of(events_, hooks_.stop_when);
+    const bool is_met = hooks_.stop_when && measuring_ && std::ranges::any_of(events_, std::cref(hooks_.stop_when));
     if (hooks_.events && !equilibrating_) hooks_.events(events_);
     return is_met;
   }
@@ -462,6 +463,7 @@ std::uint64_t last_sample(const Run& run) {
 
 RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   auto& parts = *simulation.parts_;
+  parts.require_rule();
   if (!parts.scene.run.time && !parts.scene.run.collisions) throw SceneError({}, detail::endless_run);
   if (hooks.collisions && !simulation.tells_collisions())
     throw std::invalid_argument("this simulation does not tell of collisions; see Simulation::tells_collisions()");
@@ -470,6 +472,14 @@ RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   for (const SamplingGrid& grid : hooks.grids)
     if (!(grid.step > 0.0 && std::isfinite(grid.step)))
       throw std::invalid_argument("the step of a sampling grid must be positive and finite");
+  struct AtWork {
+    bool& flag;
+    explicit AtWork(bool& is) : flag(is) { flag = true; }
+    AtWork(const AtWork&) = delete;
+    AtWork& operator=(const AtWork&) = delete;
+    ~AtWork() { flag = false; }
+  } const at_work(parts.scheduled);
+  parts.recording = false;
   return Schedule(parts.scene, *parts.engine, parts.disks, parts.smallest_radius, hooks)();
 }
 

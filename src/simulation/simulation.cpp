@@ -28,6 +28,7 @@ StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& lim
     throw std::invalid_argument("a simulation runs to a finite time only");
   if (time_step && (limits.events != RunLimits::none || limits.stop_when))
     throw std::invalid_argument("a fixed-step method ends at a time or a number of collisions of pairs only");
+  require_rule();
   detail::Standstill standstill(disks.count(), smallest_radius, scene.effects);
   for (;;) {
     const std::uint64_t happened = engine->counts().events();
@@ -89,6 +90,7 @@ StopReason Simulation::run_until_sample(std::uint64_t k, double dt, const RunLim
 std::optional<Event> Simulation::step(double until) {
   if (parts_->time_step) throw std::logic_error("a fixed-step method has no events to go to one by one; use run_until()");
   if (std::isnan(until)) throw std::invalid_argument("a simulation runs to a time only, and NaN is none");
+  parts_->require_rule();
   bool arrived = false;
   return parts_->next_event(std::isinf(until) && until > 0.0 ? forever : Instant{until, 0.0}, RunLimits::none, arrived);
 }
@@ -108,7 +110,7 @@ void Simulation::take_events(std::vector<Event>& events) {
 }
 bool Simulation::tells_collisions() const {
   const Effects& effects = parts_->scene.effects;
-  return parts_->engine->tells_collisions() && velocities_tell_contacts(effects) &&
+  return parts_->engine->tells_collisions() && !has_collision_rule() && velocities_tell_contacts(effects) &&
          !detail::any_acting(effects, &detail::EffectTraits::bends_paths);
 }
 std::vector<std::string> Simulation::check_invariants(double tolerated_overlap) const {
@@ -135,8 +137,10 @@ Simulation Simulation::begin(const Scene& scene, Start start, const std::string&
   const detail::EngineEntry& entry = detail::choose_engine(scene, start.disks, engine);
   std::string reason = detail::why_chosen(entry, scene, start.disks, engine);
   auto running = detail::make_engine(entry, scene, start.disks, std::move(start.state));
-  return Simulation(
+  Simulation simulation(
       std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry.name, std::move(running), std::move(reason)}));
+  simulation.parts_->engine_asked = engine;
+  return simulation;
 }
 
 Simulation make_simulation(const Scene& scene, const std::string& engine) {

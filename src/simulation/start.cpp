@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace carom {
@@ -97,6 +98,10 @@ void require_inside(const Scene& scene, const State& state, int axis, double low
 
 Disks all_disks(const Scene& scene) {
   check(scene);
+  return disks_of(scene);
+}
+
+Disks disks_of(const Scene& scene) {
   Disks disks;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
     const Species& species = scene.species[s];
@@ -121,9 +126,11 @@ Start draw_start(const Scene& scene) {
   return start;
 }
 
-Start start_from(const Scene& scene, const State& state) {
+Start start_from(const Scene& scene, const State& state) { return start_of(scene, all_disks(scene), state); }
+
+Start start_of(const Scene& scene, Disks all, const State& state) {
   Start start;
-  start.disks = all_disks(scene);
+  start.disks = std::move(all);
   const auto disks = static_cast<Eigen::Index>(start.disks.count());
   if (state.positions.cols() != disks || state.velocities.cols() != disks)
     throw std::invalid_argument(fmt::format("a state of {} positions and {} velocities is given for {} disks; give one per disk",

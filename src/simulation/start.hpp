@@ -20,11 +20,16 @@ Start draw_start(const Scene& scene);
 /// itself lacks. Disks may overlap; remainders are dropped, so that every engine starts from the same numbers.
 Start start_from(const Scene& scene, const State& state);
 
+/// The same for a scene that has been checked, of these disks.
+Start start_of(const Scene& scene, Disks disks, const State& state);
+
 /// Throws std::invalid_argument where a centre is beyond a wall: a fixed-step method gets there, exact events never do.
 void require_between_walls(const Scene& scene, const State& state);
 
 /// All disks of a scene, in the order of its species. Throws SceneError where check(scene) does.
 Disks all_disks(const Scene& scene);
+/// The same of a scene that has been checked.
+Disks disks_of(const Scene& scene);
 
 /// Column i of `positions` for every disk of every species, in the order of ids. Throws as draw_start.
 Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks);

@@ -20,7 +20,8 @@ class WrappedEngine : public AnyEngine {
   [[nodiscard]] Instant now() const override { return engine_->now(); }
   [[nodiscard]] Totals totals() const override { return engine_->totals(); }
   [[nodiscard]] const Counts& counts() const override { return engine_->counts(); }
-  [[nodiscard]] State state() const override { return engine_->state(); }
+  using AnyEngine::state;
+  void state(State& state) const override { engine_->state(state); }
   void look_at_velocities(State& state) const override { engine_->look_at_velocities(state); }
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
     return engine_->set_velocity(i, v, spin);
@@ -28,6 +29,9 @@ class WrappedEngine : public AnyEngine {
   void scale_velocities(double factor) override { engine_->scale_velocities(factor); }
   void set_back(const Instant& time) override { engine_->set_back(time); }
   void reset_clock() override { engine_->reset_clock(); }
+  void set_collision_rule(const CollisionFunction& rule) override { engine_->set_collision_rule(rule); }
+  void leave(Continuation& continuation) const override { engine_->leave(continuation); }
+  void take_over(const Continuation& continuation) override { engine_->take_over(continuation); }
   void record_events(bool on) override { engine_->record_events(on); }
   void take_events(std::vector<Event>& events) override { engine_->take_events(events); }
   [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap) const override {

@@ -171,7 +171,7 @@ TEST(Pistons, CollideWithADiskAsTwoBodiesDo) {
     for (const double M : {1e-12, 0.25, 1.0, 3.0, 1e12})
       for (const double e : {1.0, 0.5, 0.0}) {
         Scene scene = one_disk({3.5, 2.0}, {1.0, 0.25});
-        scene.effects.walls[1] = {e == 1.0 ? std::nullopt : std::optional(e), {}, {}, M, 0.0, {}};
+        scene.effects.walls[1] = {e == 1.0 ? std::nullopt : std::optional(e), {}, {}, M, 0.0};
         const Ran ran = run(scene, engine, 4.5);
         // Without restitution they stay together, and rounding may have them touch again.
         ASSERT_GE(ran.events.size(), 1U) << engine << ", M = " << M;
@@ -193,7 +193,7 @@ TEST(Pistons, FallUnderTheirLoadUntilTheyMeetADisk) {
   // speed 2.
   for (const char* engine : engines_with_effects) {
     Scene scene = one_disk({3.5, 2.0}, {0.0, 0.0}, 4.0);
-    scene.effects.walls[1] = {{}, {}, {}, 4.0, 0.5, {}};
+    scene.effects.walls[1] = {.mass = 4.0, .load = 0.5};
     const Ran ran = run(scene, engine, 4.0);
     ASSERT_EQ(ran.events.size(), 1U);
     EXPECT_EQ(ran.events[0].time, 4.0);
@@ -209,7 +209,7 @@ TEST(Pistons, KeepEnergyTogetherWithTheDisksAndTheLoad) {
     for (const double M : {100.0, 5.0, 1e-3}) {
       SCOPED_TRACE(testing::Message() << engine << ", M = " << M);
       Scene scene = gas_scene(25, 0.2, Boundary::walls);
-      scene.effects.walls[3] = {{}, {}, {}, M, 0.3, {}};
+      scene.effects.walls[3] = {.mass = M, .load = 0.3};
       Simulation simulation = make_simulation(scene, engine);
       const double energy = energy_of(simulation);
       const V momentum = total_momentum(simulation.disks(), simulation.state());
@@ -230,7 +230,7 @@ TEST(Pistons, KeepEnergyTogetherWithTheDisksAndTheLoad) {
 TEST(Pistons, FindTheirWayBack) {
   for (const char* engine : engines_with_effects) {
     Scene scene = gas_scene(36, 0.3, Boundary::walls);
-    scene.effects.walls[1] = {{}, {}, {}, 5.0, 0.5, {}};
+    scene.effects.walls[1] = {.mass = 5.0, .load = 0.5};
     Simulation there = make_simulation(scene, engine);
     const State start = there.state();
     there.run_until(2.0);
@@ -250,7 +250,7 @@ TEST(Pistons, AnEmptyBoxLetsThePistonFallToTheOtherSideWithoutEnd) {
   // No disk holds it: it goes where its load sends it, past the other wall; nothing else happens.
   for (const char* engine : engines_with_effects) {
     Scene scene = one_disk({0.5, 2.0}, {0.0, 0.0}, 1e12);
-    scene.effects.walls[1] = {{}, {}, {}, 1.0, 0.25, {}};
+    scene.effects.walls[1] = {.mass = 1.0, .load = 0.25};
     const Ran ran = run(scene, engine, 5.0);
     EXPECT_EQ(ran.stopped, StopReason::time);
     EXPECT_GE(ran.simulation.state().walls.at(1).position, 1.0 - 1e-12) << "a disk as heavy as an anvil holds it off";

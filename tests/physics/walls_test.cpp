@@ -109,7 +109,7 @@ TEST(PhysicsPistons, TheMeanPressureOnAPistonIsItsLoad) {
   for (const double mass : {50.0, 0.5}) {
     Scene scene = gas_scene(100, 0.2, Boundary::walls);
     scene.box.boundary[1] = Boundary::periodic;
-    scene.effects.walls[1] = {{}, {}, {}, mass, load, {}};
+    scene.effects.walls[1] = {.mass = mass, .load = load};
     Simulation gas = make_simulation(scene);
     gas.run_until(500.0);
     gas.reset_clock();

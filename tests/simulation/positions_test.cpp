@@ -193,7 +193,7 @@ TEST(Positions, IncompleteSpeciesAreRefused) {
 }
 
 TEST(Positions, NoDisksAreAStartToo) {
-  EXPECT_EQ(draw_start(scene_of(box_of(1.0, 1.0, Boundary::walls), {})).state.positions.cols(), 0);
+  EXPECT_EQ(draw_start(scene_of(box_of(1.0, 1.0, Boundary::walls), std::vector<Species>{})).state.positions.cols(), 0);
   EXPECT_EQ(draw_start(scene_of(box_of(1.0, 1.0, Boundary::periodic), {at_random(0, 0.1)})).state.velocities.cols(), 0);
 }
 

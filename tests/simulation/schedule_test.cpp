@@ -252,7 +252,7 @@ TEST(Schedule, EquilibrationThatWaitsForCollisionsInVainEndsTheRun) {
 
 TEST(Schedule, ATimedRunOfDisksThatNeverMeetSamplesToItsEnd) {
   for (const Scene& scene : {resting_scene(), lone_disk_scene(), parallel_scene(Boundary::periodic),
-                             scene_of(box_of(1.0, 1.0, Boundary::periodic), {})}) {
+                             scene_of(box_of(1.0, 1.0, Boundary::periodic), std::vector<Species>{})}) {
     Simulation simulation = make_simulation(timed(scene, 3.0, 0.1));
     const RunResult result = run_schedule(simulation);
     EXPECT_EQ(result.stopped, StopReason::time);

@@ -24,7 +24,8 @@ namespace {
 Scene every_kind_of_event() {
   Scene scene = gas_scene(24, 0.2, Boundary::walls);
   scene.effects.square_well = SquareWell{1.3, 0.5};
-  scene.effects.obstacles = {DiskObstacle{scene.box.lower, 0.3}, DiskObstacle{scene.box.upper, 0.3}};
+  scene.species[0].positions = RandomPositions{};
+  scene.effects.obstacles = {DiskObstacle{0.5 * scene.box.upper, 0.4}};
   return scene;
 }
 
@@ -79,7 +80,7 @@ TEST(Steps, TellOfTheKicksOfAThermostat) {
   Simulation simulation = make_simulation(scene);
   std::uint64_t kicks = 0;
   while (const std::optional<Event> event = simulation.step(5.0)) {
-    if (event->partner != thermostat_kick) continue;
+    if (event->partner != thermostat_event) continue;
     ++kicks;
     EXPECT_EQ(event->time, simulation.time());
     EXPECT_EQ(event->velocity, simulation.state().velocities.col(event->disk));
@@ -173,7 +174,9 @@ TEST(RunLimits, AConditionMayLookAndThrow) {
 }
 
 TEST(RunLimits, FixedStepsKnowCollisionsAlone) {
-  Simulation simulation = make_simulation(gas_scene(16, 0.3, Boundary::walls), FixedStep{"guarded", 0.01});
+  Scene scene = gas_scene(16, 0.3, Boundary::walls);
+  scene.run.time = 1.0;
+  Simulation simulation = make_simulation(scene, FixedStep{"guarded", 0.01});
   EXPECT_THROW(simulation.run_until(1.0, {.events = 10}), std::invalid_argument);
   EXPECT_THROW(simulation.run_until(1.0, {.stop_when = [](const Event&) { return false; }}), std::invalid_argument);
   EXPECT_THROW(simulation.step(), std::logic_error);
@@ -186,6 +189,7 @@ TEST(RunLimits, FixedStepsKnowCollisionsAlone) {
 TEST(RunLimits, AScheduleEndsWhereItsConditionIsMet) {
   Scene scene = mixture_scene(20, 0.4, Boundary::walls);
   scene.run.equilibrate = Run::Equilibrate{.collisions_per_disk = 5.0};
+  scene.run.time = 3.0;
   scene.run.sample_every = 0.1;
   const auto run_with = [&](std::uint64_t most, std::vector<Event>& log) {
     Simulation simulation = make_simulation(scene);

@@ -18,7 +18,7 @@ Scene heated(Scene scene, double temperature, double rate) {
 }
 
 /// Of uniform disks, at scale 1.
-double spin_energy(const Disks& disks, const State& state) {
+double energy_of_spins(const Disks& disks, const State& state) {
   double sum = 0.0;
   for (std::size_t i = 0; i < disks.count(); ++i)
     sum += 0.25 * disks.mass[i] * std::pow(disks.radius[i] * state.spins[static_cast<Eigen::Index>(i)], 2);
@@ -85,7 +85,7 @@ TEST(Thermostat, AccountsForTheEnergyThatItGives) {
     Simulation simulation = make_simulation(scene);
     const auto energy = [&] {
       const State state = simulation.state();
-      return kinetic_energy(simulation.disks(), state) + (rough ? spin_energy(simulation.disks(), state) : 0.0);
+      return kinetic_energy(simulation.disks(), state) + (rough ? energy_of_spins(simulation.disks(), state) : 0.0);
     };
     const double before = energy();
     simulation.run_until(100.0);
@@ -146,7 +146,7 @@ void expect_gamma_law(Scene scene, double temperature, double shape) {
     // Each kick makes 1 / N of the energy new, so energies 8 / rate apart are correlated by exp(-8) = 3e-4.
     simulation.run_until(8.0 / rate * (k + 1));
     const State state = simulation.state();
-    const double energy = kinetic_energy(simulation.disks(), state) + (rough ? spin_energy(simulation.disks(), state) : 0.0);
+    const double energy = kinetic_energy(simulation.disks(), state) + (rough ? energy_of_spins(simulation.disks(), state) : 0.0);
     sum += energy;
     squares += energy * energy;
   }

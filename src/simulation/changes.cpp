@@ -1,0 +1,141 @@
+// What a program changes while a simulation runs: another engine goes on from where the one before has come to.
+
+#include <carom/simulation.hpp>
+
+#include "simulation/catalogue.hpp"
+#include "simulation/parts.hpp"
+#include "simulation/start.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+void scale_radii(Scene& scene, double scale) {
+  for (Species& species : scene.species) {
+    species.radius *= scale;
+    for (double& radius : species.radii) radius *= scale;
+  }
+}
+
+/// The scene that begins where a simulation is now: walls where they stand, disks one by one and as large as they have grown. In
+/// single precision disks may overlap by more than check() takes for rounding.
+Scene begun_now(Scene scene, const State& state, bool single) {
+  for (std::size_t k = 0; k < state.walls.size(); ++k) {
+    const auto axis = static_cast<Eigen::Index>(k / 2);
+    if (!scene.box.periodic(static_cast<int>(axis)))
+      (k % 2 == 0 ? scene.box.lower : scene.box.upper)[axis] = state.walls[k].position;
+  }
+  scale_radii(scene, single ? state.scale * (1.0 - 1e-5) : state.scale);
+  Eigen::Index i = 0;
+  for (Species& species : scene.species) {
+    ListedPositions positions;
+    ListedVelocities velocities;
+    for (std::int64_t k = 0; k < species.count; ++k, ++i) {
+      positions.values.emplace_back(state.positions.col(i));
+      velocities.values.emplace_back(state.velocities.col(i));
+    }
+    species.positions = std::move(positions);
+    species.velocities = std::move(velocities);
+  }
+  return scene;
+}
+
+/// Walls that do not move any more stand where they are; disks that do not grow any more keep their size.
+void settle(Scene& scene, State& state) {
+  for (std::size_t k = 0; k < state.walls.size(); ++k) {
+    const WallProperties& wall = scene.effects.walls[k];
+    const auto axis = static_cast<Eigen::Index>(k / 2);
+    if (wall.mass || wall.velocity.value_or(0.0) != 0.0 || scene.box.periodic(static_cast<int>(axis))) continue;
+    (k % 2 == 0 ? scene.box.lower : scene.box.upper)[axis] = state.walls[k].position;
+  }
+  if (scene.effects.growth && scene.effects.growth->rate > 0.0) return;
+  scale_radii(scene, state.scale);
+  state.scale = 1.0;
+}
+
+}  // namespace
+
+void Simulation::Parts::require_changeable() const {
+  if (time_step)
+    throw std::logic_error(
+        "a fixed-step method goes on as it began; make another simulation from its state in place of a change");
+  if (scheduled) throw std::logic_error("a simulation is not to be changed while run_schedule() runs it");
+}
+
+void Simulation::Parts::require_rule() const {
+  if (rule_missing)
+    throw std::logic_error(
+        "this simulation was saved with a collision rule of the program; give it again by set_collision_rule()");
+}
+
+void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_rule) {
+  require_rule();
+  const bool own_rule = static_cast<bool>(with_rule);
+  if (own_rule && with.effects.growth && with.effects.growth->rate > 0.0)
+    throw std::invalid_argument("a collision rule of the program and [growth] cannot be combined; remove one of the two");
+  settle(with, state);
+  Start start = start_of(with, disks_of(with), state);
+  require_between_walls(with, start.state);
+  const detail::EngineEntry& entry = detail::choose_engine(with, start.disks, engine_asked, own_rule);
+  std::string reason = detail::why_chosen(entry, with, start.disks, engine_asked, own_rule);
+  auto another = detail::make_engine(entry, with, start.disks, std::move(start.state));
+  if (own_rule) another->set_collision_rule(with_rule);
+  continuation.pending.reset();
+  engine->leave(continuation);
+  another->take_over(continuation);
+  another->record_events(recording);
+  engine->take_events(last);
+  events.insert(events.end(), last.begin(), last.end());
+
+  if (!made_of) made_of = detail::lasting_text(scene);
+  scene = std::move(with);
+  disks = std::move(start.disks);
+  smallest_radius = smallest_of(disks);
+  rule = std::move(with_rule);
+  engine_name = entry.name;
+  engine_reason = std::move(reason);
+  engine = std::move(another);
+}
+
+void Simulation::set_effects(const Effects& effects) {
+  parts_->require_changeable();
+  Scene scene = parts_->scene;
+  scene.effects = effects;
+  State state = parts_->engine->state();
+  check(begun_now(scene, state, parts_->engine_name == "textbook-float"));
+  parts_->go_on(std::move(scene), std::move(state), parts_->rule);
+}
+
+void Simulation::set_velocities(const Eigen::Matrix2Xd& velocities, const Eigen::VectorXd& spins) {
+  parts_->require_changeable();
+  State state = parts_->engine->state();
+  state.velocities = velocities;
+  if (spins.size() > 0) {
+    if (spins.size() != state.spins.size())
+      throw std::invalid_argument(fmt::format("{} spins are given for {} disks that spin", spins.size(), state.spins.size()));
+    state.spins = spins;
+  }
+  parts_->go_on(parts_->scene, std::move(state), parts_->rule);
+}
+
+void Simulation::set_collision_rule(CollisionFunction rule) {
+  parts_->require_changeable();
+  if (parts_->rule_missing && rule) {
+    parts_->engine->set_collision_rule(rule);
+    parts_->rule = std::move(rule);
+    parts_->rule_missing = false;
+    return;
+  }
+  parts_->rule_missing = false;
+  parts_->go_on(parts_->scene, parts_->engine->state(), std::move(rule));
+}
+
+bool Simulation::has_collision_rule() const { return parts_->rule || parts_->rule_missing; }
+
+}  // namespace carom
