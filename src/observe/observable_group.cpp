@@ -29,6 +29,10 @@ void ObservableGroup::add(std::unique_ptr<Observable> observable) {
                      fmt::format("{} follows disks from collision to collision, and {} changes their velocities in between; "
                                  "remove one of the two",
                                  observable->name(), what_drives(run_.scene.effects)));
+  if (observable->follows_collisions() && run_.own_rule)
+    throw SceneError({}, observable->name() +
+                             " follows disks from collision to collision, and knows the collision rules of scenes "
+                             "only; do without it, or without the rule of the program");
   if (const std::size_t index = observables_.size(); index < saved_.size()) {
     std::istringstream gathered(std::move(saved_[index]));
     observable->load(gathered);
@@ -45,7 +49,18 @@ void ObservableGroup::follow_with(Observable& observable) {
   } else {
     followers_.push_back(&observable);
   }
-  if (stream_ || run_.collisions_told) return;
+  if (!run_.collisions_told) follow_log();
+}
+
+void ObservableGroup::follow_log() {
+  if (run_.collisions_told) {
+    run_.collisions_told = false;
+    for (const auto& one : observables_)
+      if (std::ranges::find(note_followers_, dynamic_cast<NoteFollower*>(one.get())) != note_followers_.end())
+        followers_.push_back(one.get());
+    note_followers_.clear();
+  }
+  if (stream_ || !follows_collisions()) return;
   stream_.emplace(run_.scene, run_.disks);
   if (saved_stream_.empty()) return;
   std::istringstream saved(saved_stream_);

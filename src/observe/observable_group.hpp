@@ -38,6 +38,9 @@ class ObservableGroup {
   /// Returns the observables that need samples, by the time between two of them.
   [[nodiscard]] std::map<double, std::vector<Observable*>> by_step() const;
 
+  /// From now on collisions come from the log of events, by follow(), whether or not the simulation tells of them.
+  void follow_log();
+
   void start(const State& state);
   /// Requires events in order, none left out, and !run().collisions_told. What comes of it does not depend on how they are
   /// divided among calls.

@@ -1,5 +1,6 @@
 #include "observe/observables.hpp"
 
+#include "scene/checks.hpp"
 #include "scene/refusal.hpp"
 
 namespace carom {
@@ -32,8 +33,10 @@ constexpr Entry catalogue[] = {
 }  // namespace
 
 MadeObservable make_observable(const ObservableRequest& request, const ObservedRun& run) {
+  ObservableRequest completed = request;  // a program may leave open what the reader of files fills in
+  detail::complete_request(run.scene, completed);
   for (const Entry& entry : catalogue)
-    if (request.name == entry.name) return entry.make(request, run);
+    if (request.name == entry.name) return entry.make(completed, run);
   throw detail::scene_error(run.scene, "observe." + request.name, "there is no observable \"" + request.name + "\"");
 }
 

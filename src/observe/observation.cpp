@@ -5,12 +5,17 @@
 
 #include <carom/observe.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace carom {
 
@@ -40,6 +45,35 @@ class Observation::Driver {
     if (is_told() && !hooks.room_for_collisions) hooks.room_for_collisions = [this] { return thread_->room(); };
   }
 
+  void sample(Simulation& simulation) {
+    if (&simulation != &simulation_) throw std::logic_error("an observation samples the simulation that it was made for");
+    if (!begun_) begin(simulation);
+    if (group_.follows_collisions()) {
+      simulation.take_events(events_);
+      group_.follow(events_);
+    }
+    const double now = simulation.time();
+    for (Due& due : due_) {
+      const double time = static_cast<double>(due.k) * due.step, rounding = 1e-9 * due.step;
+      if (now < time - rounding) continue;
+      if (now > time + rounding)
+        throw std::logic_error(
+            fmt::format("{} is to be sampled at time {:.9g}, and it is {:.9g} already; call sample() at every "
+                        "next_sample()",
+                        due.observables.front()->name(), time, now));
+      simulation.state(state_);
+      const Totals totals = simulation.totals();
+      for (Observable* observable : due.observables) observable->sample(state_, totals);
+      ++due.k;
+    }
+  }
+  [[nodiscard]] double next_sample() const {
+    if (!begun_) return 0.0;
+    double next = std::numeric_limits<double>::infinity();
+    for (const Due& due : due_) next = std::min(next, static_cast<double>(due.k) * due.step);
+    return next;
+  }
+
   /// All that happened so far has been looked at.
   void finish() {
     if (thread_) thread_->finish();
@@ -52,6 +86,23 @@ class Observation::Driver {
 
  private:
   [[nodiscard]] bool is_told() const { return group_.follows_collisions() && group_.run().collisions_told; }
+  /// Observables of one step, in a loop of a program's own.
+  struct Due {
+    double step;
+    std::vector<Observable*> observables;
+    std::uint64_t k = 0;
+  };
+  void begin(Simulation& simulation) {
+    if (simulation.time() != 0.0 || simulation.counts().events() != 0)
+      throw std::logic_error(
+          "a measurement begins at time 0, before anything was counted; call reset_clock() after equilibrating");
+    begun_ = true;
+    group_.follow_log();
+    for (const auto& [step, observables] : group_.by_step()) due_.push_back({step, observables});
+    group_.start(simulation.state());
+    if (group_.follows_collisions()) simulation.record_events(true);
+  }
+
   /// `follower` receives events, or collisions where the simulation records them.
   template <class Follower, class Sample>
   void attach(RunHooks& hooks, Follower& follower, Sample sample) {
@@ -85,6 +136,10 @@ class Observation::Driver {
   ObservableGroup group_;
   std::map<double, std::vector<Observable*>> steps_;
   std::optional<ObservingThread> thread_;
+  bool begun_ = false;  ///< by sample()
+  std::vector<Due> due_;
+  std::vector<Event> events_;  ///< kept for its memory, as the state
+  State state_;
 };
 
 void Observable::save(std::ostream& /*out*/) const { throw std::logic_error("the observable " + name() + " cannot be saved"); }
@@ -103,6 +158,8 @@ void Observation::save(std::ostream& out) const {
   driver_->finish();
   driver_->group().save(out);
 }
+void Observation::sample(Simulation& simulation) { driver_->sample(simulation); }
+double Observation::next_sample() const { return driver_->next_sample(); }
 void Observation::attach(RunHooks& hooks) { driver_->attach(hooks); }
 void Observation::attach_on_thread(RunHooks& hooks) { driver_->attach_on_thread(hooks); }
 std::vector<Measurement> Observation::results() { return driver_->results(); }

@@ -40,6 +40,7 @@ ObservedRun observed_run(const Simulation& simulation) {
       observed_run(scene, simulation.disks(),
                    bath ? *bath : kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state()));
   run.collisions_told = simulation.tells_collisions();
+  run.own_rule = simulation.has_collision_rule();
   return run;
 }
 

@@ -61,6 +61,8 @@ void check_growth(const Scene& scene);
 void check_scales(const Scene& scene);
 void check_run(const Scene& scene);
 void check_observe(const Scene& scene);
+/// Gives a request the range of its histogram where it has none: no more than half of the box.
+void complete_request(const Scene& scene, ObservableRequest& request);
 /// The time from one sample to the next, at `path`: until the end of the run there can be fewer than 2^53 samples, of which there
 /// are `per_step` in each step; where that is not known, disks must move from one to the next.
 void check_step(const Scene& scene, const std::string& path, double step, double per_step = 1.0);

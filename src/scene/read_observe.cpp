@@ -54,13 +54,14 @@ std::vector<ObservableRequest> read_observe(const toml::table& node) {
   return requests;
 }
 
+void complete_request(const Scene& scene, ObservableRequest& request) {
+  const KnownObservable* known = find_observable(request.name);
+  if (known == nullptr || !known->range || request.range || scene.disk_count() == 0) return;
+  request.range = std::min(*known->range, 0.5 * scene.box.lengths().minCoeff() / mean_diameter(scene));
+}
+
 void complete_observe(Scene& scene) {
-  if (scene.observe.empty() || scene.disk_count() == 0) return;
-  const double half_box = 0.5 * scene.box.lengths().minCoeff() / mean_diameter(scene);
-  for (ObservableRequest& request : scene.observe) {
-    const KnownObservable* known = find_observable(request.name);
-    if (known != nullptr && known->range && !request.range) request.range = std::min(*known->range, half_box);
-  }
+  for (ObservableRequest& request : scene.observe) complete_request(scene, request);
 }
 
 }  // namespace carom::detail
