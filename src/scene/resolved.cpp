@@ -62,7 +62,9 @@ struct PutVelocities {
 };
 
 void put_species(Buffer& out, const Species& species) {
-  put(out, "\n[[disks]]\nname = {}\ncount = {}\n", quoted_text(species.name), species.count);
+  put(out, "\n[[disks]]\n");
+  if (!species.name.empty()) put(out, "name = {}\n", quoted_text(species.name));  // a program may leave it out
+  put(out, "count = {}\n", species.count);
   // A value of zero stands for none: it is a column of the start file.
   if (species.radius > 0.0) {
     put(out, "radius = {}\n", number_text(species.radius));

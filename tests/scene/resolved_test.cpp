@@ -65,6 +65,23 @@ TEST(Resolved, NumbersAreTomlFloatsOfFewestDigits) {
   EXPECT_EQ(number_text(std::numeric_limits<double>::infinity()), "inf");
 }
 
+TEST(Resolved, ASceneMadeInAProgramSurvives) {
+  const Scene scene{
+      .title = "made",
+      .box = {.upper = {20.0, 10.0}, .boundary = {Boundary::periodic, Boundary::walls}},
+      .species = {{.count = 10, .radius = 0.5, .mass = 1.0, .velocities = MaxwellVelocities{1.0}},
+                  {.name = "heavy", .count = 1, .radius = 1.0, .mass = 5.0, .positions = ListedPositions{{{5.0, 5.0}}}}},
+      .effects = {.collision = {.restitution = 0.9},
+                  .gravity = Gravity{{0.0, -0.1}},
+                  .obstacles = {DiskObstacle{{15.0, 5.0}, 1.0}}},
+      .run = {.time = 10.0, .sample_every = 0.5, .seed = 7},
+      .observe = {{.name = "pressure", .every = 0.25}},
+  };
+  Scene named = scene;
+  named.species[0].name = "disks0";  // as the reader calls it
+  EXPECT_EQ(first_difference(parse_scene(resolved_toml(scene)), named), "");
+}
+
 TEST(Resolved, AnEmptyBoxSurvives) {
   const Scene scene = parse_scene(
       "disks = []\nbox = { x = [0, 1], y = [0, 1], boundary = \"walls\" }\ncollision.rule = \"reversal\"\nrun.time = 0");

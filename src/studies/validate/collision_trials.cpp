@@ -25,11 +25,11 @@ TrialResult rates(const std::string& trial, double eta, const Effort& effort) {
   const Gas gas{.disks = disks,
                 .packing_fraction = eta,
                 .collisions = effort.collisions(2e6),
-                .observe = "collision_rate = true\nfree_flight = true\nvelocity_moments = true\n"};
+                .observe = {{.name = "collision_rate"}, {.name = "nfree_flight"}, {.name = "nvelocity_moments"}}};
   Encounters::Seen seen;
   std::vector<std::unique_ptr<Observable>> own;
   own.push_back(std::make_unique<Encounters>(0.5 / rate, 1.0 / rate, seen));
-  const Found found = run(scene_text(gas, effort.seed_of(0)), effort, result, std::move(own));
+  const Found found = run(scene_of(gas, effort.seed_of(0)), effort, result, std::move(own));
   const std::string what = fmt::format("packing fraction {:.1f}, {} disks", eta, disks);
   const Measured measured = found.measured("collision_rate", "rate");
   const std::string eos = "Kolafa & Rottner, Mol. Phys. 104, 3435 (2006), with the first term in 1/N";
@@ -125,7 +125,7 @@ TrialResult free_times(const std::string& trial, const Effort& effort) {
     const Gas gas{.disks = disks, .packing_fraction = densities[run_number], .collisions = collisions, .equilibrate = 20.0};
     std::vector<std::unique_ptr<Observable>> own;
     own.push_back(std::make_unique<Encounters>(1.0 / rate, 1.0 / rate, seen[run_number]));
-    (void)run(scene_text(gas, effort.seed_of(run_number)), effort, result, std::move(own));
+    (void)run(scene_of(gas, effort.seed_of(run_number)), effort, result, std::move(own));
   }
   const double far = densities[0] / (densities[1] - densities[0]);
   Curve measured{.plot = "free-times", .name = "at vanishing density"};
@@ -168,14 +168,12 @@ TrialResult mixture(const std::string& trial, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr double side = 24.0, big = 0.5, small = 0.3;
   constexpr int bigs = 200, smalls = 200;
-  const std::string scene = fmt::format(
-      "[box]\nx = [0.0, {0}]\ny = [0.0, {0}]\nboundary = \"periodic\"\n\n[[disks]]\nname = \"big\"\ncount = {1}\nradius = {2}\n"
-      "mass = 1.0\npositions = \"random\"\nvelocities = {{ temperature = 1.0 }}\n\n[[disks]]\nname = \"small\"\ncount = {3}\n"
-      "radius = {4}\nmass = 0.2\npositions = \"random\"\nvelocities = {{ temperature = 1.0 }}\n\n[collision]\nrule = "
-      "\"specular\"\n\n"
-      "[run]\ncollisions = {5:.0f}\nequilibrate = {{ collisions_per_disk = 100 }}\nseed = {6}\n\n[observe]\npressure = true\n"
-      "collision_rate = true\n",
-      side, bigs, big, smalls, small, effort.collisions(3e6), effort.seed_of(0));
+  const Scene scene{
+      .box = {.upper = {side, side}, .boundary = {Boundary::periodic, Boundary::periodic}},
+      .species = {{.name = "big", .count = bigs, .radius = big, .mass = 1.0, .velocities = MaxwellVelocities{1.0}},
+                  {.name = "small", .count = smalls, .radius = small, .mass = 0.2, .velocities = MaxwellVelocities{1.0}}},
+      .run = run_of(effort.collisions(3e6), 100.0, effort.seed_of(0)),
+      .observe = {{.name = "pressure"}, {.name = "collision_rate"}}};
   const Found found = run(scene, effort, result);
   const std::string what = "200 disks of radius 0.5 and 200 of 0.3, masses 1 and 0.2";
   const Measured Z = found.measured("pressure", "Z"), from_rate = found.measured("pressure", "Z_rate");

@@ -28,17 +28,16 @@ std::array<double, 2> moments(const State& state) {
 State equilibrium(std::int64_t disks, double eta, const Effort& effort, std::uint64_t seed) {
   TrialResult not_kept;
   const Gas gas{.disks = disks, .packing_fraction = eta, .collisions = 1.0, .equilibrate = 20.0};
-  State state = run(scene_text(gas, seed), effort, not_kept).simulation.state();
+  State state = run(scene_of(gas, seed), effort, not_kept).simulation.state();
   state.time = 0.0;
   return state;
 }
 
-std::string cooling_scene(std::int64_t disks, double eta, double restitution, double time, double step) {
-  return fmt::format(
-      "[box]\naspect = 1.0\nboundary = \"periodic\"\n\n[[disks]]\ncount = {}\nradius = 0.5\npacking_fraction = {}\nmass = 1.0\n"
-      "positions = \"hexagonal\"\nvelocities = {{ temperature = 1.0 }}\n\n[collision]\nrule = \"specular\"\nrestitution = {}\n\n"
-      "[run]\ntime = {:.6g}\nsample_every = {:.6g}\n",
-      disks, eta, restitution, time, step);
+Scene cooling_scene(std::int64_t disks, double eta, double restitution, double time, double step) {
+  Scene scene = scene_of({.disks = disks, .packing_fraction = eta}, 1);
+  scene.effects.collision.restitution = restitution;
+  scene.run = {.time = time, .sample_every = step};
+  return scene;
 }
 
 /// Looks at a gas while it cools.
@@ -189,14 +188,13 @@ TrialResult barometer(const std::string& trial, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr double g = 0.1, radius = 0.1, width = 40.0, height = 60.0, layer = 5.0;
   constexpr int disks = 200;
-  const std::string scene = fmt::format(
-      "[box]\nx = [0.0, {}]\ny = [0.0, {}]\nboundary = {{ x = \"periodic\", y = \"walls\" }}\n\n[[disks]]\ncount = {}\nradius = "
-      "{}\n"
-      "mass = 1.0\npositions = \"random\"\nvelocities = {{ temperature = 1.0 }}\n\n[collision]\nrule = "
-      "\"specular\"\n\n[gravity]\n"
-      "acceleration = [0.0, -{}]\n\n[walls]\nbottom = {{ temperature = 1.0 }}\n\n[run]\ntime = {:.0f}\n"
-      "equilibrate = {{ time = 500.0 }}\nseed = {}\n",
-      width, height, disks, radius, g, effort.full ? 200'000.0 : 20'000.0, effort.seed_of(0));
+  Scene scene{
+      .box = {.upper = {width, height}, .boundary = {Boundary::periodic, Boundary::walls}},
+      .species = {{.count = disks, .radius = radius, .mass = 1.0, .velocities = MaxwellVelocities{1.0}}},
+      .effects = {.gravity = Gravity{{0.0, -g}}},
+      .run = {
+          .time = effort.full ? 200'000.0 : 20'000.0, .equilibrate = Run::Equilibrate{.time = 500.0}, .seed = effort.seed_of(0)}};
+  scene.effects.walls[2].temperature = 1.0;  // the bottom
   std::array<Blocking, Layers::layers> counts;
   std::vector<std::unique_ptr<Observable>> own;
   own.push_back(std::make_unique<Layers>(5.0, radius, layer, counts));
@@ -242,9 +240,9 @@ TrialResult wall_pressure(const std::string& trial, const Effort& effort) {
     const Gas gas{.disks = disks,
                   .packing_fraction = eta,
                   .collisions = effort.collisions(2e6),
-                  .observe = "pressure = true\n",
-                  .boundary = "walls"};
-    const Found found = run(scene_text(gas, effort.seed_of(k++)), effort, result);
+                  .observe = {{.name = "pressure"}},
+                  .boundary = Boundary::walls};
+    const Found found = run(scene_of(gas, effort.seed_of(k++)), effort, result);
     const Measured Z = found.measured("pressure", "Z_walls");
     const double small = 1.0 / std::sqrt(static_cast<double>(disks));
     const Eigen::Vector3d basis(1.0, small, small * small);

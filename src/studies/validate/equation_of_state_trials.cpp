@@ -74,14 +74,14 @@ TrialResult fluid(const std::string& trial, const Density& at, const Effort& eff
   const Gas gas{.disks = at.disks,
                 .packing_fraction = at.eta,
                 .collisions = effort.collisions(at.collisions),
-                .observe = "pressure = true\n",
-                .positions = at.eta > 0.64 ? fmt::format("{{ packing_fraction = {} }}", at.eta) : "\"hexagonal\"",
+                .observe = {{.name = "pressure"}},
+                .positions = at.eta > 0.64 ? Positions(GrownPositions{at.eta}) : HexagonalLattice{},
                 .equilibrate = at.eta > 0.64 ? 3000.0 : 100.0};
   Blocking difference;
   std::vector<std::unique_ptr<Observable>> own;
   const double rate = theory::disk_collision_rate(theory::kolafa_rottner(at.eta));
   own.push_back(std::make_unique<TwoPressures>(16.0 / rate, at.disks, difference));
-  const Found found = run(scene_text(gas, effort.seed_of(0)), effort, result, std::move(own));
+  const Found found = run(scene_of(gas, effort.seed_of(0)), effort, result, std::move(own));
   const Measured Z = found.measured("pressure", "Z");
   const bool corrected = at.eta <= 0.63;
   const double infinite = theory::kolafa_rottner(at.eta), finite = theory::kolafa_rottner_finite(at.eta, at.disks);
@@ -125,9 +125,9 @@ TrialResult small(const std::string& trial, const theory::ReferencePressure& kno
   const Gas gas{.disks = known.disks,
                 .packing_fraction = known.packing_fraction,
                 .collisions = effort.collisions(8e6),
-                .observe = "pressure = true\n",
+                .observe = {{.name = "pressure"}},
                 .equilibrate = 2000.0};
-  const Found found = run(scene_text(gas, effort.seed_of(0)), effort, result);
+  const Found found = run(scene_of(gas, effort.seed_of(0)), effort, result);
   result.checks.push_back(
       {.name = fmt::format("P sigma^2 / kT of {} disks at packing fraction {:.2f}", known.disks, known.packing_fraction),
        .theory = "for this number of disks in a square box",
@@ -144,12 +144,13 @@ TrialResult solid(const std::string& trial, double alpha, const Effort& effort) 
   constexpr int columns = 16, rows = 18, disks = columns * rows;
   // Close packing has eta_cp = pi / 2 sqrt3; lengths are 1 + alpha times as large in area.
   const double spacing = std::sqrt(1.0 + alpha);
-  const std::string scene = fmt::format(
-      "[box]\nx = [0.0, {:.17g}]\ny = [0.0, {:.17g}]\nboundary = \"periodic\"\n\n[[disks]]\ncount = {}\nradius = 0.5\nmass = "
-      "1.0\n"
-      "positions = \"hexagonal\"\nvelocities = {{ temperature = 1.0 }}\n\n[collision]\nrule = \"specular\"\n\n[run]\n"
-      "collisions = {:.0f}\nequilibrate = {{ collisions_per_disk = 500 }}\nseed = {}\n\n[observe]\npressure = true\n",
-      columns * spacing, rows * spacing * 0.5 * std::numbers::sqrt3, disks, effort.collisions(4e6), effort.seed_of(0));
+  const Scene scene{
+      .box = {.upper = {columns * spacing, rows * spacing * 0.5 * std::numbers::sqrt3},
+              .boundary = {Boundary::periodic, Boundary::periodic}},
+      .species =
+          {{.count = disks, .radius = 0.5, .mass = 1.0, .positions = HexagonalLattice{}, .velocities = MaxwellVelocities{1.0}}},
+      .run = run_of(effort.collisions(4e6), 500.0, effort.seed_of(0)),
+      .observe = {{.name = "pressure"}}};
   const Found found = run(scene, effort, result);
   const double eta = 0.25 * pi * disks / (columns * spacing * rows * spacing * 0.5 * std::numbers::sqrt3);
   result.checks.push_back({.name = fmt::format("Z of a crystal of {} disks at packing fraction {:.6f}", disks, eta),
@@ -170,9 +171,9 @@ TrialResult transition(const std::string& trial, const theory::ReferencePressure
     const Gas gas{.disks = known.disks,
                   .packing_fraction = known.packing_fraction,
                   .collisions = 6e8,
-                  .observe = "pressure = true\n",
+                  .observe = {{.name = "pressure"}},
                   .equilibrate = equilibrate};
-    return run(scene_text(gas, effort.seed_of(k)), effort, result, {}, change).measured("pressure", "reduced");
+    return run(scene_of(gas, effort.seed_of(k)), effort, result, {}, change).measured("pressure", "reduced");
   };
   const std::string what = fmt::format("{} disks at packing fraction {:.3f}", known.disks, known.packing_fraction);
   const Measured from_lattice = pressure(20'000.0, 0, {});

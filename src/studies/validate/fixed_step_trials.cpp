@@ -11,6 +11,7 @@
 #include <carom/blocking.hpp>
 
 #include <cmath>
+#include <numbers>
 
 namespace carom::validation {
 
@@ -25,13 +26,9 @@ TrialResult in_steps(const std::string& trial, const std::string& method, double
   const theory::Microcanonical law(disks, true);
   const double rate = theory::disk_collision_rate(Z) * law.speed_factor();
   const double time = (effort.full ? 4000.0 : 200.0) / rate;
-  const std::string text = fmt::format(
-      "[box]\naspect = 1.0\nboundary = \"periodic\"\n\n[[disks]]\ncount = {}\nradius = 0.5\npacking_fraction = {}\nmass = 1.0\n"
-      "positions = \"hexagonal\"\nvelocities = {{ speed = 1.4142135623730951 }}\n\n[collision]\nrule = \"specular\"\n\n[run]\n"
-      "time = {:.6g}\nequilibrate = {{ time = {:.6g} }}\nseed = {}\n",
-      disks, eta, time, 50.0 / rate, effort.seed_of(0));
-  result.scenes.push_back(text);
-  const Scene scene = parse_scene(text, trial);
+  Scene scene = scene_of({.disks = disks, .packing_fraction = eta, .velocities = FixedSpeed{std::numbers::sqrt2}}, 1);
+  scene.run = {.time = time, .equilibrate = Run::Equilibrate{.time = 50.0 / rate}, .seed = effort.seed_of(0)};
+  result.scenes.push_back(resolved_toml(scene));
   Simulation simulation = make_simulation(scene, FixedStep{method, dt});
   RunHooks hooks;
   hooks.proceed = [&](const Progress&) { return !effort.proceed || effort.proceed(); };

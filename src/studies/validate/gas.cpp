@@ -10,13 +10,23 @@
 
 namespace carom::validation {
 
-std::string scene_text(const Gas& gas, std::uint64_t seed) {
-  return fmt::format(
-      "[box]\naspect = 1.0\nboundary = \"{}\"\n\n[[disks]]\ncount = {}\nradius = 0.5\npacking_fraction = {}\nmass = 1.0\n"
-      "positions = {}\nvelocities = {}\n\n[collision]\nrule = \"{}\"\n\n[run]\ncollisions = {:.0f}\n"
-      "equilibrate = {{ collisions_per_disk = {:g} }}\nseed = {}\n\n[observe]\n{}",
-      gas.boundary, gas.disks, gas.packing_fraction, gas.positions, gas.velocities, gas.rule, gas.collisions, gas.equilibrate,
-      seed, gas.observe);
+Box square_box(std::int64_t disks, double packing_fraction, Boundary boundary) {
+  const double side = std::sqrt(std::numbers::pi * (static_cast<double>(disks) * 0.5 * 0.5) / packing_fraction);
+  return {.upper = {side, side}, .boundary = {boundary, boundary}};
+}
+
+Run run_of(double collisions, double equilibrate, std::uint64_t seed) {
+  return {.collisions = static_cast<std::uint64_t>(std::llround(collisions)),
+          .equilibrate = Run::Equilibrate{.collisions_per_disk = equilibrate},
+          .seed = seed};
+}
+
+Scene scene_of(const Gas& gas, std::uint64_t seed) {
+  return {.box = square_box(gas.disks, gas.packing_fraction, gas.boundary),
+          .species = {{.count = gas.disks, .radius = 0.5, .mass = 1.0, .positions = gas.positions, .velocities = gas.velocities}},
+          .effects = {.collision = {.rule = gas.rule}},
+          .run = run_of(gas.collisions, gas.equilibrate, seed),
+          .observe = gas.observe};
 }
 
 const Scalar& Found::scalar(const std::string& observable, const std::string& name) const {
@@ -42,10 +52,9 @@ const std::vector<double>& Found::column(const std::string& observable, const st
   throw std::logic_error(fmt::format("{} has no column {}", observable, name));
 }
 
-Found run(const std::string& text, const Effort& effort, TrialResult& result, std::vector<std::unique_ptr<Observable>> own,
+Found run(const Scene& scene, const Effort& effort, TrialResult& result, std::vector<std::unique_ptr<Observable>> own,
           const Change& change) {
-  const Scene scene = parse_scene(text, result.trial);
-  result.scenes.push_back(text);
+  result.scenes.push_back(resolved_toml(scene));
   Simulation simulation = make_simulation(scene);
   if (change) {
     State start = simulation.state();
@@ -68,20 +77,20 @@ Found run(const std::string& text, const Effort& effort, TrialResult& result, st
 State compressed_liquid(std::int64_t disks, double eta, const Effort& effort, std::uint64_t seed) {
   TrialResult not_kept;
   const double liquid = std::min(0.69, 0.97 * eta), radius = 0.5 * std::sqrt(liquid / eta);
-  const Gas gas{.disks = disks,
-                .packing_fraction = liquid,
-                .collisions = 1.0,
-                .positions = fmt::format("{{ packing_fraction = {:.17g} }}", liquid),
-                .equilibrate = 3000.0};
-  State state = run(scene_text(gas, seed), effort, not_kept).simulation.state();
+  const Gas gas{
+      .disks = disks, .packing_fraction = liquid, .collisions = 1.0, .positions = GrownPositions{liquid}, .equilibrate = 3000.0};
+  State state = run(scene_of(gas, seed), effort, not_kept).simulation.state();
   // The start is the smaller box of the final density, with disks that grow to a diameter of 1 while they collide some 3000
   // times.
   const double side = std::sqrt(0.25 * std::numbers::pi * static_cast<double>(disks) / eta), shorter = 2.0 * radius;
-  const std::string growing = fmt::format(
-      "[box]\nx = [0.0, {0:.17g}]\ny = [0.0, {0:.17g}]\nboundary = \"periodic\"\n\n[[disks]]\ncount = {1}\n"
-      "radius = {2:.17g}\nmass = 1.0\npositions = \"hexagonal\"\nvelocities = {{ temperature = 1.0 }}\n\n[collision]\n"
-      "rule = \"specular\"\n\n[growth]\nrate = {3:.6g}\nuntil = {{ packing_fraction = {4:.17g} }}\n\n[run]\ntime = 1000.0\n",
-      side, disks, radius, 0.01 * (1.0 / shorter - 1.0), eta);
+  const Scene growing{.box = {.upper = {side, side}, .boundary = {Boundary::periodic, Boundary::periodic}},
+                      .species = {{.count = disks,
+                                   .radius = radius,
+                                   .mass = 1.0,
+                                   .positions = HexagonalLattice{},
+                                   .velocities = MaxwellVelocities{1.0}}},
+                      .effects = {.growth = Growth{.rate = 0.01 * (1.0 / shorter - 1.0), .packing_fraction = eta}},
+                      .run = {.time = 1000.0}};
   const Found grown = run(growing, effort, not_kept, {}, [&](State& start) {
     start.positions = shorter * state.positions;
     start.velocities = state.velocities;

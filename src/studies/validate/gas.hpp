@@ -13,19 +13,25 @@
 
 namespace carom::validation {
 
+/// A square that disks of diameter 1 fill to a packing fraction.
+[[nodiscard]] Box square_box(std::int64_t disks, double packing_fraction, Boundary boundary = Boundary::periodic);
+
+/// So many collisions of all disks together, after so many per disk.
+[[nodiscard]] Run run_of(double collisions, double equilibrate, std::uint64_t seed);
+
 /// A gas of one species in a square box.
 struct Gas {
   std::int64_t disks = 0;
   double packing_fraction = 0.0;
-  double collisions = 0.0;   ///< number of collisions of all disks together
-  std::string observe = {};  ///< lines of the [observe] table
-  std::string rule = "specular";
-  std::string boundary = "periodic";
-  std::string positions = "\"hexagonal\"";  ///< in TOML, like velocities
-  std::string velocities = "{ temperature = 1.0 }";
+  double collisions = 0.0;  ///< number of collisions of all disks together
+  std::vector<ObservableRequest> observe = {};
+  CollisionRule rule = CollisionRule::specular;
+  Boundary boundary = Boundary::periodic;
+  Positions positions = HexagonalLattice{};
+  Velocities velocities = MaxwellVelocities{1.0};
   double equilibrate = 100.0;  ///< collisions per disk
 };
-[[nodiscard]] std::string scene_text(const Gas& gas, std::uint64_t seed);
+[[nodiscard]] Scene scene_of(const Gas& gas, std::uint64_t seed);
 
 /// The results of a run.
 struct Found {
@@ -42,7 +48,7 @@ struct Found {
 using Change = std::function<void(State& start)>;
 
 /// Runs a scene's schedule, which is added to `result`. Throws Interrupted.
-[[nodiscard]] Found run(const std::string& scene, const Effort& effort, TrialResult& result,
+[[nodiscard]] Found run(const Scene& scene, const Effort& effort, TrialResult& result,
                         std::vector<std::unique_ptr<Observable>> own = {}, const Change& change = {});
 
 /// Returns a start without order for a dense system: disks of diameter 1 in a square periodic box, a liquid that has been

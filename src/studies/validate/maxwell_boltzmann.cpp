@@ -31,16 +31,16 @@ TrialResult relax(const std::string& trial, const std::string& boundary, bool al
   const Gas gas{.disks = few_disks,
                 .packing_fraction = 0.3,
                 .collisions = (effort.full ? 2e7 : 4e6),
-                .observe = "temperature = true\nvelocity_moments = true\n",
-                .boundary = boundary,
-                .positions = "\"random\"",  // on a lattice, disks along x would meet none but those of their own row
-                .velocities = "{ speed = 1.4142135623730951 }"};
+                .observe = {{.name = "temperature"}, {.name = "nvelocity_moments"}},
+                .boundary = periodic ? Boundary::periodic : Boundary::walls,
+                .positions = RandomPositions{},  // on a lattice, disks along x would meet none but those of their own row
+                .velocities = FixedSpeed{std::numbers::sqrt2}};
   SpeedCounts counts(law);
   std::vector<std::unique_ptr<Observable>> own;
   constexpr double free_time = 0.417;  // mean, at this density
   own.push_back(std::make_unique<Snapshots>(10.0 * free_time, counts));
   const Found found =
-      run(scene_text(gas, effort.seed_of(0)), effort, result, std::move(own), along_x ? Change(all_along_x) : Change());
+      run(scene_of(gas, effort.seed_of(0)), effort, result, std::move(own), along_x ? Change(all_along_x) : Change());
   const std::string what = fmt::format("{} disks, {}, at first {}", few_disks, periodic ? "periodic" : "walls",
                                        along_x ? "all along x" : "all equally fast");
   result.checks.push_back(speed_check(what, counts));
@@ -108,12 +108,13 @@ TrialResult h_theorem(const std::string& trial, const Effort& effort) {
   std::vector<std::vector<double>> H(static_cast<std::size_t>(instants) + 1);
   double mean_energy = 0.0;  // over kT = 1; what is left of it when momentum is taken away
   for (std::size_t r = 0; r < replicas; ++r) {
-    const std::string scene = fmt::format(
-        "[box]\naspect = 1.0\nboundary = \"periodic\"\n\n[[disks]]\ncount = {}\nradius = 0.5\npacking_fraction = 0.1\nmass = "
-        "1.0\n"
-        "positions = \"random\"\nvelocities = {{ speed = 1.4142135623730951 }}\n\n[collision]\nrule = \"specular\"\n\n[run]\n"
-        "time = {:g}\nseed = {}\n\n[observe]\nh_function = {{ every = {:g} }}\n",
-        many, instants * step, effort.seed_of(r), step);
+    Scene scene = scene_of({.disks = many,
+                            .packing_fraction = 0.1,
+                            .observe = {{.name = "h_function", .every = step}},
+                            .positions = RandomPositions{},
+                            .velocities = FixedSpeed{std::numbers::sqrt2}},
+                           1);
+    scene.run = {.time = instants * step, .seed = effort.seed_of(r)};
     const Found found = run(scene, effort, result, {}, {});
     const std::vector<double>& values = found.column("h_function", "H");
     for (std::size_t k = 0; k < H.size(); ++k) H[k].push_back(values.at(k));
@@ -159,13 +160,12 @@ TrialResult h_theorem(const std::string& trial, const Effort& effort) {
 TrialResult equipartition(const std::string& trial, const std::string& boundary, const Effort& effort) {
   TrialResult result{.trial = trial};
   const bool periodic = boundary == "periodic";
-  const std::string scene = fmt::format(
-      "[box]\nx = [0.0, 6.0]\ny = [0.0, 6.0]\nboundary = \"{}\"\n\n[[disks]]\nname = \"light\"\ncount = 8\nradius = 0.4\nmass = "
-      "1.0\n"
-      "positions = \"random\"\nvelocities = {{ temperature = 1.0 }}\n\n[[disks]]\nname = \"heavy\"\ncount = 2\nradius = 0.5\n"
-      "mass = 10.0\npositions = \"random\"\nvelocities = {{ temperature = 1.0 }}\n\n[collision]\nrule = \"specular\"\n\n[run]\n"
-      "collisions = {:.0f}\nequilibrate = {{ collisions_per_disk = 500 }}\nseed = {}\n\n[observe]\ntemperature = true\n",
-      boundary, effort.collisions(1e6), effort.seed_of(0));
+  const Boundary sides = periodic ? Boundary::periodic : Boundary::walls;
+  const Scene scene{.box = {.upper = {6.0, 6.0}, .boundary = {sides, sides}},
+                    .species = {{.name = "light", .count = 8, .radius = 0.4, .mass = 1.0, .velocities = MaxwellVelocities{1.0}},
+                                {.name = "heavy", .count = 2, .radius = 0.5, .mass = 10.0, .velocities = MaxwellVelocities{1.0}}},
+                    .run = run_of(effort.collisions(1e6), 500.0, effort.seed_of(0)),
+                    .observe = {{.name = "temperature"}}};
   const Found found = run(scene, effort, result);
   const double kT = found.scalar("temperature", "kT").value.value();
   for (const char* species : {"light", "heavy"})

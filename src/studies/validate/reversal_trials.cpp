@@ -46,15 +46,15 @@ TrialResult frozen(const std::string& trial, const Effort& effort) {
   const Gas gas{.disks = disks,
                 .packing_fraction = eta,
                 .collisions = effort.collisions(4e6),
-                .observe = "pressure = true\ncollision_rate = true\nvelocity_autocorrelation = true\n",
-                .rule = "reversal",
-                .velocities = "{ speed = 1.4142135623730951 }"};
+                .observe = {{.name = "pressure"}, {.name = "ncollision_rate"}, {.name = "nvelocity_autocorrelation"}},
+                .rule = CollisionRule::reversal,
+                .velocities = FixedSpeed{std::numbers::sqrt2}};
   const theory::Microcanonical law(disks, true);
   SpeedCounts counts(law);
   std::vector<std::unique_ptr<Observable>> own;
   own.push_back(std::make_unique<Snapshots>(4.0, counts));
   std::vector<double> before;
-  const Found found = run(scene_text(gas, effort.seed_of(0)), effort, result, std::move(own),
+  const Found found = run(scene_of(gas, effort.seed_of(0)), effort, result, std::move(own),
                           [&](State& start) { before = sorted_speeds(start.velocities); });
   const std::string what = fmt::format("{} equal disks under reversal, at first equally fast", disks);
   Check relaxed = speed_check(what, counts);
@@ -106,11 +106,11 @@ TrialResult tensor(const std::string& trial, const Effort& effort) {
   const Gas gas{.disks = 256,
                 .packing_fraction = 0.4,
                 .collisions = effort.collisions(3e6),
-                .observe = "temperature = true\npressure = true\n",
-                .rule = "reversal"};
+                .observe = {{.name = "temperature"}, {.name = "npressure"}},
+                .rule = CollisionRule::reversal};
   double x_to_y = 0.0;
   const auto ratio = [](const Eigen::Matrix2Xd& v) { return v.row(0).squaredNorm() / v.row(1).squaredNorm(); };
-  const Found found = run(scene_text(gas, effort.seed_of(0)), effort, result, {}, [&](State& start) {
+  const Found found = run(scene_of(gas, effort.seed_of(0)), effort, result, {}, [&](State& start) {
     start.velocities.row(1) *= 0.5;
     x_to_y = ratio(start.velocities);
   });
@@ -136,13 +136,12 @@ TrialResult tensor(const std::string& trial, const Effort& effort) {
 TrialResult unequal(const std::string& trial, const Effort& effort) {
   TrialResult result{.trial = trial};
   constexpr double N = 64.0;
-  const std::string scene = fmt::format(
-      "[box]\nx = [0.0, 14.0]\ny = [0.0, 14.0]\nboundary = \"walls\"\n\n[[disks]]\nname = \"heavy\"\ncount = 32\nradius = 0.5\n"
-      "mass = 1.0\npositions = \"random\"\nvelocities = {{ speed = 1.0 }}\n\n[[disks]]\nname = \"light\"\ncount = 32\n"
-      "radius = 0.5\nmass = 0.25\npositions = \"random\"\nvelocities = {{ speed = 1.0 }}\n\n[collision]\nrule = \"reversal\"\n\n"
-      "[run]\ncollisions = {:.0f}\nequilibrate = {{ collisions_per_disk = 300 }}\nseed = {}\n\n[observe]\ntemperature = true\n"
-      "velocity_moments = true\n",
-      effort.collisions(2e6), effort.seed_of(0));
+  const Scene scene{.box = {.upper = {14.0, 14.0}},
+                    .species = {{.name = "heavy", .count = 32, .radius = 0.5, .mass = 1.0, .velocities = FixedSpeed{1.0}},
+                                {.name = "light", .count = 32, .radius = 0.5, .mass = 0.25, .velocities = FixedSpeed{1.0}}},
+                    .effects = {.collision = {.rule = CollisionRule::reversal}},
+                    .run = run_of(effort.collisions(2e6), 300.0, effort.seed_of(0)),
+                    .observe = {{.name = "temperature"}, {.name = "velocity_moments"}}};
   double x_to_y = 0.0;
   const auto energies = [](const State& state, const Disks& disks) {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();

@@ -42,16 +42,14 @@ TrialResult channel(const std::string& trial, double width, double length_per_di
   // A zigzag, as wide as leaves neighbours and walls the same room.
   const double closest = std::sqrt(std::max(0.0, 1.0 - length_per_disk * length_per_disk));
   const double swing = 0.5 * (closest + width - 1.0);
-  std::string places;
+  ListedPositions places;
   for (std::int64_t i = 0; i < disks; ++i)
-    places += fmt::format("{}[{:.10g}, {:.10g}]", i > 0 ? ", " : "", (static_cast<double>(i) + 0.5) * length_per_disk,
-                          0.5 * (width + (i % 2 == 0 ? swing : -swing)));
-  const std::string scene = fmt::format(
-      "[box]\nx = [0.0, {:.17g}]\ny = [0.0, {:.17g}]\nboundary = {{ x = \"periodic\", y = \"walls\" }}\n\n[[disks]]\n"
-      "radius = 0.5\nmass = 1.0\npositions = [{}]\nvelocities = {{ temperature = 1.0 }}\n\n[collision]\n"
-      "rule = \"specular\"\n\n[run]\ncollisions = {:.0f}\nequilibrate = {{ collisions_per_disk = 500 }}\nseed = "
-      "{}\n\n[observe]\npressure = true\n",
-      length, width, places, effort.collisions(3e6), effort.seed_of(0));
+    places.values.emplace_back((static_cast<double>(i) + 0.5) * length_per_disk, 0.5 * (width + (i % 2 == 0 ? swing : -swing)));
+  const Scene scene{
+      .box = {.upper = {length, width}, .boundary = {Boundary::periodic, Boundary::walls}},
+      .species = {{.count = disks, .radius = 0.5, .mass = 1.0, .positions = places, .velocities = MaxwellVelocities{1.0}}},
+      .run = run_of(effort.collisions(3e6), 500.0, effort.seed_of(0)),
+      .observe = {{.name = "pressure"}}};
   Blocking pressure;
   std::vector<std::unique_ptr<Observable>> own;
   own.push_back(std::make_unique<WallPressure>(1.0, length, pressure));

@@ -33,8 +33,8 @@ TrialResult instantaneous(const std::string& trial, double eta, const Effort& ef
   const Gas gas{.disks = disks,
                 .packing_fraction = eta,
                 .collisions = effort.collisions(4e6),
-                .observe = fmt::format("viscosity = {{ every = {0:.6g} }}\nheat_conductivity = {{ every = {0:.6g} }}\n", step)};
-  const Found found = run(scene_text(gas, effort.seed_of(0)), effort, result);
+                .observe = {{.name = "viscosity", .every = step}, {.name = "heat_conductivity", .every = step}}};
+  const Found found = run(scene_of(gas, effort.seed_of(0)), effort, result);
   const double density = 4.0 * eta / std::numbers::pi, carried = eta * theory::contact_value(eta);
   const auto held = [&](const std::string& name, const char* observable, double limit, double enskog, double flux,
                         const char* formula) {
@@ -67,9 +67,9 @@ TrialResult transport(const std::string& trial, double eta, const Effort& effort
       .disks = disks,
       .packing_fraction = eta,
       .collisions = effort.collisions(2e6),
-      .observe = fmt::format("viscosity = true\nheat_conductivity = true\nvelocity_autocorrelation = {{ every = {:.6g} }}\n",
-                             0.25 / rate)};
-  const Found found = run(scene_text(gas, effort.seed_of(0)), effort, result);
+      .observe = {
+          {.name = "velocity_autocorrelation", .every = 0.25 / rate}, {.name = "viscosity"}, {.name = "heat_conductivity"}}};
+  const Found found = run(scene_of(gas, effort.seed_of(0)), effort, result);
   const auto shown = [&](const std::string& name, const char* plot, double expected, const Measured& measured,
                          const std::string& source) {
     result.checks.push_back({.name = fmt::format("{} at packing fraction {:.1f}", name, eta),
@@ -118,9 +118,9 @@ TrialResult long_time_tail(const std::string& trial, const Effort& effort) {
     const Gas gas{.disks = disks,
                   .packing_fraction = eta,
                   .collisions = 5e5,
-                  .observe = fmt::format("velocity_autocorrelation = {{ every = {:.6g} }}\n", 0.5 / rate),
+                  .observe = {{.name = "velocity_autocorrelation", .every = 0.5 / rate}},
                   .equilibrate = 50.0};
-    const Found found = run(scene_text(gas, effort.seed_of(r)), effort, result);
+    const Found found = run(scene_of(gas, effort.seed_of(r)), effort, result);
     const std::vector<double>& until = found.column("velocity_autocorrelation", "integral_to");
     const std::vector<double>& D = found.column("velocity_autocorrelation", "diffusion");
     const std::size_t early = row_at(until, from / rate), late = row_at(until, to / rate);
