@@ -136,8 +136,8 @@ TEST_F(CompareCommand, TheTableSaysWhatItsColumnsAre) {
   const Outcome outcome = compare({"--seeds", "2", "--dt", "0.02"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   for (const char* words :
-       {"bias of Z    missed   repeated", "          %         %          %", "in mean diameters (1)",
-        "  missed: pairs that touched", "  repeated: reversals of a pair", "± its standard error over the 2 starts"})
+       {"bias of Z  missed  repeated", "       %       %         %", "in mean diameters (1)", "  missed: pairs that touched",
+        "  repeated: reversals of a pair", "± its standard error over 2 starts"})
     EXPECT_THAT(outcome.out, HasSubstr(words));
   EXPECT_THAT(outcome.out, ::testing::ContainsRegex(" bias of Z +missed +repeated\n .* % +% +%\n"));
   EXPECT_THAT(outcome.out, Not(HasSubstr("sigma")));

@@ -28,7 +28,7 @@ class EffectsOfARun : public ::testing::Test {
     totals_.obstacle = 4;
     totals_.obstacle_impulse = {1.5, -2.0};
   }
-  [[nodiscard]] EffectsReport report() const { return effects_report(scene_, disks_of(scene_), totals_, end_); }
+  [[nodiscard]] EffectsReport report() const { return effects_report(scene_, test::disks_of(scene_), totals_, end_); }
 
   Scene scene_ = scene_of(2, 2);
   Totals totals_;

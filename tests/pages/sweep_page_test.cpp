@@ -22,7 +22,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 SweepPoint point(const std::string& name, std::vector<std::string> values) {
-  return {.name = name, .values = std::move(values), .places = {}};
+  return {.name = name, .values = std::move(values), .places = {}, .where = {}};
 }
 
 /// Z at three radii in two kinds of box, with a seed that failed; and a number that is the same everywhere.

@@ -12,9 +12,9 @@
 
 namespace carom::test {
 
-/// A script of tests/show.
+/// A script of tests/pages.
 inline std::string script(const std::string& name) {
-  return text_of(std::filesystem::path(CAROM_SOURCE_DIR) / "tests/show" / name);
+  return text_of(std::filesystem::path(CAROM_SOURCE_DIR) / "tests/pages" / name);
 }
 
 /// data-NAME of the document

@@ -22,8 +22,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-Scene gas() {
-  return parse_scene(R"(
+Scene gas(double time = 40.0) {
+  Scene scene = parse_scene(R"(
 [box]
 x = [0.0, 12.0]
 y = [0.0, 12.0]
@@ -50,6 +50,8 @@ pressure = true
 [output]
 csv = true
 )");
+  scene.run.time = time;
+  return scene;
 }
 
 Provenance provenance_of(const Simulation& simulation) {
@@ -61,9 +63,10 @@ struct Finished {
   bool saved = false;
 };
 
-/// Runs the gas into the directory, and stops it after that many questions whether to go on.
-Finished run_gas(const std::filesystem::path& path, RunnerOptions options, std::optional<int> questions = {}) {
-  Simulation simulation = make_simulation(gas());
+/// Runs the gas into the directory, and stops it after that many questions whether to go on, which come several times a second.
+Finished run_gas(const std::filesystem::path& path, RunnerOptions options, double time = 40.0,
+                 std::optional<int> questions = {}) {
+  Simulation simulation = make_simulation(gas(time));
   const RunDirectory directory(path, false);
   Runner runner(simulation, directory, provenance_of(simulation), std::move(options));
   RunnerHooks hooks;
@@ -99,15 +102,16 @@ TEST(Runner, WritesAllFilesOfARunAndPrintsNothing) {
 
 TEST(Runner, SavesARunThatIsStoppedAndGoesOnToTheSameBits) {
   const TemporaryDirectory place;
-  const Finished whole = run_gas(place.path() / "whole", {.threads = 1});
-  const Finished part = run_gas(place.path() / "part", {.threads = 1}, 1);
+  const double time = 4000.0;  // half a million collisions, so that the first question comes before the end
+  const Finished whole = run_gas(place.path() / "whole", {.threads = 1}, time);
+  const Finished part = run_gas(place.path() / "part", {.threads = 1}, time, 1);
   EXPECT_EQ(part.outcome.report.stopped, StopReason::interrupted);
-  EXPECT_LT(part.outcome.report.time, 40.0);
+  EXPECT_LT(part.outcome.report.time, time);
   ASSERT_TRUE(part.saved);
   const RunDirectory directory = RunDirectory::reopen(place.path() / "part");
   const Checkpoint from(directory.path());
   std::optional<Simulation> simulation;
-  from.read("simulation", [&](std::istream& in) { simulation.emplace(restore_simulation(gas(), in)); });
+  from.read("simulation", [&](std::istream& in) { simulation.emplace(restore_simulation(gas(time), in)); });
   Runner runner(*simulation, directory, from.facts().provenance, {.threads = 1}, &from);
   EXPECT_TRUE(runner.saved());
   const RunnerOutcome rest = runner.run();

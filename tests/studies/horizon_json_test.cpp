@@ -50,9 +50,9 @@ TEST(HorizonJson, ReadBackIsWhatWasWritten) {
 }
 
 TEST(HorizonJson, WhatIsNoHorizonIsRefused) {
-  nlohmann::ordered_json json = horizon_json(known());
-  json["ended"] = "somehow";
-  EXPECT_THROW((void)horizon_of(json), nlohmann::json::exception);
+  nlohmann::ordered_json written = horizon_json(known());
+  written["ended"] = "somehow";
+  EXPECT_THROW((void)horizon_of(written), nlohmann::json::exception);
   EXPECT_THROW((void)horizon_of(nlohmann::ordered_json::object()), nlohmann::json::exception);
 }
 
