@@ -12,15 +12,21 @@ namespace {
 
 constexpr double middle = 20.0, door_from = 8.0, door_to = 12.0, radius = 0.5, temperature = 1.0;
 
-/// Whether the door is to be open. A disk in the doorway keeps it as it is.
+/// Returns the distance of a disk from the wall's line, positive on the left, and NaN where it is not in front of the door.
+double distance_in_front_of_door(const carom::State& state, Eigen::Index i) {
+  const Eigen::Vector2d r = state.positions.col(i);
+  return r.y() < door_from - radius || r.y() > door_to + radius ? NAN : middle - r.x();
+}
+
+/// Returns whether the door is to be open. A disk in the doorway keeps it as it is.
 bool wants_open(const carom::State& state, bool open) {
+  for (Eigen::Index i = 0; i < state.positions.cols(); ++i)
+    if (std::abs(distance_in_front_of_door(state, i)) < 1.01 * radius) return open;
   bool wanted = false;
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
-    const Eigen::Vector2d r = state.positions.col(i), v = state.velocities.col(i);
-    const double distance = middle - r.x();
-    if (r.y() < door_from - radius || r.y() > door_to + radius || std::abs(distance) > 2.0) continue;
-    if (std::abs(distance) < 1.01 * radius) return open;
-    if (distance * v.x() < 0.0) continue;  // it moves away
+    const Eigen::Vector2d v = state.velocities.col(i);
+    const double distance = distance_in_front_of_door(state, i);
+    if (!(std::abs(distance) < 2.0 && distance * v.x() > 0.0)) continue;  // far away, or moving away
     const bool fast = v.squaredNorm() > 2.0 * temperature;
     if ((distance > 0.0) != fast) return false;  // this one is to stay where it is
     wanted = true;

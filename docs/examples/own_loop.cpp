@@ -3,7 +3,6 @@
 
 #include <carom/carom.hpp>
 
-#include <cmath>
 #include <cstdio>
 #include <exception>
 
@@ -30,8 +29,8 @@ int main() try {
 
   for (const carom::Measurement& measured : observation.results())
     for (const carom::Scalar& number : measured.scalars)
-      std::printf("%s.%s = %.6g +- %.2g\n", measured.name.c_str(), number.name.c_str(), number.value.value_or(NAN),
-                  number.error.value_or(NAN));
+      if (number.value && number.error)  // the pressure on walls is absent here: the box has none
+        std::printf("%s.%s = %.6g +- %.2g\n", measured.name.c_str(), number.name.c_str(), *number.value, *number.error);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());

@@ -9,7 +9,7 @@ namespace carom::theory {
 
 namespace {
 
-using Rule = boost::math::quadrature::gauss<double, 30>;
+using ThirtyPoints = boost::math::quadrature::gauss<double, 30>;
 
 /// Over the speeds g (in v_T) with which pairs of a gas meet: g^2 exp(-g^2 / 4), cut off where it has fallen to 1e-16. What is
 /// summed may bend at the speed `bend`.
@@ -20,7 +20,7 @@ double over_speeds(double bend, Function f) {
   double sum = 0.0, from = 0.0;
   for (const double to : {std::min(bend, fastest), fastest}) {
     const double panel = (to - from) / 4.0;
-    for (int k = 0; k < 4; ++k) sum += Rule::integrate(weighted, from + panel * k, from + panel * (k + 1));
+    for (int k = 0; k < 4; ++k) sum += ThirtyPoints::integrate(weighted, from + panel * k, from + panel * (k + 1));
     from = to;
   }
   const double norm = 2.0 * std::sqrt(std::acos(-1.0));  // of g^2 exp(-g^2 / 4) from 0 to infinity
@@ -51,10 +51,12 @@ double mean_depth(double step) {
     const auto over_chords = [&](double angle) {
       const double c = std::cos(angle), longest = std::min(g * step, c);
       const auto depth = [&](double x) { return 1.0 - std::sqrt(std::max(0.0, 1.0 - 2.0 * c * x + x * x)); };
-      return c * Rule::integrate(depth, 0.0, longest);
+      return c * ThirtyPoints::integrate(depth, 0.0, longest);
     };
     const double cut_short = std::acos(std::min(1.0, g * step));  // there the step ends within the chord
-    return (Rule::integrate(over_chords, 0.0, cut_short) + Rule::integrate(over_chords, cut_short, std::acos(0.0))) / (g * step);
+    return (ThirtyPoints::integrate(over_chords, 0.0, cut_short) +
+            ThirtyPoints::integrate(over_chords, cut_short, std::acos(0.0))) /
+           (g * step);
   };
   return over_speeds(1.0 / step, depth_of) / (1.0 - missed_fraction(step, Notices::approaching));
 }

@@ -5,7 +5,7 @@ set(carom_examples
     maxwells_demon "heat has flowed from cold to hot"
     quench "clusters have formed"
     own_rule "viscoelastic disks cool more slowly"
-    own_loop "pressure.Z = 1.*collision_rate"
+    own_loop "pressure.Z = 2.7.*collision_rate"
     stop_at_condition "stopped by condition .*is at x = 19.000000")
 file(GLOB found RELATIVE ${PROJECT_SOURCE_DIR}/docs/examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/examples/*.cpp)
 foreach(file IN LISTS found)

@@ -25,7 +25,7 @@ TrialResult rates(const std::string& trial, double eta, const Effort& effort) {
   const Gas gas{.disks = disks,
                 .packing_fraction = eta,
                 .collisions = effort.collisions(2e6),
-                .observe = {{.name = "collision_rate"}, {.name = "nfree_flight"}, {.name = "nvelocity_moments"}}};
+                .observe = {{.name = "collision_rate"}, {.name = "free_flight"}, {.name = "velocity_moments"}}};
   Encounters::Seen seen;
   std::vector<std::unique_ptr<Observable>> own;
   own.push_back(std::make_unique<Encounters>(0.5 / rate, 1.0 / rate, seen));

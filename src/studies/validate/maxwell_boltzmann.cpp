@@ -31,7 +31,7 @@ TrialResult relax(const std::string& trial, const std::string& boundary, bool al
   const Gas gas{.disks = few_disks,
                 .packing_fraction = 0.3,
                 .collisions = (effort.full ? 2e7 : 4e6),
-                .observe = {{.name = "temperature"}, {.name = "nvelocity_moments"}},
+                .observe = {{.name = "temperature"}, {.name = "velocity_moments"}},
                 .boundary = periodic ? Boundary::periodic : Boundary::walls,
                 .positions = RandomPositions{},  // on a lattice, disks along x would meet none but those of their own row
                 .velocities = FixedSpeed{std::numbers::sqrt2}};

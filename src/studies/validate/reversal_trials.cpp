@@ -46,7 +46,7 @@ TrialResult frozen(const std::string& trial, const Effort& effort) {
   const Gas gas{.disks = disks,
                 .packing_fraction = eta,
                 .collisions = effort.collisions(4e6),
-                .observe = {{.name = "pressure"}, {.name = "ncollision_rate"}, {.name = "nvelocity_autocorrelation"}},
+                .observe = {{.name = "pressure"}, {.name = "collision_rate"}, {.name = "velocity_autocorrelation"}},
                 .rule = CollisionRule::reversal,
                 .velocities = FixedSpeed{std::numbers::sqrt2}};
   const theory::Microcanonical law(disks, true);
@@ -106,7 +106,7 @@ TrialResult tensor(const std::string& trial, const Effort& effort) {
   const Gas gas{.disks = 256,
                 .packing_fraction = 0.4,
                 .collisions = effort.collisions(3e6),
-                .observe = {{.name = "temperature"}, {.name = "npressure"}},
+                .observe = {{.name = "temperature"}, {.name = "pressure"}},
                 .rule = CollisionRule::reversal};
   double x_to_y = 0.0;
   const auto ratio = [](const Eigen::Matrix2Xd& v) { return v.row(0).squaredNorm() / v.row(1).squaredNorm(); };
