@@ -3,10 +3,13 @@
 
     docs/images/calibration.py PROGRAM [DIRECTORY [SEEDS]]
 
-Runs `PROGRAM validate --seed K --out DIRECTORY/K` for K = 1 to SEEDS (20; or a list, 1,2,5), but for those that DIRECTORY
-(calibration) holds already, and goes on with one that was interrupted. Takes the checks that calibrate (see docs/output.md): z of these must be normal with
-variance 1. Prints how well they are and writes calibration.svg beside this file. Needs python3-matplotlib.
+Runs `PROGRAM validate --seed K --out DIRECTORY/K` for K = 1 to SEEDS (20; or a list, 1,2,5), but for those that calibration.csv
+beside this file or DIRECTORY (calibration) holds already, and goes on with one that was interrupted. Adds what it finds to
+calibration.csv: remove that file where the checks themselves have changed. Takes the checks that calibrate (see docs/output.md): z
+of these must be normal with variance 1. Prints how well they are and writes calibration.svg beside this file. Needs
+python3-matplotlib.
 """
+import csv
 import json
 import math
 import pathlib
@@ -25,9 +28,18 @@ wanted = sys.argv[3] if len(sys.argv) > 3 else "20"
 wanted = [int(seed) for seed in wanted.split(",")] if "," in wanted else range(1, int(wanted) + 1)
 seeds = len(wanted)
 
+# Of every check of every seed: the trial and its number there, whether it calibrates and holds, and z.
+kept_file = pathlib.Path(__file__).resolve().parent / "calibration.csv"
+kept = {}
+if kept_file.exists():
+    with kept_file.open(newline="") as file:
+        for row in csv.DictReader(file):
+            kept.setdefault(int(row["seed"]), []).append(row)
+
 directory.mkdir(exist_ok=True)
-validations = []
 for seed in wanted:
+    if seed in kept:
+        continue
     out = directory / str(seed)
     if not (out / "validation.json").exists():
         resume = ["--resume"] if (out / "trials.jsonl").exists() else []
@@ -35,17 +47,26 @@ for seed in wanted:
         code = subprocess.run([program, "validate", "--seed", str(seed), "--out", str(out), "-q", *resume]).returncode
         if code not in (0, 4):
             sys.exit(f"carom validate --seed {seed} ended with code {code}")
-    validations.append(json.loads((out / "validation.json").read_text()))
+    kept[seed] = [
+        {"seed": seed, "trial": trial["trial"], "check": str(number), "calibrates": int(check["calibrates"]), "holds": int(check["holds"]),
+         "z": "" if check["z"] is None else repr(check["z"])}
+        for trial in json.loads((out / "validation.json").read_text())["trials"]
+        for number, check in enumerate(trial["checks"])
+        if check["judged"] != "shown"
+    ]
+    with kept_file.open("w", newline="") as file:
+        rows = csv.DictWriter(file, ["seed", "trial", "check", "calibrates", "holds", "z"], lineterminator="\n")
+        rows.writeheader()
+        rows.writerows(row for seed in sorted(kept) for row in kept[seed])
 
 by_check = {}
 judged = failed = 0
-for validation in validations:
-    judged += validation["checks"]
-    failed += validation["failed"]
-    for trial in validation["trials"]:
-        for check in trial["checks"]:
-            if check["calibrates"]:
-                by_check.setdefault((trial["trial"], check["name"]), []).append(check["z"])
+for seed in wanted:
+    judged += len(kept[seed])
+    failed += sum(int(row["holds"]) == 0 for row in kept[seed])
+    for row in kept[seed]:
+        if int(row["calibrates"]):
+            by_check.setdefault((row["trial"], row["check"]), []).append(float(row["z"]))
 by_check = {name: z for name, z in by_check.items() if len(z) == seeds}
 every = sorted(z for values in by_check.values() for z in values)
 n = len(every)
@@ -89,8 +110,8 @@ if seeds % 2 == 0:
     low, high = sum(p > 0.99 for p, _, _ in scatter), sum(p < 0.01 for p, _, _ in scatter)
     print(f"mean z^2 of one check over the seeds beyond the 1 % point of chi squared: {high} checks above, {low} below; expected "
           f"{0.01 * len(scatter):.1f} each")
-    for p, (trial, name), square in scatter[:3] + scatter[-3:]:
-        print(f"  {square:.2f} (probability to exceed it {p:.2g}): {trial}, {name}")
+    for p, (trial, number), square in scatter[:3] + scatter[-3:]:
+        print(f"  {square:.2f} (probability to exceed it {p:.2g}): {trial}, check {number}")
 
 figure, axes = plt.subplots(figsize=(6.0, 3.6))
 edges = [-4.0 + 0.25 * k for k in range(33)]
