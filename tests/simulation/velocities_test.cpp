@@ -209,10 +209,9 @@ TEST(Velocities, ADiskThatFillsTheBoxFromWallToWallMustNotMoveThatWay) {
     return refusal([&] { (void)draw_start(scene_of(channel, {species_of(1, 0.5, 1.0, place, ListedVelocities{{{vx, vy}}})})); });
   };
   EXPECT_EQ(start(1.0, 0.0), "");
-  EXPECT_EQ(
-      start(1.0, 0.1),
-      "disk 0 of diameter 1 fills the box from wall to wall in y and cannot move that way; give it more room, or no "
-      "velocity there");
+  EXPECT_EQ(start(1.0, 0.1),
+            "disk 0 of diameter 1 fills the box from wall to wall in y and cannot move that way; give it more room, or no "
+            "velocity there");
   EXPECT_NE(start(std::nan(""), 0.0), "");
 }
 
