@@ -2,12 +2,11 @@
 // Bytes in pieces, each with a checksum of all bytes up to its end: what is read back is what was written, or an exception before
 // any of it is used.
 
-#include <algorithm>
-#include <array>
-#include <bit>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <istream>
 #include <ostream>
 #include <stdexcept>
@@ -18,15 +17,9 @@ namespace carom {
 
 namespace detail {
 
-/// FNV-1a over words of 8 bytes, going on from `sum`. Of data of one size, a change within one word always changes the sum.
-inline std::uint64_t checksum(std::uint64_t sum, const char* data, std::size_t size) {
-  sum = (sum ^ size) * 0x100000001b3U;
-  for (std::size_t at = 0; at < size; at += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, data + at, std::min<std::size_t>(8, size - at));
-    sum = std::rotl((sum ^ word) * 0x100000001b3U, 23);
-  }
-  return sum;
+/// XXH3 of 64 bits, going on from `sum`.
+inline std::uint64_t checksum(std::uint64_t sum, const void* data, std::size_t size) {
+  return XXH3_64bits_withSeed(data, size, sum);
 }
 
 struct PieceHead {
@@ -34,7 +27,6 @@ struct PieceHead {
   std::uint64_t sum;
 };
 
-inline constexpr std::uint64_t first_sum = 0xcbf29ce484222325U;
 inline constexpr std::size_t largest_piece = std::size_t{1} << 20;
 
 }  // namespace detail
@@ -70,7 +62,7 @@ class CheckedWriting final : public std::streambuf {
 
   std::ostream& out_;
   std::vector<char> piece_;
-  std::uint64_t sum_ = detail::first_sum;
+  std::uint64_t sum_ = 0;
 };
 
 /// Reads what CheckedWriting has written. Throws std::runtime_error where it is shorter, or its bytes are others.
@@ -106,7 +98,7 @@ class CheckedReading final : public std::streambuf {
 
   std::istream& in_;
   std::vector<char> piece_;
-  std::uint64_t sum_ = detail::first_sum;
+  std::uint64_t sum_ = 0;
   bool ended_ = false;
 };
 

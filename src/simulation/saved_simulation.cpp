@@ -83,11 +83,11 @@ std::string read_first_line(std::istream& in) {
 
 std::string detail::lasting_text(const Scene& scene) {
   Scene lasting = {.box = scene.box, .effects = scene.effects, .run = {.seed = scene.run.seed}};
-  std::uint64_t lists = first_sum;
+  std::uint64_t lists = 0;
   for (const Species& species : scene.species) {
     lasting.species.push_back({.count = species.count, .radius = species.radius, .mass = species.mass});
     for (const std::vector<double>& list : {species.radii, species.masses})
-      lists = checksum(lists, reinterpret_cast<const char*>(list.data()), list.size() * sizeof(double));
+      lists = checksum(lists, list.data(), list.size() * sizeof(double));
   }
   return fmt::format("{}# checksum of radii and masses one by one: {:016x}\n", resolved_toml(lasting), lists);
 }
@@ -108,18 +108,19 @@ void Simulation::save(std::ostream& out) const {
 
 /// An engine is made for the state that was saved, and then told what the state does not show.
 Simulation restore_simulation(const Scene& given, std::istream& in) {
-  const auto refuse = [](const std::string& sentence) {
-    throw std::runtime_error("the simulation cannot be restored: " + sentence);
+  const auto refusal = [](const std::string& sentence) {
+    return std::runtime_error("the simulation cannot be restored: " + sentence);
   };
-  if (read_first_line(in) != first_line) refuse("this does not begin like what Simulation::save() writes");
   try {
+    if (read_first_line(in) != first_line) throw std::runtime_error("this does not begin like what Simulation::save() writes");
     CheckedReading checked(in);
     std::istream within(&checked);
     LoadingArchive archive(within);
     std::string by, made_of, saved_with;
     archive(by);
     if (by != build())
-      refuse(fmt::format("carom {} has saved it, and only that one can go on to the last bit; this is {}", by, build()));
+      throw std::runtime_error(
+          fmt::format("carom {} has saved it, and only that one can go on to the last bit; this is {}", by, build()));
     Changed changed;
     archive(made_of, saved_with, changed);
     const std::string text = detail::lasting_text(given);
@@ -147,20 +148,15 @@ Simulation restore_simulation(const Scene& given, std::istream& in) {
     parts.continuation.kicks = kicks;
     if (made_of != saved_with) parts.made_of = std::move(made_of);
     parts.engine->load(archive);
-    if (!checked.at_end()) refuse("it holds more than a simulation");
+    if (!checked.at_end()) throw std::runtime_error("it holds more than a simulation");
     return simulation;
-  } catch (const cereal::Exception&) {
-    refuse("it holds less than a simulation");
   } catch (const SceneError&) {
     throw;
-  } catch (const std::invalid_argument&) {
-    throw;
+  } catch (const cereal::Exception&) {
+    throw refusal("it holds less than a simulation");
   } catch (const std::runtime_error& error) {
-    const std::string sentence = error.what();
-    if (sentence.starts_with("the simulation cannot")) throw;
-    refuse(sentence);
+    throw refusal(error.what());
   }
-  throw std::logic_error("refuse() returns");
 }
 
 }  // namespace carom
