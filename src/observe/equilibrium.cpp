@@ -57,17 +57,17 @@ std::string_view why_errors_are_of_one_start(const Scene& scene) {
   return "under reversal, disks of equal mass only exchange velocities: errors hold within this run, not between starts";
 }
 
+bool is_crystal(const Scene& scene) { return scene.packing_fraction() > 0.72; }
+
 std::string_view why_error_of_Z_is_off(const Scene& scene, double collisions_per_disk) {
   constexpr double blocks = 32.0;
-  constexpr double crystal = 0.72;
   const Masses masses = masses_of(scene);
   const double sum = masses.least + masses.most;
   const double share = 2.0 * (masses.least / sum) * (masses.most / sum);
   if (masses.least != masses.most && !temperature_fluctuates(scene.effects) && collisions_per_disk * share < blocks)
     return "the lightest and heaviest disks exchange energy more slowly than this run tells errors: the error of Z is a lower "
            "bound";
-  if (scene.packing_fraction() > crystal)
-    return "in a crystal most of the virial swings to and fro: the error of Z is up to 3 times too large";
+  if (is_crystal(scene)) return "in a crystal most of the virial swings to and fro: the error of Z is up to 3 times too large";
   return {};
 }
 

@@ -19,10 +19,14 @@ namespace carom {
 /// they do. Reversal of equal masses never changes the set of speeds.
 [[nodiscard]] std::string_view why_errors_are_of_one_start(const Scene& scene);
 
+/// Returns whether the scene is so dense (packing fraction beyond 0.72) that its disks rattle in a crystal. Most of the virial
+/// then swings to and fro, and blocks overestimate the error of its mean.
+[[nodiscard]] bool is_crystal(const Scene& scene);
+
 /// Returns the reason why the error of the summary's Z is a lower bound or too large, as a sentence without its stop; empty where
 /// it is neither. A collision of masses m and M passes on the share 2 m M / (m + M)^2 of the difference of their mean energies.
 /// Of the lightest and heaviest disks that is too slow where `collisions_per_disk` of the run are fewer than its blocks (at least
-/// 32) over that share. In a crystal, beyond a packing fraction of 0.72, most of the virial swings to and fro.
+/// 32) over that share. See is_crystal().
 [[nodiscard]] std::string_view why_error_of_Z_is_off(const Scene& scene, double collisions_per_disk);
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 // Observables of collisions against the obvious computation on the event log.
 
 #include "observe/observed_system.hpp"
+#include "support/systems.hpp"
 
 #include "observe/mechanics.hpp"
 #include "observe/sampled_disks.hpp"
@@ -319,6 +320,19 @@ TEST(ObservedTransport, GreenKuboIsTheSlopeOfEinsteinAndHelfand) {
     const double slope = (lags[k + 1] * helfand[k + 1] - lags[k] * helfand[k]) / 0.05;
     // Both are sums over the same 2000 steps, but for the k at either end.
     EXPECT_NEAR(integral[k], slope, 0.1 * std::abs(slope)) << k;
+  }
+}
+
+TEST(ObservedPressure, ZOfACrystalSaysThatItsErrorIsTooLarge) {
+  const auto note_at = [](double packing_fraction, const char* number) {
+    Scene scene = gas_scene(64, packing_fraction, Boundary::periodic);
+    scene.run.time = 1.0;
+    scene.observe = {{.name = "pressure", .every = 0.1}};
+    return observe(scene, 0.1).scalar("pressure", number).note;
+  };
+  for (const char* number : {"Z", "reduced"}) {
+    EXPECT_THAT(note_at(0.73, number), testing::HasSubstr("in a crystal")) << number;
+    EXPECT_EQ(note_at(0.71, number), "") << number;
   }
 }
 

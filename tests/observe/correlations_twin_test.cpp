@@ -1,6 +1,9 @@
 // Observables that follow disks through time against sums over all pairs of the states that they saw.
 
 #include "observe/observed_system.hpp"
+#include "support/systems.hpp"
+
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <map>
@@ -120,6 +123,17 @@ TEST(ObservedCorrelations, DisplacementsBetweenWallsSayThatTheirErrorsAreTooLarg
   };
   EXPECT_NE(note_in("walls").find("between walls"), std::string::npos);
   EXPECT_EQ(note_in("periodic").find("between walls"), std::string::npos);
+}
+
+TEST(ObservedCorrelations, DisplacementsOfFewDisksSayThatTheirErrorsAreTooLarge) {
+  const auto note_of = [](std::int64_t disks) {
+    Scene scene = gas_scene(disks, 0.3, Boundary::periodic);
+    scene.run.time = 20.0;
+    scene.observe = {{.name = "mean_square_displacement", .every = 0.25}};
+    return observe(scene, 0.25).of("mean_square_displacement").note;
+  };
+  EXPECT_THAT(note_of(8), testing::HasSubstr("so few disks"));
+  EXPECT_THAT(note_of(64), testing::Not(testing::HasSubstr("so few disks")));
 }
 
 TEST(ObservedCorrelations, CommonMotionDoesNotCount) {
