@@ -1,5 +1,6 @@
 #include "app/expected_cost.hpp"
 
+#include "core/seconds_since.hpp"
 #include "observe/mechanics.hpp"
 #include "text/numbers.hpp"
 #include "theory/collision_rate.hpp"
@@ -110,8 +111,7 @@ void Trial::observe(ExpectedCost& cost, const State& start, double equilibrated,
   RunHooks hooks;
   observation.attach_on_thread(hooks);
   const auto began = std::chrono::steady_clock::now();
-  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(); };
-  hooks.proceed = [&](const Progress&) { return seconds() < trial_seconds; };
+  hooks.proceed = [&](const Progress&) { return seconds_since(began) < trial_seconds; };
   const RunResult result = run_schedule(simulation, hooks);
   (void)observation.results();  // which waits for what is still looked at
   const double done = result.stopped == StopReason::interrupted ? simulation.time() / measured : 1.0;
@@ -119,7 +119,7 @@ void Trial::observe(ExpectedCost& cost, const State& start, double equilibrated,
   cost.observables = scene.observe.size();
   const double all = equilibrated + measured;
   const double before = all > 0.0 ? *cost.seconds * equilibrated / all : 0.0;
-  cost.seconds = before + seconds() / std::min(done, 1.0);
+  cost.seconds = before + seconds_since(began) / std::min(done, 1.0);
 }
 
 ExpectedCost Trial::run() {

@@ -6,6 +6,7 @@
 #include "app/info_sweep.hpp"
 #include "io/checkpoint.hpp"
 #include "io/run_directory.hpp"
+#include "text/numbers.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,19 +25,6 @@ namespace fs = std::filesystem;
 namespace detail {
 
 std::string info_line(std::string_view label, std::string_view text) { return fmt::format("  {:<11} {}\n", label, text); }
-
-std::string counted(std::uintmax_t count, std::string_view thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
-std::string size_text(std::uintmax_t bytes) {
-  if (bytes < 1000) return counted(bytes, "byte");
-  constexpr std::array<std::string_view, 4> units = {"kB", "MB", "GB", "TB"};
-  double size = static_cast<double>(bytes) / 1000.0;
-  std::size_t unit = 0;
-  for (; size >= 999.5 && unit + 1 < units.size(); ++unit) size /= 1000.0;
-  return fmt::format("{:.3g} {}", size, units[unit]);
-}
 
 std::string samples_text(std::uintmax_t samples, double first, double last) {
   if (samples == 0) return "none";
@@ -156,7 +144,7 @@ std::string describe_file(const fs::path& path) {
     throw OutputError(
         fmt::format("{}: this file is empty; the run that should have written it did not get that far", path.string()));
   std::string text = describe_content(path);
-  text += detail::info_line("size", detail::size_text(size));
+  text += detail::info_line("size", carom::size(static_cast<double>(size)));
   if (path.extension() == partial_ending) text += detail::info_line("state", "incomplete: the run has not ended, or was killed");
   return text;
 }

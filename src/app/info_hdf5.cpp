@@ -5,6 +5,7 @@
 #include "io/h5md_parts.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/output_error.hpp"
+#include "text/numbers.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -14,10 +14,6 @@ std::string describe_summary(const std::filesystem::path& path);
 
 /// One line of a description.
 std::string info_line(std::string_view label, std::string_view text);
-/// Returns text such as "1 sample", "2 samples"
-std::string counted(std::uintmax_t count, std::string_view thing);
-/// Returns text such as "16.2 MB"
-std::string size_text(std::uintmax_t bytes);
 /// Returns text such as "5001, from time 0 to 5"
 std::string samples_text(std::uintmax_t samples, double first, double last);
 

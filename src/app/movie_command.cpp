@@ -1,6 +1,5 @@
 // carom movie RUN_DIR -o FILE: a run as a film, or one moment of it as a picture.
 
-#include "app/info_parts.hpp"
 #include "app/movie_plan.hpp"
 #include "io/partial_file.hpp"
 #include "pages/playback.hpp"
@@ -108,8 +107,9 @@ ExitCode draw(const MovieOptions& options) {
   if (!playback->exact())
     fmt::print(stderr, "carom: between samples the disks are drawn on straight lines: {}\n", playback->why_not());
   if (options.quiet) return exit_done;
-  fmt::print("{}  {}, {} x {}, {}{}\n", plan.path.string(), detail::size_text(fs::file_size(plan.path)), painter.size().width,
-             painter.size().height, plan.is_film() ? film_words(plan, times) : fmt::format("time {:g}", times.front()),
+  fmt::print("{}  {}, {} x {}, {}{}\n", plan.path.string(), size(static_cast<double>(fs::file_size(plan.path))),
+             painter.size().width, painter.size().height,
+             plan.is_film() ? film_words(plan, times) : fmt::format("time {:g}", times.front()),
              playback->exact() ? ", exact" : ", interpolated between samples");
   return exit_done;
 }

@@ -1,10 +1,10 @@
 // carom play RUN_DIR: one HTML file that replays a run.
 
 #include "app/commands.hpp"
-#include "app/info_parts.hpp"
 #include "pages/player_page.hpp"
 #include "terminal/page_file.hpp"
 #include "terminal/reading_process.hpp"
+#include "text/numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ ExitCode write_player(const PlayOptions& options) {
   const PlayerData data = read_player(options.directory);
   const fs::path path = place_for_page(options.output, fs::path(options.directory) / "player.html", {"player", player_mark});
   write_page(path, player_page(data));
-  fmt::print("{}  {}, {}\n", path.string(), detail::size_text(fs::file_size(path)),
+  fmt::print("{}  {}, {}\n", path.string(), size(static_cast<double>(fs::file_size(path))),
              data.exact ? "an exact replay, from collision to collision"
                         : fmt::format("interpolated between samples: {}", data.why_not));
   return exit_done;

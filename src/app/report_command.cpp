@@ -1,11 +1,11 @@
 // carom report RUN_DIR: the page of one run.
 
 #include "app/commands.hpp"
-#include "app/info_parts.hpp"
 #include "pages/report_page.hpp"
 #include "studies/horizon/page.hpp"
 #include "terminal/page_file.hpp"
 #include "terminal/reading_process.hpp"
+#include "text/numbers.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ ExitCode report(const ReportOptions& options) {
     const ReportFile file = read_report(options.directory);
     const fs::path path = place_for_page(options.output, fs::path(options.directory) / "report.html", {"report", report_mark});
     write_page(path, file.html);
-    fmt::print("{}  {}, {}\n", path.string(), detail::size_text(fs::file_size(path)), file.player);
+    fmt::print("{}  {}, {}\n", path.string(), size(static_cast<double>(fs::file_size(path))), file.player);
     return exit_done;
   });
 }

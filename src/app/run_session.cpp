@@ -2,6 +2,7 @@
 
 #include "app/live_view.hpp"
 #include "app/terminal_summary.hpp"
+#include "core/seconds_since.hpp"
 #include "io/summary.hpp"
 #include "runner/runner.hpp"
 #include "studies/horizon/json.hpp"
@@ -26,8 +27,6 @@ namespace carom::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point began) { return std::chrono::duration<double>(Clock::now() - began).count(); }
 
 /// Returns the largest relative overlap that rounding explains. Double precision stays below 1e-12 in a box of ordinary size; the
 /// thousandfold leaves room for boxes of many thousand diameters, and a real fault is far above it. Single precision has half the

@@ -51,7 +51,7 @@ foreach(name IN LISTS carom_page_files)
   string(APPEND entries "    {\"${name}\", pieces_${index}},\n")
   math(EXPR index "${index} + 1")
 endforeach()
-file(WRITE ${OUTPUT} "// Written by embed_files.cmake from src/show.
+file(WRITE ${OUTPUT} "// Written by embed_files.cmake from src/pages.
 #include \"pages/embedded_files.hpp\"
 
 namespace carom::detail {

@@ -1,5 +1,6 @@
 #include "runner/runner.hpp"
 
+#include "core/seconds_since.hpp"
 #include "core/state_archive.hpp"
 #include "io/partial_file.hpp"
 
@@ -12,13 +13,7 @@
 
 namespace carom {
 
-namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point began) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Runner::Runner(Simulation& simulation, const RunDirectory& directory, Provenance provenance, RunnerOptions options,
                const Checkpoint* from)

@@ -6,6 +6,7 @@
 
 #include "core/all_equal.hpp"
 #include "core/archive.hpp"
+#include "core/seconds_since.hpp"
 #include "scene/checks.hpp"
 #include "simulation/all_events.hpp"
 #include "simulation/finite_state.hpp"
@@ -339,7 +340,7 @@ class Schedule {
                                                                          : stretch_events,
                                           until_verified(), moving_as_one_.until_look(engine_.counts())});
     const bool arrived = engine_.run_until(target, pair_limit, limit);
-    result_.loop_seconds += std::chrono::duration<double>(Clock::now() - started).count();
+    result_.loop_seconds += seconds_since(started);
     const std::uint64_t events = detail::all_events(engine_.counts()) - before;
     stands_ = events > 0 && !(began < engine_.now());
     if (began < engine_.now()) standing_.clear();

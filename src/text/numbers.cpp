@@ -30,12 +30,13 @@ std::string duration(double seconds) {
 
 std::string size(double bytes) {
   constexpr std::string_view byte_units[] = {"bytes", "kB", "MB", "GB", "TB"};
+  if (bytes < 999.5) return counted(static_cast<std::uint64_t>(std::llround(bytes)), "byte");
   std::size_t unit = 0;
   while (bytes >= 999.5 && unit + 1 < std::size(byte_units)) {
     bytes /= 1000.0;
     ++unit;
   }
-  return fmt::format("{:.{}f} {}", bytes, bytes < 9.95 && unit > 0 ? 1 : 0, byte_units[unit]);
+  return fmt::format("{:.{}f} {}", bytes, bytes < 9.95 ? 1 : 0, byte_units[unit]);
 }
 
 std::string rate(double per_second) {

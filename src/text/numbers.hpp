@@ -14,7 +14,7 @@ std::string grouped(std::uint64_t number);
 /// Returns a duration in seconds as "340 µs", "12 ms", "1.5 s", "48 s", "3 min 20 s" or "2 h 5 min"
 std::string duration(double seconds);
 
-/// Returns a number of bytes as "16 MB"
+/// Returns a number of bytes as "1 byte", "340 bytes", "1.6 MB" or "16 MB"
 std::string size(double bytes);
 
 /// Returns a large number of things in a second as "1.23 million"

@@ -2,6 +2,7 @@
 
 #include "studies/hard_cases/hard_case.hpp"
 
+#include "core/seconds_since.hpp"
 #include "studies/hard_cases/checks.hpp"
 #include "studies/hard_cases/run.hpp"
 
@@ -120,7 +121,7 @@ CaseVerdict run_hard_case(const HardCase& hard_case, const std::string& engine, 
   const auto began = std::chrono::steady_clock::now();
   CaseVerdict verdict{.name = hard_case.name, .family = hard_case.family, .title = hard_case.title, .engines = {}, .checks = {}};
   Trial(hard_case, verdict, proceed).run(engine);
-  verdict.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  verdict.seconds = seconds_since(began);
   return verdict;
 }
 

@@ -1,5 +1,6 @@
 #include "studies/sweep/progress.hpp"
 
+#include "core/seconds_since.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ std::string SweepProgress::words() const {
   std::string text = fmt::format("{} of {} runs, {} at work", grouped(before_ + finished_), grouped(runs_), begun_ - ended);
   if (failed_ > 0) text += fmt::format(", {} failed", failed_);
   if (ended > 0) {
-    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double seconds = seconds_since(start_);
     const auto left = static_cast<double>(runs_ - before_ - ended);
     text += fmt::format("  about {} left", duration(seconds * left / static_cast<double>(ended)));
   }

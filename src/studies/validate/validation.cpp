@@ -1,5 +1,7 @@
 #include "studies/validate/validation.hpp"
 
+#include "core/seconds_since.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -61,7 +63,6 @@ std::vector<validation::Trial> chosen_trials(const ValidateOptions& options) {
 }
 
 Validation validate(const ValidateOptions& options, const ValidateHooks& hooks, const Validation& before) {
-  using Clock = std::chrono::steady_clock;
   Validation validation{.options = options};
   const std::vector<validation::Trial> trials = chosen_trials(options);
   for (std::size_t k = 0; k < trials.size(); ++k) {
@@ -76,7 +77,7 @@ Validation validate(const ValidateOptions& options, const ValidateHooks& hooks, 
     const validation::Effort effort{.full = options.full, .seed = options.seed, .proceed = [&] {
                                       return !hooks.proceed || hooks.proceed(trial.name, fraction);
                                     }};
-    const auto start = Clock::now();
+    const auto start = std::chrono::steady_clock::now();
     TrialResult result{.trial = trial.name};
     try {
       if (!effort.proceed()) return validation;
@@ -89,7 +90,7 @@ Validation validate(const ValidateOptions& options, const ValidateHooks& hooks, 
                                .expected = 1.0,
                                .measured = {0.0, 0.0}});
     }
-    result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    result.seconds = seconds_since(start);
     if (hooks.done) hooks.done(result);
     validation.results.push_back(std::move(result));
   }
