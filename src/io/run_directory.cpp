@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <chrono>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -37,12 +39,12 @@ bool grows(std::string_view product) {
 
 }  // namespace
 
-RunDirectory::RunDirectory(fs::path path, bool force, std::span<const std::string_view> products)
+RunDirectory::RunDirectory(fs::path path, bool force, std::span<const std::string_view> products, LockHolder holder)
     : path_(std::move(path)), products_(products), otherwise_(", or name another directory with --out") {
   if (path_.empty()) throw OutputError("the output directory has an empty name; name one with --out");
   try {
     create();
-    lock();
+    lock(holder);
     check_for_results(force);
     check_writable();
     if (force) {
@@ -65,23 +67,26 @@ RunDirectory RunDirectory::reopen(fs::path path) {
   if (!fs::is_directory(path, error))
     throw OutputError(fmt::format("{}: there is no such directory; name one that carom run has written", path.string()));
   RunDirectory directory(std::move(path));
-  directory.lock();
+  directory.lock(LockHolder::process);
   directory.check_writable();
   return directory;
 }
 
 /// Locks the directory itself, so that no file is left behind; the system releases the lock when the process ends in any way.
 /// File systems without locks have none.
-void RunDirectory::lock() {
-  const int descriptor = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;  // what is wrong will be said by whoever writes
-  const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  if (taken) {
-    ::close(descriptor);
-    throw OutputError(
-        fmt::format("{}: another run is writing in this directory; wait for its end{}", path_.string(), otherwise_));
-  }
+void RunDirectory::lock(LockHolder holder) {
+  using namespace std::chrono_literals;
+  const bool inherited = holder == LockHolder::process_and_children;
+  const int descriptor = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | (inherited ? 0 : O_CLOEXEC));
+  if (descriptor < 0) return;  // the first write reports what is wrong
   lock_ = {nullptr, [descriptor](const void*) { ::close(descriptor); }};
+  constexpr auto pause = 20ms;
+  for (auto left = inherited ? 2000ms : 0ms; ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; left -= pause) {
+    if (left <= 0ms)
+      throw OutputError(
+          fmt::format("{}: another process is writing into this directory; wait for its end{}", path_.string(), otherwise_));
+    std::this_thread::sleep_for(pause);
+  }
 }
 
 OutputError RunDirectory::refusal(const fs::path& path, std::string_view action, int error_number) const {

@@ -42,13 +42,19 @@ inline constexpr std::array<std::string_view, 21> run_products = {"checkpoint.h5
 /// The names of checkpoints, from which a run can be continued: io/checkpoint.hpp.
 inline constexpr std::string_view checkpoint_name = run_products[0], previous_checkpoint_name = run_products[1];
 
+/// Who holds the lock of a directory: the process that writes there, or the processes that it starts too, until the last of them
+/// ends.
+enum class LockHolder { process, process_and_children };
+
 class RunDirectory {
  public:
   /// Creates the directory with its parents, or takes one that holds no results; other files in it are left alone. With `force`,
   /// results of an earlier run (a product, or the .partial of a run that did not end) are removed. `products` are the names that
   /// count as results; they must outlive this object. Throws OutputError where results are in the way without `force`, where
-  /// `path` is not a directory or not writable, and where another process uses it; nothing has then been changed.
-  RunDirectory(std::filesystem::path path, bool force, std::span<const std::string_view> products = run_products);
+  /// `path` is not a directory or not writable, and where another process uses it; nothing has then been changed. Where children
+  /// hold the lock too, waits up to two seconds for it, within which the children of a killed process disappear.
+  RunDirectory(std::filesystem::path path, bool force, std::span<const std::string_view> products = run_products,
+               LockHolder holder = LockHolder::process);
 
   /// Returns the directory of a run that is to go on. Throws OutputError where there is none, or nothing can be written there.
   [[nodiscard]] static RunDirectory reopen(std::filesystem::path path);
@@ -76,7 +82,7 @@ class RunDirectory {
   /// Returns the error for a place where a run cannot begin or be continued.
   [[nodiscard]] OutputError refusal(const std::filesystem::path& path, std::string_view action, int error_number) const;
   void create();
-  void lock();
+  void lock(LockHolder holder);
   void check_for_results(bool force) const;
   void check_writable() const;
 

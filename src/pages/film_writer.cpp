@@ -4,8 +4,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>  // sigemptyset is POSIX, not C++
-#include <spawn.h>
+#include <signal.h>  // sigaction is POSIX, not C++
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,8 +17,6 @@
 #include <thread>
 #include <utility>
 #include <vector>
-
-extern char** environ;
 
 namespace carom {
 
@@ -101,33 +98,6 @@ class IgnoredPipeSignal {
   struct sigaction before_ = {};
 };
 
-pid_t start(const std::filesystem::path& program, std::vector<std::string> words, int input, int errors) {
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&files, errors, STDERR_FILENO);
-  // Ctrl-C at the terminal is for this program, which then ends ffmpeg.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  sigset_t usual;
-  sigemptyset(&usual);
-  sigaddset(&usual, SIGPIPE);
-  posix_spawnattr_setsigdefault(&attributes, &usual);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-  pid_t process = -1;
-  const int error = posix_spawn(&process, program.c_str(), &files, &attributes, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  posix_spawnattr_destroy(&attributes);
-  if (error == 0) return process;
-  throw OutputError(fmt::format("{}: cannot be started: {}; check that it runs by itself", program.string(),
-                                std::generic_category().message(error)));
-}
-
 /// Returns the first line that ffmpeg has written, or nothing.
 std::string first_line(std::FILE* file) {
   std::rewind(file);
@@ -162,42 +132,29 @@ FilmWriter::FilmWriter(const PartialFile& file, const FilmShape& shape, std::fun
   if (::pipe2(ends, O_CLOEXEC) != 0) throw detail::system_error(path_, "write", errno);
   ::fcntl(ends[1], F_SETFL, O_NONBLOCK);
   try {
-    process_ = start(*program, command_line(file.partial_name(), shape), ends[0], ::fileno(complaints_.get()));
-  } catch (...) {
+    process_.emplace(*program, command_line(file.partial_name(), shape),
+                     ChildProcess::Options{.input = ends[0], .errors = ::fileno(complaints_.get()), .own_group = true});
+  } catch (const std::system_error& error) {
     ::close(ends[0]);
     ::close(ends[1]);
-    throw;
+    throw OutputError(
+        fmt::format("{}: cannot be started: {}; check that it runs by itself", program->string(), error.code().message()));
   }
   ::close(ends[0]);
   pipe_ = ends[1];
 }
 
-FilmWriter::~FilmWriter() {
-  close_pipe();
-  end();
-}
+FilmWriter::~FilmWriter() { close_pipe(); }
 
 void FilmWriter::close_pipe() {
   if (pipe_ >= 0) ::close(std::exchange(pipe_, -1));
 }
 
-bool FilmWriter::has_ended() {
-  if (process_ >= 0 && ::waitpid(process_, &status_, WNOHANG) == process_) process_ = -1;
-  return process_ < 0;
-}
-
-void FilmWriter::end() {
-  if (process_ < 0) return;
-  ::kill(process_, SIGKILL);
-  while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
-  }
-  process_ = -1;
-}
-
 void FilmWriter::fail() {
   close_pipe();
-  for (int tries = 0; !has_ended() && tries < 100; ++tries) std::this_thread::sleep_for(moment);  // it may still be saying why
-  end();
+  for (int tries = 0; !process_->has_ended() && tries < 100; ++tries)
+    std::this_thread::sleep_for(moment);  // it may still be saying why
+  process_.reset();
   const std::string words = first_line(complaints_.get());
   throw OutputError(fmt::format("{}: ffmpeg could not write this film{}{}; check the disk, and that this ffmpeg is complete",
                                 path_.string(), words.empty() ? " and does not say why" : ": ", words));
@@ -223,11 +180,12 @@ bool FilmWriter::frame(std::span<const std::uint32_t> pixels) {
 
 bool FilmWriter::finish() {
   close_pipe();
-  while (!has_ended()) {
+  while (!process_->has_ended()) {
     if (!keep_going_()) return false;
     std::this_thread::sleep_for(moment);
   }
-  if (!WIFEXITED(status_) || WEXITSTATUS(status_) != 0) fail();
+  const int status = process_->wait();
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail();
   return true;
 }
 

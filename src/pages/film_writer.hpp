@@ -1,9 +1,8 @@
 #pragma once
 // Films: frames go as bare pixels through a pipe to the program ffmpeg, which encodes them and writes the file.
 
+#include "io/child_process.hpp"
 #include "io/partial_file.hpp"
-
-#include <sys/types.h>
 
 #include <cstdint>
 #include <cstdio>
@@ -34,7 +33,7 @@ class FilmWriter {
   FilmWriter(const PartialFile& file, const FilmShape& shape, std::function<bool()> keep_going);
   FilmWriter(const FilmWriter&) = delete;
   FilmWriter& operator=(const FilmWriter&) = delete;
-  ~FilmWriter();  ///< ends ffmpeg, unless finish() did
+  ~FilmWriter();  ///< kills ffmpeg, unless finish() has returned
 
   /// One picture: rows from the top, in each pixel 0xRRGGBB. False where it was not to go on. Throws OutputError with ffmpeg's
   /// words where it has given up.
@@ -48,15 +47,12 @@ class FilmWriter {
   };
   [[noreturn]] void fail();
   void close_pipe();
-  bool has_ended();
-  void end();
 
   std::filesystem::path path_;  ///< for messages
   std::function<bool()> keep_going_;
   std::unique_ptr<std::FILE, CloseFile> complaints_;  ///< standard error of ffmpeg
-  pid_t process_ = -1;
-  int status_ = 0;  ///< exit status of ffmpeg
   int pipe_ = -1;
+  std::optional<ChildProcess> process_;  ///< ffmpeg
 };
 
 }  // namespace carom

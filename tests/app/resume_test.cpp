@@ -156,8 +156,8 @@ TEST_F(Resume, WhatCannotBeResumedIsRefusedAndLeftAsItIs) {
 TEST_F(Resume, ADirectoryBelongsToOneRunAtATime) {
   const Outcome first = carom({"run", "gas.toml", "--out", "busy", "-q", "--set", "run.collisions=600000"}, [&](pid_t child) {
     (void)wait_until([&] { return is_there("busy/trajectory.h5md.partial"); });
-    refused({"run", "gas.toml", "--out", "busy", "--force"}, "another run is writing in this directory");
-    refused({"resume", "busy"}, "another run is writing in this directory; wait for its end\n");  // it has no other place
+    refused({"run", "gas.toml", "--out", "busy", "--force"}, "another process is writing into this directory");
+    refused({"resume", "busy"}, "another process is writing into this directory; wait for its end\n");  // it has no other place
     ::kill(child, SIGKILL);
   });
   EXPECT_EQ(first.exit_code, 128 + SIGKILL);

@@ -241,7 +241,7 @@ TEST_F(ScenesLongSweep, KilledAgainAndAgainItEndsWithTheSameBytes) {
   clear();
   for (const std::ptrdiff_t enough : {0, 1, 3, 4}) {
     const Outcome killed = sweep({"--threads", "2"}, [&](pid_t child) {
-      EXPECT_TRUE(wait_until([&] { return fs::exists(file("gas-sweep/.lock")) && finished_runs() >= enough; }));
+      EXPECT_TRUE(wait_until([&] { return fs::exists(file("gas-sweep")) && finished_runs() >= enough; }));
       kill(child, SIGKILL);
     });
     EXPECT_EQ(killed.exit_code, 128 + SIGKILL);
@@ -276,7 +276,7 @@ TEST_F(ScenesLongSweep, TwoAtATimeAreRefusedAndAKillLeavesNoRunAtWork) {
   write_text(file("gas-sweep.toml"), sweep_text + "[set]\nrun.time = 1e6\noutput.trajectory = false\n");
   const Outcome killed = sweep({"--threads", "2"}, [&](pid_t child) {
     EXPECT_TRUE(wait_until([&] { return fs::exists(file("gas-sweep/radius=0.1/seed=2/scene.toml")); }));
-    refused({"sweep", "gas-sweep.toml"}, "gas-sweep: another sweep is writing into this directory");
+    refused({"sweep", "gas-sweep.toml"}, "gas-sweep: another process is writing into this directory");
     kill(child, SIGKILL);
   });
   EXPECT_EQ(killed.exit_code, 128 + SIGKILL);

@@ -1,5 +1,6 @@
 #include "studies/sweep/child_run.hpp"
 
+#include "io/child_process.hpp"
 #include "io/output_error.hpp"
 #include "io/partial_file.hpp"
 #include "io/run_directory.hpp"
@@ -10,8 +11,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>  // kill is POSIX, not C++
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,6 +21,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace carom::cli {
@@ -44,46 +44,30 @@ Words words_to_resume(const RunOrder& order) {
   return {"carom", "resume", order.directory.string(), "--quiet", "--progress", "never", "--threads", "1"};
 }
 
+/// A run of this very program. It dies with this process, even where that is killed, and writes no more into directories that a
+/// later sweep may use.
 class Child {
  public:
-  explicit Child(Words words) {
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    const pid_t parent = getpid();
-    id_ = fork();
-    if (id_ == 0) run(argv.data(), ends[1], parent);
-    close(ends[1]);
-    errors_ = ends[0];
-    if (id_ > 0) return;
-    const int error = errno;
-    close(errors_);
-    throw std::system_error(error, std::generic_category(), "cannot start a process");
+  explicit Child(Words words)
+      : errors_(make_pipe()), process_("/proc/self/exe", std::move(words), {.errors = errors_[1], .dies_with_us = true}) {
+    close(std::exchange(errors_[1], -1));
   }
-  ~Child() { close(errors_); }
+  ~Child() { close(errors_[0]); }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Reads what the child says on stderr, if it comes within the time. False at its end.
+  /// Reads what the child writes to stderr, if it comes within the time. Returns false at its end.
   bool listen(int milliseconds) {
-    pollfd wanted{.fd = errors_, .events = POLLIN, .revents = 0};
+    pollfd wanted{.fd = errors_[0], .events = POLLIN, .revents = 0};
     if (poll(&wanted, 1, milliseconds) <= 0) return true;
     std::array<char, 4096> bytes{};
-    const ssize_t count = read(errors_, bytes.data(), bytes.size());
+    const ssize_t count = read(errors_[0], bytes.data(), bytes.size());
     if (count > 0) said_.append(bytes.data(), static_cast<std::size_t>(count));
     constexpr std::size_t most = 65536;
     if (said_.size() > most) said_.erase(0, said_.size() - most);
     return count > 0 || (count < 0 && errno == EINTR);
   }
-  void send(int number) const { kill(id_, number); }
-  [[nodiscard]] int status() const {
-    int status = 0;
-    while (waitpid(id_, &status, 0) < 0)
-      if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "cannot wait for a process");
-    return status;
-  }
+  [[nodiscard]] ChildProcess& process() { return process_; }
   /// Returns the last line, without the program's name.
   [[nodiscard]] std::string last_sentence() const {
     const std::size_t end = said_.find_last_not_of('\n');
@@ -96,21 +80,14 @@ class Child {
   }
 
  private:
-  /// Runs in the child, where other threads of the parent may have held any lock: system calls only. The child dies with the
-  /// parent, even where that is killed, and writes no more into directories that a later sweep may use.
-  [[noreturn]] static void run(char** argv, int errors, pid_t parent) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    signal(SIGUSR1, SIG_DFL);  // where the parent was started to ignore it, the child is not
-    const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
-    const bool ready = getppid() == parent && dup2(nothing, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0 &&
-                       dup2(errors, STDERR_FILENO) >= 0;
-    if (ready) execv("/proc/self/exe", argv);
-    _exit(exit_code_without_program);
+  static std::array<int, 2> make_pipe() {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
+    return ends;
   }
 
-  static constexpr int exit_code_without_program = 127;
-  pid_t id_ = -1;
-  int errors_ = -1;
+  std::array<int, 2> errors_;
+  ChildProcess process_;
   std::string said_;
 };
 
@@ -150,10 +127,10 @@ RunEnd run_child(const Words& words, const StopRequest& stop, const std::functio
   while (child.listen(between_ticks)) {
     const bool go_on = tick();
     if (stopped || (go_on && !stop.made())) continue;
-    child.send(SIGUSR1);  // which asks to stop, and never ends a run at once, whatever else comes to the child
+    child.process().send(SIGUSR1);  // which asks to stop, and never ends a run at once, whatever else comes to the child
     stopped = true;
   }
-  const int status = child.status();
+  const int status = child.process().wait();
   if (WIFEXITED(status) && WEXITSTATUS(status) == exit_done) return {.finished = true};
   if (stopped || stop.made()) return {};  // Ctrl-C comes to the child too, perhaps sooner
   return {.failure = failure_of(status, child)};

@@ -4,7 +4,6 @@
 
 #include "studies/sweep/command.hpp"
 #include "studies/study_directory.hpp"
-#include "studies/sweep/directory_lock.hpp"
 #include "studies/sweep/hdf5.hpp"
 #include "studies/sweep/mpi.hpp"
 #include "studies/sweep/page.hpp"
@@ -148,11 +147,7 @@ ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invoc
   }
   (void)runs_to_do(sweep, path, options.force);  // whatever is in the way is said before anything is written
   const StopRequest stop;
-  std::error_code said_below;
-  fs::create_directories(path, said_below);
-  std::optional<DirectoryLock> lock;
-  if (fs::is_directory(path, said_below)) lock.emplace(path);
-  const RunDirectory directory = open_study(path, false, true, {});
+  const RunDirectory directory = open_study(path, false, true, {}, LockHolder::process_and_children);
   const std::vector<std::size_t> runs = runs_to_do(sweep, path, options.force);
   {
     SweepProgress progress(mode, sweep.run_count(), sweep.run_count() - runs.size());
