@@ -282,7 +282,7 @@ TrialResult wall_pressure(const std::string& trial, const Effort& effort) {
 
 void add_cooling_fields_walls(std::vector<Trial>& trials) {
   const std::string group = "cooling, weight and walls";
-  for (const Cooling& gas : {Cooling{256, 64, 100.0, Judged::agrees}, Cooling{4096, 8, 400.0, Judged::disagrees}}) {
+  for (const Cooling& gas : {Cooling{256, 64, 100.0, Judged::agrees}, Cooling{4096, 24, 400.0, Judged::disagrees}}) {
     const std::string name = fmt::format("haff-{}-disks", gas.disks);
     trials.push_back({name, group, false, [=](const Effort& effort) { return haff(name, gas, effort); }});
   }
