@@ -29,7 +29,7 @@ class Gas {
         axes_{{system_.box, 0, 0.0}, {system_.box, 1, 0.0}},
         lists(axes_[0], axes_[1], system_.disks.radius) {
     const auto engine = test::make_engine("fast", system_);
-    engine->run_until(forever, 10 * disks, test::no_limit);
+    engine->run_until(forever, 10 * static_cast<std::uint64_t>(disks), test::no_limit);
     const State state = engine->state();
     std::uniform_real_distribution<double> angle(0.0, 2.0 * std::numbers::pi);
     half_width = HalfWidthSearch::first_half_width(1.0, system_.box.area() / disks);

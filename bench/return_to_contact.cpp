@@ -135,7 +135,8 @@ class Backtrack {
       return std::min(count - 1, static_cast<int>(along * count));
     };
     const auto at = [&](int column, int row) -> std::vector<std::uint32_t>& {
-      return cell[static_cast<std::size_t>((row + rows) % rows * columns + (column + columns) % columns)];
+      return cell[static_cast<std::size_t>((row + rows) % rows) * static_cast<std::size_t>(columns) +
+                  static_cast<std::size_t>((column + columns) % columns)];
     };
     for (std::uint32_t i = 0; i < bodies_.count(); ++i) at(place(i, 0, columns), place(i, 1, rows)).push_back(i);
     for (std::uint32_t i = 0; i < bodies_.count(); ++i) {

@@ -51,7 +51,7 @@ class SquareWells {
   }
   [[nodiscard]] std::uint64_t pairs() const { return pairs_; }
   [[nodiscard]] std::size_t bytes() const {
-    std::size_t sum = partners_.capacity() * sizeof(partners_[0]);
+    std::size_t sum = partners_.capacity() * sizeof(std::vector<std::int32_t>);
     for (const auto& one : partners_) sum += one.capacity() * sizeof(std::int32_t);
     return sum;
   }

@@ -71,7 +71,7 @@ double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eige
   }
   const std::int32_t i = slot_of_id_[static_cast<std::size_t>(disk)];
   const double mass = layout_.mass(line(i));
-  Vec2<double> to = v;
+  Vec2<double> to = v;  // NOLINT(performance-unnecessary-copy-initialization): in some worlds it changes
   if constexpr (!World::plain)
     if (world_.sheared()) to[0] += world_.sliding.flow(flight_.height_in_box(i, line(i), now_));
   double gained = mass * (to.squaredNorm() - flight_.velocity(line(i), now_).squaredNorm()) / 2.0;

@@ -29,7 +29,7 @@ constexpr std::array<std::string_view, 9> not_compared = {
 
 void collect_datasets(hid_t file, const std::string& group, std::vector<std::string>& paths) {
   for (const std::string& name : detail::members_of(file, group.empty() ? "/" : group)) {
-    const std::string path = group + "/" + name;
+    const std::string path = fmt::format("{}/{}", group, name);
     const Hdf5Id object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose);
     if (H5Iget_type(object.get()) == H5I_DATASET) {
       paths.push_back(path);

@@ -129,7 +129,8 @@ class NeighbourhoodCells {
       column += (column < 0) & range.cells[0];
       column -= (column >= range.cells[0]) & range.cells[0];
       for (std::int32_t row = 0; row < 3; ++row)
-        store(column + folded(range.first[1] + row, range.cells[1]) * range.cells[0], to + row * columns);
+        store(column + folded(range.first[1] + row, range.cells[1]) * range.cells[0],
+              to + static_cast<std::ptrdiff_t>(row) * columns);
     } else {
       for_each_cell(range, [&to](std::int32_t cell) { *to++ = cell; });
     }

@@ -19,14 +19,14 @@
 namespace carom::detail {
 namespace {
 
-struct Field {
+struct TextField {
   std::string_view text;
   int column = 1;  ///< column of its first character, from 1
 };
 
 std::string shown(std::string_view text) { return fmt::format("\"{}\"", excerpt(text, 40)); }
 
-void split(std::string_view line, std::vector<Field>& fields) {
+void split(std::string_view line, std::vector<TextField>& fields) {
   fields.clear();
   for (std::size_t begin = 0; begin <= line.size();) {
     const std::size_t end = std::min(line.find(',', begin), line.size());
@@ -46,7 +46,7 @@ std::optional<double> parse_number(std::string_view text) {
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-bool names_column(const Field& field) {
+bool names_column(const TextField& field) {
   return std::find(start_columns.begin(), start_columns.end(), field.text) != start_columns.end();
 }
 
@@ -111,7 +111,7 @@ class Reader {
 
   void read_header() {
     std::vector<std::string_view> names;
-    for (const Field& field : fields_) {
+    for (const TextField& field : fields_) {
       if (!names_column(field) && field.text.find_first_of(";\t ") != std::string_view::npos) {
         fail(field.column, fmt::format("{} is not a column; separate the columns with commas, such as x,y,vx,vy{}",
                                        shown(field.text), field.text.find(' ') != std::string_view::npos ? numpy_delimiter : ""));
@@ -124,11 +124,11 @@ class Reader {
   /// The first row holds numbers, and numpy.savetxt writes its header as a comment: "# x,y,vx,vy" just above the numbers is taken
   /// as it was meant, where it names a column at all.
   void read_header_in_comment() {
-    const std::vector<Field> first_row = fields_;
+    const std::vector<TextField> first_row = fields_;
     const int first_line = line_number_;
     const std::size_t begin = std::min(comment_.find_first_not_of("# \t"), comment_.size());
     split(comment_.substr(begin), fields_);
-    for (Field& field : fields_) field.column += static_cast<int>(begin);
+    for (TextField& field : fields_) field.column += static_cast<int>(begin);
     if (std::none_of(fields_.begin(), fields_.end(), names_column)) {
       fail(first_row.front().column, "the first row must name the columns, such as x,y,vx,vy; found numbers");
     }
@@ -163,7 +163,7 @@ class Reader {
   const std::string& path_;
   std::size_t position_ = 0;
   int line_number_ = 0;
-  std::vector<Field> fields_;
+  std::vector<TextField> fields_;
   std::vector<double> values_;  ///< of the row at hand
   std::string_view comment_;
   int comment_line_ = 0;

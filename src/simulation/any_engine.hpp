@@ -92,7 +92,7 @@ class AnyEngine {
   /// Whether listen() is there: engine/note_listener.hpp.
   [[nodiscard]] virtual bool tells_collisions() const { return false; }
   /// Tells of collisions of pairs from now on, all so far by each hand_over_notes(); an empty listener ends that.
-  virtual void listen(NoteListener /*listener*/) {}
+  virtual void listen(NoteListener /*listener*/) {}  // NOLINT(performance-unnecessary-value-param)
   virtual void hand_over_notes() {}
   /// By the places of disks in notes.
   [[nodiscard]] virtual std::span<const std::int32_t> ids() const { return {}; }

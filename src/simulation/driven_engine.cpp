@@ -74,7 +74,7 @@ bool DrivenEngine::run_until(const Instant& target, std::uint64_t pair_limit, st
       arrived = false;
       take_stock();
       if (engine_->counts().pair >= pair_limit) break;
-    } else if (!arrived || target < std::min({kick_time_, end_, full_})) {
+    } else if (!arrived || target < std::min({kick_time_, end_, full_})) {  // NOLINT(bugprone-branch-clone): the order decides
       break;
     } else if (!(stop < end_) && end_ < forever) {
       grown_ = at_end_scale_ = true;

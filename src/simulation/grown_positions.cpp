@@ -28,7 +28,7 @@ namespace {
 constexpr double placed_fraction = 0.3;
 
 /// Tries for one disk, and the factor by which all are made smaller still where they fail: among many obstacles.
-constexpr int placement_tries = 10'000;
+constexpr int random_tries = 10'000;
 constexpr double shrinkage = 0.8;
 
 /// How fast the mean diameter grows up to that packing fraction, in units of the thermal speed. The slower, the denser and the
@@ -41,7 +41,7 @@ struct Stage {
 constexpr Stage stages[] = {{0.6, 0.3}, {0.75, 0.05}, {0.8, 0.02}, {1.0, 0.005}};
 
 /// Disks that jam are grown again from the last stage that they passed easily, this much more slowly.
-constexpr double patience = 8.0;
+constexpr double slower_again = 8.0;
 constexpr double passed_easily = 0.75;
 
 /// P* at which disks count as jammed: the packing fraction then is within 2e-4 of where all motion ends.
@@ -66,7 +66,7 @@ class Growing {
 
   Eigen::Matrix2Xd run() {
     State state = small_disks();
-    if (!grow(state, 1.0) && !grow(state, patience)) refuse();
+    if (!grow(state, 1.0) && !grow(state, slower_again)) refuse();
     return state.positions;
   }
 
@@ -141,7 +141,7 @@ class Growing {
 
   [[nodiscard]] std::optional<Eigen::Vector2d> room_for(std::size_t i, double radius, const DisksAtRest& in_place) const {
     RandomStream random(scene_.run.seed, Stream::positions, i);
-    for (int tries = 0; tries < placement_tries; ++tries) {
+    for (int tries = 0; tries < random_tries; ++tries) {
       Eigen::Vector2d position;
       for (int a = 0; a < 2; ++a) {
         const double margin = scene_.box.periodic(a) ? 0.0 : disks_.radius[i];

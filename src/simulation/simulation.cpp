@@ -19,7 +19,7 @@ namespace carom {
 namespace {
 
 /// Events between two looks at the clock: some tenths of a second.
-constexpr std::uint64_t stretch_events = 1'000'000;
+constexpr std::uint64_t events_at_a_time = 1'000'000;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& lim
       const std::optional<Event> event = next_event(target, limits.collisions, arrived);
       if (event && limits.stop_when(*event)) return StopReason::condition;
     } else {
-      arrived = engine->run_until(target, limits.collisions, std::min(stretch_events, limits.events - happened));
+      arrived = engine->run_until(target, limits.collisions, std::min(events_at_a_time, limits.events - happened));
     }
     if (arrived) return StopReason::time;
     if (const auto reason = detail::why_stopped(*engine, scene.effects)) return *reason;

@@ -73,14 +73,14 @@ bool is_given(const Velocities& asked) {
 }
 
 /// Disks [begin, end): those of one species, or all.
-struct Ids {
+struct IdRange {
   Eigen::Index begin;
   Eigen::Index end;
 };
 
 // Sums run disk by disk: the order in which Eigen adds depends on the vector instructions of the machine.
 
-double kinetic_energy(const Disks& disks, const Eigen::Matrix2Xd& velocities, Ids ids) {
+double kinetic_energy(const Disks& disks, const Eigen::Matrix2Xd& velocities, IdRange ids) {
   double sum = 0.0;
   for (Eigen::Index i = ids.begin; i < ids.end; ++i)
     sum += 0.5 * disks.mass[static_cast<std::size_t>(i)] *
@@ -89,7 +89,7 @@ double kinetic_energy(const Disks& disks, const Eigen::Matrix2Xd& velocities, Id
 }
 
 /// Returns the factor by which the velocities were scaled.
-double scale_to(double kinetic, const Disks& disks, Ids ids, Eigen::Matrix2Xd& velocities) {
+double scale_to(double kinetic, const Disks& disks, IdRange ids, Eigen::Matrix2Xd& velocities) {
   const double now = kinetic_energy(disks, velocities, ids);
   if (!(now > 0.0)) return 1.0;
   const double factor = std::sqrt(kinetic / now);
@@ -97,7 +97,7 @@ double scale_to(double kinetic, const Disks& disks, Ids ids, Eigen::Matrix2Xd& v
   return factor;
 }
 
-double total_mass(const Disks& disks, Ids ids) {
+double total_mass(const Disks& disks, IdRange ids) {
   double sum = 0.0;
   for (Eigen::Index i = ids.begin; i < ids.end; ++i) sum += disks.mass[static_cast<std::size_t>(i)];
   return sum;
@@ -117,16 +117,16 @@ void remove_momentum(const Box& box, const Disks& disks, Eigen::Matrix2Xd& veloc
 /// then; over all disks of a periodic box it adds up to the N - 1 of the definition kT = K / (N - 1).
 void meet_temperatures(const Scene& scene, const Disks& disks, int axes_without_momentum, Eigen::Matrix2Xd& velocities) {
   struct Target {
-    Ids ids;
+    IdRange ids;
     double kinetic;
   };
-  const Ids all{0, velocities.cols()};
+  const IdRange all{0, velocities.cols()};
   const double mass = total_mass(disks, all);
   std::vector<Target> targets;
   double total = 0.0;
   Eigen::Index first = 0;
   for (const Species& species : scene.species) {
-    const Ids ids{first, first + species.count};
+    const IdRange ids{first, first + species.count};
     first = ids.end;
     const auto* maxwell = std::get_if<MaxwellVelocities>(&species.velocities);
     if (maxwell == nullptr || species.count == 0) continue;

@@ -12,7 +12,7 @@
 namespace carom::test {
 namespace {
 
-std::string printed_by(const std::string& program) {
+[[maybe_unused]] std::string printed_by(const std::string& program) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(program.c_str(), "r"), &pclose);
   std::string text;
   std::array<char, 256> line{};

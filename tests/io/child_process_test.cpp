@@ -69,7 +69,7 @@ TEST(ChildProcess, IsKilledWithItsObject) {
 
 TEST(ChildProcess, ThatCannotBeStartedIsAnError) {
   try {
-    ChildProcess("/no/such/program", {"program"}, {});
+    const ChildProcess child("/no/such/program", {"program"}, {});
     FAIL();
   } catch (const std::system_error& error) {
     EXPECT_EQ(error.code(), std::errc::no_such_file_or_directory);

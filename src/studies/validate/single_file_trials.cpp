@@ -78,9 +78,10 @@ void add_single_file(std::vector<Trial>& trials) {
   struct Channel {
     double width, length;
   };
-  for (const auto& [width, length] : {Channel{1.8, 1.0}, Channel{1.8, 2.0}, Channel{1.5, 0.95}, Channel{1.2, 1.2}}) {
-    const std::string name = fmt::format("single-file-{:g}-{:g}", width, length);
-    trials.push_back({name, "single file", false, [=](const Effort& effort) { return channel(name, width, length, effort); }});
+  for (const Channel& at : {Channel{1.8, 1.0}, Channel{1.8, 2.0}, Channel{1.5, 0.95}, Channel{1.2, 1.2}}) {
+    const std::string name = fmt::format("single-file-{:g}-{:g}", at.width, at.length);
+    trials.push_back(
+        {name, "single file", false, [=](const Effort& effort) { return channel(name, at.width, at.length, effort); }});
   }
 }
 

@@ -130,7 +130,7 @@ std::string cell(const std::string& text) {
 
 CheckRow row_of(const Check& check) {
   CheckRow row{.name = check.name, .theory = check.theory, .source = check.source};
-  const auto [value, error] = check.measured;
+  const double value = check.measured.value, error = check.measured.error;
   row.measured = error > 0.0 && std::isfinite(value) ? number(value, error) + " ± " + number(error, error) : number(value, 0.0);
   row.expected = check.equivalent ? "see theory" : number(check.expected, error);
   if (!check.equivalent && check.reference_error > 0.05 * error)
