@@ -56,12 +56,12 @@ void expect_collapse(const Scene& scene, const std::string& engine, double when)
   EXPECT_NEAR(left + taken / before, 1.0, 1e-5);
 }
 
-TEST(Collapse, OfARowAtAWallEndsTheRunInEveryEngine) {
+TEST(EnginesCollapse, OfARowAtAWallEndsTheRunInEveryEngine) {
   for (const char* engine : all_engines)
     for (const int count : {3, 5}) expect_collapse(row(count, 0.0), engine, 1.0);
 }
 
-TEST(Collapse, NamesTheDisksOfTheRow) {
+TEST(EnginesCollapse, NamesTheDisksOfTheRow) {
   for (const char* engine : all_engines) {
     // The partner gives half of what it has left to the one at the wall, and the wall half of that: quarters of powers of two.
     Scene scene = scene_of(box_of(16.0, 16.0, Boundary::walls),
@@ -78,7 +78,7 @@ TEST(Collapse, NamesTheDisksOfTheRow) {
   }
 }
 
-TEST(Collapse, IsTheSameUnderReversal) {
+TEST(EnginesCollapse, IsTheSameUnderReversal) {
   for (const char* engine : all_engines) {
     Scene scene = row(3, 0.0);
     scene.effects.collision.rule = CollisionRule::reversal;
@@ -86,7 +86,7 @@ TEST(Collapse, IsTheSameUnderReversal) {
   }
 }
 
-TEST(Collapse, ComesAtAnyScaleOfSpeed) {
+TEST(EnginesCollapse, ComesAtAnyScaleOfSpeed) {
   for (const char* engine : engines_of_doubles) {
     const double speed = 0x1p-465;  // 1e-140
     Scene scene = row(5, 0.0, speed);
@@ -99,7 +99,7 @@ TEST(Collapse, ComesAtAnyScaleOfSpeed) {
   }
 }
 
-TEST(Collapse, ComesAtObstaclesToo) {
+TEST(EnginesCollapse, ComesAtObstaclesToo) {
   for (const Obstacle& obstacle : {Obstacle(DiskObstacle{{0.5, 8.0}, 0.5}), Obstacle(SegmentObstacle{{1.0, 4.0}, {1.0, 12.0}})})
     for (const char* engine : all_engines) {
       Scene scene = row(3, 0.0);
@@ -109,7 +109,7 @@ TEST(Collapse, ComesAtObstaclesToo) {
     }
 }
 
-TEST(Collapse, ComesWhereTheWallAloneTakesEnergy) {
+TEST(EnginesCollapse, ComesWhereTheWallAloneTakesEnergy) {
   // Elastic disks of masses 1 and 3, and a wall that takes: the heavy one comes at the light one again and again.
   for (const char* engine : all_engines) {
     Scene scene = row(2, 1.0);
@@ -122,7 +122,7 @@ TEST(Collapse, ComesWhereTheWallAloneTakesEnergy) {
   }
 }
 
-TEST(Collapse, IsNotWhatALightDiskDoesToHeavyOnes) {
+TEST(EnginesCollapse, IsNotWhatALightDiskDoesToHeavyOnes) {
   // A disk of 1e-300 of the mass gives its neighbours 1e-300 of its speed: that is slow, and no collapse.
   for (const char* engine : engines_with_effects) {
     const Scene scene = [] {
@@ -143,7 +143,7 @@ TEST(Collapse, IsNotWhatALightDiskDoesToHeavyOnes) {
   }
 }
 
-TEST(Collapse, IsNotWhereDisksStickTogetherAtRest) {
+TEST(EnginesCollapse, IsNotWhereDisksStickTogetherAtRest) {
   // Two disks: the second collision already leaves both at rest, to the last bit.
   for (const char* engine : all_engines) {
     Simulation simulation = make_simulation(row(2, 0.0), engine);
@@ -152,7 +152,7 @@ TEST(Collapse, IsNotWhereDisksStickTogetherAtRest) {
   }
 }
 
-TEST(Collapse, IsPutOffByTheTcModel) {
+TEST(EnginesCollapse, IsPutOffByTheTcModel) {
   for (const char* engine : all_engines) {
     Scene scene = row(5, 0.0);
     scene.effects.collision.elastic_below = 1e-3;

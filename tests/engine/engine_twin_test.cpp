@@ -59,9 +59,9 @@ std::size_t horizon(const Gas& gas, CollisionRule rule, std::size_t disks) {
   return static_cast<std::size_t>(per_disk * static_cast<double>(disks) / 2.0);
 }
 
-class EngineTwin : public testing::TestWithParam<CollisionRule> {};
+class EnginesTwin : public testing::TestWithParam<CollisionRule> {};
 
-TEST_P(EngineTwin, PeriodicGasHasTheSameEventsUntilTheHorizon) {
+TEST_P(EnginesTwin, PeriodicGasHasTheSameEventsUntilTheHorizon) {
   for (const Gas gas : {Gas{0.1, 3.16}, Gas{0.3, 2.01}, Gas{0.6, 0.71}, Gas{0.7, 0.44}}) {
     const System system = system_of(gas_scene(324, gas.packing_fraction, Boundary::periodic));
     const std::size_t agreed = compare_events(system, GetParam(), 4000);
@@ -69,7 +69,7 @@ TEST_P(EngineTwin, PeriodicGasHasTheSameEventsUntilTheHorizon) {
   }
 }
 
-TEST_P(EngineTwin, WalledGasHasTheSameEventsUntilTheHorizon) {
+TEST_P(EnginesTwin, WalledGasHasTheSameEventsUntilTheHorizon) {
   for (const Gas gas : {Gas{0.1, 3.16}, Gas{0.3, 2.01}, Gas{0.6, 0.71}}) {
     const System system = system_of(gas_scene(324, gas.packing_fraction, Boundary::walls));
     const std::size_t agreed = compare_events(system, GetParam(), 4000);
@@ -77,7 +77,7 @@ TEST_P(EngineTwin, WalledGasHasTheSameEventsUntilTheHorizon) {
   }
 }
 
-TEST_P(EngineTwin, ChannelsHaveTheSameEvents) {
+TEST_P(EnginesTwin, ChannelsHaveTheSameEvents) {
   for (const double packing_fraction : {0.1, 0.4, 0.65}) {
     Scene scene = gas_scene(256, packing_fraction, Boundary::periodic);
     scene.box.boundary = {Boundary::periodic, Boundary::walls};
@@ -91,7 +91,7 @@ TEST_P(EngineTwin, ChannelsHaveTheSameEvents) {
   EXPECT_GE(compare_events(system_of(box_of(400.0, 2.6, Boundary::walls, Boundary::periodic), row), GetParam(), 2000), 500u);
 }
 
-TEST_P(EngineTwin, MixturesHaveTheSameEvents) {
+TEST_P(EnginesTwin, MixturesHaveTheSameEvents) {
   for (const Boundary boundary : {Boundary::walls, Boundary::periodic}) {
     EXPECT_GE(compare_events(system_of(mixture_scene(256, 0.5, boundary)), GetParam(), 3000), 1000u);
     std::vector<Placed> placed;  // radius ratio 10, mass ratio 1e4
@@ -101,7 +101,7 @@ TEST_P(EngineTwin, MixturesHaveTheSameEvents) {
   }
 }
 
-TEST_P(EngineTwin, OneDiskAHundredTimesLargerHasTheSameEvents) {
+TEST_P(EnginesTwin, OneDiskAHundredTimesLargerHasTheSameEvents) {
   for (const double mass : {1.0, 1e4}) {
     std::vector<Placed> placed = {{{60.0, 70.0}, {0.5, -0.25}, 50.0, mass}};
     fill(placed, {0.0, 0.0}, {140.0, 140.0}, 8.0, 0.5, 1.0, 5);
@@ -110,14 +110,14 @@ TEST_P(EngineTwin, OneDiskAHundredTimesLargerHasTheSameEvents) {
   }
 }
 
-TEST_P(EngineTwin, AGasThatStartsInOneQuarterHasTheSameEventsWhileItSpreads) {
+TEST_P(EnginesTwin, AGasThatStartsInOneQuarterHasTheSameEventsWhileItSpreads) {
   std::vector<Placed> placed;
   fill(placed, {0.0, 0.0}, {20.0, 20.0}, 1.2, 0.5, 1.0, 7);
   for (const Boundary boundary : {Boundary::walls, Boundary::periodic})
     EXPECT_GE(compare_events(system_of(square_box(40.0, boundary), placed), GetParam(), 2000), 700u);
 }
 
-TEST_P(EngineTwin, MassesTwelveDecadesApartHaveTheSameEvents) {
+TEST_P(EnginesTwin, MassesTwelveDecadesApartHaveTheSameEvents) {
   // Light disks between slow heavy ones: all at temperature 1, so a million times faster.
   std::vector<Placed> placed;
   fill(placed, {0.0, 0.0}, {24.0, 24.0}, 4.0, 1.0, 1e12, 11);
@@ -128,7 +128,7 @@ TEST_P(EngineTwin, MassesTwelveDecadesApartHaveTheSameEvents) {
     EXPECT_GE(compare_events(system_of(square_box(24.0, boundary), placed), GetParam(), 300), 60u);
 }
 
-TEST_P(EngineTwin, UnwrappedPositionsAreTheTextbooks) {
+TEST_P(EnginesTwin, UnwrappedPositionsAreTheTextbooks) {
   // Two collisions per disk at a packing fraction of 0.6 let errors grow by exp(0.71 * 1.25 * 2) < 10; they begin as some ten
   // roundings of coordinates of size 40.
   Scene scene = gas_scene(144, 0.6, Boundary::periodic);
@@ -142,7 +142,7 @@ TEST_P(EngineTwin, UnwrappedPositionsAreTheTextbooks) {
   expect_same_places(system, GetParam(), time, 1e-10);
 }
 
-TEST_P(EngineTwin, ImagesOfTheStartAreCarriedOn) {
+TEST_P(EnginesTwin, ImagesOfTheStartAreCarriedOn) {
   System system = system_of(gas_scene(16, 0.2, Boundary::periodic));
   for (Eigen::Index i = 0; i < 16; ++i) system.state.images.col(i) << 5 - i, 1'000'000'000'000 * i;
   const auto textbook = make_engine("textbook", system, GetParam());
@@ -153,7 +153,7 @@ TEST_P(EngineTwin, ImagesOfTheStartAreCarriedOn) {
   EXPECT_EQ(fast->state().images, textbook->state().images);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EngineTwin, testing::Values(CollisionRule::specular, CollisionRule::reversal),
+INSTANTIATE_TEST_SUITE_P(All, EnginesTwin, testing::Values(CollisionRule::specular, CollisionRule::reversal),
                          [](const auto& rule) { return rule.param == CollisionRule::specular ? "Specular" : "Reversal"; });
 
 }  // namespace

@@ -40,7 +40,7 @@ void expect_same_events(const System& system, int events) {
 
 Box thin_channel(double width) { return {{0.0, 0.0}, {30.0, width}, {Boundary::periodic, Boundary::walls}}; }
 
-TEST(TextbookTwin, PeriodicGasHasTheSameEventsAsAllPairs) {
+TEST(EnginesTextbookTwin, PeriodicGasHasTheSameEventsAsAllPairs) {
   for (const double packing_fraction : {0.05, 0.3, 0.6, 0.72}) {
     const System system = system_of(gas_scene(16, packing_fraction, Boundary::periodic));
     expect_same_events<Specular>(system, 400);
@@ -48,7 +48,7 @@ TEST(TextbookTwin, PeriodicGasHasTheSameEventsAsAllPairs) {
   }
 }
 
-TEST(TextbookTwin, WalledGasHasTheSameEventsAsAllPairs) {
+TEST(EnginesTextbookTwin, WalledGasHasTheSameEventsAsAllPairs) {
   for (const double packing_fraction : {0.02, 0.3, 0.55}) {
     const System system = system_of(gas_scene(20, packing_fraction, Boundary::walls));
     expect_same_events<Specular>(system, 400);
@@ -56,7 +56,7 @@ TEST(TextbookTwin, WalledGasHasTheSameEventsAsAllPairs) {
   }
 }
 
-TEST(TextbookTwin, MixtureHasTheSameEventsAsAllPairs) {
+TEST(EnginesTextbookTwin, MixtureHasTheSameEventsAsAllPairs) {
   for (const Boundary boundary : {Boundary::walls, Boundary::periodic}) {
     const System system = system_of(mixture_scene(20, 0.5, boundary));
     expect_same_events<Specular>(system, 400);
@@ -64,20 +64,20 @@ TEST(TextbookTwin, MixtureHasTheSameEventsAsAllPairs) {
   }
 }
 
-TEST(TextbookTwin, ThinChannelHasTheSameEventsAsAllPairs) {
+TEST(EnginesTextbookTwin, ThinChannelHasTheSameEventsAsAllPairs) {
   std::vector<Placed> placed;
   for (int i = 0; i < 12; ++i) placed.push_back({{0.7 + 2.5 * i, 0.6 + 0.05 * (i % 3)}, {std::sin(3.0 * i), std::cos(5.0 * i)}});
   expect_same_events<Specular>(system_of(thin_channel(1.5), placed), 1500);
 }
 
-TEST(TextbookTwin, DisksThatFillMostOfASmallPeriodicBoxMeetThroughSeveralImages) {
+TEST(EnginesTextbookTwin, DisksThatFillMostOfASmallPeriodicBoxMeetThroughSeveralImages) {
   // One cell per axis: each disk sees the other on every side.
   const System system = system_of(square_box(1.8, Boundary::periodic), {{{0.3, 0.4}, {1.0, 0.3}}, {{1.2, 1.3}, {-0.7, 0.9}}});
   expect_same_events<Specular>(system, 1000);
   expect_same_events<Reversal>(system, 1000);
 }
 
-TEST(TextbookTwin, EqualSpeedsOnASquareLatticeGiveTiesThatAreBrokenAlike) {
+TEST(EnginesTextbookTwin, EqualSpeedsOnASquareLatticeGiveTiesThatAreBrokenAlike) {
   // Everything meets at the same instants, over and over.
   std::vector<Placed> placed;
   for (int x = 0; x < 4; ++x)
@@ -89,7 +89,7 @@ TEST(TextbookTwin, EqualSpeedsOnASquareLatticeGiveTiesThatAreBrokenAlike) {
   }
 }
 
-TEST(TextbookTwin, ALightDiskSqueezedBetweenHeavyOnesKeepsItsDigits) {
+TEST(EnginesTextbookTwin, ALightDiskSqueezedBetweenHeavyOnesKeepsItsDigits) {
   // Found by the property test below: mass ratio 4e6; the light ones become a hundred times faster than anything was, and
   // with the short clock of that time they overlapped by 1.5e-12 of a diameter.
   const Box box{{-3.0, 1.0}, {0.0, 6.9}, {Boundary::periodic, Boundary::walls}};

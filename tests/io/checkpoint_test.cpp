@@ -115,7 +115,7 @@ TEST(Checkpoint, OneBitAnywhereIsNoticedAndThePreviousOneTaken) {
   const fs::path path = temporary.path() / checkpoint_name;
   const std::string sound = text_of(path);
   std::mt19937 random(1);
-  for (int trial = 0; trial < 1000; ++trial) {
+  for (int trial = 0; trial < 600; ++trial) {
     std::string damaged = sound;
     const auto byte = trial < 512 ? static_cast<std::size_t>(trial) : random() % sound.size();  // every byte of the head
     damaged[byte] = static_cast<char>(damaged[byte] ^ (1 << random() % 8));
@@ -134,7 +134,7 @@ TEST(Checkpoint, CutAnywhereOrGrownIsNoticed) {
   const fs::path path = temporary.path() / checkpoint_name;
   const std::string sound = text_of(path);
   std::mt19937 random(2);
-  for (int trial = 0; trial < 1000; ++trial) {
+  for (int trial = 0; trial < 300; ++trial) {
     write_text(path, sound.substr(0, random() % sound.size()));
     ASSERT_NE(checkpoint_damage(path), "");
   }
