@@ -10,7 +10,7 @@
 
 namespace carom {
 
-/// Data of a sheared box, whose images above slide past those below (SlidingImages), for the kernel that supports it.
+/// Data of a sheared box, whose images above slide past those below (effects/shear.hpp), for the kernel that supports it.
 struct SlidingFrame {
   /// Of the centre of each disk's neighbourhood, in steps of 2^32. It tells in which box a disk is whose coordinate has wrapped;
   /// velocities are those of the disk in that box, and those of its images above and below are other ones.

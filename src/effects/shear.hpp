@@ -14,10 +14,11 @@
 
 namespace carom {
 
+/// The images above and below a sheared box.
 template <class Real>
-class SlidingImages {
+class LeesEdwards {
  public:
-  SlidingImages(const Box& box, const std::optional<Shear>& shear, double displacement)
+  LeesEdwards(const Box& box, const std::optional<Shear>& shear, double displacement)
       : present_(acts(shear)),
         rate_(shear ? Real(shear->rate) : Real(0)),
         speed_(rate_ * Real(box.lengths()[1])),

@@ -20,12 +20,12 @@
 
 namespace carom {
 
-/// A disk as it meets something that is no disk.
-struct Visitor {
-  Vec2<double> r;
+/// A disk at its contact with a wall or an obstacle.
+struct BoundaryContact {
+  Vec2<double> r;  ///< position of the disk
   double mass;
   double radius;
-  bool elastic;  ///< loses nothing, whatever it hits (TC model)
+  bool elastic;  ///< whether the contact loses no energy, whatever is hit (TC model)
 };
 
 struct PlainWorld {
@@ -39,17 +39,17 @@ struct PlainWorld {
   [[nodiscard]] static bool sheared() { return false; }
   [[nodiscard]] static double scale(double /*t*/) { return 1.0; }
   [[nodiscard]] static double expansion() { return 0.0; }
-  [[nodiscard]] static bool still() { return true; }
+  [[nodiscard]] static bool is_static() { return true; }
 
   /// The component of the velocity across the wall is reversed.
-  static void meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double /*now*/, RunningTotals& totals) {
+  static void meet(std::int32_t what, const BoundaryContact& contact, Vec2<double>& v, double /*now*/, RunningTotals& totals) {
     const Wall wall = static_cast<Wall>(what);
     double& across = v[axis_of(wall)];
     ++totals.wall;
-    totals.wall_impulse[index_of(wall)].add(2.0 * disk.mass * std::abs(across));
+    totals.wall_impulse[index_of(wall)].add(2.0 * contact.mass * std::abs(across));
     across = -across;
   }
-  [[nodiscard]] static bool gives_way(std::int32_t /*what*/) { return false; }
+  [[nodiscard]] static bool is_movable(std::int32_t /*what*/) { return false; }
   static void rebase(double /*now*/) {}
   [[nodiscard]] static std::size_t bytes() { return 0; }
 };
@@ -61,7 +61,7 @@ struct AnyWorld {
       : falling(effects.gravity),
         walls(box, effects.walls, seed),
         obstacles(box, effects.obstacles),
-        sliding(box, effects.shear, start.shear_displacement),
+        lees_edwards(box, effects.shear, start.shear_displacement),
         drag_(effects.drag_rate()),
         scale_(start.scale),
         growth_(effects.growth_rate()) {
@@ -73,38 +73,40 @@ struct AnyWorld {
   [[nodiscard]] double fallen(int axis, double t) const { return (falling.g[axis] * t) * (t / 2); }
   [[nodiscard]] bool falls() const { return falling.present(); }
   /// Whether images above slide past those below.
-  [[nodiscard]] bool sheared() const { return sliding.present(); }
+  [[nodiscard]] bool sheared() const { return lees_edwards.present(); }
   /// Of all radii, at time t.
   [[nodiscard]] double scale(double t) const { return scale_ + growth_ * t; }
   [[nodiscard]] double expansion() const { return growth_; }
   /// Whether disks fly straight and keep their size, between walls that stay where the box has them.
-  [[nodiscard]] bool still() const { return !falling.present() && growth_ == 0.0 && !walls.any_moves() && !walls.any_moved(); }
+  [[nodiscard]] bool is_static() const {
+    return !falling.present() && growth_ == 0.0 && !walls.any_moves() && !walls.any_moved();
+  }
 
   /// A disk meets a wall or an obstacle: changes its velocity and keeps count. Returns Walls::Hit::smallness.
-  double meet(std::int32_t what, const Visitor& disk, Vec2<double>& v, double now, RunningTotals& totals) {
-    const double expansion = growth_ * disk.radius / scale(now), slowed = drag_.at(now);
+  double meet(std::int32_t what, const BoundaryContact& contact, Vec2<double>& v, double now, RunningTotals& totals) {
+    const double expansion = growth_ * contact.radius / scale(now), slowed = drag_.at(now);
     if (what <= first_obstacle) {
       ++totals.obstacle;
-      const Vec2<double> normal = obstacles.from_nearest_point(first_obstacle - what, disk.r);
-      const auto bounce = bounce_off<double>(normal, v, falling.g, disk.mass, disk.radius, expansion);
+      const Vec2<double> normal = obstacles.from_nearest_point(first_obstacle - what, contact.r);
+      const auto bounce = bounce_off<double>(normal, v, falling.g, contact.mass, contact.radius, expansion);
       for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(slowed * bounce.impulse[k]);
       if (bounce.energy != 0.0) totals.growth_energy.add(bounce.energy);
       return infinity<double>;
     }
     const Wall wall = static_cast<Wall>(what);
     ++totals.wall;
-    const auto hit = walls.meet(wall, v, falling.g, disk.mass, disk.radius, expansion, disk.elastic, now);
+    const auto hit = walls.meet(wall, v, falling.g, contact.mass, contact.radius, expansion, contact.elastic, now);
     totals.wall_impulse[index_of(wall)].add(slowed * hit.impulse);
     totals.wall_energy[index_of(wall)].add(slowed * slowed * hit.energy);
     return hit.smallness;
   }
-  /// A piston, whose motion a contact changes.
-  [[nodiscard]] bool gives_way(std::int32_t what) const {
+  /// Whether a contact changes the motion of this wall or obstacle: it is a piston.
+  [[nodiscard]] bool is_movable(std::int32_t what) const {
     return what > first_obstacle && walls.is_piston(static_cast<Wall>(what));
   }
   void rebase(double now) {
     walls.rebase(now);
-    sliding.rebase(now);
+    lees_edwards.rebase(now);
     drag_.rebase(now);
     scale_ += growth_ * now;
   }
@@ -112,13 +114,13 @@ struct AnyWorld {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(walls, sliding, drag_, scale_, growth_);
+    archive(walls, lees_edwards, drag_, scale_, growth_);
   }
 
   Falling<double> falling;
   Walls<double> walls;
   Obstacles<double> obstacles;
-  SlidingImages<double> sliding;
+  LeesEdwards<double> lees_edwards;
 
  private:
   DragFactor<double> drag_;

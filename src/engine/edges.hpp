@@ -24,7 +24,7 @@ template <class Real>
 class Edges {
  public:
   Edges(const Box& box, const Effects& effects, double displacement)
-      : domain_(SlidingImages<Real>::acts(effects.shear) ? without_images_above(box) : box),
+      : domain_(LeesEdwards<Real>::acts(effects.shear) ? without_images_above(box) : box),
         images_(box, effects.shear, displacement) {}
 
   /// The box as it was at the start; a sheared box repeats along x only, as far as cells and coordinates are concerned.
@@ -122,7 +122,7 @@ class Edges {
   }
 
   Domain<Real> domain_;
-  SlidingImages<Real> images_;
+  LeesEdwards<Real> images_;
 };
 
 }  // namespace carom

@@ -177,16 +177,16 @@ class Engine {
       if (world_.sheared()) return cross_sheared_edge(i, is_upper(static_cast<Wall>(what)) ? 1 : -1);
     const Line& a = line(i);
     Vec2<double> v = flight_.velocity(a, now_);
-    const Visitor visitor{flight_.place(a, now_), layout_.mass(a), layout_.radius(a) * world_.scale(now_),
-                          impact_.rests(i, now_)};
+    const BoundaryContact contact{flight_.place(a, now_), layout_.mass(a), layout_.radius(a) * world_.scale(now_),
+                                  impact_.rests(i, now_)};
     if constexpr (World::plain)
-      world_.meet(what, visitor, v, now_, totals_);
+      world_.meet(what, contact, v, now_, totals_);
     else
-      stall_.record_loss(world_.meet(what, visitor, v, now_, totals_), {id(i)});
+      stall_.record_loss(world_.meet(what, contact, v, now_, totals_), {id(i)});
     impact_.touched(i, now_);
     if (recorder_.logging()) recorder_.log_hit(now_, i, what, v);
     turn(i, v);
-    if (world_.gives_way(what)) plan_edges_anew();
+    if (world_.is_movable(what)) plan_edges_anew();
   }
 
   /// From now on disk i moves with velocity v.

@@ -19,7 +19,7 @@ const PredictionKernel<Line>& kernel_for(const Effects& effects) {
   if (effects.growth && effects.growth->rate > 0.0) return prediction_kernel<Line>(Contact::growing);
   if (effects.square_well && effects.square_well->depth != 0.0)
     return prediction_kernel<Line>(falling ? Contact::falling_wells : Contact::wells);
-  if (SlidingImages<double>::acts(effects.shear)) return prediction_kernel<Line>(Contact::sheared);
+  if (LeesEdwards<double>::acts(effects.shear)) return prediction_kernel<Line>(Contact::sheared);
   return prediction_kernel<Line>(falling ? Contact::falling : Contact::hard);
 }
 
@@ -72,7 +72,7 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
   sizes_.radius = detail::in_order(disks.radius, ids_);
   for (std::int32_t i = 0; i < count(); ++i) {
     Line& a = line(i);
-    layout_.furnish(a, disks, static_cast<std::size_t>(id(i)));
+    layout_.store_properties(a, disks, static_cast<std::size_t>(id(i)));
     flight_.begin(i, a, start, id(i), layout_.radius(a) * world_.scale(0.0));
   }
 

@@ -114,7 +114,7 @@ double Engine<Impact, Layout, World>::longest_epoch_of_world() const {
   if (pull > 0.0) longest = std::sqrt(8.0 * sizes_.spacing / pull);
   if (world_.walls.fastest(0.0) > 0.0) longest = std::min(longest, 4.0 * sizes_.spacing / world_.walls.fastest(0.0));
   if (world_.expansion() > 0.0) longest = std::min(longest, world_.scale(0.0) / (64.0 * world_.expansion()));
-  if (world_.sheared()) longest = std::min(longest, limits_.shear_displacement / std::abs(world_.sliding.speed()));
+  if (world_.sheared()) longest = std::min(longest, limits_.shear_displacement / std::abs(world_.lees_edwards.speed()));
   return longest;
 }
 

@@ -74,7 +74,7 @@ void Engine<Impact, Layout, World>::rebuild(double half_width) {
   for (int k = 0; k < 2; ++k) {
     const double length = flight_.length(k);
     // A sixteenth of the neighbourhood is far more than any rounding of the time at which it is left.
-    const double clear = world_.still() ? length / 2.0 - sizes_.largest_contact - half_width * (1.0 + 1.0 / 16.0) : 0.0;
+    const double clear = world_.is_static() ? length / 2.0 - sizes_.largest_contact - half_width * (1.0 + 1.0 / 16.0) : 0.0;
     limits_.clear_of_walls[k] =
         flight_.axis(k).periodic ? INT64_MAX : static_cast<std::int64_t>(std::max(clear, 0.0) / (flight_.axis(k).unit * 0x1p32));
     limits_.longest_line[k] = flight_.axis(k).periodic ? (length / 2.0 - sizes_.reach - 4.0 * half_width) / 2.0

@@ -25,7 +25,7 @@ void Engine<Impact, Layout, World>::state(State& state) const {
   }
   state.shear_displacement = 0.0;
   if constexpr (!World::plain)
-    if (world_.sheared()) state.shear_displacement = world_.sliding.reduced(now_);
+    if (world_.sheared()) state.shear_displacement = world_.lees_edwards.reduced(now_);
   state.bonds = 0;
   state.spins.resize(impact_.spinning() ? count() : 0);
   if constexpr (!Impact::plain) {
@@ -73,7 +73,7 @@ double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eige
   const double mass = layout_.mass(line(i));
   Vec2<double> to = v;  // NOLINT(performance-unnecessary-copy-initialization): in some worlds it changes
   if constexpr (!World::plain)
-    if (world_.sheared()) to[0] += world_.sliding.flow(flight_.height_in_box(i, line(i), now_));
+    if (world_.sheared()) to[0] += world_.lees_edwards.flow(flight_.height_in_box(i, line(i), now_));
   double gained = mass * (to.squaredNorm() - flight_.velocity(line(i), now_).squaredNorm()) / 2.0;
   if constexpr (!Impact::plain)
     if (impact_.spinning()) {

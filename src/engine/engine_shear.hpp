@@ -18,11 +18,11 @@ namespace carom {
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::update_shear() {
-  const double length = flight_.length(0), displacement = world_.sliding.displacement(0.0);
+  const double length = flight_.length(0), displacement = world_.lees_edwards.displacement(0.0);
   frame_.sliding.displacement = flight_.axis(0).steps_of(displacement < length / 2.0 ? displacement : displacement - length);
-  frame_.sliding.speed = world_.sliding.speed();
+  frame_.sliding.speed = world_.lees_edwards.speed();
   frame_.sliding.heights = flight_.heights();
-  lists_.slide(frame_.sliding.displacement, epoch_length_ < never ? world_.sliding.speed() * epoch_length_ : 0.0);
+  lists_.slide(frame_.sliding.displacement, epoch_length_ < never ? world_.lees_edwards.speed() * epoch_length_ : 0.0);
   frame_.sliding.inner = lists_.inner();
 }
 
@@ -74,8 +74,8 @@ template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::cross_sheared_edge(std::int32_t i, std::int32_t up) {
   Line& a = line(i);
   const double before = a.v[0];
-  flight_.cross_sheared_edge(i, a, up, frame_.sliding.displacement, world_.sliding.whole_lengths(now_));
-  a.v[0] -= up * world_.sliding.speed();
+  flight_.cross_sheared_edge(i, a, up, frame_.sliding.displacement, world_.lees_edwards.whole_lengths(now_));
+  a.v[0] -= up * world_.lees_edwards.speed();
   totals_.shear_energy.add(layout_.mass(a) * (a.v[0] * a.v[0] - before * before) / 2.0);
   leave_neighbourhood(i);
   if (const Vec2<double> v(a.v[0], a.v[1]); limits_.exceeded_by(v)) begin_epoch_early(i, v, i, v);

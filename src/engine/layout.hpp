@@ -21,7 +21,8 @@ struct EqualDisks {
 
   [[nodiscard]] double radius(const Line& /*line*/) const { return radius_; }
   [[nodiscard]] double mass(const Line& /*line*/) const { return mass_; }
-  void furnish(Line& /*line*/, const Disks& /*disks*/, std::size_t /*id*/) const {}
+  /// Stores in a line what this layout keeps there of the disk `id`.
+  void store_properties(Line& /*line*/, const Disks& /*disks*/, std::size_t /*id*/) const {}
 
  private:
   double radius_;
@@ -37,7 +38,8 @@ struct AnyDisks {
 
   [[nodiscard]] double radius(const Line& line) const { return line.radius; }
   [[nodiscard]] double mass(const Line& line) const { return line.mass; }
-  void furnish(Line& line, const Disks& disks, std::size_t id) const {
+  /// Stores in a line what this layout keeps there of the disk `id`.
+  void store_properties(Line& line, const Disks& disks, std::size_t id) const {
     line.radius = disks.radius[id];
     line.mass = disks.mass[id];
   }

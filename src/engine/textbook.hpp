@@ -250,7 +250,7 @@ class TextbookEngine {
   /// Like a pair, a disk and a side of the box meet at a time that depends on their two records alone.
   void consider_wall(std::int32_t i, Wall wall) {
     const Record& a = record(i);
-    BoundaryContact& first = plan(i).boundary;
+    BoundaryPlan& first = plan(i).boundary;
     const Real t = std::max(a.t, walls_.since(wall));
     const int axis = axis_of(wall);
     const Real sign = is_upper(wall) ? 1 : -1;
@@ -381,7 +381,7 @@ class TextbookEngine {
   };
 
   /// The next wall or obstacle that a disk hits.
-  struct BoundaryContact {
+  struct BoundaryPlan {
     Real time = infinity<Real>;
     std::int32_t what = wall_left;
 
@@ -396,7 +396,7 @@ class TextbookEngine {
     std::int32_t partner = nobody;
     std::uint32_t partner_collisions = 0;
     Winding shift = Winding::Zero();  ///< box lengths between this disk and that image of the partner
-    BoundaryContact boundary;
+    BoundaryPlan boundary;
     CellCrossing<Real> crossing;
 
     template <class Archive>

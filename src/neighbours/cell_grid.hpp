@@ -7,7 +7,7 @@
 // position and its cell; neighbours come with the image shift s for which r_i - r_j - s * length is the separation.
 // Works with one or two cells per axis too: then one disk is its neighbour's neighbour through several images.
 //
-// Where the images above and below slide (SlidingImages), the rows of cells beyond the upper and lower edge are those of the
+// Where the images above and below slide (effects/shear.hpp), the rows of cells beyond the upper and lower edge are those of the
 // other end, displaced by any amount; slide() says by how much they may be.
 
 #include "core/domain.hpp"

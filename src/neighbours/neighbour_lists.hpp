@@ -9,7 +9,7 @@
 // a factor of two in one layer, each with cells as wide as its own reach: one large disk among a million small ones costs
 // nothing.
 //
-// Where the images above slide past those below (SlidingImages), neighbourhoods near those edges are compared with where the
+// Where the images above slide past those below (effects/shear.hpp), neighbourhoods near those edges are compared with where the
 // images of the others beyond will be from the beginning of an epoch to its end.
 
 #include "core/fixed_axis.hpp"

@@ -169,13 +169,13 @@ TEST(FlightFrame, ADiskThatCrossesASlidingEdgeComesBackDisplacedByWhatImagesHave
   const double now = 0.5;  // at the upper edge
   EXPECT_NEAR(disk.unwrapped(periodic(), now)[1], 5.0, 1e-14);
   const std::int64_t displacement = disk.frame.axis(0).steps_of(3.0);
-  disk.frame.cross_sheared_edge(0, disk.line, 1, displacement, disk.world.sliding.whole_lengths(now));
-  disk.line.v[0] -= disk.world.sliding.speed();
+  disk.frame.cross_sheared_edge(0, disk.line, 1, displacement, disk.world.lees_edwards.whole_lengths(now));
+  disk.line.v[0] -= disk.world.lees_edwards.speed();
   const V after = disk.unwrapped(periodic(), now);
   EXPECT_NEAR(after[0], 1.0 - (3.0 + 2.0 * now), 1e-14);
   EXPECT_NEAR(after[1], 5.0, 1e-14);
-  disk.line.v[0] += disk.world.sliding.speed();
-  disk.frame.cross_sheared_edge(0, disk.line, -1, displacement, disk.world.sliding.whole_lengths(now));
+  disk.line.v[0] += disk.world.lees_edwards.speed();
+  disk.frame.cross_sheared_edge(0, disk.line, -1, displacement, disk.world.lees_edwards.whole_lengths(now));
   EXPECT_NEAR(disk.unwrapped(periodic(), now)[0], 1.0, 1e-14);
   EXPECT_NEAR(disk.unwrapped(periodic(), now)[1], 5.0, 1e-14);
 }
