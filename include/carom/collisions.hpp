@@ -1,7 +1,7 @@
 #pragma once
 // Collisions with what came before them: for those who follow disks from one to the next.
 
-#include <carom/collision_note.hpp>
+#include <carom/collision_record.hpp>
 
 #include <Eigen/Core>
 
@@ -25,20 +25,27 @@ struct PairCollision {
   bool contact = true;                                        ///< false where they meet the edge of each other's square well
 };
 
-/// What notes leave unsaid, the same for all of a run.
-struct NotedDisks {
-  std::vector<std::int32_t> ids;     ///< by place
+/// What the collision records of a run leave unsaid.
+struct DiskTable {
+  std::vector<std::int32_t> ids;     ///< by slot
   std::vector<double> radius, mass;  ///< by id; one number where all are equal
 };
 
-/// Collisions in their order, to be read now or later, here or on another thread. Requires impulses along the lines of centres
-/// and velocities that nothing but events changes: then velocities tell where disks touched.
-struct CollisionNotes {
-  std::shared_ptr<const NotedDisks> disks;
-  double epoch = 0.0, epoch_remainder = 0.0;  ///< from where times count: their unevaluated sum
-  std::span<const CollisionNote> notes;
+/// Where two disks met, for collisions whose velocities do not tell it.
+struct PairContact {
+  double separation[2];  ///< from disk j to disk i
+  bool touching;         ///< false where they meet the edge of each other's square well
+};
 
-  /// Puts them, written up, in the place of what `collisions` held.
+/// Collisions in their order, to be read now or later, here or on another thread.
+struct CollisionRecords {
+  std::shared_ptr<const DiskTable> disks;
+  double epoch = 0.0, epoch_remainder = 0.0;  ///< from where times count: their unevaluated sum
+  std::span<const CollisionRecord> records;
+  /// One for each record; empty where impulses are along the lines of centres, so that velocities tell where disks touched.
+  std::span<const PairContact> contacts = {};
+
+  /// Writes them as whole collisions in the place of what `collisions` held.
   void read(std::vector<PairCollision>& collisions) const;
 };
 

@@ -152,7 +152,7 @@ class Simulation {
 
   /// Whether RunHooks::collisions can be asked for: the engine is "fast" or "general", disks are smooth, no rule of the program
   /// acts, and nothing but events changes velocities.
-  [[nodiscard]] bool tells_collisions() const;
+  [[nodiscard]] bool supports_collision_records() const;
 
   /// Compares the engine's plan with what an exhaustive search finds. Empty when all is well; else one sentence per
   /// fault. A pair that overlaps is one where it does so by more of its contact distance than `tolerated_overlap` and rounding.
@@ -253,11 +253,11 @@ struct RunHooks {
   std::function<void(std::span<const Event> events)> events;  ///< batches of collisions, in order
   /// Collisions of pairs with what came before them, in order, a few at a time and all up to a sample before it; far cheaper than
   /// to follow events. The simulation may be in the middle of an event, and is not to be asked anything. Requires
-  /// Simulation::tells_collisions().
-  std::function<void(const CollisionNotes& notes)> collisions;
+  /// Simulation::supports_collision_records().
+  std::function<void(const CollisionRecords& collisions)> collisions;
   /// Where `collisions` wants the next of them to be written, to keep them without a copy: asked for after each call of it, which
   /// gets no more than there is room for. Not there, or empty: in memory that is used again.
-  std::function<std::span<CollisionNote>()> room_for_collisions;
+  std::function<std::span<CollisionRecord>()> room_for_records;
   std::function<void(const Progress& progress)> block;    ///< after about every collision per disk, at collisions
   std::vector<SamplingGrid> grids;                        ///< of equal steps the first comes first
   std::function<bool(const Progress& progress)> proceed;  ///< several times a second; false stops the run

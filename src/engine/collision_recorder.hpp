@@ -5,7 +5,7 @@
 #include "core/large_memory.hpp"
 #include "core/prefetch.hpp"
 #include "core/vec2.hpp"
-#include "engine/note_listener.hpp"
+#include "engine/collision_listener.hpp"
 
 #include <carom/collisions.hpp>
 #include <carom/state.hpp>
@@ -36,10 +36,10 @@ class CollisionRecorder {
               const Vec2<double>& after_i, const Vec2<double>& after_j) {
     if (recorded_ == room_.size()) [[unlikely]]
       find_room();
-    CollisionNote& next = room_[recorded_++];
+    CollisionRecord& next = room_[recorded_++];
     // Some microseconds ahead, whole lines: another processor may have read what was there before.
     prefetch_for_writing(&next + 16);
-    prefetch_for_writing(&(&next + 16)->partner_after);
+    prefetch_for_writing(&(&next + 16)->after_j);
     next = {
         time, i, j, {before_i[0], before_i[1]}, {before_j[0], before_j[1]}, {after_i[0], after_i[1]}, {after_j[0], after_j[1]}};
   }
@@ -81,7 +81,7 @@ class CollisionRecorder {
 
   /// Tells `listener` of collisions of pairs from now on, as many at a time as it has room for (in the recorder's own memory some
   /// dozen), and of all so far at hand_over(). An empty listener ends that.
-  void listen(NoteListener listener) {
+  void listen(CollisionListener listener) {
     listener_ = {};
     hand_over();
     listener_ = std::move(listener);
@@ -102,19 +102,19 @@ class CollisionRecorder {
     if (room_.empty()) room_ = own_room_;
   }
 
-  [[gnu::noinline]] void deliver(std::span<const CollisionNote> notes) {
-    if (logging_) log(notes);
-    if (listener_) listener_.hear(epoch_, notes);  // whose notes they are from then on
+  [[gnu::noinline]] void deliver(std::span<const CollisionRecord> records) {
+    if (logging_) log(records);
+    if (listener_) listener_.on_collisions(epoch_, records);  // whose they are from then on
   }
 
-  void log(std::span<const CollisionNote> notes) {
-    for (const CollisionNote& note : notes) {
-      const std::int32_t a = id(note.place), b = id(note.partner);
+  void log(std::span<const CollisionRecord> records) {
+    for (const CollisionRecord& record : records) {
+      const std::int32_t a = id(record.slot_i), b = id(record.slot_j);
       const bool swapped = b < a;  // the lower id comes first
-      const Instant when = epoch_.plus(note.time);
-      const Vec2<double> fallen = g_ * note.time;
-      const double(&v)[2] = swapped ? note.partner_after : note.after;
-      const double(&w)[2] = swapped ? note.after : note.partner_after;
+      const Instant when = epoch_.plus(record.time);
+      const Vec2<double> fallen = g_ * record.time;
+      const double(&v)[2] = swapped ? record.after_j : record.after_i;
+      const double(&w)[2] = swapped ? record.after_i : record.after_j;
       log_.push_back({when.high, when.low, swapped ? b : a, swapped ? a : b, Vec2<double>(v[0], v[1]) + fallen,
                       Vec2<double>(w[0], w[1]) + fallen});
     }
@@ -125,10 +125,10 @@ class CollisionRecorder {
   Instant epoch_;
   bool active_ = false;
   bool logging_ = false;
-  NoteListener listener_;
-  std::array<CollisionNote, 64> own_room_;
-  std::span<CollisionNote> room_;  ///< for collisions: own_room_, or what the listener gave
-  std::size_t recorded_ = 0;       ///< in it
+  CollisionListener listener_;
+  std::array<CollisionRecord, 64> own_room_;
+  std::span<CollisionRecord> room_;  ///< for collisions: own_room_, or what the listener gave
+  std::size_t recorded_ = 0;         ///< in it
   std::vector<Event> log_;
 };
 

@@ -5,7 +5,7 @@
 // Four collisions are added at a time (collision_fluxes_kernel.hpp), in four lanes: collision n goes to lane n mod 4. So the sums
 // have the same bits however collisions are divided among calls, and whichever of the two disks comes first.
 
-#include <carom/collision_note.hpp>
+#include <carom/collision_record.hpp>
 
 #include <cstddef>
 
@@ -39,8 +39,8 @@ struct FluxSums {
 };
 
 /// Collisions that follow each other.
-struct NotedFluxes {
-  const CollisionNote* notes;
+struct FluxBatch {
+  const CollisionRecord* records;
   std::size_t count;
   std::size_t lane;               ///< of the first
   double epoch, epoch_remainder;  ///< of their times
@@ -60,12 +60,12 @@ struct alignas(64) CollisionContacts {
 
 /// All give the same bits.
 struct FluxKernel {
-  using Function = void(const NotedFluxes& noted, const CollisionContacts& contacts, const FluxSums& sums);
+  using Function = void(const FluxBatch& batch, const CollisionContacts& contacts, const FluxSums& sums);
 
   // Indexed by the sums that are needed: 1 for transfer, 2 for momentum, 4 for energy. They use contacts.mu and sigma; that of
   // energy requires equal masses and conserved energy.
-  Function* of_smooth[8];  ///< from contacts.mu and sigma; of energy, where masses are equal and energy is kept
-  Function* of_told[8];    ///< from contacts.impulse and separation
+  Function* of_smooth[8];    ///< from contacts.mu and sigma; of energy, where masses are equal and energy is kept
+  Function* of_contacts[8];  ///< from contacts.impulse and separation
 };
 
 [[nodiscard]] const FluxKernel& flux_kernel();

@@ -48,8 +48,8 @@ CAROM_INLINE Vectors joined(Doubles a, Doubles b) {
 /// Returns a_x b_y + a_y b_x and a_x b_x - a_y b_y
 CAROM_INLINE Vectors traceless(const Vectors& a, const Vectors& b) { return {a.x * b.y + a.y * b.x, a.x * b.x - a.y * b.y}; }
 
-static_assert(offsetof(CollisionNote, partner_before) == offsetof(CollisionNote, before) + 2 * sizeof(double) &&
-              offsetof(CollisionNote, partner_after) == offsetof(CollisionNote, after) + 2 * sizeof(double));
+static_assert(offsetof(CollisionRecord, before_j) == offsetof(CollisionRecord, before_i) + 2 * sizeof(double) &&
+              offsetof(CollisionRecord, after_j) == offsetof(CollisionRecord, after_i) + 2 * sizeof(double));
 
 /// The velocities of two collisions, from the two velocities that begin at each address.
 struct TwoVelocities {
@@ -71,10 +71,10 @@ struct Velocities {
 };
 
 /// Times since the start of the run, as Instant::plus rounds them.
-CAROM_INLINE Doubles times(const NotedFluxes& noted, const CollisionNote* four) {
-  const Doubles epoch = all(noted.epoch), time = {four[0].time, four[1].time, four[2].time, four[3].time};
+CAROM_INLINE Doubles times(const FluxBatch& batch, const CollisionRecord* four) {
+  const Doubles epoch = all(batch.epoch), time = {four[0].time, four[1].time, four[2].time, four[3].time};
   const Doubles sum = epoch + time, part = sum - epoch;
-  return sum + (((epoch - (sum - part)) + (time - part)) + all(noted.epoch_remainder));
+  return sum + (((epoch - (sum - part)) + (time - part)) + all(batch.epoch_remainder));
 }
 
 /// The changes of fluxes by four collisions.
@@ -85,14 +85,14 @@ struct Fluxes {
   Vectors energy_jump;  ///< four times
 };
 
-CAROM_INLINE Fluxes of_smooth(const NotedFluxes& noted, const CollisionNote* four, const CollisionContacts& contacts,
+CAROM_INLINE Fluxes of_smooth(const FluxBatch& batch, const CollisionRecord* four, const CollisionContacts& contacts,
                               std::size_t row) {
-  const TwoVelocities before02(four[0].before, four[2].before), before13(four[1].before, four[3].before);
-  const TwoVelocities after02(four[0].after, four[2].after), after13(four[1].after, four[3].after);
+  const TwoVelocities before02(four[0].before_i, four[2].before_i), before13(four[1].before_i, four[3].before_i);
+  const TwoVelocities after02(four[0].after_i, four[2].after_i), after13(four[1].after_i, four[3].after_i);
   const Vectors before = joined(before02.disk - before02.partner, before13.disk - before13.partner);
   const Vectors after = joined(after02.disk - after02.partner, after13.disk - after13.partner);
   const Vectors U = joined(before02.disk + before02.partner, before13.disk + before13.partner) -
-                    Vectors{all(2.0 * noted.common[0]), all(2.0 * noted.common[1])};
+                    Vectors{all(2.0 * batch.common[0]), all(2.0 * batch.common[1])};
   const Vectors S = before + after;
   Fluxes found;
   found.J = load(contacts.mu + row) * (after - before);
@@ -105,11 +105,11 @@ CAROM_INLINE Fluxes of_smooth(const NotedFluxes& noted, const CollisionNote* fou
   return found;
 }
 
-CAROM_INLINE Fluxes of_told(const NotedFluxes& noted, const CollisionNote* four, const CollisionContacts& contacts,
-                            std::size_t row) {
-  const Vectors common = {all(noted.common[0]), all(noted.common[1])};
-  const Velocities before({four[0].before, four[2].before}, {four[1].before, four[3].before});
-  const Velocities after({four[0].after, four[2].after}, {four[1].after, four[3].after});
+CAROM_INLINE Fluxes of_contacts(const FluxBatch& batch, const CollisionRecord* four, const CollisionContacts& contacts,
+                                std::size_t row) {
+  const Vectors common = {all(batch.common[0]), all(batch.common[1])};
+  const Velocities before({four[0].before_i, four[2].before_i}, {four[1].before_i, four[3].before_i});
+  const Velocities after({four[0].after_i, four[2].after_i}, {four[1].after_i, four[3].after_i});
   const Vectors v = before.disk - common, w = after.disk - common;
   const Vectors partner_v = before.partner - common, partner_w = after.partner - common;
   const Vectors s = v + w, partner_s = partner_v + partner_w;
@@ -126,10 +126,10 @@ CAROM_INLINE Fluxes of_told(const NotedFluxes& noted, const CollisionNote* four,
 
 /// Returns four collisions where fewer than four are left, or where the first does not belong to lane 0; the missing ones are
 /// collisions without effect.
-inline const CollisionNote* filled_up(const NotedFluxes& noted, std::size_t row, CollisionNote (&four)[4]) {
+inline const CollisionRecord* filled_up(const FluxBatch& batch, std::size_t row, CollisionRecord (&four)[4]) {
   for (std::size_t lane = 0; lane < 4; ++lane) {
-    const std::size_t n = row + lane - noted.lane;  // very large before the first
-    four[lane] = n < noted.count ? noted.notes[n] : CollisionNote{};
+    const std::size_t n = row + lane - batch.lane;  // very large before the first
+    four[lane] = n < batch.count ? batch.records[n] : CollisionRecord{};
   }
   return four;
 }
@@ -165,18 +165,18 @@ struct RunningFlux {
 
 /// Adds the fluxes of all collisions. Sums that are not needed are not computed: the compiler removes them.
 template <bool smooth, bool transfer, bool momentum, bool energy>
-void add(const NotedFluxes& noted, const CollisionContacts& contacts, const FluxSums& sums) {
+void add(const FluxBatch& batch, const CollisionContacts& contacts, const FluxSums& sums) {
   static constexpr TransferSum no_transfer{};
   static constexpr FluxSum no_flux{};
   Running<4> virial((transfer ? *sums.transfer : no_transfer).virial);
   RunningFlux of_momentum(momentum ? *sums.momentum : no_flux), of_energy(energy ? *sums.energy : no_flux);
-  CollisionNote padded[4];
-  const std::size_t end = noted.lane + noted.count;
+  CollisionRecord padded[4];
+  const std::size_t end = batch.lane + batch.count;
   for (std::size_t row = 0, contact = 0; row < end; row += 4, contact += contacts.rows_of_four) {
-    const bool whole = row >= noted.lane && row + 4 <= end;
-    const CollisionNote* four = whole ? noted.notes + (row - noted.lane) : filled_up(noted, row, padded);
-    const Fluxes found = smooth ? of_smooth(noted, four, contacts, contact) : of_told(noted, four, contacts, contact);
-    const Doubles time = times(noted, four);
+    const bool whole = row >= batch.lane && row + 4 <= end;
+    const CollisionRecord* four = whole ? batch.records + (row - batch.lane) : filled_up(batch, row, padded);
+    const Fluxes found = smooth ? of_smooth(batch, four, contacts, contact) : of_contacts(batch, four, contacts, contact);
+    const Doubles time = times(batch, four);
     const Doubles xx = found.r.x * found.J.x, xy = found.r.x * found.J.y, yy = found.r.y * found.J.y;
     const Doubles yx = smooth ? xy : found.r.y * found.J.x;
     if constexpr (transfer) {

@@ -1,22 +1,21 @@
 #include "observe/collision_stream.hpp"
 
-#include "core/all_equal.hpp"
-#include "core/reduced_mass.hpp"
-#include "simulation/velocities_tell_contacts.hpp"
+#include "simulation/disk_table.hpp"
+#include "simulation/velocities_determine_contacts.hpp"
 
 #include <cmath>
+#include <numeric>
 
 namespace carom {
 
 CollisionStream::CollisionStream(const Scene& scene, const Disks& disks)
-    : radius_(disks.radius),
-      mass_(disks.mass),
-      box_(scene.box),
-      smooth_(velocities_tell_contacts(scene.effects)),
-      equal_(all_equal(disks.radius) && all_equal(disks.mass)) {
+    : radius_(disks.radius), box_(scene.box), smooth_(velocities_determine_contacts(scene.effects)) {
   gravity_ = scene.effects.acceleration();
   if (scene.effects.square_well) edge_ = 0.5 * (1.0 + scene.effects.square_well->width);
   moves_between_ = !smooth_ || !gravity_.isZero(0.0);
+  std::vector<std::int32_t> ids(disks.count());
+  std::iota(ids.begin(), ids.end(), 0);
+  table_ = disk_table(std::move(ids), disks);
 }
 
 void CollisionStream::start(const State& state) {
@@ -29,63 +28,50 @@ void CollisionStream::start(const State& state) {
   since_.assign(count, state.time);
 }
 
-void CollisionStream::follow(std::span<const Event> events, std::vector<PairCollision>& collisions) {
-  collisions.resize(events.size());
-  std::size_t met = 0;
+CollisionRecords CollisionStream::follow(std::span<const Event> events) {
+  records_.clear();
+  contacts_.clear();
   for (const Event& event : events) {
+    if (moves_between_) move(event.disk, event.time);
     if (event.partner >= 0) {
-      moves_between_ ? meet_apart(event, collisions[met]) : meet(event, collisions[met]);
-      ++met;
-      continue;
+      if (moves_between_) move(event.partner, event.time);
+      meet(event);
     }
-    const auto i = static_cast<std::size_t>(event.disk);
-    if (moves_between_) move(i, event.time);
-    velocity_[i] = event.velocity;
+    velocity_[static_cast<std::size_t>(event.disk)] = event.velocity;
   }
-  collisions.resize(met);
+  return {table_, 0.0, 0.0, records_, contacts_};
 }
 
 /// Moves disk i to its state just before an event.
-void CollisionStream::move(std::size_t i, double time) {
+void CollisionStream::move(std::int32_t disk, double time) {
+  const auto i = static_cast<std::size_t>(disk);
   const double elapsed = time - since_[i];
   position_[i] += (velocity_[i] + 0.5 * elapsed * gravity_) * elapsed;
   velocity_[i] += elapsed * gravity_;
   since_[i] = time;
 }
 
-Eigen::Vector2d CollisionStream::separation(std::size_t i, std::size_t j) const {
+PairContact CollisionStream::contact(std::int32_t disk, std::int32_t partner) const {
+  const auto i = static_cast<std::size_t>(disk), j = static_cast<std::size_t>(partner);
   Eigen::Vector2d r = position_[i] - position_[j];
   for (int axis = 0; axis < 2; ++axis)
     if (box_.periodic(axis)) r[axis] = std::remainder(r[axis], box_.upper[axis] - box_.lower[axis]);
-  return r;
+  return {{r[0], r[1]}, edge_ == 0.0 || r.norm() < edge_ * (radius_[i] + radius_[j])};
 }
 
-void CollisionStream::meet(const Event& event, PairCollision& met) {
-  const auto i = static_cast<std::size_t>(event.disk), j = static_cast<std::size_t>(event.partner);
-  met.time = event.time;
-  met.disk = event.disk;
-  met.partner = event.partner;
-  met.velocity_before = velocity_[i];
-  met.partner_velocity_before = velocity_[j];
-  met.velocity = velocity_[i] = event.velocity;
-  met.partner_velocity = velocity_[j] = event.partner_velocity;
-  const double mu = equal_ ? reduced_mass(mass_.front(), mass_.front()) : reduced_mass(mass_[i], mass_[j]);
-  met.impulse = mu * ((met.velocity - met.velocity_before) - (met.partner_velocity - met.partner_velocity_before));
-  met.contact = true;
-  if (!smooth_) return;
-  const double sigma = equal_ ? 2.0 * radius_.front() : radius_[i] + radius_[j];
-  const double strength = met.impulse.norm();
-  met.separation = (strength > 0.0 ? sigma / strength : 0.0) * met.impulse;
-}
-
-void CollisionStream::meet_apart(const Event& event, PairCollision& met) {
-  const auto i = static_cast<std::size_t>(event.disk), j = static_cast<std::size_t>(event.partner);
-  move(i, event.time);
-  move(j, event.time);
-  meet(event, met);
-  if (smooth_) return;
-  met.separation = separation(i, j);
-  met.contact = edge_ == 0.0 || met.separation.norm() < edge_ * (radius_[i] + radius_[j]);
+/// Records a collision of disks that have been moved to it.
+void CollisionStream::meet(const Event& event) {
+  const Eigen::Vector2d& v = velocity_[static_cast<std::size_t>(event.disk)];
+  Eigen::Vector2d& w = velocity_[static_cast<std::size_t>(event.partner)];
+  records_.push_back({event.time,
+                      event.disk,
+                      event.partner,
+                      {v[0], v[1]},
+                      {w[0], w[1]},
+                      {event.velocity[0], event.velocity[1]},
+                      {event.partner_velocity[0], event.partner_velocity[1]}});
+  if (!smooth_) contacts_.push_back(contact(event.disk, event.partner));
+  w = event.partner_velocity;
 }
 
 }  // namespace carom

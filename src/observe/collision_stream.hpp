@@ -1,13 +1,15 @@
 #pragma once
-// Collisions with what came before them. The event log holds the velocities after a collision; those before it come from a copy
-// of every disk's motion that is kept here, exact straight flight (or a parabola) from event to event.
+// Collision records from the event log. The log holds the velocities after a collision; those before it come from a copy of every
+// disk's motion that is kept here, exact straight flight (or a parabola) from event to event.
 //
 // The impulse of smooth disks is along the line of centres, so their velocities determine where they touched. Only where that
-// does not hold (reversal, rough disks, wells) positions are followed too.
+// does not hold (reversal, rough disks, wells) positions are followed too, and records come with their contacts.
 
 #include <carom/observe.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,8 +21,9 @@ class CollisionStream {
   CollisionStream(const Scene& scene, const Disks& disks);
 
   void start(const State& state);
-  /// Replaces `collisions` by the collisions of pairs among `events`. Requires events in order, none left out.
-  void follow(std::span<const Event> events, std::vector<PairCollision>& collisions);
+  /// Returns the records of the collisions of pairs among `events`; slots are ids. They are valid until the next call. Requires
+  /// events in order, none left out.
+  [[nodiscard]] CollisionRecords follow(std::span<const Event> events);
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -28,21 +31,22 @@ class CollisionStream {
   }
 
  private:
-  void meet(const Event& event, PairCollision& met);
-  void meet_apart(const Event& event, PairCollision& met);
-  void move(std::size_t disk, double time);
-  [[nodiscard]] Eigen::Vector2d separation(std::size_t disk, std::size_t partner) const;
+  void meet(const Event& event);
+  void move(std::int32_t disk, double time);
+  [[nodiscard]] PairContact contact(std::int32_t disk, std::int32_t partner) const;
 
-  std::vector<double> radius_, mass_;
+  std::vector<double> radius_;
   Box box_;
   Eigen::Vector2d gravity_ = Eigen::Vector2d::Zero();
   double edge_ = 0.0;   ///< distances above this many contact distances are edges of wells; 0 where there are none
   bool smooth_;         ///< impulses are along the line of centres
-  bool equal_;          ///< all disks are
   bool moves_between_;  ///< positions or times of the last event are needed
   std::vector<Eigen::Vector2d> velocity_;
   std::vector<Eigen::Vector2d> position_;  ///< at since_
   std::vector<double> since_;              ///< the last event of each disk
+  std::shared_ptr<const DiskTable> table_;
+  std::vector<CollisionRecord> records_;
+  std::vector<PairContact> contacts_;
 };
 
 }  // namespace carom

@@ -3,7 +3,7 @@
 
 #include "core/instant.hpp"
 
-#include <carom/collision_note.hpp>
+#include <carom/collision_record.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -34,8 +34,8 @@ struct FlightBins {
 
 /// All give the same bits.
 struct EndedFlightsKernel {
-  /// Puts collisions in which both disks are followed into rows from `row` on; `last` is by place. Requires that there is room.
-  void (*gather)(const Instant& epoch, const CollisionNote* notes, std::size_t count, double* last, EndedFlights& ended,
+  /// Puts collisions in which both disks are followed into rows from `row` on; `last` is by slot. Requires that there is room.
+  void (*gather)(const Instant& epoch, const CollisionRecord* records, std::size_t count, double* last, EndedFlights& ended,
                  std::size_t row);
   /// Tallies four times `fours` flights.
   void (*tally)(const EndedFlights& ended, std::size_t fours, const FlightBins& bins, TalliedFlights& found);

@@ -19,7 +19,7 @@ CAROM_INLINE Doubles load(const double* from) {
 }
 CAROM_INLINE double sum(Doubles x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
-static_assert(offsetof(CollisionNote, partner_before) == offsetof(CollisionNote, before) + 2 * sizeof(double));
+static_assert(offsetof(CollisionRecord, before_j) == offsetof(CollisionRecord, before_i) + 2 * sizeof(double));
 
 /// Rounds as Instant::plus does. (Instant::plus itself would be compiled here for machines with other instruction sets.)
 template <class Number>
@@ -28,23 +28,23 @@ CAROM_INLINE Number plus(Number high, Number low, Number time) {
   return sum + (((high - (sum - part)) + (time - part)) + low);
 }
 
-CAROM_INLINE void gather(double time, const CollisionNote& note, double* last, EndedFlights& ended, std::size_t row) {
-  ended.time[0][row] = time - last[note.place];
-  ended.time[1][row] = time - last[note.partner];
-  last[note.place] = last[note.partner] = time;
-  const Doubles velocities = load(note.before);
+CAROM_INLINE void gather(double time, const CollisionRecord& record, double* last, EndedFlights& ended, std::size_t row) {
+  ended.time[0][row] = time - last[record.slot_i];
+  ended.time[1][row] = time - last[record.slot_j];
+  last[record.slot_i] = last[record.slot_j] = time;
+  const Doubles velocities = load(record.before_i);
   std::memcpy(ended.velocity[row], &velocities, sizeof velocities);
 }
 
-void gather(const Instant& epoch, const CollisionNote* notes, std::size_t count, double* last, EndedFlights& ended,
+void gather(const Instant& epoch, const CollisionRecord* records, std::size_t count, double* last, EndedFlights& ended,
             std::size_t row) {
   std::size_t n = 0;
   for (; n + 4 <= count; n += 4) {
-    const Doubles times =
-        plus(all(epoch.high), all(epoch.low), Doubles{notes[n].time, notes[n + 1].time, notes[n + 2].time, notes[n + 3].time});
-    for (std::size_t k = 0; k < 4; ++k) gather(times[k], notes[n + k], last, ended, row + n + k);
+    const Doubles times = plus(all(epoch.high), all(epoch.low),
+                               Doubles{records[n].time, records[n + 1].time, records[n + 2].time, records[n + 3].time});
+    for (std::size_t k = 0; k < 4; ++k) gather(times[k], records[n + k], last, ended, row + n + k);
   }
-  for (; n < count; ++n) gather(plus(epoch.high, epoch.low, notes[n].time), notes[n], last, ended, row + n);
+  for (; n < count; ++n) gather(plus(epoch.high, epoch.low, records[n].time), records[n], last, ended, row + n);
 }
 
 /// Anything: what is no number, infinite or beyond the range is in the bin behind the last.

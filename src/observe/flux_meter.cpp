@@ -3,17 +3,26 @@
 #include "core/all_equal.hpp"
 #include "core/instant.hpp"
 #include "core/reduced_mass.hpp"
-#include "simulation/velocities_tell_contacts.hpp"
+#include "simulation/velocities_determine_contacts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
 namespace carom {
 
+namespace {
+
+std::size_t id(const CollisionRecords& collisions, std::int32_t slot) {
+  return static_cast<std::size_t>(collisions.disks->ids[static_cast<std::size_t>(slot)]);
+}
+
+}  // namespace
+
 FluxMeter::FluxMeter(const Scene& scene, const Disks& disks)
-    : disks_(disks), smooth_(velocities_tell_contacts(scene.effects)), equal_(all_equal(disks.radius) && all_equal(disks.mass)) {
+    : disks_(disks),
+      smooth_(velocities_determine_contacts(scene.effects)),
+      equal_(all_equal(disks.radius) && all_equal(disks.mass)) {
   if (!equal_ || !smooth_ || disks.count() == 0) return;
   std::ranges::fill(contacts_.mu, reduced_mass(disks.mass[0], disks.mass[0]));
   std::ranges::fill(contacts_.sigma, 2.0 * disks.radius[0]);
@@ -36,10 +45,10 @@ void FluxMeter::add(FluxFollower& follower) {
   if (asked.energy != nullptr) sums.energy = asked.energy;
   const std::size_t which =
       (sums.transfer != nullptr ? 1U : 0U) + (sums.momentum != nullptr ? 2U : 0U) + (sums.energy != nullptr ? 4U : 0U);
-  found->kernel = (smooth_ ? flux_kernel().of_smooth : flux_kernel().of_told)[which];
+  found->kernel = (smooth_ ? flux_kernel().of_smooth : flux_kernel().of_contacts)[which];
 }
 
-void FluxMeter::start(const Eigen::Vector2d& common) { Eigen::Vector2d::Map(noted_.common) = common; }
+void FluxMeter::start(const Eigen::Vector2d& common) { Eigen::Vector2d::Map(batch_.common) = common; }
 
 /// Calls `add(begin, end)` for pieces between which no sample lies.
 template <class TimeOf, class Add>
@@ -64,54 +73,38 @@ void FluxMeter::reach(double time) {
   }
 }
 
-void FluxMeter::follow(const CollisionNotes& told) {
-  const Instant epoch{told.epoch, told.epoch_remainder};
-  noted_.epoch = told.epoch;
-  noted_.epoch_remainder = told.epoch_remainder;
+void FluxMeter::follow(const CollisionRecords& collisions) {
+  const Instant epoch{collisions.epoch, collisions.epoch_remainder};
+  batch_.epoch = collisions.epoch;
+  batch_.epoch_remainder = collisions.epoch_remainder;
   follow(
-      told.notes.size(), [&](std::size_t n) { return epoch.plus(told.notes[n].time).high; },
+      collisions.records.size(), [&](std::size_t n) { return epoch.plus(collisions.records[n].time).high; },
       [&](std::size_t begin, std::size_t end) {
-        if (equal_) return add(told.notes.subspan(begin, end - begin));
+        if (equal_ && smooth_) return add(collisions.records.subspan(begin, end - begin));
         for (std::size_t most = CollisionContacts::most; begin < end; begin += most) {
-          const std::span<const CollisionNote> notes = told.notes.subspan(begin, std::min(most, end - begin));
-          const auto id = [&](std::int32_t place) {
-            return static_cast<std::size_t>(told.disks->ids[static_cast<std::size_t>(place)]);
-          };
-          for (std::size_t n = 0; n < notes.size(); ++n) meet(noted_.lane + n, id(notes[n].place), id(notes[n].partner));
-          add(notes);
+          const std::span<const CollisionRecord> records = collisions.records.subspan(begin, std::min(most, end - begin));
+          for (std::size_t n = 0; n < records.size() && !equal_; ++n)
+            if (collisions.contacts.empty() || collisions.contacts[begin + n].touching)
+              meet(batch_.lane + n, id(collisions, records[n].slot_i), id(collisions, records[n].slot_j));
+          if (!smooth_) put_contacts(collisions, begin, records.size());
+          add(records);
         }
       });
 }
 
-void FluxMeter::follow(std::span<const PairCollision> collisions) {
-  noted_.epoch = noted_.epoch_remainder = 0.0;
-  follow(
-      collisions.size(), [&](std::size_t n) { return collisions[n].time; },
-      [&](std::size_t begin, std::size_t end) {
-        std::array<CollisionNote, CollisionContacts::most> notes;
-        for (std::size_t most = notes.size(); begin < end; begin += most) {
-          const std::size_t count = std::min(most, end - begin);
-          // Rows without a collision change nothing.
-          for (auto* column : {&contacts_.impulse, &contacts_.separation})
-            for (auto& axis : *column)
-              for (std::size_t k = 0; k < 3; ++k) axis[k] = axis[noted_.lane + count + k] = 0.0;
-          for (std::size_t n = 0; n < count; ++n) {
-            const PairCollision& met = collisions[begin + n];
-            const std::size_t row = noted_.lane + n;
-            notes[n].time = met.time;
-            Eigen::Vector2d::Map(notes[n].before) = met.velocity_before;
-            Eigen::Vector2d::Map(notes[n].partner_before) = met.partner_velocity_before;
-            Eigen::Vector2d::Map(notes[n].after) = met.velocity;
-            Eigen::Vector2d::Map(notes[n].partner_after) = met.partner_velocity;
-            for (int axis = 0; axis < 2; ++axis) {
-              contacts_.impulse[axis][row] = met.impulse[axis];
-              contacts_.separation[axis][row] = met.separation[axis];
-            }
-            if (met.contact && !equal_) meet(row, static_cast<std::size_t>(met.disk), static_cast<std::size_t>(met.partner));
-          }
-          add(std::span(notes).first(count));
-        }
-      });
+/// Puts impulses and separations of some collisions into their rows. Rows without a collision change nothing.
+void FluxMeter::put_contacts(const CollisionRecords& collisions, std::size_t begin, std::size_t count) {
+  for (auto* column : {&contacts_.impulse, &contacts_.separation})
+    for (auto& axis : *column)
+      for (std::size_t k = 0; k < 3; ++k) axis[k] = axis[batch_.lane + count + k] = 0.0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const CollisionRecord& met = collisions.records[begin + n];
+    const double mu = reduced_mass(disks_.mass[id(collisions, met.slot_i)], disks_.mass[id(collisions, met.slot_j)]);
+    for (int k = 0; k < 2; ++k) {
+      contacts_.impulse[k][batch_.lane + n] = mu * ((met.after_i[k] - met.before_i[k]) - (met.after_j[k] - met.before_j[k]));
+      contacts_.separation[k][batch_.lane + n] = collisions.contacts[begin + n].separation[k];
+    }
+  }
 }
 
 /// Adds the collision of two disks that touch.
@@ -122,11 +115,11 @@ void FluxMeter::meet(std::size_t row, std::size_t disk, std::size_t partner) {
     if (some.sums.transfer != nullptr) some.sums.transfer->meetings += contacts_.sigma[row] * std::sqrt(contacts_.mu[row]);
 }
 
-void FluxMeter::add(std::span<const CollisionNote> notes) {
-  noted_.notes = notes.data();
-  noted_.count = notes.size();
-  for (const Together& some : sums_) some.kernel(noted_, contacts_, some.sums);
-  noted_.lane = (noted_.lane + notes.size()) % 4;
+void FluxMeter::add(std::span<const CollisionRecord> records) {
+  batch_.records = records.data();
+  batch_.count = records.size();
+  for (const Together& some : sums_) some.kernel(batch_, contacts_, some.sums);
+  batch_.lane = (batch_.lane + records.size()) % 4;
 }
 
 }  // namespace carom

@@ -27,12 +27,11 @@ class FluxMeter {
   /// Begins with the common velocity, relative to which the carried fluxes are counted.
   void start(const Eigen::Vector2d& common);
   /// Adds collisions that come after all before. Requires smooth disks, whose velocities determine where they touched.
-  void follow(const CollisionNotes& told);
-  void follow(std::span<const PairCollision> collisions);
+  void follow(const CollisionRecords& collisions);
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(noted_.common, noted_.lane);
+    archive(batch_.common, batch_.lane);
   }
 
  private:
@@ -44,7 +43,8 @@ class FluxMeter {
   template <class TimeOf, class Add>
   void follow(std::size_t count, TimeOf time_of, Add add);
   void reach(double time);
-  void add(std::span<const CollisionNote> notes);
+  void add(std::span<const CollisionRecord> records);
+  void put_contacts(const CollisionRecords& collisions, std::size_t begin, std::size_t count);
   void meet(std::size_t row, std::size_t disk, std::size_t partner);
 
   const Disks& disks_;
@@ -54,7 +54,7 @@ class FluxMeter {
   double until_ = -std::numeric_limits<double>::infinity();  ///< that of all followers
   std::vector<Together> sums_;
   CollisionContacts contacts_{};
-  NotedFluxes noted_{};
+  FluxBatch batch_{};
 };
 
 }  // namespace carom

@@ -16,7 +16,7 @@ class FollowedDisks {
   FollowedDisks() = default;
   /// Disks of which `follows(id)` says true are in rows by their places.
   template <class Follows>
-  FollowedDisks(const NotedDisks& disks, Follows follows) : rows_(disks.ids.size()) {
+  FollowedDisks(const DiskTable& disks, Follows follows) : rows_(disks.ids.size()) {
     while ((disks.ids.size() >> shift_) >= most_near) ++shift_;
     near_.resize((disks.ids.size() >> shift_) / 64 + 1);
     for (std::size_t place = 0; place < disks.ids.size(); ++place)
@@ -35,12 +35,12 @@ class FollowedDisks {
   /// Returns the ids of the followed disks, by row.
   [[nodiscard]] const std::vector<std::int32_t>& ids() const { return ids_; }
 
-  /// Finds the notes of collisions in which one disk at least is followed: their numbers in `which`, which has room for all.
+  /// Finds the records of collisions in which one disk at least is followed: their numbers in `which`, which has room for all.
   /// Returns how many. Without branches, which would be guessed wrong.
-  std::size_t find(std::span<const CollisionNote> notes, std::uint32_t* which) const {
+  std::size_t find(std::span<const CollisionRecord> records, std::uint32_t* which) const {
     const auto near = [of = near_.data()](std::uint32_t p) { return (of[p / 64] >> (p % 64)) & 1U; };
-    const auto place = [notes](std::uint32_t n) { return static_cast<std::uint32_t>(notes[n].place); };
-    const auto partner = [notes](std::uint32_t n) { return static_cast<std::uint32_t>(notes[n].partner); };
+    const auto place = [records](std::uint32_t n) { return static_cast<std::uint32_t>(records[n].slot_i); };
+    const auto partner = [records](std::uint32_t n) { return static_cast<std::uint32_t>(records[n].slot_j); };
     const auto keep = [which](std::size_t count, auto number_of, auto is_kept) {
       std::size_t kept = 0;
       for (std::size_t k = 0; k < count; ++k) {
@@ -51,14 +51,14 @@ class FollowedDisks {
       return kept;
     };
     const auto itself = [](std::size_t k) { return static_cast<std::uint32_t>(k); };
-    if (shift_ == 0) return keep(notes.size(), itself, [=](std::uint32_t n) { return near(place(n)) | near(partner(n)); });
-    const std::size_t found = keep(notes.size(), itself, [=, shift = shift_](std::uint32_t n) {
+    if (shift_ == 0) return keep(records.size(), itself, [=](std::uint32_t n) { return near(place(n)) | near(partner(n)); });
+    const std::size_t found = keep(records.size(), itself, [=, shift = shift_](std::uint32_t n) {
       return near(place(n) >> shift) | near(partner(n) >> shift);
     });
     return keep(
         found, [which](std::size_t k) { return which[k]; },
         [&](std::uint32_t n) {
-          return static_cast<unsigned>(has(notes[n].place)) | static_cast<unsigned>(has(notes[n].partner));
+          return static_cast<unsigned>(has(records[n].slot_i)) | static_cast<unsigned>(has(records[n].slot_j));
         });
   }
 

@@ -21,11 +21,11 @@ class FluxFollower {
   virtual void reach(double /*time*/) {}
 };
 
-/// Reads notes itself where the simulation tells of collisions; where it does not, it follows them as others do.
-class NoteFollower {
+/// Reads the records of collisions in which disks touch.
+class RecordFollower {
  public:
-  virtual ~NoteFollower() = default;
-  virtual void read(const CollisionNotes& notes) = 0;
+  virtual ~RecordFollower() = default;
+  virtual void follow(const CollisionRecords& collisions) = 0;
 };
 
 }  // namespace carom

@@ -69,7 +69,7 @@ class FlightHistogram {
   BlockedColumn shares_;
 };
 
-class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower {
+class FreeFlight final : public SavedObservable<FreeFlight>, public RecordFollower {
  public:
   FreeFlight(const ObservableRequest& request, const ObservedRun& run)
       : SavedObservable(request, run),
@@ -88,24 +88,12 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
 
   [[nodiscard]] bool follows_collisions() const override { return true; }
 
-  void collisions(std::span<const PairCollision> collisions) override {
-    for (const PairCollision& met : collisions) {
-      if (!met.contact || !(follows(met.disk) || follows(met.partner))) continue;
-      double nobody[2] = {never, never};
-      end(follows(met.disk) ? &last_[row_by_id(met.disk)] : nobody,
-          follows(met.partner) ? &last_[row_by_id(met.partner)] : nobody + 1, met.time);
-      double* velocity = ended_.velocity[count_];
-      Eigen::Vector2d::Map(velocity) = met.velocity_before;
-      Eigen::Vector2d::Map(velocity + 2) = met.partner_velocity_before;
-      if (++count_ == EndedFlights::most) end_sample();
-    }
-  }
-
-  void read(const CollisionNotes& notes) override {
-    if (notes.disks != noted_) follow_in(notes.disks);
-    const Instant epoch{notes.epoch, notes.epoch_remainder};
-    for (std::size_t begin = 0; begin < notes.notes.size(); begin += piece)
-      look_at(epoch, notes.notes.subspan(begin, std::min(piece, notes.notes.size() - begin)));
+  void follow(const CollisionRecords& collisions) override {
+    if (collisions.disks != table_) follow_in(collisions.disks);
+    const Instant epoch{collisions.epoch, collisions.epoch_remainder};
+    const std::span<const CollisionRecord> records = collisions.records;
+    for (std::size_t begin = 0; begin < records.size(); begin += piece)
+      look_at(epoch, records.subspan(begin, std::min(piece, records.size() - begin)));
   }
 
   [[nodiscard]] Measurement finish(double time, const Totals&) override {
@@ -140,7 +128,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   /// EndedFlights::most collisions count as one sample of the means; a sample of the histograms has so many times as many.
   /// Later on four times as many: its errors are known well enough by then, and all its bins have to be gone through.
   [[nodiscard]] std::uint64_t samples_of_histogram() const { return histograms_ < 64 ? 16 : 64; }
-  static constexpr std::size_t piece = 64;  ///< notes
+  static constexpr std::size_t piece = 64;  ///< records
   static constexpr double never = -std::numeric_limits<double>::infinity();
 
   /// A path is speed times time where nothing but collisions changes the speed.
@@ -160,33 +148,33 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
 
   /// Processes at most `piece` collisions. Which disks are followed is unpredictable, so collisions that end flights are listed
   /// without a branch.
-  void look_at(const Instant& epoch, std::span<const CollisionNote> notes) {
+  void look_at(const Instant& epoch, std::span<const CollisionRecord> records) {
     if (ids_.size() < rows_by_id_.size()) {
       std::array<std::uint32_t, piece> which;
-      for (const std::uint32_t n : std::span(which).first(places_.find(notes, which.data()))) {
-        end(last_.data() + places_.row(notes[n].place), last_.data() + places_.row(notes[n].partner),
-            epoch.plus(notes[n].time).high);
+      for (const std::uint32_t n : std::span(which).first(places_.find(records, which.data()))) {
+        end(last_.data() + places_.row(records[n].slot_i), last_.data() + places_.row(records[n].slot_j),
+            epoch.plus(records[n].time).high);
         last_.back() = never;
-        keep_velocities(notes[n]);
+        keep_velocities(records[n]);
       }
       return;
     }
-    while (!notes.empty()) {
-      const std::size_t count = std::min<std::size_t>(notes.size(), EndedFlights::most - count_);
-      kernel_.gather(epoch, notes.data(), count, last_.data(), ended_, count_);
-      notes = notes.subspan(count);
+    while (!records.empty()) {
+      const std::size_t count = std::min<std::size_t>(records.size(), EndedFlights::most - count_);
+      kernel_.gather(epoch, records.data(), count, last_.data(), ended_, count_);
+      records = records.subspan(count);
       if ((count_ += count) == EndedFlights::most) end_sample();
     }
   }
-  void keep_velocities(const CollisionNote& note) {
-    std::memcpy(ended_.velocity[count_], note.before, sizeof note.before);
-    std::memcpy(ended_.velocity[count_] + 2, note.partner_before, sizeof note.partner_before);
+  void keep_velocities(const CollisionRecord& record) {
+    std::memcpy(ended_.velocity[count_], record.before_i, sizeof record.before_i);
+    std::memcpy(ended_.velocity[count_] + 2, record.before_j, sizeof record.before_j);
     if (++count_ == EndedFlights::most) end_sample();
   }
 
   /// Rows are by id to begin with; from now on they are by place.
-  void follow_in(const std::shared_ptr<const NotedDisks>& disks) {
-    noted_ = disks;
+  void follow_in(const std::shared_ptr<const DiskTable>& disks) {
+    table_ = disks;
     places_ = FollowedDisks(*disks, [this](std::int32_t disk) { return follows(disk); });
     std::vector<double> by_id(last_.size());
     for (std::size_t row = 0; row < ids_.size(); ++row) by_id[row_by_id(ids_[row])] = last_[row];
@@ -239,8 +227,8 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public NoteFollower
   std::vector<std::int32_t> ids_;          ///< ids of the followed disks, by row
   std::vector<std::uint32_t> rows_by_id_;  ///< row of each disk at the start; one behind the last for disks that are not followed
   std::vector<double> last_;               ///< collision of each, `never` before the first; the last is that of all others
-  std::shared_ptr<const NotedDisks> noted_;
-  FollowedDisks places_;  ///< in noted_
+  std::shared_ptr<const DiskTable> table_;
+  FollowedDisks places_;  ///< in table_
   std::string why_no_path_;
   EndedFlights ended_;
   std::uint64_t count_ = 0;                  ///< number of collisions in it

@@ -23,43 +23,35 @@ ObservableGroup::ObservableGroup(const ObservedRun& run, std::istream& saved) : 
   for (const ObservableRequest& request : run.scene.observe) add(make_observable(request, run_));
 }
 
-void ObservableGroup::add(std::unique_ptr<Observable> observable) {
-  if (observable->follows_collisions() && is_driven(run_.scene.effects))
+void ObservableGroup::add(MadeObservable made) {
+  Observable& observable = *made.observable;
+  const bool follows = observable.follows_collisions();
+  if (follows && is_driven(run_.scene.effects))
     throw SceneError({run_.scene.source, 0, 0},
                      fmt::format("{} follows disks from collision to collision, and {} changes their velocities in between; "
                                  "remove one of the two",
-                                 observable->name(), what_drives(run_.scene.effects)));
-  if (observable->follows_collisions() && run_.own_rule)
-    throw SceneError({}, observable->name() +
+                                 observable.name(), what_drives(run_.scene.effects)));
+  if (observable.follows_collisions() && run_.own_rule)
+    throw SceneError({}, observable.name() +
                              " follows disks from collision to collision, and knows the collision rules of scenes "
                              "only; do without it, or without the rule of the program");
   if (const std::size_t index = observables_.size(); index < saved_.size()) {
     std::istringstream gathered(std::move(saved_[index]));
-    observable->load(gathered);
+    observable.load(gathered);
   }
-  observables_.push_back(std::move(observable));
-  if (observables_.back()->follows_collisions()) follow_with(*observables_.back());
-}
-
-void ObservableGroup::follow_with(Observable& observable) {
-  if (auto* fluxes = dynamic_cast<FluxFollower*>(&observable)) {
-    meter_.add(*fluxes);
-  } else if (auto* notes = dynamic_cast<NoteFollower*>(&observable); notes != nullptr && run_.collisions_told) {
-    note_followers_.push_back(notes);
-  } else {
+  observables_.push_back(std::move(made.observable));
+  if (!follows) return;
+  if (made.fluxes != nullptr)
+    meter_.add(*made.fluxes);
+  else if (made.records != nullptr)
+    record_followers_.push_back(made.records);
+  else
     followers_.push_back(&observable);
-  }
-  if (!run_.collisions_told) follow_log();
+  if (!run_.has_collision_records) follow_log();
 }
 
 void ObservableGroup::follow_log() {
-  if (run_.collisions_told) {
-    run_.collisions_told = false;
-    for (const auto& one : observables_)
-      if (std::ranges::find(note_followers_, dynamic_cast<NoteFollower*>(one.get())) != note_followers_.end())
-        followers_.push_back(one.get());
-    note_followers_.clear();
-  }
+  run_.has_collision_records = false;
   if (stream_ || !follows_collisions()) return;
   stream_.emplace(run_.scene, run_.disks);
   if (saved_stream_.empty()) return;
@@ -69,7 +61,7 @@ void ObservableGroup::follow_log() {
 }
 
 bool ObservableGroup::follows_collisions() const {
-  return !followers_.empty() || meter_.has_followers() || !note_followers_.empty();
+  return !followers_.empty() || meter_.has_followers() || !record_followers_.empty();
 }
 
 std::map<double, std::vector<Observable*>> ObservableGroup::by_step() const {
@@ -96,20 +88,30 @@ void ObservableGroup::start(const State& state) {
 void ObservableGroup::follow(std::span<const Event> events) {
   while (!events.empty()) {
     const std::size_t count = std::min(CollisionContacts::most, events.size());
-    stream_->follow(events.first(count), collisions_);
+    follow(stream_->follow(events.first(count)));
     events = events.subspan(count);
-    if (collisions_.empty()) continue;
-    if (meter_.has_followers()) meter_.follow(collisions_);
-    for (Observable* observable : followers_) observable->collisions(collisions_);
   }
 }
 
-void ObservableGroup::hear(const CollisionNotes& told) {
-  if (meter_.has_followers()) meter_.follow(told);
-  for (NoteFollower* follower : note_followers_) follower->read(told);
+void ObservableGroup::follow(const CollisionRecords& collisions) {
+  if (collisions.records.empty()) return;
+  if (meter_.has_followers()) meter_.follow(collisions);
+  if (!record_followers_.empty()) {
+    const CollisionRecords met = touching(collisions);
+    for (RecordFollower* follower : record_followers_) follower->follow(met);
+  }
   if (followers_.empty()) return;
-  told.read(collisions_);
+  collisions.read(collisions_);
   for (Observable* observable : followers_) observable->collisions(collisions_);
+}
+
+/// Returns the collisions that are not at the edge of a well.
+CollisionRecords ObservableGroup::touching(const CollisionRecords& collisions) {
+  if (std::ranges::all_of(collisions.contacts, &PairContact::touching)) return collisions;
+  touching_.clear();
+  for (std::size_t n = 0; n < collisions.records.size(); ++n)
+    if (collisions.contacts[n].touching) touching_.push_back(collisions.records[n]);
+  return {collisions.disks, collisions.epoch, collisions.epoch_remainder, touching_, {}};
 }
 
 std::vector<Measurement> ObservableGroup::results(double time, const Totals& totals) {

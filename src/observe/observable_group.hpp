@@ -3,7 +3,7 @@
 
 #include "observe/collision_stream.hpp"
 #include "observe/flux_meter.hpp"
-#include "observe/followers.hpp"
+#include "observe/observables.hpp"
 #include "observe/observed_run.hpp"
 
 #include <carom/observe.hpp>
@@ -28,7 +28,7 @@ class ObservableGroup {
 
   /// Adds an observable, before start(). Throws SceneError where it follows collisions and something changes velocities between
   /// them.
-  void add(std::unique_ptr<Observable> observable);
+  void add(MadeObservable made);
 
   [[nodiscard]] const ObservedRun& run() const { return run_; }
   [[nodiscard]] bool empty() const { return observables_.empty(); }
@@ -38,15 +38,15 @@ class ObservableGroup {
   /// Returns the observables that need samples, by the time between two of them.
   [[nodiscard]] std::map<double, std::vector<Observable*>> by_step() const;
 
-  /// From now on collisions come from the log of events, by follow(), whether or not the simulation tells of them.
+  /// Takes collisions from the log of events, by follow(), from now on, even where the simulation has records of them.
   void follow_log();
 
   void start(const State& state);
-  /// Requires events in order, none left out, and !run().collisions_told. What comes of it does not depend on how they are
-  /// divided among calls.
+  /// Passes on the collisions among events. Requires events in order, none left out, and !run().has_collision_records. What comes
+  /// of it does not depend on how they are divided among calls.
   void follow(std::span<const Event> events);
-  /// Passes on collisions that the simulation has recorded; requires run().collisions_told.
-  void hear(const CollisionNotes& told);
+  /// Passes on collisions, which come after all before.
+  void follow(const CollisionRecords& collisions);
   /// One entry per observable; empty where start() was never called. Call it once.
   [[nodiscard]] std::vector<Measurement> results(double time, const Totals& totals);
 
@@ -54,17 +54,18 @@ class ObservableGroup {
 
  private:
   void load(std::istream& saved);
-  void follow_with(Observable& observable);
+  [[nodiscard]] CollisionRecords touching(const CollisionRecords& collisions);
 
   ObservedRun run_;
   std::string saved_stream_;        ///< saved data of a run that is resumed
   std::vector<std::string> saved_;  ///< saved data of each observable
   std::vector<std::unique_ptr<Observable>> observables_;
   std::vector<Observable*> followers_;  ///< observables of whole collisions
-  std::vector<NoteFollower*> note_followers_;
+  std::vector<RecordFollower*> record_followers_;
   std::optional<CollisionStream> stream_;  ///< where events are followed
   FluxMeter meter_;
   std::vector<PairCollision> collisions_;
+  std::vector<CollisionRecord> touching_;
   bool started_ = false;
 };
 

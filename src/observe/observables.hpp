@@ -1,15 +1,30 @@
 #pragma once
 // The catalogue of observables: one function, and one file, for each key of the [observe] table.
 
+#include "observe/followers.hpp"
 #include "observe/observed_run.hpp"
 
 #include <carom/observe.hpp>
 
 #include <memory>
+#include <type_traits>
+#include <utility>
 
 namespace carom {
 
-using MadeObservable = std::unique_ptr<Observable>;
+/// An observable, and what it needs of collisions where that is less than all of them.
+struct MadeObservable {
+  template <class Made>
+  MadeObservable(std::unique_ptr<Made> made) {  // NOLINT(google-explicit-constructor): what std::make_unique returns
+    if constexpr (std::is_base_of_v<FluxFollower, Made>) fluxes = made.get();
+    if constexpr (std::is_base_of_v<RecordFollower, Made>) records = made.get();
+    observable = std::move(made);
+  }
+
+  std::unique_ptr<Observable> observable;
+  FluxFollower* fluxes = nullptr;
+  RecordFollower* records = nullptr;
+};
 
 MadeObservable make_temperature(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_pressure(const ObservableRequest& request, const ObservedRun& run);

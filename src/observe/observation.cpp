@@ -42,7 +42,7 @@ class Observation::Driver {
     attach(hooks, *thread_, [this](const std::vector<Observable*>& observables, const State& state, const Totals& totals) {
       thread_->sample(observables, state, totals);
     });
-    if (is_told() && !hooks.room_for_collisions) hooks.room_for_collisions = [this] { return thread_->room(); };
+    if (gets_records() && !hooks.room_for_records) hooks.room_for_records = [this] { return thread_->room(); };
   }
 
   void sample(Simulation& simulation) {
@@ -85,7 +85,7 @@ class Observation::Driver {
   }
 
  private:
-  [[nodiscard]] bool is_told() const { return group_.follows_collisions() && group_.run().collisions_told; }
+  [[nodiscard]] bool gets_records() const { return group_.follows_collisions() && group_.run().has_collision_records; }
   /// Observables of one step, in a loop of a program's own.
   struct Due {
     double step;
@@ -112,10 +112,10 @@ class Observation::Driver {
       group_.start(state);
       if (next) next(state);
     };
-    if (is_told())
-      hooks.collisions = [&follower, next = std::move(hooks.collisions)](const CollisionNotes& notes) {
-        follower.hear(notes);
-        if (next) next(notes);
+    if (gets_records())
+      hooks.collisions = [&follower, next = std::move(hooks.collisions)](const CollisionRecords& collisions) {
+        follower.follow(collisions);
+        if (next) next(collisions);
       };
     else if (group_.follows_collisions())
       hooks.events = [&follower, next = std::move(hooks.events)](std::span<const Event> events) {

@@ -39,7 +39,7 @@ ObservedRun observed_run(const Simulation& simulation) {
   ObservedRun run =
       observed_run(scene, simulation.disks(),
                    bath ? *bath : kinetic_temperature(scene.box, scene.effects, simulation.disks(), simulation.state()));
-  run.collisions_told = simulation.tells_collisions();
+  run.has_collision_records = simulation.supports_collision_records();
   run.own_rule = simulation.has_collision_rule();
   return run;
 }

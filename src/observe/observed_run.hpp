@@ -12,13 +12,13 @@ namespace carom {
 struct ObservedRun {
   const Scene& scene;
   const Disks& disks;
-  std::optional<double> time = {};  ///< end of the run as planned when it began
-  double temperature = 0.0;         ///< kT at the start, or of the bath
-  double mean_diameter = 1.0;       ///< 1 without disks
-  bool collisions_known = true;     ///< can be followed one by one: of a run that is over, its log may not have been kept
-  bool collisions_told = false;     ///< whether the simulation itself records collisions with what came before them
-  bool own_rule = false;            ///< whether a collision rule of the program acts
-  double mean_free_time = 0.0;      ///< mean free time by Enskog's theory for disks of mean size and mass; 0 where nothing moves
+  std::optional<double> time = {};     ///< end of the run as planned when it began
+  double temperature = 0.0;            ///< kT at the start, or of the bath
+  double mean_diameter = 1.0;          ///< 1 without disks
+  bool collisions_known = true;        ///< can be followed one by one: of a run that is over, its log may not have been kept
+  bool has_collision_records = false;  ///< whether the simulation itself records collisions with what came before them
+  bool own_rule = false;               ///< whether a collision rule of the program acts
+  double mean_free_time = 0.0;  ///< mean free time by Enskog's theory for disks of mean size and mass; 0 where nothing moves
 
   /// Returns the step of an observable: as the scene says, else the observable's own number of mean free times; 0 for observables
   /// without samples.

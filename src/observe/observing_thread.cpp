@@ -9,7 +9,7 @@ namespace carom {
 
 namespace {
 
-/// Events or notes handed over together. What may wait of them, some 1.5 MB, stays in the second-level cache.
+/// Events or records handed over together. What may wait of them, some 1.5 MB, stays in the second-level cache.
 constexpr std::size_t most_together = 4'096;
 /// The most pieces of work that may wait; then the run waits.
 constexpr std::size_t most_waiting = 4;
@@ -44,20 +44,20 @@ void ObservingThread::follow(std::span<const Event> events) {
   if (gathered_.events.size() >= most_together) hand_over();
 }
 
-std::span<CollisionNote> ObservingThread::room() {
-  if (gathered_.noted == most_together) hand_over();
-  gathered_.notes.resize(most_together);
-  return std::span(gathered_.notes).subspan(gathered_.noted);
+std::span<CollisionRecord> ObservingThread::room() {
+  if (gathered_.recorded == most_together) hand_over();
+  gathered_.records.resize(most_together);
+  return std::span(gathered_.records).subspan(gathered_.recorded);
 }
 
-void ObservingThread::hear(const CollisionNotes& notes) {
-  for (std::span<const CollisionNote> left = notes.notes; !left.empty();) {
-    const std::span<CollisionNote> to = room();
-    const std::span<const CollisionNote> part = left.first(std::min(left.size(), to.size()));
+void ObservingThread::follow(const CollisionRecords& collisions) {
+  for (std::span<const CollisionRecord> left = collisions.records; !left.empty();) {
+    const std::span<CollisionRecord> to = room();
+    const std::span<const CollisionRecord> part = left.first(std::min(left.size(), to.size()));
     if (part.data() != to.data()) std::ranges::copy(part, to.begin());
-    gathered_.heard.push_back(notes);
-    gathered_.heard.back().notes = to.first(part.size());
-    gathered_.noted += part.size();
+    gathered_.collisions.push_back(collisions);
+    gathered_.collisions.back().records = to.first(part.size());
+    gathered_.recorded += part.size();
     left = left.subspan(part.size());
   }
 }
@@ -96,7 +96,7 @@ void ObservingThread::hand_over() {
 }
 
 void ObservingThread::finish() {
-  if (!gathered_.events.empty() || gathered_.noted > 0) hand_over();
+  if (!gathered_.events.empty() || gathered_.recorded > 0) hand_over();
   std::unique_lock lock(mutex_);
   wait_until(lock, [this] { return waiting_.empty(); });
   rethrow();
@@ -123,15 +123,15 @@ void ObservingThread::work() {
     try {
       if (goes_on && !first.events.empty()) group_.follow(first.events);
       if (goes_on)
-        for (const CollisionNotes& notes : first.heard) group_.hear(notes);
+        for (const CollisionRecords& collisions : first.collisions) group_.follow(collisions);
       if (goes_on && first.state)
         for (Observable* observable : *first.observables) observable->sample(*first.state, first.totals);
     } catch (...) {
       thrown = std::current_exception();
     }
     first.events.clear();
-    first.heard.clear();
-    first.noted = 0;
+    first.collisions.clear();
+    first.recorded = 0;
     lock.lock();
     if (thrown) thrown_ = thrown;
     if (first.state) {

@@ -1,7 +1,7 @@
 #pragma once
-// Observables at work on a thread of their own, behind the run that feeds them: events and states are copied, notes are written
-// where they will be read, and all are handed over and looked at in the order in which they came, so that results are the same to
-// the last bit.
+// Observables at work on a thread of their own, behind the run that feeds them: events and states are copied, collision records
+// are written where they will be read, and all are handed over and looked at in the order in which they came, so that results are
+// the same to the last bit.
 
 #include "observe/observable_group.hpp"
 
@@ -30,19 +30,19 @@ class ObservingThread {
 
   void follow(std::span<const Event> events);
   /// Returns memory for the next collision records; records written elsewhere are copied.
-  [[nodiscard]] std::span<CollisionNote> room();
-  void hear(const CollisionNotes& notes);
+  [[nodiscard]] std::span<CollisionRecord> room();
+  void follow(const CollisionRecords& collisions);
   void sample(const std::vector<Observable*>& observables, const State& state, const Totals& totals);
   /// Waits until all is done. Throws what an observable threw, as the functions above do.
   void finish();
 
  private:
-  /// Events or notes that came one after the other, and then perhaps a state; its memory is used again.
+  /// Events or records that came one after the other, and then perhaps a state; its memory is used again.
   struct Work {
     std::vector<Event> events;
-    std::vector<CollisionNote> notes;  ///< the first noted of them
-    std::size_t noted = 0;
-    std::vector<CollisionNotes> heard;                      ///< parts of `notes`
+    std::vector<CollisionRecord> records;  ///< the first `recorded` of them
+    std::size_t recorded = 0;
+    std::vector<CollisionRecords> collisions;               ///< parts of `records`
     const std::vector<Observable*>* observables = nullptr;  ///< of the state
     std::unique_ptr<State> state;                           ///< null where there is none
     Totals totals;

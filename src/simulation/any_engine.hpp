@@ -4,8 +4,8 @@
 
 #include "core/archive.hpp"
 #include "core/instant.hpp"
+#include "engine/collision_listener.hpp"
 #include "engine/continuation.hpp"
-#include "engine/note_listener.hpp"
 
 #include <carom/collision_rule.hpp>
 #include <carom/simulation.hpp>
@@ -89,12 +89,12 @@ class AnyEngine {
   }
   /// The last velocity that a thermostat has redrawn, as an event whose partner is thermostat_event.
   [[nodiscard]] virtual Event last_kick() const { return {}; }
-  /// Whether listen() is there: engine/note_listener.hpp.
-  [[nodiscard]] virtual bool tells_collisions() const { return false; }
-  /// Tells of collisions of pairs from now on, all so far by each hand_over_notes(); an empty listener ends that.
-  virtual void listen(NoteListener /*listener*/) {}  // NOLINT(performance-unnecessary-value-param)
-  virtual void hand_over_notes() {}
-  /// By the places of disks in notes.
+  /// Whether listen() is there: engine/collision_listener.hpp.
+  [[nodiscard]] virtual bool supports_collision_records() const { return false; }
+  /// Tells of collisions of pairs from now on, all so far by each hand_over_records(); an empty listener ends that.
+  virtual void listen(CollisionListener /*listener*/) {}  // NOLINT(performance-unnecessary-value-param)
+  virtual void hand_over_records() {}
+  /// By the slots of disks in records.
   [[nodiscard]] virtual std::span<const std::int32_t> ids() const { return {}; }
   /// Of overlaps those that are deeper, over the contact distance, than `tolerated_overlap`.
   [[nodiscard]] virtual std::vector<std::string> check_invariants(double tolerated_overlap = 0.0) const = 0;
@@ -180,11 +180,11 @@ class EngineAdapter final : public AnyEngine {
   }
   void record_events(bool on) override { engine_.record_events(on); }
   void take_events(std::vector<Event>& events) override { engine_.take_events(events); }
-  [[nodiscard]] bool tells_collisions() const override { return has_recorder; }
-  void listen(NoteListener listener) override {
+  [[nodiscard]] bool supports_collision_records() const override { return has_recorder; }
+  void listen(CollisionListener listener) override {
     if constexpr (has_recorder) engine_.recorder().listen(std::move(listener));
   }
-  void hand_over_notes() override {
+  void hand_over_records() override {
     if constexpr (has_recorder) engine_.recorder().hand_over();
   }
   [[nodiscard]] std::span<const std::int32_t> ids() const override {

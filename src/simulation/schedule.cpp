@@ -4,11 +4,11 @@
 
 #include <carom/simulation.hpp>
 
-#include "core/all_equal.hpp"
 #include "core/archive.hpp"
 #include "core/seconds_since.hpp"
 #include "scene/checks.hpp"
 #include "simulation/all_events.hpp"
+#include "simulation/disk_table.hpp"
 #include "simulation/finite_state.hpp"
 #include "simulation/moving_as_one.hpp"
 #include "simulation/parts.hpp"
@@ -77,7 +77,7 @@ class Schedule {
     }
     if (measuring_) measure();
     engine_.record_events(false);
-    hand_over_notes();
+    hand_over_records();
     if (result_.stopped != StopReason::invalid_state) (void)is_finite(engine_.state());
     if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(true));
     const bool unverified = since_verified_ > 0 || result_.verified == 0;
@@ -174,12 +174,8 @@ class Schedule {
 
   void listen() {
     if (!hooks_.collisions) return;
-    const auto one_if_equal = [](const std::vector<double>& values) {
-      return !values.empty() && all_equal(values) ? std::vector<double>{values.front()} : values;
-    };
     const std::span<const std::int32_t> ids = engine_.ids();
-    auto disks = std::make_shared<const NotedDisks>(
-        NotedDisks{{ids.begin(), ids.end()}, one_if_equal(disks_.radius), one_if_equal(disks_.mass)});
+    const std::shared_ptr<const DiskTable> disks = disk_table({ids.begin(), ids.end()}, disks_);
     // The engine is in the middle of an event: what is thrown has to wait.
     const auto keep_thrown = [this](auto&& call) {
       try {
@@ -188,18 +184,18 @@ class Schedule {
         thrown_ = std::current_exception();
       }
     };
-    NoteListener listener;
-    listener.hear = [this, keep_thrown, heard = CollisionNotes{disks, 0.0, 0.0, {}}](
-                        const Instant& epoch, std::span<const CollisionNote> notes) mutable {
-      heard.epoch = epoch.high;
-      heard.epoch_remainder = epoch.low;
-      heard.notes = notes;
-      keep_thrown([&] { hooks_.collisions(heard); });
+    CollisionListener listener;
+    listener.on_collisions = [this, keep_thrown, taken = CollisionRecords{disks, 0.0, 0.0, {}}](
+                                 const Instant& epoch, std::span<const CollisionRecord> records) mutable {
+      taken.epoch = epoch.high;
+      taken.epoch_remainder = epoch.low;
+      taken.records = records;
+      keep_thrown([&] { hooks_.collisions(taken); });
     };
-    if (hooks_.room_for_collisions)
+    if (hooks_.room_for_records)
       listener.room = [this, keep_thrown] {
-        std::span<CollisionNote> room;
-        keep_thrown([&] { room = hooks_.room_for_collisions(); });
+        std::span<CollisionRecord> room;
+        keep_thrown([&] { room = hooks_.room_for_records(); });
         return room;
       };
     engine_.listen(std::move(listener));
@@ -312,7 +308,7 @@ class Schedule {
       const bool arrived = run_stretch(target, std::min(collisions, next_block_));
       if (stands_ && !recording_) record_events(true);  // to be able to say who collides without end
       const bool is_met = recording_ && take_events();
-      hand_over_notes();
+      hand_over_records();
       if (hooks_.verify_every > 0 && since_verified_ >= hooks_.verify_every && !verify()) return false;
       if (engine_.counts().pair >= next_block_) {
         if (hooks_.block) hooks_.block(progress());
@@ -395,8 +391,8 @@ class Schedule {
     return is_met;
   }
 
-  void hand_over_notes() {
-    engine_.hand_over_notes();
+  void hand_over_records() {
+    engine_.hand_over_records();
     if (thrown_) std::rethrow_exception(thrown_);
   }
 
@@ -466,8 +462,8 @@ RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   auto& parts = *simulation.parts_;
   parts.require_rule();
   if (!parts.scene.run.time && !parts.scene.run.collisions) throw SceneError({}, detail::endless_run);
-  if (hooks.collisions && !simulation.tells_collisions())
-    throw std::invalid_argument("this simulation does not tell of collisions; see Simulation::tells_collisions()");
+  if (hooks.collisions && !simulation.supports_collision_records())
+    throw std::invalid_argument("this simulation does not tell of collisions; see Simulation::supports_collision_records()");
   if (hooks.stop_when && simulation.time_step())
     throw std::invalid_argument("a fixed-step method ends at a time or a number of collisions of pairs only");
   for (const SamplingGrid& grid : hooks.grids)

@@ -7,7 +7,7 @@
 #include "simulation/parts.hpp"
 #include "simulation/standstill.hpp"
 #include "simulation/start.hpp"
-#include "simulation/velocities_tell_contacts.hpp"
+#include "simulation/velocities_determine_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -108,9 +108,9 @@ void Simulation::take_events(std::vector<Event>& events) {
   events.insert(events.begin(), parts_->events.begin(), parts_->events.end());
   parts_->events.clear();
 }
-bool Simulation::tells_collisions() const {
+bool Simulation::supports_collision_records() const {
   const Effects& effects = parts_->scene.effects;
-  return parts_->engine->tells_collisions() && !has_collision_rule() && velocities_tell_contacts(effects) &&
+  return parts_->engine->supports_collision_records() && !has_collision_rule() && velocities_determine_contacts(effects) &&
          !detail::any_acting(effects, &detail::EffectTraits::bends_paths);
 }
 std::vector<std::string> Simulation::check_invariants(double tolerated_overlap) const {

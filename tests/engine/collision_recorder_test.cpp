@@ -59,20 +59,20 @@ TEST(CollisionRecorder, VelocitiesInTheLogAreThoseOfDisksThatFall) {
 TEST(CollisionRecorder, AListenerHearsEveryCollisionOnceInOrderAndWithItsEpochWhateverItsRoom) {
   for (const std::size_t room : {0u, 1u, 7u, 1000u}) {
     CollisionRecorder recorder(reversed_ids, V(0, 0));
-    std::vector<CollisionNote> memory(room + 40);  // the recorder touches what lies ahead
+    std::vector<CollisionRecord> memory(room + 40);  // the recorder touches what lies ahead
     int heard = 0;
-    NoteListener listener;
-    listener.hear = [&](const Instant& epoch, std::span<const CollisionNote> notes) {
-      EXPECT_LE(notes.size(), room == 0 ? 64u : room);
-      for (const CollisionNote& note : notes) {
+    CollisionListener listener;
+    listener.on_collisions = [&](const Instant& epoch, std::span<const CollisionRecord> records) {
+      EXPECT_LE(records.size(), room == 0 ? 64u : room);
+      for (const CollisionRecord& record : records) {
         EXPECT_EQ(epoch.high, heard < 500 ? 0.0 : 500.0);
-        EXPECT_EQ(note.time, heard);
-        EXPECT_EQ(note.place, heard % 4);
-        EXPECT_EQ(note.partner, (heard + 1) % 4);
-        EXPECT_EQ(note.before[1], 1.0);
-        EXPECT_EQ(note.partner_before[1], 2.0);
-        EXPECT_EQ(note.after[1], 3.0);
-        EXPECT_EQ(note.partner_after[1], 4.0);
+        EXPECT_EQ(record.time, heard);
+        EXPECT_EQ(record.slot_i, heard % 4);
+        EXPECT_EQ(record.slot_j, (heard + 1) % 4);
+        EXPECT_EQ(record.before_i[1], 1.0);
+        EXPECT_EQ(record.before_j[1], 2.0);
+        EXPECT_EQ(record.after_i[1], 3.0);
+        EXPECT_EQ(record.after_j[1], 4.0);
         ++heard;
       }
     };

@@ -1,4 +1,4 @@
-// What collisions do to fluxes, added up: from the velocities before and after by definition; the same bits from notes and from
+// What collisions do to fluxes, added up: from the velocities before and after by definition; the same bits from records and from
 // whole collisions, however they are handed over, whichever disk comes first, with every instruction set.
 
 #include "core/all_equal.hpp"
@@ -68,55 +68,69 @@ struct Told {
     state.velocities.colwise() += Eigen::Vector2d(0.3, -0.2);
     disks = simulation.disks();
     RunHooks hooks;
-    hooks.collisions = [&](const CollisionNotes& told) {
-      for (CollisionNote note : told.notes) {
-        note.time += told.epoch;
-        all.push_back(note);
+    hooks.collisions = [&](const CollisionRecords& told) {
+      for (CollisionRecord record : told.records) {
+        record.time += told.epoch;
+        all.push_back(record);
       }
       heard = told;
     };
     run_schedule(simulation, hooks);
     all.resize(61);  // no multiple of four
-    heard.notes = all;
+    heard.records = all;
     heard.epoch = 7.0;
     heard.epoch_remainder = 1e-17;
     heard.read(collisions);
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      const bool swapped = collisions[n].disk != heard.disks->ids[static_cast<std::size_t>(all[n].slot_i)];
+      const Eigen::Vector2d r = (swapped ? -1.0 : 1.0) * collisions[n].separation;
+      contacts.push_back({{r[0], r[1]}, true});
+    }
   }
   [[nodiscard]] Eigen::Vector2d common() const {
     return common_velocity({.scene = scene, .disks = disks, .temperature = 1.0}, state);
   }
-  /// What is seen where notes are handed over `together`, and at the end.
-  [[nodiscard]] std::vector<double> of_notes(std::size_t together, Asking asking = Asking()) const {
+  /// What is seen where records are handed over `together`, and at the end.
+  [[nodiscard]] std::vector<double> of_records(std::size_t together, Asking asking = Asking()) const {
     FluxMeter meter(scene, disks);
     meter.start(common());
     meter.add(asking);
     for (std::size_t begin = 0; begin < all.size(); begin += together) {
-      CollisionNotes some = heard;
-      some.notes = std::span(all).subspan(begin, std::min(together, all.size() - begin));
+      CollisionRecords some = heard;
+      some.records = std::span(all).subspan(begin, std::min(together, all.size() - begin));
       meter.follow(some);
     }
     asking.look();
     return asking.seen;
   }
-  [[nodiscard]] std::vector<double> of_collisions(std::size_t together, Asking asking = Asking()) const {
+  /// The same with contacts, for scenes whose velocities do not tell them.
+  [[nodiscard]] std::vector<double> of_contacts(std::size_t together, Asking asking = Asking()) const {
     FluxMeter meter(scene, disks);
     meter.start(common());
     meter.add(asking);
-    for (std::size_t begin = 0; begin < all.size(); begin += together)
-      meter.follow(std::span(collisions).subspan(begin, std::min(together, all.size() - begin)));
+    for (std::size_t begin = 0; begin < all.size(); begin += together) {
+      CollisionRecords some = with_contacts();
+      some.records = some.records.subspan(begin, std::min(together, all.size() - begin));
+      some.contacts = some.contacts.subspan(begin, some.records.size());
+      meter.follow(some);
+    }
     asking.look();
     return asking.seen;
+  }
+  [[nodiscard]] CollisionRecords with_contacts() const {
+    return {heard.disks, heard.epoch, heard.epoch_remainder, all, contacts};
   }
 
   Scene scene;
   Disks disks = {};
   State state = {};
-  std::vector<CollisionNote> all = {};
-  CollisionNotes heard = {};
+  std::vector<CollisionRecord> all = {};
+  CollisionRecords heard = {};
+  std::vector<PairContact> contacts = {};
   std::vector<PairCollision> collisions = {};
 };
 
-/// Whole collisions that velocities do not tell the contacts of, but say it themselves.
+/// A scene whose velocities do not tell where disks touched, so that records come with their contacts.
 Scene reversed(Scene scene) {
   scene.effects.collision.rule = CollisionRule::reversal;
   return scene;
@@ -190,7 +204,7 @@ TEST(CollisionFluxes, ThatAreToldAreWhatTheVelocitiesSay) {
     FluxMeter meter(scene, told.disks);
     meter.start(told.common());
     meter.add(asking);
-    meter.follow(told.collisions);
+    meter.follow(told.with_contacts());
     expect_what_velocities_say(told, asking);
   }
 }
@@ -202,7 +216,7 @@ TEST(CollisionFluxes, AreAddedUpForAllWhoAskForTheSame) {
   meter.start(told.common());
   for (Asking* asking : {&all, &momentum, &others}) meter.add(*asking);
   meter.follow(told.heard);
-  const std::vector<double> alone = told.of_notes(61);
+  const std::vector<double> alone = told.of_records(61);
   for (Asking* asking : {&all, &momentum, &others}) asking->look();
   EXPECT_EQ(all.seen, alone);
   for (std::size_t k = 0; k < alone.size(); ++k) EXPECT_EQ(k >= 5 && k < 9 ? momentum.seen[k] : others.seen[k], alone[k]) << k;
@@ -210,10 +224,10 @@ TEST(CollisionFluxes, AreAddedUpForAllWhoAskForTheSame) {
 
 TEST(CollisionFluxes, OfImpulsesWhoseSquaresHaveLostDigitsAreThoseOfAllOthers) {
   Told told(gas_scene(60, 0.5, Boundary::periodic));
-  const std::vector<double> usual = told.of_notes(61);
+  const std::vector<double> usual = told.of_records(61);
   const double unit = 0x1p-518;  // squares of 2^-1036 have some 38 digits
   for (double& mass : told.disks.mass) mass *= unit;
-  const std::vector<double> light = told.of_notes(61);
+  const std::vector<double> light = told.of_records(61);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(light[k] / unit, usual[k], 61.0 * 10.0 * 0x1p-30) << k;
 }
 
@@ -222,20 +236,21 @@ TEST(CollisionFluxes, AreTheSameBitsHoweverTheyAreHandedOver) {
     const Told told(scene);
     const double begin = told.collisions.front().time, end = told.collisions.back().time;
     const Asking asking(7, begin, (end - begin) / 4.5);
-    const std::vector<double> expected = told.of_notes(told.all.size(), asking);
+    const std::vector<double> expected = told.of_records(told.all.size(), asking);
     EXPECT_GT(expected.size(), 3U * 13U);  // looks on the way, and one at the end
     for (const std::size_t together : {1U, 2U, 3U, 4U, 5U, 8U, 30U}) {
-      EXPECT_EQ(told.of_notes(together, asking), expected) << together;
-      EXPECT_EQ(told.of_collisions(together, asking), expected) << together;
+      EXPECT_EQ(told.of_records(together, asking), expected) << together;
     }
   }
 }
 
 TEST(CollisionFluxes, DoNotDependOnWhatElseIsAsked) {
-  for (const bool by_notes : {true, false}) {
+  for (const bool by_records : {true, false}) {
     Told told(two_radii());
-    if (!by_notes) told.scene = reversed(told.scene);
-    const auto seen = [&](const Asking& asking) { return by_notes ? told.of_notes(61, asking) : told.of_collisions(61, asking); };
+    if (!by_records) told.scene = reversed(told.scene);
+    const auto seen = [&](const Asking& asking) {
+      return by_records ? told.of_records(61, asking) : told.of_contacts(61, asking);
+    };
     const std::vector<double> all = seen(Asking());
     for (unsigned which = 1; which < 8; ++which) {
       const std::vector<double> some = seen(Asking(which));
@@ -249,29 +264,29 @@ TEST(CollisionFluxes, DoNotDependOnWhatElseIsAsked) {
 
 TEST(CollisionFluxes, DoNotDependOnWhichDiskComesFirst) {
   Told told(two_radii());
-  const std::vector<double> before = told.of_notes(61);
-  for (CollisionNote& note : told.all) {
-    std::swap(note.place, note.partner);
-    std::swap(note.before, note.partner_before);
-    std::swap(note.after, note.partner_after);
+  const std::vector<double> before = told.of_records(61);
+  for (CollisionRecord& record : told.all) {
+    std::swap(record.slot_i, record.slot_j);
+    std::swap(record.before_i, record.before_j);
+    std::swap(record.after_i, record.after_j);
   }
-  EXPECT_EQ(told.of_notes(61), before);
+  EXPECT_EQ(told.of_records(61), before);
 }
 
 TEST(CollisionFluxes, AreTheSameBitsWithEveryInstructionSet) {
   for (const Scene& scene : {mixture_scene(60, 0.4, Boundary::periodic), gas_scene(60, 0.5, Boundary::periodic)}) {
     Told told(scene);
-    std::vector<std::vector<double>> of_notes, of_collisions;
+    std::vector<std::vector<double>> of_records, of_contacts;
     for (const std::string_view set : instruction_sets) {
       const WithInstructions with(set);
       told.scene.effects.collision.rule = CollisionRule::specular;
-      of_notes.push_back(told.of_notes(61));
+      of_records.push_back(told.of_records(61));
       told.scene.effects.collision.rule = CollisionRule::reversal;
-      of_collisions.push_back(told.of_collisions(61));
+      of_contacts.push_back(told.of_contacts(61));
     }
     for (const std::size_t set : {1U, 2U}) {
-      EXPECT_EQ(of_notes[0], of_notes[set]);
-      EXPECT_EQ(of_collisions[0], of_collisions[set]);
+      EXPECT_EQ(of_records[0], of_records[set]);
+      EXPECT_EQ(of_contacts[0], of_contacts[set]);
     }
   }
 }
@@ -279,9 +294,9 @@ TEST(CollisionFluxes, AreTheSameBitsWithEveryInstructionSet) {
 TEST(CollisionFluxes, OfDisksThatOnlyTouchAreNothing) {
   Told told(gas_scene(60, 0.5, Boundary::periodic));
   told.all.resize(1);
-  std::copy_n(told.all[0].before, 2, told.all[0].after);
-  std::copy_n(told.all[0].partner_before, 2, told.all[0].partner_after);
-  for (const double sum : told.of_notes(1)) EXPECT_EQ(sum, 0.0);
+  std::copy_n(told.all[0].before_i, 2, told.all[0].after_i);
+  std::copy_n(told.all[0].before_j, 2, told.all[0].after_j);
+  for (const double sum : told.of_records(1)) EXPECT_EQ(sum, 0.0);
 }
 
 }  // namespace

@@ -86,12 +86,12 @@ TEST(OwnRule, IsToldWhichDisksMeetTheLowerOneFirst) {
 TEST(OwnRule, TakesTheGeneralEngineAndLeavesItAgain) {
   Simulation simulation = make_simulation(gas_scene(16, 0.3, Boundary::periodic));
   EXPECT_EQ(simulation.engine(), "fast");
-  EXPECT_TRUE(simulation.tells_collisions());
+  EXPECT_TRUE(simulation.supports_collision_records());
   simulation.set_collision_rule(smooth(1.0));
   EXPECT_TRUE(simulation.has_collision_rule());
   EXPECT_EQ(simulation.engine(), "general");
   EXPECT_EQ(simulation.engine_reason(), "a collision rule of the program acts");
-  EXPECT_FALSE(simulation.tells_collisions());
+  EXPECT_FALSE(simulation.supports_collision_records());
   simulation.run_until(1.0);
   Effects effects = simulation.scene().effects;
   effects.thermostat = Thermostat{1.0, 0.5};

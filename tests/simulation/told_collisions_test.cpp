@@ -54,17 +54,17 @@ std::vector<Scene> scenes_that_tell() {
 TEST(ToldCollisions, AreThoseOfTheEventLog) {
   for (const Scene& scene : scenes_that_tell()) {
     Simulation simulation = make_simulation(scene);
-    ASSERT_TRUE(simulation.tells_collisions());
+    ASSERT_TRUE(simulation.supports_collision_records());
     std::optional<CollisionStream> stream;
     std::vector<PairCollision> told, followed, some;
     RunHooks hooks;
     hooks.start = [&](const State& state) { stream.emplace(simulation.scene(), simulation.disks()).start(state); };
     hooks.events = [&](std::span<const Event> events) {
-      stream->follow(events, some);
+      stream->follow(events).read(some);
       followed.insert(followed.end(), some.begin(), some.end());
     };
-    hooks.collisions = [&](const CollisionNotes& notes) {
-      notes.read(some);
+    hooks.collisions = [&](const CollisionRecords& records) {
+      records.read(some);
       told.insert(told.end(), some.begin(), some.end());
     };
     run_schedule(simulation, hooks);
@@ -78,7 +78,7 @@ TEST(ToldCollisions, ListeningDoesNotChangeTheRun) {
   const auto end_of = [&](bool listens) {
     Simulation simulation = make_simulation(scene);
     RunHooks hooks;
-    if (listens) hooks.collisions = [](const CollisionNotes&) {};
+    if (listens) hooks.collisions = [](const CollisionRecords&) {};
     run_schedule(simulation, hooks);
     return simulation.state();
   };
@@ -94,7 +94,7 @@ TEST(ToldCollisions, AllUpToASampleComeBeforeIt) {
   Simulation simulation = make_simulation(scene);
   std::uint64_t told = 0;
   RunHooks hooks;
-  hooks.collisions = [&](const CollisionNotes& notes) { told += notes.notes.size(); };
+  hooks.collisions = [&](const CollisionRecords& records) { told += records.records.size(); };
   hooks.sample = [&](std::uint64_t, const State&) { EXPECT_EQ(told, simulation.totals().pair); };
   run_schedule(simulation, hooks);
   EXPECT_EQ(told, simulation.totals().pair);
@@ -105,22 +105,22 @@ TEST(ToldCollisions, CanBeReadLater) {
   Scene scene = gas_scene(40, 0.5, Boundary::periodic);
   scene.run.collisions = 500;
   std::vector<PairCollision> at_once, later, some;
-  std::vector<std::vector<CollisionNote>> kept;
-  std::vector<CollisionNotes> heard;
+  std::vector<std::vector<CollisionRecord>> kept;
+  std::vector<CollisionRecords> heard;
   {
     Simulation simulation = make_simulation(scene);
     RunHooks hooks;
-    hooks.collisions = [&](const CollisionNotes& notes) {
-      notes.read(some);
+    hooks.collisions = [&](const CollisionRecords& records) {
+      records.read(some);
       at_once.insert(at_once.end(), some.begin(), some.end());
-      kept.emplace_back(notes.notes.begin(), notes.notes.end());
-      heard.push_back(notes);
-      heard.back().notes = kept.back();
+      kept.emplace_back(records.records.begin(), records.records.end());
+      heard.push_back(records);
+      heard.back().records = kept.back();
     };
     run_schedule(simulation, hooks);
   }
-  for (const CollisionNotes& notes : heard) {
-    notes.read(some);
+  for (const CollisionRecords& records : heard) {
+    records.read(some);
     later.insert(later.end(), some.begin(), some.end());
   }
   expect_same(later, at_once);
@@ -129,25 +129,25 @@ TEST(ToldCollisions, CanBeReadLater) {
 TEST(ToldCollisions, AreWrittenWhereTheListenerWantsThem) {
   Scene scene = gas_scene(40, 0.5, Boundary::periodic);
   scene.run.collisions = 500;
-  std::vector<CollisionNote> in_order(500), some(7);
+  std::vector<CollisionRecord> in_order(500), some(7);
   std::size_t kept = 0, elsewhere = 0;
-  std::span<CollisionNote> given;
+  std::span<CollisionRecord> given;
   const auto listen = [&](auto room) {
     Simulation simulation = make_simulation(scene);
     RunHooks hooks;
     std::vector<PairCollision> heard, part;
-    hooks.collisions = [&](const CollisionNotes& notes) {
-      elsewhere += notes.notes.data() != given.data() ? 1U : 0U;
-      EXPECT_TRUE(given.empty() || notes.notes.size() <= given.size());
-      kept += notes.notes.size();
-      notes.read(part);
+    hooks.collisions = [&](const CollisionRecords& records) {
+      elsewhere += records.records.data() != given.data() ? 1U : 0U;
+      EXPECT_TRUE(given.empty() || records.records.size() <= given.size());
+      kept += records.records.size();
+      records.read(part);
       heard.insert(heard.end(), part.begin(), part.end());
     };
-    if (room) hooks.room_for_collisions = room;
+    if (room) hooks.room_for_records = room;
     run_schedule(simulation, hooks);
     return heard;
   };
-  using Room = std::function<std::span<CollisionNote>()>;
+  using Room = std::function<std::span<CollisionRecord>()>;
   const std::vector<PairCollision> copied = listen(Room());
   EXPECT_GT(elsewhere, 0U);
   for (const bool all : {true, false}) {
@@ -156,9 +156,9 @@ TEST(ToldCollisions, AreWrittenWhereTheListenerWantsThem) {
     expect_same(listen(room), copied);
     EXPECT_EQ(elsewhere, 0U);
   }
-  EXPECT_LT(in_order[0].time, in_order[1].time) << "the notes are still there";
+  EXPECT_LT(in_order[0].time, in_order[1].time) << "the records are still there";
   given = {};
-  expect_same(listen(Room([] { return std::span<CollisionNote>(); })), copied);
+  expect_same(listen(Room([] { return std::span<CollisionRecord>(); })), copied);
 }
 
 TEST(ToldCollisions, BelongToTheListenerOnceTheyAreTold) {
@@ -171,10 +171,10 @@ TEST(ToldCollisions, BelongToTheListenerOnceTheyAreTold) {
     run_schedule(simulation, hooks);
     return log;
   };
-  std::vector<CollisionNote> room(100);
+  std::vector<CollisionRecord> room(100);
   RunHooks hooks;
-  hooks.collisions = [&](const CollisionNotes&) { room.assign(100, CollisionNote{-1.0, 7, 7, {}, {}, {}, {}}); };
-  hooks.room_for_collisions = [&] { return std::span(room); };
+  hooks.collisions = [&](const CollisionRecords&) { room.assign(100, CollisionRecord{-1.0, 7, 7, {}, {}, {}, {}}); };
+  hooks.room_for_records = [&] { return std::span(room); };
   const std::vector<Event> log = log_of(hooks), expected = log_of({});
   ASSERT_EQ(log.size(), expected.size());
   for (std::size_t n = 0; n < log.size(); ++n) {
@@ -189,8 +189,8 @@ TEST(ToldCollisions, WhatAsksForRoomMayThrow) {
   scene.run.collisions = 1'000;
   Simulation simulation = make_simulation(scene);
   RunHooks hooks;
-  hooks.collisions = [](const CollisionNotes&) { ADD_FAILURE() << "after the first error nobody is told"; };
-  hooks.room_for_collisions = []() -> std::span<CollisionNote> { throw std::runtime_error("no room"); };
+  hooks.collisions = [](const CollisionRecords&) { ADD_FAILURE() << "after the first error nobody is told"; };
+  hooks.room_for_records = []() -> std::span<CollisionRecord> { throw std::runtime_error("no room"); };
   EXPECT_THROW(run_schedule(simulation, hooks), std::runtime_error);
   EXPECT_TRUE(simulation.check_invariants().empty());
 }
@@ -201,7 +201,7 @@ TEST(ToldCollisions, ThereAreNoneWithoutDisks) {
   scene.run.time = 1.0;
   Simulation simulation = make_simulation(scene);
   RunHooks hooks;
-  hooks.collisions = [](const CollisionNotes&) { FAIL(); };
+  hooks.collisions = [](const CollisionRecords&) { FAIL(); };
   EXPECT_EQ(run_schedule(simulation, hooks).stopped, StopReason::time);
 }
 
@@ -211,7 +211,7 @@ TEST(ToldCollisions, WhatAListenerThrowsComesOutBetweenTwoEvents) {
   Simulation simulation = make_simulation(scene);
   RunHooks hooks;
   int calls = 0;
-  hooks.collisions = [&](const CollisionNotes&) {
+  hooks.collisions = [&](const CollisionRecords&) {
     ++calls;
     throw std::runtime_error("no more");
   };
@@ -226,7 +226,7 @@ TEST(ToldCollisions, AreNotToBeHadWhereVelocitiesDoNotTellEverything) {
   const auto tells = [](auto change, const std::string& engine = "auto") {
     Scene scene = gas_scene(30, 0.3, Boundary::walls);
     change(scene);
-    return make_simulation(scene, engine).tells_collisions();
+    return make_simulation(scene, engine).supports_collision_records();
   };
   EXPECT_TRUE(tells([](Scene&) {}));
   EXPECT_FALSE(tells([](Scene&) {}, "textbook"));
@@ -244,7 +244,7 @@ TEST(ToldCollisions, AreNotToBeHadWhereVelocitiesDoNotTellEverything) {
   scene.run.collisions = 10;
   Simulation textbook = make_simulation(scene, "textbook");
   RunHooks hooks;
-  hooks.collisions = [](const CollisionNotes&) {};
+  hooks.collisions = [](const CollisionRecords&) {};
   EXPECT_THROW(run_schedule(textbook, hooks), std::invalid_argument);
 }
 

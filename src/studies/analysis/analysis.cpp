@@ -39,7 +39,7 @@ Scene scene_with(const RunReader& run, const std::vector<std::string>& observabl
 /// Says at which of the run's samples an observable is to look, where it looks at states, and that the run has kept what it
 /// needs.
 void choose_step(ObservableRequest& request, const ObservedRun& run, std::uint64_t samples) {
-  const MadeObservable wished = make_observable(request, run);
+  const std::unique_ptr<Observable> wished = make_observable(request, run).observable;
   if (wished->follows_collisions() && !run.collisions_known)
     refuse(request, "follows collisions, and the run kept none; run the scene with --events");
   if (!(wished->step() > 0.0)) return;
