@@ -5,6 +5,7 @@
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/start.hpp"
+#include "stepper/backtrack.hpp"
 #include "stepper/grid.hpp"
 #include "stepper/guarded.hpp"
 #include "stepper/naive.hpp"
@@ -47,8 +48,11 @@ struct Entry {
   const char* name;
   std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Start& start, double dt);
 };
-constexpr Entry entries[] = {
-    {"naive", &make<Naive>}, {"naive-edge", &make<NaiveEdge>}, {"guarded", &make<Guarded>}, {"grid", &make<Grid>}};
+constexpr Entry entries[] = {{"naive", &make<Naive>},
+                             {"naive-edge", &make<NaiveEdge>},
+                             {"guarded", &make<Guarded>},
+                             {"grid", &make<Grid>},
+                             {"backtrack", &make<BacktrackStep>}};
 
 void require_sound_step(const FixedStep& step, const Scene& scene, const Start& start) {
   if (!(step.dt > 0.0 && std::isfinite(step.dt)))

@@ -39,9 +39,12 @@ struct Bodies {
 
   /// Returns whether all positions and velocities are finite.
   [[nodiscard]] bool finite() const {
-    double sum = 0.0;  // what is not finite leaves no 0
-    for (std::size_t i = 0; i < r.size(); ++i) sum += 0.0 * (r[i][0] + r[i][1] + v[i][0] + v[i][1]);
-    return sum == 0.0;
+    Vec2<double> places(0.0, 0.0), speeds(0.0, 0.0);  // what is not finite leaves no 0
+    for (std::size_t i = 0; i < r.size(); ++i) {
+      places += 0.0 * r[i];
+      speeds += 0.0 * v[i];
+    }
+    return (places + speeds).sum() == 0.0;
   }
 
   /// Returns a - b between the nearest images. Requires both inside the box along periodic axes.

@@ -10,9 +10,9 @@ namespace {
 /// Returns the margin, in diameters, at which looking at the pairs of the list and making it anew cost least together. Per disk
 /// and step the first takes about 2 ns for each of the rho pi (sigma + margin)^2 / 2 pairs of a disk, the second 80 ns every
 /// margin / (2 v_max dt) steps; only their ratio matters, and not much.
-double best_margin(double density, double sigma, double farthest) {
-  double best = 0.0, least = 1e300;
-  for (double margin = 0.05; margin < 1.5; margin *= 1.15) {
+double best_margin(double density, double sigma, double farthest, double smallest) {
+  double best = smallest / sigma, least = 1e300;
+  for (double margin = std::max(0.05, smallest / sigma); margin < 1.5; margin *= 1.15) {
     const double reach = sigma * (1.0 + margin);
     const double steps = std::max(1.0, std::floor(margin * sigma / (2.0 * farthest)));
     const double cost = density * reach * reach * 1.57 * 2.0 + 80.0 / steps;
@@ -26,13 +26,14 @@ double best_margin(double density, double sigma, double farthest) {
 
 }  // namespace
 
-ClosePairs::ClosePairs(const Bodies& bodies, double dt) {
+ClosePairs::ClosePairs(const Bodies& bodies, double dt, double least_margin) {
   if (bodies.count() == 0) return;
   double fastest = 0.0;
   for (const Vec2<double>& v : bodies.v) fastest = std::max(fastest, v.norm());
   const double sigma = 2.0 * *std::max_element(bodies.radius.begin(), bodies.radius.end());
   const double density = static_cast<double>(bodies.count()) / bodies.domain.length.prod();
-  margin_ = best_margin(density, sigma, fastest * dt);
+  margin_ = best_margin(density, sigma, fastest * dt, least_margin * fastest * dt);
+  farthest_squared_ = 0.25 * margin_ * margin_ * (1.0 - 1e-9);
   // Cells no narrower than the reach of a pair, and not more than a few per disk. Where fewer than three would go round a
   // periodic axis, one is all.
   const double width = std::max(sigma + margin_, 0.5 / std::sqrt(density));
@@ -48,9 +49,10 @@ ClosePairs::ClosePairs(const Bodies& bodies, double dt) {
   rebuild(bodies);
 }
 
-void ClosePairs::moved(const Bodies& bodies, double farthest) {
-  approached_ += 2.0 * farthest;
-  if (bodies.count() > 0 && approached_ * (1.0 + 1e-9) >= margin_) rebuild(bodies);
+void ClosePairs::moved(const Bodies& bodies) {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < bodies.count(); ++i) farthest = std::max(farthest, bodies.squared_distance(bodies.r[i], built_[i]));
+  if (!(farthest <= farthest_squared_)) rebuild(bodies);
 }
 
 /// Disks beyond a wall count as in the cell next to it.
@@ -64,7 +66,8 @@ std::size_t ClosePairs::cell_of(const Bodies& bodies, const Vec2<double>& r) con
 }
 
 void ClosePairs::rebuild(const Bodies& bodies) {
-  approached_ = 0.0;
+  built_ = bodies.r;
+  near_is_made_ = false;
   sort_into_cells(bodies);
   pairs_ = 0;
   const bool round_x = bodies.domain.periodic[0] && cells_[0] > 1, round_y = bodies.domain.periodic[1] && cells_[1] > 1;
@@ -112,6 +115,23 @@ void ClosePairs::add_close(const Bodies& bodies, std::size_t a, std::size_t begi
     const double reach = sigma + margin_;
     close_[pairs_] = {std::min(mine.disk, other.disk), std::max(mine.disk, other.disk), sigma * sigma};
     pairs_ += bodies.squared_distance(mine.r, other.r) <= reach * reach ? 1U : 0U;
+  }
+}
+
+/// Counting sort of the list by one disk of a pair and by the other.
+void ClosePairs::list_both_ways() {
+  near_is_made_ = true;
+  first_near_.assign(cell_.size() + 1, 0U);
+  near_.resize(2 * pairs_);
+  for (std::size_t p = 0; p < pairs_; ++p) {
+    ++first_near_[close_[p].i];
+    ++first_near_[close_[p].j];
+  }
+  std::uint32_t end = 0;
+  for (std::uint32_t& first : first_near_) first = end += first;
+  for (std::size_t p = 0; p < pairs_; ++p) {
+    near_[--first_near_[close_[p].i]] = {close_[p].j, close_[p].sigma_squared};
+    near_[--first_near_[close_[p].j]] = {close_[p].i, close_[p].sigma_squared};
   }
 }
 

@@ -13,8 +13,6 @@
 #include "stepper/tally.hpp"
 #include "stepper/turn_at_wall.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace carom {
@@ -27,7 +25,7 @@ class AllPairs {
   /// Returns the number of disk pairs that a step examines.
   [[nodiscard]] static double work(double disks) { return disks * disks / 2; }
 
-  void moved(const Bodies& /*bodies*/, double /*farthest*/) {}
+  void moved(const Bodies& /*bodies*/) {}
   [[nodiscard]] static std::size_t bytes() { return 0; }
 
   /// Calls contact(i, j, r_i - r_j) for i < j closer than the sum of their radii, in the order of i, then of j. Requires that
@@ -52,12 +50,8 @@ class GuardedStep {
   [[nodiscard]] static double work(double disks) { return Pairs::work(disks); }
 
   void advance(Bodies& bodies) {
-    double fastest = 0.0;
-    for (std::size_t i = 0; i < bodies.count(); ++i) {
-      bodies.move(i, bodies.v[i], dt_);
-      fastest = std::max(fastest, bodies.v[i].squaredNorm());
-    }
-    pairs_.moved(bodies, std::sqrt(fastest) * dt_);
+    move_on(bodies, dt_);
+    pairs_.moved(bodies);
   }
 
   void check(Bodies& bodies, Tally& tally) {
@@ -71,8 +65,10 @@ class GuardedStep {
     });
   }
 
-  /// Returns the velocity with which disk i leaves the last step.
-  [[nodiscard]] static const Vec2<double>& flight(const Bodies& bodies, std::size_t i) { return bodies.v[i]; }
+  /// Moves disks from the last step to a time before the next one.
+  static void move_on(Bodies& bodies, double time) {
+    for (std::size_t i = 0; i < bodies.count(); ++i) bodies.move(i, bodies.v[i], time);
+  }
   [[nodiscard]] std::size_t bytes() const { return pairs_.bytes(); }
 
   template <class Archive>

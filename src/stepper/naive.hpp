@@ -31,9 +31,7 @@ class NaiveStep {
   [[nodiscard]] static double work(double disks) { return disks * disks; }
 
   /// Moves the disks from the last step to this one, as step 4 of the last one decided.
-  void advance(Bodies& bodies) const {
-    for (std::size_t i = 0; i < bodies.count(); ++i) bodies.move(i, flight_[i], dt_);
-  }
+  void advance(Bodies& bodies) const { move_on(bodies, dt_); }
 
   void check(Bodies& bodies, Tally& tally) {
     place_ = bodies.r;
@@ -51,8 +49,11 @@ class NaiveStep {
     }
   }
 
-  /// Returns the velocity with which disk i leaves the last step; a disk later in the order may since have given it another one.
-  [[nodiscard]] const Vec2<double>& flight(const Bodies& /*bodies*/, std::size_t i) const { return flight_[i]; }
+  /// Moves disks from the last step to a time before the next one, each by the velocity with which it left the last step; a disk
+  /// later in the order may since have given it another one.
+  void move_on(Bodies& bodies, double time) const {
+    for (std::size_t i = 0; i < bodies.count(); ++i) bodies.move(i, flight_[i], time);
+  }
   [[nodiscard]] std::size_t bytes() const { return (flight_.capacity() + place_.capacity()) * sizeof(Vec2<double>); }
 
   template <class Archive>

@@ -3,8 +3,8 @@
 // check does (naive.hpp, guarded.hpp); this file keeps the clock and answers the same questions as an engine, so that every
 // scene, sample and file works as there.
 //
-// Step k happens at k dt, the product taken exactly. Between steps disks fly straight, so a state at any time is that of the last
-// step, moved on; looking at it changes nothing.
+// Step k happens at k dt, the product taken exactly. A state between two steps is that of the last one, moved on as the method
+// moves: in straight flight, or by a shorter step where it finds contacts within steps. Looking at it changes nothing.
 
 #include "core/instant.hpp"
 #include "stepper/bodies.hpp"
@@ -72,9 +72,9 @@ class Stepper {
     const auto disks = static_cast<Eigen::Index>(seen.count());
     state.positions.resize(2, disks);
     state.velocities.resize(2, disks);
+    if (since_step != 0.0) step_.move_on(seen, since_step);
     for (Eigen::Index column = 0; column < disks; ++column) {
       const auto i = static_cast<std::size_t>(column);
-      if (since_step != 0.0) seen.move(i, step_.flight(bodies_, i), since_step);
       state.positions.col(column) = seen.r[i];
       state.velocities.col(column) = seen.v[i];
     }
@@ -91,7 +91,7 @@ class Stepper {
     if (steps_ > 0 && since_step == 0.0) {
       steps_ = 1;
     } else {
-      for (std::size_t i = 0; i < bodies_.count(); ++i) bodies_.move(i, step_.flight(bodies_, i), since_step);
+      step_.move_on(bodies_, since_step);
       step_ = Step(bodies_, dt_);
       steps_ = 0;
     }
@@ -124,7 +124,7 @@ class Stepper {
   void take_step(const Instant& when) {
     if (steps_ > 0) step_.advance(bodies_);
     now_ = when;
-    tally_.time = when.high;
+    tally_.time = when;
     step_.check(bodies_, tally_);
     if (!bodies_.finite()) fault_ = "a position or velocity is not finite";
     ++steps_;

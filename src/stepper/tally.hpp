@@ -2,6 +2,7 @@
 // The counts and the log of a step: the same totals and event log as those of engines, for what the method did, whether or not it
 // should have.
 
+#include "core/instant.hpp"
 #include "core/running_totals.hpp"
 #include "core/vec2.hpp"
 
@@ -22,7 +23,7 @@ class Tally {
     totals.virial.add(virial);
     if (!recording) return;
     const bool in_order = i < j;
-    log.push_back({time, 0.0, static_cast<std::int32_t>(in_order ? i : j), static_cast<std::int32_t>(in_order ? j : i),
+    log.push_back({time.high, time.low, static_cast<std::int32_t>(in_order ? i : j), static_cast<std::int32_t>(in_order ? j : i),
                    in_order ? v_i : v_j, in_order ? v_j : v_i});
   }
 
@@ -30,12 +31,12 @@ class Tally {
   void wall(std::size_t i, Wall which, double impulse, const Vec2<double>& v) {
     ++totals.wall;
     totals.wall_impulse[static_cast<std::size_t>(-1 - which)].add(impulse);
-    if (recording) log.push_back({time, 0.0, static_cast<std::int32_t>(i), which, v, Eigen::Vector2d::Zero()});
+    if (recording) log.push_back({time.high, time.low, static_cast<std::int32_t>(i), which, v, Eigen::Vector2d::Zero()});
   }
 
   RunningTotals totals;
   bool recording = false;
-  double time = 0.0;  ///< of the present step
+  Instant time;  ///< of the present step, or of the contact where the method finds it
   std::vector<Event> log;
 };
 

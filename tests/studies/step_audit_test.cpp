@@ -262,6 +262,12 @@ TEST_P(PhysicsIsolatedPair, NaiveStepsMissOnlyWhatIsNeverInContactAtAStep) {
   expect_depth(outcome, theory::mean_depth(GetParam()));  // what it sends back while parting is not among the found
 }
 
+TEST_P(PhysicsIsolatedPair, BacktrackStepsMissOnlyWhatIsNeverInContactAtAStepAndTurnTheRestAtContact) {
+  const Outcome outcome = outcome_of("backtrack");
+  expect_missed(outcome, theory::missed_fraction(GetParam(), theory::Notices::contact));
+  for (const double depth : outcome.depths) ASSERT_LT(depth, 1e-12);
+}
+
 INSTANTIATE_TEST_SUITE_P(Steps, PhysicsIsolatedPair, ::testing::Values(0.1, 0.3, 1.0, 4.0), [](const auto& tested) {
   return "Step" + std::to_string(static_cast<int>(10.0 * tested.param)) + "Tenths";
 });

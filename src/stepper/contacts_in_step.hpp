@@ -1,0 +1,209 @@
+#pragma once
+// What the methods share that find contacts within a step (backtrack.hpp, swept.hpp): the order of events in a step, walls, and
+// the close pairs in which they look. In each step:
+//
+//   1. move all disks by v dt, as if none met another;
+//   2. find the pairs and walls that were met on the way, as Search says, each with its time t, -dt <= t <= 0, from the end of
+//      the step;
+//   3. take the earliest: its disks get their new velocities v' at the separation r + v t of that moment, and stand at the end of
+//      the step where these bring them, r + (v - v') t; look anew for what they meet after t; repeat until nothing is left;
+//   4. record the positions.
+//
+// Separations at contact follow from those at the end of the step, so a disk's position is rounded once per step and once per
+// event. Events at one instant are taken in the order of the disks' ids, so results do not depend on how pairs are found. In step
+// 0, which has no flight before it, pairs that overlap and approach collide where they are, as in guarded.hpp.
+//
+// No step takes more than 100 events per disk; what is left then is taken at the beginning of the next. That many mean a dt in
+// which disks cross the box.
+
+#include "core/vec2.hpp"
+#include "effects/impact.hpp"
+#include "stepper/bodies.hpp"
+#include "stepper/grid.hpp"
+#include "stepper/tally.hpp"
+#include "stepper/turn_at_wall.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+/// A step that finds contacts within itself. Search::meets(bodies, i, j, sigma_squared, span) says cheaply, at the end of the
+/// step, whether a listed pair may have met in it, within a time `span`; Search::entry(r, v, sigma_squared, begin) returns when
+/// it did, from the end of the step, no earlier than `begin`, and a positive number where it did not. Pairs lists what is near.
+template <class Rule, class Search, class Pairs = ClosePairs>
+class ContactStep {
+ public:
+  ContactStep(const Bodies& bodies, double dt) : dt_(dt), pairs_(bodies, dt, Search::least_margin), disks_(bodies.count()) {}
+
+  [[nodiscard]] static double work(double disks) { return Pairs::work(disks); }
+
+  void advance(Bodies& bodies) { advance(bodies, dt_); }
+
+  void check(Bodies& bodies, Tally& tally) {
+    const Instant end = tally.time;
+    find(bodies);
+    for (std::size_t left = 100 * bodies.count(); !meetings_.empty() && left > 0;) {
+      const Meeting next = meetings_.front();
+      std::pop_heap(meetings_.begin(), meetings_.end(), later);
+      meetings_.pop_back();
+      if (!holds(next)) continue;
+      --left;
+      tally.time = end.plus(next.time);
+      if (next.j >= 0)
+        meet_disk(bodies, next, tally);
+      else
+        meet_wall(bodies, next, tally);
+    }
+    meetings_.clear();
+    strays_.clear();
+    for (const std::uint32_t i : turned_) disks_[i].since = never;
+    turned_.clear();
+    tally.time = end;
+  }
+
+  /// Moves disks from the last step to a time before the next one, by a step that is shorter.
+  void move_on(Bodies& bodies, double time) const {
+    ContactStep step = *this;
+    Tally unseen;
+    step.advance(bodies, time);
+    step.check(bodies, unseen);
+  }
+
+  [[nodiscard]] std::size_t bytes() const {
+    return pairs_.bytes() + disks_.capacity() * sizeof(Disk) + meetings_.capacity() * sizeof(Meeting) +
+           (strays_.capacity() + turned_.capacity()) * sizeof(std::uint32_t);
+  }
+
+  /// Between steps there are no meetings, and times since events are not asked for.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(pairs_);
+  }
+
+ private:
+  static constexpr double never = -infinity<double>;
+
+  struct Disk {
+    double since = never;     ///< its last event in this step, from the end of it
+    std::uint32_t turns = 0;  ///< events so far
+  };
+  struct Meeting {
+    double time;  ///< from the end of the step, <= 0
+    std::uint32_t i;
+    std::int32_t j;                  ///< > i; or -1 - (2 axis + above) for a wall
+    std::uint32_t turns_i, turns_j;  ///< of the disks when it was found: after a further event of one of them it is void
+  };
+  static bool later(const Meeting& a, const Meeting& b) {
+    if (a.time != b.time) return a.time > b.time;
+    return a.i != b.i ? a.i > b.i : a.j > b.j;
+  }
+
+  [[nodiscard]] bool holds(const Meeting& m) const {
+    return m.turns_i == disks_[m.i].turns && (m.j < 0 || m.turns_j == disks_[static_cast<std::size_t>(m.j)].turns);
+  }
+
+  void advance(Bodies& bodies, double time) {
+    span_ = time;
+    for (std::size_t i = 0; i < bodies.count(); ++i) bodies.move(i, bodies.v[i], time);
+    pairs_.moved(bodies);
+  }
+
+  void find(const Bodies& bodies) {
+    walled_ = !bodies.domain.periodic[0] || !bodies.domain.periodic[1];
+    pairs_.for_pairs([&](std::uint32_t i, std::uint32_t j, double sigma_squared) { look_closely(bodies, i, j, sigma_squared); });
+    if (!walled_) return;
+    for (std::uint32_t i = 0; i < bodies.count(); ++i) look_at_walls(bodies, i);
+  }
+
+  void add(const Meeting& meeting) {
+    meetings_.push_back(meeting);
+    std::push_heap(meetings_.begin(), meetings_.end(), later);
+  }
+
+  void look_closely(const Bodies& bodies, std::uint32_t i, std::uint32_t j, double sigma_squared) {
+    if (!Search::meets(bodies, i, j, sigma_squared, span_)) return;
+    if (i > j) std::swap(i, j);
+    const double begin = std::max({-span_, disks_[i].since, disks_[j].since});
+    const double time =
+        Search::entry(bodies.separation(bodies.r[i], bodies.r[j]), bodies.v[i] - bodies.v[j], sigma_squared, begin);
+    if (time <= 0.0) add({time, i, static_cast<std::int32_t>(j), disks_[i].turns, disks_[j].turns});
+  }
+
+  void look_at_walls(const Bodies& bodies, std::uint32_t i) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const double across = bodies.v[i][axis];
+      if (bodies.domain.periodic[axis] || across == 0.0) continue;
+      const bool above = across > 0.0;
+      const double room = above ? bodies.domain.upper[axis] - bodies.radius[i] - bodies.r[i][axis]
+                                : bodies.r[i][axis] - (bodies.domain.lower[axis] + bodies.radius[i]);
+      if (!(room < 0.0)) continue;
+      const double time = std::max({room / std::abs(across), -span_, disks_[i].since});
+      add({time, i, -1 - (2 * axis + (above ? 1 : 0)), disks_[i].turns, 0});
+    }
+  }
+
+  void meet_disk(Bodies& bodies, const Meeting& m, Tally& tally) {
+    const auto i = m.i, j = static_cast<std::uint32_t>(m.j);
+    const Vec2<double> v_i = bodies.v[i], v_j = bodies.v[j];
+    const Vec2<double> r = bodies.separation(bodies.r[i], bodies.r[j]) + (v_i - v_j) * m.time;
+    if (r.dot(v_i - v_j) < 0) {
+      const double virial = collide<Rule, double>(r, bodies.mass[i], bodies.v[i], bodies.mass[j], bodies.v[j]).virial;
+      tally.pair(i, j, virial, bodies.v[i], bodies.v[j]);
+      bodies.move(i, v_i - bodies.v[i], m.time);
+      bodies.move(j, v_j - bodies.v[j], m.time);
+    }
+    turned(m.time, i);
+    turned(m.time, j);
+    look_around(bodies, i, j);
+    look_around(bodies, j, i);
+  }
+
+  void meet_wall(Bodies& bodies, const Meeting& m, Tally& tally) {
+    const int wall = -1 - m.j, axis = wall / 2;
+    const Vec2<double> before = bodies.v[m.i];
+    turn_at_wall(bodies, m.i, axis, wall % 2 == 1, tally);
+    bodies.move(m.i, before - bodies.v[m.i], m.time);
+    turned(m.time, m.i);
+    look_around(bodies, m.i, m.i);
+  }
+
+  void turned(double time, std::uint32_t i) {
+    disks_[i].since = time;
+    ++disks_[i].turns;
+    turned_.push_back(i);
+  }
+
+  /// Looks for what disk i meets after its last event, which was with `partner`.
+  void look_around(const Bodies& bodies, std::uint32_t i, std::uint32_t partner) {
+    if (walled_) look_at_walls(bodies, i);
+    const auto look_at = [&](std::uint32_t j) {
+      const double sigma = bodies.radius[i] + bodies.radius[j];
+      if (j != i && j != partner) look_closely(bodies, i, j, sigma * sigma);
+    };
+    if (pairs_.strayed(bodies, i)) {
+      strays_.push_back(i);
+      for (std::uint32_t j = 0; j < bodies.count(); ++j) look_at(j);
+      return;
+    }
+    pairs_.for_near(i, [&](std::uint32_t j, double sigma_squared) {
+      if (j != partner) look_closely(bodies, i, j, sigma_squared);
+    });
+    for (const std::uint32_t j : strays_) look_at(j);
+  }
+
+  double dt_;
+  Pairs pairs_;
+  std::vector<Disk> disks_;
+  double span_ = 0.0;  ///< how long the flight took that is looked at
+  bool walled_ = false;
+  std::vector<Meeting> meetings_;      ///< a heap, the earliest first
+  std::vector<std::uint32_t> strays_;  ///< disks that events of this step have brought out of reach of the list
+  std::vector<std::uint32_t> turned_;  ///< disks that had events in this step
+};
+
+}  // namespace carom
