@@ -70,9 +70,10 @@ ExitCode check(const CheckOptions& options) {
   }
   const std::string start =
       trial ? start_and_engine(scene, trial->simulation())
-            : fmt::format("  start       not drawn: more than {} disks; `carom run` draws them\n", grouped(most_disks_drawn));
+            : fmt::format("  start       not drawn: more than {} disks; `carom run` draws them, in some {:.0f} bytes per disk\n",
+                          grouped(most_disks_drawn), expected_bytes_per_disk(scene.effects));
   fmt::print("{} is a valid scene{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
-  fmt::print("{}{}", describe(scene), start);
+  fmt::print("{}  conserved   {}\n{}", describe(scene), conserved(scene.box, scene.effects), start);
   if (trial) fmt::print("  cost        {}\n", words(trial->run()));
   fmt::print("{}", files(scene));
   if (const std::string missing = absent(scene.effects); !missing.empty()) fmt::print("\nNot simulated: {}.\n", missing);

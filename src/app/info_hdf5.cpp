@@ -112,8 +112,8 @@ std::string described(hid_t file) {
     text += info_line("state hash", hash + ", of the last sample");
   text += info_line("observables", observables_line(file));
   if (samples > 0 && !extents_of(file, "/observables/scale/value").empty())
-    text += info_line("growth", fmt::format("radii {} times those in the file",
-                                            read_rows(file, "/observables/scale/value", samples - 1, 1).at(0)));
+    text += info_line(
+        "radii", fmt::format("{} times those in the file", read_rows(file, "/observables/scale/value", samples - 1, 1).at(0)));
   const std::vector<hsize_t> events = extents_of(file, "/events/time");
   if (!events.empty()) text += info_line("events", fmt::format("{} in /events", counted(events[0], "collision")));
   return text;

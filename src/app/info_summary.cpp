@@ -2,11 +2,15 @@
 
 #include "app/info_parts.hpp"
 #include "io/output_error.hpp"
+#include "scene/effect_traits.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
+#include <string_view>
 
 namespace carom::detail {
 
@@ -27,6 +31,16 @@ std::string wall_pressures(const Json& walls) {
   return text;
 }
 
+/// Returns all numbers of a section with their keys: "strain 2.5, pressure_xy.flight -0.25".
+std::string numbers_of(const Json& section, const std::string& prefix = "") {
+  std::string text;
+  for (const auto& [key, value] : section.items())
+    text += fmt::format(
+        "{}{}", text.empty() ? "" : ", ",
+        value.is_object() ? numbers_of(value, prefix + key + ".") : fmt::format("{}{} {}", prefix, key, text_of(value)));
+  return text;
+}
+
 /// Returns one line for each effect that has a result.
 std::string lines_of_effects(const Json& json) {
   std::string text;
@@ -40,26 +54,17 @@ std::string lines_of_effects(const Json& json) {
     if (!pressures.empty()) text += info_line("pressure on", pressures);
   }
   if (json.contains("dissipated")) text += info_line("dissipated", fmt::format("energy {}", text_of(json.at("dissipated"))));
-  if (json.contains("thermostat"))
-    text += info_line("thermostat", fmt::format("{} events, energy {}", text_of(json.at("thermostat").at("events")),
-                                                text_of(json.at("thermostat").at("energy"))));
-  if (json.contains("growth"))
-    text += info_line(
-        "growth", fmt::format("radii {} times those at the start, packing fraction {}", text_of(json.at("growth").at("scale")),
-                              text_of(json.at("growth").at("packing_fraction"))));
-  if (json.contains("shear"))
-    text += info_line("shear", fmt::format("strain {}, viscosity {}", text_of(json.at("shear").at("strain")),
-                                           text_of(json.at("shear").at("viscosity"))));
-  if (json.contains("square_well")) text += info_line("bonds", text_of(json.at("square_well").at("bonds")));
+  for (const EffectTraits& effect : all_effects())
+    if (const std::string name(effect.name); json.contains(name)) text += info_line(name, numbers_of(json.at(name)));
   return text;
 }
 
-/// Returns the numbers of events by kind: "1000 pair, 20 wall".
+/// Returns the numbers of events by kind, without the engine's own: "1000 pair, 20 wall".
 std::string events_line(const Json& events) {
   std::string text = fmt::format("{} pair, {} wall", text_of(events.at("pair")), text_of(events.at("wall")));
-  if (events.contains("obstacle")) text += fmt::format(", {} obstacle", text_of(events.at("obstacle")));
-  if (events.contains("well")) text += fmt::format(", {} at the edge of wells", text_of(events.at("well")));
-  if (events.contains("thermostat")) text += fmt::format(", {} thermostat", text_of(events.at("thermostat")));
+  constexpr std::array<std::string_view, 5> told = {"pair", "wall", "other", "stale", "total"};
+  for (const auto& [kind, count] : events.items())
+    if (std::ranges::find(told, kind) == told.end()) text += fmt::format(", {} {}", text_of(count), kind);
   return text;
 }
 

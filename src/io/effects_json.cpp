@@ -52,8 +52,9 @@ void add_effects(Json& summary, const RunReport& report) {
   visit_sections(effects, [&](const char* section, const auto& part, auto&& numbers) {
     if (!part) return;
     Json& json = summary[section];
-    numbers(*part,
-            [&](const char* key, const auto& value) { json[Json::json_pointer(fmt::format("/{}", key))] = json_of(value); });
+    numbers(*part, [&](const ResultKey& result, const auto& value) {
+      json[Json::json_pointer(fmt::format("/{}", result.key))] = json_of(value);
+    });
   });
 }
 

@@ -5,6 +5,7 @@
 #include "observe/energy.hpp"
 #include "observe/geometry.hpp"
 #include "observe/mechanics.hpp"
+#include "scene/effect_traits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -56,8 +57,9 @@ H5mdObservables::H5mdObservables(hid_t file, const Scene& scene, const Disks& di
     const Box now = box_of(s.box, s.state);
     copy(std::array{now.lower.x(), now.upper.x(), now.lower.y(), now.upper.y()}, row);
   });
-  put(effects_.growth.has_value(), "scale", {}, [](const Sample& s, Row row) { row[0] = s.state.scale; });
-  put(walls_move || effects_.growth, "packing_fraction", {},
+  const bool radii_change = any_present(effects_, &EffectTraits::changes_radii);
+  put(radii_change, "scale", {}, [](const Sample& s, Row row) { row[0] = s.state.scale; });
+  put(walls_move || radii_change, "packing_fraction", {},
       [](const Sample& s, Row row) { row[0] = carom::packing_fraction(s.box, s.disks, s.state); });
   put(effects_.shear.has_value(), "shear_displacement", {},
       [](const Sample& s, Row row) { row[0] = s.state.shear_displacement; });

@@ -19,9 +19,7 @@ namespace {
 Json events_json(const RunReport& report) {
   const Totals& totals = report.totals;
   Json json = {{"pair", totals.pair}, {"wall", totals.wall}, {"other", totals.other}, {"stale", totals.stale}};
-  if (report.of_effects.obstacles) json["obstacle"] = totals.obstacle;
-  if (report.of_effects.bonds) json["well"] = totals.well;
-  if (report.of_effects.thermostat) json["thermostat"] = totals.thermostat;
+  visit_events(report.of_effects, totals, [&](const char* key, const char*, std::uint64_t count) { json[key] = count; });
   json["total"] = detail::all_events(totals);
   return json;
 }

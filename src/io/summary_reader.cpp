@@ -26,16 +26,14 @@ StopReason stop_reason_in(const std::string& word) {
   throw Json::other_error::create(501, fmt::format("no run stops by \"{}\"", word), nullptr);
 }
 
-Totals totals_in(const Json& json) {
+Totals totals_in(const Json& json, const EffectsReport& effects) {
   const Json& events = json.at("events");
   Totals totals;
   totals.pair = events.at("pair").get<std::uint64_t>();
   totals.wall = events.at("wall").get<std::uint64_t>();
   totals.other = events.at("other").get<std::uint64_t>();
   totals.stale = events.at("stale").get<std::uint64_t>();
-  totals.obstacle = count_in(events, "obstacle");
-  totals.well = count_in(events, "well");
-  totals.thermostat = count_in(events, "thermostat");
+  visit_events(effects, totals, [&](const char* key, const char*, std::uint64_t& count) { count = count_in(events, key); });
   totals.virial = finite_in(json.at("virial"));
   const char* const sides[] = {"left", "right", "bottom", "top"};
   for (std::size_t side = 0; side < 4; ++side) totals.wall_impulse[side] = finite_in(json.at("wall_impulse").at(sides[side]));
@@ -86,8 +84,9 @@ EffectsReport effects_in(const Json& json) {
   effects.dissipated = number_in(json, "dissipated");
   visit_sections(effects, [&](const char* section, auto& part, auto&& numbers) {
     if (!json.contains(section)) return;
-    numbers(part.emplace(),
-            [&](const char* key, auto& value) { read(json.at(section).at(Json::json_pointer(fmt::format("/{}", key))), value); });
+    numbers(part.emplace(), [&](const ResultKey& result, auto& value) {
+      read(json.at(section).at(Json::json_pointer(fmt::format("/{}", result.key))), value);
+    });
   });
   return effects;
 }
@@ -144,10 +143,10 @@ RunReport run_report_of(const Json& json) {
   report.time = finite_in(json.at("time"));
   report.state_hash = json.value("state_hash", "");
   report.samples = json.at("samples").get<std::uint64_t>();
-  report.totals = totals_in(json);
+  report.of_effects = effects_in(json);
+  report.totals = totals_in(json, report.of_effects);
   report.wall_seconds = finite_in(json.at("wall_seconds"));
   report.loop_seconds = finite_in(json.at("loop_seconds"));
-  report.of_effects = effects_in(json);
   report.energy_initial = finite_in(json.at("energy").at("initial"));
   report.energy_final = finite_in(json.at("energy").at("final"));
   report.energy_scale = energy_scale_in(report, json.at("energy"));

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include <fmt/format.h>
+
 namespace carom {
 
 namespace {
@@ -30,14 +32,14 @@ WallReport wall_report(const Scene& scene, const Totals& totals, const State& en
   return wall;
 }
 
-/// Without collisions that take energy, drag alone has brought it to exp(-2 rate t) of what it was.
+/// Returns the energy that drag has taken, where collisions take none: it has left exp(-2 rate t) of the kinetic energy.
 double energy_lost_to_drag(double rate, const Disks& disks, const State& end) {
   return kinetic_energy(disks, end) * std::expm1(2.0 * rate * end.time);
 }
 
 std::optional<double> energy_supplied(const Effects& effects, const Disks& disks, const Totals& totals, const State& end) {
-  const auto gives = [&](const detail::EffectTraits& effect) { return !effect.keeps_energy && effect.is_present(effects); };
-  if (std::ranges::none_of(detail::all_effects(), gives) || gives_untold(effects)) return std::nullopt;
+  const auto gives = [&](const detail::EffectTraits& effect) { return !effect.conserves_energy && effect.is_present(effects); };
+  if (std::ranges::none_of(detail::all_effects(), gives) || exchanges_uncounted_energy(effects)) return std::nullopt;
   double given = totals.thermostat_energy + totals.growth_energy + totals.shear_energy - totals.dissipated;
   for (std::size_t side = 0; side < 4; ++side)
     if (!effects.walls[side].mass) given -= totals.wall_energy[side];
@@ -55,7 +57,7 @@ ShearReport shear_report(const Scene& scene, const Totals& totals, const State& 
 
 }  // namespace
 
-bool gives_untold(const Effects& effects) {
+bool exchanges_uncounted_energy(const Effects& effects) {
   const bool growing = effects.growth_rate() > 0.0;
   const auto takes_or_heats = [](const WallProperties& wall) {
     return wall.mass && (wall.restitution.value_or(1.0) != 1.0 || wall.temperature);
@@ -82,6 +84,36 @@ EffectsReport effects_report(const Scene& scene, const Disks& disks, const Total
   if (effects.square_well) report.bonds = end.bonds;
   report.energy_supplied = energy_supplied(effects, disks, totals, end);
   return report;
+}
+
+std::string unit_of_result(std::string_view name) {
+  std::string unit;
+  EffectsReport every;
+  visit_sections(every, [&](const char* section, auto& part, auto&& numbers) {
+    numbers(part.emplace(), [&](const ResultKey& result, const auto& /*value*/) {
+      std::string full = fmt::format("{}.{}", section, result.key);
+      std::ranges::replace(full, '/', '.');
+      if (name == full || name.starts_with(full + ".")) unit = result.unit;
+    });
+  });
+  return unit;
+}
+
+void EffectMeans::sample(const Scene& scene, const Disks& disks, const State& state) {
+  if (scene.effects.collision.roughness) spin_temperature_sum_ += spin_temperature(disks, state);
+  if (scene.effects.shear) momentum_flow_sum_ += momentum_flow_xy(scene.box, scene.effects, disks, state);
+  ++samples_;
+}
+
+void EffectMeans::add_to(EffectsReport& report, const Scene& scene, const Disks& disks, const State& end) const {
+  const auto samples = static_cast<double>(samples_);
+  if (scene.effects.collision.roughness)
+    report.spin_temperature = samples_ > 0 ? spin_temperature_sum_ / samples : spin_temperature(disks, end);
+  if (!report.shear || samples_ == 0) return;
+  report.shear->pressure_xy_of_flight = momentum_flow_sum_ / samples / scene.box.area();
+  const double rate = scene.effects.shear->rate;
+  if (report.shear->pressure_xy_of_collisions && rate != 0.0)
+    report.shear->viscosity = -(*report.shear->pressure_xy_of_collisions + *report.shear->pressure_xy_of_flight) / rate;
 }
 
 }  // namespace carom

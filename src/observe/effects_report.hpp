@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace carom {
@@ -58,40 +59,84 @@ struct EffectsReport {
   std::optional<std::uint64_t> bonds;  ///< number of bonds at the end
 
   /// Energy supplied to disks and pistons, less that lost. Empty where no effect supplies or removes energy, and where
-  /// gives_untold().
+  /// exchanges_uncounted_energy().
   std::optional<double> energy_supplied;
 };
 
+/// A number in a section of summary.json, and how tables for people show it.
+struct ResultKey {
+  const char* key;            ///< in summary.json; a slash leads into a table
+  const char* unit = "";      ///< unit of the number; "energy" is energy that disks gained
+  const char* quantity = "";  ///< name in tables for people; empty where they leave the number out
+  const char* remark = "";    ///< what stands beside the number there
+};
+
 /// Calls visit(section, part, numbers) for each part that is a section of summary.json of its own; numbers(*part, put) calls
-/// put(key, number) for all that it holds. A slash in a key leads into a table.
+/// put(ResultKey, number) for all that it holds. Writers, readers, tables and units of sweeps all follow these rows.
 template <class Report, class Visit>
 void visit_sections(Report& report, Visit&& visit) {
-  visit("obstacles", report.obstacles, [](auto& momentum, auto&& put) { put("momentum", momentum); });
+  visit("obstacles", report.obstacles, [](auto& momentum, auto&& put) {
+    put({"momentum", "mass length / time", "obstacle momentum", "transferred by disks"}, momentum);
+  });
   visit("thermostat", report.thermostat, [](auto& part, auto&& put) {
-    put("events", part.events);
-    put("energy", part.energy);
+    put({"events"}, part.events);
+    put({"energy", "energy", "thermostat"}, part.energy);
   });
   visit("growth", report.growth, [](auto& part, auto&& put) {
-    put("scale", part.scale);
-    put("packing_fraction", part.packing_fraction);
-    put("energy", part.energy);
+    put({"scale", "", "radii", "times those at the start"}, part.scale);
+    put({"packing_fraction", "", "packing fraction", "at the end"}, part.packing_fraction);
+    put({"energy", "energy", "growth"}, part.energy);
   });
   visit("shear", report.shear, [](auto& part, auto&& put) {
-    put("strain", part.strain);
-    put("energy", part.energy);
-    put("pressure_xy/collisions", part.pressure_xy_of_collisions);
-    put("pressure_xy/flight", part.pressure_xy_of_flight);
-    put("viscosity", part.viscosity);
+    put({"strain", "", "strain", "rate times time"}, part.strain);
+    put({"energy", "energy", "shear"}, part.energy);
+    put({"pressure_xy/collisions", "energy / area"}, part.pressure_xy_of_collisions);
+    put({"pressure_xy/flight", "energy / area"}, part.pressure_xy_of_flight);
+    put({"viscosity", "mass / time", "viscosity", "-P_xy / rate, mean over the run"}, part.viscosity);
   });
-  visit("square_well", report.bonds, [](auto& bonds, auto&& put) { put("bonds", bonds); });
+  visit("square_well", report.bonds, [](auto& bonds, auto&& put) {
+    put({"bonds", "", "bonds", "pairs within each other's well at the end"}, bonds);
+  });
 }
 
-/// Returns whether energy comes or goes that is not counted: a piston that is inelastic or thermal does not separate the energy
-/// that it received from that which was lost, and disks that spin and grow gain moment of inertia in flight.
-[[nodiscard]] bool gives_untold(const Effects& effects);
+/// Calls visit(key, quantity, count) for each kind of event that only an effect of this report has: its key in `events` of
+/// summary.json, its name in tables for people (empty where they leave it out), and its count.
+template <class AnyCounts, class Visit>
+void visit_events(const EffectsReport& report, AnyCounts& counts, Visit&& visit) {
+  if (report.obstacles) visit("obstacle", "obstacle hits", counts.obstacle);
+  if (report.bonds) visit("well", "", counts.well);
+  if (report.thermostat) visit("thermostat", "thermostat events", counts.thermostat);
+}
 
-/// Returns the report from the totals of a run and its last state. Results that need samples (spin_temperature,
-/// pressure_xy_of_flight, viscosity) are left empty.
+/// Returns the unit of a number of a section, "growth.energy" or "obstacles.momentum.x"; empty for a pure number and for a name
+/// of no section.
+[[nodiscard]] std::string unit_of_result(std::string_view name);
+
+/// Returns whether energy is exchanged that no total counts. A piston that is inelastic or thermal does not separate the energy
+/// that it received from that which was lost, disks that spin and grow gain moment of inertia in flight, and losses in collisions
+/// reduce what drag takes later.
+[[nodiscard]] bool exchanges_uncounted_energy(const Effects& effects);
+
+/// Returns the report from the totals of a run and its last state. Results that need samples are those of EffectMeans.
 [[nodiscard]] EffectsReport effects_report(const Scene& scene, const Disks& disks, const Totals& totals, const State& end);
+
+/// Means over the samples of a run: spin_temperature, pressure_xy_of_flight and viscosity.
+class EffectMeans {
+ public:
+  void sample(const Scene& scene, const Disks& disks, const State& state);
+
+  /// Adds the means to the report of the run. Without samples the spin temperature is that of the last state.
+  void add_to(EffectsReport& report, const Scene& scene, const Disks& disks, const State& end) const;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(spin_temperature_sum_, momentum_flow_sum_, samples_);
+  }
+
+ private:
+  double spin_temperature_sum_ = 0.0;
+  double momentum_flow_sum_ = 0.0;  ///< of m u_x u_y, u relative to the flow
+  std::uint64_t samples_ = 0;
+};
 
 }  // namespace carom

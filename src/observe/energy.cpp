@@ -2,6 +2,7 @@
 
 #include "observe/any_wall.hpp"
 #include "observe/mechanics.hpp"
+#include "scene/effect_traits.hpp"
 
 #include <algorithm>
 
@@ -82,7 +83,7 @@ bool has_pistons(const Effects& effects) {
   return any_wall(effects, [](const WallProperties& wall) { return wall.mass.has_value(); });
 }
 
-bool has_potential(const Effects& effects) { return effects.gravity || effects.square_well || has_pistons(effects); }
+bool has_potential(const Effects& effects) { return detail::any_present(effects, &detail::EffectTraits::has_potential_energy); }
 
 bool has_more_than_kinetic_energy(const Effects& effects) { return effects.collision.roughness || has_potential(effects); }
 

@@ -11,6 +11,7 @@
 #include "observe/observables.hpp"
 #include "observe/sampled_disks.hpp"
 #include "observe/saved_observable.hpp"
+#include "scene/effect_traits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -133,12 +134,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public RecordFollow
 
   /// A path is speed times time where nothing but collisions changes the speed.
   static std::string why_no_path(const Effects& effects) {
-    if (!effects.acceleration().isZero(0.0)) return "paths are parabolas under gravity";
-    if (effects.square_well && effects.square_well->depth != 0.0) return "speeds change at the edges of wells";
-    const bool still = std::all_of(effects.walls.begin(), effects.walls.end(), [](const WallProperties& wall) {
-      return !wall.temperature && !wall.mass && wall.velocity.value_or(0.0) == 0.0 && wall.restitution.value_or(1.0) == 1.0;
-    });
-    return still ? "" : "walls change speeds between two collisions";
+    return std::string(detail::first_reason(effects, &detail::EffectTraits::why_no_path));
   }
   static double scale(const ObservedRun& run) { return run.mean_free_time > 0.0 ? run.mean_free_time : run.step_of(1.0); }
   static double speed(const ObservedRun& run) {

@@ -40,8 +40,7 @@ void RunMeasurements::sample(const State& state) {
   const double temperature = kinetic_temperature(scene.box, scene.effects, disks, state);
   temperature_sum_ += temperature;
   look_at_heat(state.time, temperature);
-  if (scene.effects.collision.roughness) spin_temperature_sum_ += spin_temperature(disks, state);
-  if (scene.effects.shear) momentum_flow_sum_ += momentum_flow_xy(scene.box, scene.effects, disks, state);
+  effect_means_.sample(scene, disks, state);
   ++samples_;
   look_for_overlap(state);
 }
@@ -82,20 +81,6 @@ void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
   }
 }
 
-void RunMeasurements::finish_samples(const State& end) {
-  const Scene& scene = simulation_.scene();
-  const double samples = static_cast<double>(samples_);
-  EffectsReport& of_effects = report_.of_effects;
-  if (scene.effects.collision.roughness)
-    of_effects.spin_temperature = samples_ > 0 ? spin_temperature_sum_ / samples : spin_temperature(simulation_.disks(), end);
-  if (!of_effects.shear || samples_ == 0) return;
-  ShearReport& shear = *of_effects.shear;
-  shear.pressure_xy_of_flight = momentum_flow_sum_ / samples / scene.box.area();
-  const double rate = scene.effects.shear->rate;
-  if (shear.pressure_xy_of_collisions && rate != 0.0)
-    shear.viscosity = -(*shear.pressure_xy_of_collisions + *shear.pressure_xy_of_flight) / rate;
-}
-
 RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) {
   const Scene& scene = simulation_.scene();
   const Disks& disks = simulation_.disks();
@@ -119,7 +104,7 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   report_.faults = result.faults;
   report_.of_effects = effects_report(scene, disks, report_.totals, state);
   if (!result.measured) report_.of_effects.energy_supplied.reset();  // totals began before the initial energy did
-  finish_samples(state);
+  effect_means_.add_to(report_.of_effects, scene, disks, state);
   measure_Z(result, temperature);
   return report_;
 }

@@ -25,14 +25,13 @@ class RunMeasurements {
   void serialize(Archive& archive) {
     archive(report_.energy_initial, report_.energy_scale, report_.momentum_initial, report_.max_relative_overlap,
             report_.overlap_checked, report_.overlap_at_start, virial_, virial_over_heat_, heat_, seen_temperature_, seen_time_,
-            temperature_sum_, spin_temperature_sum_, momentum_flow_sum_, samples_);
+            temperature_sum_, effect_means_, samples_);
   }
 
  private:
   void look_for_overlap(const State& state);
   void look_at_heat(double time, double temperature);
   void measure_Z(const RunResult& result, double temperature);
-  void finish_samples(const State& end);
 
   const Simulation& simulation_;
   RunReport report_;
@@ -41,8 +40,7 @@ class RunMeasurements {
   double heat_ = 0.0;             ///< integral of 2 N kT up to the last sample, which was at seen_time_
   double seen_temperature_ = 0.0, seen_time_ = 0.0;
   double temperature_sum_ = 0.0;
-  double spin_temperature_sum_ = 0.0;
-  double momentum_flow_sum_ = 0.0;  ///< of m u_x u_y, u relative to the flow
+  EffectMeans effect_means_;
   std::uint64_t samples_ = 0;
 };
 

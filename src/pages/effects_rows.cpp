@@ -7,6 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 namespace carom {
@@ -38,17 +41,20 @@ void put_walls(SummaryRows& rows, const RunReport& report, const Scene& scene) {
       if (wall.name == names[side] && scene.effects.walls[side].present()) rows.push_back(row_of_wall(wall));
 }
 
-void put_shear(SummaryRows& rows, const ShearReport& shear) {
-  rows.push_back({"strain", digits(shear.strain), gain(shear.energy)});
-  if (shear.viscosity) rows.push_back({"viscosity", digits(*shear.viscosity), "-P_xy / rate, mean over the run"});
+std::string words(std::uint64_t count, const char* /*unit*/) { return grouped(count); }
+std::string words(double value, const char* unit) { return std::string_view(unit) == "energy" ? gain(value) : digits(value); }
+std::string words(const std::optional<double>& value, const char* /*unit*/) { return value ? digits(*value) : ""; }
+std::string words(const Eigen::Vector2d& value, const char* /*unit*/) {
+  return fmt::format("({:.5g}, {:.5g})", value.x(), value.y());
 }
 
 }  // namespace
 
 SummaryRows rows_of_events(const RunReport& report) {
   SummaryRows rows;
-  if (report.of_effects.obstacles) rows.push_back({"obstacle hits", grouped(report.totals.obstacle)});
-  if (report.of_effects.thermostat) rows.push_back({"thermostat events", grouped(report.totals.thermostat)});
+  visit_events(report.of_effects, report.totals, [&](const char*, const std::string& quantity, std::uint64_t count) {
+    if (!quantity.empty()) rows.push_back({quantity, grouped(count)});
+  });
   return rows;
 }
 
@@ -74,16 +80,13 @@ SummaryRows rows_of_effects(const RunReport& report, const Scene* scene) {
   if (effects.dissipated) put("dissipated", digits(*effects.dissipated), "energy lost in collisions of disks");
   if (scene != nullptr) put_walls(rows, report, *scene);
   if (effects.packing_fraction_end) put("packing fraction", digits(*effects.packing_fraction_end), "at the end");
-  if (effects.obstacles)
-    put("obstacle momentum", fmt::format("({:.5g}, {:.5g})", effects.obstacles->x(), effects.obstacles->y()),
-        "transferred by disks");
-  if (effects.thermostat) put("thermostat", gain(effects.thermostat->energy));
-  if (effects.growth)
-    put("packing fraction", digits(effects.growth->packing_fraction),
-        fmt::format("at the end; radii {:.5g} times those at the start; growth {}", effects.growth->scale,
-                    gain(effects.growth->energy)));
-  if (effects.shear) put_shear(rows, *effects.shear);
-  if (effects.bonds) put("bonds", grouped(*effects.bonds), "pairs within each other's well at the end");
+  visit_sections(effects, [&](const char*, const auto& part, auto&& numbers) {
+    if (!part) return;
+    numbers(*part, [&](const ResultKey& result, const auto& value) {
+      const std::string quantity = result.quantity, text = words(value, result.unit);
+      if (!quantity.empty() && !text.empty()) rows.push_back({quantity, text, result.remark});
+    });
+  });
   return rows;
 }
 

@@ -80,4 +80,20 @@ std::string absent(const Effects& effects) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+std::string conserved(const Box& box, const Effects& effects) {
+  using detail::EffectTraits;
+  const auto all_conserve = [&](bool EffectTraits::*trait) {
+    return std::ranges::none_of(detail::all_effects(),
+                                [&](const EffectTraits& effect) { return !(effect.*trait) && effect.acts(effects); });
+  };
+  const bool driven = detail::any_acting(effects, &EffectTraits::changes_velocities_in_flight);
+  const bool x = !driven && keeps_momentum(box, effects, 0), y = !driven && keeps_momentum(box, effects, 1);
+  std::vector<std::string_view> names;
+  if (all_conserve(&EffectTraits::conserves_energy)) names.emplace_back("energy");
+  if (x || y) names.emplace_back(x && y ? "momentum" : x ? "momentum along x" : "momentum along y");
+  if (effects.collision.rule == CollisionRule::specular && all_conserve(&EffectTraits::conserves_angular_momentum))
+    names.emplace_back("angular momentum away from the edges of the box");
+  return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
+}
+
 }  // namespace carom

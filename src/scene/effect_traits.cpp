@@ -8,27 +8,30 @@
 namespace carom::detail {
 namespace {
 
-/// Of an effect that is a table of its own: whether the scene has it.
+/// Returns whether the scene has a table.
 template <auto Table>
 bool has(const Effects& effects) {
   return (effects.*Table).has_value();
 }
 
-/// The same at another value than 0 of the number that is 0 where the effect is neutral.
+/// Returns whether the scene has a table whose number is not 0, where 0 is neutral.
 template <auto Table, auto Member>
 bool has_other_than_zero(const Effects& effects) {
   return has<Table>(effects) && (*(effects.*Table)).*Member != 0.0;
 }
 
 template <auto Table, auto Member>
-EffectNumber number(const NumberKey& key, std::string_view unit) {
-  return {&key, [](const Effects& effects) { return (*(effects.*Table)).*Member; },
+EffectNumber number(const NumberKey& key, std::string_view unit, double neutral, double mild) {
+  return {&key,
+          [](const Effects& effects) { return (*(effects.*Table)).*Member; },
           [](Effects& effects, double value) {
             auto& table = effects.*Table;
             if (!table) table.emplace();
             (*table).*Member = value;
           },
-          unit};
+          unit,
+          neutral,
+          mild};
 }
 
 template <auto Member>
@@ -53,7 +56,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "inelastic collisions",
        .is_present = [](const Effects& e) { return e.collision.restitution.has_value(); },
        .acts = [](const Effects& e) { return e.collision.restitution.value_or(1.0) != 1.0; },
-       .keeps_energy = false,
+       .conserves_energy = false,
        .why_no_Z = "collisions take energy away",
        .why_no_transport = "restitution takes energy; remove it"},
       {.name = "roughness",
@@ -61,61 +64,75 @@ std::vector<EffectTraits> make_table() {
        .absence = "rough disks with spin",
        .is_present = [](const Effects& e) { return e.collision.roughness.has_value(); },
        .acts = [](const Effects& e) { return e.collision.roughness.value_or(-1.0) != -1.0; },
-       .keeps_energy = false,
+       .conserves_energy = false,
        .lets_temperature_fluctuate = true,
+       .bytes_per_disk = 8,
        .why_no_transport = "rough disks carry momentum and heat in their spin; remove roughness"},
       {.name = "elastic_below",
        .title = "elastic_below",
        .is_present = [](const Effects& e) { return e.collision.elastic_below.has_value(); },
-       .acts = [](const Effects& e) { return e.dissipate() && e.collision.elastic_below.value_or(0.0) > 0.0; }},
+       .acts = [](const Effects& e) { return e.dissipate() && e.collision.elastic_below.value_or(0.0) > 0.0; },
+       .bytes_per_disk = 8},
       {.name = "gravity",
        .title = "[gravity]",
        .absence = "gravity",
        .is_present = has<&Effects::gravity>,
        .acts = [](const Effects& e) { return !e.acceleration().isZero(0.0); },
        .other_keys = {"acceleration"},
+       .unit_of_other_keys = "length / time^2",
        .words =
            [](const Effects& e) {
              return fmt::format("acceleration ({:.6g}, {:.6g})", e.acceleration().x(), e.acceleration().y());
            },
+       .conserves_angular_momentum = false,
+       .has_potential_energy = true,
        .bends_paths = true,
-       .why_no_Z = "pressure and density change with height"},
+       .bytes_per_disk = 16,
+       .why_no_Z = "pressure and density change with height",
+       .why_no_path = "paths are parabolas under gravity"},
       {.name = "inelastic_walls",
        .title = "an inelastic wall",
        .absence = special_walls,
        .is_present = has_wall<&WallProperties::restitution>,
        .acts = [](const Effects& e) { return has_wall_other_than<&WallProperties::restitution>(e, 1.0); },
-       .keeps_energy = false,
-       .why_no_Z = "walls take energy away"},
+       .conserves_energy = false,
+       .why_no_Z = "walls take energy away",
+       .why_no_path = "walls change speeds between two collisions"},
       {.name = "thermal_walls",
        .title = "a thermal wall",
        .absence = special_walls,
        .is_present = has_wall<&WallProperties::temperature>,
        .acts = has_wall<&WallProperties::temperature>,
-       .keeps_energy = false,
-       .keeps_momentum = false,
+       .conserves_energy = false,
+       .conserves_momentum = false,
        .lets_temperature_fluctuate = true,
-       .draws_random_numbers = true},
+       .draws_random_numbers = true,
+       .why_no_path = "walls change speeds between two collisions"},
       {.name = "moving_walls",
        .title = "a moving wall",
        .absence = special_walls,
        .is_present = has_wall<&WallProperties::velocity>,
        .acts = [](const Effects& e) { return has_wall_other_than<&WallProperties::velocity>(e, 0.0); },
-       .keeps_energy = false,
-       .why_no_Z = "the area changes"},
+       .conserves_energy = false,
+       .why_no_Z = "the area changes",
+       .why_no_path = "walls change speeds between two collisions"},
       {.name = "pistons",
        .title = "a piston",
        .absence = special_walls,
        .is_present = has_wall<&WallProperties::mass>,
        .acts = has_wall<&WallProperties::mass>,
-       .why_no_Z = "the area changes"},
+       .has_potential_energy = true,
+       .why_no_Z = "the area changes",
+       .why_no_path = "walls change speeds between two collisions"},
       {.name = "obstacles",
        .title = "[[obstacles]]",
        .absence = "obstacles",
        .is_present = [](const Effects& e) { return !e.obstacles.empty(); },
        .acts = [](const Effects& e) { return !e.obstacles.empty(); },
        .other_keys = {"disk", "segment"},
-       .keeps_momentum = false,
+       .unit_of_other_keys = "length",
+       .conserves_momentum = false,
+       .conserves_angular_momentum = false,
        .why_no_Z = "obstacles carry pressure and take up area",
        .why_no_transport = "obstacles take momentum; remove [[obstacles]]"},
       {.name = "growth",
@@ -123,7 +140,7 @@ std::vector<EffectTraits> make_table() {
        .absence = "growing disks",
        .is_present = has<&Effects::growth>,
        .acts = has_other_than_zero<&Effects::growth, &Growth::rate>,
-       .numbers = {number<&Effects::growth, &Growth::rate>(keys::growth_rate, "1 / time")},
+       .numbers = {number<&Effects::growth, &Growth::rate>(keys::growth_rate, "1 / time", 0.0, 1e-4)},
        .other_keys = {"until"},
        .words =
            [](const Effects& e) {
@@ -132,8 +149,11 @@ std::vector<EffectTraits> make_table() {
              if (e.growth->reduced_pressure) text += fmt::format(", until reduced pressure {:.6g}", *e.growth->reduced_pressure);
              return text;
            },
-       .keeps_energy = false,
+       .conserves_energy = false,
+       .conserves_angular_momentum = false,
+       .changes_radii = true,
        .changes_velocities_in_flight = true,
+       .bytes_per_disk = 20,
        .why_not_equilibrate =
            "grow the disks in a run of their own, and equilibrate in one that starts from what they have grown to",
        .why_no_Z = "disks grow",
@@ -143,30 +163,33 @@ std::vector<EffectTraits> make_table() {
        .absence = "a thermostat",
        .is_present = has<&Effects::thermostat>,
        .acts = has_other_than_zero<&Effects::thermostat, &Thermostat::rate>,
-       .numbers = {number<&Effects::thermostat, &Thermostat::temperature>(keys::bath_temperature, "energy"),
-                   number<&Effects::thermostat, &Thermostat::rate>(keys::bath_rate, "1 / time")},
+       .numbers = {number<&Effects::thermostat, &Thermostat::temperature>(keys::bath_temperature, "energy", 1.0, 1.0),
+                   number<&Effects::thermostat, &Thermostat::rate>(keys::bath_rate, "1 / time", 0.0, 0.1)},
        .words =
            [](const Effects& e) {
              return fmt::format("each velocity is redrawn from the Maxwell distribution at kT = {:.6g}, at rate {:.6g}",
                                 e.thermostat->temperature, e.thermostat->rate);
            },
-       .keeps_energy = false,
-       .keeps_momentum = false,
+       .conserves_energy = false,
+       .conserves_momentum = false,
+       .conserves_angular_momentum = false,
        .lets_temperature_fluctuate = true,
        .changes_velocities_in_flight = true,
        .draws_random_numbers = true,
+       .bytes_per_disk = 20,
        .why_no_replay = "the thermostat changes velocities between collisions, which the event log does not hold"},
       {.name = "shear",
        .title = "[shear]",
        .absence = "shear",
        .is_present = has<&Effects::shear>,
        .acts = has_other_than_zero<&Effects::shear, &Shear::rate>,
-       .numbers = {number<&Effects::shear, &Shear::rate>(keys::shear_rate, "1 / time")},
+       .numbers = {number<&Effects::shear, &Shear::rate>(keys::shear_rate, "1 / time", 0.0, 0.001)},
        .words = [](const Effects& e) { return fmt::format("the flow is v_x = {:.6g} y (Lees-Edwards)", e.shear->rate); },
        .excludes = {{"gravity", true}, {"obstacles", true}, {"growth", true}, {"square_well", true}},
-       .keeps_energy = false,
+       .conserves_energy = false,
        .changes_velocities_in_flight = true,
        .bends_paths = true,
+       .bytes_per_disk = 4,
        .why_no_Z = "shear heats the disks",
        .why_no_replay = "under shear disks change their velocity at the edges of the box, which the event log does not hold",
        .why_no_structure = "is that of a fluid at rest, and under [shear] images slide past each other; remove one of the two",
@@ -176,8 +199,8 @@ std::vector<EffectTraits> make_table() {
        .absence = "square wells",
        .is_present = has<&Effects::square_well>,
        .acts = has_other_than_zero<&Effects::square_well, &SquareWell::depth>,
-       .numbers = {number<&Effects::square_well, &SquareWell::width>(keys::well_width, ""),
-                   number<&Effects::square_well, &SquareWell::depth>(keys::well_depth, "energy")},
+       .numbers = {number<&Effects::square_well, &SquareWell::width>(keys::well_width, "", 1.5, 1.5),
+                   number<&Effects::square_well, &SquareWell::depth>(keys::well_depth, "energy", 0.0, 0.1)},
        .words =
            [](const Effects& e) {
              const SquareWell& well = *e.square_well;
@@ -186,14 +209,17 @@ std::vector<EffectTraits> make_table() {
                                 std::abs(well.depth), well.width);
            },
        .excludes = {{"growth"}},
+       .has_potential_energy = true,
        .lets_temperature_fluctuate = true,
+       .bytes_per_disk = 24,
+       .why_no_path = "speeds change at the edges of wells",
        .why_no_transport = "wells carry energy of their own; remove [square_well]"},
       {.name = "drag",
        .title = "[drag]",
        .absence = "drag",
        .is_present = has<&Effects::drag>,
        .acts = has_other_than_zero<&Effects::drag, &Drag::rate>,
-       .numbers = {number<&Effects::drag, &Drag::rate>(drag_rate, "1 / time")},
+       .numbers = {number<&Effects::drag, &Drag::rate>(drag_rate, "1 / time", 0.0, 0.001)},
        .words = [](const Effects& e) { return fmt::format("dv/dt = -{:.6g} v between collisions", e.drag->rate); },
        .excludes = {{"roughness"},
                     {"elastic_below"},
@@ -205,7 +231,8 @@ std::vector<EffectTraits> make_table() {
                     {"thermostat"},
                     {"shear"},
                     {"square_well"}},
-       .keeps_energy = false,
+       .conserves_energy = false,
+       .conserves_angular_momentum = false,
        .changes_velocities_in_flight = true,
        .why_not_equilibrate = "equilibrate in a run without drag, and start one with drag from where it ends",
        .why_no_Z = "drag takes energy away",
@@ -226,6 +253,15 @@ const EffectTraits* first_acting(const Effects& effects, bool EffectTraits::*tra
   for (const EffectTraits& effect : all_effects())
     if (effect.*trait && effect.acts(effects)) return &effect;
   return nullptr;
+}
+
+bool any_present(const Effects& effects, bool EffectTraits::*trait) {
+  return std::ranges::any_of(all_effects(),
+                             [&](const EffectTraits& effect) { return effect.*trait && effect.is_present(effects); });
+}
+
+void set_numbers(Effects& effects, const EffectTraits& effect, double EffectNumber::*value) {
+  for (const EffectNumber& number : effect.numbers) number.set(effects, number.*value);
 }
 
 std::string_view first_reason(const Effects& effects, std::string_view EffectTraits::*reason) {

@@ -19,6 +19,8 @@ struct EffectNumber {
   double (*value)(const Effects&);      ///< requires the effect to be present
   void (*set)(Effects&, double value);  ///< makes the effect present
   std::string_view unit;                ///< "1 / time"; empty for a pure number
+  double neutral = 0.0;                 ///< with all numbers at these values the effect leaves the same bits
+  double mild = 0.0;  ///< with all numbers at these values it acts without making another gas of one at sigma = m = kT = 1
 };
 
 /// Another effect with which one cannot act together. Where `at_neutral_value`, a scene may not even name both.
@@ -29,29 +31,36 @@ struct Exclusion {
 
 struct EffectTraits {
   std::string_view name;               ///< in Effects::acting() and names_of(), and the place at which it is refused
-  std::string_view title;              ///< in error sentences: "[drag]", "a thermal wall"
+  std::string_view title;              ///< in error sentences: "[shear]", "a thermal wall"
   std::string_view absence = {};       ///< where it is absent, in `carom check`; empty where another row speaks for it
   bool (*is_present)(const Effects&);  ///< the scene names it
   bool (*acts)(const Effects&);        ///< the scene names it at another value than its neutral one, which leaves the same bits
 
   std::vector<EffectNumber> numbers = {};          ///< of the table [name], all of them required
   std::vector<std::string_view> other_keys = {};   ///< of that table, which have readers of their own
+  std::string_view unit_of_other_keys = {};        ///< unit of the numbers under them; empty for pure numbers
   std::string (*words)(const Effects&) = nullptr;  ///< what it does, with its numbers; null where collision or walls tell it
   std::vector<Exclusion> excludes = {};            ///< effects with which it cannot be combined
 
-  bool keeps_energy = true;    ///< of disks and pistons together
-  bool keeps_momentum = true;  ///< the common motion along a periodic axis is no heat: nothing pushes disks at random
+  bool conserves_energy = true;            ///< conserves the energy of disks and pistons together
+  bool conserves_momentum = true;          ///< the common motion along a periodic axis is no heat: nothing pushes disks at random
+  bool conserves_angular_momentum = true;  ///< of orbits and spins together, while disks are away from the edges of the box
+  bool has_potential_energy = false;       ///< energy may be stored otherwise than in motion
+  bool changes_radii = false;
   bool lets_temperature_fluctuate = false;  ///< kinetic energy is exchanged with a bath, spins or wells
   bool changes_velocities_in_flight =
       false;                          ///< between two logged events a velocity changes otherwise than by Effects::acceleration()
   bool bends_paths = false;           ///< the velocities before and after a collision do not tell where disks touched
   bool draws_random_numbers = false;  ///< while the run goes on
 
+  double bytes_per_disk = 0.0;  ///< memory that it adds in the engine `general`, without obstacles, bonds and longer lists
+
   // Why something has no meaning where the effect acts; empty where it has one.
-  std::string_view why_not_equilibrate = {};   ///< what to do instead: follows "[drag] and run.equilibrate cannot be combined; "
-  std::string_view why_no_Z = {};              ///< the end of "no Z: ..."
-  std::string_view why_no_replay = {};         ///< events do not tell the trajectory: a sentence without its stop
-  std::string_view why_no_structure = {};      ///< correlations of positions: follows "observe.NAME"
+  std::string_view why_not_equilibrate = {};  ///< what to do instead: follows "[growth] and run.equilibrate cannot be combined; "
+  std::string_view why_no_Z = {};             ///< the end of "no Z: ..."
+  std::string_view why_no_replay = {};        ///< events do not tell the trajectory: a sentence without its stop
+  std::string_view why_no_path = {};          ///< length of a flight as speed times time: speeds change between collisions
+  std::string_view why_no_structure = {};     ///< correlations of positions: follows "observe.NAME"
   std::string_view why_no_displacements = {};  ///< of disks in a fluid at rest: follows "observe.NAME"
   std::string_view why_no_transport = {};      ///< Green-Kubo and Einstein-Helfand: follows "observe.NAME has no meaning here: "
 };
@@ -69,10 +78,17 @@ struct EffectTraits {
   return first_acting(effects, trait) != nullptr;
 }
 
+/// Returns whether a scene names an effect that has a trait, at whatever value.
+[[nodiscard]] bool any_present(const Effects& effects, bool EffectTraits::*trait);
+
+/// Sets all numbers of an effect's table: `set_numbers(effects, shear, &EffectNumber::mild)`. Requires that it has a table of
+/// numbers.
+void set_numbers(Effects& effects, const EffectTraits& effect, double EffectNumber::*value);
+
 /// The sentence of the first effect that acts and has one; empty where none has.
 [[nodiscard]] std::string_view first_reason(const Effects& effects, std::string_view EffectTraits::*reason);
 
-/// The titles of the effects whose table has a key, "[square_well] or [drag]"; empty where none has.
+/// The titles of the effects whose table has a key, "[growth] or [shear]"; empty where none has.
 [[nodiscard]] std::string tables_with_key(std::string_view key);
 
 }  // namespace carom::detail

@@ -22,7 +22,7 @@ bool Effects::dissipate() const {
 }
 
 bool keeps_momentum(const Box& box, const Effects& effects, int axis) {
-  const auto pushes = [&](const detail::EffectTraits& effect) { return !effect.keeps_momentum && effect.acts(effects); };
+  const auto pushes = [&](const detail::EffectTraits& effect) { return !effect.conserves_momentum && effect.acts(effects); };
   return box.periodic(axis) && std::ranges::none_of(detail::all_effects(), pushes);
 }
 

@@ -2,6 +2,7 @@
 
 #include <carom/simulation.hpp>
 
+#include "scene/effect_traits.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/start.hpp"
@@ -54,7 +55,7 @@ void settle(Scene& scene, State& state) {
     if (wall.mass || wall.velocity.value_or(0.0) != 0.0 || scene.box.periodic(static_cast<int>(axis))) continue;
     (k % 2 == 0 ? scene.box.lower : scene.box.upper)[axis] = state.walls[k].position;
   }
-  if (scene.effects.growth && scene.effects.growth->rate > 0.0) return;
+  if (detail::any_acting(scene.effects, &detail::EffectTraits::changes_radii)) return;
   scale_radii(scene, state.scale);
   state.scale = 1.0;
 }
@@ -77,8 +78,10 @@ void Simulation::Parts::require_rule() const {
 void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_rule) {
   require_rule();
   const bool own_rule = static_cast<bool>(with_rule);
-  if (own_rule && with.effects.growth && with.effects.growth->rate > 0.0)
-    throw std::invalid_argument("a collision rule of the program and [growth] cannot be combined; remove one of the two");
+  if (const auto* effect = detail::first_acting(with.effects, &detail::EffectTraits::changes_radii);
+      own_rule && effect != nullptr)
+    throw std::invalid_argument(
+        fmt::format("a collision rule of the program and {} cannot be combined; remove one of the two", effect->title));
   settle(with, state);
   Start start = start_of(with, disks_of(with), state);
   require_between_walls(with, start.state);

@@ -4,6 +4,7 @@
 // may follow each other ever faster, so that the clock converges to a time before the end of the run.
 
 #include "core/instant.hpp"
+#include "scene/effect_traits.hpp"
 #include "simulation/all_events.hpp"
 #include "simulation/any_engine.hpp"
 
@@ -66,7 +67,7 @@ class Standstill {
   /// A run that would come to its end with fewer events is left to do so: in a week or two.
   static constexpr double most_events = 1e12;
 
-  [[nodiscard]] bool grows() const { return effects_.growth_rate() > 0.0; }
+  [[nodiscard]] bool grows() const { return detail::any_acting(effects_, &detail::EffectTraits::changes_radii); }
   [[nodiscard]] bool has_moving_walls() const {
     return std::ranges::any_of(effects_.walls, [](const WallProperties& wall) { return wall.velocity.value_or(0.0) != 0.0; });
   }

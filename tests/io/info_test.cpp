@@ -125,13 +125,14 @@ TEST_F(Info, DescribesWhatEffectsLeftInAllFiles) {
   report.of_effects = effects_report(scene, disks_of(scene), report.totals, state_with_effects_at(4, scene));
   report.of_effects.spin_temperature = 1.25;
   writer.finish(report);
-  EXPECT_THAT(describe_file(out / "trajectory.h5md"),
-              AllOf(HasSubstr("effects     specular, walls, restitution, roughness"),
-                    HasSubstr("4 x 2.5 from (-1, 10); x periodic, y walls; at the end 4 x 5.5"), HasSubstr("radii 1.25 times"),
-                    HasSubstr("bonds, kinetic_energy, packing_fraction"), HasSubstr("spin, ")));
-  EXPECT_THAT(describe_file(out / "summary.json"),
-              AllOf(HasSubstr("temperature 1.25"), HasSubstr("dissipated"), HasSubstr("growth      radii 1.25 times"),
-                    HasSubstr("bonds       8"), HasSubstr("pressure on bottom ")));
+  EXPECT_THAT(
+      describe_file(out / "trajectory.h5md"),
+      AllOf(HasSubstr("effects     specular, walls, restitution, roughness"),
+            HasSubstr("4 x 2.5 from (-1, 10); x periodic, y walls; at the end 4 x 5.5"), HasSubstr("radii       1.25 times"),
+            HasSubstr("bonds, kinetic_energy, packing_fraction"), HasSubstr("spin, ")));
+  EXPECT_THAT(describe_file(out / "summary.json"), AllOf(HasSubstr("temperature 1.25"), HasSubstr("dissipated"),
+                                                         HasSubstr("growth      scale 1.25, packing_fraction "),
+                                                         HasSubstr("square_well bonds 8"), HasSubstr("pressure on bottom ")));
   EXPECT_THAT(describe_file(out / "samples.csv"), AllOf(HasSubstr("vx,vy,spin"), HasSubstr("5, from time 0 to 0.4")));
 }
 

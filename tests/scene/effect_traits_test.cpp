@@ -44,7 +44,7 @@ TEST(EffectTraits, SetsAndTellsTheNumbersOfATable) {
     if (effect.numbers.empty()) continue;
     SCOPED_TRACE(effect.name);
     Effects effects;
-    for (const EffectNumber& number : effect.numbers) number.set(effects, 0.0);
+    detail::set_numbers(effects, effect, &EffectNumber::neutral);
     EXPECT_TRUE(effect.is_present(effects));
     EXPECT_FALSE(effect.acts(effects));
     EXPECT_TRUE(effects.neutral());
@@ -79,6 +79,27 @@ TEST(EffectTraits, TellsTheFirstThatActs) {
   EXPECT_FALSE(detail::any_acting(effects, &EffectTraits::draws_random_numbers));
   effects.thermostat->rate = 0.5;
   EXPECT_TRUE(detail::any_acting(effects, &EffectTraits::draws_random_numbers));
+}
+
+TEST(EffectTraits, TellsWhereSpeedsChangeBetweenCollisions) {
+  Effects effects;
+  effects.obstacles = {DiskObstacle{{0.0, 0.0}, 0.5}};
+  effects.walls[0] = {.restitution = 1.0, .velocity = 0.0};
+  EXPECT_EQ(detail::first_reason(effects, &EffectTraits::why_no_path), "");
+  effects.walls[1] = {.mass = 2.0, .load = 0.0};
+  EXPECT_EQ(detail::first_reason(effects, &EffectTraits::why_no_path), "walls change speeds between two collisions");
+  effects.walls[1] = {};
+  effects.square_well = SquareWell{1.5, -1.0};
+  EXPECT_EQ(detail::first_reason(effects, &EffectTraits::why_no_path), "speeds change at the edges of wells");
+}
+
+TEST(EffectTraits, HasMildValuesAtWhichEachTableActs) {
+  for (const EffectTraits& effect : all_effects()) {
+    if (effect.numbers.empty()) continue;
+    Effects effects;
+    detail::set_numbers(effects, effect, &EffectNumber::mild);
+    EXPECT_TRUE(effect.acts(effects)) << effect.name;
+  }
 }
 
 }  // namespace

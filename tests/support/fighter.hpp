@@ -141,7 +141,8 @@ inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_
       fighter.complaint = fmt::format("{}: momentum along axis {} changed by {} of {}", engine, axis, gained, size);
   }
   // Every event rounds what it moves a few times, by 1e-16 of it; there are some thousand of them.
-  if (!gives_untold(scene.effects) && !(std::abs(change) <= 1e-11 * turnover + height_error(scene, disks, totals, end.scale)))
+  if (!exchanges_uncounted_energy(scene.effects) &&
+      !(std::abs(change) <= 1e-11 * turnover + height_error(scene, disks, totals, end.scale)))
     fighter.complaint = fmt::format("{}: energy changed by {} of {} unexplained", engine, change, turnover);
   return fighter;
 }

@@ -1,5 +1,6 @@
 #include "studies/sweep/units.hpp"
 
+#include "observe/effects_report.hpp"
 #include "scene/effect_traits.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ struct UnitOf {
 };
 
 /// The first that fits.
-constexpr std::array<UnitOf, 19> of_numbers = {{{"time", "time", "time"},
+constexpr std::array<UnitOf, 15> of_numbers = {{{"time", "time", "time"},
                                                 {"energy.", "drift", ""},
                                                 {"energy.", "unaccounted", ""},
                                                 {"energy.", "", "energy"},
@@ -32,13 +33,9 @@ constexpr std::array<UnitOf, 19> of_numbers = {{{"time", "time", "time"},
                                                 {"walls.", ".pressure", "energy / area"},
                                                 {"walls.", ".position", "length"},
                                                 {"walls.", ".velocity", "length / time"},
-                                                {"dissipated", "dissipated", "energy"},
-                                                {"obstacles.", "", "mass length / time"},
-                                                {"", ".energy", "energy"},
-                                                {"shear.pressure_xy", "", "energy / area"},
-                                                {"shear.", ".viscosity", "mass / time"}}};
+                                                {"dissipated", "dissipated", "energy"}}};
 
-constexpr std::array<UnitOf, 18> of_keys = {{{"box.x", "", "length"},
+constexpr std::array<UnitOf, 16> of_keys = {{{"box.x", "", "length"},
                                              {"box.y", "", "length"},
                                              {"disks.", ".radius", "length"},
                                              {"disks.", ".mass", "mass"},
@@ -46,12 +43,10 @@ constexpr std::array<UnitOf, 18> of_keys = {{{"box.x", "", "length"},
                                              {"disks.", ".uniform", "length / time"},
                                              {"disks.", ".speed", "length / time"},
                                              {"collision.", ".time", "time"},
-                                             {"gravity.", "", "length / time^2"},
                                              {"walls.", ".temperature", "energy"},
                                              {"walls.", ".velocity", "length / time"},
                                              {"walls.", ".mass", "mass"},
                                              {"walls.", ".load", "energy / area"},
-                                             {"obstacles.", "", "length"},
                                              {"run.sample_every", "sample_every", "time"},
                                              {"run.sample_log", ".block", "time"},
                                              {"run.", "time", "time"},
@@ -65,12 +60,18 @@ std::string unit_in(std::span<const UnitOf> units, std::string_view name) {
 
 }  // namespace
 
-std::string unit_of_number(std::string_view name) { return unit_in(of_numbers, name); }
+std::string unit_of_number(std::string_view name) {
+  std::string unit = unit_of_result(name);
+  return unit.empty() ? unit_in(of_numbers, name) : unit;
+}
 
 std::string unit_of_key(std::string_view key) {
-  for (const detail::EffectTraits& effect : detail::all_effects())
+  for (const detail::EffectTraits& effect : detail::all_effects()) {
     for (const detail::EffectNumber& number : effect.numbers)
       if (key == fmt::format("{}.{}", effect.name, number.key->name)) return std::string(number.unit);
+    if (!effect.unit_of_other_keys.empty() && key.starts_with(fmt::format("{}.", effect.name)))
+      return std::string(effect.unit_of_other_keys);
+  }
   return unit_in(of_keys, key);
 }
 

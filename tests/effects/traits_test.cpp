@@ -1,0 +1,158 @@
+// The table of effects against what the engines do: what each effect conserves, and the memory that it takes.
+
+#include "app/expected_cost.hpp"
+#include "pages/effects_words.hpp"
+#include "scene/effect_traits.hpp"
+#include "support/effect_scenes.hpp"
+#include "support/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+using detail::all_effects;
+using detail::EffectTraits;
+
+/// Sets effects that are no tables of numbers, at values at which they act.
+const std::map<std::string, std::function<void(Effects&)>> other_effects = {
+    {"restitution", [](Effects& e) { e.collision.restitution = 0.5; }},
+    {"roughness", [](Effects& e) { e.collision.roughness = 0.25; }},
+    {"elastic_below",
+     [](Effects& e) {
+       e.collision.restitution = 0.5;
+       e.collision.elastic_below = 0.125;
+     }},
+    {"gravity",
+     [](Effects& e) {
+       e.gravity = Gravity{{0.0, -1.0}};
+     }},
+    {"inelastic_walls", [](Effects& e) { e.walls[0].restitution = 0.5; }},
+    {"thermal_walls", [](Effects& e) { e.walls[0].temperature = 2.0; }},
+    {"moving_walls", [](Effects& e) { e.walls[1].velocity = -0.25; }},
+    {"pistons", [](Effects& e) { e.walls[3] = {.mass = 1e6, .load = 1.0}; }},
+    {"obstacles",
+     [](Effects& e) {
+       e.obstacles = {DiskObstacle{{0.75, 0.5}, 1.0}};
+     }},
+};
+
+/// Sets the effect so strong that a short run shows it.
+void set_strong(Effects& effects, const EffectTraits& effect) {
+  if (effect.numbers.empty()) return other_effects.at(std::string(effect.name))(effects);
+  for (const detail::EffectNumber& number : effect.numbers)
+    number.set(effects, number.mild == number.neutral ? number.mild : 0.5);
+}
+
+/// Eight disks that come together in the middle of a large box, and meet no side of it until time 4.
+Scene cluster(const EffectTraits& effect) {
+  std::vector<Placed> disks;
+  for (int k = 0; k < 8; ++k) {
+    const double angle = 0.7853981633974483 * k, speed = 1.0 + 0.125 * k;
+    disks.push_back({.r = Eigen::Vector2d(std::cos(angle), std::sin(angle)) * (3.0 + 0.25 * k),
+                     .v = Eigen::Vector2d(-speed * std::cos(angle + 0.125), -speed * std::sin(angle + 0.125)),
+                     .mass = 1.0 + 0.25 * k});
+  }
+  Box box{{-100.0, -100.0}, {100.0, 100.0}, {Boundary::walls, Boundary::walls}};
+  if (effect.name == "shear") box.boundary = {Boundary::periodic, Boundary::periodic};
+  Scene scene = scene_of(box, disks);
+  set_strong(scene.effects, effect);
+  return scene;
+}
+
+/// Of orbits about the origin and of spins.
+double angular_momentum(const Simulation& simulation) {
+  const State state = simulation.state();
+  const Disks& disks = simulation.disks();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < disks.count(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const auto r = state.positions.col(column), v = state.velocities.col(column);
+    sum += disks.mass[i] * (r.x() * v.y() - r.y() * v.x());
+    if (state.spins.size() > 0) sum += 0.5 * disks.mass[i] * disks.radius[i] * disks.radius[i] * state.spins[column];
+  }
+  return sum;
+}
+
+class EffectTraitsHold : public testing::TestWithParam<std::string> {};
+
+TEST_P(EffectTraitsHold, AngularMomentumAndEnergyAreConservedAsTheTableSays) {
+  const EffectTraits& effect = detail::effect_named(GetParam());
+  for (const char* engine : engines_with_effects) {
+    SCOPED_TRACE(engine);
+    Simulation simulation = make_simulation(cluster(effect), engine);
+    const double L = angular_momentum(simulation), E = energy_of(simulation);
+    ASSERT_GT(std::abs(L), 1.0);
+    simulation.run_until(4.0);
+    ASSERT_GT(simulation.totals().pair, 0U);
+    ASSERT_EQ(simulation.totals().wall, 0U);
+    const double change = std::abs(angular_momentum(simulation) - L);
+    if (effect.conserves_angular_momentum) {
+      EXPECT_LE(change, 1e-12 * 100.0);
+    } else {
+      EXPECT_GT(change, 1e-3);
+    }
+    const bool lossless = std::ranges::all_of(
+        simulation.scene().effects.acting(), [](const std::string& name) { return detail::effect_named(name).conserves_energy; });
+    if (lossless) {
+      EXPECT_NEAR(energy_of(simulation), E, 1e-12 * 100.0);
+    }
+  }
+}
+
+TEST_P(EffectTraitsHold, MemoryPerDiskIsThatOfTheTable) {
+  const EffectTraits& effect = detail::effect_named(GetParam());
+  const auto bytes = [&](bool with, std::int64_t disks) {
+    Scene scene = gas_scene(disks, 0.25, effect.name == "shear" ? Boundary::periodic : Boundary::walls);
+    scene.species[0].positions = RandomPositions{};
+    if (with) set_strong(scene.effects, effect);
+    if (with) detail::set_numbers(scene.effects, effect, &detail::EffectNumber::mild);
+    if (with && !scene.effects.obstacles.empty()) scene.effects.obstacles = {DiskObstacle{{4.0, 4.0}, 0.25}};
+    if (with && scene.effects.square_well) scene.effects.square_well->width = 1.0 + 1e-9;  // no bonds
+    return static_cast<double>(make_simulation(scene, "general").bytes());
+  };
+  // The memory that does not depend on the number of disks cancels in the second difference.
+  const double more = bytes(true, 4096) - bytes(true, 2048), without = bytes(false, 4096) - bytes(false, 2048);
+  EXPECT_NEAR((more - without) / 2048.0, effect.bytes_per_disk, 1.0);
+}
+
+std::vector<std::string> names_of_all() {
+  std::vector<std::string> names;
+  for (const EffectTraits& effect : all_effects()) names.emplace_back(effect.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EffectTraitsHold, testing::ValuesIn(names_of_all()), [](const auto& name) { return name.param; });
+
+TEST(ExpectedMemory, IsWithinATenthOfThatOfAGas) {
+  Scene scene = gas_scene(20'000, 0.5, Boundary::periodic);
+  const auto measured = [&] { return static_cast<double>(make_simulation(scene).bytes()) / 20'000.0; };
+  EXPECT_NEAR(cli::expected_bytes_per_disk(scene.effects), measured(), 0.1 * measured());
+  scene.effects.thermostat = Thermostat{1.0, 1.0};
+  scene.effects.collision.roughness = 1.0;
+  EXPECT_NEAR(cli::expected_bytes_per_disk(scene.effects), measured(), 0.1 * measured());
+}
+
+TEST(ConservedQuantities, AreNamed) {
+  Box box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::periodic, Boundary::walls}};
+  Effects effects;
+  EXPECT_EQ(conserved(box, effects), "energy, momentum along x, angular momentum away from the edges of the box");
+  effects.collision.rule = CollisionRule::reversal;
+  EXPECT_EQ(conserved(box, effects), "energy, momentum along x");
+  effects.drag = Drag{0.5};
+  EXPECT_EQ(conserved(box, effects), "nothing");
+  effects = {};
+  effects.collision.restitution = 0.5;
+  box.boundary[1] = Boundary::periodic;
+  EXPECT_EQ(conserved(box, effects), "momentum, angular momentum away from the edges of the box");
+}
+
+}  // namespace
+}  // namespace carom::test
