@@ -30,7 +30,7 @@ class HFunction final : public SavedObservable<HFunction> {
     }
   }
 
-  [[nodiscard]] bool needs_positions() const override { return run_.sheared(); }
+  [[nodiscard]] bool needs_positions() const override { return run_.has_flow(); }
 
   void sample(const State& state, const Totals&) override {
     if (calls_++ % stride_ != 0) return;

@@ -2,6 +2,7 @@
 
 #include "observe/any_wall.hpp"
 #include "observe/energy.hpp"
+#include "scene/mean_flow.hpp"
 
 #include <algorithm>
 #include <array>
@@ -53,7 +54,7 @@ double kinetic_temperature(const Box& box, const Disks& disks, const State& stat
 
 double kinetic_temperature(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
   const std::array<bool, 2> kept = {keeps_momentum(box, effects, 0), keeps_momentum(box, effects, 1)};
-  if (effects.shear_rate() == 0.0) return temperature_of(kept, disks, state);
+  if (!detail::MeanFlow(box, effects).present()) return temperature_of(kept, disks, state);
   State in_flow;
   in_flow.velocities = velocities_in_flow(box, effects, disks, state);
   return temperature_of(kept, disks, in_flow);
@@ -66,8 +67,8 @@ double spin_temperature(const Disks& disks, const State& state) {
 Eigen::Matrix2Xd velocities_in_flow(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
   State in_flow;
   in_flow.velocities = state.velocities;
-  const double middle = 0.5 * (box.lower.y() + box.upper.y());
-  in_flow.velocities.row(0) -= effects.shear_rate() * (state.positions.row(1).array() - middle).matrix();
+  const detail::MeanFlow flow(box, effects);
+  for (Eigen::Index i = 0; i < state.positions.cols(); ++i) in_flow.velocities(0, i) -= flow.at(state.positions(1, i));
   const double mass = disks.total_mass();
   if (!(mass > 0.0)) return in_flow.velocities;
   const Eigen::Vector2d common = total_momentum(disks, in_flow) / mass;

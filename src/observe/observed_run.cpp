@@ -86,7 +86,7 @@ std::string_view what_drives(const Effects& effects) {
 }
 
 Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state) {
-  if (run.sheared()) return velocities_in_flow(run.scene.box, run.scene.effects, run.disks, state);
+  if (run.has_flow()) return velocities_in_flow(run.scene.box, run.scene.effects, run.disks, state);
   return state.velocities.colwise() - kept_velocity(run, state);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // The facts about a run that observables need before it begins.
 
+#include "scene/mean_flow.hpp"
+
 #include <carom/observe.hpp>
 
 #include <optional>
@@ -32,8 +34,8 @@ struct ObservedRun {
   [[nodiscard]] std::string suffix(std::size_t species) const;
   /// Returns whether the total momentum along an axis is kept, so that the common motion is no heat.
   [[nodiscard]] bool keeps_momentum(int axis) const;
-  /// Returns whether what counts as heat depends on where a disk is: velocities are relative to a flow.
-  [[nodiscard]] bool sheared() const { return scene.effects.shear_rate() != 0.0; }
+  /// Returns whether heat depends on where a disk is: thermal velocities are relative to a mean flow.
+  [[nodiscard]] bool has_flow() const { return detail::MeanFlow(scene.box, scene.effects).present(); }
 };
 
 /// Returns whether an effect acts that changes velocities without a collision.
@@ -41,7 +43,7 @@ struct ObservedRun {
 /// The first of them: "[thermostat]". Requires is_driven().
 [[nodiscard]] std::string_view what_drives(const Effects& effects);
 
-/// Velocities as heat: without the flow of a sheared box, and without the common motion where momentum is kept.
+/// Returns the thermal velocities: without the mean flow, and without the common motion where momentum is conserved.
 [[nodiscard]] Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state);
 /// Returns the velocity of the centre of mass along axes that conserve momentum, which does not count as heat; zero along others.
 [[nodiscard]] Eigen::Vector2d kept_velocity(const ObservedRun& run, const State& state);

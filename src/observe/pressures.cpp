@@ -51,7 +51,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     has_Z_walls_ = why_no_walls().empty();
   }
 
-  [[nodiscard]] bool needs_positions() const override { return run_.sheared() || has_Z_walls_; }
+  [[nodiscard]] bool needs_positions() const override { return run_.has_flow() || has_Z_walls_; }
   [[nodiscard]] bool follows_collisions() const override { return follows_; }
 
   void ask(FluxSums& sums) override { sums.transfer = &transfer_; }
@@ -110,7 +110,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
                  .walls = totals.wall_impulse};
     for (std::size_t c = 0; c < 4; ++c) now.transfer[c] = transfer_.virial[c].sum();
     now.area = box_of(run_.scene.box, state).area();
-    const bool in_flow = run_.sheared();
+    const bool in_flow = run_.has_flow();
     const Eigen::Matrix2Xd v = in_flow ? peculiar_velocities(run_, state) : Eigen::Matrix2Xd();
     const Eigen::Vector2d common = in_flow ? Eigen::Vector2d(0.0, 0.0) : kept_velocity(run_, state);
     for (std::size_t i = 0; i < run_.disks.count(); ++i) {

@@ -69,7 +69,7 @@ class Speeds final : public SavedObservable<Speeds> {
       for (const Species& species : run.scene.species) disks_.push_back(static_cast<double>(species.count));
   }
 
-  [[nodiscard]] bool needs_positions() const override { return run_.sheared(); }
+  [[nodiscard]] bool needs_positions() const override { return run_.has_flow(); }
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);

@@ -16,7 +16,7 @@ class Temperature final : public SavedObservable<Temperature> {
   Temperature(const ObservableRequest& request, const ObservedRun& run)
       : SavedObservable(request, run), species_(run.species_count() > 1 ? run.species_count() : 0) {}
 
-  [[nodiscard]] bool needs_positions() const override { return run_.sheared(); }
+  [[nodiscard]] bool needs_positions() const override { return run_.has_flow(); }
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);

@@ -17,7 +17,7 @@ class VelocityMoments final : public SavedObservable<VelocityMoments> {
   VelocityMoments(const ObservableRequest& request, const ObservedRun& run)
       : SavedObservable(request, run), species_(run.species_count()) {}
 
-  [[nodiscard]] bool needs_positions() const override { return run_.sheared(); }
+  [[nodiscard]] bool needs_positions() const override { return run_.has_flow(); }
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);

@@ -1,5 +1,7 @@
 #include "simulation/start.hpp"
 
+#include "scene/effect_traits.hpp"
+#include "scene/mean_flow.hpp"
 #include "scene/refusal.hpp"
 
 #include <fmt/format.h>
@@ -56,15 +58,15 @@ void require_room_to_move(const Scene& scene, const Start& start) {
   }
 }
 
-/// In a sheared box velocities are drawn relative to the flow; those given one by one are what they are.
+/// Adds the mean flow to velocities that are drawn; those given one by one are what they are.
 void add_flow(const Scene& scene, Start& start) {
-  if (scene.effects.shear_rate() == 0.0) return;
-  const double middle = (scene.box.lower.y() + scene.box.upper.y()) / 2.0;
+  const detail::MeanFlow flow(scene.box, scene.effects);
+  if (!flow.present()) return;
   for (std::size_t i = 0; i < start.disks.count(); ++i) {
     const Velocities& law = scene.species[static_cast<std::size_t>(start.disks.species[i])].velocities;
     if (std::holds_alternative<ListedVelocities>(law) || std::holds_alternative<FileVelocities>(law)) continue;
     const auto column = static_cast<Eigen::Index>(i);
-    start.state.velocities(0, column) += scene.effects.shear_rate() * (start.state.positions(1, column) - middle);
+    start.state.velocities(0, column) += flow.at(start.state.positions(1, column));
   }
 }
 
@@ -142,8 +144,8 @@ Start start_of(const Scene& scene, Disks all, const State& state) {
   start.state.images = state.images;
   if (state.images.cols() != disks) start.state.images = Images::Zero(2, disks);
   if (scene.effects.collision.roughness && state.spins.size() == disks) start.state.spins = state.spins;
-  if (scene.effects.growth_rate() > 0.0) start.state.scale = state.scale;
-  if (scene.effects.shear_rate() != 0.0) start.state.shear_displacement = state.shear_displacement;
+  if (detail::any_acting(scene.effects, &detail::EffectTraits::changes_radii)) start.state.scale = state.scale;
+  if (detail::MeanFlow(scene.box, scene.effects).present()) start.state.shear_displacement = state.shear_displacement;
   if (!start.state.spins.allFinite() || !std::isfinite(start.state.shear_displacement))
     throw std::invalid_argument("a spin, or the displacement by shear, of the given state is not finite");
   if (!(start.state.scale > 0.0 && std::isfinite(start.state.scale)))
