@@ -10,9 +10,9 @@ namespace carom {
 
 CollisionStream::CollisionStream(const Scene& scene, const Disks& disks)
     : radius_(disks.radius), box_(scene.box), smooth_(velocities_determine_contacts(scene.effects)) {
-  gravity_ = scene.effects.acceleration();
+  acceleration_ = scene.effects.acceleration();
   if (scene.effects.square_well) edge_ = 0.5 * (1.0 + scene.effects.square_well->width);
-  moves_between_ = !smooth_ || !gravity_.isZero(0.0);
+  moves_between_ = !smooth_ || !acceleration_.isZero(0.0);
   std::vector<std::int32_t> ids(disks.count());
   std::iota(ids.begin(), ids.end(), 0);
   table_ = disk_table(std::move(ids), disks);
@@ -46,8 +46,8 @@ CollisionRecords CollisionStream::follow(std::span<const Event> events) {
 void CollisionStream::move(std::int32_t disk, double time) {
   const auto i = static_cast<std::size_t>(disk);
   const double elapsed = time - since_[i];
-  position_[i] += (velocity_[i] + 0.5 * elapsed * gravity_) * elapsed;
-  velocity_[i] += elapsed * gravity_;
+  position_[i] += (velocity_[i] + 0.5 * elapsed * acceleration_) * elapsed;
+  velocity_[i] += elapsed * acceleration_;
   since_[i] = time;
 }
 

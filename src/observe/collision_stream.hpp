@@ -37,7 +37,7 @@ class CollisionStream {
 
   std::vector<double> radius_;
   Box box_;
-  Eigen::Vector2d gravity_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d acceleration_ = Eigen::Vector2d::Zero();
   double edge_ = 0.0;   ///< distances above this many contact distances are edges of wells; 0 where there are none
   bool smooth_;         ///< impulses are along the line of centres
   bool moves_between_;  ///< positions or times of the last event are needed

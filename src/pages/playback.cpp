@@ -178,9 +178,8 @@ Playback::Playback(const RunReader& run, const PlaybackOptions& options) {
   if (this->exact()) end_ = std::max({run.end(), last_sample_, exact.events.empty() ? 0.0 : exact.events.back().time});
   std::optional<Trails> trails;
   if (options.trail > 0.0) {
-    const auto& gravity = run.scene().effects.gravity;
-    const bool curved = this->exact() && gravity;
-    trails.emplace(run.scene().box, curved ? gravity->acceleration : Eigen::Vector2d::Zero(), options.trail);
+    const Eigen::Vector2d curving = this->exact() ? run.scene().effects.acceleration() : Eigen::Vector2d::Zero();
+    trails.emplace(run.scene().box, curving, options.trail);
     for (std::size_t i = 0; i < run.disks().count(); ++i)
       if (!options.trails_of || run.disks().species[i] == *options.trails_of) trails->follow(i);
   }

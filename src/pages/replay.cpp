@@ -40,7 +40,7 @@ std::string why_not_by_its_kind(const RunReader& run, std::uint64_t most_events,
 
 Replay::Replay(const Scene& scene, const Disks& disks, const State& start, VelocityDigits digits)
     : disks_(&disks), digits_(digits) {
-  gravity_ = scene.effects.acceleration();
+  acceleration_ = scene.effects.acceleration();
   for (Eigen::Index i = 0; i < start.positions.cols(); ++i)
     flights_.push_back({start.positions.col(i), start.velocities.col(i), start.time});
   const Box& box = scene.box;
@@ -70,11 +70,11 @@ double Replay::rounded(double value) const {
 Eigen::Vector2d Replay::position(std::size_t disk, double time) const {
   const Flight& flight = flights_[disk];
   const double dt = time - flight.time;
-  return flight.position + (flight.velocity + gravity_ * (0.5 * dt)) * dt;
+  return flight.position + (flight.velocity + acceleration_ * (0.5 * dt)) * dt;
 }
 
 Eigen::Vector2d Replay::velocity(std::size_t disk, double time) const {
-  return flights_[disk].velocity + gravity_ * (time - flights_[disk].time);
+  return flights_[disk].velocity + acceleration_ * (time - flights_[disk].time);
 }
 
 double Replay::kinetic_energy(double time) const {

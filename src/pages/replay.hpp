@@ -49,7 +49,7 @@ class Replay {
 
   const Disks* disks_;
   VelocityDigits digits_;
-  Eigen::Vector2d gravity_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d acceleration_ = Eigen::Vector2d::Zero();
   std::vector<Flight> flights_;
   std::array<Side, 4> sides_;
   std::array<double, 4> piston_mass_{};  ///< 0: no piston
