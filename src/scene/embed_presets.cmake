@@ -1,7 +1,7 @@
 # Compiles example scenes of docs/scenes into the library, so that each preset has one text.
 # The classic scene first.
 set(carom_presets box barometer bouncing_ball brownian channel clusters compression dense dense_mixture diffusion dilute_gas
-                  free_expansion galperin galton gas granular_column granular_gas growth heated_walls hourglass lorentz
+                  drag free_expansion galperin galton gas granular_column granular_gas growth heated_walls hourglass lorentz
                   lorentz_wide maxwells_door mixture newtons_cradle observe piston rough shear sinai square_well thermostat
                   two_disks)
 

@@ -1,6 +1,7 @@
 // An effect at its neutral value leaves the same bits as the engine without it, on every example scene and every engine; and an
 // engine that has every effect gives the same bits as one that has none, where none acts.
 
+#include "scene/effect_traits.hpp"
 #include "support/engines.hpp"
 #include "support/scene_files.hpp"
 #include "support/scenes.hpp"
@@ -39,7 +40,16 @@ void expect_same(const End& one, const End& other, const std::string& what) {
   EXPECT_EQ(one.totals.wall_impulse, other.totals.wall_impulse) << what;
 }
 
-/// The scene with one effect more, at its neutral value. Tables that the scene has already stay as they are.
+bool is_valid(const Scene& scene) {
+  try {
+    check(scene);
+    return true;
+  } catch (const SceneError&) {
+    return false;
+  }
+}
+
+/// The scene with one effect more, at its neutral value, where it may have that. Tables that it has already stay as they are.
 struct Neutral {
   std::string name;
   Scene scene;
@@ -47,29 +57,26 @@ struct Neutral {
 
 std::vector<Neutral> with_neutral_effects(const Scene& scene) {
   std::vector<Neutral> all;
-  const auto add = [&](const char* name, auto&& change) {
+  const auto add = [&](const std::string& name, auto&& change) {
     all.push_back({name, scene});
     change(all.back().scene.effects);
   };
   const Effects& effects = scene.effects;
-  const bool shear = effects.shear.has_value();
   if (!effects.collision.restitution) add("restitution", [](Effects& e) { e.collision.restitution = 1.0; });
   if (!effects.collision.roughness && effects.collision.rule == CollisionRule::specular)
     add("roughness", [](Effects& e) { e.collision.roughness = -1.0; });
   if (!effects.collision.elastic_below) add("elastic_below", [](Effects& e) { e.collision.elastic_below = 0.0; });
-  if (!effects.gravity && !shear) add("gravity", [](Effects& e) { e.gravity = Gravity{}; });
+  if (!effects.gravity) add("gravity", [](Effects& e) { e.gravity = Gravity{}; });
   for (std::size_t wall = 0; wall < 4; ++wall) {
     const WallProperties& properties = effects.walls[wall];
     if (scene.box.periodic(static_cast<int>(wall / 2)) || properties.temperature) continue;
     if (!properties.restitution) add("wall restitution", [&](Effects& e) { e.walls[wall].restitution = 1.0; });
     if (!properties.velocity && !properties.mass) add("wall velocity", [&](Effects& e) { e.walls[wall].velocity = 0.0; });
   }
-  if (!effects.square_well && !effects.growth && !shear)
-    add("square_well", [](Effects& e) { e.square_well = SquareWell{1.5, 0.0}; });
-  if (!effects.growth && !effects.square_well && !shear) add("growth", [](Effects& e) { e.growth = Growth{}; });
-  if (!effects.drag) add("drag", [](Effects& e) { e.drag = Drag{}; });
-  if (!effects.thermostat) add("thermostat", [](Effects& e) { e.thermostat = Thermostat{1.0, 0.0}; });
-  if (effects.neutral() && scene.box.periodic(0) && scene.box.periodic(1)) add("shear", [](Effects& e) { e.shear = Shear{}; });
+  for (const detail::EffectTraits& effect : detail::all_effects())
+    if (!effect.numbers.empty() && !effect.is_present(effects))
+      add(std::string(effect.name), [&](Effects& e) { detail::set_numbers(e, effect, &detail::EffectNumber::neutral); });
+  std::erase_if(all, [](const Neutral& neutral) { return !is_valid(neutral.scene); });
   return all;
 }
 

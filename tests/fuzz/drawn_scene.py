@@ -9,11 +9,13 @@ import math
 import random
 
 FORBIDDEN = {
-    "shear": {"gravity", "obstacles", "growth", "square_well"},
-    "growth": {"shear", "square_well"},
-    "square_well": {"shear", "growth"},
-    "gravity": {"shear"},
+    "shear": {"gravity", "obstacles", "growth", "square_well", "drag"},
+    "growth": {"shear", "square_well", "drag"},
+    "square_well": {"shear", "growth", "drag"},
+    "gravity": {"shear", "drag"},
     "obstacles": {"shear"},
+    "drag": {"shear", "growth", "square_well", "gravity", "thermostat"},
+    "thermostat": {"drag"},
 }
 OBSERVABLES = (
     "temperature", "pressure", "velocity_moments", "h_function", "collision_rate", "free_flight", "speeds", "radial_distribution", "structure_factor",
@@ -290,7 +292,7 @@ def draw_effects(r, scene, walled, gas):
     events = 10 ** r.uniform(0.5, 3.0)
     gas.time = min(2.0 * events / max(gas.count, 1) / rate_of_disk, 60.0 * crossing)
     gas.mean_free_time = min(1.0 / rate_of_disk, crossing)
-    wanted = [name for name in ("gravity", "walls", "obstacles", "growth", "thermostat", "shear", "square_well") if r.random() < 0.25]
+    wanted = [name for name in ("gravity", "walls", "obstacles", "growth", "thermostat", "shear", "square_well", "drag") if r.random() < 0.25]
     r.shuffle(wanted)
     if any(walled) and r.random() < 0.3 and "walls" not in wanted:
         wanted.append("walls")
@@ -324,6 +326,10 @@ def draw_effects(r, scene, walled, gas):
         tables["thermostat"] = {"temperature": energy(r.choice([1.0, r.uniform(0.1, 3.0)])), "rate": rate(r.choice([0.0, 0.05, 0.5, 2.0]) * rate_of_disk)}
     if "shear" in drawn:
         tables["shear"] = {"rate": rate(r.choice([0.0, 0.01, 0.1, -0.1, 1.0, -3.0]))}
+    if "drag" in drawn:
+        moving = any({"temperature", "velocity", "mass"} & set(wall) for wall in tables.get("walls", {}).values())
+        neutral = not scene.bold and (moving or {"roughness", "elastic_below"} & set(tables["collision"]))
+        tables["drag"] = {"rate": rate(0.0 if neutral else r.choice([0.0, 0.1, 1.0, 3.0]) / gas.time)}
     if "square_well" in drawn:
         short = [side for side, w in zip(gas.sides, walled) if not w] + [1e9]
         most = min(0.5 * min(short) / (2.0 * gas.radius) * 0.999, 2.0)
@@ -366,7 +372,7 @@ def draw_run(r, scene, gas):
     tables = scene.tables
     collisions = max(1, int(gas.count * gas.time / gas.mean_free_time / 2.0)) if gas.count > 1 else 0
     # A gas that need not go on colliding may never come to a number of collisions.
-    lasting = gas.count >= 8 and not {"gravity", "walls", "obstacles", "growth", "square_well", "thermostat"} & set(tables)
+    lasting = gas.count >= 8 and not {"gravity", "walls", "obstacles", "growth", "square_well", "thermostat", "drag"} & set(tables)
     lasting = lasting and "restitution" not in tables["collision"] and "elastic_below" not in tables["collision"]
     lasting = lasting and all("temperature" in one.get("velocities", {}) for one in tables["disks"])
     end = r.choice(["time", "time", "both"] + ["collisions"] * lasting)
@@ -386,7 +392,7 @@ def draw_run(r, scene, gas):
         run["sample_every"] = {"collisions": r.choice([1, 7, 50, 1000])}
     elif samples == "log":
         run["sample_log"] = {"base": r.choice([1.3, 2.0, 10.0]), "per_block": r.choice([2, 5, 10]), "block": time(gas.time / r.uniform(0.7, 6.0))}
-    if r.random() < 0.15 and "growth" not in tables:
+    if r.random() < 0.15 and not {"growth", "drag"} & set(tables):
         by_collisions = lasting and r.random() < 0.5
         run["equilibrate"] = {"collisions_per_disk": r.choice([1, 2])} if by_collisions else {"time": time(gas.time * r.uniform(0.0, 0.5))}
     if r.random() < 0.7:
@@ -417,13 +423,13 @@ def can_be_observed(name, scene, walled, gas):
     if gas.count < {"hexatic": 7}.get(name, 2):
         return False
     if name == "free_flight":
-        return not {"thermostat", "growth", "shear"} & set(tables)
+        return not {"thermostat", "growth", "shear", "drag"} & set(tables)
     if name in ("radial_distribution", "structure_factor", "hexatic"):
         return not any(walled) and not {"shear", "growth"} & set(tables)
     if name in ("mean_square_displacement", "velocity_autocorrelation"):
         return "shear" not in tables
     if name in ("viscosity", "heat_conductivity"):
-        spoiled = any(walled) or {"obstacles", "thermostat", "growth", "shear", "square_well"} & set(tables) or set(collision) & {"restitution", "roughness"}
+        spoiled = any(walled) or {"obstacles", "thermostat", "growth", "shear", "square_well", "drag"} & set(tables) or set(collision) & {"restitution", "roughness"}
         return not spoiled and collision["rule"] == "specular" and (name == "viscosity" or len(tables["disks"]) == 1 and not scene.start_files)
     return True
 

@@ -305,7 +305,7 @@ def energy_and_momentum(trial, file):
         return
     energy, events = summary["energy"], summary["events"]
     masses, radii = file["particles/trajectory/mass"][()], file["particles/trajectory/radius"][()]
-    gives = any(name in tables for name in ("walls", "growth", "thermostat", "shear")) or {"restitution", "roughness"} & set(tables["collision"])
+    gives = any(name in tables for name in ("walls", "growth", "thermostat", "shear", "drag")) or {"restitution", "roughness"} & set(tables["collision"])
     turnover = abs(energy["initial"]) + sum(abs(part) for part in energy.get("parts", {"all": energy["final"]}).values()) + abs(summary.get("dissipated", 0.0))
     turnover += sum(abs(summary.get(name, {}).get("energy", 0.0)) for name in ("thermostat", "growth", "shear"))
     turnover += sum(abs(wall.get("energy", 0.0)) for wall in summary.get("walls", {}).values())
@@ -330,7 +330,7 @@ def energy_and_momentum(trial, file):
     thermal = any("temperature" in wall for wall in tables.get("walls", {}).values())
     _, _, periodic = box_of(trial, file, 0) if len(file["particles/trajectory/box/edges/value"]) else (0, 0, boundary_words(file))
     for axis in (0, 1):
-        if not periodic[axis] or thermal or {"obstacles", "thermostat", "shear", "growth"} & set(tables):
+        if not periodic[axis] or thermal or {"obstacles", "thermostat", "shear", "growth", "drag"} & set(tables):
             continue
         gained = summary["momentum"]["final"][axis] - summary["momentum"]["initial"][axis]
         size = np.sqrt(2.0 * masses * turnover).sum()

@@ -1,6 +1,7 @@
 // What a program changes while a simulation runs. The twin of a change is a simulation that begins in the same state with the
 // same setting: both find the same bits, event by event. Time, totals and random streams go on where they were.
 
+#include "scene/effect_traits.hpp"
 #include "support/effect_scenes.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
@@ -37,7 +38,7 @@ void nothing(Effects& /*effects*/) {}
 
 std::vector<Change> changes() {
   const auto gate = [](Effects& e) { e.obstacles = {SegmentObstacle{{3.0, 0.0}, {3.0, 4.0}}}; };
-  return {
+  std::vector<Change> all = {
       {"GravityOn", nothing,
        [](Effects& e) {
          e.gravity = Gravity{{0.0, -1.0}};
@@ -87,6 +88,15 @@ std::vector<Change> changes() {
        }},
       {"ThermalWall", nothing, [](Effects& e) { e.walls[0].temperature = 2.0; }},
   };
+  // Whatever is a table of numbers begins and ends.
+  for (const detail::EffectTraits& effect : detail::all_effects()) {
+    if (effect.numbers.empty()) continue;
+    const auto mild = [&effect](Effects& e) { detail::set_numbers(e, effect, &detail::EffectNumber::mild); };
+    const auto without = [](Effects& e) { e = Effects{}; };
+    all.push_back({std::string(effect.name) + "_on", nothing, mild, Boundary::periodic});
+    all.push_back({std::string(effect.name) + "_off", mild, without, Boundary::periodic});
+  }
+  return all;
 }
 
 Scene scene_before(const Change& change) {

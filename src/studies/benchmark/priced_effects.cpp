@@ -1,5 +1,8 @@
 #include "studies/benchmark/priced_effects.hpp"
 
+#include "scene/effect_traits.hpp"
+
+#include <fmt/format.h>
 #include <carom/simulation.hpp>
 
 #include <algorithm>
@@ -53,11 +56,28 @@ WallProperties moving(double velocity) {
   return wall;
 }
 
-template <class Table>
-Effects with(std::optional<Table> Effects::*place, const Table& table) {
+Effects with_gravity(double downwards) {
   Effects effects;
-  effects.*place = table;
+  effects.gravity = Gravity{{0.0, -downwards}};
   return effects;
+}
+
+/// Returns an effect that is a table of numbers, at their neutral or mild values.
+Effects with(const detail::EffectTraits& effect, double detail::EffectNumber::*value) {
+  Effects effects;
+  detail::set_numbers(effects, effect, value);
+  return effects;
+}
+
+/// Returns the mild values in words, in the units of the gas: "width 1.5, depth 0.1 kT".
+std::string mild_values(const detail::EffectTraits& effect) {
+  std::string text;
+  for (const detail::EffectNumber& number : effect.numbers)
+    text += fmt::format("{}{} {:g}{}", text.empty() ? "" : ", ", number.key->name, number.mild,
+                        number.unit == "1 / time" ? " v_T/sigma"
+                        : number.unit == "energy" ? " kT"
+                                                  : "");
+  return text;
 }
 
 Collision restitution(double e, std::optional<double> elastic_below = {}) {
@@ -73,17 +93,14 @@ Collision roughness(double beta) {
   return collision;
 }
 
-Gravity gravity(double downwards) { return {{0.0, -downwards}}; }
-
-/// Everything at its neutral value.
+/// Returns all effects that a scene may name together, at their neutral values.
 Effects all_neutral(bool walled) {
-  Effects effects;
+  Effects effects = with_gravity(0.0);
   effects.collision = restitution(1.0, 0.0);
   effects.collision.roughness = -1.0;
-  effects.gravity = gravity(0.0);
-  effects.growth = Growth{};
-  effects.thermostat = Thermostat{1.0, 0.0};
-  effects.square_well = SquareWell{1.5, 0.0};
+  for (const detail::EffectTraits& effect : detail::all_effects())
+    if (std::ranges::none_of(effect.excludes, &detail::Exclusion::at_neutral_value))
+      detail::set_numbers(effects, effect, &detail::EffectNumber::neutral);
   if (walled)
     for (WallProperties& wall : effects.walls) wall.restitution = 1.0, wall.velocity = 0.0;
   return effects;
@@ -100,7 +117,7 @@ std::vector<PricedEffect> priced_effects(const Scene& gas) {
     inelastic.restitution = 0.9;
     neutral.restitution = 1.0;
     const double weak = 0.1 / gas.box.lengths().y();
-    all.push_back({"gravity", "m g L = 0.1 kT", with(&Effects::gravity, gravity(0.0)), with(&Effects::gravity, gravity(weak))});
+    all.push_back({"gravity", "m g L = 0.1 kT", with_gravity(0.0), with_gravity(weak)});
     all.push_back({"inelastic wall", "e = 0.9, one of four", with_wall(0, neutral), with_wall(0, inelastic)});
     all.push_back({"thermal wall", "kT = 1, one of four", {}, with_wall(0, thermal)});
     all.push_back({"moving wall", "0.001 v_T, one of four", with_wall(3, moving(0.0)), with_wall(3, moving(-0.001))});
@@ -114,13 +131,10 @@ std::vector<PricedEffect> priced_effects(const Scene& gas) {
   Effects pegged;
   pegged.obstacles = pegs(gas);
   all.push_back({"obstacles", "a small one for 100 disks", {}, pegged});
-  all.push_back(
-      {"growth", "rate 0.0001 v_T/sigma", with(&Effects::growth, Growth{}), with(&Effects::growth, Growth{.rate = 1e-4})});
-  all.push_back({"thermostat", "rate 0.1 v_T/sigma", with(&Effects::thermostat, Thermostat{1.0, 0.0}),
-                 with(&Effects::thermostat, Thermostat{1.0, 0.1})});
-  all.push_back({"square_well", "width 1.5, depth 0.1 kT", with(&Effects::square_well, SquareWell{1.5, 0.0}),
-                 with(&Effects::square_well, SquareWell{1.5, 0.1})});
-  all.push_back({"shear", "rate 0.001 v_T/sigma", with(&Effects::shear, Shear{}), with(&Effects::shear, Shear{0.001})});
+  for (const detail::EffectTraits& effect : detail::all_effects())
+    if (!effect.numbers.empty())
+      all.push_back({std::string(effect.name), mild_values(effect), with(effect, &detail::EffectNumber::neutral),
+                     with(effect, &detail::EffectNumber::mild)});
   all.push_back({"all neutral together", "", all_neutral(false), {}});
   return all;
 }
