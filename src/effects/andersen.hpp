@@ -45,7 +45,7 @@ class Andersen {
   /// Neutral at rate 0.
   [[nodiscard]] bool acts() const { return rate_ > 0.0; }
 
-  /// Of all disks together: 1 / time.
+  /// Returns the rate of events of all disks together; 1 / time.
   [[nodiscard]] double rate() const { return rate_; }
 
   /// Kick number n, from 0. Requires acts().

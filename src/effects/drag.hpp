@@ -45,19 +45,19 @@ class DragClock {
   [[nodiscard]] Instant last_time() const { return {52.0 * std::numbers::ln2 / rate_, 0.0}; }
 
  private:
-  /// Of rate t, below which s and t agree to the last digit.
+  /// The largest rate times t below which s and t agree to the last digit.
   static constexpr double indistinct = 0x1p-54;
   double rate_;
 };
 
-/// What an engine that keeps the clock s knows of drag: impulses are 1 - rate s times what it computes, energies the square of
-/// that. Without drag, and at rate 0, that is exactly 1.
+/// The factor by which an engine that keeps the clock s corrects its sums: impulses are 1 - rate s times what it computes,
+/// energies the square of that. Without drag, and at rate 0, that is exactly 1.
 template <class Real>
 class DragFactor {
  public:
   explicit DragFactor(double rate) : rate_(Real(rate)) {}
 
-  /// At `now` since the zero of the engine's clock.
+  /// Returns the factor at `now` since the zero of the engine's clock.
   [[nodiscard]] Real at(Real now) const { return left_ - rate_ * now; }
   /// The zero moves to `now`.
   void rebase(Real now) { left_ -= rate_ * now; }

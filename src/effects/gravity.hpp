@@ -21,7 +21,7 @@ struct Falling {
 
   [[nodiscard]] bool present() const { return g[0] != 0 || g[1] != 0; }
 
-  /// From r and v, after a time t.
+  /// Returns the position after a time t of flight from r with velocity v.
   [[nodiscard]] Vec2<Real> position(const Vec2<Real>& r, const Vec2<Real>& v, Real t) const {
     if (!present()) return r + v * t;
     return r + t * (v + (t / 2) * g);

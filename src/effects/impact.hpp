@@ -30,7 +30,7 @@ struct InelasticResult : ImpactResult<Real> {
   Real smallness = infinity<Real>;  ///< of the speed of which it took a share (effects/vanishing.hpp); infinite where of none
 };
 
-/// How a collision differs from that of elastic disks of constant size.
+/// The differences of a collision from that of elastic disks of constant size.
 template <class Real>
 struct Inelasticity {
   Real turn = 1;       ///< (1 + e) / 2 for restitution e: the share of d that is turned round
@@ -125,7 +125,7 @@ InelasticResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Re
   const Vec2<Real> d = how.turn * Rule::turned(r, surfaces, b);
   // mu / 2 (|v - 2 d|^2 - v^2) = 2 mu (d^2 - d . v)
   const Real gained = detail::twice_reduced<Real>(d.dot(d - v), m_i, m_j);
-  // The same as the surfaces see it, who do not see the work that they do.
+  // The same in the frame of the surfaces, which leaves out the work that they do.
   const Real lost = how.turn == 1 ? Real(0) : detail::twice_reduced<Real>(d.dot(surfaces - d), m_i, m_j);
   detail::share_out<Real>(v, d, m_i, v_i, m_j, v_j);
   if (r.dot(v_i - v_j) < least) detail::recede(r, m_i, v_i, m_j, v_j, least);

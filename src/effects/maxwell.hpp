@@ -25,8 +25,8 @@ inline Normals draw_normals(RandomStream& random) {
 }
 
 /// The velocity of a disk that leaves a diffuse wall at temperature kT: the speed along the normal has the density
-/// (m s / kT) exp(-m s^2 / 2 kT) of those who cross a plane, which is that of the length of two normal deviates; half a Gaussian,
-/// the density of those who stand before it, would leave the gas too cold. The velocity along the wall is normal.
+/// (m s / kT) exp(-m s^2 / 2 kT) of particles that cross a plane, which is that of the length of two normal deviates; half a
+/// Gaussian, the density of particles in front of it, would leave the gas too cold. The velocity along the wall is normal.
 struct DiffuseVelocity {
   double inward;  ///< > 0
   double along;

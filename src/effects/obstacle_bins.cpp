@@ -14,7 +14,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Of the box: far above the rounding of bin numbers, far below anything that costs time.
+/// A margin as a fraction of the box: far above the rounding of bin numbers, far below anything that costs time.
 constexpr double margin = 1e-9;
 
 }  // namespace

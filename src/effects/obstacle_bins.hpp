@@ -53,8 +53,8 @@ class ObstacleBins {
     }
   }
 
-  /// How many box lengths of a path without end are searched: 10^4. No position is known to better than 1e-12 of the box after
-  /// that.
+  /// The length over which a path without end is searched, in lengths of the box: 10^4. No position is known to better than 1e-12
+  /// of the box after that.
   static constexpr double far = 1e4;
 
   [[nodiscard]] std::size_t bytes() const { return begin_.capacity() * sizeof(std::size_t) + items_.capacity() * sizeof(Item); }

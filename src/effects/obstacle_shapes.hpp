@@ -99,8 +99,8 @@ class ObstacleShapes {
     meet_end(first, seen, segment.to, joints_[2 * static_cast<std::size_t>(o) + 1], until);
   }
 
-  /// From the nearest point of obstacle o itself, not of an image, to r; of a disk, from its centre. In front of a face exactly
-  /// across it: rounding does not turn the velocity along it.
+  /// Returns the vector to r from the nearest point of obstacle o itself, not of an image; for a disk, from its centre. In front
+  /// of a face exactly across it: rounding does not turn the velocity along it.
   [[nodiscard]] Vec2<Real> from_image(std::int32_t o, const Vec2<Real>& r) const {
     if (const auto* disk = std::get_if<Disk>(&shape(o))) return r - disk->centre;
     const auto& segment = std::get<Segment<Real>>(shape(o));
@@ -139,10 +139,10 @@ class ObstacleShapes {
     return infinity<Real>;
   }
 
-  /// For how long a disk in contact with a fixed point at the origin needs no impulse to pass it: 0, unless its overlap on the
-  /// way would be less than what rounding makes of the distance, 32 epsilon of it. The overlap after time t is c t - b t^2/2,
-  /// where c is the speed of approach and b > 0 the acceleration away, centrifugal and of flight; c^2 / 2b at most, and none
-  /// from 2c / b on.
+  /// Returns the time for which a disk in contact with a fixed point at the origin needs no impulse to pass it: 0, unless its
+  /// overlap on the way would be less than what rounding makes of the distance, 32 epsilon of it. The overlap after time t is c t
+  /// - b t^2/2, where c is the speed of approach and b > 0 the acceleration away, centrifugal and of flight; c^2 / 2b at most,
+  /// and none from 2c / b on.
   [[nodiscard]] static Real grazing_duration(const DiskPath<Real>& path) {
     using std::sqrt;
     const Real distance = sqrt(path.r.squaredNorm());

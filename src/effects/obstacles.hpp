@@ -46,8 +46,8 @@ class Obstacles {
     return first;
   }
 
-  /// From the nearest point of that obstacle's nearest image to r, of a disk obstacle from its centre: the line of centres at
-  /// contact.
+  /// Returns the vector to r from the nearest point of that obstacle's nearest image, for a disk obstacle from its centre: the
+  /// line of centres at contact.
   [[nodiscard]] Vec2<Real> from_nearest_point(std::int32_t obstacle, const Vec2<Real>& r) const {
     using std::floor;
     using std::sqrt;

@@ -32,7 +32,7 @@ template <class Real>
   return parting < 2 * hop ? hop : parting;
 }
 
-/// What a fixed surface had of a disk that it threw back.
+/// The momentum and energy that a fixed surface exchanged with a disk that it reflected.
 template <class Real>
 struct Bounce {
   Vec2<Real> impulse;  ///< that the surface took

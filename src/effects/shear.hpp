@@ -26,21 +26,22 @@ class LeesEdwards {
         middle_(Real((box.lower[1] + box.upper[1]) / 2.0)),
         displacement_(Real(displacement)) {}
 
-  /// At rate 0 nothing slides.
+  /// Returns whether images slide: the table is there, and its rate is not 0.
   [[nodiscard]] static bool acts(const std::optional<Shear>& shear) { return shear && shear->rate != 0.0; }
   [[nodiscard]] bool present() const { return present_; }
-  /// Of the images one box height above.
+  /// Returns the speed of the images one box height above; length / time.
   [[nodiscard]] Real speed() const { return speed_; }
   [[nodiscard]] Real displacement(Real t) const { return displacement_ + speed_ * t; }
-  /// In the displacement. They are none: a disk that leaves upwards comes back farther left by what is left without them.
+  /// Returns the whole box lengths in the displacement at time t. They shift no image: a disk that leaves upwards comes back
+  /// farther left by the rest.
   [[nodiscard]] std::int64_t whole_lengths(Real t) const {
     using std::floor;
     return static_cast<std::int64_t>(floor(displacement(t) / length_));
   }
-  /// Of the flow where a disk is, along x.
+  /// Returns the velocity of the flow along x at height y.
   [[nodiscard]] Real flow(Real y) const { return rate_ * (y - middle_); }
 
-  /// The same in [0, length): whole box lengths of displacement are none.
+  /// Returns the displacement at time t without whole box lengths, in [0, length).
   [[nodiscard]] Real reduced(Real t) const {
     using std::floor;
     const Real all = displacement(t), rest = all - length_ * floor(all / length_);

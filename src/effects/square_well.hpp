@@ -32,7 +32,7 @@ class SquareWells {
   }
 
   [[nodiscard]] bool present() const { return !partners_.empty(); }
-  /// Of the largest distance at which disks notice each other to their contact distance.
+  /// Returns the ratio of the largest distance at which disks interact to their contact distance.
   [[nodiscard]] Real reach() const { return present() ? width_ : Real(1); }
 
   [[nodiscard]] bool inside(std::int32_t i, std::int32_t j) const {
@@ -55,30 +55,30 @@ class SquareWells {
     for (const auto& one : partners_) sum += one.capacity() * sizeof(std::int32_t);
     return sum;
   }
-  /// For each disk, those inside its well.
+  /// Returns a list for each disk of those inside its well.
   [[nodiscard]] const std::vector<std::int32_t>* table() const { return partners_.data(); }
-  /// Those inside the well of disk i.
+  /// Returns the disks inside the well of disk i.
   [[nodiscard]] const std::vector<std::int32_t>& of(std::int32_t i) const { return partners_[static_cast<std::size_t>(i)]; }
 
-  /// Whether a pair begins inside, at separation r.
+  /// Returns whether a pair begins inside, at separation r.
   [[nodiscard]] bool begins_inside(const Vec2<Real>& r, Real sigma) const {
     const Real edge = reach() * sigma;
     return r.squaredNorm() < edge * edge;
   }
-  /// Whether a separation is that of the edge, to rounding: then it does not tell whether the pair is inside.
+  /// Returns whether a separation is that of the edge, to rounding: it then does not tell whether the pair is inside.
   [[nodiscard]] bool is_edge(const Vec2<Real>& r, Real sigma) const {
     using std::abs;
     const Real edge = reach() * sigma;
     return abs(r.squaredNorm() - edge * edge) <= std::max<Real>(Real(0x1p-30), 64 * epsilon<Real>) * edge * edge;
   }
 
-  /// From separation r with relative velocity v: when the pair next comes to its hard core or to the edge of its well.
+  /// Returns the time until a pair at separation r with relative velocity v comes to its hard core or to the edge of its well.
   [[nodiscard]] Real next_time(bool inside, const Vec2<Real>& r, const Vec2<Real>& v, Real sigma) const {
     if (!inside) return contact_time<Real>(r, v, width_ * sigma);
     return std::min<Real>(contact_time<Real>(r, v, sigma), escape_time<Real>(r, v, width_ * sigma));
   }
 
-  /// Of a pair that an event has brought together: whether it is at the edge of the well and not at the core.
+  /// Returns whether a pair that an event has brought together is at the edge of the well and not at the core.
   [[nodiscard]] bool at_edge(const Vec2<Real>& r, Real sigma) const {
     const Real between = sigma * (1 + width_) / 2;
     return r.squaredNorm() > between * between;

@@ -9,19 +9,21 @@
 
 namespace carom {
 
-/// How small the numbers are with which two meet that are `distance` apart: the closing speed, or its product with the distance.
+/// Returns the smallest number that decides how two disks meet that are `distance` apart: the closing speed, or its product with
+/// the distance.
 template <class Real>
 [[nodiscard]] Real smallness(Real closing, Real distance) {
   return std::min<Real>(closing, closing * distance);
 }
 
-/// Whether speeds times lengths are so small that their squares vanish or lose digits: below 1e-150, in single precision 1e-15.
+/// Returns whether speeds times lengths are so small that their squares vanish or lose digits: below 1e-150, in single precision
+/// 1e-15.
 template <class Real>
 [[nodiscard]] bool squares_vanish(Real product) {
   return product < (std::numeric_limits<Real>::digits > 24 ? Real(1e-150) : Real(1e-15));
 }
 
-/// Whether they are so small that they lose digits themselves: below 1e-292, in single precision 1e-31.
+/// Returns whether they are so small that they lose digits themselves: below 1e-292, in single precision 1e-31.
 template <class Real>
 [[nodiscard]] bool vanishes(Real product) {
   return product < (std::numeric_limits<Real>::min)() / epsilon<Real>;

@@ -42,28 +42,30 @@ class Walls {
     }
   }
 
-  /// From when on the motion of the side is known: contact is predicted from there, or from where the disk's own flight is known.
+  /// Returns the time from which the motion of the side is known: contact is predicted from there, or from where the disk's own
+  /// flight is known.
   [[nodiscard]] Real since(Wall wall) const { return side(wall).t; }
 
-  /// How long it takes a disk to reach the side, from time t >= since(wall). `room`: from the disk's edge to where the side of
-  /// the box was at the start, `outward` and `acceleration`: the disk's, `expansion`: of its radius, all at t. Infinite for
+  /// Returns the time a disk takes to reach the side, from time t >= since(wall). `room`: from the disk's edge to where the side
+  /// of the box was at the start, `outward` and `acceleration`: the disk's, `expansion`: of its radius, all at t. Infinite for
   /// never.
   [[nodiscard]] Real contact(Wall wall, Real room, Real outward, Real acceleration, Real expansion, Real t) const {
     const Side& s = side(wall);
     return fall_time<Real>(room + s.displacement_at(t), (s.velocity_at(t) - outward) - expansion, s.acceleration - acceleration);
   }
 
-  /// Whether a disk that moves like that at time t >= since(wall) never comes nearer to the side: contact() is infinite then.
+  /// Returns whether a disk that moves like that at time t >= since(wall) never comes nearer to the side: contact() is infinite
+  /// then.
   [[nodiscard]] bool recedes(Wall wall, Real outward, Real acceleration, Real expansion, Real t) const {
     const Side& s = side(wall);
     return (s.velocity_at(t) - outward) - expansion >= 0 && s.acceleration >= acceleration;
   }
 
-  /// What a contact did.
+  /// The result of a contact.
   struct Hit {
     Real impulse = 0;  ///< that the side took, outward
     Real energy = 0;   ///< that the side took from the disk
-    /// Of the speed that it took its share of (effects/vanishing.hpp); infinite where it took none, and where the disk is pressed
+    /// The speed of which it took its share (effects/vanishing.hpp); infinite where it took none, and where the disk is pressed
     /// against it, so that contacts never end.
     Real smallness = infinity<Real>;
   };
@@ -104,12 +106,12 @@ class Walls {
     return {mass * (outward - after), mass * (before - v.squaredNorm()) / 2, small};
   }
 
-  /// Whether the side moves by itself after a contact, so that all predictions with it are void.
+  /// Returns whether the side moves by itself after a contact, which makes all predictions with it void.
   [[nodiscard]] bool is_piston(Wall wall) const { return side(wall).mass > 0; }
   [[nodiscard]] bool any_moves() const {
     return std::any_of(sides_.begin(), sides_.end(), [](const Side& s) { return s.velocity != 0 || s.mass > 0; });
   }
-  /// Whether any side is not where the box has it.
+  /// Returns whether any side is not where the box has it.
   [[nodiscard]] bool any_moved() const {
     return std::any_of(sides_.begin(), sides_.end(), [](const Side& s) { return s.displacement != 0; });
   }
@@ -129,7 +131,7 @@ class Walls {
     return most;
   }
 
-  /// How far a side has moved outward at time t.
+  /// Returns the distance by which a side has moved outward at time t.
   [[nodiscard]] Real displacement(Wall wall, Real t) const { return side(wall).displacement_at(t); }
 
   /// The clock's zero moves to `now`.

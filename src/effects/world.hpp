@@ -69,15 +69,16 @@ struct AnyWorld {
   }
 
   [[nodiscard]] const Vec2<double>& g() const { return falling.g; }
-  /// How far the frame in which lines are straight has fallen at time t. At the zero of the clock it stands still.
+  /// Returns the distance that the frame in which lines are straight has fallen at time t. At the zero of the clock it stands
+  /// still.
   [[nodiscard]] double fallen(int axis, double t) const { return (falling.g[axis] * t) * (t / 2); }
   [[nodiscard]] bool falls() const { return falling.present(); }
-  /// Whether images above slide past those below.
+  /// Returns whether images above slide past those below.
   [[nodiscard]] bool sheared() const { return lees_edwards.present(); }
-  /// Of all radii, at time t.
+  /// Returns the scale of all radii at time t.
   [[nodiscard]] double scale(double t) const { return scale_ + growth_ * t; }
   [[nodiscard]] double expansion() const { return growth_; }
-  /// Whether disks fly straight and keep their size, between walls that stay where the box has them.
+  /// Returns whether disks fly straight and keep their size, between walls that stay where the box has them.
   [[nodiscard]] bool is_static() const {
     return !falling.present() && growth_ == 0.0 && !walls.any_moves() && !walls.any_moved();
   }

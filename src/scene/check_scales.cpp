@@ -131,7 +131,7 @@ double start_speed(const Species& species) {
   return 0.0;
 }
 
-/// At the start, roughly, or by what acts.
+/// Returns the largest speed, roughly: at the start, or by what acts.
 double fastest_of(const Scene& scene, const std::vector<Drive>& drives) {
   long double fastest = 0.0L;
   for (const Species& species : scene.species) fastest = std::max<long double>(fastest, start_speed(species));

@@ -7,7 +7,7 @@
 
 namespace carom::detail {
 
-/// At most `longest` bytes of `text`, with "..." where it was cut. Always valid UTF-8 in one line: control characters and
+/// Returns at most `longest` bytes of `text`, with "..." where it was cut. Always valid UTF-8 in one line: control characters and
 /// bytes that are no UTF-8 become "?", so that a message about garbage does not carry the garbage to a terminal.
 std::string excerpt(std::string_view text, std::size_t longest);
 

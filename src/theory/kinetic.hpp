@@ -68,7 +68,7 @@ namespace carom::theory {
 ///   C(t) = kT / (2 m N) sum of exp(-(D + nu) k^2 t) + cos(c k t) exp(-(D + Gamma) k^2 t),
 /// with Enskog's D, viscosity and conductivity. For a large box and late times C(t) approaches the tail kT / (8 pi rho m (D + nu)
 /// t) of Ernst, Hauge & van Leeuwen, Phys. Rev. Lett. 25, 1254 (1970). It holds beyond some 20 mean free times (Erpenbeck & Wood,
-/// Phys. Rev. A 26, 1648 (1982), who sum in the same way).
+/// Phys. Rev. A 26, 1648 (1982), with the same sum).
 [[nodiscard]] double diffusion_growth(double eta, std::int64_t disks, double from, double to);
 
 /// Returns the coefficient a2 of the second Sonine polynomial in the velocities of a gas of restitution e that cools evenly (van
