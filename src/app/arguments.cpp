@@ -6,6 +6,7 @@
 #include "studies/analysis/command.hpp"
 #include "studies/benchmark/command.hpp"
 #include "studies/compare/command.hpp"
+#include "studies/diff/command.hpp"
 #include "studies/hard_cases/command.hpp"
 #include "studies/horizon/command.hpp"
 #include "studies/sweep/command.hpp"
@@ -298,6 +299,20 @@ void add_verify(CLI::App& program, Action& action, const Invocation& invocation)
   command->callback([&action, options, invocation] { action = [options, invocation] { return verify(*options, invocation); }; });
 }
 
+void add_diff(CLI::App& program, Action& action) {
+  CLI::App* command =
+      program.add_subcommand("diff", "Compare two runs of the same disks: are they equal, and where do they part");
+  const auto options = std::make_shared<DiffCommandOptions>();
+  command->add_option("first", options->first, "A directory that carom run has written, or a trajectory.h5md")
+      ->required()
+      ->type_name("RUN_A");
+  command->add_option("second", options->second, "The run to compare it with")->required()->type_name("RUN_B");
+  command->add_flag("--json", options->json, "Print JSON instead of the table");
+  command->footer(
+      "Exit codes: 0 where the runs are equal to the last bit, 1 where they differ, 2 where they cannot be compared.");
+  command->callback([&action, options] { action = [options] { return diff(*options); }; });
+}
+
 void add_play(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("play", "Write a page that replays a run (exactly, if its events are stored)");
   const auto options = std::make_shared<PlayOptions>();
@@ -437,7 +452,7 @@ void add_groups(CLI::App& program) {
     for (const char* name : names) program.get_subcommand(name)->group(group);
   };
   put("Scenes and runs", {"run", "resume", "extend", "check", "init", "info", "verify"});
-  put("Results of a run", {"analyze", "play", "report", "movie"});
+  put("Results of a run", {"analyze", "diff", "play", "report", "movie"});
   put("Studies", {"horizon", "compare", "sweep", "bench", "hardcases", "validate"});
   program.footer(
       "An example:\n  carom init              writes box.toml\n  carom run box.toml      runs it and writes box/\n"
@@ -506,6 +521,7 @@ Action parse_arguments(int argc, char** argv) {
   add_init(program, action, invocation);
   add_info(program, action, invocation);
   add_verify(program, action, invocation);
+  add_diff(program, action);
   add_analyze(program, action, invocation);
   add_play(program, action);
   add_report(program, action);

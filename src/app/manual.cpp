@@ -59,10 +59,11 @@ std::string manual_page(const CLI::App& program, const std::string& version) {
       version);
   for (const CLI::App* command : commands_of(program)) text += command_text(*command);
   text +=
-      ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nfailed while running\n.TP\n2\nthe command line, the scene or the place for results "
+      ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nfailed while running, or two runs differ (diff)\n.TP\n2\nthe command line, the "
+      "scene or the place for results "
       "is wrong; "
-      "nothing was run\n.TP\n3\nthe state is invalid: disks overlap\n.TP\n4\na check of the physics failed, or two runs "
-      "differ\n.TP\n130\ninterrupted; "
+      "nothing was run\n.TP\n3\nthe state is invalid: disks overlap\n.TP\n4\na check of the physics failed, or a run repeated "
+      "differs (verify)\n.TP\n130\ninterrupted; "
       "what was done until then is saved\n"
       ".SH SIGNALS\nSIGINT (Ctrl\\-C), SIGTERM, SIGHUP, SIGXCPU and SIGUSR1 ask a run or a study to stop: it saves what was "
       "done, and ends with exit status 130. A second SIGINT or SIGTERM, half a second or more after the first, ends it at once. "

@@ -44,6 +44,18 @@ RunReader::RunReader(const fs::path& directory) : path_(directory / "trajectory.
         "{}: this run kept no trajectory.h5md; run the scene again with run.sample_every, and with --events for an exact replay",
         directory.string()));
   read_summary(directory);
+  open();
+}
+
+RunReader RunReader::of_trajectory(const fs::path& file) {
+  RunReader run;
+  run.path_ = file;
+  run.open();
+  if (run.samples_ > 0) run.end_ = run.sample_times().back();
+  return run;
+}
+
+void RunReader::open() {
   guarded([&] {
     file_ = std::make_shared<const detail::Hdf5Id>(detail::open_trajectory(path_));
     read_trajectory();

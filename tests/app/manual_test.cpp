@@ -15,8 +15,8 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-constexpr auto commands = {"run",  "check", "horizon", "compare", "sweep", "validate",
-                           "init", "info",  "verify",  "play",    "bench", "hardcases"};
+constexpr auto commands = {"run",  "check",  "horizon", "compare", "sweep", "validate", "init",
+                           "info", "verify", "diff",    "play",    "bench", "hardcases"};
 
 class Manual : public ::testing::Test {
  protected:

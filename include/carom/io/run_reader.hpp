@@ -24,6 +24,8 @@ class RunReader {
  public:
   /// Opens the trajectory of a run directory that is complete. Throws OutputError, as every function here.
   explicit RunReader(const std::filesystem::path& directory);
+  /// Opens a trajectory file without its run directory. Then end() is the time of its last sample, and Z() is empty.
+  [[nodiscard]] static RunReader of_trajectory(const std::filesystem::path& file);
 
   /// Box, effects and [run] are those of the run. The species are too, unless a start file that the scene names is gone.
   [[nodiscard]] const Scene& scene() const { return scene_; }
@@ -57,6 +59,8 @@ class RunReader {
   [[nodiscard]] Scene scene(const std::vector<std::string>& overrides) const;
 
  private:
+  RunReader() = default;
+  void open();
   template <class Action>
   auto guarded(Action action) const -> decltype(action());
   void read_summary(const std::filesystem::path& directory);

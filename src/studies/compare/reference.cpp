@@ -1,6 +1,6 @@
 #include "studies/compare/reference.hpp"
 
-#include "studies/horizon/difference.hpp"
+#include "studies/state_distance.hpp"
 
 #include <carom/simulation.hpp>
 

@@ -1,7 +1,7 @@
 #include "studies/compare/side_by_side.hpp"
 
 #include "observe/mechanics.hpp"
-#include "studies/horizon/difference.hpp"
+#include "studies/state_distance.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,37 +1,8 @@
 #include "studies/horizon/difference.hpp"
 
-#include "core/nearest_image.hpp"
-
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace carom {
-
-Eigen::Vector2d displacement(const Box& box, const State& a, const State& b, Eigen::Index i) {
-  // The doubles of two disks that are close differ by no rounding; the remainders are added to that.
-  Eigen::Vector2d apart = nearest_image(box, a.positions.col(i) - b.positions.col(i));
-  if (a.remainders.cols() > i) apart += a.remainders.col(i);
-  if (b.remainders.cols() > i) apart -= b.remainders.col(i);
-  return apart;
-}
-
-double largest_distance(const Box& box, const State& a, const State& b) {
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < a.positions.cols(); ++i) {
-    const double distance = displacement(box, a, b, i).norm();
-    if (!std::isfinite(distance)) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, distance);
-  }
-  return largest;
-}
-
-double rms_distance(const Box& box, const State& a, const State& b) {
-  Eigen::Matrix2Xd apart(2, a.positions.cols());
-  for (Eigen::Index i = 0; i < apart.cols(); ++i) apart.col(i) = displacement(box, a, b, i);
-  if (!apart.allFinite()) return std::numeric_limits<double>::infinity();
-  return apart.cols() == 0 ? 0.0 : std::sqrt(apart.squaredNorm() / static_cast<double>(apart.cols()));
-}
 
 void LogComparison::add(std::span<const Event> log, std::span<const Event> better_log) {
   if (found_) return;

@@ -6,6 +6,7 @@
 #include "studies/horizon/lyapunov.hpp"
 #include "studies/horizon/method.hpp"
 #include "studies/horizon/pace.hpp"
+#include "studies/state_distance.hpp"
 
 #include <carom/simulation.hpp>
 
