@@ -103,11 +103,12 @@ TEST(ComparePage, BiasesAreTakenFromTheExactEngineSeedBySeed) {
   const Series* grid = series_of(*bias, name_of("grid"));
   ASSERT_TRUE(grid != nullptr && grid->y.size() == laws.dts.size() && grid->y_low.size() == laws.dts.size());
   for (std::size_t k = 0; k < laws.dts.size(); ++k) {
-    const double error = laws.e / std::sqrt(3.0);  // of the mean of four that deviate by e; what the starts share has cancelled
-    EXPECT_EQ(grid->x[k], laws.dts[k] / 0.5);      // mean free times
-    EXPECT_NEAR(grid->y[k], laws.bias_per_dt * laws.dts[k], 1e-14);
-    EXPECT_NEAR(grid->y_high[k] - grid->y[k], error, 1e-14);
-    EXPECT_NEAR(grid->y[k] - grid->y_low[k], error, 1e-14);
+    const double error =
+        100.0 * laws.e / std::sqrt(3.0);       // of the mean of four that deviate by e; what the starts share has cancelled
+    EXPECT_EQ(grid->x[k], laws.dts[k] / 0.5);  // mean free times
+    EXPECT_NEAR(grid->y[k], 100.0 * laws.bias_per_dt * laws.dts[k], 1e-12);
+    EXPECT_NEAR(grid->y_high[k] - grid->y[k], error, 1e-12);
+    EXPECT_NEAR(grid->y[k] - grid->y_low[k], error, 1e-12);
   }
 }
 

@@ -65,7 +65,7 @@ function plotFigure(plot, theme) {
       hoverlabel: { bgcolor: theme.paper, font: { family: theme.font, size: 13, color: theme.ink }, align: "left" },
       modebar: { bgcolor: "rgba(0,0,0,0)", color: theme.muted, activecolor: theme.ink },
       shapes: marks.map((mark) => markLine(mark, theme)),
-      annotations: isEmpty ? [noData] : marks.map((mark) => markLabel(mark, plot, theme)),
+      annotations: isEmpty ? [noData] : marks.filter((mark) => mark.label !== "").map((mark) => markLabel(mark, plot, theme)),
     },
   };
 }

@@ -77,7 +77,8 @@ Plot error_in_time(const Comparison& comparison) {
       .title = "Error against time",
       .caption =
           "Root-mean-square distance of the disks from the 113-bit trajectory, in mean diameters: median over the starts, and "
-          "shaded the middle half of them.",
+          "shaded the middle half of them. The level line is the distance at which the horizon of a precision ends, " +
+          fmt::format("{:g} diameters.", plan.horizon.tolerance),
       .x = {.title = "time (mean free times = collisions per disk)"},
       .y = {.title = "rms error of position (diameters)", .log = true}};
   for (const Method& method : methods_of(comparison)) {
@@ -98,9 +99,8 @@ Plot error_in_time(const Comparison& comparison) {
     }
     plot.series.push_back(std::move(series));
   }
-  plot.marks = {
-      {.axis = Mark::Across::x, .value = plan.in_free_times(plan.early_time()), .label = "time of comparison"},
-      {.axis = Mark::Across::y, .value = plan.horizon.tolerance, .label = fmt::format("{:g} diameters", plan.horizon.tolerance)}};
+  plot.marks = {{.axis = Mark::Across::x, .value = plan.in_free_times(plan.early_time()), .label = "time of comparison"},
+                {.axis = Mark::Across::y, .value = plan.horizon.tolerance}};  // its label would cover curves and other labels
   const HorizonRow* row = plan.horizon.row(plan.horizon.engine);
   if (row == nullptr || !row->time) return plot;
   const double horizon = plan.in_free_times(*row->time);
@@ -221,11 +221,14 @@ Plot bias_of(const Comparison& comparison, const std::vector<MethodSummary>& sum
       .id = id,
       .title = fmt::format("Bias of {}", what),
       .caption = comparison.plan.seeds.size() > 1
-                     ? "Relative difference from the exact engine from the same start, with standard errors over the starts."
-                     : "Relative difference from the exact engine from this one start; it has no error bar.",
+                     ? "Difference from the exact engine from the same start, in per cent, with standard errors over the starts."
+                     : "Difference from the exact engine from this one start, in per cent; it has no error bar.",
       .x = {.title = in_free_times, .log = true},
-      .y = {.title = fmt::format("relative bias of {}", what)}};
-  plot.series = over_steps(comparison, summaries, [&](const MethodSummary& s) { return s.*bias; });
+      .y = {.title = fmt::format("bias of {} (per cent)", what)}};
+  plot.series = over_steps(comparison, summaries, [&](const MethodSummary& s) -> std::optional<Estimate> {
+    if (!(s.*bias)) return std::nullopt;
+    return Estimate{100.0 * (s.*bias)->value, 100.0 * (s.*bias)->error};
+  });
   plot.marks = {{.axis = Mark::Across::y, .value = 0.0, .label = "exact"}};
   return plot;
 }
