@@ -215,12 +215,23 @@ void add_compare(CLI::App& program, Action& action, const Invocation& invocation
                                fmt::join(fixed_step_names(), ", ")))
       ->type_name("[METHOD[:DT]]")
       ->expected(0, 1);
+  CLI::Option* trajectory =
+      command
+          ->add_option("--trajectory", options->trajectory,
+                       "Instead compare this trajectory of your own with exact events: .npy (frames, disks, 2 or 4), .csv (time, "
+                       "disk, x, y) or .h5md")
+          ->type_name("FILE");
+  command->add_option("--every", options->every, "Time between the frames of an .npy trajectory")
+      ->type_name("DT")
+      ->needs(trajectory);
   command->add_flag("--no-costs", options->no_costs, "Do not measure cost against size and packing fraction");
   command->add_flag("--force", options->force, "Replace the results that the directory holds");
   command->add_flag("--resume", options->resume, "Continue an interrupted comparison");
   command->add_flag("--json", options->json, "Print compare.json instead of the table");
   command->add_flag("-q,--quiet", options->quiet, "Print only the conclusions, and no progress");
   add_progress(*command, options->progress);
+  for (const char* of_the_study : {"--out", "--dt", "--seeds", "--longest", "--play", "--no-costs", "--force", "--resume"})
+    trajectory->excludes(command->get_option(of_the_study));
   command->callback([&action, options, invocation] { action = [options, invocation] { return compare(*options, invocation); }; });
 }
 

@@ -13,6 +13,7 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -184,6 +185,34 @@ class NpyReader {
     return rows_.take();
   }
 
+  NpyFrames read_frames() {
+    std::map<std::string, Literal> header = read_header();
+    const Literal& shape_literal = header["shape"];
+    const std::string* type_name = header["descr"].text();
+    const bool* fortran = std::get_if<bool>(&header["fortran_order"].value);
+    if (shape_literal.list() == nullptr || fortran == nullptr || type_name == nullptr) fail(no_header);
+    const std::optional<NumberType> type = number_type(*type_name);
+    if (!type) fail(fmt::format("its array is of type \"{}\"; {}", excerpt(*type_name, 40), types));
+    const std::vector<std::uint64_t> shape = lengths_of(*shape_literal.list());
+    if (shape.size() != 3 || (shape[2] != 2 && shape[2] != 4))
+      fail(fmt::format(
+          "its array has the shape ({}); it must be (frames, disks, 2) for x, y or (frames, disks, 4) for x, y, vx, vy",
+          fmt::join(shape, ", ")));
+    const std::uint64_t frames = shape[0], disks = shape[1], columns = shape[2];
+    if (disks == 0 || disks > bytes_.size()) fail(fmt::format("its array of {} disks is not in the file", disks));
+    check_length(frames, disks * columns * type->size);
+    NpyFrames found{frames, disks, columns, {}};
+    found.values.reserve(frames * disks * columns);
+    for (std::uint64_t k = 0; k < frames; ++k)
+      for (std::uint64_t i = 0; i < disks; ++i)
+        for (std::uint64_t c = 0; c < columns; ++c) {
+          const std::uint64_t at = *fortran ? (c * disks + i) * frames + k : (k * disks + i) * columns + c;
+          found.values.push_back(number_at(bytes_.data() + at * type->size, *type));
+          if (!std::isfinite(found.values.back())) fail(fmt::format("frame {}, disk {}: a number is not finite", k, i));
+        }
+    return found;
+  }
+
  private:
   static constexpr const char* no_header = "its header is not one that numpy writes; write the file anew with numpy.save";
   static constexpr const char* shapes =
@@ -298,5 +327,10 @@ class NpyReader {
 bool is_npy(std::string_view bytes) { return bytes.starts_with(magic); }
 
 StartFile parse_npy(std::string_view bytes, const std::string& path) { return NpyReader(bytes, path).read(); }
+
+NpyFrames parse_npy_frames(std::string_view bytes, const std::string& path) {
+  if (!is_npy(bytes)) throw SceneError({path, 0, 0}, "this is no array that numpy.save has written");
+  return NpyReader(bytes, path).read_frames();
+}
 
 }  // namespace carom::detail

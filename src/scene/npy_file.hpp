@@ -3,8 +3,10 @@
 
 #include "scene/start_file.hpp"
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace carom::detail {
 
@@ -15,5 +17,17 @@ bool is_npy(std::string_view bytes);
 /// named like the columns of a start file. Floats of 4 and 8 bytes and whole numbers of any size and byte order, in C and Fortran
 /// order. Throws SceneError at the path, with the row where one is to blame, counted from 0.
 StartFile parse_npy(std::string_view bytes, const std::string& path);
+
+/// The numbers of a trajectory, frame by frame and disk by disk.
+struct NpyFrames {
+  std::size_t frames = 0;
+  std::size_t disks = 0;
+  std::size_t columns = 2;     ///< 2 (x, y) or 4 (x, y, vx, vy)
+  std::vector<double> values;  ///< frames * disks * columns
+};
+
+/// Returns the frames of an array of numbers of shape (frames, disks, 2) or (frames, disks, 4), of the types that parse_npy
+/// reads. Throws SceneError at the path.
+NpyFrames parse_npy_frames(std::string_view bytes, const std::string& path);
 
 }  // namespace carom::detail

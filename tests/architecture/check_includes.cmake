@@ -22,7 +22,7 @@ set(runner_may_use pages io observe simulation scene text core)
 set(terminal_may_use io observe simulation scene text core)
 set(studies_may_use terminal pages io observe theory simulation neighbours scene text core)
 # Each folder of studies/ is a slice that uses what all of them share (the files of studies/ itself), and no other slice but these.
-set(compare_uses_slices studies/horizon)
+set(compare_uses_slices studies/horizon studies/diff)
 file(GLOB slices RELATIVE ${SOURCE_DIR}/src ${SOURCE_DIR}/src/studies/*)
 list(FILTER slices EXCLUDE REGEX "[.]")
 foreach(slice IN LISTS slices)

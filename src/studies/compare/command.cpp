@@ -4,9 +4,12 @@
 #include "studies/compare/command.hpp"
 #include "studies/compare/compare.hpp"
 #include "studies/compare/files.hpp"
+#include "studies/compare/own_trajectory.hpp"
 #include "studies/compare/page.hpp"
 #include "studies/compare/side_by_side_option.hpp"
 #include "studies/compare/text.hpp"
+#include "studies/compare/trajectory_file.hpp"
+#include "studies/horizon/method.hpp"
 #include "studies/study_directory.hpp"
 #include "terminal/progress.hpp"
 #include "terminal/signals.hpp"
@@ -73,6 +76,38 @@ Comparison earlier_points(const RunDirectory& directory, const std::string& key,
   } catch (const OutputError& error) {
     throw UsageError(error.what());
   }
+}
+
+/// The user's own trajectory, against exact events.
+ExitCode compare_own(const CompareCommandOptions& options) {
+  const ProgressMode mode = progress_mode(options.progress, options.quiet);
+  const std::string& engine = checked_engine(options.scene);
+  const Scene scene = load(options.scene);
+  require_no_effects(scene, "carom compare");
+  const Simulation as_given = make_simulation(scene, engine);
+  const std::vector<State> frames =
+      as_usage_error([&] { return read_trajectory_file(*options.trajectory, scene, as_given.disks(), options.every); });
+  const StopRequest stop;
+  auto line = std::make_unique<ProgressLine>(mode, scene);
+  const std::optional<State> start = measured_start(scene, engine, [&](const Progress& progress) {
+    line->update(progress);
+    return !stop.made();
+  });
+  std::optional<OwnTrajectory> compared;
+  if (start)
+    compared = compare_trajectory(scene, *start, frames, [&](double fraction) {
+      line->update("comparing frames", fraction);
+      return !stop.made();
+    });
+  line.reset();
+  if (!compared && !stop.made()) throw std::runtime_error(fmt::format("{}: the scene stops while it equilibrates", scene.source));
+  if (!compared) {
+    fmt::print(stderr, "carom: {}: interrupted before the trajectory was compared\n", scene.source);
+    return exit_interrupted;
+  }
+  const auto written = options.json ? own_trajectory_json : own_trajectory_text;
+  fmt::print("{}{}", written(*compared, scene, *options.trajectory), options.json ? "\n" : "");
+  return exit_done;
 }
 
 ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& invocation) {
@@ -150,7 +185,7 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
 
 ExitCode compare(const CompareCommandOptions& options, const Invocation& invocation) {
   try {
-    return compare_scene(options, invocation);
+    return options.trajectory ? compare_own(options) : compare_scene(options, invocation);
   } catch (const std::bad_alloc&) {
     throw std::runtime_error(
         fmt::format("{}: there is not enough memory to keep this scene in 113 bits at every sample; fewer disks need less",

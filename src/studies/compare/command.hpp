@@ -16,8 +16,10 @@ struct CompareCommandOptions {
   std::string out;          ///< empty: the scene's name without its ending, and "-compare"
   std::vector<double> dts;  ///< empty: the usual ladder
   std::int64_t seeds = 8;
-  double longest = 0.5;             ///< seconds
-  std::optional<std::string> play;  ///< METHOD[:DT], or empty: make the page on which that flies beside exact events
+  double longest = 0.5;                   ///< seconds
+  std::optional<std::string> play;        ///< METHOD[:DT], or empty: make the page on which that flies beside exact events
+  std::optional<std::string> trajectory;  ///< a file of the user's own, to be compared with exact events in place of all else
+  std::optional<double> every;            ///< time between frames of a trajectory without times
   bool no_costs = false;
   bool force = false;
   bool resume = false;
