@@ -285,10 +285,11 @@ void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& p
 
 #define CAROM_TEXT_OF(name) #name
 #define CAROM_TEXT(name) CAROM_TEXT_OF(name)
-// NOLINTNEXTLINE(bugprone-macro-parentheses): a type has none
+// NOLINTBEGIN(bugprone-macro-parentheses): a type has none
 #define CAROM_KERNEL(name, growing, falling, Line)                                                                \
   extern const PredictionKernel<Line> name = {&predict<growing, Line>, &turn_and_predict<growing, falling, Line>, \
                                               CAROM_TEXT(CAROM_INSTRUCTIONS)};
+// NOLINTEND(bugprone-macro-parentheses)
 CAROM_KERNEL(flight_kernel, false, false, Flight)
 CAROM_KERNEL(sized_flight_kernel, false, false, SizedFlight)
 CAROM_KERNEL(falling_flight_kernel, false, true, Flight)
