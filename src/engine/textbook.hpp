@@ -8,21 +8,18 @@
 // cells, stale plans, sampling and stopping leave no trace in the bits, and an all-pairs search without any of these
 // finds the same trajectory to the last bit (tests/engine/textbook_twin_test.cpp).
 //
-// What a scene may add to straight flight between hard walls lives in effects/, one file each: how a disk falls, what contact
-// does, what the sides of the box are, obstacles, wells. At its neutral value each leaves the bits as they are.
+// What a scene may add to straight flight between hard walls lives in effects/, one file each, and is answered for by two
+// members: world_ (engine/textbook_world.hpp) knows how disks fly and what else there is round them, impact_ what contact does.
+// At its neutral value each effect leaves the bits as they are. textbook_impl.hpp has the functions that are only declared here.
 
-#include "core/contact_time.hpp"
 #include "core/instant.hpp"
 #include "effects/any_impact.hpp"
-#include "effects/gravity.hpp"
-#include "effects/obstacles.hpp"
-#include "effects/walls.hpp"
 #include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
 #include "engine/continuation.hpp"
-#include "engine/edges.hpp"
 #include "engine/epoch.hpp"
 #include "engine/stall_detector.hpp"
+#include "engine/textbook_world.hpp"
 #include "neighbours/cell_grid.hpp"
 #include "queue/event_queue.hpp"
 
@@ -68,14 +65,14 @@ class TextbookEngine {
     return false;
   }
 
-  /// Nothing will ever happen again. (Images that slide may hit what is at rest, however late.)
-  [[nodiscard]] bool idle() const { return queue_.empty() || (queue_.next().time == infinity<Real> && !edges_.sheared()); }
+  /// Nothing will ever happen again. (A moving boundary may hit what is at rest, however late.)
+  [[nodiscard]] bool idle() const { return queue_.empty() || (queue_.next().time == infinity<Real> && !world_.edges.sheared()); }
 
   /// Whether the engine can go no further, and why.
   [[nodiscard]] const StallDetector& stall() const { return stall_; }
 
  private:
-  struct Record;
+  using Record = DiskRecord<Real>;
   struct Plan;
 
   /// The time at which disk i and the image of disk j `shift` box lengths away meet, at their hard cores or the edge of their
@@ -85,18 +82,12 @@ class TextbookEngine {
     const Real t = std::max(a.t, b.t);
     const Vec2<Real> r = separation(a, b, t, shift);
     Vec2<Real> v = velocity(a, t) - velocity(b, t);
-    edges_.take_image_velocity(shift, v);
-    const Real sigma = a.radius + b.radius;
-    if (impact_.wells().present()) {
-      const SquareWells<Real>& wells = impact_.wells();
-      const bool bound = wells.inside(i, j) && edges_.domain().nearest(r);  // a well reaches less than half the box
-      return t + wells.next_time(bound, r, v, sigma);
-    }
-    return t + contact_time<Real>(r, v, sigma * (scale_ + growth_ * t), sigma * growth_);
+    world_.edges.take_image_velocity(shift, v);
+    return t + world_.time_to_contact(impact_, i, j, r, v, a.radius + b.radius, t);
   }
   [[nodiscard]] Vec2<Real> separation(const Record& a, const Record& b, Real t, const Winding& shift) const {
     Vec2<Real> r = position(a, t) - position(b, t);
-    edges_.take_image(shift, t, r);
+    world_.edges.take_image(shift, t, r);
     return r;
   }
 
@@ -107,12 +98,8 @@ class TextbookEngine {
     now_ = std::max(now_, event.time);
     if (event.higher == cell_crossing) {
       cross_cell(event.disk);
-    } else if (event.higher <= first_obstacle) {
-      hit_obstacle(event.disk, first_obstacle - event.higher);
-    } else if (event.higher < 0 && edges_.sheared()) {
-      cross_edge(event.disk, static_cast<Wall>(event.higher));
     } else if (event.higher < 0) {
-      hit_wall(event.disk, static_cast<Wall>(event.higher));
+      hit(event.disk, event.higher);
     } else if (is_stale(event.disk)) {
       ++totals_.stale;
       predict(event.disk);
@@ -133,13 +120,13 @@ class TextbookEngine {
     Record& a = record(i);
     Record& b = record(j);
     const Vec2<Real> r = separation(a, b, now_, shift), before_a = a.v, before_b = b.v;
-    const Real image_before = edges_.enter_image(shift, b.v);
-    count_contact<Real>(r, a.v - b.v, radius_at(a, now_) + radius_at(b, now_), (a.radius + b.radius) * growth_, totals_.numerics);
+    const Real image_before = world_.edges.enter_image(shift, b.v), expansion = (a.radius + b.radius) * world_.expansion;
+    count_contact<Real>(r, a.v - b.v, radius_at(a, now_) + radius_at(b, now_), expansion, totals_.numerics);
     last_collision_.count(now_, totals_.numerics);
-    stall_.record_loss(impact_.meet(r, (a.radius + b.radius) * growth_, {i, a.mass, radius_at(a, now_), a.v},
-                                    {j, b.mass, radius_at(b, now_), b.v}, now_, totals_),
-                       {i, j});
-    edges_.leave_image(shift, b.mass, image_before, b.v, totals_);
+    stall_.record_loss(
+        impact_.meet(r, expansion, {i, a.mass, radius_at(a, now_), a.v}, {j, b.mass, radius_at(b, now_), b.v}, now_, totals_),
+        {i, j});
+    world_.edges.leave_image(shift, b.mass, image_before, b.v, totals_);
     if (!a.v.allFinite() || !b.v.allFinite()) {
       a.v = before_a, b.v = before_b;
       return stall_.fail(fmt::format("disks {} and {}: their velocities would not be finite after their collision", i, j));
@@ -150,50 +137,27 @@ class TextbookEngine {
     predict(j);
   }
 
-  /// A disk meets a side of the box, which may move, heat or give way.
-  void hit_wall(std::int32_t i, Wall wall) {
+  /// A disk meets a wall or an obstacle.
+  void hit(std::int32_t i, std::int32_t what) {
     bring_to_now(i);
+    if (world_.is_open(what)) return cross_edge(i, static_cast<Wall>(what));
     Record& a = record(i);
     const Vec2<Real> before = a.v;
-    ++totals_.wall;
-    const auto hit = walls_.meet(wall, a.v, falling_.g, a.mass, a.radius, a.radius * growth_, impact_.rests(i, now_), now_);
-    const Real slowed = impact_.slowed(now_);
-    totals_.wall_impulse[index_of(wall)].add(static_cast<double>(slowed * hit.impulse));
-    totals_.wall_energy[index_of(wall)].add(static_cast<double>(slowed * slowed * hit.energy));
-    stall_.record_loss(hit.smallness, {i});
+    stall_.record_loss(world_.meet(what, a, impact_.rests(i, now_), impact_.slowed(now_), now_, totals_), {i});
     if (!a.v.allFinite()) return fail_after_hit(i, before);
     impact_.touched(i, now_);
-    if (recording_) log_event(i, wall, a.v, Vec2<Real>(0, 0));
+    if (recording_) log_event(i, what, a.v, Vec2<Real>(0, 0));
     if (outruns_epoch(a.v, now_, box_size_)) return begin_epoch_early();
-    if (walls_.is_piston(wall)) plan_boundaries_anew();
+    if (world_.is_movable(what)) plan_boundaries_anew();
     predict(i);
   }
 
-  /// A disk leaves the box past an edge where images slide, and comes back on the other side as one of them.
+  /// A disk leaves the box past an open edge, and comes back on the other side as its own image there.
   void cross_edge(std::int32_t i, Wall edge) {
-    bring_to_now(i);
     Record& a = record(i);
     ++totals_.other;
-    images_.col(i) += edges_.cross(is_upper(edge), a.mass, a.r, a.v, now_, totals_);
+    images_.col(i) += world_.edges.cross(is_upper(edge), a.mass, a.r, a.v, now_, totals_);
     grid_.move(i, a.r);
-    predict(i);
-  }
-
-  /// A disk meets a fixed obstacle: smooth and elastic.
-  void hit_obstacle(std::int32_t i, std::int32_t obstacle) {
-    bring_to_now(i);
-    Record& a = record(i);
-    const Vec2<Real> before = a.v;
-    ++totals_.obstacle;
-    const Vec2<Real> normal = obstacles_.from_nearest_point(obstacle, a.r);
-    const auto bounce = bounce_off<Real>(normal, a.v, falling_.g, a.mass, a.radius, a.radius * growth_);
-    for (int k = 0; k < 2; ++k)
-      totals_.obstacle_impulse[static_cast<std::size_t>(k)].add(static_cast<double>(impact_.slowed(now_) * bounce.impulse[k]));
-    totals_.growth_energy.add(static_cast<double>(bounce.energy));
-    if (!a.v.allFinite()) return fail_after_hit(i, before);
-    impact_.touched(i, now_);
-    if (recording_) log_event(i, first_obstacle - obstacle, a.v, Vec2<Real>(0, 0));
-    if (outruns_epoch(a.v, now_, box_size_)) return begin_epoch_early();
     predict(i);
   }
 
@@ -203,7 +167,7 @@ class TextbookEngine {
     stall_.fail(fmt::format("disk {}: its velocity would not be finite after what it has met", i));
   }
 
-  /// A disk enters the next cell and may meet those who come into reach. Its record stays as it is.
+  /// A disk enters the next cell and may meet those that come into reach. Its record stays as it is.
   void cross_cell(std::int32_t i) {
     Plan& mine = plan(i);
     const CellCrossing<Real> crossing = mine.crossing;
@@ -225,49 +189,19 @@ class TextbookEngine {
   [[gnu::flatten]] void make_plan(std::int32_t i) {
     Plan& mine = plan(i);
     mine.pair_time = infinity<Real>;
-    mine.partner = nobody;
+    mine.partner = no_partner;
     grid_.for_neighbours(i, [&](std::int32_t j, const Winding& shift) { consider(i, j, shift); });
     plan_surroundings(i);
   }
 
-  /// When disk i leaves its cell, and what it hits before that.
+  /// Plans when disk i leaves its cell, and which wall or obstacle it hits before that.
   [[gnu::noinline]] void plan_surroundings(std::int32_t i) {
-    const Record& a = record(i);
     Plan& mine = plan(i);
-    mine.crossing = falling_.present() ? grid_.next_crossing(i, position(a, now_), velocity(a, now_), falling_.g, now_)
-                                       : grid_.next_crossing(i, a.r, a.v, falling_.g, a.t);
-    mine.boundary = {};
-    for (int axis = 0; axis < 2; ++axis)
-      if (!edges_.domain().periodic[axis])
-        for (const bool upper : {false, true}) consider_wall(i, wall_of(axis, upper));
-    if (obstacles_.empty()) return;
-    Real until = std::min(mine.crossing.time, mine.boundary.time);
-    if (until < infinity<Real>) until = std::min(until, epoch_length_);  // a piston may be far away, and all is planned anew then
-    const auto meeting = obstacles_.next(a.r, a.v, falling_.g, radius_at(a, a.t), a.radius * growth_, until - a.t);
-    if (a.t + meeting.time < mine.boundary.time) mine.boundary = {a.t + meeting.time, first_obstacle - meeting.obstacle};
+    mine.crossing = world_.next_crossing(grid_, i, record(i), now_);
+    mine.boundary = world_.next_boundary(record(i), mine.crossing.time, epoch_length_);
   }
 
-  /// Like a pair, a disk and a side of the box meet at a time that depends on their two records alone.
-  void consider_wall(std::int32_t i, Wall wall) {
-    const Record& a = record(i);
-    BoundaryPlan& first = plan(i).boundary;
-    const Real t = std::max(a.t, walls_.since(wall));
-    const int axis = axis_of(wall);
-    const Real sign = is_upper(wall) ? 1 : -1;
-    const Real outward = sign * velocity(a, t)[axis], g = sign * falling_.g[axis], expansion = a.radius * growth_;
-    if (edges_.sheared()) {  // no wall: the disk's centre leaves the box
-      const Real leaves = t + edges_.time_to_edge(is_upper(wall), position(a, t), outward);
-      if (leaves < first.time) first = {leaves, wall};
-      return;
-    }
-    if (walls_.recedes(wall, outward, g, expansion, t)) return;
-    const Real r = position(a, t)[axis], radius = radius_at(a, t);
-    const Real room = is_upper(wall) ? (edges_.domain().upper[axis] - radius) - r : r - (edges_.domain().lower[axis] + radius);
-    const Real time = t + walls_.contact(wall, room, outward, g, expansion, t);
-    if (time < first.time) first = {time, wall};
-  }
-
-  /// A piston has changed its motion: what everybody had planned with it is void.
+  /// A boundary has changed its motion: all plans with it are void.
   void plan_boundaries_anew() {
     for (std::int32_t i = 0; i < count(); ++i) {
       plan_surroundings(i);
@@ -321,10 +255,8 @@ class TextbookEngine {
       record(i).t = 0;
     }
     epoch_ = instant(now_);
-    walls_.rebase(now_);
+    world_.rebase(now_);
     impact_.rebase(now_);
-    edges_.rebase(now_);
-    scale_ += growth_ * now_;
     now_ = 0;
     const double speed = rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; });
     stall_.check_speeds(is_too_slow<Real>(speed, 2.0 * largest_radius_));
@@ -365,38 +297,12 @@ class TextbookEngine {
 
   // ----------------------------------------------------------------------------------------------- disks in flight
 
-  /// A disk as its last collision left it. One cache line in double precision.
-  struct alignas(64) Record {
-    Vec2<Real> r;  ///< position at time t
-    Vec2<Real> v;
-    Real t = 0;  ///< since the epoch
-    Real radius = 0;
-    Real mass = 0;
-    std::uint32_t collisions = 0;  ///< so far; tells whether a plan with this disk still holds
-
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive(r, v, t, radius, mass, collisions);
-    }
-  };
-
-  /// The next wall or obstacle that a disk hits.
-  struct BoundaryPlan {
-    Real time = infinity<Real>;
-    std::int32_t what = wall_left;
-
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive(time, what);
-    }
-  };
-
   struct Plan {
     Real pair_time = infinity<Real>;
-    std::int32_t partner = nobody;
+    std::int32_t partner = no_partner;
     std::uint32_t partner_collisions = 0;
     Winding shift = Winding::Zero();  ///< box lengths between this disk and that image of the partner
-    BoundaryPlan boundary;
+    BoundaryPlan<Real> boundary;
     CellCrossing<Real> crossing;
 
     template <class Archive>
@@ -405,13 +311,13 @@ class TextbookEngine {
     }
   };
 
-  static constexpr std::int32_t nobody = -1;
+  static constexpr std::int32_t no_partner = -1;
   static constexpr std::int32_t cell_crossing = -100;  ///< in the place of a partner; below every wall: crossed before it is hit
 
   [[nodiscard]] static Vec2<Real> momentum(const Record& a) { return a.mass * a.v; }
-  [[nodiscard]] Vec2<Real> position(const Record& a, Real t) const { return falling_.position(a.r, a.v, t - a.t); }
-  [[nodiscard]] Vec2<Real> velocity(const Record& a, Real t) const { return falling_.velocity(a.v, t - a.t); }
-  [[nodiscard]] Real radius_at(const Record& a, Real t) const { return a.radius * (scale_ + growth_ * t); }
+  [[nodiscard]] Vec2<Real> position(const Record& a, Real t) const { return world_.position(a, t); }
+  [[nodiscard]] Vec2<Real> velocity(const Record& a, Real t) const { return world_.velocity(a, t); }
+  [[nodiscard]] Real radius_at(const Record& a, Real t) const { return world_.radius(a, t); }
 
   [[nodiscard]] Winding nearest_image(std::int32_t i, std::int32_t j) const;
   /// How far disk i reaches beyond the walls across an axis; negative where it does not.
@@ -425,7 +331,7 @@ class TextbookEngine {
     a.r = r;
     a.t = now_;
     ++a.collisions;
-    const Winding winding = edges_.domain().wrap(a.r);
+    const Winding winding = world_.edges.domain().wrap(a.r);
     grid_.refold(i, winding);
     images_.col(i) += winding;
     return winding;
@@ -448,13 +354,8 @@ class TextbookEngine {
   [[nodiscard]] const Plan& plan(std::int32_t i) const { return plans_[static_cast<std::size_t>(i)]; }
 
   Box box_;
-  Edges<Real> edges_;
-  Falling<Real> falling_;
-  Walls<Real> walls_;
-  Obstacles<Real> obstacles_;
+  TextbookWorld<Real> world_;
   AnyImpact<Real> impact_;
-  Real scale_ = 1;   ///< of all radii, when the epoch began
-  Real growth_ = 0;  ///< of the scale, per time
 
   CellGrid<Real> grid_;
   EventQueue<Real> queue_;
@@ -475,18 +376,14 @@ class TextbookEngine {
   std::vector<Event> log_;
 
  public:
-  // ------------------------------------------------------------------------------------- for those who look on
+  // ------------------------------------------------------------------------------------------ seen from outside
 
   [[nodiscard]] Instant now() const { return instant(now_); }
   [[nodiscard]] Totals totals() const { return totals_.rounded(); }
   [[nodiscard]] const Counts& counts() const { return totals_; }
   [[nodiscard]] std::size_t disk_count() const { return records_.size(); }
   /// Memory held, without the log.
-  [[nodiscard]] std::size_t bytes() const {
-    return records_.capacity() * sizeof(Record) + plans_.capacity() * sizeof(Plan) +
-           static_cast<std::size_t>(images_.size()) * sizeof(std::int64_t) + grid_.bytes() + queue_.bytes() + impact_.bytes() +
-           obstacles_.bytes();
-  }
+  [[nodiscard]] std::size_t bytes() const;
 
   /// The state at now(), computed on the side: nothing in the engine changes. Memory that the state has is used again.
   void state(State& state) const;
@@ -500,66 +397,26 @@ class TextbookEngine {
   void set_back(const Instant& time) { now_ = time.since<Real>(epoch_); }
 
   /// Makes now the zero of time and forgets the totals.
-  void reset_clock() {
-    begin_epoch(now_);
-    epoch_ = Instant{};
-    totals_ = RunningTotals{};
-  }
+  void reset_clock();
 
-  /// Something from outside gives disk i a new velocity, in a sheared box relative to the flow, and, where disks spin, a new
-  /// spin. Returns the energy that it gained.
-  double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) {
-    bring_to_now(i);
-    Record& a = record(i);
-    const double before = kinetic_energy(i);
-    const Vec2<Real> as_it_was = a.v;
-    a.v = v.cast<Real>();
-    a.v[0] += edges_.flow(a.r[1]);
-    if (!a.v.allFinite()) fail_after_hit(i, as_it_was);
-    if (impact_.spinning()) impact_.spin(i) = Real(spin);
-    const double gained = kinetic_energy(i) - before;
-    if (outruns_epoch(a.v, now_, box_size_))
-      begin_epoch(now_);
-    else
-      predict(i);
-    return gained;
-  }
+  /// Gives disk i a new velocity, which in a flow is relative to it, and, where disks spin, a new spin. Returns the energy that
+  /// it gained.
+  double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin);
 
-  /// Of a disk whose record is of now, with its spin.
-  [[nodiscard]] double kinetic_energy(std::int32_t i) const {
-    const Record& a = record(i);
-    const Real around = impact_.spinning() ? impact_.spin(i) * radius_at(a, now_) : Real(0);
-    return static_cast<double>(a.mass * (a.v.squaredNorm() / 2 + around * around / 4));
-  }
+  /// The kinetic energy of disk i, with its spin. Requires that its record is of now.
+  [[nodiscard]] double kinetic_energy(std::int32_t i) const;
 
-  /// All velocities and spins become `factor` times what they are.
-  void scale_velocities(double factor) {
-    for (std::int32_t i = 0; i < count(); ++i) {
-      bring_to_now(i);
-      record(i).v *= Real(factor);
-      if (impact_.spinning()) impact_.spin(i) *= Real(factor);
-    }
-    begin_epoch(now_);
-  }
+  /// Multiplies all velocities and spins by `factor`.
+  void scale_velocities(double factor);
 
   /// A program's own collision rule: see Simulation::set_collision_rule().
   static constexpr bool takes_rules = true;
   void set_collision_rule(CollisionFunction rule) { impact_.set_rule(std::move(rule), nullptr); }
 
-  /// What an engine needs to know that takes the place of this one.
-  void leave(Continuation& continuation) const {
-    continuation.now = now();
-    continuation.totals = totals_;
-    continuation.wall_draws = walls_.draws();
-    leave_bonds(continuation);
-  }
+  /// Writes down what an engine needs that takes the place of this one.
+  void leave(Continuation& continuation) const;
   /// Takes the place of another engine. Requires an engine that has just been made.
-  void take_over(const Continuation& continuation) {
-    epoch_ = continuation.now;
-    totals_.go_on_from(continuation.totals);
-    walls_.go_on_drawing(continuation.wall_draws);
-    take_over_bonds(continuation);
-  }
+  void take_over(const Continuation& continuation);
 
   void record_events(bool on) { recording_ = on; }
   /// Puts the events recorded since the last call in the place of what `events` held.
@@ -571,8 +428,8 @@ class TextbookEngine {
   /// One sentence for every way in which the plan differs from what an exhaustive search finds, and for every pair that overlaps
   /// by more of its contact distance than is tolerated.
   [[nodiscard]] std::vector<std::string> check_invariants(double tolerated_overlap = 0.0) const;
-  /// Of any pair, over its contact distance, and of any disk that touches a wall, over its radius; 0 where none overlaps, and of
-  /// more than 2000 disks.
+  /// The deepest overlap of any pair, over its contact distance, and of any disk with a wall, over its radius; 0 where none
+  /// overlaps, and for more than 2000 disks.
   [[nodiscard]] double deepest_overlap() const;
 
   /// All that decides how the run goes on, for core/archive.hpp. Requires all events to have been taken.

@@ -15,14 +15,9 @@ template <class Real>
 TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const State& start, const Effects& effects,
                                      std::uint64_t seed)
     : box_(box),
-      edges_(box, effects, start.shear_displacement),
-      falling_(effects.gravity),
-      walls_(box, effects.walls, seed),
-      obstacles_(box, effects.obstacles),
+      world_(box, effects, start, seed),
       impact_(effects, disks.count()),
-      scale_(Real(start.scale)),
-      growth_(effects.growth ? Real(effects.growth->rate) : Real(0)),
-      grid_(edges_.domain(), Real(1), 0),
+      grid_(world_.edges.domain(), Real(1), 0),
       records_(disks.count()),
       plans_(disks.count()),
       images_(Images::Zero(2, static_cast<Eigen::Index>(disks.count()))),
@@ -38,7 +33,6 @@ TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const S
     if (start.images.cols() > i) images_.col(i) = start.images.col(i);
     if (impact_.spinning() && start.spins.size() > i) impact_.spin(i) = Real(start.spins[i]);
   }
-  walls_.start_from(start.walls);
   suit_grid();
   grid_.clear();
   for (std::int32_t i = 0; i < count(); ++i) grid_.insert(i, record(i).r);
@@ -47,7 +41,7 @@ TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const S
   begin_epoch(Real(0));
 }
 
-/// Who begins inside whose well.
+/// Finds the pairs that begin inside each other's wells.
 template <class Real>
 void TextbookEngine<Real>::find_wells() {
   SquareWells<Real>& wells = impact_.wells();
@@ -89,23 +83,24 @@ void TextbookEngine<Real>::take_over_bonds(const Continuation& continuation) {
 
 template <class Real>
 void TextbookEngine<Real>::suit_grid() {
-  if (edges_.sheared()) {
-    if (grid_.disks() != records_.size()) grid_ = CellGrid<Real>(edges_.domain(), 2 * Real(largest_radius_), records_.size());
-    const auto [from, to] = edges_.slide(epoch_length_ < infinity<Real> ? epoch_length_ : 0);
+  if (world_.edges.sheared()) {
+    if (grid_.disks() != records_.size())
+      grid_ = CellGrid<Real>(world_.edges.domain(), 2 * Real(largest_radius_), records_.size());
+    const auto [from, to] = world_.edges.slide(epoch_length_ < infinity<Real> ? epoch_length_ : 0);
     grid_.slide(from, to);
     return;
   }
-  const bool same = growth_ == 0 && !walls_.any_moves() && grid_.disks() == records_.size();
+  const bool same = world_.expansion == 0 && !world_.walls.any_moves() && grid_.disks() == records_.size();
   if (same) return;
   Box now = box_;
   for (const Wall wall : {wall_left, wall_right, wall_bottom, wall_top}) {
     if (now.periodic(axis_of(wall))) continue;
-    const double displacement = static_cast<double>(walls_.displacement(wall, 0));
+    const double displacement = static_cast<double>(world_.walls.displacement(wall, 0));
     (is_upper(wall) ? now.upper : now.lower)[axis_of(wall)] += is_upper(wall) ? displacement : -displacement;
   }
   for (int axis = 0; axis < 2; ++axis)  // walls may have closed in upon each other: a grid needs some width
     now.upper[axis] = std::max(now.upper[axis], now.lower[axis] + largest_radius_);
-  const Real scale = growth_ > 0 && epoch_length_ < infinity<Real> ? scale_ + growth_ * epoch_length_ : scale_;
+  const Real scale = world_.expansion > 0 && epoch_length_ < infinity<Real> ? world_.scale(epoch_length_) : world_.scale_at_epoch;
   grid_ = CellGrid<Real>(Domain<Real>(now), 2 * Real(largest_radius_) * scale * impact_.wells().reach(), records_.size());
 }
 
@@ -119,51 +114,119 @@ void TextbookEngine<Real>::state(State& state) const {
   state.remainders.resize(2, wide ? count() : 0);
   for (std::int32_t i = 0; i < count(); ++i) {
     Vec2<Real> r = position(record(i), now_);
-    state.images.col(i) = images_.col(i) + edges_.domain().wrap(r);
+    state.images.col(i) = images_.col(i) + world_.edges.domain().wrap(r);
     state.positions.col(i) = r.template cast<double>();
     for (int a = 0; a < 2; ++a) {  // rounding to double may reach the upper edge, which is the next box's lower one
-      if (!edges_.domain().periodic[a] || state.positions(a, i) < static_cast<double>(edges_.domain().upper[a])) continue;
-      state.positions(a, i) = static_cast<double>(edges_.domain().lower[a]);
+      if (!world_.edges.domain().periodic[a] || state.positions(a, i) < static_cast<double>(world_.edges.domain().upper[a]))
+        continue;
+      state.positions(a, i) = static_cast<double>(world_.edges.domain().lower[a]);
       ++state.images(a, i);
-      r[a] -= edges_.domain().length[a];
+      r[a] -= world_.edges.domain().length[a];
     }
     if (wide) state.remainders.col(i) = (r - state.positions.col(i).template cast<Real>()).template cast<double>();
     state.velocities.col(i) = velocity(record(i), now_).template cast<double>();
   }
   state.spins.resize(impact_.spinning() ? count() : 0);
   for (std::int32_t i = 0; i < state.spins.size(); ++i) state.spins[i] = static_cast<double>(impact_.spin(i));
-  state.scale = static_cast<double>(scale_ + growth_ * now_);
-  state.walls = walls_.states(now_);
+  state.scale = static_cast<double>(world_.scale(now_));
+  state.walls = world_.walls.states(now_);
   state.bonds = impact_.wells().pairs();
-  state.shear_displacement = edges_.sheared() ? edges_.displacement(now_) : 0.0;
+  state.shear_displacement = world_.edges.sheared() ? world_.edges.displacement(now_) : 0.0;
+}
+
+template <class Real>
+std::size_t TextbookEngine<Real>::bytes() const {
+  return records_.capacity() * sizeof(Record) + plans_.capacity() * sizeof(Plan) +
+         static_cast<std::size_t>(images_.size()) * sizeof(std::int64_t) + grid_.bytes() + queue_.bytes() + impact_.bytes() +
+         world_.obstacles.bytes();
+}
+
+template <class Real>
+void TextbookEngine<Real>::reset_clock() {
+  begin_epoch(now_);
+  epoch_ = Instant{};
+  totals_ = RunningTotals{};
+}
+
+template <class Real>
+double TextbookEngine<Real>::set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) {
+  bring_to_now(i);
+  Record& a = record(i);
+  const double before = kinetic_energy(i);
+  const Vec2<Real> as_it_was = a.v;
+  a.v = v.cast<Real>();
+  a.v[0] += world_.edges.flow(a.r[1]);
+  if (!a.v.allFinite()) fail_after_hit(i, as_it_was);
+  if (impact_.spinning()) impact_.spin(i) = Real(spin);
+  const double gained = kinetic_energy(i) - before;
+  if (outruns_epoch(a.v, now_, box_size_))
+    begin_epoch(now_);
+  else
+    predict(i);
+  return gained;
+}
+
+template <class Real>
+double TextbookEngine<Real>::kinetic_energy(std::int32_t i) const {
+  const Record& a = record(i);
+  const Real around = impact_.spinning() ? impact_.spin(i) * radius_at(a, now_) : Real(0);
+  return static_cast<double>(a.mass * (a.v.squaredNorm() / 2 + around * around / 4));
+}
+
+template <class Real>
+void TextbookEngine<Real>::scale_velocities(double factor) {
+  for (std::int32_t i = 0; i < count(); ++i) {
+    bring_to_now(i);
+    record(i).v *= Real(factor);
+    if (impact_.spinning()) impact_.spin(i) *= Real(factor);
+  }
+  begin_epoch(now_);
+}
+
+template <class Real>
+void TextbookEngine<Real>::leave(Continuation& continuation) const {
+  continuation.now = now();
+  continuation.totals = totals_;
+  continuation.wall_draws = world_.walls.draws();
+  leave_bonds(continuation);
+}
+
+template <class Real>
+void TextbookEngine<Real>::take_over(const Continuation& continuation) {
+  epoch_ = continuation.now;
+  totals_.go_on_from(continuation.totals);
+  world_.walls.go_on_drawing(continuation.wall_draws);
+  take_over_bonds(continuation);
 }
 
 template <class Real>
 Real TextbookEngine<Real>::suitable_epoch_length() const {
   const double spacing = box_size_ / std::sqrt(std::max(count(), 1));
   const double speed = std::max(rms_speed(records_, [](const Record& a) -> const Vec2<Real>& { return a.v; }),
-                                static_cast<double>(walls_.fastest(0)));
-  const double pull = std::max(static_cast<double>(falling_.g.cwiseAbs().maxCoeff()), static_cast<double>(walls_.strongest()));
+                                static_cast<double>(world_.walls.fastest(0)));
+  const double pull =
+      std::max(static_cast<double>(world_.falling.g.cwiseAbs().maxCoeff()), static_cast<double>(world_.walls.strongest()));
   const double length = shortened_epoch(epoch_length(spacing, speed), spacing, pull);
-  if (edges_.sheared()) return edges_.time_to_slide(2 * Real(largest_radius_), Real(length));  // by one contact distance
-  return growth_ > 0 ? std::min<Real>(Real(length), scale_ / (64 * growth_)) : Real(length);
+  if (world_.edges.sheared())
+    return world_.edges.time_to_slide(2 * Real(largest_radius_), Real(length));  // by one contact distance
+  return world_.expansion > 0 ? std::min<Real>(Real(length), world_.scale_at_epoch / (64 * world_.expansion)) : Real(length);
 }
 
 template <class Real>
 template <class Archive>
 void TextbookEngine<Real>::serialize(Archive& archive) {
-  archive(walls_, edges_, impact_, scale_, growth_, grid_, records_, plans_, images_, epoch_, now_, epoch_length_, stall_,
-          common_motion_, totals_, last_collision_);
+  archive(world_.walls, world_.edges, impact_, world_.scale_at_epoch, world_.expansion, grid_, records_, plans_, images_, epoch_,
+          now_, epoch_length_, stall_, common_motion_, totals_, last_collision_);
   if constexpr (Archive::is_loading::value) fill_queue();
 }
 
-/// Of j, seen from i.
+/// The shift of the image of disk j that is nearest to disk i.
 template <class Real>
 Winding TextbookEngine<Real>::nearest_image(std::int32_t i, std::int32_t j) const {
-  return edges_.nearest_image(position(record(i), now_) - position(record(j), now_), now_);
+  return world_.edges.nearest_image(position(record(i), now_) - position(record(j), now_), now_);
 }
 
-/// Length; negative where there is a gap.
+/// The length by which disk i and an image of disk j overlap; negative where there is a gap.
 template <class Real>
 Real TextbookEngine<Real>::overlap_with(std::int32_t i, std::int32_t j, const Winding& image) const {
   using std::sqrt;
@@ -173,11 +236,11 @@ Real TextbookEngine<Real>::overlap_with(std::int32_t i, std::int32_t j, const Wi
 
 template <class Real>
 Real TextbookEngine<Real>::beyond_walls(std::int32_t i, int axis) const {
-  if (!edges_.walled(axis)) return -infinity<Real>;
+  if (!world_.edges.walled(axis)) return -infinity<Real>;
   const Record& a = record(i);
   const Real r = position(a, now_)[axis], radius = radius_at(a, now_);
-  return std::max<Real>(edges_.domain().lower[axis] + radius - r - walls_.displacement(wall_of(axis, false), now_),
-                        r - edges_.domain().upper[axis] + radius - walls_.displacement(wall_of(axis, true), now_));
+  return std::max<Real>(world_.edges.domain().lower[axis] + radius - r - world_.walls.displacement(wall_of(axis, false), now_),
+                        r - world_.edges.domain().upper[axis] + radius - world_.walls.displacement(wall_of(axis, true), now_));
 }
 
 template <class Real>
@@ -202,9 +265,10 @@ std::vector<std::string> TextbookEngine<Real>::check_invariants(double tolerated
   // Positions are rounded at their size, which far from the origin is not that of the box; where disks grow, by half an epsilon
   // more at every epoch, which each rescaling of velocities begins: a disk that is too slow to move by that stays where it is and
   // grows.
-  const Real epochs = growth_ > 0 ? Real(static_cast<double>(totals_.numerics.epochs)) : Real(0);
-  const Real rounding = (16 + epochs / 2) * epsilon<Real> *
-                        std::max(edges_.domain().lower.cwiseAbs().maxCoeff(), edges_.domain().upper.cwiseAbs().maxCoeff());
+  const Real epochs = world_.expansion > 0 ? Real(static_cast<double>(totals_.numerics.epochs)) : Real(0);
+  const Real rounding =
+      (16 + epochs / 2) * epsilon<Real> *
+      std::max(world_.edges.domain().lower.cwiseAbs().maxCoeff(), world_.edges.domain().upper.cwiseAbs().maxCoeff());
   for (std::int32_t i = 0; i < count(); ++i) {
     const Record& a = record(i);
     const Vec2<Real> r = position(a, now_);
@@ -214,10 +278,10 @@ std::vector<std::string> TextbookEngine<Real>::check_invariants(double tolerated
     for (int axis = 0; axis < 2; ++axis) {
       const Real slack = grid_.width()[axis] / 256;
       const Real beyond = std::max<Real>(from[axis] - r[axis], r[axis] - from[axis] - grid_.width()[axis]);
-      if (beyond > slack && edges_.domain().periodic[axis])
+      if (beyond > slack && world_.edges.domain().periodic[axis])
         faults.push_back(fmt::format("disk {}: outside its cell along axis {}", i, axis));
       const Real out = beyond_walls(i, axis);
-      if (out > Real(tolerated_overlap) * radius_at(a, now_) + tolerance * edges_.domain().length[axis] + rounding)
+      if (out > Real(tolerated_overlap) * radius_at(a, now_) + tolerance * world_.edges.domain().length[axis] + rounding)
         faults.push_back(fmt::format("disk {}: {} beyond a wall across axis {}", i, static_cast<double>(out), axis));
     }
   }
