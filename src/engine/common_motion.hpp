@@ -24,7 +24,7 @@ class CommonMotion {
   /// Whether momentum along any axis is to be looked after.
   [[nodiscard]] bool present() const { return kept_[0] || kept_[1]; }
 
-  /// Of disks as they begin, each of momentum(disk): along axes on which they move together, they go on to do so.
+  /// Begins with disks of momenta momentum(disk). Along axes on which they move together, their common motion is left to them.
   template <class Disks, class MomentumOf>
   void begin(const Disks& disks, MomentumOf&& momentum) {
     const Sums sums = sums_of(disks, momentum);
@@ -47,7 +47,7 @@ class CommonMotion {
   }
 
  private:
-  /// Of momenta, with their signs and without.
+  /// Sums of momenta, and of their absolute values.
   struct Sums {
     Vec2<Real> momentum = Vec2<Real>::Zero();
     Real sizes = 0;

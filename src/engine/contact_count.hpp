@@ -39,7 +39,7 @@ void count_contact(const Vec2<Real>& r, const Vec2<Real>& v, Real sigma, Real ex
     detail::count_near_miss(rr, ss, rv, grazes, numerics);
 }
 
-/// The same for two collisions at one instant, and which the last one was.
+/// Counts collisions at the same instant as the one before.
 class LastInstant {
  public:
   template <class Real>

@@ -17,13 +17,13 @@ namespace carom {
 struct Continuation {
   Instant now;
   RunningTotals totals;
-  std::uint64_t wall_draws = 0;  ///< from diffuse walls so far
-  std::uint64_t kicks = 0;       ///< the number of the next kick that nothing has been drawn for
-  /// The kick that is to come. At another rate it comes at another time, and is drawn anew.
+  std::uint64_t wall_draws = 0;         ///< from diffuse walls so far
+  std::uint64_t thermostat_events = 0;  ///< the number of the next event of the thermostat for which nothing has been drawn
+  /// The next event of the thermostat. At another rate it comes at another time, and is drawn anew.
   struct Pending {
     double rate = 0.0;
     std::uint64_t number = 0;
-    Kick kick;
+    ThermostatEvent event;
     Instant time;
   };
   std::optional<Pending> pending;

@@ -147,14 +147,14 @@ class Engine {
     if (pair.wrapped != 0) [[unlikely]]
       flight_.count_images(pair);
     prefetcher_.partner_of_next(data());
-    plan_ahead(i, pair.ahead[0]);
-    plan_ahead(j, pair.ahead[1]);
+    set_plan(i, pair.ahead[0]);
+    set_plan(j, pair.ahead[1]);
     queue_.push(plans_, i, plans_.time(i), j, plans_.time(j));
     if (stamp_ == last_stamp) [[unlikely]]
       begin_epoch(now_);
   }
 
-  /// What contact at separation r = r_i - r_j does to their velocities.
+  /// Changes the velocities of disks i and j by their contact at separation r = r_i - r_j.
   void exchange(const Vec2<double>& r, std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb) {
     const Line &a = line(i), &b = line(j);
     const double scale = world_.scale(now_), radius_a = layout_.radius(a), radius_b = layout_.radius(b);
@@ -185,17 +185,17 @@ class Engine {
       stall_.record_loss(world_.meet(what, contact, v, now_, totals_), {id(i)});
     impact_.touched(i, now_);
     if (recorder_.logging()) recorder_.log_hit(now_, i, what, v);
-    turn(i, v);
+    change_velocity(i, v);
     if (world_.is_movable(what)) plan_edges_anew();
   }
 
   /// From now on disk i moves with velocity v.
-  void turn(std::int32_t i, const Vec2<double>& v) {
+  void change_velocity(std::int32_t i, const Vec2<double>& v) {
     plans_[i].last_collided = ++stamp_;
     const Vec2<double> along = flight_.line_velocity(v, now_);
     if (limits_.exceeded_by(along)) [[unlikely]]
       return begin_epoch_early(i, along, i, along);
-    flight_.turn(i, line(i), v, now_);
+    flight_.change_velocity(i, line(i), v, now_);
     predict(i);
     if (stamp_ == last_stamp) [[unlikely]]
       begin_epoch(now_);
@@ -213,7 +213,7 @@ class Engine {
         predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, fresh.data(), static_cast<std::uint32_t>(fresh.size())});
     Plan& mine = plans_[i];
     if (ahead.pair_time < mine.pair_time || (ahead.pair_time == mine.pair_time && precedes_as_partner(i, ahead))) {
-      plan_ahead(i, ahead);
+      set_plan(i, ahead);
     } else {
       plan_edge(i, ahead.edge_time);
     }
@@ -230,16 +230,16 @@ class Engine {
 
   /// Disk i against all its neighbours, walls, obstacles and the edges of its neighbourhood.
   void predict(std::int32_t i) {
-    plan_ahead(i, predicted(i, surroundings(i)));
+    set_plan(i, predicted(i, surroundings(i)));
     schedule(i);
   }
 
   /// By reference: see Prediction.
-  void plan_ahead(std::int32_t i, const Prediction& ahead) {
+  void set_plan(std::int32_t i, const Prediction& ahead) {
     Plan& mine = plans_[i];
     mine.pair_time = ahead.pair_time;
     mine.partner = ahead.tied == 0 ? ahead.partner : lowest_of_tied(i, ahead);
-    mine.foreseen = stamp_;
+    mine.predicted_at = stamp_;
     plan_edge(i, ahead.edge_time);
   }
 
@@ -268,8 +268,8 @@ class Engine {
     resolve_wall_pair_tie(i);
   }
 
-  /// The same where walls may move, disks fall and grow, and obstacles stand. One copy of it: inlined, it would be one in every
-  /// event.
+  /// Puts the next contact with a wall, which may move, or an obstacle in the place of the edge of the neighbourhood where it
+  /// comes first. Not inlined: there would be a copy of it in every event.
   [[gnu::noinline]] void plan_world(std::int32_t i);
 
   /// Puts the edge past which images slide in the place of the edge of the neighbourhood where it comes first.
@@ -282,12 +282,12 @@ class Engine {
       mine.edge_time = never;
   }
 
-  /// A piston has changed its motion: what everybody had planned with it is void.
+  /// A piston has changed its motion: all plans with it are void.
   void plan_edges_anew();
 
   void schedule(std::int32_t i) { queue_.push(plans_, i, plans_.time(i)); }
 
-  /// Of two partners at the same time, whether the one ahead comes before the one planned.
+  /// Whether the predicted partner comes before the planned one, where both are met at the same time.
   [[nodiscard]] bool precedes_as_partner(std::int32_t i, const Prediction& ahead) const {
     return ahead.pair_time < never && id(ahead.partner) < id(plans_[i].partner);
   }
@@ -412,8 +412,8 @@ class Engine {
     this->state(state);
     return state;
   }
-  /// Puts time, velocities, scale and walls of state() in their place in `state`; the rest is left as it is.
-  void look_at_velocities(State& state) const;
+  /// Stores time, velocities, scale and walls of state() in `state`; its other members keep their values.
+  void store_velocities(State& state) const;
 
   /// Puts the clock back to an earlier time, since which nothing has happened.
   void set_back(const Instant& time) { now_ = time.since<double>(epoch_); }
@@ -428,14 +428,14 @@ class Engine {
   static constexpr bool takes_rules = !Impact::plain;
   void set_collision_rule(CollisionFunction rule) { impact_.set_rule(std::move(rule), ids_.data()); }
 
-  /// What an engine needs to know that takes the place of this one.
+  /// Writes down what an engine needs that takes the place of this one.
   void leave(Continuation& continuation) const;
   /// Takes the place of another engine. Requires an engine that has just been made.
   void take_over(const Continuation& continuation);
 
   void record_events(bool on) { recorder_.log_events(on); }
   void take_events(std::vector<Event>& events) { recorder_.take_events(events); }
-  /// What is written down of events, for the log and for a listener.
+  /// The recorder of events, for the log and for a listener.
   [[nodiscard]] CollisionRecorder& recorder() { return recorder_; }
 
   /// The memory of all that has an entry per disk, in bytes.

@@ -1,6 +1,6 @@
 #pragma once
-// What must hold in the fast engine at any time: nobody overlaps, everybody is in his neighbourhood and on the right lists, no
-// collision is overlooked, and the queue knows every event.
+// Invariants of the fast engine: no overlap; each disk inside its neighbourhood; lists symmetric and complete; no collision
+// overlooked; the queue consistent with the plans.
 
 #include "core/sliding_separation.hpp"
 #include "engine/engine.hpp"

@@ -40,7 +40,7 @@ void Engine<Impact, Layout, World>::begin_epoch_early(std::int32_t i, const Vec2
   if constexpr (!World::plain) widen_coordinates();
   choose_epoch_length();
   if constexpr (!World::plain) follow_shear();
-  for (const std::int32_t k : {i, j}) plan_ahead(k, predicted(k, surroundings(k)));
+  for (const std::int32_t k : {i, j}) set_plan(k, predicted(k, surroundings(k)));
   start_queue();
 }
 
@@ -119,7 +119,7 @@ double Engine<Impact, Layout, World>::longest_epoch_of_world() const {
 }
 
 /// The frame of the lines falls on from epoch to epoch, with the neighbourhoods in it. Before it leaves the box behind it is
-/// drawn up. Everybody is to be predicted anew then.
+/// put back to the box. Then all disks must be predicted anew.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::reset_falling_frame() {
   if (!flight_.has_fallen(4.0 * sizes_.spacing)) return;
@@ -149,10 +149,10 @@ void Engine<Impact, Layout, World>::widen_coordinates() {
   widen_coordinates();
 }
 
-/// Everybody anew.
+/// Predicts all disks.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::predict_all() {
-  for (std::int32_t i = 0; i < count(); ++i) plan_ahead(i, predicted(i, surroundings(i)));
+  for (std::int32_t i = 0; i < count(); ++i) set_plan(i, predicted(i, surroundings(i)));
 }
 
 template <class Impact, class Layout, class World>

@@ -9,7 +9,7 @@ namespace carom {
 
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::state(State& state) const {
-  look_at_velocities(state);
+  store_velocities(state);
   state.positions.resize(2, count());
   state.images.resize(2, count());
   state.remainders.resize(2, count());
@@ -35,7 +35,7 @@ void Engine<Impact, Layout, World>::state(State& state) const {
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::look_at_velocities(State& state) const {
+void Engine<Impact, Layout, World>::store_velocities(State& state) const {
   state.time = now().high;
   state.velocities.resize(2, count());
   for (std::int32_t i = 0; i < count(); ++i) {
@@ -81,7 +81,7 @@ double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eige
       gained += mass * radius * radius * (spin * spin - impact_.spin(i) * impact_.spin(i)) / 4.0;
       impact_.spin(i) = spin;
     }
-  turn(i, to);
+  change_velocity(i, to);
   return gained;
 }
 

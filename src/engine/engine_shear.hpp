@@ -31,10 +31,11 @@ void Engine<Impact, Layout, World>::follow_shear() {
   if (!world_.sheared()) return;
   update_shear();
   for (std::int32_t i = 0; i < count(); ++i)
-    if (std::abs(std::int64_t{flight_.height(i)}) >= lists_.inner()) plan_ahead(i, predicted(i, surroundings(i)));
+    if (std::abs(std::int64_t{flight_.height(i)}) >= lists_.inner()) set_plan(i, predicted(i, surroundings(i)));
 }
 
-/// Of the half box within which nearest images are right, lines and the slide of images share what neighbourhoods leave.
+/// Divides what neighbourhoods leave of the half box, within which nearest images are right, between lines and the slide of
+/// images.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::leave_room_for_shear(const std::vector<NeighbourhoodCentre>& centres) {
   for (std::int32_t i = 0; i < count(); ++i) flight_.height(i) = centres[static_cast<std::size_t>(i)].y;

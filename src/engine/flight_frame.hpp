@@ -166,7 +166,7 @@ class FlightFrame {
   }
 
   /// Gives disk i a line on which it is at time `now` where it was on the old one, and has velocity v.
-  void turn(std::int32_t i, Line& a, const Vec2<double>& v, double now) {
+  void change_velocity(std::int32_t i, Line& a, const Vec2<double>& v, double now) {
     const Vec2<double> along = line_velocity(v, now);
     for (int k = 0; k < 2; ++k) {
       a.x[k] = moved(i, a, k, along[k], now, world_.falls() ? lift(a, k, now, v[k], along[k], now) : 0.0);

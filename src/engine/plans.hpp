@@ -23,7 +23,7 @@ struct alignas(32) Plan {
   double edge_time;  ///< of the other, since the epoch
   std::int32_t partner;
   std::int32_t edge;            ///< `neighbourhood_edge`, a Wall, or an obstacle
-  std::uint32_t foreseen;       ///< stamp of the last collision before the partner was found
+  std::uint32_t predicted_at;   ///< stamp of the last collision before the prediction that found the partner
   std::uint32_t last_collided;  ///< stamp of the last collision of the disk itself
 
   /// Whether the disk leaves its neighbourhood or meets a wall or an obstacle before it meets its partner.
@@ -53,14 +53,14 @@ class Plans {
 
   /// Whether the partner has collided since the collision with it was planned. (A plan keeps a stamp of its own and not one of
   /// the partner: to read that would be one more access to memory for every prediction.)
-  [[nodiscard]] bool is_stale(const Plan& plan) const { return (*this)[plan.partner].last_collided > plan.foreseen; }
+  [[nodiscard]] bool is_stale(const Plan& plan) const { return (*this)[plan.partner].last_collided > plan.predicted_at; }
 
   /// Lets all times and stamps count from `now`: stamp 1 stands for every collision before, 0 for plans that are stale.
   void rebase(double now) {
     for (Plan& plan : plans_) {
       plan.pair_time = std::max(plan.pair_time - now, 0.0);
       plan.edge_time = std::max(plan.edge_time - now, 0.0);
-      plan.foreseen = plan.partner >= 0 && is_stale(plan) ? 0 : 1;
+      plan.predicted_at = plan.partner >= 0 && is_stale(plan) ? 0 : 1;
     }
     for (Plan& plan : plans_) plan.last_collided = 1;
   }

@@ -17,7 +17,7 @@
 
 namespace carom {
 
-/// What an engine holds by slot: passed on as it is, so that the loop reads it where it is.
+/// References to the arrays by slot that an engine holds.
 template <class Line>
 struct PrefetchedData {
   const LargeVector<Line>& lines;

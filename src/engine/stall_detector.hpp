@@ -54,7 +54,7 @@ class StallDetector {
 
   /// Stalls the engine before a velocity that would not be finite. `what` is a sentence without its full stop.
   void fail(std::string what) { fault_ = std::move(what), at_one_instant_ = stalled; }
-  /// What fail() was told; empty where nothing failed.
+  /// The argument of fail(); empty where nothing failed.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
   template <class Archive>

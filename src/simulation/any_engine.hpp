@@ -40,7 +40,7 @@ class AnyEngine {
   virtual bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) = 0;
   [[nodiscard]] virtual bool idle() const = 0;
   [[nodiscard]] virtual bool jammed() const = 0;
-  /// Disks whose speeds have vanished where that is why it is jammed().
+  /// The ids of the disks whose vanishing speeds are the reason for jammed(); empty where another reason is.
   [[nodiscard]] virtual std::vector<std::int32_t> slow() const { return {}; }
   /// jammed() because speeds have become too small to compute with.
   [[nodiscard]] virtual bool cooled() const { return false; }
@@ -63,7 +63,7 @@ class AnyEngine {
     return state;
   }
   /// Time, velocities, scale and walls of state(), into memory that is used again; the rest may be missing.
-  virtual void look_at_velocities(State& state) const { this->state(state); }
+  virtual void store_velocities(State& state) const { this->state(state); }
   /// Something from outside changes how a disk moves, at now(); returns the energy that it gave. In a sheared box v is relative
   /// to the flow. Spins are left alone where disks are smooth.
   virtual double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) = 0;
@@ -88,17 +88,17 @@ class AnyEngine {
     return events;
   }
   /// The last velocity that a thermostat has redrawn, as an event whose partner is thermostat_event.
-  [[nodiscard]] virtual Event last_kick() const { return {}; }
-  /// Whether listen() is there: engine/collision_listener.hpp.
+  [[nodiscard]] virtual Event last_thermostat_event() const { return {}; }
+  /// Returns whether listen() is there: engine/collision_listener.hpp.
   [[nodiscard]] virtual bool supports_collision_records() const { return false; }
-  /// Tells of collisions of pairs from now on, all so far by each hand_over_records(); an empty listener ends that.
+  /// Hands collisions of pairs to `listener` from now on, all so far by each hand_over_records(); an empty listener ends that.
   virtual void listen(CollisionListener /*listener*/) {}  // NOLINT(performance-unnecessary-value-param)
   virtual void hand_over_records() {}
-  /// By the slots of disks in records.
+  /// Returns the ids of disks by the slots in records.
   [[nodiscard]] virtual std::span<const std::int32_t> ids() const { return {}; }
-  /// Of overlaps those that are deeper, over the contact distance, than `tolerated_overlap`.
+  /// Returns one sentence for each fault; an overlap is one where it exceeds `tolerated_overlap` contact distances.
   [[nodiscard]] virtual std::vector<std::string> check_invariants(double tolerated_overlap = 0.0) const = 0;
-  /// Of any pair, over its contact distance.
+  /// The deepest overlap of any pair, over its contact distance.
   [[nodiscard]] virtual double deepest_overlap() const = 0;
   [[nodiscard]] virtual std::size_t bytes() const = 0;
   /// All that decides how the run goes on. Requires all events to have been taken.
@@ -147,8 +147,8 @@ class EngineAdapter final : public AnyEngine {
   [[nodiscard]] Totals totals() const override { return engine_.totals(); }
   [[nodiscard]] const Counts& counts() const override { return engine_.counts(); }
   void state(State& state) const override { engine_.state(state); }
-  void look_at_velocities(State& state) const override {
-    if constexpr (requires { engine_.look_at_velocities(state); }) return engine_.look_at_velocities(state);
+  void store_velocities(State& state) const override {
+    if constexpr (requires { engine_.store_velocities(state); }) return engine_.store_velocities(state);
     engine_.state(state);
   }
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {

@@ -39,8 +39,8 @@ class DragEngine final : public WrappedEngine {
     engine_->state(state);
     slow_down(state);
   }
-  void look_at_velocities(State& state) const override {
-    engine_->look_at_velocities(state);
+  void store_velocities(State& state) const override {
+    engine_->store_velocities(state);
     slow_down(state);
   }
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
@@ -89,9 +89,9 @@ class DragEngine final : public WrappedEngine {
   }
   [[nodiscard]] static Instant earlier(const Instant& time, const Instant& zero) { return time.plus(-zero.high).plus(-zero.low); }
 
-  /// Of the engine, at s since drag began.
+  /// The time on the engine's clock at s since drag began.
   [[nodiscard]] Instant on_clock(const Instant& s) const { return earlier(s, clock_zero_); }
-  /// Since reset_clock(), of the engine's clock.
+  /// The time since reset_clock() that belongs to a time on the engine's clock.
   [[nodiscard]] Instant time_of(const Instant& clock) const {
     return earlier({clock_.time(later(clock_zero_, clock)), 0.0}, zero_);
   }

@@ -22,7 +22,8 @@ Instant after(const Instant& start, const Instant& time) {
   return start.plus(time.high).plus(time.low);
 }
 
-/// Of translation, that a temperature is shared among: the common motion along a periodic axis is not heat.
+/// The degrees of freedom of translation among which a temperature is shared: the common motion along a periodic axis is not
+/// heat.
 double degrees_of_freedom(const Scene& scene) {
   const int conserved = (scene.box.periodic(0) ? 1 : 0) + (scene.box.periodic(1) ? 1 : 0);
   return std::max(1.0, 2.0 * static_cast<double>(scene.disk_count()) - conserved);
@@ -48,11 +49,11 @@ DrivenEngine::DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene
       growth_rate_(scene.effects.growth_rate()),
       packing_fraction_(scene.packing_fraction()),
       keeps_energy_(growth_rate_ > 0.0 && !andersen_.acts()),
-      between_stock_(std::max<std::uint64_t>(1, disks_.count() / 2)),
+      between_measurements_(std::max<std::uint64_t>(1, disks_.count() / 2)),
       window_(disks_.count(), degrees_of_freedom(scene)) {
   if (andersen_.acts()) {
-    next_ = andersen_.kick(0);
-    kick_time_ = engine_->now().plus(next_.wait);
+    next_ = andersen_.event(0);
+    thermostat_time_ = engine_->now().plus(next_.wait);
   }
   if (growth_rate_ > 0.0) {
     const Growth& growth = *scene.effects.growth;
@@ -66,15 +67,16 @@ DrivenEngine::DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene
 bool DrivenEngine::run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
   bool arrived = false;
   while (!grown_ && !filled_ && event_limit > 0) {
-    const Instant stop = std::min({target, kick_time_, end_, full_});
+    const Instant stop = std::min({target, thermostat_time_, end_, full_});
     const std::uint64_t before = detail::all_events(engine_->counts());
-    arrived = engine_->run_until(stop, std::min(pair_limit, stock_at_), event_limit);
+    arrived = engine_->run_until(stop, std::min(pair_limit, measure_at_), event_limit);
     event_limit -= std::min(event_limit, detail::all_events(engine_->counts()) - before);
-    if (engine_->counts().pair >= stock_at_) {
+    if (engine_->counts().pair >= measure_at_) {
       arrived = false;
-      take_stock();
+      measure_and_rescale();
       if (engine_->counts().pair >= pair_limit) break;
-    } else if (!arrived || target < std::min({kick_time_, end_, full_})) {  // NOLINT(bugprone-branch-clone): the order decides
+    } else if (!arrived ||
+               target < std::min({thermostat_time_, end_, full_})) {  // NOLINT(bugprone-branch-clone): the order decides
       break;
     } else if (!(stop < end_) && end_ < forever) {
       grown_ = at_end_scale_ = true;
@@ -82,8 +84,8 @@ bool DrivenEngine::run_until(const Instant& target, std::uint64_t pair_limit, st
     } else if (!(stop < full_) && full_ < forever) {
       filled_ = true;
       arrived = false;
-    } else if (!(stop < kick_time_) && kick_time_ < forever) {
-      kick();
+    } else if (!(stop < thermostat_time_) && thermostat_time_ < forever) {
+      apply_thermostat_event();
       event_limit -= std::min<std::uint64_t>(event_limit, 1);
       arrived = false;
     } else {
@@ -94,7 +96,7 @@ bool DrivenEngine::run_until(const Instant& target, std::uint64_t pair_limit, st
   return arrived;
 }
 
-/// Disks that nothing moves now may be kicked later, or grow until they touch.
+/// Disks that nothing moves now may be given a velocity later, or grow until they touch.
 bool DrivenEngine::idle() const {
   const bool grows = growth_rate_ > 0.0 && !grown_ && !filled_;
   return engine_->idle() && !(andersen_.acts() || grows);
@@ -109,18 +111,18 @@ void DrivenEngine::state(State& state) const {
   if (at_end_scale_) state.scale = end_scale_;  // what was asked for, not its sum over epochs
 }
 
-void DrivenEngine::look_at_velocities(State& state) const {
-  engine_->look_at_velocities(state);
+void DrivenEngine::store_velocities(State& state) const {
+  engine_->store_velocities(state);
   if (at_end_scale_) state.scale = end_scale_;
 }
 
 template <class Self, class Archive>
 void DrivenEngine::archive_all(Self& self, Archive& archive) {
-  archive(self.kicks_, self.next_, self.kick_time_, self.start_, self.start_scale_, self.end_scale_, self.end_, self.grown_,
-          self.at_end_scale_, self.full_, self.filled_);
-  archive(self.stock_at_, self.window_, self.energy_at_start_, self.stretch_start_, self.stretch_pairs_, self.stretch_virial_,
+  archive(self.thermostat_events_, self.next_, self.thermostat_time_, self.start_, self.start_scale_, self.end_scale_, self.end_,
+          self.grown_, self.at_end_scale_, self.full_, self.filled_);
+  archive(self.measure_at_, self.window_, self.energy_at_start_, self.stretch_start_, self.stretch_pairs_, self.stretch_virial_,
           self.stretch_energy_);
-  archive(self.counts_, self.counted_kicks_, self.kick_energy_, self.rescaling_energy_);
+  archive(self.counts_, self.counted_thermostat_events_, self.thermostat_energy_, self.rescaling_energy_);
 }
 
 void DrivenEngine::save(SavingArchive& archive) const {
@@ -136,38 +138,38 @@ void DrivenEngine::load(LoadingArchive& archive) {
 void DrivenEngine::reset_clock() {
   const Instant zero = engine_->now();
   engine_->reset_clock();
-  kick_time_ = moved(kick_time_, zero);
+  thermostat_time_ = moved(thermostat_time_, zero);
   begin();
 }
 
 void DrivenEngine::leave(Continuation& continuation) const {
   engine_->leave(continuation);
-  continuation.totals.thermostat += counted_kicks_;
-  continuation.totals.thermostat_energy.add(kick_energy_);
+  continuation.totals.thermostat += counted_thermostat_events_;
+  continuation.totals.thermostat_energy.add(thermostat_energy_);
   continuation.totals.growth_energy.add(rescaling_energy_);
   if (!andersen_.acts()) return;
-  continuation.kicks = kicks_ + 1;
-  continuation.pending = Continuation::Pending{andersen_.rate(), kicks_, next_, kick_time_};
+  continuation.thermostat_events = thermostat_events_ + 1;
+  continuation.pending = Continuation::Pending{andersen_.rate(), thermostat_events_, next_, thermostat_time_};
 }
 
 void DrivenEngine::take_over(const Continuation& continuation) {
   engine_->take_over(continuation);
   if (const auto& pending = continuation.pending; pending && pending->rate == andersen_.rate()) {
-    kicks_ = pending->number;
-    next_ = pending->kick;
-    kick_time_ = pending->time;
+    thermostat_events_ = pending->number;
+    next_ = pending->event;
+    thermostat_time_ = pending->time;
   } else if (andersen_.acts()) {
-    kicks_ = continuation.kicks;
-    next_ = andersen_.kick(kicks_);
-    kick_time_ = engine_->now().plus(next_.wait);
+    thermostat_events_ = continuation.thermostat_events;
+    next_ = andersen_.event(thermostat_events_);
+    thermostat_time_ = engine_->now().plus(next_.wait);
   }
   begin();
 }
 
 /// Whatever is counted from now on: from where the clock stands at 0, or from a change.
 void DrivenEngine::begin() {
-  counted_kicks_ = 0;
-  kick_energy_ = rescaling_energy_ = ExactSum{};
+  counted_thermostat_events_ = 0;
+  thermostat_energy_ = rescaling_energy_ = ExactSum{};
   if (growth_rate_ > 0.0) {
     start_ = engine_->now();
     start_scale_ = engine_->state().scale;
@@ -175,7 +177,7 @@ void DrivenEngine::begin() {
     if (full_scale_ > 0.0) full_ = after(start_, ratio(std::max(0.0, full_scale_ - start_scale_), growth_rate_));
     const Energy now = energy();
     energy_at_start_ = now.total();
-    stock_at_ = engine_->counts().pair + between_stock_;
+    measure_at_ = engine_->counts().pair + between_measurements_;
     stretch_start_ = start_;
     stretch_pairs_ = engine_->counts().pair;
     stretch_virial_ = engine_->totals().virial;
@@ -186,7 +188,7 @@ void DrivenEngine::begin() {
 
 double DrivenEngine::scale() const { return start_scale_ + growth_rate_ * moved(now(), start_).high; }
 
-/// Of a uniform disk.
+/// The moment of inertia of disk i, which is uniform.
 double DrivenEngine::moment_of_inertia(std::size_t i) const {
   const double radius = scale() * disks_.radius[i];
   return 0.5 * disks_.mass[i] * radius * radius;
@@ -205,20 +207,21 @@ DrivenEngine::Energy DrivenEngine::energy() const {
   return energy;
 }
 
-void DrivenEngine::kick() {
+void DrivenEngine::apply_thermostat_event() {
   const auto disk = static_cast<std::size_t>(next_.disk);
   const Eigen::Vector2d v = andersen_.velocity(next_, disks_.mass[disk]);
   const double spin = spinning_ ? andersen_.spin(next_, moment_of_inertia(disk)) : 0.0;
-  kick_energy_.add(engine_->set_velocity(next_.disk, v, spin));
-  last_kick_ = {.time = now().high, .time_remainder = now().low, .disk = next_.disk, .partner = thermostat_event, .velocity = v};
-  ++counted_kicks_;
-  next_ = andersen_.kick(++kicks_);
-  kick_time_ = kick_time_.plus(next_.wait);
+  thermostat_energy_.add(engine_->set_velocity(next_.disk, v, spin));
+  last_thermostat_event_ = {
+      .time = now().high, .time_remainder = now().low, .disk = next_.disk, .partner = thermostat_event, .velocity = v};
+  ++counted_thermostat_events_;
+  next_ = andersen_.event(++thermostat_events_);
+  thermostat_time_ = thermostat_time_.plus(next_.wait);
 }
 
 /// Each time that every disk has collided about once on average.
-void DrivenEngine::take_stock() {
-  stock_at_ += between_stock_;
+void DrivenEngine::measure_and_rescale() {
+  measure_at_ += between_measurements_;
   const Energy now = energy();
   if (end_pressure_ > 0.0) measure_pressure(now);
   if (keeps_energy_) rescale(now);
@@ -250,15 +253,15 @@ void DrivenEngine::rescale(const Energy& now) {
 
 Totals DrivenEngine::totals() const {
   Totals totals = engine_->totals();
-  totals.thermostat += counted_kicks_;
-  totals.thermostat_energy += kick_energy_.value();
+  totals.thermostat += counted_thermostat_events_;
+  totals.thermostat_energy += thermostat_energy_.value();
   totals.growth_energy += rescaling_energy_.value();
   return totals;
 }
 
 void DrivenEngine::count() {
   counts_ = engine_->counts();
-  counts_.thermostat += counted_kicks_;
+  counts_.thermostat += counted_thermostat_events_;
 }
 
 }  // namespace carom::detail

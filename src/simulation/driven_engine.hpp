@@ -1,7 +1,7 @@
 #pragma once
-// An engine that something drives from outside, between events: a thermostat that kicks disks, and the schedule by which disks
-// grow (Lubachevsky & Stillinger 1990), which rescales velocities and says when to stop. Both are so rare that the loop need not
-// know of them: it runs to the time, or the number of collisions, at which the next of them is due.
+// An engine that something drives from outside, between events: a thermostat that gives disks new velocities, and the schedule by
+// which disks grow (Lubachevsky & Stillinger 1990), which rescales velocities and says when to stop. Both are so rare that the
+// loop need not know of them: it runs to the time, or the number of collisions, at which the next of them is due.
 
 #include "core/exact_sum.hpp"
 #include "effects/andersen.hpp"
@@ -41,11 +41,11 @@ class DrivenEngine final : public WrappedEngine {
   [[nodiscard]] const Counts& counts() const override { return counts_; }
   using AnyEngine::state;
   void state(State& state) const override;
-  void look_at_velocities(State& state) const override;
+  void store_velocities(State& state) const override;
   void reset_clock() override;
   void leave(Continuation& continuation) const override;
   void take_over(const Continuation& continuation) override;
-  [[nodiscard]] Event last_kick() const override { return last_kick_; }
+  [[nodiscard]] Event last_thermostat_event() const override { return last_thermostat_event_; }
   [[nodiscard]] std::size_t bytes() const override;
   void save(SavingArchive& archive) const override;
   void load(LoadingArchive& archive) override;
@@ -67,8 +67,8 @@ class DrivenEngine final : public WrappedEngine {
   [[nodiscard]] double moment_of_inertia(std::size_t i) const;
 
   void begin();
-  void kick();
-  void take_stock();
+  void apply_thermostat_event();
+  void measure_and_rescale();
   void measure_pressure(const Energy& energy);
   void rescale(const Energy& energy);
   void count();
@@ -77,26 +77,26 @@ class DrivenEngine final : public WrappedEngine {
   Andersen andersen_;
   bool spinning_;
 
-  std::uint64_t kicks_ = 0;  ///< ever
-  Kick next_;                ///< number kicks_
-  Instant kick_time_ = forever;
-  Event last_kick_;
+  std::uint64_t thermostat_events_ = 0;  ///< ever
+  ThermostatEvent next_;                 ///< number thermostat_events_
+  Instant thermostat_time_ = forever;
+  Event last_thermostat_event_;
 
   double growth_rate_;
-  Instant start_{};              ///< from when disks grow and energy is kept: the zero of time, or the last change from outside
-  double start_scale_ = 1.0;     ///< at start_
-  double end_scale_ = 0.0;       ///< at which disks have grown enough; 0 where no packing fraction is asked for
-  double end_pressure_ = 0.0;    ///< the same for the reduced pressure
-  double packing_fraction_;      ///< at scale 1
-  Instant end_ = forever;        ///< when end_scale_ is reached
-  double full_scale_ = 0.0;      ///< at which the largest disk fills the box
-  Instant full_ = forever;       ///< when that is reached
-  bool filled_ = false;          ///< it is
-  bool grown_ = false;           ///< the end is reached
-  bool at_end_scale_ = false;    ///< it was the packing fraction's
-  bool keeps_energy_;            ///< velocities are rescaled
-  std::uint64_t between_stock_;  ///< collisions of pairs from one look at the gas to the next
-  std::uint64_t stock_at_ = never;  ///< Totals::pair at which velocities are rescaled and the pressure is measured
+  Instant start_{};            ///< from when disks grow and energy is kept: the zero of time, or the last change from outside
+  double start_scale_ = 1.0;   ///< at start_
+  double end_scale_ = 0.0;     ///< at which disks have grown enough; 0 where no packing fraction is asked for
+  double end_pressure_ = 0.0;  ///< the same for the reduced pressure
+  double packing_fraction_;    ///< at scale 1
+  Instant end_ = forever;      ///< when end_scale_ is reached
+  double full_scale_ = 0.0;    ///< at which the largest disk fills the box
+  Instant full_ = forever;     ///< when that is reached
+  bool filled_ = false;        ///< it is
+  bool grown_ = false;         ///< the end is reached
+  bool at_end_scale_ = false;  ///< it was the packing fraction's
+  bool keeps_energy_;          ///< velocities are rescaled
+  std::uint64_t between_measurements_;  ///< collisions of pairs from one look at the gas to the next
+  std::uint64_t measure_at_ = never;    ///< Totals::pair at which velocities are rescaled and the pressure is measured
   PressureWindow window_;
   double energy_at_start_ = 0.0;  ///< kinetic, at start_
 
@@ -107,8 +107,8 @@ class DrivenEngine final : public WrappedEngine {
   double stretch_energy_ = 0.0;  ///< of translation
 
   Counts counts_;  ///< the engine's, with what came from outside
-  std::uint64_t counted_kicks_ = 0;
-  ExactSum kick_energy_, rescaling_energy_;
+  std::uint64_t counted_thermostat_events_ = 0;
+  ExactSum thermostat_energy_, rescaling_energy_;
 };
 
 }  // namespace carom::detail

@@ -7,7 +7,8 @@
 
 namespace carom::detail {
 
-/// What in a state is not finite, as a sentence without its full stop; empty where all is. What is not there is passed over.
+/// Names the first member of a state that is not finite, as a sentence without its full stop; empty where all are finite. Members
+/// without elements are passed over.
 [[nodiscard]] std::string not_finite(const State& state);
 
 }  // namespace carom::detail

@@ -87,7 +87,7 @@ class Growing {
     scene_.effects.growth = Growth{speed / diameter_, packing_fraction, jammed_pressure};
     const auto engine = detail::make_engine(detail::choose_engine(scene_, disks_, "auto"), scene_, disks_, state);
     constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
-    // A disk wedged between obstacles and walls, with nobody to press on, would fly to and fro ever faster.
+    // A disk wedged between obstacles and walls, with no other disk to press on, would fly to and fro ever faster.
     const std::uint64_t stretch = wedged_after + wedged_after_per_disk * disks_.count();
     for (std::uint64_t pairs = no_limit; pairs != engine->counts().pair && !engine->ended() && !engine->jammed();) {
       pairs = engine->counts().pair;

@@ -33,7 +33,7 @@ class MovingAsOne {
     const std::uint64_t events = all_events(engine.counts());
     if (!can_be() || events == 0 || events % window != 0) return false;
     State state;
-    engine.look_at_velocities(state);
+    engine.store_velocities(state);
     const double mass = disks_.total_mass();
     Eigen::Vector2d common = Eigen::Vector2d::Zero();
     for (Eigen::Index i = 0; i < state.velocities.cols(); ++i) common += share(i, mass) * state.velocities.col(i);

@@ -24,7 +24,8 @@ namespace detail {
   return std::nullopt;
 }
 
-/// What decides how a simulation goes on from a state in this scene: what acts, the sizes of box and disks, the seed.
+/// The text of all that decides how a simulation goes on from a state in this scene: what acts, the sizes of box and disks, the
+/// seed.
 [[nodiscard]] std::string lasting_text(const Scene& scene);
 
 }  // namespace detail

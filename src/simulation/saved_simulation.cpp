@@ -28,7 +28,7 @@ constexpr std::string_view first_line = "carom simulation 2\n";
 
 std::string build() { return fmt::format("{} ({}, {})", build_info().version, build_info().commit, build_info().compiler); }
 
-/// Of the disks of one species, which may have grown.
+/// The sizes of the disks of one species, which may have grown.
 struct Sizes {
   double radius = 0.0;
   std::vector<double> radii = {};
@@ -39,7 +39,7 @@ struct Sizes {
   }
 };
 
-/// What a saved simulation was changed to since it was made.
+/// The changes to a saved simulation since it was made.
 struct Changed {
   std::string effects;       ///< as TOML
   Box box;                   ///< its limits
@@ -101,7 +101,7 @@ void Simulation::save(std::ostream& out) const {
   SavingArchive archive(within);
   archive(build(), parts.made_of.value_or(now), now, Changed(parts.scene));
   archive(parts.engine_name, parts.engine_asked, parts.engine_reason, parts.time_step, has_collision_rule());
-  archive(parts.continuation.wall_draws, parts.continuation.kicks, state());
+  archive(parts.continuation.wall_draws, parts.continuation.thermostat_events, state());
   parts.engine->save(archive);
   checked.finish();
 }
@@ -135,9 +135,9 @@ Simulation restore_simulation(const Scene& given, std::istream& in) {
     std::string name, asked, reason;
     std::optional<double> time_step;
     bool own_rule = false;
-    std::uint64_t wall_draws = 0, kicks = 0;
+    std::uint64_t wall_draws = 0, thermostat_events = 0;
     Start start{disks_of(scene), {}};
-    archive(name, asked, reason, time_step, own_rule, wall_draws, kicks, start.state);
+    archive(name, asked, reason, time_step, own_rule, wall_draws, thermostat_events, start.state);
     Simulation simulation = time_step ? Simulation::begin(scene, std::move(start), FixedStep{name, *time_step})
                                       : Simulation::begin(scene, std::move(start), name);
     Simulation::Parts& parts = *simulation.parts_;
@@ -145,7 +145,7 @@ Simulation restore_simulation(const Scene& given, std::istream& in) {
     parts.engine_reason = std::move(reason);
     parts.rule_missing = own_rule;
     parts.continuation.wall_draws = wall_draws;
-    parts.continuation.kicks = kicks;
+    parts.continuation.thermostat_events = thermostat_events;
     if (made_of != saved_with) parts.made_of = std::move(made_of);
     parts.engine->load(archive);
     if (!checked.at_end()) throw std::runtime_error("it holds more than a simulation");

@@ -223,7 +223,7 @@ class Schedule {
     }
   }
 
-  /// Of a grid that was not there when the run was saved.
+  /// The first sample after now, of a grid that was not there when the run was saved.
   [[nodiscard]] std::uint64_t first_after_now(const Grid& grid) const {
     return measuring_ ? grid.times.last(engine_.now().high) / grid.stride + 1 : 0;
   }
@@ -245,7 +245,8 @@ class Schedule {
     return detail::all_events(engine_.counts()) + engine_.counts().numerics.epochs;
   }
 
-  /// Of every grid that has one now; the state is that of all of them. False where it is none: then the run ends.
+  /// Takes the sample of every grid that has one now, all from one state. Returns false where the state is not finite, which ends
+  /// the run.
   bool take_samples(const Instant& when) {
     const auto due = [&](const Grid& grid) { return !(when < time_of(grid)); };
     const auto looks = [&](const Grid& grid) {
@@ -256,7 +257,7 @@ class Schedule {
     if (positions)
       engine_.state(whole_);
     else if (std::ranges::any_of(grids_, looks))
-      engine_.look_at_velocities(moving_);
+      engine_.store_velocities(moving_);
     State& state = positions ? whole_ : moving_;
     state.time = when.high;  // the product itself, not what the engine's clock makes of it
     if (!is_finite(state)) return false;
@@ -306,7 +307,7 @@ class Schedule {
       }
       if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(false));
       const bool arrived = run_stretch(target, std::min(collisions, next_block_));
-      if (stands_ && !recording_) record_events(true);  // to be able to say who collides without end
+      if (stands_ && !recording_) record_events(true);  // to be able to name the disks that collide without end
       const bool is_met = recording_ && take_events();
       hand_over_records();
       if (hooks_.verify_every > 0 && since_verified_ >= hooks_.verify_every && !verify()) return false;
@@ -409,7 +410,7 @@ class Schedule {
     return false;
   }
 
-  /// The clock creeps: who is it that holds it up?
+  /// Stops a run whose clock all but stands still, after finding out which disks collide without end.
   bool stop_at_standstill(StopReason reason, const Instant& target, std::uint64_t collisions) {
     record_events(true);
     run_stretch(target, collisions);
@@ -432,7 +433,7 @@ class Schedule {
   detail::MovingAsOne moving_as_one_;
   detail::RunEnd end_;                  ///< of equilibrating, or of the measured run
   bool stands_ = false;                 ///< the clock, over a whole stretch
-  std::vector<std::int32_t> standing_;  ///< who has collided since it does
+  std::vector<std::int32_t> standing_;  ///< ids of the disks that have collided since then
   bool recording_ = false;              ///< events
   std::uint64_t next_block_ = no_limit;
   std::uint64_t counted_ = 0;  ///< the next of the samples that are counted in collisions

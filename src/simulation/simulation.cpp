@@ -60,7 +60,7 @@ std::optional<Event> Simulation::Parts::next_event(const Instant& target, std::u
   if (!recording) engine->record_events(false);
   engine->take_events(last);
   if (recording) events.insert(events.end(), last.begin(), last.end());
-  if (engine->counts().thermostat > before.thermostat) return engine->last_kick();
+  if (engine->counts().thermostat > before.thermostat) return engine->last_thermostat_event();
   return last.empty() ? std::nullopt : std::optional(last.back());
 }
 

@@ -20,7 +20,7 @@ Start draw_start(const Scene& scene);
 /// itself lacks. Disks may overlap; remainders are dropped, so that every engine starts from the same numbers.
 Start start_from(const Scene& scene, const State& state);
 
-/// The same for a scene that has been checked, of these disks.
+/// Does as start_from() for a scene that has been checked, and for these disks.
 Start start_of(const Scene& scene, Disks disks, const State& state);
 
 /// Throws std::invalid_argument where a centre is beyond a wall: a fixed-step method gets there, exact events never do.
@@ -28,7 +28,7 @@ void require_between_walls(const Scene& scene, const State& state);
 
 /// All disks of a scene, in the order of its species. Throws SceneError where check(scene) does.
 Disks all_disks(const Scene& scene);
-/// The same of a scene that has been checked.
+/// Returns all disks of a scene that has been checked.
 Disks disks_of(const Scene& scene);
 
 /// Column i of `positions` for every disk of every species, in the order of ids. Throws as draw_start.
@@ -37,8 +37,9 @@ Eigen::Matrix2Xd draw_positions(const Scene& scene, const Disks& disks);
 /// The dense start. Throws SceneError where the disks jam before they have their size.
 Eigen::Matrix2Xd grown_positions(const Scene& scene, const Disks& disks);
 
-/// The same for velocities. Where no velocity is given one by one, the total momentum along periodic axes is removed;
-/// temperatures are met exactly. Neither is done where the scene keeps momentum.
+/// Column i of `velocities` for every disk of every species, in the order of ids. Throws as draw_start. Where no velocity is
+/// given one by one, the total momentum along periodic axes is removed; temperatures are met exactly. Neither is done where the
+/// scene keeps momentum.
 Eigen::Matrix2Xd draw_velocities(const Scene& scene, const Disks& disks);
 
 /// `count` sites of a lattice that fills the box, evenly thinned where the lattice has more. `diameter` is the room that

@@ -22,7 +22,7 @@ class WrappedEngine : public AnyEngine {
   [[nodiscard]] const Counts& counts() const override { return engine_->counts(); }
   using AnyEngine::state;
   void state(State& state) const override { engine_->state(state); }
-  void look_at_velocities(State& state) const override { engine_->look_at_velocities(state); }
+  void store_velocities(State& state) const override { engine_->store_velocities(state); }
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
     return engine_->set_velocity(i, v, spin);
   }

@@ -63,7 +63,7 @@ class Stepper {
     this->state(state);
     return state;
   }
-  /// The same into memory that is used again.
+  /// Writes the state at now() into `state`, whose memory is used again.
   void state(State& state) const {
     Bodies seen = bodies_;
     const double since_step = steps_ == 0 ? 0.0 : now_.template since<double>(Instant::product(steps_ - 1, dt_));

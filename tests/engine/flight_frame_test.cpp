@@ -87,7 +87,7 @@ TEST(FlightFrame, ANewLineGoesOnFromWhereTheOldOneIs) {
       now += 0.001;
       const V before = disk.unwrapped(channel(), now);
       const V v(std::cos(k), std::sin(k));
-      disk.frame.turn(0, disk.line, v, now);
+      disk.frame.change_velocity(0, disk.line, v, now);
       EXPECT_LE((disk.unwrapped(channel(), now) - before).cwiseAbs().maxCoeff(), 4e-15);
       EXPECT_LE((disk.frame.velocity(disk.line, now) - v).cwiseAbs().maxCoeff(), 1e-15);
     }
@@ -119,7 +119,7 @@ TEST(FlightFrame, EveryEdgeThatALinePassesIsCounted) {
   double x = 6.0;
   for (int k = 0; k < 100; ++k) {
     const double sign = k % 7 == 0 ? -1.0 : 1.0;
-    disk.frame.turn(0, disk.line, V(sign * 40.0, 0.0), 0.0);
+    disk.frame.change_velocity(0, disk.line, V(sign * 40.0, 0.0), 0.0);
     disk.frame.rebase(0, disk.line, 0.1);  // four of ten lengths on
     x += sign * 4.0;
     EXPECT_NEAR(disk.unwrapped(channel(), 0.0)[0], x, 1e-11);

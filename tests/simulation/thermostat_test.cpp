@@ -1,4 +1,4 @@
-// Andersen's thermostat: kicks that come when and where chance says, the same on every engine, and the ensemble that they make.
+// Andersen's thermostat: events that come when and where chance says, the same on every engine, and the ensemble that they make.
 
 #include "effects/andersen.hpp"
 #include "observe/mechanics.hpp"
@@ -37,26 +37,26 @@ TEST(Thermostat, AtRateZeroLeavesTheSameBits) {
   }
 }
 
-TEST(Thermostat, KicksAreThoseOfAPoissonProcessOfAllDisks) {
+TEST(Thermostat, EventsAreThoseOfAPoissonProcessOfAllDisks) {
   const Andersen andersen(Thermostat{2.0, 0.5}, 10, 7);
-  constexpr int kicks = 100'000;
+  constexpr int events = 100'000;
   double time = 0.0, squares = 0.0;
   std::vector<int> of_disk(10);
-  for (int n = 0; n < kicks; ++n) {
-    const Kick kick = andersen.kick(static_cast<std::uint64_t>(n));
-    time += kick.wait;
-    squares += kick.wait * kick.wait;
-    ++of_disk.at(static_cast<std::size_t>(kick.disk));
+  for (int n = 0; n < events; ++n) {
+    const ThermostatEvent event = andersen.event(static_cast<std::uint64_t>(n));
+    time += event.wait;
+    squares += event.wait * event.wait;
+    ++of_disk.at(static_cast<std::size_t>(event.disk));
   }
   // Exponential at rate 10 * 0.5: mean 0.2 and as large a deviation; mean square 0.08, of deviation sqrt(20) 0.04. 5 of their
   // standard errors, as for each disk's number, which is binomial.
-  EXPECT_NEAR(time / kicks, 0.2, 5 * 0.2 / std::sqrt(kicks));
-  EXPECT_NEAR(squares / kicks, 0.08, 5 * 0.04 * std::sqrt(20.0 / kicks));
-  for (const int number : of_disk) EXPECT_NEAR(number, kicks / 10, 5 * std::sqrt(kicks * 0.09));
+  EXPECT_NEAR(time / events, 0.2, 5 * 0.2 / std::sqrt(events));
+  EXPECT_NEAR(squares / events, 0.08, 5 * 0.04 * std::sqrt(20.0 / events));
+  for (const int number : of_disk) EXPECT_NEAR(number, events / 10, 5 * std::sqrt(events * 0.09));
 }
 
-TEST(Thermostat, GivesEveryEngineTheSameKicks) {
-  // A lone disk between walls forgets by each kick whatever rounding has done to its velocity.
+TEST(Thermostat, GivesEveryEngineTheSameEvents) {
+  // A lone disk between walls forgets by each event whatever rounding has done to its velocity.
   Scene scene =
       heated(scene_of(box_of(10.0, 10.0, Boundary::walls), {species_of(1, 0.5, 2.0, ListedPositions{{{5.0, 5.0}}}, AtRest{})}),
              1.0, 0.7);
@@ -67,11 +67,11 @@ TEST(Thermostat, GivesEveryEngineTheSameKicks) {
   EXPECT_GT(textbook.totals().thermostat, 10U);
   EXPECT_EQ(textbook.totals().thermostat, precise.totals().thermostat);
   EXPECT_EQ(textbook.state().velocities.cwiseAbs(), precise.state().velocities.cwiseAbs());
-  // Rounding a time of 50 moves a disk of speed 3 by less than 50 * 3 * 2^-53 per kick.
+  // Rounding a time of 50 moves a disk of speed 3 by less than 50 * 3 * 2^-53 per event.
   EXPECT_LT((textbook.state().positions - precise.state().positions).norm(), 1e-12);
 }
 
-TEST(Thermostat, KicksComeAtTheirRate) {
+TEST(Thermostat, EventsComeAtTheirRate) {
   Simulation simulation = make_simulation(heated(gas_scene(36, 0.4, Boundary::periodic), 1.0, 0.5));
   simulation.run_until(100.0);
   // Poisson of mean 36 * 0.5 * 100; 5 standard deviations.
@@ -90,7 +90,7 @@ TEST(Thermostat, AccountsForTheEnergyThatItGives) {
     const double before = energy();
     simulation.run_until(100.0);
     EXPECT_GT(simulation.totals().thermostat_energy, 10.0);
-    // Some thousand collisions and kicks, each of which rounds the energy of two disks by some 1e-16 of it.
+    // Some thousand collisions and events, each of which rounds the energy of two disks by some 1e-16 of it.
     EXPECT_NEAR(energy(), before + simulation.totals().thermostat_energy, 1e-12 * before);
     const auto faults = simulation.check_invariants();
     EXPECT_TRUE(faults.empty()) << faults.front();
@@ -143,7 +143,7 @@ void expect_gamma_law(Scene scene, double temperature, double shape) {
   constexpr int samples = 4000;
   double sum = 0.0, squares = 0.0;
   for (int k = 1; k <= samples; ++k) {
-    // Each kick makes 1 / N of the energy new, so energies 8 / rate apart are correlated by exp(-8) = 3e-4.
+    // Each event makes 1 / N of the energy new, so energies 8 / rate apart are correlated by exp(-8) = 3e-4.
     simulation.run_until(8.0 / rate * (k + 1));
     const State state = simulation.state();
     const double energy = kinetic_energy(simulation.disks(), state) + (rough ? energy_of_spins(simulation.disks(), state) : 0.0);
