@@ -8,7 +8,7 @@
 
 namespace carom {
 
-/// What the two sides across one axis of the box are.
+/// The kind of the two sides across one axis of the box.
 enum class Boundary { walls, periodic };
 
 /// The rectangle [lower, upper], with the kind of boundary of each axis (x, y).

@@ -25,7 +25,7 @@ struct PairCollision {
   bool contact = true;                                        ///< false where they meet the edge of each other's square well
 };
 
-/// What the collision records of a run leave unsaid.
+/// The ids, radii and masses of the disks that collision records name by their slots.
 struct DiskTable {
   std::vector<std::int32_t> ids;     ///< by slot
   std::vector<double> radius, mass;  ///< by id; one number where all are equal

@@ -15,7 +15,8 @@
 
 namespace carom {
 
-/// What a collision of two disks reverses: the whole relative velocity, or its component along the line of centres.
+/// The part of the relative velocity that a collision of two disks reverses: all of it, or its component along the line of
+/// centres.
 enum class CollisionRule { reversal, specular };
 
 /// The collision of two disks: the [collision] table.

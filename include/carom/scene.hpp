@@ -123,7 +123,7 @@ struct Run {
   }
 };
 
-/// What a run writes: the [output] table.
+/// The files that a run writes: the [output] table.
 struct Output {
   bool trajectory = true;  ///< trajectory.h5md
   bool xyz = false;        ///< trajectory.xyz

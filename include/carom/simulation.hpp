@@ -57,8 +57,8 @@ struct FixedStep {
   double dt = 0.0;                 ///< time, > 0
 };
 
-/// What ends Simulation::run_until() before its time. A fixed-step method knows `collisions` alone, and ends after the step that
-/// reaches them.
+/// Limits that end Simulation::run_until() before its time. A fixed-step method knows `collisions` alone, and ends after the step
+/// that reaches them.
 struct RunLimits {
   static constexpr auto none = std::numeric_limits<std::uint64_t>::max();
 
@@ -94,7 +94,7 @@ class Simulation {
 
   /// The exact state at time(), to rounding. Reading it never changes what follows.
   [[nodiscard]] State state() const;
-  /// The same into a state whose memory is used again: for loops that look often.
+  /// Writes the state into `state` and uses its memory again: for loops that look often.
   void state(State& state) const;
 
   /// Processes every event up to and including `time`. Requires time >= this->time(); an earlier time does nothing.
@@ -102,12 +102,12 @@ class Simulation {
   /// constant time beside its events. Throws std::invalid_argument where time is not finite, or the method does not know a limit.
   StopReason run_until(double time, const RunLimits& limits = {});
 
-  /// The same up to k * dt, the product taken exactly: grid times do not drift however large k is.
+  /// Runs as run_until() does up to k * dt, the product taken exactly: grid times do not drift however large k is.
   StopReason run_until_sample(std::uint64_t k, double dt, const RunLimits& limits = {});
 
   /// Goes to the next event, if there is one up to and including `until`, and returns it: a collision with a disk, a wall or an
-  /// obstacle, the edge of a well, or a kick of the thermostat (Event::partner says which). Otherwise goes to `until`, where that
-  /// is finite, and returns nothing. So it does too where the simulation cannot go on; run_until() says why. Throws
+  /// obstacle, the edge of a well, or a new velocity by the thermostat (Event::partner says which). Otherwise goes to `until`,
+  /// where that is finite, and returns nothing. So it does too where the simulation cannot go on; run_until() says why. Throws
   /// std::logic_error for a fixed-step method, which has no events.
   std::optional<Event> step(double until = std::numeric_limits<double>::infinity());
 
@@ -147,11 +147,11 @@ class Simulation {
   void record_events(bool on);
   /// The collisions since the last call, in order of time; they are removed from the log.
   [[nodiscard]] std::vector<Event> take_events();
-  /// The same into a list whose memory is used again: what it held is gone.
+  /// Puts the events in the place of what `events` held and uses its memory again.
   void take_events(std::vector<Event>& events);
 
-  /// Whether RunHooks::collisions can be asked for: the engine is "fast" or "general", disks are smooth, no rule of the program
-  /// acts, and nothing but events changes velocities.
+  /// Returns whether RunHooks::collisions can be asked for: the engine is "fast" or "general", disks are smooth, no rule of the
+  /// program acts, and nothing but events changes velocities.
   [[nodiscard]] bool supports_collision_records() const;
 
   /// Compares the engine's plan with what an exhaustive search finds. Empty when all is well; else one sentence per
@@ -182,11 +182,11 @@ class Simulation {
 /// there is no such engine.
 Simulation make_simulation(const Scene& scene, const std::string& engine = "auto");
 
-/// The same from a given state in place of the scene's own start, at time 0: its positions, velocities and images, and what
-/// effects of this scene go on from: spins where there is roughness, the scale of radii where disks grow, places of moving walls
-/// and velocities of pistons, the displacement of images that slide. The rest is dropped, remainders too, so that every engine
-/// begins with the same numbers. The scene is checked as above. Throws std::invalid_argument too where any of it is not finite, a
-/// position is outside the box, or there is not one position and one velocity for each of the scene's disks.
+/// Makes a simulation that begins with a given state in place of the scene's own start, at time 0: its positions, velocities and
+/// images, and what effects of this scene go on from: spins where there is roughness, the scale of radii where disks grow, places
+/// of moving walls and velocities of pistons, the displacement of images that slide. The rest is dropped, remainders too, so that
+/// every engine begins with the same numbers. The scene is checked as above. Throws std::invalid_argument too where any of it is
+/// not finite, a position is outside the box, or there is not one position and one velocity for each of the scene's disks.
 Simulation make_simulation(const Scene& scene, const State& start, const std::string& engine = "auto");
 
 /// The scene advanced by a fixed-step method in place of exact events, through the same door: states between two steps are those
@@ -244,7 +244,7 @@ struct SavingMoment {
   std::function<void(std::ostream& out)> save;  ///< writes how far the schedule has come; Simulation::save() writes the rest
 };
 
-/// What a caller may look at while a scene's schedule runs. Any of them may be empty; none can change the run's bits.
+/// Functions that run_schedule() calls while a scene's schedule runs. Each may be empty; none can change the run's bits.
 struct RunHooks {
   std::function<void(const State& start)> start;  ///< once, when the measured run begins
   /// The scene's samples, k = 0, 1, 2, ...: at their times, or just after collision k * sample_every_collisions (a fixed step
@@ -268,7 +268,7 @@ struct RunHooks {
   std::uint64_t verify_every = 0;  ///< events from one check_invariants() to the next; 0 for no checks
   /// Every few thousand events, after all that has happened so far was handed on; and when the run ends.
   std::function<void(const SavingMoment& moment)> checkpoint;
-  /// What SavingMoment::save() wrote: the schedule goes on from there, without `start`. Requires the grids that were there then,
+  /// The bytes that SavingMoment::save() wrote: the schedule goes on from there, without `start`. Requires the grids of then,
   /// in their order; others may follow, or may have followed, and are taken up at the next of their times.
   std::istream* resume = nullptr;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What lies ahead of a disk: which of its neighbours it meets first, and when it leaves its neighbourhood. The hot question of
+// Predictions for a disk: which of its neighbours it meets first, and when it leaves its neighbourhood. The hot question of
 // the engine, answered for many neighbours at a time. One algorithm (prediction_kernel.hpp), compiled for every machine, for
 // those with AVX2 and for those with AVX-512; all give the same bits, and which one runs is decided when the program starts.
 
@@ -12,8 +12,8 @@ namespace carom {
 
 /// Data of a sheared box, whose images above slide past those below (effects/shear.hpp), for the kernel that supports it.
 struct SlidingFrame {
-  /// Of the centre of each disk's neighbourhood, in steps of 2^32. It tells in which box a disk is whose coordinate has wrapped;
-  /// velocities are those of the disk in that box, and those of its images above and below are other ones.
+  /// Heights of the centre of each disk's neighbourhood, in steps of 2^32. It tells in which box a disk is whose coordinate has
+  /// wrapped; velocities are those of the disk in that box, and those of its images above and below are other ones.
   const std::int32_t* heights = nullptr;
   std::int64_t displacement = 0;  ///< displacement of the images above at the epoch, in steps of a coordinate
   double speed = 0.0;             ///< speed of the images above

@@ -23,7 +23,7 @@ struct ImpactResult {
   Real energy = 0;  ///< that the two disks gained: negative where the collision is inelastic
 };
 
-/// The same where disks may be inelastic, and grow.
+/// The result of a collision of disks that may be inelastic, and grow.
 template <class Real>
 struct InelasticResult : ImpactResult<Real> {
   Real lost = 0;                    ///< what the collision took; energy + lost is the work of surfaces that grow
@@ -108,7 +108,7 @@ ImpactResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real 
   return result;
 }
 
-/// The same for disks that lose energy or grow: the rule acts on the velocity v - a n with which their surfaces approach, a the
+/// Collides disks that lose energy or grow: the rule acts on the velocity v - a n with which their surfaces approach, a the
 /// expansion of the contact distance. With turn 1 and expansion 0 the bits are those of the function above.
 template <class Rule, class Real>
 InelasticResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Real m_j, Vec2<Real>& v_j,
@@ -125,7 +125,7 @@ InelasticResult<Real> collide(const Vec2<Real>& r, Real m_i, Vec2<Real>& v_i, Re
   const Vec2<Real> d = how.turn * Rule::turned(r, surfaces, b);
   // mu / 2 (|v - 2 d|^2 - v^2) = 2 mu (d^2 - d . v)
   const Real gained = detail::twice_reduced<Real>(d.dot(d - v), m_i, m_j);
-  // The same in the frame of the surfaces, which leaves out the work that they do.
+  // In the frame of the surfaces, which leaves out the work that they do.
   const Real lost = how.turn == 1 ? Real(0) : detail::twice_reduced<Real>(d.dot(surfaces - d), m_i, m_j);
   detail::share_out<Real>(v, d, m_i, v_i, m_j, v_j);
   if (r.dot(v_i - v_j) < least) detail::recede(r, m_i, v_i, m_j, v_j, least);

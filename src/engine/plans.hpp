@@ -30,7 +30,7 @@ struct alignas(32) Plan {
   [[nodiscard]] bool edge_first() const { return edge_time <= pair_time; }
   /// The time of the earlier of the two.
   [[nodiscard]] double time() const { return std::min(pair_time, edge_time); }
-  /// What the disk does at that time: its partner, or `edge`.
+  /// Returns the other side of the event at that time: the partner, or `edge`.
   [[nodiscard]] std::int32_t other() const {
     const std::int32_t first = -static_cast<std::int32_t>(edge_first());  // all bits or none: a branch would be guessed wrong
     return (edge & first) | (partner & ~first);

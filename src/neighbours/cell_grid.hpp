@@ -1,5 +1,5 @@
 #pragma once
-// Who is near whom: a grid of square-ish cells at least one contact distance wide, so that disks in contact are always
+// The cell grid of the textbook engine: square-ish cells at least one contact distance wide, so that disks in contact are always
 // in the same or in adjacent cells. A disk changes cells at crossing times of its own; this never touches its position
 // or velocity, so the grid leaves no trace in the bits of a trajectory.
 //
@@ -125,7 +125,7 @@ class CellGrid {
     for (int side = -1; side <= 1; ++side) visit_row(i, place.cell[1] + side, -1, 1, visit);
   }
 
-  /// The same for the three cells that come into reach when disk i has just made the given crossing.
+  /// Visits the disks in the three cells that come into reach when disk i has just made the given crossing.
   template <class Visit>
   void for_neighbours_ahead(std::int32_t i, const CellCrossing<Real>& crossing, Visit&& visit) const {
     const Place& place = at(i);

@@ -1,6 +1,6 @@
 #pragma once
-// Who is near a given place, for disks that do not move: for placing a start and for looking for overlaps in a state.
-// Independent of the engines' cell grid, so that it can check them.
+// Searches for the disks near a given place, of disks that do not move: for placing a start and for looking for overlaps in a
+// state. Independent of the engines' cell grid, so that it can check them.
 //
 // Disks are kept in layers by size, radii within a factor of two in one layer, each layer with cells as wide as its
 // own disks. So one large disk among a million small ones costs nothing.
@@ -29,7 +29,7 @@ class DisksAtRest {
     double relative_overlap;  ///< (sigma - distance) / sigma with sigma the sum of the radii; > 0 where they overlap
   };
 
-  /// Of the disks in place, other than `except`, the one that a disk of the given radius would overlap most at
+  /// Returns the disk in place, other than `except`, that a disk of the given radius would overlap most at
   /// `position`, all periodic images counted; {-1, 0} where it overlaps none. With `larger_only` disks in layers of
   /// smaller radii are left out: over all disks every pair is then still seen, from its smaller partner.
   [[nodiscard]] Neighbour deepest(const Eigen::Vector2d& position, double radius, std::int32_t except = -1,

@@ -49,7 +49,7 @@ class NeighbourLists {
   /// its neighbourhood is. Mends the lists of neighbourhoods near the edges. Requires y to be periodic, and reach of
   /// neighbourhoods and way to be less than half of the box together.
   void slide(std::int64_t displacement, double way);
-  /// Neighbourhoods with centres nearer to the middle than this (in steps) concern nobody beyond the edges that slide.
+  /// Neighbourhoods with centres nearer to the middle than this (in steps) have no neighbours beyond the edges that slide.
   [[nodiscard]] std::int64_t inner() const { return sliding_ ? sliding_->inner() : INT64_MAX; }
 
   /// Entries that move_neighbourhood() has put on lists of others, or taken from them, so far.
@@ -57,7 +57,7 @@ class NeighbourLists {
 
   void prefetch_list(std::int32_t i) const { around_.prefetch_list(i); }
   void prefetch_list_early(std::int32_t i) const { around_.prefetch_list_early(i); }
-  /// What move_neighbourhood(i, to) will look through.
+  /// Prefetches the cells that move_neighbourhood(i, to) will search.
   void prefetch_cells(std::int32_t i, NeighbourhoodCentre to) const;
 
   /// Half of the disks have at most so many neighbours. O(disks).

@@ -84,7 +84,7 @@ class HalfWidthSearch {
   int settled_for_ = 0;
 };
 
-/// What neighbourhoods of one width have cost.
+/// Counts of what neighbourhoods of one width have cost.
 struct TuningCounters {
   std::uint64_t neighbourhoods_left = 0;
   std::uint64_t groups_examined = 0;  ///< by predictions after collisions: of four neighbours each, after the first eight

@@ -149,7 +149,7 @@ class Neighbourhoods {
 
   LargeVector<Line> lines_;
   LargeVector<std::int32_t> pool_;
-  std::vector<std::vector<std::uint32_t>> free_;  ///< lists of each size in the pool that nobody uses
+  std::vector<std::vector<std::uint32_t>> free_;  ///< unused lists of each size in the pool
 };
 
 }  // namespace carom

@@ -47,7 +47,7 @@ struct FluxBatch {
   double common[2];               ///< velocity of all disks together: what flies is relative to it
 };
 
-/// What fluxes depend on besides velocities, by rows; the first row is that of lane 0.
+/// The masses, radii, impulses and separations that fluxes depend on besides velocities.
 struct alignas(64) CollisionContacts {
   /// The data besides velocities that fluxes depend on, by rows; the first row is that of lane 0.
   static constexpr std::size_t most = 64;

@@ -25,8 +25,8 @@ namespace carom {
 
 /// Returns the reason why the error of the summary's Z is a lower bound or too large, as a sentence without its stop; empty where
 /// it is neither. A collision of masses m and M passes on the share 2 m M / (m + M)^2 of the difference of their mean energies.
-/// Of the lightest and heaviest disks that is too slow where `collisions_per_disk` of the run are fewer than its blocks (at least
-/// 32) over that share. See is_crystal().
+/// The lightest and heaviest disks exchange energy too slowly where `collisions_per_disk` of the run are fewer than its blocks
+/// (at least 32) over that share. See is_crystal().
 [[nodiscard]] std::string_view why_error_of_Z_is_off(const Scene& scene, double collisions_per_disk);
 
 }  // namespace carom

@@ -177,7 +177,7 @@ class CalendarQueue {
     for (std::size_t n = 0; n < waiting_; ++n) append(places_[n], disks_[n]);
     waiting_ = fetched_ = 0;
   }
-  /// Those that have waited for a whole span. For the next one nobody waits.
+  /// Appends the ids that have waited for a whole span.
   void append_fetched() {
     for (std::size_t n = 0; n < fetched_; ++n) append(places_[n], disks_[n]);
     for (std::size_t n = fetched_; n < waiting_; ++n) {
@@ -317,7 +317,7 @@ class CalendarQueue {
   std::int64_t sort_out_at_ = 0;  ///< when the far events are looked through
   std::size_t in_ring_ = 0;       ///< ids in the ring, those that no longer count among them
   std::uint64_t pushed_ = 0;
-  std::int32_t free_ = none;  ///< spans that nobody spills into
+  std::int32_t free_ = none;  ///< unused spans
   std::vector<Entry> at_hand_;
   bool heaped_ = false;
   std::vector<Entry> later_;

@@ -1,11 +1,11 @@
 #pragma once
-// What the engine's future event lists hold.
+// The entries of the engine's future event lists.
 
 #include <cstdint>
 
 namespace carom {
 
-/// What a disk's next event is: `other` tells events of one disk at one time apart.
+/// The next event of a disk; `other` tells events of one disk at one time apart.
 struct FutureEvent {
   double time;
   std::int32_t disk;

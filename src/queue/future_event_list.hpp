@@ -18,7 +18,7 @@ class FutureEventList {
   /// Numbers of disks for which a tournament is faster.
   static constexpr std::size_t fewest = 16, few = 16384;
 
-  /// Forgets everything, and starts at time 0. Events at `end` or later need not be kept: nobody will ask for them. `span` and
+  /// Forgets everything, and starts at time 0. Events at `end` or later need not be kept: they are never asked for. `span` and
   /// `far` as for the calendar; `busy`: to expect new events of many disks.
   void start(double span, std::size_t disks, double end, bool far, bool busy = true) {
     span_ = span;
@@ -34,7 +34,7 @@ class FutureEventList {
   void push(const Events& events, std::int32_t i, double time) {
     in_tournament_ ? tournament_.push(i, time) : calendar_.push(events, {time, i, events.other(i)});
   }
-  /// The same of two disks.
+  /// Sets the next events of two disks, as push() of one.
   void push(const Events& events, std::int32_t i, double time_i, std::int32_t j, double time_j) {
     if (in_tournament_) return tournament_.push(i, time_i, j, time_j);
     calendar_.push(events, {time_i, i, events.other(i)});
@@ -56,7 +56,7 @@ class FutureEventList {
 
   /// Takes away the event that next() returned.
   void pop(const Events& events) { in_tournament_ ? tournament_.pop(events) : calendar_.pop(events); }
-  /// The same, and that of disk j, which will be told a new one as well.
+  /// Takes away the event that next() returned and that of disk j, which will get a new one as well.
   void pop(const Events& events, std::int32_t j) { in_tournament_ ? tournament_.pop(events, j) : calendar_.pop(events); }
 
   /// Whose event comes after the one that was popped, unless a new one is earlier. Any disk where foresees() is false.

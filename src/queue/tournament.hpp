@@ -1,7 +1,7 @@
 #pragma once
-// Who is first of some thousands? A tournament: disks in groups of thirty-two, the earliest time of each group in groups of
-// thirty-two again, until one group is left (Knuth, The Art of Computer Programming 3, 5.4.1). Like core/prediction.hpp compiled
-// for every machine, for those with AVX2 and for those with AVX-512, with the same answers.
+// The earliest of some thousands of times by a tournament: disks in groups of thirty-two, the earliest time of each group in
+// groups of thirty-two again, until one group is left (Knuth, The Art of Computer Programming 3, 5.4.1). Like core/prediction.hpp
+// compiled for every machine, for those with AVX2 and for those with AVX-512, with the same answers.
 
 #include <cstddef>
 #include <cstdint>
@@ -31,10 +31,10 @@ struct TournamentKernel {
   void (*enter)(const TournamentTree& tree, std::int32_t i, double time);
   /// The time of disk `out` becomes infinity; then i, which had infinity, gets a time.
   void (*take_and_enter)(const TournamentTree& tree, std::int32_t out, std::int32_t i, double time);
-  /// The same; then i and j, which had infinity, get times.
+  /// The time of disk `out` becomes infinity; then i and j, which had infinity, get times.
   void (*take_and_enter_two)(const TournamentTree& tree, std::int32_t out, std::int32_t i, double time_i, std::int32_t j,
                              double time_j);
-  /// Who has that time, a bit for each of a group.
+  /// The members of a group that have that time, a bit for each.
   std::uint32_t (*among)(const double* group, double time);
 };
 

@@ -3,7 +3,7 @@
 // disk, that of its event, where a calendar also has those that no longer count; and who is next follows without a branch that
 // could be guessed wrong.
 //
-// Who is next is found as soon as an event is taken away, before its disks are told new ones: predicting these takes longer, and
+// The next event is found as soon as one is taken away, before its disks get new ones: predicting these takes longer, and
 // a processor does the one beside the other. Only when a new event is earlier still, which is seldom, is it found again.
 //
 // Ties: events at the same time are ordered by Events::precedes(a, b).
@@ -55,7 +55,7 @@ class TournamentQueue {
       replace(i, time);
     }
   }
-  /// The same of two disks.
+  /// Sets the next events of two disks, as push() of one.
   void push(std::int32_t i, double time_i, std::int32_t j, double time_j) {
     pushed_ += 2;
     if (stage_ == Stage::known && absent(i) && absent(j)) [[likely]] {
@@ -84,7 +84,7 @@ class TournamentQueue {
       kernel_->take(tree_, first_.disk);
     find(events);
   }
-  /// The same, and that of disk j, which will be told a new one as well.
+  /// Takes away the event that next() returned and that of disk j, which will get a new one as well.
   void pop(const Events& events, std::int32_t j) {
     if (stage_ == Stage::known) [[unlikely]]
       kernel_->take(tree_, first_.disk);
@@ -191,11 +191,11 @@ class TournamentQueue {
     }
   }
 
-  /// Of those at the earliest time, the one who precedes the others.
+  /// Finds the event that precedes the others at the earliest time.
   [[gnu::noinline]] void settle(const Events& events) {
     if (first_.time < never) crowded_ |= settle(events, levels_ - 1, 0) > crowd;
   }
-  /// Of those in one group of a level. Returns how many there are.
+  /// Lists the disks of one group of a level at the earliest time. Returns how many there are.
   int settle(const Events& events, int level, std::size_t group) {
     int count = 0;
     const double* const times = tree_.level[level] + tournament_group * group;

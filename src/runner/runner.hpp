@@ -35,7 +35,7 @@ struct RunnerOptions {
   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();  ///< wall time counts from here
 };
 
-/// What the caller of a Runner is told and decides. Each function may be empty.
+/// Functions by which a Runner reports to its caller and asks it. Each may be empty.
 struct RunnerHooks {
   std::function<bool(const Progress& progress)> proceed =
       {};                                                    ///< several times a second; false stops the run, which is then saved

@@ -17,7 +17,7 @@ class SamplingTimes {
   explicit SamplingTimes(double step) : block_(step), offsets_{0.0} {}
   explicit SamplingTimes(const SampleLog& log);
 
-  /// Those of a run; nothing where it has none that are known beforehand.
+  /// Returns the sampling times of a run; nothing where it has none that are known beforehand.
   [[nodiscard]] static std::optional<SamplingTimes> of(const Run& run);
 
   /// From one block to the next; with even steps the step.

@@ -1,5 +1,5 @@
 #pragma once
-// What is thrown where a file cannot be written or read.
+// The exception that is thrown where a file cannot be written or read.
 
 #include <stdexcept>
 
