@@ -1,5 +1,5 @@
 #pragma once
-// Separations in a box that continues past its periodic edges.
+// Separations and positions in a box that continues past its periodic edges.
 
 #include <carom/box.hpp>
 
@@ -17,6 +17,19 @@ namespace carom {
     apart[axis] -= length * std::round(apart[axis] / length);
   }
   return apart;
+}
+
+/// Brings positions into the box along periodic axes, each by whole box lengths.
+inline void bring_into_box(const Box& box, Eigen::Matrix2Xd& positions) {
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!box.periodic(axis)) continue;
+    const double lower = box.lower[axis], upper = box.upper[axis];
+    for (double& x : positions.row(axis)) {
+      if (x >= lower && x < upper) continue;
+      x -= std::floor((x - lower) / (upper - lower)) * (upper - lower);
+      if (!(x >= lower && x < upper)) x = lower;
+    }
+  }
 }
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 
 #include <carom/io/run_reader.hpp>
 
+#include "core/nearest_image.hpp"
 #include "io/finished_run.hpp"
 #include "io/h5md_parts.hpp"
 #include "io/hdf5_handle.hpp"
@@ -23,12 +24,6 @@ using detail::Hdf5Error;
 
 using detail::parameters;
 using detail::particles;
-
-double folded(double x, double lower, double upper) {
-  if (x >= lower && x < upper) return x;
-  x -= std::floor((x - lower) / (upper - lower)) * (upper - lower);
-  return x >= lower && x < upper ? x : lower;
-}
 
 }  // namespace
 
@@ -146,9 +141,7 @@ State RunReader::sample(std::uint64_t k) const {
       state.velocities.col(column) << velocity[3 * i], velocity[3 * i + 1];
     }
     if (!state.positions.allFinite() || !state.velocities.allFinite()) throw Hdf5Error("a sample holds what is no number");
-    for (int axis = 0; axis < 2; ++axis)
-      if (scene_.box.periodic(axis))
-        for (double& x : state.positions.row(axis)) x = folded(x, scene_.box.lower[axis], scene_.box.upper[axis]);
+    bring_into_box(scene_.box, state.positions);
     const std::vector<double> images = rows(particles + "/image/value", k, 1, 3 * count);
     state.images.resize(2, static_cast<Eigen::Index>(count));
     for (std::size_t i = 0; i < count; ++i)

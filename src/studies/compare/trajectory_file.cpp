@@ -1,5 +1,6 @@
 #include "studies/compare/trajectory_file.hpp"
 
+#include "core/nearest_image.hpp"
 #include "scene/npy_file.hpp"
 #include "scene/text_file.hpp"
 #include "studies/diff/diff.hpp"
@@ -150,18 +151,6 @@ void require_frames_of(const Disks& disks, const std::vector<State>& frames, con
                                               path, k, frames[k].time, frames[k - 1].time));
 }
 
-void bring_into_box(const Box& box, State& frame) {
-  for (int axis = 0; axis < 2; ++axis) {
-    if (!box.periodic(axis)) continue;
-    const double lower = box.lower[axis], upper = box.upper[axis];
-    for (double& x : frame.positions.row(axis)) {
-      if (x >= lower && x < upper) continue;
-      x -= std::floor((x - lower) / (upper - lower)) * (upper - lower);
-      if (!(x >= lower && x < upper)) x = lower;
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<State> read_trajectory_file(const std::string& path, const Scene& scene, const Disks& disks,
@@ -174,7 +163,7 @@ std::vector<State> read_trajectory_file(const std::string& path, const Scene& sc
                               : ending == ".csv" ? FrameTable(path, static_cast<std::int64_t>(disks.count())).read()
                                                  : read_h5md(path, scene, disks);
   require_frames_of(disks, frames, path);
-  for (State& frame : frames) bring_into_box(scene.box, frame);
+  for (State& frame : frames) bring_into_box(scene.box, frame.positions);
   return frames;
 }
 
