@@ -8,6 +8,9 @@
 
 namespace carom {
 
+namespace {
+
+/// Returns the displacement of disk i from state b to state a.
 Eigen::Vector2d displacement(const Box& box, const State& a, const State& b, Eigen::Index i) {
   // The doubles of two disks that are close differ by no rounding; the remainders are added to that.
   Eigen::Vector2d apart = a.positions.col(i) - b.positions.col(i);
@@ -17,6 +20,19 @@ Eigen::Vector2d displacement(const Box& box, const State& a, const State& b, Eig
   if (b.remainders.cols() > i) apart -= b.remainders.col(i);
   return apart;
 }
+
+Eigen::Matrix2Xd displacements(const Box& box, const State& a, const State& b) {
+  Eigen::Matrix2Xd apart(2, a.positions.cols());
+  for (Eigen::Index i = 0; i < apart.cols(); ++i) apart.col(i) = displacement(box, a, b, i);
+  return apart;
+}
+
+double rms(const Eigen::Matrix2Xd& apart) {
+  if (!apart.allFinite()) return std::numeric_limits<double>::infinity();
+  return apart.cols() == 0 ? 0.0 : std::sqrt(apart.squaredNorm() / static_cast<double>(apart.cols()));
+}
+
+}  // namespace
 
 double largest_distance(const Box& box, const State& a, const State& b) {
   double largest = 0.0;
@@ -28,17 +44,13 @@ double largest_distance(const Box& box, const State& a, const State& b) {
   return largest;
 }
 
-double rms_distance(const Box& box, const State& a, const State& b) {
-  Eigen::Matrix2Xd apart(2, a.positions.cols());
-  for (Eigen::Index i = 0; i < apart.cols(); ++i) apart.col(i) = displacement(box, a, b, i);
-  if (!apart.allFinite()) return std::numeric_limits<double>::infinity();
-  return apart.cols() == 0 ? 0.0 : std::sqrt(apart.squaredNorm() / static_cast<double>(apart.cols()));
-}
+double rms_distance(const Box& box, const State& a, const State& b) { return rms(displacements(box, a, b)); }
 
 DistanceAt distance_at(const Box& box, const State& a, const State& b) {
-  DistanceAt found{.time = a.time, .rms = rms_distance(box, a, b)};
-  for (Eigen::Index i = 0; i < a.positions.cols(); ++i) {
-    const double distance = displacement(box, a, b, i).norm();
+  const Eigen::Matrix2Xd apart = displacements(box, a, b);
+  DistanceAt found{.time = a.time, .rms = rms(apart)};
+  for (Eigen::Index i = 0; i < apart.cols(); ++i) {
+    const double distance = apart.col(i).norm();
     if (distance <= found.largest) continue;
     found.largest = distance;
     found.disk = static_cast<std::int32_t>(i);
@@ -50,13 +62,6 @@ std::optional<DistanceAt> departure(const std::vector<DistanceAt>& distances, do
   const auto parted = [&](const DistanceAt& at) { return at.rms > parted_diameters * diameter; };
   const auto first = std::find_if(distances.begin(), distances.end(), parted);
   return first == distances.end() ? std::nullopt : std::optional(*first);
-}
-
-std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t most) {
-  std::vector<std::size_t> chosen;
-  const std::size_t rows = std::min(count, most);
-  for (std::size_t k = 0; k < rows; ++k) chosen.push_back(rows == 1 ? 0 : (k * (count - 1) + (rows - 1) / 2) / (rows - 1));
-  return chosen;
 }
 
 }  // namespace carom

@@ -10,12 +10,9 @@
 
 namespace carom {
 
-/// Returns the displacement of disk i from state b to state a, to the nearest image along periodic axes, with the remainders of
-/// the states (State::remainders) and the offset of images in a sheared box (State::shear_displacement of a).
-[[nodiscard]] Eigen::Vector2d displacement(const Box& box, const State& a, const State& b, Eigen::Index i);
-
 /// Returns the largest displacement of any disk between two states of one time, to the nearest image along periodic axes, with
-/// the remainders of the states (State::remainders). Infinite where a position is not finite.
+/// the remainders of the states (State::remainders) and the offset of images in a sheared box (State::shear_displacement of a).
+/// Infinite where a position is not finite.
 [[nodiscard]] double largest_distance(const Box& box, const State& a, const State& b);
 
 /// Returns the root of the mean square displacement of the disks between two states of one time, likewise; 0 without disks.
@@ -37,8 +34,5 @@ inline constexpr double parted_diameters = 1e-3;
 
 /// Returns the first distance whose rms exceeds `parted_diameters` times `diameter`; empty where none does.
 [[nodiscard]] std::optional<DistanceAt> departure(const std::vector<DistanceAt>& distances, double diameter);
-
-/// Returns at most `most` of the numbers 0 to count - 1, evenly spaced, with the first and the last: the rows of a short table.
-[[nodiscard]] std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t most);
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 
 #include "studies/diff/diff.hpp"
 #include "studies/diff/text.hpp"
+#include "studies/distance_table.hpp"
 #include "support/recorded_run.hpp"
 #include "support/systems.hpp"
 #include "support/temporary_directory.hpp"

@@ -4,8 +4,9 @@
 #include "io/json_number.hpp"
 #include "neighbours/disks_at_rest.hpp"
 #include "observe/mechanics.hpp"
+#include "studies/compare/flown_overlaps.hpp"
+#include "studies/distance_table.hpp"
 #include "text/numbers.hpp"
-#include "text/table.hpp"
 
 #include <carom/simulation.hpp>
 
@@ -18,9 +19,6 @@
 namespace carom {
 
 namespace {
-
-constexpr double rounding_overlap = 1e-9;  ///< of a contact distance: files with ten digits have as much
-constexpr std::size_t most_table_rows = 12;
 
 void require_start(const Box& box, const State& frame, const State& start, double diameter) {
   if (frame.time != 0.0) return;
@@ -56,7 +54,7 @@ std::optional<OwnTrajectory> compare_trajectory(const Scene& scene, const State&
       result.departure_collisions = 2.0 * static_cast<double>(exact.totals().pair) / count;
     }
     const double overlap = deepest_overlap(scene.box, disks.radius, frame.positions).relative;
-    if (overlap > rounding_overlap) ++result.overlapping;
+    if (overlap > overlap_tolerance) ++result.overlapping;
     if (overlap > result.deepest_overlap) {
       result.deepest_overlap = overlap;
       result.deepest_time = frame.time;
@@ -71,16 +69,9 @@ std::optional<OwnTrajectory> compare_trajectory(const Scene& scene, const State&
 }
 
 std::string own_trajectory_text(const OwnTrajectory& of, const Scene& scene, const std::string& file) {
-  TerminalTable table("rrrl");
-  table.add({"t", "rms distance", "largest", "of disk"});
-  for (const std::size_t k : evenly_spaced(of.distances.size(), most_table_rows)) {
-    const DistanceAt& at = of.distances[k];
-    table.add({fmt::format("{:.6g}", at.time), fmt::format("{:.3g}", at.rms / of.diameter),
-               fmt::format("{:.3g}", at.largest / of.diameter), fmt::format("{}", at.disk)});
-  }
   std::string text =
       fmt::format("{} against exact events (113 bits) from the start of {}\n\n{}\n  distances in mean diameters\n\n", file,
-                  scene.source, table.text());
+                  scene.source, distance_table(of.distances, of.diameter));
   text += of.departure ? fmt::format("it departs by {:g} diameters at t = {:.6g}, after {:.3g} collisions per disk\n",
                                      parted_diameters, of.departure->time, *of.departure_collisions)
                        : fmt::format("it stays within {:g} diameters in all {}\n", parted_diameters,
@@ -108,12 +99,7 @@ std::string own_trajectory_json(const OwnTrajectory& of, const Scene& scene, con
   json["deepest_overlap_time"] = detail::number(of.deepest_time);
   json["energy_drift"] = detail::number(of.energy_drift);
   json["largest_energy_drift"] = detail::number(of.largest_energy_drift);
-  json["distances"] = detail::Json::array();
-  for (const DistanceAt& at : of.distances)
-    json["distances"].push_back({{"time", at.time},
-                                 {"rms", detail::number(at.rms / of.diameter)},
-                                 {"largest", detail::number(at.largest / of.diameter)},
-                                 {"disk", at.disk}});
+  json["distances"] = distances_json(of.distances, of.diameter);
   return json.dump(2, ' ', false, detail::Json::error_handler_t::replace);
 }
 

@@ -3,6 +3,7 @@
 #include "io/build_json.hpp"
 #include "io/json_number.hpp"
 #include "scene/wall_names.hpp"
+#include "studies/distance_table.hpp"
 #include "text/numbers.hpp"
 #include "text/table.hpp"
 
@@ -18,9 +19,6 @@ namespace {
 
 using detail::Json;
 using detail::number;
-
-/// The rows of the table of the terminal; JSON has all.
-constexpr std::size_t most_rows = 12;
 
 std::string partners(const Event& event) {
   if (event.partner >= 0) return fmt::format("disks {} and {}", event.disk, event.partner);
@@ -44,16 +42,10 @@ std::string verdict(const RunDifference& of) {
                                              : fmt::format("the first {} samples are", of.equal_samples));
 }
 
-std::string distance_table(const RunDifference& of) {
-  TerminalTable table("rrrl");
-  table.add({"t", "rms distance", "largest", "of disk"});
-  for (const std::size_t k : evenly_spaced(of.distances.size(), most_rows)) {
-    const DistanceAt& at = of.distances[k];
-    table.add({fmt::format("{:.6g}", at.time), fmt::format("{:.3g}", at.rms / of.diameter),
-               fmt::format("{:.3g}", at.largest / of.diameter), at.largest > 0.0 ? fmt::format("{}", at.disk) : "-"});
-  }
-  return fmt::format("{}\n  distances in mean diameters, at {} of {} common sample times\n", table.text(),
-                     std::min(of.distances.size(), most_rows), of.distances.size());
+std::string distances_at_samples(const RunDifference& of) {
+  return fmt::format("{}\n  distances in mean diameters, at {} of {} common sample times\n",
+                     distance_table(of.distances, of.diameter), std::min(of.distances.size(), most_distance_rows),
+                     of.distances.size());
 }
 
 std::string log_sentence(const RunDifference& of) {
@@ -99,7 +91,7 @@ std::string diff_text(const RunDifference& of) {
   const std::string when =
       parted ? fmt::format("the rms distance first exceeds {:g} diameters at t = {:.6g}\n", parted_diameters, parted->time)
              : fmt::format("the rms distance never exceeds {:g} diameters\n", parted_diameters);
-  return fmt::format("{}\n{}\n{}{}{}", verdict(of), distance_table(of), when, log_sentence(of), overlap_sentence(of));
+  return fmt::format("{}\n{}\n{}{}{}", verdict(of), distances_at_samples(of), when, log_sentence(of), overlap_sentence(of));
 }
 
 std::string diff_json(const RunDifference& of) {
@@ -120,12 +112,7 @@ std::string diff_json(const RunDifference& of) {
   json["diameter"] = number(of.diameter);
   const std::optional<DistanceAt> parted = departure(of.distances, of.diameter);
   json["parted_at"] = parted ? number(parted->time) : Json(nullptr);
-  json["distances"] = Json::array();
-  for (const DistanceAt& at : of.distances)
-    json["distances"].push_back({{"time", number(at.time)},
-                                 {"rms", number(at.rms / of.diameter)},
-                                 {"largest", number(at.largest / of.diameter)},
-                                 {"disk", at.disk}});
+  json["distances"] = distances_json(of.distances, of.diameter);
   json["equal_collisions"] = of.log ? Json(of.log->equal) : Json(nullptr);
   json["first_different_collision"] = nullptr;
   if (of.log && of.log->first) {
