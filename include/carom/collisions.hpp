@@ -31,7 +31,7 @@ struct DiskTable {
   std::vector<double> radius, mass;  ///< by id; one number where all are equal
 };
 
-/// Where two disks met, for collisions whose velocities do not tell it.
+/// The contact of two disks, for collisions whose velocities do not determine it.
 struct PairContact {
   double separation[2];  ///< from disk j to disk i
   bool touching;         ///< false where they meet the edge of each other's square well
@@ -42,7 +42,7 @@ struct CollisionRecords {
   std::shared_ptr<const DiskTable> disks;
   double epoch = 0.0, epoch_remainder = 0.0;  ///< from where times count: their unevaluated sum
   std::span<const CollisionRecord> records;
-  /// One for each record; empty where impulses are along the lines of centres, so that velocities tell where disks touched.
+  /// One for each record; empty where impulses are along the lines of centres, so that velocities determine where disks touched.
   std::span<const PairContact> contacts = {};
 
   /// Writes them as whole collisions in the place of what `collisions` held.

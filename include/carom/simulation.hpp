@@ -255,8 +255,9 @@ struct RunHooks {
   /// to follow events. The simulation may be in the middle of an event, and is not to be asked anything. Requires
   /// Simulation::supports_collision_records().
   std::function<void(const CollisionRecords& collisions)> collisions;
-  /// Where `collisions` wants the next of them to be written, to keep them without a copy: asked for after each call of it, which
-  /// gets no more than there is room for. Not there, or empty: in memory that is used again.
+  /// Returns the memory for the next records, so that `collisions` can keep them without a copy. It is called after each call of
+  /// `collisions`, which gets no more records than there is room for. Where it is not there, or returns none, memory is used
+  /// again.
   std::function<std::span<CollisionRecord>()> room_for_records;
   std::function<void(const Progress& progress)> block;    ///< after about every collision per disk, at collisions
   std::vector<SamplingGrid> grids;                        ///< of equal steps the first comes first
@@ -275,7 +276,7 @@ struct RunHooks {
 
 struct RunResult {
   StopReason stopped = StopReason::time;
-  std::vector<std::int32_t> stopped_disks;  ///< where jammed or collapsed: who collides without end, by rising id
+  std::vector<std::int32_t> stopped_disks;  ///< ids of the disks that collide without end, rising; where jammed or collapsed
   std::uint64_t samples = 0;
   double loop_seconds = 0.0;        ///< in the event loop of the measured run
   bool measured = true;             ///< false where the run ended while it was still equilibrating

@@ -9,7 +9,7 @@
 
 namespace carom {
 
-/// A child process. Where the object ends before it does, it is killed.
+/// A child process. It is killed where the object ends first.
 class ChildProcess {
  public:
   struct Options {
@@ -30,6 +30,7 @@ class ChildProcess {
   [[nodiscard]] bool has_ended();
   /// Waits for its end and returns its status, as waitpid gives it.
   int wait();
+  /// Sends a signal, unless it has ended.
   void send(int signal) const;
 
  private:

@@ -42,8 +42,8 @@ inline constexpr std::array<std::string_view, 21> run_products = {"checkpoint.h5
 /// The names of checkpoints, from which a run can be continued: io/checkpoint.hpp.
 inline constexpr std::string_view checkpoint_name = run_products[0], previous_checkpoint_name = run_products[1];
 
-/// Who holds the lock of a directory: the process that writes there, or the processes that it starts too, until the last of them
-/// ends.
+/// The holder of a directory's lock: the process that writes there, or that process and those that it starts, until the last of
+/// them ends.
 enum class LockHolder { process, process_and_children };
 
 class RunDirectory {

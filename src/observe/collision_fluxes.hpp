@@ -47,11 +47,11 @@ struct FluxBatch {
   double common[2];               ///< velocity of all disks together: what flies is relative to it
 };
 
-/// The masses, radii, impulses and separations that fluxes depend on besides velocities.
+/// The masses, radii, impulses and separations that fluxes depend on besides velocities, by rows; the first row is that of lane
+/// 0.
 struct alignas(64) CollisionContacts {
-  /// The data besides velocities that fluxes depend on, by rows; the first row is that of lane 0.
-  static constexpr std::size_t most = 64;
-  using Column = double[most + 8];  ///< rows before the first collision and after the last make up fours
+  static constexpr std::size_t most = 64;  ///< collisions at a time
+  using Column = double[most + 8];         ///< rows before the first collision and after the last make up fours
 
   Column mu, sigma;              ///< reduced mass and contact distance of two smooth disks, whose velocities determine the rest
   std::size_t rows_of_four = 4;  ///< 0 where the first four rows are those of all collisions

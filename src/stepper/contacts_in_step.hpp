@@ -1,5 +1,5 @@
 #pragma once
-// What the methods share that find contacts within a step (backtrack.hpp, swept.hpp): the order of events in a step, walls, and
+// The part of fixed-step methods that find contacts within a step (backtrack.hpp): the order of events in a step, walls, and
 // the close pairs in which they look. In each step:
 //
 //   1. move all disks by v dt, as if none met another;

@@ -33,7 +33,9 @@ struct OwnTrajectory {
                                                               const std::vector<State>& frames,
                                                               const std::function<bool(double)>& proceed);
 
+/// Returns the table and the sentences that `carom compare --trajectory` prints.
 [[nodiscard]] std::string own_trajectory_text(const OwnTrajectory& compared, const Scene& scene, const std::string& file);
+/// Returns the same numbers as JSON; docs/output.md lists the keys.
 [[nodiscard]] std::string own_trajectory_json(const OwnTrajectory& compared, const Scene& scene, const std::string& file);
 
 }  // namespace carom

@@ -12,9 +12,8 @@ namespace carom {
 
 /// Returns the frames of a trajectory file, in order of time. The ending of its name says what it is:
 ///
-/// - .npy: an array of shape (frames, disks, 2) for x, y or (frames, disks, 4) for x, y, vx, vy. Frame k is at the time k
-/// `every`,
-///   which is required.
+/// - .npy: an array of shape (frames, disks, 2) for x, y or (frames, disks, 4) for x, y, vx, vy. `every`, which is required, is
+///   the time between two frames, and the first is at time 0.
 /// - .csv: a row per frame and disk, with the columns time, disk (or id), x, y and, if the file has them, vx, vy.
 /// - .h5md: a file that carom run has written.
 ///
