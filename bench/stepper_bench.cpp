@@ -4,10 +4,12 @@
 
 #include "effects/specular.hpp"
 #include "observe/mechanics.hpp"
+#include "stepper/backtrack.hpp"
 #include "stepper/grid.hpp"
 #include "stepper/guarded.hpp"
 #include "stepper/naive.hpp"
 #include "stepper/stepper.hpp"
+#include "stepper/swept.hpp"
 #include "support/systems.hpp"
 
 #include <benchmark/benchmark.h>
@@ -23,6 +25,8 @@ using namespace carom;
 using Naive = NaiveStep<Specular, WallMeets::edge>;
 using Guarded = GuardedStep<Specular, AllPairs>;
 using Grid = GuardedStep<Specular, ClosePairs>;
+using Backtrack = BacktrackStep<Specular>;
+using Swept = SweptStep<Specular>;
 
 /// Empty where the grid does what the search of all pairs does, and energy stays.
 template <class Step>
@@ -64,6 +68,8 @@ void steps(benchmark::State& state) {
 
 BENCHMARK_TEMPLATE(steps, Naive)->Args({100, 60, 1000})->Args({1000, 60, 1000});
 BENCHMARK_TEMPLATE(steps, Guarded)->Args({100, 60, 1000})->Args({1000, 60, 1000});
+BENCHMARK_TEMPLATE(steps, Backtrack)->ArgsProduct({{1000, 100'000}, {10, 60}, {1000, 10'000}});
+BENCHMARK_TEMPLATE(steps, Swept)->ArgsProduct({{1000, 100'000}, {10, 60}, {1000, 10'000}});
 BENCHMARK_TEMPLATE(steps, Grid)->ArgsProduct({{100, 1000, 10'000, 100'000}, {10, 30, 60}, {100, 1000, 10'000}});
 
 }  // namespace

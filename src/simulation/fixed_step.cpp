@@ -10,6 +10,7 @@
 #include "stepper/guarded.hpp"
 #include "stepper/naive.hpp"
 #include "stepper/stepper.hpp"
+#include "stepper/swept.hpp"
 
 #include <carom/simulation.hpp>
 
@@ -48,11 +49,8 @@ struct Entry {
   const char* name;
   std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Start& start, double dt);
 };
-constexpr Entry entries[] = {{"naive", &make<Naive>},
-                             {"naive-edge", &make<NaiveEdge>},
-                             {"guarded", &make<Guarded>},
-                             {"grid", &make<Grid>},
-                             {"backtrack", &make<BacktrackStep>}};
+constexpr Entry entries[] = {{"naive", &make<Naive>}, {"naive-edge", &make<NaiveEdge>},    {"guarded", &make<Guarded>},
+                             {"grid", &make<Grid>},   {"backtrack", &make<BacktrackStep>}, {"swept", &make<SweptStep>}};
 
 void require_sound_step(const FixedStep& step, const Scene& scene, const Start& start) {
   if (!(step.dt > 0.0 && std::isfinite(step.dt)))
@@ -74,6 +72,18 @@ void require_sound_step(const FixedStep& step, const Scene& scene, const Start& 
                     *scene.run.time, steps, step.dt));
 }
 
+/// Swept steps tell images apart by the nearest one.
+void require_room_for_images(const Box& box, const Disks& disks) {
+  double largest = 0.0;
+  for (const double radius : disks.radius) largest = std::max(largest, radius);
+  for (int axis = 0; axis < 2; ++axis)
+    if (box.periodic(axis) && box.lengths()[axis] < 4.2 * largest)
+      throw std::invalid_argument(
+          fmt::format("the method \"swept\" cannot tell a disk from its images where a periodic box of length {:g} is shorter "
+                      "than 2.1 diameters of {:g}; take \"backtrack\"",
+                      box.lengths()[axis], 2.0 * largest));
+}
+
 }  // namespace
 
 std::vector<std::string> fixed_step_names() {
@@ -93,6 +103,7 @@ Simulation Simulation::begin(const Scene& scene, Start start, const FixedStep& s
     throw std::invalid_argument(
         fmt::format("fixed-step methods know the collision rule and hard walls only; this scene asks for {} besides",
                     words_beyond_the_rule(scene.effects)));
+  if (step.method == "swept") require_room_for_images(scene.box, start.disks);
   auto running = entry->make(scene, start, step.dt);
   return Simulation(
       std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry->name, std::move(running), "", step.dt}));

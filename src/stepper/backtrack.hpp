@@ -28,8 +28,13 @@ namespace carom {
 
 /// Contacts of pairs that overlap at the end of the step.
 struct OverlapAtTheEnd {
+  static constexpr bool along_flights = false;
+
   /// A list for which few disks are turned out of reach within a step.
   static constexpr double least_margin = 1.0;
+
+  /// Returns how far a disk may go in a part of a step: steps are not cut.
+  [[nodiscard]] static double farthest(const Bodies& /*bodies*/) { return infinity<double>; }
 
   [[nodiscard]] static bool meets(const Bodies& bodies, std::uint32_t i, std::uint32_t j, double sigma_squared, double /*span*/) {
     return bodies.squared_distance(bodies.r[i], bodies.r[j]) < sigma_squared;

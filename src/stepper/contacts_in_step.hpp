@@ -38,11 +38,15 @@ namespace carom {
 template <class Rule, class Search, class Pairs = ClosePairs>
 class ContactStep {
  public:
-  ContactStep(const Bodies& bodies, double dt) : dt_(dt), pairs_(bodies, dt, Search::least_margin), disks_(bodies.count()) {}
+  ContactStep(const Bodies& bodies, double dt)
+      : dt_(dt),
+        farthest_(Search::farthest(bodies)),
+        pairs_(bodies, dt / parts(bodies, dt), Search::least_margin),
+        disks_(bodies.count()) {}
 
   [[nodiscard]] static double work(double disks) { return Pairs::work(disks); }
 
-  void advance(Bodies& bodies) { advance(bodies, dt_); }
+  void advance(Bodies& bodies, Tally& tally) { advance(bodies, dt_, tally); }
 
   void check(Bodies& bodies, Tally& tally) {
     const Instant end = tally.time;
@@ -70,7 +74,7 @@ class ContactStep {
   void move_on(Bodies& bodies, double time) const {
     ContactStep step = *this;
     Tally unseen;
-    step.advance(bodies, time);
+    step.advance(bodies, time, unseen);
     step.check(bodies, unseen);
   }
 
@@ -89,7 +93,7 @@ class ContactStep {
   static constexpr double never = -infinity<double>;
 
   struct Disk {
-    double since = never;     ///< its last event in this step, from the end of it
+    double since = never;     ///< its last event in this part of a step, from the end of it
     std::uint32_t turns = 0;  ///< events so far
   };
   struct Meeting {
@@ -107,15 +111,42 @@ class ContactStep {
     return m.turns_i == disks_[m.i].turns && (m.j < 0 || m.turns_j == disks_[static_cast<std::size_t>(m.j)].turns);
   }
 
-  void advance(Bodies& bodies, double time) {
+  /// Returns into how many parts a flight is cut, so that no disk goes farther in one than the search can follow.
+  [[nodiscard]] double parts(const Bodies& bodies, double time) const {
+    if (farthest_ == infinity<double>) return 1.0;
+    double fastest = 0.0;
+    for (const Vec2<double>& v : bodies.v) fastest = std::max(fastest, v.squaredNorm());
+    return std::max(1.0, std::ceil(std::sqrt(fastest) * time / farthest_));
+  }
+
+  void advance(Bodies& bodies, double time, Tally& tally) {
+    const Instant end = tally.time;
+    double left = time;
+    for (double cut = parts(bodies, left); cut > 1.0; cut = parts(bodies, left)) {
+      const double part = left / cut;
+      left -= part;
+      tally.time = end.plus(-left);
+      fly(bodies, part);
+      check(bodies, tally);
+    }
+    tally.time = end;
+    fly(bodies, left);
+  }
+
+  void fly(Bodies& bodies, double time) {
     span_ = time;
+    const bool listed_anew = Search::along_flights && pairs_.about_to_move(bodies, time);
     for (std::size_t i = 0; i < bodies.count(); ++i) bodies.move(i, bodies.v[i], time);
-    pairs_.moved(bodies);
+    if (!Search::along_flights) pairs_.moved(bodies);
+    if (!listed_anew) return;
+    for (std::uint32_t i = 0; i < bodies.count(); ++i)
+      if (pairs_.strayed(bodies, i)) strays_.push_back(i);
   }
 
   void find(const Bodies& bodies) {
     walled_ = !bodies.domain.periodic[0] || !bodies.domain.periodic[1];
     pairs_.for_pairs([&](std::uint32_t i, std::uint32_t j, double sigma_squared) { look_closely(bodies, i, j, sigma_squared); });
+    for (const std::uint32_t i : strays_) look_at_all(bodies, i, i);
     if (!walled_) return;
     for (std::uint32_t i = 0; i < bodies.count(); ++i) look_at_walls(bodies, i);
   }
@@ -181,28 +212,38 @@ class ContactStep {
   /// Looks for what disk i meets after its last event, which was with `partner`.
   void look_around(const Bodies& bodies, std::uint32_t i, std::uint32_t partner) {
     if (walled_) look_at_walls(bodies, i);
-    const auto look_at = [&](std::uint32_t j) {
-      const double sigma = bodies.radius[i] + bodies.radius[j];
-      if (j != i && j != partner) look_closely(bodies, i, j, sigma * sigma);
-    };
     if (pairs_.strayed(bodies, i)) {
       strays_.push_back(i);
-      for (std::uint32_t j = 0; j < bodies.count(); ++j) look_at(j);
+      look_at_all(bodies, i, partner);
       return;
     }
     pairs_.for_near(i, [&](std::uint32_t j, double sigma_squared) {
       if (j != partner) look_closely(bodies, i, j, sigma_squared);
     });
-    for (const std::uint32_t j : strays_) look_at(j);
+    for (const std::uint32_t j : strays_) {
+      if (j != partner) look_at_any(bodies, i, j);
+    }
+  }
+
+  void look_at_all(const Bodies& bodies, std::uint32_t i, std::uint32_t partner) {
+    for (std::uint32_t j = 0; j < bodies.count(); ++j) {
+      if (j != partner) look_at_any(bodies, i, j);
+    }
+  }
+
+  void look_at_any(const Bodies& bodies, std::uint32_t i, std::uint32_t j) {
+    const double sigma = bodies.radius[i] + bodies.radius[j];
+    if (j != i) look_closely(bodies, i, j, sigma * sigma);
   }
 
   double dt_;
+  double farthest_;  ///< that a disk may go in a part of a step
   Pairs pairs_;
   std::vector<Disk> disks_;
   double span_ = 0.0;  ///< how long the flight took that is looked at
   bool walled_ = false;
   std::vector<Meeting> meetings_;      ///< a heap, the earliest first
-  std::vector<std::uint32_t> strays_;  ///< disks that events of this step have brought out of reach of the list
+  std::vector<std::uint32_t> strays_;  ///< disks out of reach of the list in this step
   std::vector<std::uint32_t> turned_;  ///< disks that had events in this step
 };
 

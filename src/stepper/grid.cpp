@@ -55,6 +55,18 @@ void ClosePairs::moved(const Bodies& bodies) {
   if (!(farthest <= farthest_squared_)) rebuild(bodies);
 }
 
+bool ClosePairs::about_to_move(const Bodies& bodies, double time) {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < bodies.count(); ++i) {
+    const double here = bodies.squared_distance(bodies.r[i], built_[i]);
+    const double there = bodies.squared_distance(bodies.r[i] + bodies.v[i] * time, built_[i]);
+    farthest = std::max({farthest, here, there});
+  }
+  const bool would_stray = !(farthest <= farthest_squared_);
+  if (would_stray) rebuild(bodies);
+  return would_stray;
+}
+
 /// Disks beyond a wall count as in the cell next to it.
 std::size_t ClosePairs::cell_of(const Bodies& bodies, const Vec2<double>& r) const {
   std::size_t place[2];

@@ -22,6 +22,10 @@ class ClosePairs {
   /// Makes the list anew if a disk has strayed.
   void moved(const Bodies& bodies);
 
+  /// Makes the list anew if a disk has strayed or would do so in a time of straight flight from here. Returns whether it did.
+  /// Requires flights shorter than half the box along periodic axes.
+  bool about_to_move(const Bodies& bodies, double time);
+
   /// Returns whether disk i is too far from where it was for the list to have all pairs of it that are in contact.
   [[nodiscard]] bool strayed(const Bodies& bodies, std::size_t i) const {
     return bodies.squared_distance(bodies.r[i], built_[i]) > farthest_squared_;

@@ -49,7 +49,7 @@ class GuardedStep {
 
   [[nodiscard]] static double work(double disks) { return Pairs::work(disks); }
 
-  void advance(Bodies& bodies) {
+  void advance(Bodies& bodies, Tally& /*tally*/) {
     move_on(bodies, dt_);
     pairs_.moved(bodies);
   }

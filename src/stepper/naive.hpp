@@ -31,7 +31,7 @@ class NaiveStep {
   [[nodiscard]] static double work(double disks) { return disks * disks; }
 
   /// Moves the disks from the last step to this one, as step 4 of the last one decided.
-  void advance(Bodies& bodies) const { move_on(bodies, dt_); }
+  void advance(Bodies& bodies, Tally& /*tally*/) const { move_on(bodies, dt_); }
 
   void check(Bodies& bodies, Tally& tally) {
     place_ = bodies.r;

@@ -122,9 +122,9 @@ class Stepper {
   }
 
   void take_step(const Instant& when) {
-    if (steps_ > 0) step_.advance(bodies_);
     now_ = when;
     tally_.time = when;
+    if (steps_ > 0) step_.advance(bodies_, tally_);
     step_.check(bodies_, tally_);
     if (!bodies_.finite()) fault_ = "a position or velocity is not finite";
     ++steps_;

@@ -33,6 +33,7 @@ void StepAudit::look_at_reversals(const State& state, std::span<const Event> rev
     const Pair pair{event.disk, event.partner};
     reversed_last_step_.insert(pair);
     unnoticed_.erase(pair);
+    if (passed_.erase(pair) > 0) --counts_.missed;  // found within the step
     if (!encounters_.insert(pair).second) {
       ++counts_.repeated;
       continue;
@@ -49,6 +50,7 @@ void StepAudit::look_at_reversals(const State& state, std::span<const Event> rev
 /// flights touch in between; and how deep those are that are in contact.
 void StepAudit::look_at_flights(const State& state) {
   counts_.missed += std::erase_if(unnoticed_, [&](const Pair& pair) { return separation(state, pair).norm() >= sigma(pair); });
+  passed_.clear();
   const auto disks = static_cast<std::int32_t>(state.positions.cols());
   const double fastest = disks == 0 ? 0.0 : state.velocities.colwise().norm().maxCoeff();
   for (std::int32_t i = 0; i < disks; ++i) {
@@ -68,7 +70,9 @@ void StepAudit::look_at_flights(const State& state) {
       const double nearest_at = -b / speed_squared;  // the time of the closest approach
       const double nearest_squared = square - b * b / speed_squared;
       const bool touches = nearest_squared < contact * contact;
-      if (touches && nearest_at < dt_ && (r + dt_ * v).squaredNorm() >= contact * contact) ++counts_.missed;
+      if (!(touches && nearest_at < dt_ && (r + dt_ * v).squaredNorm() >= contact * contact)) continue;
+      ++counts_.missed;
+      passed_.insert({i, j});
     }
   }
 }

@@ -64,6 +64,7 @@ class StepAudit {
   double dt_;
   std::set<Pair> encounters_;  ///< encounters that have not ended
   std::set<Pair> reversed_last_step_;
+  std::set<Pair> passed_;     ///< pairs counted as missed whose flights from the last step touch: a method may yet find them
   std::set<Pair> unnoticed_;  ///< pairs in contact at the last step that were not reversed since they touched
   StepCounts counts_;
 };

@@ -5,6 +5,7 @@
 #include "effects/reversal.hpp"
 #include "effects/specular.hpp"
 #include "stepper/stepper.hpp"
+#include "stepper/swept.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -14,6 +15,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -242,6 +244,7 @@ class EveryPair {
 
   [[nodiscard]] static double work(double disks) { return disks * disks / 2; }
   void moved(const Bodies& /*bodies*/) {}
+  [[nodiscard]] static bool about_to_move(const Bodies& /*bodies*/, double /*time*/) { return false; }
   [[nodiscard]] static bool strayed(const Bodies& /*bodies*/, std::size_t /*i*/) { return false; }
   [[nodiscard]] static std::size_t bytes() { return 0; }
   template <class Look>
@@ -261,10 +264,10 @@ class EveryPair {
   std::vector<double> radius_;
 };
 
-template <class Rule>
+template <class Rule, class Search = OverlapAtTheEnd>
 void expect_the_twin(const System& system, double dt, int steps, const std::string& what) {
-  Stepper<ContactStep<Rule, OverlapAtTheEnd, ClosePairs>> listed(system.box, system.disks, system.state, dt);
-  Stepper<ContactStep<Rule, OverlapAtTheEnd, EveryPair>> twin(system.box, system.disks, system.state, dt);
+  Stepper<ContactStep<Rule, Search, ClosePairs>> listed(system.box, system.disks, system.state, dt);
+  Stepper<ContactStep<Rule, Search, EveryPair>> twin(system.box, system.disks, system.state, dt);
   listed.record_events(true);
   twin.record_events(true);
   run_to(listed, steps * dt);
@@ -292,18 +295,123 @@ TEST(Backtrack, IsTheSearchOfAllPairsToTheLastBit) {
   expect_the_twin<Specular>(system_of(two_sizes_scene(300, 0.3, Boundary::periodic)), 0.01, 200, "two sizes");
 }
 
-RC_GTEST_PROP(PropertyBacktrack, IsTheSearchOfAllPairsForAnyDisks, ()) {
-  const auto number = [](double from, double to) { return from + (to - from) * *rc::gen::inRange(0, 1 << 20) / double(1 << 20); };
-  const Box box = box_of(number(2.0, 20.0), number(2.0, 20.0), *rc::gen::arbitrary<bool>() ? Boundary::walls : Boundary::periodic,
-                         *rc::gen::arbitrary<bool>() ? Boundary::walls : Boundary::periodic);
+double number(double from, double to) { return from + (to - from) * *rc::gen::inRange(0, 1 << 20) / double(1 << 20); }
+
+/// Any disks anywhere, upon each other too, in any box that is at least so wide.
+System any_disks(double least_width) {
+  const auto boundary = [] { return *rc::gen::arbitrary<bool>() ? Boundary::walls : Boundary::periodic; };
+  const Box box = box_of(number(least_width, 20.0), number(least_width, 20.0), boundary(), boundary());
   const int disks = *rc::gen::inRange(0, 40);
   std::vector<Placed> placed;
-  for (int i = 0; i < disks; ++i)  // anywhere, upon each other too
+  for (int i = 0; i < disks; ++i)
     placed.push_back({{number(0.0, 0.999) * box.lengths()[0], number(0.0, 0.999) * box.lengths()[1]},
                       {number(-2.0, 2.0), number(-2.0, 2.0)},
                       number(0.05, 0.9),
                       number(0.1, 9.0)});
-  expect_the_twin<Specular>(system_of(box, placed), std::pow(10.0, number(-3.0, 1.0)), 50, "any");
+  return system_of(box, placed);
+}
+
+RC_GTEST_PROP(PropertyBacktrack, IsTheSearchOfAllPairsForAnyDisks, ()) {
+  expect_the_twin<Specular>(any_disks(2.0), std::pow(10.0, number(-3.0, 1.0)), 50, "any");
+}
+
+RC_GTEST_PROP(PropertySwept, IsTheSearchOfAllPairsForAnyDisks, ()) {
+  expect_the_twin<Specular, AnywhereWithin>(any_disks(4.0), std::pow(10.0, number(-3.0, 0.5)), 20, "any");
+}
+
+TEST(Swept, FindsTheGrazeAtEveryStep) {
+  // Offset 15/16 of sigma: the disks would overlap from 2 - sqrt(1 - (15/16)^2) on, for 0.696 of time.
+  const Box box = square_box(16.0, Boundary::periodic);
+  const System graze = system_of(box, {{{4.0, 8.0}, {0.0, 0.0}}, {{6.0, 8.9375}, {-1.0, 0.0}}});
+  for (const double dt : {0.25, 0.5, 1.0, 1.5, 2.0, 4.0}) {
+    Stepper<SweptStep<Specular>> s(box, graze.disks, graze.state, dt);
+    s.record_events(true);
+    run_to(s, 4.0);
+    std::vector<Event> events;
+    s.take_events(events);
+    ASSERT_EQ(events.size(), 1U) << dt;
+    EXPECT_NEAR(events[0].time, 2.0 - std::sqrt(1.0 - 0.9375 * 0.9375), 1e-15) << dt;
+  }
+}
+
+TEST(Swept, HasTheEventsOfTheExactEngineAtAnyStep) {
+  for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal})
+    for (const Boundary boundary : {Boundary::walls, Boundary::periodic})
+      for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        Scene scene = mixture_scene(12, 0.3, boundary, seed);
+        scene.effects.collision.rule = rule;
+        const State start = make_simulation(scene).state();
+        constexpr double end = 2.0;
+        const ExactRun exact = exact_run(scene, start, end);
+        for (const double dt : {0.01, 0.1, 0.5, 2.0}) {
+          Simulation s = make_simulation(scene, start, FixedStep{"swept", dt});
+          s.record_events(true);
+          s.run_until(end);
+          const std::string what = fmt::format("seed {}, dt = {}", seed, dt);
+          expect_the_events_of(exact, s, 1e-7, what);
+          EXPECT_LT(rms_difference(scene, s.state(), exact.end), 1e-7) << what;
+        }
+      }
+}
+
+TEST(Swept, IsRightToRoundingFor256DisksWhereBacktrackIsNot) {
+  struct Case {
+    double packing_fraction, end, dt;
+  };
+  for (const auto& [packing_fraction, end, dt] : {Case{0.05, 1.44, 0.72}, Case{0.4, 0.46, 0.23}, Case{0.7, 0.24, 0.08}})
+    for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal}) {
+      Scene scene = gas_scene(256, packing_fraction, Boundary::periodic, 3);
+      scene.effects.collision.rule = rule;
+      Simulation fluid = make_simulation(scene);
+      fluid.run_until(1e300, {.collisions = 25 * 256});
+      fluid.run_until(fluid.time() + 1e-6);
+      const State start = fluid.state();
+      Simulation exact = make_simulation(scene, start, "textbook-long-double");
+      exact.run_until(end);
+      Simulation s = make_simulation(scene, start, FixedStep{"swept", dt});
+      s.run_until(end);
+      EXPECT_EQ(s.totals().pair, exact.totals().pair) << packing_fraction;
+      EXPECT_LT(rms_difference(scene, s.state(), exact.state()), 1e-13) << packing_fraction;
+    }
+}
+
+TEST(Swept, IsTheSearchOfAllPairsToTheLastBit) {
+  for (const Boundary boundary : {Boundary::walls, Boundary::periodic})
+    for (const double packing_fraction : {0.05, 0.3, 0.7})
+      for (const double dt : {0.001, 0.02, 0.3, 2.0}) {
+        const std::string what = fmt::format("{} {}", packing_fraction, dt);
+        const int steps = dt < 1.0 ? 50 : 3;
+        expect_the_twin<Specular, AnywhereWithin>(system_of(gas_scene(60, packing_fraction, boundary)), dt, steps, what);
+        expect_the_twin<Reversal, AnywhereWithin>(system_of(mixture_scene(60, 0.8 * packing_fraction, boundary)), dt, steps,
+                                                  "mixture " + what);
+      }
+  System fast = system_of(gas_scene(64, 0.3, Boundary::periodic));
+  fast.state.velocities.col(17) *= 1000.0;
+  expect_the_twin<Specular, AnywhereWithin>(fast, 0.001, 50, "one fast disk");
+}
+
+TEST(Swept, IsThatSearchForDisksThatCollisionsMakeFasterThanTheListExpects) {
+  // Light disks at rest between heavy ones: the list is made for the speeds of the heavy ones.
+  for (const double dt : {0.01, 0.1}) {
+    System system = system_of(gas_scene(100, 0.5, Boundary::periodic));
+    for (std::size_t i = 0; i < system.disks.count(); i += 2) {
+      system.disks.mass[i] = 0.001;
+      system.state.velocities.col(static_cast<Eigen::Index>(i)).setZero();
+    }
+    expect_the_twin<Specular, AnywhereWithin>(system, dt, 60, fmt::format("dt = {}", dt));
+  }
+}
+
+TEST(Swept, ABoxTooNarrowToTellImagesApartIsRefused) {
+  Scene scene = scene_of(box_of(1.5, 8.0, Boundary::periodic), {species_of(1, 0.5, 1.0, SquareLattice{}, AtRest{})});
+  try {
+    (void)make_simulation(scene, FixedStep{"swept", 0.1});
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "the method \"swept\" cannot tell a disk from its images where a periodic box of length 1.5 is shorter than 2.1 "
+                 "diameters of 1; take \"backtrack\"");
+  }
 }
 
 }  // namespace

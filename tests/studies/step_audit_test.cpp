@@ -268,6 +268,13 @@ TEST_P(PhysicsIsolatedPair, BacktrackStepsMissOnlyWhatIsNeverInContactAtAStepAnd
   for (const double depth : outcome.depths) ASSERT_LT(depth, 1e-12);
 }
 
+TEST_P(PhysicsIsolatedPair, SweptStepsMissNoneAndTurnAllAtContact) {
+  const Outcome outcome = outcome_of("swept");
+  EXPECT_EQ(outcome.missed, 0);
+  EXPECT_EQ(outcome.depths.size(), std::size_t{trials});
+  for (const double depth : outcome.depths) ASSERT_LT(depth, 1e-12);
+}
+
 INSTANTIATE_TEST_SUITE_P(Steps, PhysicsIsolatedPair, ::testing::Values(0.1, 0.3, 1.0, 4.0), [](const auto& tested) {
   return "Step" + std::to_string(static_cast<int>(10.0 * tested.param)) + "Tenths";
 });
