@@ -2,6 +2,7 @@
 // How large disks are and how much room they have, for the neighbour lists of a run in which they may grow.
 
 #include "engine/flight_frame.hpp"
+#include "neighbours/neighbourhood_tuning.hpp"
 
 #include <carom/state.hpp>
 
@@ -38,6 +39,11 @@ struct DiskSizes {
       : spacing(mean_spacing(box, disks.count())),
         mean_diameter(disks.mean_diameter()),
         largest_contact(largest_contact_distance(disks)) {}
+
+  /// The half-width of neighbourhoods to begin with, for disks of the size that lists are for.
+  [[nodiscard]] double suitable_half_width() const {
+    return HalfWidthSearch::first_half_width(mean_diameter * listed_scale, area);
+  }
 
   double spacing;                     ///< root of the area per disk
   double mean_diameter;               ///< at scale 1

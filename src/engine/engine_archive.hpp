@@ -2,7 +2,7 @@
 // What decides how the engine goes on, written down for checkpoints (core/archive.hpp). What the scene says by itself is not
 // among it: an engine is made for the scene first, with any start, and then read into.
 
-#include "engine/engine.hpp"
+#include "engine/event_loop.hpp"
 
 namespace carom {
 
@@ -15,17 +15,16 @@ void serialize(Archive& archive, PredictionFrame& frame) {
 
 template <class Impact, class Layout, class World>
 template <class Archive>
-void Engine<Impact, Layout, World>::serialize(Archive& archive) {
+void EventLoop<Impact, Layout, World>::serialize(Archive& archive) {
   archive(flight_, frame_, impact_, world_);
   archive(lines_, plans_, ids_, sizes_, lists_, queue_);
   archive(epoch_, now_, epoch_length_, stamp_, stall_, common_motion_, last_collision_, totals_);
-  archive(mean_speed_, limits_, tuning_, pacing_);
+  archive(mean_speed_, limits_, boundaries_, tuning_, pacing_);
   if constexpr (Archive::is_loading::value) {
     recorder_.begin_epoch(epoch_);
     if constexpr (!Impact::plain)
       if (impact_.wells().present()) frame_.inside = impact_.wells().table();
     frame_.sliding.heights = flight_.heights();
-    slot_of_id_.clear();
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // How an engine begins: which scenes it can run, where disks lie in memory, first neighbourhoods, lists and predictions.
 
-#include "engine/engine.hpp"
+#include "engine/event_loop.hpp"
 #include "engine/order_in_space.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ const PredictionKernel<Line>& kernel_for(const Effects& effects) {
 }  // namespace detail
 
 template <class Impact, class Layout, class World>
-std::string Engine<Impact, Layout, World>::why_not(const Box& box, const Disks& disks, const Effects& effects) {
+std::string EventLoop<Impact, Layout, World>::why_not(const Box& box, const Disks& disks, const Effects& effects) {
   const std::vector<std::string> acting = effects.acting();
   if ((Impact::plain || World::plain) && !acting.empty()) return fmt::format("the scene asks for {}", fmt::join(acting, ", "));
   if (disks.count() == 0) return "";
@@ -36,8 +36,8 @@ std::string Engine<Impact, Layout, World>::why_not(const Box& box, const Disks& 
     const FixedAxis axis = fixed_axis(box, k, disks.count());
     if (axis.periodic && axis.upper - axis.lower < 2.5 * reach)
       return fmt::format(
-          "the periodic box is too small: {:.4g} in {}, less than 2.5 times {:.4g}, the farthest that disks notice "
-          "each other",
+          "the periodic box is too small: {:.4g} in {}, less than 2.5 times {:.4g}, the farthest at which disks "
+          "act on each other",
           axis.upper - axis.lower, k == 0 ? "x" : "y", reach);
     if (axis.unit * 0x1p32 > 1e-3 * smallest)
       return fmt::format("the box is too large for a disk of radius {:.4g}: {:.4g} in {}", smallest, axis.upper - axis.lower,
@@ -47,11 +47,13 @@ std::string Engine<Impact, Layout, World>::why_not(const Box& box, const Disks& 
 }
 
 template <class Impact, class Layout, class World>
-Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State start, const Effects& effects, std::uint64_t seed)
+EventLoop<Impact, Layout, World>::EventLoop(const Box& box, const Disks& disks, State start, const Effects& effects,
+                                            std::uint64_t seed)
     : layout_(disks),
       impact_(effects, disks.count()),
       world_(box, effects, start, seed),
       flight_(box, disks.count(), world_),
+      boundaries_(box, flight_, world_),
       frame_{{flight_.axis(0).unit, flight_.axis(1).unit},
              {flight_.axis(0).steps, flight_.axis(1).steps},
              disks.count() > 0 ? 2.0 * disks.radius[0] : 0.0,
@@ -62,8 +64,6 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
       plans_(disks.count(), ids_),
       lists_(flight_.axis(0), flight_.axis(1), {}),
       sizes_(box, disks),
-      walled_(!box.periodic(0) || !box.periodic(1)),
-      bounded_(walled_ || !effects.obstacles.empty() || world_.sheared()),
       stall_(effects, disks.count()),
       common_motion_(box, effects),
       recorder_(ids_, world_.g()) {
@@ -92,11 +92,11 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
     if (world_.sheared()) update_shear();
   if (World::plain) sizes_.radius = std::vector<double>();  // nothing will ask for them again; {} alone would keep the memory
   start = State{};                                          // makes room for what follows
-  double half_width = std::min(suitable_half_width(), sizes_.widest_neighbourhood);
+  double half_width = std::min(sizes_.suitable_half_width(), sizes_.widest_neighbourhood);
   for (rebuild(half_width); lists_.median_count() > 11 && half_width > 0.1 * sizes_.mean_diameter; rebuild(half_width))
     half_width *= 0.7;
   find_wells();
-  if (common_motion_.present()) common_motion_.begin(lines_, [this](const Line& a) { return momentum(a); });
+  if (common_motion_.present()) common_motion_.begin(lines_, [this](const Line& a) { return layout_.momentum(a); });
   choose_epoch_length();
   predict_all();
   begin_epoch(0.0);
@@ -104,7 +104,13 @@ Engine<Impact, Layout, World>::Engine(const Box& box, const Disks& disks, State 
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::find_wells() {
+std::size_t EventLoop<Impact, Layout, World>::bytes() const {
+  return lines_.capacity() * sizeof(Line) + plans_.bytes() + ids_.capacity() * sizeof(std::int32_t) + flight_.bytes() +
+         lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() + sizes_.radius.capacity() * sizeof(double);
+}
+
+template <class Impact, class Layout, class World>
+void EventLoop<Impact, Layout, World>::find_wells() {
   if constexpr (!Impact::plain) {
     auto& wells = impact_.wells();
     for (std::int32_t i = 0; i < count() && wells.present(); ++i)

@@ -2,8 +2,8 @@
 // Epochs: the loop counts time from the beginning of one, and lines are drawn from there. How long one lasts, and all that is
 // made anew when the next begins.
 
-#include "engine/engine.hpp"
 #include "engine/epoch.hpp"
+#include "engine/event_loop.hpp"
 
 #include <fmt/format.h>
 
@@ -13,9 +13,10 @@
 namespace carom {
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::begin_epoch(double now) {
+void EventLoop<Impact, Layout, World>::begin_epoch(double now) {
   rebase(now);
-  restore_momentum();
+  if constexpr (!Impact::plain)
+    if (common_motion_.present()) impact_.owe(common_motion_.owed(lines_, [this](const Line& a) { return layout_.momentum(a); }));
   if constexpr (!World::plain) reset_falling_frame(), widen_coordinates();
   if (now > 0.0) tune_neighbourhoods(now);
   choose_epoch_length();
@@ -29,8 +30,8 @@ void Engine<Impact, Layout, World>::begin_epoch(double now) {
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::begin_epoch_early(std::int32_t i, const Vec2<double>& va, std::int32_t j,
-                                                      const Vec2<double>& vb) {
+void EventLoop<Impact, Layout, World>::begin_epoch_early(std::int32_t i, const Vec2<double>& va, std::int32_t j,
+                                                         const Vec2<double>& vb) {
   if (!va.allFinite() || !vb.allFinite()) return fail_between(i, j);
   const Vec2<double> fallen = world_.g() * now_;
   rebase(now_);
@@ -45,7 +46,7 @@ void Engine<Impact, Layout, World>::begin_epoch_early(std::int32_t i, const Vec2
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::fail_between(std::int32_t i, std::int32_t j) {
+void EventLoop<Impact, Layout, World>::fail_between(std::int32_t i, std::int32_t j) {
   // What has been written down of it is no event.
   i == j ? recorder_.withdraw_hit() : recorder_.withdraw_collision();
   stall_.fail(i == j ? fmt::format("disk {}: its velocity would not be finite after what it has met", id(i))
@@ -53,13 +54,7 @@ void Engine<Impact, Layout, World>::fail_between(std::int32_t i, std::int32_t j)
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::restore_momentum() {
-  if constexpr (!Impact::plain)
-    if (common_motion_.present()) impact_.owe(common_motion_.owed(lines_, [this](const Line& a) { return momentum(a); }));
-}
-
-template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::replan() {
+void EventLoop<Impact, Layout, World>::replan() {
   if constexpr (!World::plain) reset_falling_frame(), widen_coordinates();
   choose_epoch_length();
   if (outgrow_lists()) list_larger();
@@ -69,7 +64,7 @@ void Engine<Impact, Layout, World>::replan() {
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::rebase(double now) {
+void EventLoop<Impact, Layout, World>::rebase(double now) {
   for (std::int32_t i = 0; i < count(); ++i) flight_.rebase(i, line(i), now);
   plans_.rebase(now);
   stamp_ = 1;
@@ -79,12 +74,12 @@ void Engine<Impact, Layout, World>::rebase(double now) {
   if constexpr (!World::plain) flight_.fall(now);
   world_.rebase(now);
   frame_.scale = world_.scale(0.0);
-  recorder_.begin_epoch(epoch_ = instant(now));
+  recorder_.begin_epoch(epoch_ = epoch_.plus(now));
   now_ = 0.0;
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::choose_epoch_length() {
+void EventLoop<Impact, Layout, World>::choose_epoch_length() {
   double fastest[2] = {0.0, 0.0};
   ExactSum speeds;
   for (const Line& a : lines_)
@@ -108,7 +103,7 @@ void Engine<Impact, Layout, World>::choose_epoch_length() {
 
 /// How long an epoch may be for what disks and walls will do that they do not do yet.
 template <class Impact, class Layout, class World>
-double Engine<Impact, Layout, World>::longest_epoch_of_world() const {
+double EventLoop<Impact, Layout, World>::longest_epoch_of_world() const {
   double longest = never;
   const double pull = std::max(world_.g().cwiseAbs().maxCoeff(), world_.walls.strongest());
   if (pull > 0.0) longest = std::sqrt(8.0 * sizes_.spacing / pull);
@@ -121,7 +116,7 @@ double Engine<Impact, Layout, World>::longest_epoch_of_world() const {
 /// The frame of the lines falls on from epoch to epoch, with the neighbourhoods in it. Before it leaves the box behind it is
 /// put back to the box. Then all disks must be predicted anew.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::reset_falling_frame() {
+void EventLoop<Impact, Layout, World>::reset_falling_frame() {
   if (!flight_.has_fallen(4.0 * sizes_.spacing)) return;
   flight_.reset_fall(lines_);
   rebuild(frame_.half_width);
@@ -130,7 +125,7 @@ void Engine<Impact, Layout, World>::reset_falling_frame() {
 /// A line has the length of the box and some spacings of room on either side. When walls have used up half of that, coordinates
 /// are made coarser: by a power of two, so that nothing but their last digits changes.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::widen_coordinates() {
+void EventLoop<Impact, Layout, World>::widen_coordinates() {
   bool wider = false;
   for (int k = 0; k < 2; ++k) {
     if (flight_.axis(k).periodic) continue;
@@ -151,28 +146,20 @@ void Engine<Impact, Layout, World>::widen_coordinates() {
 
 /// Predicts all disks.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::predict_all() {
+void EventLoop<Impact, Layout, World>::predict_all() {
   for (std::int32_t i = 0; i < count(); ++i) set_plan(i, predicted(i, surroundings(i)));
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::start_queue() {
-  if (pacing_.span() == 0.0) pacing_.set_span(first_span());
+void EventLoop<Impact, Layout, World>::start_queue() {
+  if (pacing_.span() == 0.0) {
+    std::vector<double> times(lines_.size());
+    for (std::int32_t i = 0; i < count(); ++i) times[static_cast<std::size_t>(i)] = plans_.time(i);
+    pacing_.choose_span(std::move(times), epoch_length_);
+  }
   queue_.start(pacing_.span(), lines_.size(), epoch_length_, prefetcher_.looks_ahead(), pacing_.busy());
   for (std::int32_t i = 0; i < count(); ++i) schedule(i);
   pacing_.begin(queue_.pushed());
-}
-
-/// From the times of the first events: half of them come within the median.
-template <class Impact, class Layout, class World>
-double Engine<Impact, Layout, World>::first_span() const {
-  if (count() == 0) return 1.0;
-  std::vector<double> times(lines_.size());
-  for (std::int32_t i = 0; i < count(); ++i) times[static_cast<std::size_t>(i)] = plans_.time(i);
-  const auto median = times.begin() + count() / 2;
-  std::nth_element(times.begin(), median, times.end());
-  const double span = 4.0 * *median / static_cast<double>(count());
-  return span > 0.0 && span < never ? span : epoch_length_ < never ? epoch_length_ : 1.0;
 }
 
 }  // namespace carom

@@ -1,5 +1,6 @@
 #pragma once
-// The whole engine: what a file includes that makes one. engine.hpp is the loop, and declares what these files define.
+// The whole engine: what a file includes that makes one. event_loop.hpp is the loop; it and engine.hpp declare what these files
+// define.
 
 #include "engine/engine_archive.hpp"
 #include "engine/engine_begin.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Lists of neighbours for disks of the size that they have, and how wide neighbourhoods are.
 
-#include "engine/engine.hpp"
+#include "engine/event_loop.hpp"
 
 #include <cmath>
 
@@ -9,7 +9,7 @@ namespace carom {
 
 /// Empty lists, for disks as large as they will be at the end of the epoch.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::make_lists() {
+void EventLoop<Impact, Layout, World>::make_lists() {
   sizes_.listed_scale = world_.scale(epoch_length_ < never ? epoch_length_ : 0.0);
   if (world_.expansion() > 0.0)
     sizes_.listed_scale *= 1.0 + 1.0 / 64.0;  // more makes lists longer, less has them made more often
@@ -26,30 +26,24 @@ void Engine<Impact, Layout, World>::make_lists() {
 
 /// New lists for disks that have grown, and new plans with them.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::list_larger() {
-  const double before = suitable_half_width();
+void EventLoop<Impact, Layout, World>::list_larger() {
+  const double before = sizes_.suitable_half_width();
   make_lists();
   // Disks that have grown have less room, and want narrower neighbourhoods.
-  rebuild(std::min(frame_.half_width * (suitable_half_width() / before), sizes_.widest_neighbourhood));
+  rebuild(std::min(frame_.half_width * (sizes_.suitable_half_width() / before), sizes_.widest_neighbourhood));
   predict_all();
   tuning_.restart();
 }
 
-/// The half-width for disks of the size that lists are for.
-template <class Impact, class Layout, class World>
-double Engine<Impact, Layout, World>::suitable_half_width() const {
-  return HalfWidthSearch::first_half_width(sizes_.mean_diameter * sizes_.listed_scale, sizes_.area);
-}
-
 /// Whether disks will be larger at the end of the epoch than those that lists are for.
 template <class Impact, class Layout, class World>
-bool Engine<Impact, Layout, World>::outgrow_lists() const {
+bool EventLoop<Impact, Layout, World>::outgrow_lists() const {
   return world_.expansion() > 0.0 && !(epoch_length_ < never && world_.scale(epoch_length_) <= sizes_.listed_scale);
 }
 
 /// Chooses the half-width by what neighbourhoods have cost since the last choice.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::tune_neighbourhoods(double elapsed) {
+void EventLoop<Impact, Layout, World>::tune_neighbourhoods(double elapsed) {
   const double half_width =
       tuning_.next(lists_.half_width(), sizes_.widest_neighbourhood, mean_speed_ * elapsed, sizes_.spacing, lists_.changes());
   if (half_width == lists_.half_width()) return;
@@ -59,39 +53,27 @@ void Engine<Impact, Layout, World>::tune_neighbourhoods(double elapsed) {
 
 /// New neighbourhoods round all disks, and new lists. The plans must be made anew as well.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::rebuild(double half_width) {
+void EventLoop<Impact, Layout, World>::rebuild(double half_width) {
   frame_.half_width = half_width;
   ++totals_.numerics.list_rebuilds;
   std::vector<NeighbourhoodCentre> centres(lines_.size());
-  for (std::int32_t i = 0; i < count(); ++i) centres[static_cast<std::size_t>(i)] = neighbourhood_around(i, now_);
+  for (std::int32_t i = 0; i < count(); ++i)  // as far ahead of disks as the neighbourhoods before
+    centres[static_cast<std::size_t>(i)] = flight_.neighbourhood_centre(i, line(i), now_, lists_.half_width());
   lists_.rebuild(half_width, centres);
   totals_.numerics.longest_neighbour_list = 0;
   for (std::int32_t i = 0; i < count(); ++i)
     totals_.numerics.longest_neighbour_list = std::max<std::uint64_t>(totals_.numerics.longest_neighbour_list, lists_.count(i));
 
+  boundaries_.set_neighbourhoods(half_width, sizes_.largest_contact);
   // Nearest images are right as long as a pair that may meet is less than half a box apart, now and along its lines back
   // to the epoch. What the neighbourhoods leave of that belongs to the two lines.
   for (int k = 0; k < 2; ++k) {
     const double length = flight_.length(k);
-    // A sixteenth of the neighbourhood is far more than any rounding of the time at which it is left.
-    const double clear = world_.is_static() ? length / 2.0 - sizes_.largest_contact - half_width * (1.0 + 1.0 / 16.0) : 0.0;
-    limits_.clear_of_walls[k] =
-        flight_.axis(k).periodic ? INT64_MAX : static_cast<std::int64_t>(std::max(clear, 0.0) / (flight_.axis(k).unit * 0x1p32));
     limits_.longest_line[k] = flight_.axis(k).periodic ? (length / 2.0 - sizes_.reach - 4.0 * half_width) / 2.0
                                                        : length / 2.0 + free_path * sizes_.spacing;
   }
   if constexpr (!World::plain)
     if (world_.sheared()) leave_room_for_shear(centres);
-}
-
-/// A neighbourhood round where disk i is at a time, ahead of it by half of its half-width. Between a quarter and three quarters
-/// there is little difference; dilute gases gain from more.
-template <class Impact, class Layout, class World>
-NeighbourhoodCentre Engine<Impact, Layout, World>::neighbourhood_around(std::int32_t i, double when) const {
-  const Line& a = line(i);
-  const double fastest = std::max(std::abs(a.v[0]), std::abs(a.v[1]));
-  const double ahead = fastest > 0.0 ? 0.5 * lists_.half_width() / fastest : 0.0;
-  return flight_.neighbourhood_centre(i, a, when, ahead);
 }
 
 }  // namespace carom

@@ -57,13 +57,6 @@ void Engine<Impact, Layout, World>::reset_clock() {
 }
 
 template <class Impact, class Layout, class World>
-std::size_t Engine<Impact, Layout, World>::bytes() const {
-  return lines_.capacity() * sizeof(Line) + plans_.bytes() + (ids_.capacity() + slot_of_id_.capacity()) * sizeof(std::int32_t) +
-         flight_.bytes() + lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() +
-         sizes_.radius.capacity() * sizeof(double);
-}
-
-template <class Impact, class Layout, class World>
 double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eigen::Vector2d& v, double spin) {
   if (slot_of_id_.empty()) {
     slot_of_id_.resize(lines_.size());

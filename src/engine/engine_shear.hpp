@@ -8,7 +8,7 @@
 // on from where they have come to, and neighbourhoods near an edge are neighbours of all that will slide past them in it.
 
 #include "core/sliding_separation.hpp"
-#include "engine/engine.hpp"
+#include "engine/event_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 namespace carom {
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::update_shear() {
+void EventLoop<Impact, Layout, World>::update_shear() {
   const double length = flight_.length(0), displacement = world_.lees_edwards.displacement(0.0);
   frame_.sliding.displacement = flight_.axis(0).steps_of(displacement < length / 2.0 ? displacement : displacement - length);
   frame_.sliding.speed = world_.lees_edwards.speed();
@@ -27,7 +27,7 @@ void Engine<Impact, Layout, World>::update_shear() {
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::follow_shear() {
+void EventLoop<Impact, Layout, World>::follow_shear() {
   if (!world_.sheared()) return;
   update_shear();
   for (std::int32_t i = 0; i < count(); ++i)
@@ -37,31 +37,16 @@ void Engine<Impact, Layout, World>::follow_shear() {
 /// Divides what neighbourhoods leave of the half box, within which nearest images are right, between lines and the slide of
 /// images.
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::leave_room_for_shear(const std::vector<NeighbourhoodCentre>& centres) {
+void EventLoop<Impact, Layout, World>::leave_room_for_shear(const std::vector<NeighbourhoodCentre>& centres) {
   for (std::int32_t i = 0; i < count(); ++i) flight_.height(i) = centres[static_cast<std::size_t>(i)].y;
   limits_.shear_displacement = limits_.longest_line[0];
   limits_.longest_line[0] /= 2.0;
-  const double clear = flight_.length(1) / 2.0 - frame_.half_width * (1.0 + 1.0 / 16.0);
-  limits_.clear_of_walls[1] = static_cast<std::int64_t>(std::max(clear, 0.0) / (flight_.axis(1).unit * 0x1p32));
   frame_.sliding.inner = lists_.inner();
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::plan_sheared_edge(std::int32_t i) {
-  const Line& a = line(i);
-  Plan& mine = plans_[i];
-  const double v = a.v[1];
-  if (v == 0.0) return;
-  const double sign = v > 0.0 ? 1.0 : -1.0;
-  const double gap =
-      flight_.axis(1).unit * 0x1p32 * (0x1p31 - sign * flight_.height(i)) - sign * flight_.offset(1, a, flight_.height(i), now_);
-  const double time = gap > 0.0 ? now_ + gap / std::abs(v) : now_;
-  if (time <= mine.edge_time) mine.edge_time = time, mine.edge = wall_of(1, v > 0.0);
-}
-
-template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::meet_across_sheared_edge(std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb,
-                                                             std::int32_t above) {
+void EventLoop<Impact, Layout, World>::meet_across_sheared_edge(std::int32_t i, Vec2<double>& va, std::int32_t j,
+                                                                Vec2<double>& vb, std::int32_t above) {
   const Line &a = line(i), &b = line(j);
   const double image_speed = above * frame_.sliding.speed;
   vb[0] += image_speed;
@@ -72,7 +57,7 @@ void Engine<Impact, Layout, World>::meet_across_sheared_edge(std::int32_t i, Vec
 }
 
 template <class Impact, class Layout, class World>
-void Engine<Impact, Layout, World>::cross_sheared_edge(std::int32_t i, std::int32_t up) {
+void EventLoop<Impact, Layout, World>::cross_sheared_edge(std::int32_t i, std::int32_t up) {
   Line& a = line(i);
   const double before = a.v[0];
   flight_.cross_sheared_edge(i, a, up, frame_.sliding.displacement, world_.lees_edwards.whole_lengths(now_));

@@ -4,6 +4,7 @@
 
 #include "core/all_equal.hpp"
 #include "core/flight.hpp"
+#include "core/vec2.hpp"
 
 #include <carom/state.hpp>
 
@@ -21,6 +22,7 @@ struct EqualDisks {
 
   [[nodiscard]] double radius(const Line& /*line*/) const { return radius_; }
   [[nodiscard]] double mass(const Line& /*line*/) const { return mass_; }
+  [[nodiscard]] Vec2<double> momentum(const Line& line) const { return mass_ * Vec2<double>(line.v[0], line.v[1]); }
   /// Stores in a line what this layout keeps there of the disk `id`.
   void store_properties(Line& /*line*/, const Disks& /*disks*/, std::size_t /*id*/) const {}
 
@@ -38,6 +40,7 @@ struct AnyDisks {
 
   [[nodiscard]] double radius(const Line& line) const { return line.radius; }
   [[nodiscard]] double mass(const Line& line) const { return line.mass; }
+  [[nodiscard]] Vec2<double> momentum(const Line& line) const { return line.mass * Vec2<double>(line.v[0], line.v[1]); }
   /// Stores in a line what this layout keeps there of the disk `id`.
   void store_properties(Line& line, const Disks& disks, std::size_t id) const {
     line.radius = disks.radius[id];

@@ -55,6 +55,20 @@ class Plans {
   /// the partner: to read that would be one more access to memory for every prediction.)
   [[nodiscard]] bool is_stale(const Plan& plan) const { return (*this)[plan.partner].last_collided > plan.predicted_at; }
 
+  /// Whether a collision of disk i with `partner` at a time comes before the one that is planned: at the same time the partner
+  /// with the lower id does.
+  [[nodiscard]] bool precedes_planned(std::int32_t i, double time, std::int32_t partner) const {
+    const Plan& mine = (*this)[i];
+    return time < mine.pair_time || (time == mine.pair_time && time < infinity<double> && id(partner) < id(mine.partner));
+  }
+  /// Lets disk i, where it meets a wall or an obstacle and a partner with a lower id at one time, plan the partner alone: the
+  /// wall is found again after the collision.
+  void resolve_wall_pair_tie(std::int32_t i) {
+    Plan& mine = (*this)[i];
+    if (mine.edge_time == mine.pair_time && mine.edge != neighbourhood_edge && mine.partner >= 0 && id(mine.partner) < id(i))
+      mine.edge_time = infinity<double>;
+  }
+
   /// Lets all times and stamps count from `now`: stamp 1 stands for every collision before, 0 for plans that are stale.
   void rebase(double now) {
     for (Plan& plan : plans_) {

@@ -45,15 +45,15 @@ class Prefetcher {
   /// Asks for what the next event needs first, where the queue knows it.
   template <class Line>
   void next(const PrefetchedData<Line>& of) const {
-    if (!of.queue.foresees()) return;
-    const std::int32_t i = of.queue.foreseen();
+    if (!of.queue.predicts_next()) return;
+    const std::int32_t i = of.queue.predicted_next();
     prefetch(&of.plans[i]), disk(of, i);
   }
   /// Asks for what follows from what next() has asked for.
   template <class Line>
   void partner_of_next(const PrefetchedData<Line>& of) const {
-    if (!of.queue.foresees()) return;
-    const std::int32_t i = of.queue.foreseen(), j = of.plans[i].partner < 0 ? i : of.plans[i].partner;
+    if (!of.queue.predicts_next()) return;
+    const std::int32_t i = of.queue.predicted_next(), j = of.plans[i].partner < 0 ? i : of.plans[i].partner;
     prefetch(&of.plans[j]), disk(of, j);
     for (int n = 0; n < 8 && neighbours_; ++n) prefetch(&of.line(of.lists.ids(i)[n]));
   }

@@ -59,10 +59,10 @@ class FutureEventList {
   /// Takes away the event that next() returned and that of disk j, which will get a new one as well.
   void pop(const Events& events, std::int32_t j) { in_tournament_ ? tournament_.pop(events, j) : calendar_.pop(events); }
 
-  /// Whose event comes after the one that was popped, unless a new one is earlier. Any disk where foresees() is false.
-  [[nodiscard]] std::int32_t foreseen() const { return tournament_.foreseen(); }
+  /// Whose event comes after the one that was popped, unless a new one is earlier. Any disk where predicts_next() is false.
+  [[nodiscard]] std::int32_t predicted_next() const { return tournament_.predicted_next(); }
 
-  [[nodiscard]] bool foresees() const { return in_tournament_; }
+  [[nodiscard]] bool predicts_next() const { return in_tournament_; }
 
   /// For a look ahead, where disks are many.
   [[nodiscard]] const CalendarQueue<Events>& calendar() const { return calendar_; }

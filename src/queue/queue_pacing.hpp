@@ -1,16 +1,32 @@
 #pragma once
 // How wide the spans of the calendar should be, and whether many events are to be expected, by what the last epoch brought.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <vector>
 
 namespace carom {
 
 class QueuePacing {
  public:
-  /// The length of a span; 0 before the first call of set_span() or judge().
+  /// The length of a span; 0 before the first call of choose_span() or judge().
   [[nodiscard]] double span() const { return span_; }
-  void set_span(double span) { span_ = span; }
+  /// Chooses the first span from the times of the next events of all disks: half of them come within the median. `longest` is the
+  /// end of the epoch, or infinity.
+  void choose_span(std::vector<double> times, double longest) {
+    span_ = 1.0;
+    if (times.empty()) return;
+    const auto median = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+    std::nth_element(times.begin(), median, times.end());
+    const double span = 4.0 * *median / static_cast<double>(times.size());
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    if (span > 0.0 && span < infinite)
+      span_ = span;
+    else if (longest < infinite)
+      span_ = longest;
+  }
   /// Whether the last epoch had a new event for every fourth disk or more.
   [[nodiscard]] bool busy() const { return busy_; }
 

@@ -97,7 +97,7 @@ class TournamentQueue {
   }
 
   /// Whose event comes after the one that was popped, unless a new one is earlier.
-  [[nodiscard]] std::int32_t foreseen() const { return first_.disk; }
+  [[nodiscard]] std::int32_t predicted_next() const { return first_.disk; }
 
   /// So many events have been at one time that a calendar is the better place for them.
   [[nodiscard]] bool crowded() const { return crowded_; }

@@ -114,6 +114,19 @@ TEST(FlightFrame, ANewEpochChangesNeitherPlaceNorVelocity) {
   }
 }
 
+TEST(FlightFrame, ANeighbourhoodIsCentredAheadOfItsDiskByHalfOfItsHalfWidth) {
+  const double half_width = 0.75, now = 0.5;
+  const auto ahead = [&](const V& velocity) {
+    const Flown<PlainWorld> disk(periodic(), one_disk({1.0, 3.0}, velocity));
+    const NeighbourhoodCentre centre = disk.frame.neighbourhood_centre(0, disk.line, now, half_width);
+    return V(-disk.frame.offset(0, disk.line, centre.x, now), -disk.frame.offset(1, disk.line, centre.y, now));
+  };
+  const double step = 0x1p-32 * periodic().lengths().maxCoeff();
+  EXPECT_LE((ahead({-0.5, 0.25}) - V(-0.375, 0.1875)).cwiseAbs().maxCoeff(), step);
+  EXPECT_LE((ahead({0.0, 1e-100}) - V(0.0, 0.375)).cwiseAbs().maxCoeff(), step);
+  EXPECT_LE(ahead({0.0, 0.0}).cwiseAbs().maxCoeff(), step);
+}
+
 TEST(FlightFrame, EveryEdgeThatALinePassesIsCounted) {
   Flown<PlainWorld> disk(channel(), one_disk({6.0, 3.0}, {40.0, 0.0}));
   double x = 6.0;

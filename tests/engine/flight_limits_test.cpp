@@ -29,14 +29,5 @@ TEST(FlightLimits, AnEpochWithoutEndIsOneInWhichNothingMoves) {
   EXPECT_TRUE(limits.exceeded_by({1e-300, 0.0}));
 }
 
-TEST(FlightLimits, NeighbourhoodsNearAnyWallAreNotFarFromAll) {
-  FlightLimits limits;
-  limits.clear_of_walls[0] = 100;
-  limits.clear_of_walls[1] = INT64_MAX;
-  EXPECT_TRUE(limits.far_from_walls({99, INT32_MIN}));
-  EXPECT_FALSE(limits.far_from_walls({-100, 0}));
-  EXPECT_FALSE(limits.far_from_walls({INT32_MIN, 0}));
-}
-
 }  // namespace
 }  // namespace carom::test

@@ -58,6 +58,34 @@ TEST(Plans, APlanIsStaleOnceThePartnerHasCollidedAndStaysSoInANewEpoch) {
   EXPECT_TRUE(plans.is_stale(plans[0]));
 }
 
+TEST(Plans, AnEarlierCollisionPrecedesThePlannedOneAndAtOneTimeThatWithTheLowerId) {
+  const LargeVector<std::int32_t> ids{2, 0, 3, 1};
+  Plans plans(4, ids);
+  plans[0] = {5.0, 9.0, 3, neighbourhood_edge, 1, 1};
+  EXPECT_TRUE(plans.precedes_planned(0, 4.9, 2));
+  EXPECT_FALSE(plans.precedes_planned(0, 5.1, 1));
+  EXPECT_TRUE(plans.precedes_planned(0, 5.0, 1));   // id 0 before id 1
+  EXPECT_FALSE(plans.precedes_planned(0, 5.0, 2));  // id 3 after id 1
+  EXPECT_FALSE(plans.precedes_planned(0, never, -1));
+  plans[0] = {never, 9.0, -1, neighbourhood_edge, 1, 1};
+  EXPECT_FALSE(plans.precedes_planned(0, never, -1));
+}
+
+TEST(Plans, AWallAtTheTimeOfAPartnerWithALowerIdWaits) {
+  const LargeVector<std::int32_t> ids{1, 0, 2};
+  Plans plans(3, ids);
+  const auto edge_time = [&](double edge, std::int32_t partner, std::int32_t what) {
+    plans[0] = {5.0, edge, partner, what, 1, 1};
+    plans.resolve_wall_pair_tie(0);
+    EXPECT_EQ(plans[0].pair_time, 5.0);
+    return plans[0].edge_time;
+  };
+  EXPECT_EQ(edge_time(5.0, 1, wall_left), never);
+  EXPECT_EQ(edge_time(5.0, 2, wall_left), 5.0);
+  EXPECT_EQ(edge_time(4.0, 1, wall_left), 4.0);
+  EXPECT_EQ(edge_time(5.0, 1, neighbourhood_edge), 5.0);
+}
+
 /// The rule of ties, with ids in place of slots, as a tuple that sorts by itself.
 std::tuple<int, std::int32_t, std::int32_t, std::int32_t> key(const FutureEvent& event, const LargeVector<std::int32_t>& ids) {
   const auto id = [&](std::int32_t slot) { return ids[static_cast<std::size_t>(slot)]; };

@@ -155,11 +155,11 @@ TEST(FutureEventList, LeavesManyEventsAtOneTimeToTheCalendarUntilTheNextStart) {
     }
   };
   push_all();
-  if (!list.foresees()) GTEST_SKIP() << "no vector instructions here, so a calendar in any case";
+  if (!list.predicts_next()) GTEST_SKIP() << "no vector instructions here, so a calendar in any case";
   const std::uint64_t pushed = list.pushed();
   for (std::int32_t i = 0; i < disks; ++i) {
     ASSERT_EQ(list.next(events, no_look).disk, i);
-    EXPECT_FALSE(list.foresees());
+    EXPECT_FALSE(list.predicts_next());
     EXPECT_EQ(list.pushed(), pushed);
     list.pop(events);
     events.set(i, never, i);
@@ -167,21 +167,21 @@ TEST(FutureEventList, LeavesManyEventsAtOneTimeToTheCalendarUntilTheNextStart) {
   }
   EXPECT_EQ(list.next(events, no_look).time, never);
   push_all();
-  EXPECT_TRUE(list.foresees());
+  EXPECT_TRUE(list.predicts_next());
 }
 
 TEST(FutureEventList, CountsEventsOnWhereTheyGoToTheCalendarAndSomeAreBeyondTheEnd) {
   Events events(100);
   FutureEventList<Events> list;
   list.start(1.0, 100, 10.0, false);
-  if (!list.foresees()) GTEST_SKIP() << "no vector instructions here, so a calendar in any case";
+  if (!list.predicts_next()) GTEST_SKIP() << "no vector instructions here, so a calendar in any case";
   for (std::int32_t i = 0; i < 100; ++i) {
     events.set(i, i < 50 ? 3.0 : 20.0, i);
     list.push(events, i, events.time(i));
   }
   ASSERT_EQ(list.pushed(), 100u);
   ASSERT_EQ(list.next(events, no_look).disk, 0);
-  ASSERT_FALSE(list.foresees());
+  ASSERT_FALSE(list.predicts_next());
   EXPECT_EQ(list.pushed(), 100u);
   list.pop(events);
   events.set(0, 4.0, 0);
@@ -221,12 +221,12 @@ TEST(TournamentQueue, TellsWhoIsNextWhileTheEventBeforeIsDealtWith) {
   }
   ASSERT_EQ(queue.next(events).disk, 0);
   queue.pop(events, 1);  // 0 meets 1: neither has an event now
-  EXPECT_EQ(queue.foreseen(), 2);
+  EXPECT_EQ(queue.predicted_next(), 2);
   events.set(0, 2.5, 0), events.set(1, 50.0, 1);
   queue.push(0, 2.5, 1, 50.0);
   EXPECT_EQ(queue.next(events).disk, 0) << "a new event that is earlier";
   queue.pop(events);
-  EXPECT_EQ(queue.foreseen(), 2);
+  EXPECT_EQ(queue.predicted_next(), 2);
   events.set(0, 60.0, 0);
   queue.push(0, 60.0);
   EXPECT_EQ(queue.next(events).disk, 2);

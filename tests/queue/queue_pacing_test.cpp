@@ -4,22 +4,44 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace carom::test {
 namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 TEST(QueuePacing, ASpanIsAsLongAsSixEventsTake) {
   QueuePacing pacing;
   EXPECT_EQ(pacing.span(), 0.0);
-  pacing.set_span(3.0);
   pacing.begin(1000);
   pacing.judge(12.0, 1000 + 400, 100);
   EXPECT_EQ(pacing.span(), 6.0 * 12.0 / 400.0);
   EXPECT_TRUE(pacing.busy());
 }
 
+TEST(QueuePacing, TheFirstSpanIsFourTimesTheMedianOfTheFirstEventsOverTheirNumber) {
+  QueuePacing pacing;
+  pacing.choose_span({8.0, 1.0, infinite, 2.0, 4.0}, 100.0);
+  EXPECT_EQ(pacing.span(), 4.0 * 4.0 / 5.0);
+}
+
+TEST(QueuePacing, WhereMostDisksExpectNothingTheFirstSpanIsTheEpoch) {
+  QueuePacing pacing;
+  pacing.choose_span({1.0, infinite, infinite}, 100.0);
+  EXPECT_EQ(pacing.span(), 100.0);
+  pacing.choose_span({0.0, 0.0, 0.0}, 100.0);
+  EXPECT_EQ(pacing.span(), 100.0);
+  pacing.choose_span({infinite}, infinite);
+  EXPECT_EQ(pacing.span(), 1.0);
+  pacing.choose_span({}, 100.0);
+  EXPECT_EQ(pacing.span(), 1.0);
+}
+
 TEST(QueuePacing, TooFewEventsChangeNoSpanAndMeanThatFewAreToBeExpected) {
   QueuePacing pacing;
-  pacing.set_span(3.0);
+  pacing.choose_span({0.75}, 10.0);
+  ASSERT_EQ(pacing.span(), 3.0);
   pacing.begin(1000);
   pacing.judge(12.0, 1000 + 100 / 4 + 16, 100);
   EXPECT_EQ(pacing.span(), 3.0);

@@ -1,0 +1,347 @@
+#pragma once
+// The event loop of the fast engine (engine/engine.hpp). Read from run_until() downwards.
+//
+// Every disk has one plan (engine/plans.hpp): the earliest collision that its last prediction found, and when it leaves its
+// neighbourhood or meets a wall. Of two partners the one predicted last knows of the collision; a plan whose partner has collided
+// since is stale and made anew when its time comes.
+//
+// Disks are known by their slots, indices in the order of memory, which keeps neighbours in the box near each other; ids_ has the
+// ids that the world knows. Three parameters say what acts: Impact (what two disks do to each other), World (what else there is
+// round them) and Layout (what a disk carries). Uniform gravity costs nothing where disks meet: lines are drawn in a frame that
+// falls with the disks from the epoch on, in which they are straight, and only walls and obstacles are looked for along the
+// parabola (engine/boundary_planner.hpp).
+//
+// engine_impl.hpp has the functions that are only declared here, which happen once per epoch or seldom: how a loop begins,
+// epochs, neighbour lists, ties, sheared boxes, checkpoints. engine.hpp has what is asked of an engine between events.
+
+#include "core/instant.hpp"
+#include "core/large_memory.hpp"
+#include "core/prediction.hpp"
+#include "core/sides.hpp"
+#include "core/vec2.hpp"
+#include "effects/any_impact.hpp"
+#include "effects/elastic.hpp"
+#include "effects/world.hpp"
+#include "engine/boundary_planner.hpp"
+#include "engine/collision_recorder.hpp"
+#include "engine/common_motion.hpp"
+#include "engine/contact_count.hpp"
+#include "engine/disk_sizes.hpp"
+#include "engine/flight_frame.hpp"
+#include "engine/flight_limits.hpp"
+#include "engine/layout.hpp"
+#include "engine/plans.hpp"
+#include "engine/prefetcher.hpp"
+#include "engine/stall_detector.hpp"
+#include "neighbours/neighbour_lists.hpp"
+#include "neighbours/neighbourhood_tuning.hpp"
+#include "queue/future_event_list.hpp"
+#include "queue/queue_pacing.hpp"
+
+#include <carom/state.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+template <class Impact, class Layout, class World>
+class EventLoop {
+ public:
+  /// Why this engine cannot run these disks, in half a sentence; empty where it can. Periodic boxes must be wide enough for the
+  /// nearest image to be the only one that a disk can meet, disks not so small that the resolution of neighbourhoods would show,
+  /// and the three parameters the right ones.
+  [[nodiscard]] static std::string why_not(const Box& box, const Disks& disks, const Effects& effects = {});
+
+  /// Requires an empty why_not(), disks inside the box, radii and masses > 0, everything finite. `seed` is that of the random
+  /// numbers that effects draw.
+  EventLoop(const Box& box, const Disks& disks, State start, const Effects& effects = {}, std::uint64_t seed = 1);
+  EventLoop(const EventLoop&) = delete;
+  EventLoop& operator=(const EventLoop&) = delete;
+
+  /// Processes every event with time <= target, then stands at target (at the last event where target is forever and none
+  /// is to come) and returns true. Returns false, and stands at the last event, where totals().pair reaches `pair_limit`,
+  /// after `event_limit` events of any kind, and when stall().jammed().
+  bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
+    double end = target.since<double>(epoch_);
+    for (; totals_.pair < pair_limit && event_limit > 0 && !stall_.jammed(); --event_limit) {
+      const auto [time, disk] = queue_.next(plans_, [this](std::int64_t span) { prefetch_calendar(span); });
+      if (time <= end && time < epoch_length_) [[likely]] {
+        step(disk, time);
+        if (now_ == 0.0) end = target.since<double>(epoch_);  // a new epoch may have begun
+      } else if (epoch_length_ <= std::min(time, end) && epoch_length_ < never) {
+        begin_epoch(epoch_length_);
+        end = target.since<double>(epoch_);
+      } else {
+        if (target < forever) now_ = std::max(now_, end);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Nothing will ever happen again: nothing moves, and nothing makes it move.
+  [[nodiscard]] bool idle() const { return epoch_length_ == never; }
+
+  /// Whether the engine can go no further, and why.
+  [[nodiscard]] const StallDetector& stall() const { return stall_; }
+
+  /// The memory of all that has an entry per disk, in bytes.
+  [[nodiscard]] std::size_t bytes() const;
+  /// Writes or reads all that decides how the run goes on, for core/archive.hpp. Requires all events to have been taken.
+  template <class Archive>
+  void serialize(Archive& archive);
+
+ protected:
+  using Line = typename Layout::Line;
+
+  /// The next event of all.
+  [[gnu::flatten]] void step(std::int32_t i, double time) {
+    stall_.count_event(time > now_);
+    now_ = std::max(now_, time);
+    const Plan& mine = plans_[i];
+    if (mine.edge_first()) {
+      queue_.pop(plans_);
+      prefetcher_.next(data());
+      mine.edge == neighbourhood_edge ? leave_neighbourhood(i) : hit(i, mine.edge);
+    } else if (plans_.is_stale(mine)) {
+      queue_.pop(plans_);
+      prefetcher_.next(data());
+      ++totals_.stale;
+      predict(i);
+    } else {
+      collide(i, mine.partner);
+    }
+  }
+
+  // -------------------------------------------------------------------------------------------------- the events
+
+  /// Two disks meet: they exchange momentum, go on along new lines, are predicted anew.
+  void collide(std::int32_t i, std::int32_t j) {
+    const Line &a = line(i), &b = line(j);
+    Vec2<double> va(a.v[0], a.v[1]), vb(b.v[0], b.v[1]);
+    const Vec2<double> before_a = va, before_b = vb;
+    if (const std::int32_t above = flight_.boxes_above(i, j); above == 0) [[likely]]
+      exchange(flight_.separation(a, b, now_), i, va, j, vb);
+    else
+      meet_across_sheared_edge(i, va, j, vb, above);
+    plans_[i].last_collided = plans_[j].last_collided = ++stamp_;
+    if (recorder_.active()) recorder_.record(now_, i, j, before_a, before_b, va, vb);
+    if (limits_.exceeded_by(va) || limits_.exceeded_by(vb)) [[unlikely]]
+      return begin_epoch_early(i, va, j, vb);
+
+    CollidedPair pair;
+    pair.disk[0] = i, pair.disk[1] = j;
+    pair.around[0] = surroundings(i), pair.around[1] = surroundings(j);
+    tuning_.count_examined(pair.around[0].count, pair.around[1].count);
+    queue_.pop(plans_, j);  // not earlier: all up to here goes on while the predictions before still wait for their results
+    prefetcher_.next(data());
+    kernel_.turn_and_predict(lines_.data(), frame_, pair, now_, va[0], va[1], vb[0], vb[1]);
+    if (pair.wrapped != 0) [[unlikely]]
+      flight_.count_images(pair);
+    prefetcher_.partner_of_next(data());
+    set_plan(i, pair.ahead[0]);
+    set_plan(j, pair.ahead[1]);
+    queue_.push(plans_, i, plans_.time(i), j, plans_.time(j));
+    if (stamp_ == last_stamp) [[unlikely]]
+      begin_epoch(now_);
+  }
+
+  /// Changes the velocities of disks i and j by their contact at separation r = r_i - r_j.
+  void exchange(const Vec2<double>& r, std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb) {
+    const Line &a = line(i), &b = line(j);
+    const double scale = world_.scale(now_), radius_a = layout_.radius(a), radius_b = layout_.radius(b);
+    const double expansion = (radius_a + radius_b) * world_.expansion();
+    count_contact<double>(r, va - vb, (radius_a + radius_b) * scale, expansion, totals_.numerics);
+    last_collision_.count(now_, totals_.numerics);
+    const auto meet = [&] {
+      return impact_.meet(r, expansion, {i, layout_.mass(a), radius_a * scale, va}, {j, layout_.mass(b), radius_b * scale, vb},
+                          now_, totals_);
+    };
+    if constexpr (Impact::plain)
+      meet();
+    else
+      stall_.record_loss(meet(), {id(i), id(j)});
+  }
+
+  /// A disk meets a wall or an obstacle.
+  void hit(std::int32_t i, std::int32_t what) {
+    if constexpr (!World::plain)
+      if (world_.sheared()) return cross_sheared_edge(i, is_upper(static_cast<Wall>(what)) ? 1 : -1);
+    const Line& a = line(i);
+    Vec2<double> v = flight_.velocity(a, now_);
+    const BoundaryContact contact{flight_.place(a, now_), layout_.mass(a), layout_.radius(a) * world_.scale(now_),
+                                  impact_.rests(i, now_)};
+    if constexpr (World::plain)
+      world_.meet(what, contact, v, now_, totals_);
+    else
+      stall_.record_loss(world_.meet(what, contact, v, now_, totals_), {id(i)});
+    impact_.touched(i, now_);
+    if (recorder_.logging()) recorder_.log_hit(now_, i, what, v);
+    change_velocity(i, v);
+    if (world_.is_movable(what)) plan_edges_anew();
+  }
+
+  /// From now on disk i moves with velocity v.
+  void change_velocity(std::int32_t i, const Vec2<double>& v) {
+    plans_[i].last_collided = ++stamp_;
+    const Vec2<double> along = flight_.line_velocity(v, now_);
+    if (limits_.exceeded_by(along)) [[unlikely]]
+      return begin_epoch_early(i, along, i, along);
+    flight_.change_velocity(i, line(i), v, now_);
+    predict(i);
+    if (stamp_ == last_stamp) [[unlikely]]
+      begin_epoch(now_);
+  }
+
+  /// A disk leaves its neighbourhood, gets a new one round where it is, and may meet the disks that come within reach. What it
+  /// has planned with others stays as it is.
+  void leave_neighbourhood(std::int32_t i) {
+    ++totals_.other;
+    tuning_.count_left();
+    const NeighbourhoodCentre centre = flight_.neighbourhood_centre(i, line(i), now_, lists_.half_width());
+    const auto fresh = lists_.move_neighbourhood(i, centre);
+    if (world_.sheared()) flight_.height(i) = centre.y;
+    const Prediction ahead =
+        predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, fresh.data(), static_cast<std::uint32_t>(fresh.size())});
+    if (plans_.precedes_planned(i, ahead.pair_time, ahead.partner)) {
+      set_plan(i, ahead);
+    } else {
+      plan_edge(i, ahead.edge_time);
+    }
+    schedule(i);
+  }
+
+  /// Disk i meets the image of disk j that lies `above` boxes above it, past an edge where images slide.
+  [[gnu::noinline]] void meet_across_sheared_edge(std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb,
+                                                  std::int32_t above);
+  /// A disk leaves the box upwards (1) or downwards (-1) past images that slide, and comes back as its own image.
+  [[gnu::noinline]] void cross_sheared_edge(std::int32_t i, std::int32_t up);
+
+  // -------------------------------------------------------------------------------------------------- prediction
+
+  /// Disk i against all its neighbours, walls, obstacles and the edges of its neighbourhood.
+  void predict(std::int32_t i) {
+    set_plan(i, predicted(i, surroundings(i)));
+    schedule(i);
+  }
+
+  /// By reference: see Prediction.
+  void set_plan(std::int32_t i, const Prediction& ahead) {
+    Plan& mine = plans_[i];
+    mine.pair_time = ahead.pair_time;
+    mine.partner = ahead.tied == 0 ? ahead.partner : lowest_of_tied(i, ahead);
+    mine.predicted_at = stamp_;
+    plan_edge(i, ahead.edge_time);
+  }
+
+  void plan_edge(std::int32_t i, double leaving_time) {
+    Plan& mine = plans_[i];
+    mine.edge_time = leaving_time;
+    mine.edge = neighbourhood_edge;
+    if (boundaries_.within_reach(lists_.centre(i)))
+      boundaries_.plan(i, line(i), layout_.radius(line(i)), now_, epoch_length_, plans_);
+  }
+
+  /// A piston has changed its motion: all plans with it are void.
+  void plan_edges_anew();
+
+  void schedule(std::int32_t i) { queue_.push(plans_, i, plans_.time(i)); }
+
+  // ------------------------------------------------------------------------------------------------ epochs and lists
+
+  /// Makes time `now` the epoch: every line starts there, every plan counts from there. Short times keep their digits, and no
+  /// line gets so long that coordinates wrap unseen.
+  [[gnu::noinline]] void begin_epoch(double now);
+  /// Begins an epoch in the middle of a collision after which a disk is too fast for its line to be drawn from the old one.
+  /// Velocities are those of lines. i and j may be the same disk.
+  [[gnu::noinline, gnu::cold]] void begin_epoch_early(std::int32_t i, const Vec2<double>& va, std::int32_t j,
+                                                      const Vec2<double>& vb);
+  /// Ends the run because the velocities of i and j, which may be the same disk, would not be finite: they keep those that they
+  /// have.
+  void fail_between(std::int32_t i, std::int32_t j);
+  /// Lets lines, plans and stamps count from `now`.
+  void rebase(double now);
+  /// Makes everything anew that an epoch needs after rebase().
+  void replan();
+  void choose_epoch_length();
+  [[nodiscard]] double longest_epoch_of_world() const;
+  void reset_falling_frame();
+  void widen_coordinates();
+  void start_queue();
+
+  void make_lists();
+  [[nodiscard]] bool outgrow_lists() const;
+  void list_larger();
+  void tune_neighbourhoods(double elapsed);
+  void rebuild(double half_width);
+  void predict_all();
+  void find_wells();
+
+  void update_shear();
+  void follow_shear();
+  void leave_room_for_shear(const std::vector<NeighbourhoodCentre>& centres);
+
+  // ------------------------------------------------------------------------------------------------ small things
+
+  /// The stamp at which an epoch ends, if it has not before.
+  static constexpr std::uint32_t last_stamp = 0xFFFFFFFF;
+  static constexpr double never = infinity<double>;
+
+  [[nodiscard]] Surroundings surroundings(std::int32_t i) const {
+    const NeighbourhoodCentre centre = lists_.centre(i);
+    return {{centre.x, centre.y}, lists_.ids(i), lists_.count(i)};
+  }
+  [[nodiscard]] Prediction predicted(std::int32_t i, const Surroundings& around) const {
+    Prediction ahead;
+    kernel_.predict(lines_.data(), frame_, i, around, now_, ahead);
+    return ahead;
+  }
+  /// The prediction of disk i against disk j alone.
+  [[nodiscard]] Prediction predicted_against(std::int32_t i, std::int32_t j) const;
+  [[nodiscard, gnu::noinline, gnu::cold]] std::int32_t lowest_of_tied(std::int32_t i, const Prediction& ahead) const;
+  [[gnu::noinline]] void prefetch_calendar(std::int64_t span) const;
+  [[nodiscard]] PrefetchedData<Line> data() const { return {lines_, ids_, plans_, lists_, queue_}; }
+
+  [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(lines_.size()); }
+  [[nodiscard]] Line& line(std::int32_t i) { return lines_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Line& line(std::int32_t i) const { return lines_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] std::int32_t id(std::int32_t i) const { return ids_[static_cast<std::size_t>(i)]; }
+
+  Layout layout_;
+  Impact impact_;
+  World world_;
+  FlightFrame<Line, World> flight_;
+  BoundaryPlanner<Line, World> boundaries_;
+  PredictionFrame frame_;
+  const PredictionKernel<Line>& kernel_;
+
+  LargeVector<Line> lines_;
+  LargeVector<std::int32_t> ids_;
+  Plans plans_;
+  NeighbourLists lists_;
+  FutureEventList<Plans> queue_;
+
+  Instant epoch_;  ///< the loop's zero of time
+  double now_ = 0.0;
+  double epoch_length_ = 0.0;
+  std::uint32_t stamp_ = 1;  ///< counts collisions with disks and walls since the epoch began; what was before has 0 or 1
+  double mean_speed_ = 0.0;  ///< mean of |v_x| + |v_y| when the epoch began
+  FlightLimits limits_;
+  DiskSizes sizes_;
+
+  NeighbourhoodTuning tuning_;
+  QueuePacing pacing_;
+  Prefetcher prefetcher_;
+  StallDetector stall_;
+  CommonMotion<double> common_motion_;
+  CollisionRecorder recorder_;
+  RunningTotals totals_;
+  LastInstant last_collision_;
+};
+
+}  // namespace carom
