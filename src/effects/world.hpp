@@ -1,12 +1,13 @@
 #pragma once
-// What is round the disks besides other disks: how they fall, the sides of the box, obstacles, images that slide; and how they
-// grow. Two answers: PlainWorld, where there are hard walls at rest or none, and AnyWorld.
+// What is round the disks besides other disks, with every effect: how they fall, the sides of the box, obstacles, images that
+// slide; and how they grow. PlainWorld (plain_world.hpp) is the answer where there are hard walls at rest or none.
 
 #include "core/running_totals.hpp"
 #include "core/sides.hpp"
 #include "effects/drag.hpp"
 #include "effects/gravity.hpp"
 #include "effects/obstacles.hpp"
+#include "effects/plain_world.hpp"
 #include "effects/rebound.hpp"
 #include "effects/shear.hpp"
 #include "effects/walls.hpp"
@@ -19,40 +20,6 @@
 #include <cstdint>
 
 namespace carom {
-
-/// A disk at its contact with a wall or an obstacle.
-struct BoundaryContact {
-  Vec2<double> r;  ///< position of the disk
-  double mass;
-  double radius;
-  bool elastic;  ///< whether the contact loses no energy, whatever is hit (TC model)
-};
-
-struct PlainWorld {
-  static constexpr bool plain = true;
-
-  PlainWorld(const Box& /*box*/, const Effects& /*effects*/, const State& /*start*/, std::uint64_t /*seed*/) {}
-
-  [[nodiscard]] static Vec2<double> g() { return Vec2<double>::Zero(); }
-  [[nodiscard]] static double fallen(int /*axis*/, double /*t*/) { return 0.0; }
-  [[nodiscard]] static bool falls() { return false; }
-  [[nodiscard]] static bool sheared() { return false; }
-  [[nodiscard]] static double scale(double /*t*/) { return 1.0; }
-  [[nodiscard]] static double expansion() { return 0.0; }
-  [[nodiscard]] static bool is_static() { return true; }
-
-  /// The component of the velocity across the wall is reversed.
-  static void meet(std::int32_t what, const BoundaryContact& contact, Vec2<double>& v, double /*now*/, RunningTotals& totals) {
-    const Wall wall = static_cast<Wall>(what);
-    double& across = v[axis_of(wall)];
-    ++totals.wall;
-    totals.wall_impulse[index_of(wall)].add(2.0 * contact.mass * std::abs(across));
-    across = -across;
-  }
-  [[nodiscard]] static bool is_movable(std::int32_t /*what*/) { return false; }
-  static void rebase(double /*now*/) {}
-  [[nodiscard]] static std::size_t bytes() { return 0; }
-};
 
 struct AnyWorld {
   static constexpr bool plain = false;

@@ -3,7 +3,6 @@
 // images slide. The earliest of these takes the place of leaving the neighbourhood in the plan of the disk.
 
 #include "core/sides.hpp"
-#include "effects/world.hpp"
 #include "engine/flight_frame.hpp"
 #include "engine/plans.hpp"
 #include "neighbours/neighbour_search.hpp"

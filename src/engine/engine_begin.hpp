@@ -15,11 +15,11 @@ namespace detail {
 
 template <class Line>
 const PredictionKernel<Line>& kernel_for(const Effects& effects) {
-  const bool falling = Falling<double>(effects.gravity).present();
+  const bool falling = !effects.acceleration().isZero(0.0);
   if (effects.growth && effects.growth->rate > 0.0) return prediction_kernel<Line>(Contact::growing);
   if (effects.square_well && effects.square_well->depth != 0.0)
     return prediction_kernel<Line>(falling ? Contact::falling_wells : Contact::wells);
-  if (LeesEdwards<double>::acts(effects.shear)) return prediction_kernel<Line>(Contact::sheared);
+  if (effects.shear_rate() != 0.0) return prediction_kernel<Line>(Contact::sheared);
   return prediction_kernel<Line>(falling ? Contact::falling : Contact::hard);
 }
 

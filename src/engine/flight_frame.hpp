@@ -13,7 +13,6 @@
 #include "core/prediction.hpp"
 #include "core/two_doubles.hpp"
 #include "core/vec2.hpp"
-#include "effects/world.hpp"
 #include "engine/image_counts.hpp"
 #include "neighbours/neighbour_search.hpp"
 

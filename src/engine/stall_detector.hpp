@@ -2,7 +2,8 @@
 // Why an engine can go no further: time stands still, speeds are too small to compute with, or a velocity is not finite.
 
 #include "effects/vanishing.hpp"
-#include "effects/world.hpp"
+
+#include <carom/effects.hpp>
 
 #include <algorithm>
 #include <cstddef>

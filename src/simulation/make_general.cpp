@@ -1,5 +1,7 @@
 // From a scene to the fast engine with every effect, with the leanest layout that its disks allow.
 
+#include "effects/any_impact.hpp"
+#include "effects/world.hpp"
 #include "engine/engine_impl.hpp"
 #include "simulation/catalogue.hpp"
 

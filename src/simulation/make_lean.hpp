@@ -3,6 +3,7 @@
 // allow. One rule is compiled in one file.
 
 #include "effects/elastic.hpp"
+#include "effects/plain_world.hpp"
 #include "engine/engine_impl.hpp"
 #include "simulation/catalogue.hpp"
 

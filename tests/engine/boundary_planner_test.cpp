@@ -2,6 +2,9 @@
 
 #include "engine/boundary_planner.hpp"
 
+#include "effects/plain_world.hpp"
+#include "effects/world.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -2,6 +2,9 @@
 
 #include "engine/flight_frame.hpp"
 
+#include "effects/plain_world.hpp"
+#include "effects/world.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,7 @@
 // A disk that a collision makes faster than its epoch allows, late in that epoch: its line is longer than half the box.
 
+#include "effects/elastic.hpp"
+#include "effects/plain_world.hpp"
 #include "effects/specular.hpp"
 #include "engine/engine_impl.hpp"
 #include "support/systems.hpp"
