@@ -1,6 +1,6 @@
 // Scenes that become others while they run, on both engines, from the same start to the same end each time: an inelastic gas that
 // cools and clusters, and disks that grow until they are dense. What an engine has fitted to the scene, neighbourhoods, lists,
-// cells and the width of its calendar, has to follow.
+// cells and the width of its calendar, has to adapt.
 //
 // No time is reported of a run in which energy is not what went in and came out, or whose plan at the end is not what an
 // independent search finds.
@@ -22,7 +22,7 @@ namespace {
 
 using namespace carom;
 
-/// A start, what acts, and the time or number of collisions at which all is over.
+/// A start, the effects, and the time or number of collisions at which the run ends.
 struct Change {
   test::System start;
   Effects effects;
@@ -31,7 +31,7 @@ struct Change {
 };
 
 /// Packing fraction 0.3, e = 0.8, 200 collisions of every disk: the gas has lost nearly all of its energy, and dense clusters
-/// have formed. Collisions closer in time than any in the gas are elastic, or a cluster would come to a stand.
+/// have formed. Collisions closer in time than any in the gas are elastic, or a cluster would stand still.
 Change cooling(std::int64_t disks) {
   Change change{
       test::system_of(test::gas_scene(disks, 0.3, Boundary::periodic)), {}, forever, 100 * static_cast<std::uint64_t>(disks)};
@@ -40,7 +40,8 @@ Change cooling(std::int64_t disks) {
   return change;
 }
 
-/// From packing fraction 0.3 to 0.65 while the thermal speed at the start would cross 19 radii. Nothing takes out the heat.
+/// Growth from packing fraction 0.3 to 0.65 while the thermal speed at the start would cross 19 radii. Nothing takes out the
+/// heat.
 Change growing(std::int64_t disks) {
   constexpr double rate = 0.05;
   Change change{test::system_of(test::gas_scene(disks, 0.3, Boundary::periodic)), {}, {}, test::no_limit};
@@ -49,7 +50,7 @@ Change growing(std::int64_t disks) {
   return change;
 }
 
-/// How much more crowded than the mean the most crowded of some squares is, each as large as sixteen disks have for themselves.
+/// The number of disks in the most crowded of some squares over the mean, each with the area of sixteen disks.
 double crowding(const Box& box, const State& state) {
   const auto disks = static_cast<double>(state.positions.cols());
   const auto squares = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::sqrt(disks / 16.0)));

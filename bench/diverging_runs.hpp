@@ -1,6 +1,6 @@
 #pragma once
-// How fast does it get about that something is different elsewhere? Two runs begin alike at home and differ beyond a halo: the
-// time at which the first collision at home differs is how long a core may go on without hearing of its neighbours.
+// The speed at which a difference spreads. Two runs begin alike in a domain and differ beyond a halo: the time at which the first
+// collision in the domain differs is how long a core may go on without data of its neighbours.
 
 #include "event_replay.hpp"
 
@@ -46,10 +46,10 @@ inline double first_difference(std::span<const Event> one, std::span<const Event
   return first;
 }
 
-/// Two runs of `scene` from `start`, in one of which all disks more than `width` from `domain` go the other way; until the first
-/// difference at home there, or `end`.
-inline double time_until_heard_of(const Scene& scene, const State& start, const Domains& domains, Id domain, double width,
-                                  double end) {
+/// Two runs of `scene` from `start`, in one of which all disks more than `width` from `domain` go the other way; returns the time
+/// of the first difference in that domain, or `end`.
+inline double time_until_difference(const Scene& scene, const State& start, const Domains& domains, Id domain, double width,
+                                    double end) {
   State changed = start;
   std::vector<bool> at_home;
   for (Eigen::Index k = 0; k < start.positions.cols(); ++k) {

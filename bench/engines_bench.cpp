@@ -21,13 +21,13 @@ namespace {
 
 using namespace carom;
 
-/// Of the numbers that an engine computes with.
+/// The rounding of the numbers that an engine computes with.
 double rounding_of(const std::string& engine) {
   if (engine == "textbook-float") return epsilon<float>;
   return engine == "textbook-quad" ? static_cast<double>(epsilon<Quad>) : epsilon<double>;
 }
 
-constexpr double unknown = 0.0;  ///< a pressure that nothing is known of
+constexpr double unknown = 0.0;  ///< a pressure without a reference
 
 struct Run {
   Run(const std::string& name, const test::System& start)
@@ -39,8 +39,8 @@ struct Run {
   std::string fault;
 };
 
-/// Lets the engine run for so many collisions, then as many as tell the pressure where it is known, and looks at what has
-/// come out.
+/// Lets the engine run for so many collisions, then as many as determine the pressure where there is a reference, and checks the
+/// result.
 void run_up_and_check(Run& run, std::uint64_t collisions, double expected_Z) {
   const auto& [box, disks, start] = run.system;
   test::AnyEngine& engine = *run.engine;
@@ -122,7 +122,7 @@ void gas(benchmark::State& state, const std::string& engine) {
               running(engine, fmt::format("gas {} {}", state.range(0), state.range(1)), make, usual_run_up(state.range(0)), Z));
 }
 
-/// The same disks but for the last digit of one radius: what it costs that each has its own radius and mass.
+/// The same disks but for the last digit of one radius: the price of a radius and a mass for each disk.
 void gas_of_any_size(benchmark::State& state, const std::string& engine) {
   const double packing_fraction = packing_fraction_of(state);
   const auto make = [&] {

@@ -1,5 +1,5 @@
-// Whether errors are what they say: every observable's scatter over runs that differ in their seed alone, over the error that
-// they report. 1 is right; below, errors are too large, above too small. The study of docs/observables.md: not a benchmark, but
+// The calibration of error bars: every observable's scatter over runs that differ in their seed alone, over the error that they
+// report. 1 is right; below, errors are too large, above too small. The study of docs/observables.md: not a benchmark, but
 // the same scenes many times over.
 //
 //   error_bars [--seeds N] [--rows] [SCENE...]

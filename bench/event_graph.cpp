@@ -69,7 +69,7 @@ class Study {
     }
   }
 
-  /// Empty where pairs lie across borders as often as contacts in all directions do, to five standard errors.
+  /// A fault, empty where pairs lie across borders as often as contacts in all directions do, to five standard errors.
   [[nodiscard]] std::string fault() const {
     for (const SharedOut& division : shared_out_) {
       const auto [share, error] = division.parted();
@@ -130,8 +130,8 @@ class Study {
   ordered_json paths_json_;
 };
 
-/// Until the left half of the box hears of what is different in the right, beyond halos of some widths: means over several
-/// starts.
+/// The time until a difference in the right half of the box changes a collision in the left, beyond halos of some widths: means
+/// over several starts.
 ordered_json heard_of(Simulation& simulation) {
   constexpr int starts = 20;
   const Scene& scene = simulation.scene();
@@ -144,7 +144,7 @@ ordered_json heard_of(Simulation& simulation) {
   for (int start = 0; start < starts; ++start) {
     simulation.run_until(1e9, {.collisions = simulation.totals().pair + static_cast<std::uint64_t>(simulation.disks().count())});
     for (std::size_t w = 0; w < widths.size(); ++w)
-      times[w].push_back(time_until_heard_of(scene, simulation.state(), halves, 0, widths[w], end));
+      times[w].push_back(time_until_difference(scene, simulation.state(), halves, 0, widths[w], end));
   }
   ordered_json json;
   for (std::size_t w = 0; w < widths.size(); ++w) {

@@ -1,9 +1,9 @@
 #pragma once
-// What must wait for what in a sequence of collisions, and who could have gone ahead: the measurements of docs/parallel.md.
+// Dependences in a sequence of collisions, and the speed-up that they allow: the measurements of docs/parallel.md.
 //
 // Events come one by one, in order of time, each as its two disks i and j and its zone: the disks, i and j among them, whose last
-// events it needs. The smallest zone is {i, j}; the disks near them are what a prediction looks at. Domains are numbered below
-// 64, and a set of them is a mask.
+// events it needs. The smallest zone is {i, j}; the disks near them are those that a prediction examines. Domains are numbered
+// below 64, and a set of them is a mask.
 
 #include <algorithm>
 #include <array>
@@ -45,7 +45,7 @@ class CriticalPath {
   std::int64_t events_ = 0;
 };
 
-/// Of the next `size` events, those that need none of the others: no two of them need each other.
+/// Counts, of each `size` events in turn, those that need none of the others: no two of them need each other.
 class Windows {
  public:
   Windows(std::size_t disks, std::int64_t size) : size_(size), last_(disks, -1) {}
@@ -71,8 +71,8 @@ class Windows {
   std::int64_t independent_ = 0;
 };
 
-/// One core per domain, each waiting as seldom as it can: those whose disks are in the zone of an event meet for it. Time is
-/// in events of a core; `meeting` is what a meeting costs. Who meets whom is known beforehand, which no program can know.
+/// One core per domain, each waiting as seldom as it can: the cores whose disks are in the zone of an event meet for it. Time is
+/// in events of a core; `meeting` is what a meeting costs. Meetings are known beforehand, which no program can know.
 class DomainClocks {
  public:
   DomainClocks(Id domains, double meeting) : clock_(index(domains), 0.0), meeting_(meeting) {}

@@ -1,5 +1,5 @@
 #pragma once
-// A recorded run once more: where the disks are at each of its collisions, who is near, and which domain that is.
+// A recorded run once more: the positions of disks at each of its collisions, the disks near, and their domains.
 // For periodic boxes and equal disks.
 
 #include "event_graph.hpp"
@@ -25,7 +25,7 @@ struct Domains {
   [[nodiscard]] Id count() const { return columns * rows; }
   [[nodiscard]] Eigen::Vector2d size() const { return box.lengths().cwiseQuotient(Eigen::Vector2d(columns, rows)); }
 
-  /// Where `r`, anywhere in space, belongs.
+  /// The domain of `r`, anywhere in space.
   [[nodiscard]] Id home(const Eigen::Vector2d& r) const { return slice(r, 0, columns) + columns * slice(r, 1, rows); }
 
   /// The domains that `r` is in, or no farther from than `distance` along either axis.
@@ -112,7 +112,7 @@ class Replay {
     int flights = 0;
   };
 
-  /// How far a disk may be from where it was sorted in: half a spacing or so keeps both the sorting and the looking cheap.
+  /// The distance that a disk may be from where it was sorted in: half a spacing or so keeps both sorting and searching cheap.
   [[nodiscard]] double margin() const { return 0.5 * sigma_; }
 
   [[nodiscard]] Eigen::Vector2d nearest(const Eigen::Vector2d& r) const {

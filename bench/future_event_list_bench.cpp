@@ -23,7 +23,7 @@ struct Events {
   [[nodiscard]] bool precedes(const carom::FutureEvent& a, const carom::FutureEvent& b) const { return a.disk < b.disk; }
 };
 
-/// What the engine does with a list at a collision.
+/// A calendar, used as the engine does at a collision.
 class Calendar {
  public:
   void start(const Events& /*events*/, std::int32_t disks) {
@@ -38,7 +38,7 @@ class Calendar {
   void push(const Events& events, std::int32_t i, std::int32_t j) { push(events, i), push(events, j); }
 
  private:
-  /// As in Engine: two pushes per step, and as many steps in a unit of time as there are disks.
+  /// As in EventLoop: two pushes per step, and as many steps in a unit of time as there are disks.
   static constexpr double pushed_per_span = 6.0;
   carom::CalendarQueue<Events> queue_;
 };

@@ -43,7 +43,7 @@ class Gas {
     lists.rebuild(half_width, centres);
   }
 
-  /// Of some disks, chosen at random.
+  /// Whether the lists of some disks, chosen at random, are right.
   [[nodiscard]] bool lists_are_right() {
     std::uniform_int_distribution<std::int32_t> any(0, disks - 1);
     for (int k = 0; k < 100; ++k) {

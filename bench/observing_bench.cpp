@@ -81,7 +81,7 @@ void observing(benchmark::State& state, const std::vector<std::string>& observab
     time([&](Simulation& simulation) { benchmark::DoNotOptimize(observe(simulation, beside)); }, observed);
   };
   for (auto _ : state) {
-    const bool first = plain.size() % 2 == 0;  // who comes first changes
+    const bool first = plain.size() % 2 == 0;  // they take turns in coming first
     first ? without() : with();
     first ? with() : without();
     ratios.push_back(observed.back() / plain.back());

@@ -1,4 +1,4 @@
-// What lies ahead of a disk among 4, 8 or 16 neighbours, by the kernels of every instruction set that runs here. Before any
+// Predictions for a disk among 4, 8 or 16 neighbours, by the kernels of every instruction set that runs here. Before any
 // time is taken every answer is held against core/contact_time.hpp, neighbour by neighbour.
 
 #include "core/contact_time.hpp"
@@ -92,7 +92,7 @@ class Surrounded {
   [[nodiscard]] Line* lines() { return lines_.data(); }
   [[nodiscard]] const PredictionFrame& frame() const { return frame_; }
 
-  /// Whether contact times one by one say the same; to 1e-12, for the two compute r^2 - sigma^2 in different ways.
+  /// Whether contact times one by one agree to 1e-12: the two compute r^2 - sigma^2 in different ways.
   [[nodiscard]] bool confirms(std::int32_t i, const Prediction& ahead) const {
     double first = infinity<double>;
     std::int32_t partner = -1;
@@ -112,7 +112,7 @@ class Surrounded {
   }
 
  private:
-  /// Where a disk is at `now`.
+  /// The centre of a neighbourhood round a disk at `now`.
   [[nodiscard]] std::int32_t neighbourhood_centre(const Line& line, int axis) const {
     const auto way = static_cast<std::int64_t>(line.v[axis] * now / frame_.unit[axis]);
     return static_cast<std::int32_t>((static_cast<std::uint64_t>(line.x[axis]) + static_cast<std::uint64_t>(way)) >> 32);

@@ -1,5 +1,5 @@
-// What it costs to lead a simulation by small steps: to enter run_until() without anything to do, which must not depend on the
-// number of disks, and to look at the state in memory that is used again.
+// The cost of leading a simulation by small steps: of a call of run_until() without anything to do, which must not depend on the
+// number of disks, and of reading the state into memory that is used again.
 
 #include "support/systems.hpp"
 

@@ -1,5 +1,5 @@
-// The fixed-step methods: disk-steps per second over N, packing fraction and time step, so that nobody can say that the exact
-// engines are compared with a slow opponent. Before a time is taken the energy is checked, and up to 2,000 disks the grid's
+// The fixed-step methods: disk-steps per second over N, packing fraction and time step, so that the exact
+// engines are not compared with slow ones. Before a time is taken the energy is checked, and up to 2,000 disks the grid's
 // trajectory is held against the search of all pairs, bit for bit.
 
 #include "effects/specular.hpp"
@@ -56,7 +56,7 @@ void steps(benchmark::State& state) {
     state.SkipWithError(what.c_str());
     return;
   }
-  // From a fluid, not from the lattice of the start, in which nobody is near anybody.
+  // From a fluid, not from the lattice of the start, in which no disk is near another.
   Stepper<Grid> run_up(s.box, s.disks, s.state, 0.003);
   run_up.run_until({1.0, 0.0}, test::no_limit, test::no_limit);
   Stepper<Step> stepper(s.box, s.disks, run_up.state(), dt);

@@ -1,5 +1,5 @@
 #pragma once
-// What it costs two threads to meet, in nanoseconds: the currency of every way to share out one run.
+// The cost of a meeting of two threads, in nanoseconds: what every way to share out one run pays in.
 
 #include <algorithm>
 #include <atomic>

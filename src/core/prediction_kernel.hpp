@@ -153,10 +153,10 @@ CAROM_INLINE void earliest(Doubles t0, Doubles t1, const std::int32_t* ids, Pred
   const Doubles least = lesser(u, __builtin_shufflevector(u, u, 1, 0, 3, 2));
   const unsigned which = bits_of(t0 == least) | (bits_of(t1 == least) << 4);
   const double time = least[0];
-  const std::int32_t nobody = -static_cast<std::int32_t>(time == never);  // all bits or none
+  const std::int32_t no_partner = -static_cast<std::int32_t>(time == never);  // all bits or none
   first.pair_time = time;
-  first.partner = ids[__builtin_ctz(which)] | nobody;
-  first.tied = static_cast<std::int32_t>(which & (which - 1)) & ~nobody;
+  first.partner = ids[__builtin_ctz(which)] | no_partner;
+  first.tied = static_cast<std::int32_t>(which & (which - 1)) & ~no_partner;
 }
 
 /// Predicts with all neighbours beyond the first eight, four at a time.

@@ -1,6 +1,6 @@
 #pragma once
-// When a disk next meets what bounds its flight besides other disks: walls, obstacles, or the edges of a sheared box, past which
-// images slide. The earliest of these takes the place of leaving the neighbourhood in the plan of the disk.
+// The next contact of a disk with what bounds its flight besides other disks: walls, obstacles, or the edges of a sheared box,
+// past which images slide. The earliest of these takes the place of leaving the neighbourhood in the plan of the disk.
 
 #include "core/sides.hpp"
 #include "engine/flight_frame.hpp"

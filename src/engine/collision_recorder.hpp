@@ -1,5 +1,5 @@
 #pragma once
-// What an engine writes down of its events: collisions as the loop has their numbers, for the event log and for a listener.
+// The record of an engine's events: collisions as the loop has their numbers, for the event log and for a listener.
 
 #include "core/instant.hpp"
 #include "core/large_memory.hpp"
@@ -25,13 +25,13 @@ class CollisionRecorder {
   /// lines in a frame that falls from rest at the epoch with acceleration `g`.
   CollisionRecorder(const LargeVector<std::int32_t>& ids, const Vec2<double>& g) : ids_(ids), g_(g) {}
 
-  /// Whether any event is to be written down.
+  /// Whether any event is to be recorded.
   [[nodiscard]] bool active() const { return active_; }
   /// Whether events are to be written to the log.
   [[nodiscard]] bool logging() const { return logging_; }
 
-  /// Writes down a collision of the disks in slots i and j at a time since the epoch. Requires active(). No more than its numbers
-  /// as they are, for here every instruction counts.
+  /// Writes down a collision of the disks in slots i and j at a time since the epoch. Requires active(). Only its numbers
+  /// as they are: here every instruction counts.
   void record(double time, std::int32_t i, std::int32_t j, const Vec2<double>& before_i, const Vec2<double>& before_j,
               const Vec2<double>& after_i, const Vec2<double>& after_j) {
     if (recorded_ == room_.size()) [[unlikely]]
@@ -79,7 +79,7 @@ class CollisionRecorder {
     std::swap(events, log_);
   }
 
-  /// Tells `listener` of collisions of pairs from now on, as many at a time as it has room for (in the recorder's own memory some
+  /// Hands collisions of pairs to `listener` from now on, as many at a time as it has room for (in the recorder's own memory some
   /// dozen), and of all so far at hand_over(). An empty listener ends that.
   void listen(CollisionListener listener) {
     listener_ = {};
@@ -104,7 +104,7 @@ class CollisionRecorder {
 
   [[gnu::noinline]] void deliver(std::span<const CollisionRecord> records) {
     if (logging_) log(records);
-    if (listener_) listener_.on_collisions(epoch_, records);  // whose they are from then on
+    if (listener_) listener_.on_collisions(epoch_, records);  // which owns them from then on
   }
 
   void log(std::span<const CollisionRecord> records) {

@@ -21,7 +21,7 @@ class CommonMotion {
     for (int axis = 0; axis < 2; ++axis) kept_[axis] = effects.dissipate() && !sheared && keeps_momentum(box, effects, axis);
   }
 
-  /// Whether momentum along any axis is to be looked after.
+  /// Whether momentum along any axis is to be kept.
   [[nodiscard]] bool present() const { return kept_[0] || kept_[1]; }
 
   /// Begins with disks of momenta momentum(disk). Along axes on which they move together, their common motion is left to them.

@@ -1,5 +1,5 @@
 #pragma once
-// How hard a collision was on the arithmetic: looked at in every one, for the "numerics" of a run's summary.
+// Counts of collisions that are hard on the arithmetic, for the "numerics" of a run's summary.
 
 #include "core/real.hpp"
 #include "core/vec2.hpp"
@@ -28,7 +28,8 @@ template <class Real>
 
 }  // namespace detail
 
-/// Disks meet at separation r with relative velocity v; their contact distance is sigma and grows at a speed.
+/// Counts the contact of disks at separation r with relative velocity v, whose contact distance is sigma and grows at the speed
+/// `expansion`.
 template <class Real>
 void count_contact(const Vec2<Real>& r, const Vec2<Real>& v, Real sigma, Real expansion, Numerics& numerics) {
   const Real rr = r.squaredNorm(), ss = sigma * sigma, rv = r.dot(v) - sigma * expansion;
@@ -49,7 +50,7 @@ class LastInstant {
       ++numerics.simultaneous;
     time_ = time;
   }
-  /// The clock's zero has moved.
+  /// Forgets the last collision, since the zero of the clock has moved.
   void rebase() { time_ = -1.0; }
 
  private:

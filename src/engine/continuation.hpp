@@ -27,7 +27,7 @@ struct Continuation {
     Instant time;
   };
   std::optional<Pending> pending;
-  /// Pairs inside each other's wells, by ids, the lower first; rising. At the edge a state does not tell.
+  /// Pairs inside each other's wells, by ids, the lower first; rising. At the edge a state does not determine it.
   std::vector<std::pair<std::int32_t, std::int32_t>> bonds;
 
   [[nodiscard]] bool bound(std::int32_t i, std::int32_t j) const {

@@ -1,5 +1,5 @@
 #pragma once
-// How large disks are and how much room they have, for the neighbour lists of a run in which they may grow.
+// The sizes of disks and their spacing, for the neighbour lists of a run in which they may grow.
 
 #include "engine/flight_frame.hpp"
 #include "neighbours/neighbourhood_tuning.hpp"
@@ -24,7 +24,7 @@ inline double largest_contact_distance(const Disks& disks) {
   return largest + second;
 }
 
-/// By how much contact distances may grow in a run: disks until they fill the box, times the width of their wells.
+/// The factor by which contact distances may grow in a run: disks until they fill the box, times the width of their wells.
 inline double largest_scale(const Box& box, const Disks& disks, const Effects& effects) {
   double scale = effects.square_well && effects.square_well->depth != 0.0 ? effects.square_well->width : 1.0;
   if (!effects.growth || effects.growth->rate == 0.0) return scale;

@@ -72,7 +72,7 @@ class Edges {
 
   // Disks that leave a sheared box.
 
-  /// How long it takes a disk at r that moves outward at a speed to come to an edge of a sheared box.
+  /// The time that a disk at r that moves outward at a speed takes to an edge of a sheared box.
   [[nodiscard]] Real time_to_edge(bool upper, const Vec2<Real>& r, Real outward) const {
     return fall_time<Real>(upper ? domain_.upper[1] - r[1] : r[1] - domain_.lower[1], -outward, 0);
   }
@@ -94,7 +94,7 @@ class Edges {
   [[nodiscard]] Real flow(Real y) const { return images_.flow(y); }
   /// The displacement of the images above at time t, without whole box lengths.
   [[nodiscard]] double displacement(Real t) const { return static_cast<double>(images_.reduced(t)); }
-  /// From where to where the images above slide between times 0 and t, the lower end first.
+  /// The least and the largest displacement of the images above between times 0 and t.
   [[nodiscard]] std::pair<Real, Real> slide(Real t) const {
     return std::minmax<Real>({images_.displacement(0), images_.displacement(t)});
   }
@@ -113,7 +113,7 @@ class Edges {
   }
 
  private:
-  /// How much faster along x than a disk its image is.
+  /// The velocity along x of an image relative to its disk.
   [[nodiscard]] Real image_speed(const Winding& shift) const { return Real(shift[1]) * images_.speed(); }
 
   static Box without_images_above(Box box) {

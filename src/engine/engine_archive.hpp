@@ -1,6 +1,6 @@
 #pragma once
-// What decides how the engine goes on, written down for checkpoints (core/archive.hpp). What the scene says by itself is not
-// among it: an engine is made for the scene first, with any start, and then read into.
+// The archive of an engine, for checkpoints (core/archive.hpp): all that decides how it goes on. What the scene says by itself is
+// not part of it: an engine is made for the scene first, with any start, and then read into.
 
 #include "engine/event_loop.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// How an engine begins: which scenes it can run, where disks lie in memory, first neighbourhoods, lists and predictions.
+// The start of an engine: the scenes that it can run, the order of disks in memory, first neighbourhoods, lists and predictions.
 
 #include "engine/event_loop.hpp"
 #include "engine/order_in_space.hpp"

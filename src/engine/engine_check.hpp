@@ -22,7 +22,7 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants(double 
       faults.push_back(fmt::format("disk {}: its velocity is not finite", id(i)));
     if (plans_.time(i) < now_ * (1.0 - 1e-12)) faults.push_back(fmt::format("disk {}: its next event lies in the past", id(i)));
     if (plans_.time(i) < epoch_length_ && !queue_.holds(plans_, i))
-      faults.push_back(fmt::format("disk {}: the queue does not know its event", id(i)));
+      faults.push_back(fmt::format("disk {}: its event is not in the queue", id(i)));
     const NeighbourhoodCentre centre = lists_.centre(i);
     if constexpr (!World::plain)
       if (world_.sheared() &&
@@ -53,7 +53,7 @@ std::vector<std::string> Engine<Impact, Layout, World>::check_invariants(double 
   return faults;
 }
 
-/// How far disk i reaches beyond the walls across an axis; negative where it does not.
+/// The distance by which disk i reaches beyond the walls across an axis; negative where it does not.
 template <class Impact, class Layout, class World>
 double Engine<Impact, Layout, World>::beyond_walls(std::int32_t i, int axis) const {
   if (flight_.axis(axis).periodic) return -never;
@@ -84,7 +84,7 @@ double Engine<Impact, Layout, World>::deepest_overlap() const {
   return deepest;
 }
 
-/// Two disks must not overlap, and must not meet before one of them has an event planned.
+/// Checks that two disks do not overlap, and do not meet before one of them has an event planned.
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::check_pair(std::int32_t i, std::int32_t j, double tolerated_overlap,
                                                std::vector<std::string>& faults) const {

@@ -47,7 +47,7 @@ void EventLoop<Impact, Layout, World>::begin_epoch_early(std::int32_t i, const V
 
 template <class Impact, class Layout, class World>
 void EventLoop<Impact, Layout, World>::fail_between(std::int32_t i, std::int32_t j) {
-  // What has been written down of it is no event.
+  // Its record is that of no event.
   i == j ? recorder_.withdraw_hit() : recorder_.withdraw_collision();
   stall_.fail(i == j ? fmt::format("disk {}: its velocity would not be finite after what it has met", id(i))
                      : fmt::format("disks {} and {}: their velocities would not be finite after their collision", id(i), id(j)));
@@ -101,7 +101,7 @@ void EventLoop<Impact, Layout, World>::choose_epoch_length() {
   limits_.suit_epoch(epoch_length_);
 }
 
-/// How long an epoch may be for what disks and walls will do that they do not do yet.
+/// The longest epoch that accelerations, moving walls, growth and shear allow.
 template <class Impact, class Layout, class World>
 double EventLoop<Impact, Layout, World>::longest_epoch_of_world() const {
   double longest = never;

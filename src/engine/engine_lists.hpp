@@ -7,7 +7,7 @@
 
 namespace carom {
 
-/// Empty lists, for disks as large as they will be at the end of the epoch.
+/// Makes empty lists, for disks as large as they will be at the end of the epoch.
 template <class Impact, class Layout, class World>
 void EventLoop<Impact, Layout, World>::make_lists() {
   sizes_.listed_scale = world_.scale(epoch_length_ < never ? epoch_length_ : 0.0);
@@ -24,12 +24,12 @@ void EventLoop<Impact, Layout, World>::make_lists() {
       sizes_.widest_neighbourhood = std::min(sizes_.widest_neighbourhood, (flight_.length(k) / 2.0 - sizes_.reach) / 6.0);
 }
 
-/// New lists for disks that have grown, and new plans with them.
+/// Makes new lists for disks that have grown, and new plans with them.
 template <class Impact, class Layout, class World>
 void EventLoop<Impact, Layout, World>::list_larger() {
   const double before = sizes_.suitable_half_width();
   make_lists();
-  // Disks that have grown have less room, and want narrower neighbourhoods.
+  // Disks that have grown have less room, and need narrower neighbourhoods.
   rebuild(std::min(frame_.half_width * (sizes_.suitable_half_width() / before), sizes_.widest_neighbourhood));
   predict_all();
   tuning_.restart();
@@ -51,7 +51,7 @@ void EventLoop<Impact, Layout, World>::tune_neighbourhoods(double elapsed) {
   predict_all();
 }
 
-/// New neighbourhoods round all disks, and new lists. The plans must be made anew as well.
+/// Makes new neighbourhoods round all disks, and new lists. The plans must be made anew as well.
 template <class Impact, class Layout, class World>
 void EventLoop<Impact, Layout, World>::rebuild(double half_width) {
   frame_.half_width = half_width;

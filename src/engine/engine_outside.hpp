@@ -1,5 +1,5 @@
 #pragma once
-// What the world outside sees of an engine, and what it does to it.
+// The state of an engine between events, and changes from outside.
 
 #include "engine/engine.hpp"
 

@@ -1,11 +1,11 @@
 #pragma once
 // The engine in a box whose images above slide past those below (effects/shear.hpp).
 //
-// Coordinates wrap, so a line does not tell in which of the boxes, one above the other, its disk is, and with which of their
+// Coordinates wrap, so a line does not determine in which of the boxes, one above the other, its disk is, and with which of their
 // velocities. The centre of the disk's neighbourhood does: it is in the box of the disk, and a disk that comes to an edge gets a
-// neighbourhood on the other side. For a pair, the centres tell how many boxes above the one the other is met, hence by how much
-// that image is displaced and how fast it slides. Disks far from the edges know nothing of all this. In every epoch images slide
-// on from where they have come to, and neighbourhoods near an edge are neighbours of all that will slide past them in it.
+// neighbourhood on the other side. For a pair, the centres determine how many boxes above the one the other is met, hence by how
+// much that image is displaced and how fast it slides. Disks far from the edges are not concerned. In every epoch images slide on
+// from where they have come to, and neighbourhoods near an edge are neighbours of all that will slide past them in it.
 
 #include "core/sliding_separation.hpp"
 #include "engine/event_loop.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// How long an engine's short clock runs before it starts anew.
+// The length of an epoch: how long an engine's short clock runs before it starts anew.
 
 #include "effects/vanishing.hpp"
 
@@ -40,7 +40,7 @@ template <class Real>
   return std::ldexp(1.0, std::ilogb(std::max(passes, std::numeric_limits<double>::min())) + 1);
 }
 
-/// Not longer than it takes to fall those 16 spacings from rest at the acceleration `pull`, as a power of two.
+/// Shortens `length` to the time in which a disk falls those 16 spacings from rest at the acceleration `pull`, a power of two.
 [[nodiscard]] inline double shortened_epoch(double length, double spacing, double pull) {
   if (!(pull > 0.0)) return length;
   return std::min(length, std::ldexp(1.0, std::ilogb(std::sqrt(32.0 * spacing / pull)) + 1));

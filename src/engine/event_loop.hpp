@@ -2,14 +2,14 @@
 // The event loop of the fast engine (engine/engine.hpp). Read from run_until() downwards.
 //
 // Every disk has one plan (engine/plans.hpp): the earliest collision that its last prediction found, and when it leaves its
-// neighbourhood or meets a wall. Of two partners the one predicted last knows of the collision; a plan whose partner has collided
-// since is stale and made anew when its time comes.
+// neighbourhood or meets a wall. Of two partners the one predicted last has the collision in its plan; a plan whose partner has
+// collided since is stale and made anew when its time comes.
 //
-// Disks are known by their slots, indices in the order of memory, which keeps neighbours in the box near each other; ids_ has the
-// ids that the world knows. Three parameters say what acts: Impact (what two disks do to each other), World (what else there is
-// round them) and Layout (what a disk carries). Uniform gravity costs nothing where disks meet: lines are drawn in a frame that
-// falls with the disks from the epoch on, in which they are straight, and only walls and obstacles are looked for along the
-// parabola (engine/boundary_planner.hpp).
+// Disks are known by their slots, indices in the order of memory, which keeps neighbours in the box near each other; ids_ has
+// their ids. Three parameters say what acts: Impact (what two disks do to each other), World (what else there is round them) and
+// Layout (what a disk carries). Uniform gravity costs nothing where disks meet: lines are drawn in a frame that falls with the
+// disks from the epoch on, in which they are straight, and only walls and obstacles are looked for along the parabola
+// (engine/boundary_planner.hpp).
 //
 // engine_impl.hpp has the functions that are only declared here, which happen once per epoch or seldom: how a loop begins,
 // epochs, neighbour lists, ties, sheared boxes, checkpoints. engine.hpp has what is asked of an engine between events.
@@ -83,7 +83,7 @@ class EventLoop {
     return false;
   }
 
-  /// Nothing will ever happen again: nothing moves, and nothing makes it move.
+  /// Whether nothing will ever happen again: nothing moves, and nothing makes it move.
   [[nodiscard]] bool idle() const { return epoch_length_ == never; }
 
   /// Whether the engine can go no further, and why.
@@ -98,7 +98,7 @@ class EventLoop {
  protected:
   using Line = typename Layout::Line;
 
-  /// The next event of all.
+  /// Processes the next event of all.
   [[gnu::flatten]] void step(std::int32_t i, double time) {
     stall_.count_event(time > now_);
     now_ = std::max(now_, time);
@@ -119,7 +119,7 @@ class EventLoop {
 
   // -------------------------------------------------------------------------------------------------- the events
 
-  /// Two disks meet: they exchange momentum, go on along new lines, are predicted anew.
+  /// Processes the collision of two disks: exchanges momentum, draws new lines, predicts both disks anew.
   void collide(std::int32_t i, std::int32_t j) {
     const Line &a = line(i), &b = line(j);
     Vec2<double> va(a.v[0], a.v[1]), vb(b.v[0], b.v[1]);
@@ -167,7 +167,7 @@ class EventLoop {
       stall_.record_loss(meet(), {id(i), id(j)});
   }
 
-  /// A disk meets a wall or an obstacle.
+  /// Processes the contact of a disk with a wall or an obstacle.
   void hit(std::int32_t i, std::int32_t what) {
     if constexpr (!World::plain)
       if (world_.sheared()) return cross_sheared_edge(i, is_upper(static_cast<Wall>(what)) ? 1 : -1);
@@ -185,7 +185,7 @@ class EventLoop {
     if (world_.is_movable(what)) plan_edges_anew();
   }
 
-  /// From now on disk i moves with velocity v.
+  /// Gives disk i the velocity v from now on.
   void change_velocity(std::int32_t i, const Vec2<double>& v) {
     plans_[i].last_collided = ++stamp_;
     const Vec2<double> along = flight_.line_velocity(v, now_);
@@ -197,8 +197,8 @@ class EventLoop {
       begin_epoch(now_);
   }
 
-  /// A disk leaves its neighbourhood, gets a new one round where it is, and may meet the disks that come within reach. What it
-  /// has planned with others stays as it is.
+  /// Gives a disk that leaves its neighbourhood a new one round where it is, and predicts it against the disks that come within
+  /// reach. What it has planned with others stays as it is.
   void leave_neighbourhood(std::int32_t i) {
     ++totals_.other;
     tuning_.count_left();
@@ -215,21 +215,22 @@ class EventLoop {
     schedule(i);
   }
 
-  /// Disk i meets the image of disk j that lies `above` boxes above it, past an edge where images slide.
+  /// Processes the collision of disk i with the image of disk j that lies `above` boxes above it, past an edge where images
+  /// slide.
   [[gnu::noinline]] void meet_across_sheared_edge(std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb,
                                                   std::int32_t above);
-  /// A disk leaves the box upwards (1) or downwards (-1) past images that slide, and comes back as its own image.
+  /// Lets a disk that leaves the box upwards (1) or downwards (-1) past images that slide come back as its own image.
   [[gnu::noinline]] void cross_sheared_edge(std::int32_t i, std::int32_t up);
 
   // -------------------------------------------------------------------------------------------------- prediction
 
-  /// Disk i against all its neighbours, walls, obstacles and the edges of its neighbourhood.
+  /// Predicts disk i against all its neighbours, walls, obstacles and the edges of its neighbourhood.
   void predict(std::int32_t i) {
     set_plan(i, predicted(i, surroundings(i)));
     schedule(i);
   }
 
-  /// By reference: see Prediction.
+  /// Takes a prediction as the plan of disk i. By reference: see Prediction.
   void set_plan(std::int32_t i, const Prediction& ahead) {
     Plan& mine = plans_[i];
     mine.pair_time = ahead.pair_time;
@@ -246,7 +247,7 @@ class EventLoop {
       boundaries_.plan(i, line(i), layout_.radius(line(i)), now_, epoch_length_, plans_);
   }
 
-  /// A piston has changed its motion: all plans with it are void.
+  /// Plans walls and obstacles anew for all disks, after a piston has changed its motion.
   void plan_edges_anew();
 
   void schedule(std::int32_t i) { queue_.push(plans_, i, plans_.time(i)); }

@@ -1,12 +1,12 @@
 #pragma once
-// Where disks are. A disk in flight is a line in fixed-point coordinates (core/flight.hpp); the frame of these lines says what a
-// line means in the box at a time since the epoch: position, velocity, distances to disks and walls. It also draws lines anew,
-// so that no digit of a position is lost.
+// The positions of disks. A disk in flight is a line in fixed-point coordinates (core/flight.hpp); the frame of these lines turns
+// a line into what it is in the box at a time since the epoch: position, velocity, distances to disks and walls. It also draws
+// lines anew, so that no digit of a position is lost.
 //
-// Three things are more than the coordinates tell. How often a disk has passed a periodic edge is counted beside them. Where
+// Three things are not in the coordinates. How often a disk has passed a periodic edge is counted beside them. Where
 // disks fall, the frame falls with them from rest at the epoch, so that lines stay straight; how far it had fallen by then is its
 // depth. In a sheared box (effects/shear.hpp) the box in which a disk is, of those one above the other, is that of the centre of
-// its neighbourhood, whose height is kept here: coordinates wrap, and do not tell.
+// its neighbourhood, whose height is kept here: coordinates wrap.
 
 #include "core/fixed_axis.hpp"
 #include "core/flight.hpp"
@@ -36,7 +36,7 @@ inline double mean_spacing(const Box& box, std::size_t disks) {
   return lengths[0] * std::sqrt(lengths[1] / lengths[0] / static_cast<double>(std::max<std::size_t>(disks, 1)));
 }
 
-/// How far beyond a wall a line may start at the epoch, in mean spacings.
+/// The distance beyond a wall at which a line may start at the epoch, in mean spacings.
 inline constexpr double free_path = 16.0;
 
 /// An axis of the box with room for lines that start beyond a wall.
@@ -60,9 +60,9 @@ class FlightFrame {
 
   [[nodiscard]] const FixedAxis& axis(int k) const { return axes_[k]; }
   [[nodiscard]] double length(int k) const { return axes_[k].upper - axes_[k].lower; }
-  /// From the middle of the box to where its upper side was at the start, in steps of a coordinate.
+  /// The distance from the middle of the box to where its upper side was at the start, in steps of a coordinate.
   [[nodiscard]] std::int64_t half(int k) const { return half_[k]; }
-  /// For each disk, the height of the centre of its neighbourhood in steps of 2^32; for sheared boxes alone.
+  /// The height of the centre of each disk's neighbourhood, in steps of 2^32; for sheared boxes alone.
   [[nodiscard]] const std::int32_t* heights() const { return heights_.data(); }
 
   // ---------------------------------------------------------------------------------------------- reading lines
@@ -227,11 +227,11 @@ class FlightFrame {
   /// The height of the centre of the neighbourhood of disk i.
   [[nodiscard]] std::int32_t& height(std::int32_t i) { return heights_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] std::int32_t height(std::int32_t i) const { return heights_[static_cast<std::size_t>(i)]; }
-  /// How many boxes above j that image of it lies which is nearest to i: -1, 0 or 1; 0 where no images slide.
+  /// The number of boxes above j at which that image of it lies which is nearest to i: -1, 0 or 1; 0 where no images slide.
   [[nodiscard]] std::int32_t boxes_above(std::int32_t i, std::int32_t j) const {
     return world_.sheared() ? boxes_between(height(i), height(j)) : 0;
   }
-  /// Where disk i is in its box at a time, in steps of a coordinate from the middle.
+  /// The height of disk i in its box at a time, in steps of a coordinate from the middle.
   [[nodiscard]] double steps_up(std::int32_t i, const Line& a, double when) const {
     const std::int64_t centre = wide(height(i));
     return static_cast<double>(centre) +
@@ -267,7 +267,8 @@ class FlightFrame {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(centre) << 32);
   }
 
-  /// Where a line was at the epoch, in steps from the middle of the box: the frame in which it is drawn had fallen by then.
+  /// The coordinate of a line at the epoch, in steps from the middle of the box: the frame in which it is drawn had fallen by
+  /// then.
   [[nodiscard]] std::int64_t coordinate(const Line& a, int axis) const {
     if constexpr (World::plain) return a.x[axis];
     return a.x[axis] + depth_[axis];
@@ -297,8 +298,9 @@ class FlightFrame {
     return rest.steps_of(before, time, per_length) + rest.steps_of(-speed, time, per_length) +
            rest.steps_of(lift, 1.0, per_length);
   }
-  /// How far a disk is to be lifted where its line changes, so that the energy of height makes up for what rounding does to that
-  /// of speed. Its velocity was velocity(a) at `now`, and is to be v where its new line has the velocity `along` at time `then`.
+  /// The height by which a disk is to be lifted where its line changes, so that the energy of height makes up for what rounding
+  /// does to that of speed. Its velocity was velocity(a) at `now`, and is to be v where its new line has the velocity `along` at
+  /// time `then`.
   [[nodiscard]] double lift(const Line& a, int axis, double now, double v, double along, double then) const {
     const double g = world_.g()[axis], before = a.v[axis] + g * now;
     if (g == 0.0) return 0.0;

@@ -1,5 +1,5 @@
 #pragma once
-// How far disks may fly until an epoch ends, so that coordinates do not wrap unseen and nearest images are right.
+// The longest flights until an epoch ends: beyond them coordinates would wrap unseen, or nearest images be wrong.
 
 #include "core/vec2.hpp"
 

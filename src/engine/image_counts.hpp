@@ -1,6 +1,6 @@
 #pragma once
-// How many box lengths each disk has travelled past the periodic edges: 64 bits, of which 32 are stored where no disk has gone
-// further than these can tell. Beyond that, after two thousand million box lengths, the rest is in a list of the few.
+// The number of box lengths that each disk has travelled past the periodic edges: 64 bits, of which 32 are stored where no disk
+// has gone further than these can count. Beyond that, after two thousand million box lengths, the rest is in a list of the few.
 
 #include "core/large_memory.hpp"
 

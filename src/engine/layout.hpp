@@ -1,5 +1,5 @@
 #pragma once
-// What a disk carries with it on the hot path: nothing but its line where all are equal; its radius and mass too where
+// The data of a disk on the hot path: nothing but its line where all are equal; its radius and mass too where
 // they differ.
 
 #include "core/all_equal.hpp"

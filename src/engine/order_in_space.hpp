@@ -1,5 +1,5 @@
 #pragma once
-// In what order an engine keeps disks in memory: those near each other in the box are near each other there.
+// The order in which an engine keeps disks in memory: disks that are near each other in the box are near each other there.
 
 #include "core/fixed_axis.hpp"
 #include "core/large_memory.hpp"
@@ -15,7 +15,7 @@
 
 namespace carom::detail {
 
-/// Disks in the order of a curve that fills the box (Morton): those near each other in the box are so in memory.
+/// Disks in the order of a curve that fills the box (Morton): neighbours in the box are neighbours in memory.
 struct OrderInSpace {
   LargeVector<std::int32_t> ids;
   double area;  ///< per disk, where most of them are

@@ -1,5 +1,5 @@
 #pragma once
-// What each disk is to do next, and in which order: one plan per disk, and the order of simultaneous events.
+// The plans of all disks, one each, with its next events; and the order of simultaneous events.
 
 #include "core/large_memory.hpp"
 #include "core/prefetch.hpp"
@@ -13,7 +13,7 @@
 
 namespace carom {
 
-/// In the place of a wall or an obstacle: the edge of the neighbourhood of a disk.
+/// The edge of the neighbourhood of a disk, in the place of a wall or an obstacle.
 inline constexpr std::int32_t neighbourhood_edge = -100;
 
 /// The next events of one disk: the earliest collision that its last prediction found, and the earliest of leaving its

@@ -1,7 +1,7 @@
 #pragma once
 // Event-driven molecular dynamics of hard disks as Alder & Wainwright (J. Chem. Phys. 31, 459 (1959)) wrote it down, in
-// the plainest form that is O(log N) per event: every disk plans its own next event, a heap knows the earliest of all
-// plans, a cell grid tells who may meet whom. Read from run_until() downwards.
+// the plainest form that is O(log N) per event: every disk has a plan of its next event, a heap has the earliest of
+// all plans, a cell grid limits the pairs that may meet. Read from run_until() downwards.
 //
 // Between two collisions a disk's record (r, v, t) stays as the last collision left it. The time at which a pair meets
 // is a function of the two records alone, so it does not matter when, how often or from which side it is predicted:
@@ -9,7 +9,7 @@
 // finds the same trajectory to the last bit (tests/engine/textbook_twin_test.cpp).
 //
 // What a scene may add to straight flight between hard walls lives in effects/, one file each, and is answered for by two
-// members: world_ (engine/textbook_world.hpp) knows how disks fly and what else there is round them, impact_ what contact does.
+// members: world_ (engine/textbook_world.hpp) answers how disks fly and what else there is round them, impact_ what contact does.
 // At its neutral value each effect leaves the bits as they are. textbook_impl.hpp has the functions that are only declared here.
 
 #include "core/instant.hpp"
@@ -167,7 +167,7 @@ class TextbookEngine {
     stall_.fail(fmt::format("disk {}: its velocity would not be finite after what it has met", i));
   }
 
-  /// A disk enters the next cell and may meet those that come into reach. Its record stays as it is.
+  /// A disk enters the next cell and may meet the disks that come into reach. Its record stays as it is.
   void cross_cell(std::int32_t i) {
     Plan& mine = plan(i);
     const CellCrossing<Real> crossing = mine.crossing;
@@ -320,10 +320,10 @@ class TextbookEngine {
   [[nodiscard]] Real radius_at(const Record& a, Real t) const { return world_.radius(a, t); }
 
   [[nodiscard]] Winding nearest_image(std::int32_t i, std::int32_t j) const;
-  /// How far disk i reaches beyond the walls across an axis; negative where it does not.
+  /// The distance by which disk i reaches beyond the walls across an axis; negative where it does not.
   [[nodiscard]] Real beyond_walls(std::int32_t i, int axis) const;
   [[nodiscard]] Real overlap_with(std::int32_t i, std::int32_t j, const Winding& image) const;
-  /// Rewrites the record of disk i at the present moment, inside the box. Plans that know the old record become stale.
+  /// Rewrites the record of disk i at the present moment, inside the box. Plans made with the old record become stale.
   Winding bring_to_now(std::int32_t i) {
     Record& a = record(i);
     const Vec2<Real> r = position(a, now_);

@@ -82,7 +82,7 @@ struct TextbookWorld {
     return contact_time<Real>(r, v, sigma * scale(t), sigma * expansion);
   }
 
-  /// When and how disk i leaves its cell.
+  /// The time at which disk i leaves its cell, and the side that it crosses.
   [[nodiscard]] CellCrossing<Real> next_crossing(const CellGrid<Real>& grid, std::int32_t i, const Record& a, Real now) const {
     return falling.present() ? grid.next_crossing(i, position(a, now), velocity(a, now), falling.g, now)
                              : grid.next_crossing(i, a.r, a.v, falling.g, a.t);

@@ -22,7 +22,7 @@
 
 namespace carom {
 
-/// Where and when a disk leaves its cell.
+/// The time at which a disk leaves its cell, and the side that it crosses.
 template <class Real>
 struct CellCrossing {
   Real time = infinity<Real>;
@@ -54,7 +54,7 @@ class CellGrid {
     places_.resize(disks);
   }
 
-  /// Puts disk i, at position r inside the box, where it belongs. Requires clear() before the first of a new round.
+  /// Puts disk i, at position r inside the box, into its cell. Requires clear() before the first of a new round.
   void insert(std::int32_t i, const Vec2<Real>& r) {
     using std::floor;
     Place& place = at(i);
@@ -66,8 +66,8 @@ class CellGrid {
     link(i);
   }
 
-  /// The axis y is to be one without images of its own; beyond its edges lie images displaced by anything from `least` to `most`
-  /// upwards, and by as much the other way downwards.
+  /// Makes axis y one without images of its own, beyond whose edges lie images displaced along x by anything from `least` to
+  /// `most` upwards, and by as much the other way downwards.
   void slide(Real least, Real most) {
     using std::ceil;
     using std::floor;
@@ -76,7 +76,7 @@ class CellGrid {
     slid_most_ = static_cast<std::int32_t>(ceil(most / width_[0]));
   }
 
-  /// Disk i is somewhere else: at r, inside the box.
+  /// Moves disk i to position r, inside the box.
   void move(std::int32_t i, const Vec2<Real>& r) {
     unlink(i);
     insert(i, r);
@@ -84,8 +84,8 @@ class CellGrid {
 
   void clear() { std::fill(first_.begin(), first_.end(), none); }
 
-  /// When disk i, at position r with velocity v at time t and acceleration g, leaves its cell. Never before t. Where there is an
-  /// acceleration, t must be the present: a path that comes back might else be found to have left long ago.
+  /// Returns when and where disk i, at position r with velocity v at time t and acceleration g, leaves its cell, not before t.
+  /// With an acceleration, t must be the present: a path that comes back might else be found to have left long ago.
   [[nodiscard, gnu::flatten]] CellCrossing<Real> next_crossing(std::int32_t i, const Vec2<Real>& r, const Vec2<Real>& v,
                                                                const Vec2<Real>& g, Real t) const {
     const Place& place = at(i);
@@ -114,7 +114,7 @@ class CellGrid {
     link(i);
   }
 
-  /// The recorded position of disk i was moved by -winding * length.
+  /// Adapts to a recorded position of disk i that was moved by -winding * length.
   void refold(std::int32_t i, const Winding& winding) { at(i).winding -= winding; }
 
   /// Calls visit(j, shift) for every disk j != i in the nine cells around disk i, and for images of j as often as they
@@ -133,7 +133,7 @@ class CellGrid {
     for (int side = -1; side <= 1; ++side) visit_row(i, place.cell[1] + side, crossing.step, crossing.step, visit);
   }
 
-  /// Lower corner and upper corner of the cell of disk i, in the frame of its recorded position.
+  /// Returns the lower corner of the cell of disk i, in the frame of its recorded position.
   [[nodiscard]] Vec2<Real> cell_lower(std::int32_t i) const {
     const Place& place = at(i);
     Vec2<Real> corner;
@@ -188,7 +188,7 @@ class CellGrid {
     (place.previous != none ? at(place.previous).next : first_[index(place.cell[0], place.cell[1])]) = place.next;
   }
 
-  /// A column or a row of cells: which one it is inside the box, and how many box lengths away its image lies.
+  /// A column or a row of cells: its number inside the box, and how many box lengths away its image lies.
   struct Line {
     std::int32_t cell;  ///< none beyond a wall
     std::int32_t beyond;
@@ -200,7 +200,7 @@ class CellGrid {
     return cell < 0 ? Line{cell + count_[axis], -1} : Line{cell - count_[axis], 1};
   }
 
-  /// The cells of a row from `first` to `last` columns away from disk i, and as many more as its images may have slid.
+  /// Visits the cells of a row from `first` to `last` columns away from disk i, and as many more as its images may have slid.
   template <class Visit>
   void visit_row(std::int32_t i, std::int32_t row, int first, int last, Visit& visit) const {
     const std::int32_t column = at(i).cell[0];
@@ -214,7 +214,7 @@ class CellGrid {
     for (int k = first; k <= last; ++k) visit_cell(i, line(0, column + k), line(1, row), visit);
   }
 
-  /// The column of a periodic axis, however many boxes away.
+  /// Returns the column of a periodic axis, any number of boxes away.
   [[nodiscard]] Line repeated(std::int32_t column) const {
     const std::int32_t beyond = column >= 0 ? column / count_[0] : -((count_[0] - 1 - column) / count_[0]);
     return {column - beyond * count_[0], beyond};

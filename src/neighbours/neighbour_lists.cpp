@@ -89,7 +89,7 @@ std::span<const std::int32_t> NeighbourLists::move_neighbourhood(std::int32_t i,
   return {fresh_.data(), fresh};
 }
 
-/// How far apart, in largest radii, neighbourhoods may be that are near, one of a disk of the given radius and one of a layer.
+/// The largest distance, in largest radii, at which the neighbourhood of a disk of the given radius is near one of a layer.
 double NeighbourLists::reach(float radius, const NeighbourhoodCells& layer) const {
   return (static_cast<double>(radius) + static_cast<double>(layer.largest_radius()) + 2.0 * h_) * (1.0 + search_slack);
 }
@@ -100,7 +100,7 @@ CellRange NeighbourLists::range_around(NeighbourhoodCentre centre, float radius,
   return layer.around(centre, {to * steps_[0] + 8.0, to * steps_[1] + 8.0});
 }
 
-/// Fills found_ with those near the neighbourhood of disk i as it is now.
+/// Fills found_ with the disks near the present neighbourhood of disk i.
 void NeighbourLists::search(std::int32_t i) {
   const NeighbourQuery query{i, radius(i), centre(i)};
   found_count_ = 0;
@@ -118,7 +118,7 @@ void NeighbourLists::search(std::int32_t i) {
   if (sliding_ && sliding_->by_edge(query.centre)) search_across(query);
 }
 
-/// Puts right what search() has found for a neighbourhood near an edge past which images slide.
+/// Corrects what search() has found for a neighbourhood near an edge past which images slide.
 void NeighbourLists::search_across(const NeighbourQuery& query) {
   const std::int32_t upwards = query.centre.y > 0 ? 1 : -1;
   const auto beyond = [&](std::int32_t j) { return boxes_between(query.centre.y, centre(j).y) != 0; };

@@ -1,10 +1,10 @@
 #pragma once
 // Neighbour lists. Every disk has a neighbourhood, a square of half-width h round a centre that stays where it is until the disk
 // leaves the square (the bounding neighbourhood of Donev, Torquato & Stillinger, J. Comput. Phys. 202, 737 (2005)). Two disks are
-// on each other's lists exactly if their neighbourhoods come within contact. A prediction looks at the list alone, and when a
+// on each other's lists exactly if their neighbourhoods come within contact. A prediction reads the list alone, and when a
 // disk leaves its neighbourhood only the lists of the disks near it change.
 //
-// Positions and velocities are not known here: neighbourhoods are given and taken in steps of 2^32 of a coordinate
+// Positions and velocities do not occur here: neighbourhoods are given and taken in steps of 2^32 of a coordinate
 // (core/flight.hpp), so that differences wrap to the nearest image. Disks of very different size are kept in layers, radii within
 // a factor of two in one layer, each with cells as wide as its own reach: one large disk among a million small ones costs
 // nothing.
@@ -36,18 +36,18 @@ class NeighbourLists {
   [[nodiscard]] double half_width() const { return half_width_; }
   [[nodiscard]] NeighbourhoodCentre centre(std::int32_t i) const { return around_.centre(i); }
 
-  /// The ids of those who may meet disk i, padded with i itself to eight at least and to a multiple of four.
+  /// The ids of the disks that disk i may meet, padded with i itself to eight at least and to a multiple of four.
   [[nodiscard]] const std::int32_t* ids(std::int32_t i) const { return around_.ids(i); }
   [[nodiscard]] std::uint32_t count(std::int32_t i) const { return around_.count(i); }
 
-  /// Disk i has a new neighbourhood: mends its list and those of the others concerned. Returns who is new on its list, padded
-  /// with i in the same way; valid until the next call.
+  /// Gives disk i a new neighbourhood and corrects its list and those of its old and new neighbours. Returns the ids that are new
+  /// on its list, padded with i in the same way; valid until the next call.
   std::span<const std::int32_t> move_neighbourhood(std::int32_t i, NeighbourhoodCentre centre);
 
-  /// From now on, and until the next call, the images above are displaced along x by `displacement` (in steps of a coordinate),
-  /// and by anything up to `way` (length) more. A disk is in that one of the boxes, one above the other, in which the centre of
-  /// its neighbourhood is. Mends the lists of neighbourhoods near the edges. Requires y to be periodic, and reach of
-  /// neighbourhoods and way to be less than half of the box together.
+  /// Displaces the images above along x, until the next call, by `displacement` (in steps of a coordinate) and by anything up to
+  /// `way` (length) more, and corrects the lists of neighbourhoods near the edges. A disk is in that one of the boxes, one above
+  /// the other, in which the centre of its neighbourhood is. Requires y to be periodic, and reach of neighbourhoods and way to be
+  /// less than half of the box together.
   void slide(std::int64_t displacement, double way);
   /// Neighbourhoods with centres nearer to the middle than this (in steps) have no neighbours beyond the edges that slide.
   [[nodiscard]] std::int64_t inner() const { return sliding_ ? sliding_->inner() : INT64_MAX; }
@@ -60,7 +60,7 @@ class NeighbourLists {
   /// Prefetches the cells that move_neighbourhood(i, to) will search.
   void prefetch_cells(std::int32_t i, NeighbourhoodCentre to) const;
 
-  /// Half of the disks have at most so many neighbours. O(disks).
+  /// The median of the number of neighbours. O(disks).
   [[nodiscard]] std::uint32_t median_count() const;
   /// Sum of all list lengths. O(disks).
   [[nodiscard]] std::uint64_t entries() const;
@@ -114,10 +114,10 @@ class NeighbourLists {
   const NeighbourSearchKernel* kernel_;
   double steps_[2];  ///< of a centre, per largest radius
   std::uint64_t changes_ = 0;
-  std::vector<std::int32_t> gone_;   ///< by move_neighbourhood(): those who are not near any more
-  std::vector<std::int32_t> cells_;  ///< by search(): those looked through
-  std::vector<std::int32_t> found_;  ///< by search(): all
-  std::vector<std::int32_t> fresh_;  ///< by move_neighbourhood(): those who were not near before
+  std::vector<std::int32_t> gone_;   ///< by move_neighbourhood(): no longer near
+  std::vector<std::int32_t> cells_;  ///< by search(): searched
+  std::vector<std::int32_t> found_;  ///< by search(): all near disks
+  std::vector<std::int32_t> fresh_;  ///< by move_neighbourhood(): not near before
   std::size_t found_count_ = 0;
 };
 

@@ -58,7 +58,7 @@ std::int32_t* pack(Ints ids, unsigned bits, std::int32_t* to) {
   return to + __builtin_popcount(bits);
 }
 
-/// How far apart the two squares are along one axis: 0 where they overlap.
+/// Returns the gap between the two squares along one axis, 0 where they overlap.
 Floats gap(Ints a, std::int32_t b, float unit, float two_halves) {
   const auto step = reinterpret_cast<Ints>(reinterpret_cast<UnsignedInts>(a) - static_cast<unsigned>(b));  // wraps
   const Floats apart = __builtin_convertvector(step, Floats) * unit;
@@ -87,8 +87,8 @@ std::int32_t* search(const CellBlock* blocks, const std::int32_t* next, const st
       const Ints x = *reinterpret_cast<const Ints*>(block.x);
       const Ints y = *reinterpret_cast<const Ints*>(block.y);
       const Floats radius = *reinterpret_cast<const Floats*>(block.radius);
-      const Ints nobody = (id >> 31) | (id == sought.id);
-      found = pack(id, bits_of(~nobody & near_eight(x, y, radius, sought.centre, sought.radius, within)), found);
+      const Ints excluded = (id >> 31) | (id == sought.id);
+      found = pack(id, bits_of(~excluded & near_eight(x, y, radius, sought.centre, sought.radius, within)), found);
       if (block.id[7] < 0) break;
       b = next[b];
     } while (b >= 0);
@@ -104,7 +104,7 @@ Ints eight_of(const std::int32_t* ids) {
 
 UnsignedInts lower(UnsignedInts a, UnsignedInts b) { return a < b ? a : b; }
 
-/// 0 where one of four others is the same: of those in the same half of their eight.
+/// Returns 0 where an id equals one of four others, those in the same half of their eight.
 UnsignedInts apart_from_half(Ints ids, Ints others) {
   const auto apart = [ids](Ints turned) { return reinterpret_cast<UnsignedInts>(ids ^ turned); };
   return lower(lower(apart(others), apart(__builtin_shufflevector(others, others, 1, 0, 3, 2, 5, 4, 7, 6))),
@@ -112,8 +112,8 @@ UnsignedInts apart_from_half(Ints ids, Ints others) {
                      apart(__builtin_shufflevector(others, others, 3, 2, 1, 0, 7, 6, 5, 4))));
 }
 
-/// 0 where one of eight others is the same. As the least difference: comparisons would each, with AVX-512, go through a register
-/// for masks and one for integers.
+/// Returns 0 where an id equals one of eight others. As the least difference: comparisons would each, with AVX-512, go through a
+/// register for masks and one for integers.
 UnsignedInts apart(Ints ids, Ints others) {
   return lower(apart_from_half(ids, others),
                apart_from_half(ids, __builtin_shufflevector(others, others, 4, 5, 6, 7, 0, 1, 2, 3)));
@@ -124,7 +124,7 @@ Ints first_of(const std::int32_t* ids, std::size_t count) {
   return eight_of(ids) | (Ints{0, 1, 2, 3, 4, 5, 6, 7} >= static_cast<int>(count));
 }
 
-/// Copies to `absent` those of ids[0..count) that are not in others[0..size), and returns how many.
+/// Copies to `absent` the ids of ids[0..count) that are not in others[0..size), and returns how many.
 inline std::size_t absent(const std::int32_t* ids, std::size_t count, const std::int32_t* others, std::size_t size,
                           std::int32_t* absent) {
   std::int32_t* end = absent;

@@ -34,7 +34,7 @@ class NeighbourhoodCells {
   NeighbourhoodCells() = default;
 
   /// For `disks` disks of at most `largest_radius` (any unit: it is only kept) whose neighbourhoods come within contact at most
-  /// `reach` (length) apart. Cells somewhat wider than that hold four or five disks: few cells to look through, few that
+  /// `reach` (length) apart. Cells somewhat wider than that hold four or five disks: few cells to search, few that
   /// overflow.
   NeighbourhoodCells(const FixedAxis& x, const FixedAxis& y, float largest_radius, double reach, std::size_t disks)
       : largest_radius_(largest_radius) {

@@ -1,7 +1,7 @@
 #pragma once
-// How wide should neighbourhoods be? Wide ones are left seldom, but every prediction has more neighbours to look at. The best
+// The width of neighbourhoods. Wide ones are left seldom, but every prediction has more neighbours to examine. The best
 // width depends on density, on how the disks are spread, and changes while a system melts, clusters or is compressed; so it is
-// found, and found again, by trying. What counts is work, not seconds: the same run takes the same decisions on every machine.
+// found by trial, again and again. What counts is work, not seconds: the same run takes the same decisions on every machine.
 
 #include <algorithm>
 #include <cmath>
@@ -11,24 +11,25 @@ namespace carom {
 
 class HalfWidthSearch {
  public:
-  /// Work in units of a look at four more neighbours: what it costs that so many disks left their neighbourhoods, so many entries
-  /// of lists changed in consequence, and so many looks were taken. Measured: 100 to 150, 20 and 10 ns.
-  [[nodiscard]] static double work(std::uint64_t left, std::uint64_t changes, std::uint64_t looks) {
-    return 12.0 * static_cast<double>(left) + 2.0 * static_cast<double>(changes) + static_cast<double>(looks);
+  /// Returns the work that so many disks took that left their neighbourhoods, so many entries of lists that changed in
+  /// consequence, and so many groups of four neighbours that predictions examined after the first eight; in units of one such
+  /// group. Measured: 100 to 150, 20 and 10 ns.
+  [[nodiscard]] static double work(std::uint64_t left, std::uint64_t changes, std::uint64_t groups) {
+    return 12.0 * static_cast<double>(left) + 2.0 * static_cast<double>(changes) + static_cast<double>(groups);
   }
 
-  /// A width to start with for disks of mean diameter `sigma` and area `area` per disk: about seven neighbours on a list,
-  /// which are looked at in one go. The neighbourhoods of two disks come within contact over an area of 16 h^2 + 16 h sigma + pi
-  /// sigma^2.
+  /// Returns a half-width to start with for disks of mean diameter `sigma` and area `area` per disk: about seven neighbours on a
+  /// list, which are examined in one go. The neighbourhoods of two disks come within contact over an area of 16 h^2 + 16 h sigma
+  /// + pi sigma^2.
   [[nodiscard]] static double first_half_width(double sigma, double area) {
     const double beyond = std::fmax(8.0 * area / 16.0 - sigma * sigma * 3.14159 / 16.0, 0.01 * sigma * sigma);
     return 0.5 * (std::sqrt(sigma * sigma + 4.0 * beyond) - sigma);
   }
 
-  /// The half-width to go on with, after `half_width` has cost `work` per length travelled by all.
+  /// Returns the half-width to go on with, after `half_width` has cost `work` per length travelled by all.
   ///
-  /// A trial is held against the width before it, measured before and after: a system that changes by itself would
-  /// otherwise make any trial look good, or bad.
+  /// A trial is compared with the width before it, measured before and after: a system that changes by itself would otherwise
+  /// make any trial look good, or bad.
   [[nodiscard]] double next(double half_width, double work) {
     switch (stage_) {
       case Stage::settled:

@@ -23,7 +23,7 @@ class Neighbourhoods {
 
   [[nodiscard]] std::size_t disks() const { return lines_.size() - 1; }
 
-  /// All lists become empty.
+  /// Empties all lists.
   void clear() {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       lines_[i].count = 0;
@@ -53,7 +53,7 @@ class Neighbourhoods {
     line(i).count = count + 1;
   }
 
-  /// The last id takes the place of the one at `at`.
+  /// Removes the id at index `at`; the last id takes its place.
   void remove_at(std::int32_t i, std::size_t at) {
     std::int32_t* mine = list(i);
     const std::uint32_t last = --line(i).count;
@@ -61,7 +61,7 @@ class Neighbourhoods {
     mine[last] = i;
   }
 
-  /// Requires sixteen ids to be readable.
+  /// Replaces the list of disk i. Requires sixteen ids to be readable.
   void assign(std::int32_t i, std::span<const std::int32_t> ids) {
     const auto count = static_cast<std::uint32_t>(ids.size());
     if (line(i).grown == none && count <= room) [[likely]] {

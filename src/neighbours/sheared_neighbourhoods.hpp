@@ -1,6 +1,6 @@
 #pragma once
-// When neighbourhoods come within contact through an edge past which images slide. Lengths are in units of the largest radius;
-// few neighbourhoods are concerned, so all is in double precision, one by one.
+// The criterion for neighbourhoods to come within contact through an edge past which images slide. Lengths are in units of the
+// largest radius; few neighbourhoods are concerned, so all is in double precision, one by one.
 
 #include "core/flight.hpp"
 #include "neighbours/neighbour_search.hpp"
@@ -15,18 +15,18 @@ namespace carom {
 
 class ShearedNeighbourhoods {
  public:
-  /// To be read into.
+  /// An object to be read into.
   ShearedNeighbourhoods() = default;
   /// unit: length of a step of a centre, per axis.
   explicit ShearedNeighbourhoods(const std::array<double, 2>& unit) : unit_(unit) {}
 
-  /// Images above are `displacement` steps to the right, and slide on by `way`, which may be negative.
+  /// Sets the displacement of the images above, in steps to the right, and the way (length) that they slide on, which may be
+  /// negative.
   void set_way(std::int32_t displacement, double way) {
     displacement_ = displacement;
     way_ = way;
   }
-  /// Two neighbourhoods have a width of `two_halves` together, and are at most `reach` apart along an axis where disks in them
-  /// touch.
+  /// Sets the width of two neighbourhoods together, and the largest distance along an axis at which disks in them touch.
   void set_neighbourhoods(double two_halves, double reach) {
     // Some steps, since centres and displacement are rounded, and some more than all rounding here, on the safe side.
     two_halves_ = two_halves * (1.0 + 1e-6) + 4.0 * std::max(unit_[0], unit_[1]);
@@ -37,7 +37,7 @@ class ShearedNeighbourhoods {
   [[nodiscard]] bool by_edge(NeighbourhoodCentre centre) const { return std::abs(std::int64_t{centre.y}) >= inner_; }
   [[nodiscard]] double way() const { return std::abs(way_); }
 
-  /// Where a neighbourhood at this place would be, were it one of the images that lie `above` boxes lower.
+  /// Returns the centre of the image of a neighbourhood that lies `above` boxes lower.
   [[nodiscard]] NeighbourhoodCentre as_seen_from_beyond(NeighbourhoodCentre centre, std::int32_t above) const {
     return {wrapped(std::int64_t{centre.x} - above * std::int64_t{displacement_}), centre.y};
   }

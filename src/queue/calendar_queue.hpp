@@ -27,9 +27,9 @@
 namespace carom {
 
 /// Events: `double time(std::int32_t disk) const`, when the disk's next event is, >= 0, infinity for never;
-/// `std::int32_t other(std::int32_t disk) const`, whatever else tells which event it is; and `bool precedes(const
+/// `std::int32_t other(std::int32_t disk) const`, whatever else identifies the event; and `bool precedes(const
 /// FutureEvent& a, const FutureEvent& b) const`, a strict order of events at one time that depends on a and b alone. Where
-/// there is a `void prefetch_event(std::int32_t disk) const` it is told of disks whose events will be asked for soon.
+/// there is a `void prefetch_event(std::int32_t disk) const` it is called for disks whose events will be asked for soon.
 template <class Events>
 class CalendarQueue {
  public:
@@ -58,7 +58,7 @@ class CalendarQueue {
     waiting_ = fetched_ = 0;
   }
 
-  /// The next event of event.disk is now `event`, which is not before the last one taken.
+  /// Makes `event`, which is not before the last one taken, the next event of its disk.
   void push(const Events& events, const Entry& event) {
     if (!(event.time < end_)) return;
     ++pushed_;
@@ -72,7 +72,7 @@ class CalendarQueue {
     }
   }
 
-  /// The earliest event, or nullptr where none is left. on_turn(k) is called when the turn of span k comes.
+  /// Returns the earliest event, or nullptr where none is left. on_turn(k) is called when the turn of span k comes.
   template <class OnTurn>
   const Entry* next(const Events& events, OnTurn&& on_turn) {
     for (;;) {
@@ -92,19 +92,19 @@ class CalendarQueue {
     at_hand_.pop_back();
   }
 
-  /// Ids that were put into span k of the ring, for a look ahead: not all of them, and some no longer count.
+  /// Returns ids that were put into span k of the ring, for prefetching: not all of them, and some no longer count.
   [[nodiscard]] std::span<const std::int32_t> ids_of(std::int64_t k) const {
     return {span(k & mask_).ids, counts_[static_cast<std::size_t>(k & mask_)]};
   }
   void prefetch_span(std::int64_t k) const { prefetch_early(&span(k & mask_)); }
 
-  /// The span into which a time falls.
+  /// Returns the span into which a time falls.
   [[nodiscard]] std::int64_t span_of(double time) const {
     const double k = time * per_time_;
     return k < 0x1p61 ? static_cast<std::int64_t>(k) : std::int64_t{1} << 61;  // all that is later than that shares a span
   }
 
-  /// Events pushed since start().
+  /// The number of events pushed since start().
   [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
 
   [[nodiscard]] std::size_t bytes() const {
@@ -130,7 +130,7 @@ class CalendarQueue {
     return std::any_of(later_.begin(), later_.end(), same);
   }
 
-  /// Its whole state, for core/archive.hpp.
+  /// Archives the whole state, for core/archive.hpp.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(spans_, counts_, more_, mask_, per_time_, end_, current_, sort_out_at_, in_ring_, pushed_, free_, at_hand_, heaped_,
@@ -165,7 +165,7 @@ class CalendarQueue {
     return events.time(entry.disk) == entry.time && events.other(entry.disk) == entry.other;
   }
 
-  /// Stores leave the processor in order: one to memory that is far away holds up all that are behind it.
+  /// Appends the id later: stores leave the processor in order, and one to memory that is far away holds up all that follow it.
   void wait_for_span(std::int64_t place, std::int32_t disk) {
     if (waiting_ == waiting_room) append_waiting();
     prefetch_early(&span(place));
@@ -215,7 +215,7 @@ class CalendarQueue {
     more(place) = behind;
   }
 
-  /// Puts the next span that holds anything at hand. False where nothing is left.
+  /// Puts the next span that holds anything at hand. Returns false where nothing is left.
   bool turn(const Events& events) {
     append_fetched();
     if (in_ring_ == 0) {
@@ -229,7 +229,7 @@ class CalendarQueue {
     return true;
   }
 
-  /// The ring is empty: goes to just before the first of the far events.
+  /// Goes to just before the first of the far events, where the ring is empty.
   bool jump(const Events& events) {
     std::int64_t first = std::numeric_limits<std::int64_t>::max();
     std::erase_if(later_, [&](const Entry& entry) { return !counts(events, entry); });
@@ -240,7 +240,7 @@ class CalendarQueue {
     return true;
   }
 
-  /// Far events that have come within reach of the ring go there.
+  /// Moves far events that have come within reach of the ring there.
   void sort_out_later(const Events& events) {
     sort_out_at_ = current_ + mask_ / 2;
     std::size_t kept = 0;
@@ -295,7 +295,7 @@ class CalendarQueue {
     }
   }
 
-  /// Entry i goes to its place among those before it, the latest of which comes first.
+  /// Moves entry i to its place among the entries before it, the latest of which comes first.
   void sink(const Events& events, std::size_t i) {
     const Later later{events};
     const Entry entry = at_hand_[i];

@@ -5,7 +5,7 @@
 
 namespace carom {
 
-/// The next event of a disk; `other` tells events of one disk at one time apart.
+/// The next event of a disk; `other` distinguishes events of one disk at one time.
 struct FutureEvent {
   double time;
   std::int32_t disk;
@@ -14,7 +14,7 @@ struct FutureEvent {
   friend bool operator==(const FutureEvent&, const FutureEvent&) = default;
 };
 
-/// Which disk's event comes next, and when: infinity where none is left.
+/// The disk of the next event and its time, infinity where none is left.
 struct Upcoming {
   double time;
   std::int32_t disk;

@@ -19,7 +19,7 @@ class FutureEventList {
   static constexpr std::size_t fewest = 16, few = 16384;
 
   /// Forgets everything, and starts at time 0. Events at `end` or later need not be kept: they are never asked for. `span` and
-  /// `far` as for the calendar; `busy`: to expect new events of many disks.
+  /// `far` are as for the calendar; `busy` says that new events of many disks are to be expected.
   void start(double span, std::size_t disks, double end, bool far, bool busy = true) {
     span_ = span;
     disks_ = disks;
@@ -30,7 +30,7 @@ class FutureEventList {
     in_tournament_ ? tournament_.start(disks) : calendar_.start(span, disks, end, far);
   }
 
-  /// The next event of disk i is now at that time, which is not before that of the last one taken; infinity for none.
+  /// Sets the time of the next event of disk i, not before that of the last one taken; infinity for none.
   void push(const Events& events, std::int32_t i, double time) {
     in_tournament_ ? tournament_.push(i, time) : calendar_.push(events, {time, i, events.other(i)});
   }
@@ -41,7 +41,7 @@ class FutureEventList {
     calendar_.push(events, {time_j, j, events.other(j)});
   }
 
-  /// The earliest event. on_turn(k) is called when the turn of the calendar's span k comes.
+  /// Returns the earliest event. on_turn(k) is called when the turn of the calendar's span k comes.
   template <class OnTurn>
   [[nodiscard]] Upcoming next(const Events& events, OnTurn&& on_turn) {
     if (in_tournament_) {
@@ -59,15 +59,16 @@ class FutureEventList {
   /// Takes away the event that next() returned and that of disk j, which will get a new one as well.
   void pop(const Events& events, std::int32_t j) { in_tournament_ ? tournament_.pop(events, j) : calendar_.pop(events); }
 
-  /// Whose event comes after the one that was popped, unless a new one is earlier. Any disk where predicts_next() is false.
+  /// The disk whose event comes after the one that was popped, unless a new one is earlier. Requires predicts_next().
   [[nodiscard]] std::int32_t predicted_next() const { return tournament_.predicted_next(); }
 
+  /// Whether predicted_next() can say it: the list is a tournament.
   [[nodiscard]] bool predicts_next() const { return in_tournament_; }
 
-  /// For a look ahead, where disks are many.
+  /// The calendar, for prefetching where disks are many.
   [[nodiscard]] const CalendarQueue<Events>& calendar() const { return calendar_; }
 
-  /// Events pushed since start().
+  /// The number of events pushed since start().
   [[nodiscard]] std::uint64_t pushed() const { return in_tournament_ ? tournament_.pushed() : calendar_.pushed() + moved_; }
 
   [[nodiscard]] std::size_t bytes() const { return calendar_.bytes() + tournament_.bytes(); }
@@ -77,14 +78,14 @@ class FutureEventList {
     return in_tournament_ ? tournament_.holds(events, disk) : calendar_.holds(events, disk);
   }
 
-  /// Its whole state, for core/archive.hpp.
+  /// Archives the whole state, for core/archive.hpp.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(in_tournament_, tournament_, calendar_, span_, disks_, end_, far_, moved_);
   }
 
  private:
-  /// Until the next start.
+  /// Moves all events to the calendar, until the next start.
   [[gnu::noinline]] void move_to_calendar(const Events& events) {
     in_tournament_ = false;
     calendar_.start(span_, disks_, end_, far_);

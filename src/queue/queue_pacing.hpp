@@ -1,5 +1,5 @@
 #pragma once
-// How wide the spans of the calendar should be, and whether many events are to be expected, by what the last epoch brought.
+// The width of the spans of the calendar, and whether many events are to be expected, by the last epoch.
 
 #include <algorithm>
 #include <cstddef>
@@ -35,7 +35,7 @@ class QueuePacing {
   /// Judges the time `elapsed` since begin(): `pushed` counts now the events that the queue ever got.
   void judge(double elapsed, std::uint64_t pushed, std::size_t disks) {
     const std::uint64_t events = pushed - begun_with_;
-    const bool enough = events > disks / 4 + 16;  // too few tell nothing: an epoch may have been cut short
+    const bool enough = events > disks / 4 + 16;  // too few say nothing: an epoch may have been cut short
     if (enough) span_ = events_per_span * elapsed / static_cast<double>(events);
     if (elapsed > 0.0) busy_ = enough;
   }

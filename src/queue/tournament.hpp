@@ -16,7 +16,7 @@ struct TournamentTree {
   double* level[3];
 };
 
-/// A disk with the earliest time. `others`: not 0 where some have the same.
+/// A disk with the earliest time. `others` is not 0 where other disks have the same time.
 struct Winner {
   double time;
   std::int32_t disk;
@@ -25,20 +25,20 @@ struct Winner {
 
 struct TournamentKernel {
   Winner (*winner)(const TournamentTree& tree);
-  /// The time of disk i becomes infinity.
+  /// Sets the time of disk i to infinity.
   void (*take)(const TournamentTree& tree, std::int32_t i);
-  /// Disk i, which had infinity, gets a time.
+  /// Sets the time of disk i, which was infinity.
   void (*enter)(const TournamentTree& tree, std::int32_t i, double time);
-  /// The time of disk `out` becomes infinity; then i, which had infinity, gets a time.
+  /// Sets the time of disk `out` to infinity, then that of i, which was infinity.
   void (*take_and_enter)(const TournamentTree& tree, std::int32_t out, std::int32_t i, double time);
-  /// The time of disk `out` becomes infinity; then i and j, which had infinity, get times.
+  /// Sets the time of disk `out` to infinity, then those of i and j, which were infinity.
   void (*take_and_enter_two)(const TournamentTree& tree, std::int32_t out, std::int32_t i, double time_i, std::int32_t j,
                              double time_j);
-  /// The members of a group that have that time, a bit for each.
+  /// Returns the members of a group that have that time, a bit for each.
   std::uint32_t (*among)(const double* group, double time);
 };
 
-/// The best kernel for this machine and two or three levels.
+/// Returns the best kernel for this machine and two or three levels.
 const TournamentKernel& tournament_kernel(int levels);
 
 }  // namespace carom

@@ -107,7 +107,7 @@ CAROM_INLINE std::uint32_t among(const double* group, double time) {
 
 #endif
 
-/// The vector in which a place is.
+/// Returns the vector that holds a place.
 CAROM_INLINE double* vector_of(double* level, std::size_t place) {
   return level + (place & ~(sizeof(Times) / sizeof(double) - 1));
 }
@@ -122,7 +122,7 @@ CAROM_INLINE void lower(double* level, std::size_t place, double time) {
   store(vector, replaced(load(vector), place, lesser(load(vector), times_of(time))));
 }
 
-/// One of a group gets another time. Returns the least of the group then.
+/// Sets the time of one member of a group. Returns the least time of the group then.
 CAROM_INLINE double replace(double* group, std::size_t place, double time) {
 #if defined(__AVX512F__)
   double* const vector = vector_of(group, place);

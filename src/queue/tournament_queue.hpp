@@ -1,7 +1,7 @@
 #pragma once
 // The engine's future event list where disks are few: a tournament of their times (queue/tournament.hpp). It has one time per
-// disk, that of its event, where a calendar also has those that no longer count; and who is next follows without a branch that
-// could be guessed wrong.
+// disk, that of its event, where a calendar also keeps events that no longer count; and the next disk follows without a branch
+// that could be guessed wrong.
 //
 // The next event is found as soon as one is taken away, before its disks get new ones: predicting these takes longer, and
 // a processor does the one beside the other. Only when a new event is earlier still, which is seldom, is it found again.
@@ -43,7 +43,7 @@ class TournamentQueue {
     pushed_ = 0;
   }
 
-  /// The next event of disk i is now at that time, which is not before that of the last one taken; infinity for none.
+  /// Sets the time of the next event of disk i, not before that of the last one taken; infinity for none.
   void push(std::int32_t i, double time) {
     ++pushed_;
     if (stage_ == Stage::known && absent(i)) [[likely]] {
@@ -96,10 +96,10 @@ class TournamentQueue {
     find(events);
   }
 
-  /// Whose event comes after the one that was popped, unless a new one is earlier.
+  /// The disk whose event comes after the one that was popped, unless a new one is earlier.
   [[nodiscard]] std::int32_t predicted_next() const { return first_.disk; }
 
-  /// So many events have been at one time that a calendar is the better place for them.
+  /// Whether so many events have been at one time that a calendar is the better place for them.
   [[nodiscard]] bool crowded() const { return crowded_; }
 
   /// Calls see(i, time) for every disk that has an event. Not between pop() and the push() that follows.
@@ -110,7 +110,7 @@ class TournamentQueue {
       if (tree_.level[0][i] < never) see(static_cast<std::int32_t>(i), tree_.level[0][i]);
   }
 
-  /// Events pushed since start(), those at infinity among them.
+  /// The number of events pushed since start(), those at infinity included.
   [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
 
   [[nodiscard]] std::size_t bytes() const { return keys_.capacity() * sizeof(double); }
@@ -121,7 +121,7 @@ class TournamentQueue {
     return (is_out ? first_.time : tree_.level[0][static_cast<std::size_t>(disk)]) == events.time(disk);
   }
 
-  /// Its whole state, for core/archive.hpp.
+  /// Archives the whole state, for core/archive.hpp.
   template <class Archive>
   void serialize(Archive& archive) {
     archive(disks_, keys_, first_, stage_, replaced_, crowded_, pushed_);
@@ -130,19 +130,19 @@ class TournamentQueue {
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
-  /// More at one time, each of which costs a look at all others.
+  /// The number of events at one time beyond which the list is crowded: each costs a comparison with all others.
   static constexpr int crowd = 8;
 
   enum class Stage : std::uint8_t {
     filling,  ///< only level[0] counts
-    unknown,  ///< who is next
-    known,
-    out  ///< known, and has left the tree already, when its turn has not come yet
+    unknown,  ///< the next disk has to be found
+    known,    ///< first_ is the next disk
+    out       ///< as known, and its time has already been taken out of the tree
   };
 
   static constexpr std::size_t groups_of(std::size_t keys) { return (keys + tournament_group - 1) / tournament_group; }
 
-  /// Room for all levels, one behind the other.
+  /// Allocates all levels, one behind the other.
   void lay_out() {
     const std::size_t groups = std::max<std::size_t>(groups_of(disks_), 1), leaves = tournament_group * groups,
                       nodes = tournament_group * groups_of(groups);
@@ -154,7 +154,7 @@ class TournamentQueue {
 
   [[nodiscard]] bool absent(std::int32_t i) const { return tree_.level[0][static_cast<std::size_t>(i)] == never; }
 
-  /// All levels from the first.
+  /// Fills all levels from the first.
   [[gnu::noinline]] void fill() {
     const std::size_t groups = static_cast<std::size_t>(tree_.level[1] - tree_.level[0]) / tournament_group;
     for (int n = 0; n + 1 < levels_; ++n)
@@ -173,13 +173,13 @@ class TournamentQueue {
       settle(events);
   }
 
-  /// Another may be as early as the one that was to be next.
+  /// Has the next disk found again: another may be as early as the one that was to be next.
   [[gnu::noinline]] void put_back() {
     if (stage_ == Stage::out && first_.time < never) kernel_->enter(tree_, first_.disk, first_.time);
     stage_ = Stage::unknown;
   }
 
-  /// Whatever event there was of disk i. Where many are replaced, all levels are made anew in the end.
+  /// Sets the time of disk i, whatever event it had. Where many are replaced, all levels are made anew in the end.
   [[gnu::noinline]] void replace(std::int32_t i, double time) {
     if (stage_ != Stage::filling) put_back();
     if (stage_ != Stage::filling && ++replaced_ > disks_ / 16) stage_ = Stage::filling;

@@ -1,4 +1,4 @@
-// The cells of neighbourhoods: which a range has, in which order, and that nobody is lost where they overflow.
+// The cells of neighbourhoods: which a range has, in which order, and that no disk is lost where they overflow.
 
 #include "neighbours/neighbourhood_cells.hpp"
 

@@ -48,7 +48,7 @@ TEST(CalendarQueue, ServesAnEventAtTheTimeJustTaken) {
     events.set(i, 2.0, i);
     queue.push(events, {2.0, i, events.other(i)});
   }
-  for (int k = 0; k < 100; ++k) {  // disk 0 goes on for ever at this instant: nobody else gets a turn
+  for (int k = 0; k < 100; ++k) {  // disk 0 goes on for ever at this instant: no other disk gets a turn
     ASSERT_EQ(queue.next(events, no_look)->disk, 0);
     queue.pop(events);
     queue.push(events, {2.0, 0, events.other(0)});
