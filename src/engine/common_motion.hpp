@@ -4,9 +4,9 @@
 // each other, and ever slower against each other. So what it leaves is given back.
 
 #include "core/vec2.hpp"
+#include "effects/plain_world.hpp"
 
 #include <carom/box.hpp>
-#include <carom/effects.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,8 @@
 #pragma once
 // Why an engine can go no further: time stands still, speeds are too small to compute with, or a velocity is not finite.
 
+#include "effects/plain_world.hpp"
 #include "effects/vanishing.hpp"
-
-#include <carom/effects.hpp>
 
 #include <algorithm>
 #include <cstddef>
