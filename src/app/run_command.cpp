@@ -60,7 +60,7 @@ Simulation simulation_for(const RunOptions& options, const Scene& scene, const s
   try {
     return make_simulation(scene, FixedStep{options.method, options.dt.value_or(scene.run.sample_every.value_or(0.0))});
   } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--dt: {}", error.what()));
+    throw UsageError(fmt::format("--method {}: {}", options.method, error.what()));
   }
 }
 
@@ -74,7 +74,6 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   if (options.pace && !(*options.pace > 0.0 && std::isfinite(*options.pace)))
     throw UsageError(fmt::format("--pace {:g}: it is simulated time per second and must be positive", *options.pace));
   if (options.verify_horizon) require_no_effects(scene, "--verify-horizon");
-  if (options.method != "exact") require_no_effects(scene, "--method");
   if (options.method != "exact" && !scene.observe.empty())
     throw UsageError(fmt::format("--method {}: [observe] measures exact trajectories; leave out one of the two", options.method));
   Simulation simulation = simulation_for(options, scene, engine);

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace carom {
@@ -41,8 +42,8 @@ using Grid = GuardedStep<Rule, ClosePairs>;
 template <template <class> class Step>
 std::unique_ptr<AnyEngine> make(const Scene& scene, const Start& start, double dt) {
   if (scene.effects.collision.rule == CollisionRule::reversal)
-    return std::make_unique<EngineAdapter<Stepper<Step<Reversal>>>>(scene.box, start.disks, start.state, dt);
-  return std::make_unique<EngineAdapter<Stepper<Step<Specular>>>>(scene.box, start.disks, start.state, dt);
+    return std::make_unique<EngineAdapter<Stepper<Step<Reversal>>>>(scene.box, start.disks, start.state, dt, scene.effects);
+  return std::make_unique<EngineAdapter<Stepper<Step<Specular>>>>(scene.box, start.disks, start.state, dt, scene.effects);
 }
 
 struct Entry {
@@ -72,6 +73,20 @@ void require_sound_step(const FixedStep& step, const Scene& scene, const Start& 
                     *scene.run.time, steps, step.dt));
 }
 
+/// The effects that fixed-step methods have besides the collision rule and hard walls.
+constexpr std::string_view known_effects[] = {"restitution", "gravity", "inelastic_walls"};
+
+void require_known_effects(const Effects& effects) {
+  std::vector<std::string> unknown = effects.acting();
+  std::erase_if(unknown,
+                [](const std::string& name) { return std::ranges::find(known_effects, name) != std::end(known_effects); });
+  if (unknown.empty()) return;
+  throw std::invalid_argument(
+      fmt::format("fixed-step methods know the collision rule, hard walls, restitution and gravity; this scene asks for {} "
+                  "besides, which exact events alone simulate",
+                  fmt::join(unknown, ", ")));
+}
+
 /// Swept steps tell images apart by the nearest one.
 void require_room_for_images(const Box& box, const Disks& disks) {
   double largest = 0.0;
@@ -99,10 +114,7 @@ Simulation Simulation::begin(const Scene& scene, Start start, const FixedStep& s
     throw std::invalid_argument(
         fmt::format("there is no fixed-step method \"{}\"; choose one of {}", step.method, fmt::join(fixed_step_names(), ", ")));
   require_sound_step(step, scene, start);
-  if (!scene.effects.neutral())
-    throw std::invalid_argument(
-        fmt::format("fixed-step methods know the collision rule and hard walls only; this scene asks for {} besides",
-                    words_beyond_the_rule(scene.effects)));
+  require_known_effects(scene.effects);
   if (step.method == "swept") require_room_for_images(scene.box, start.disks);
   auto running = entry->make(scene, start, step.dt);
   return Simulation(

@@ -1,10 +1,16 @@
 #pragma once
-// The disks of a fixed-step method: positions and velocities at the present step, and nothing else.
+// The disks of a fixed-step method: positions and velocities at the present step, how disks fly, and what collisions keep of
+// their speed.
 
 #include "core/domain.hpp"
+#include "core/sides.hpp"
+#include "effects/gravity.hpp"
+#include "effects/impact.hpp"
 
+#include <carom/effects.hpp>
 #include <carom/state.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +20,7 @@
 namespace carom {
 
 struct Bodies {
-  Bodies(const Box& box, const Disks& disks, const State& start)
+  Bodies(const Box& box, const Disks& disks, const State& start, const Effects& effects = {})
       : domain(box),
         around(domain.periodic[0] ? domain.length[0] : infinity<double>,
                domain.periodic[1] ? domain.length[1] : infinity<double>),
@@ -22,7 +28,10 @@ struct Bodies {
         v(disks.count()),
         radius(disks.radius),
         mass(disks.mass),
+        falling(effects.gravity),
+        impact{(1.0 + effects.collision.restitution.value_or(1.0)) / 2.0, 0.0},
         images(Images::Zero(2, static_cast<Eigen::Index>(disks.count()))) {
+    for (std::size_t k = 0; k < wall_restitution.size(); ++k) wall_restitution[k] = effects.walls[k].restitution.value_or(1.0);
     for (std::size_t i = 0; i < r.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       r[i] = start.positions.col(column);
@@ -69,6 +78,28 @@ struct Bodies {
     images.col(static_cast<Eigen::Index>(i)) += domain.wrap(r[i]);
   }
 
+  /// Moves all disks along their flights for a time t, on parabolas under gravity.
+  void fly(double t) {
+    if (!falling.present()) {
+      for (std::size_t i = 0; i < count(); ++i) move(i, v[i], t);
+      return;
+    }
+    for (std::size_t i = 0; i < count(); ++i) {
+      move(i, mean_velocity(v[i], t), t);
+      accelerate(i, t);
+    }
+  }
+
+  /// Returns the mean velocity over a time t of a flight that begins with velocity u.
+  [[nodiscard]] Vec2<double> mean_velocity(const Vec2<double>& u, double t) const {
+    return falling.present() ? Vec2<double>(u + (t / 2) * falling.g) : u;
+  }
+
+  /// Gives disk i the velocity that it has a time t later, or earlier for t < 0.
+  void accelerate(std::size_t i, double t) {
+    if (falling.present()) v[i] += t * falling.g;
+  }
+
   template <class Archive>
   void serialize(Archive& archive) {
     archive(r, v, images);
@@ -80,6 +111,9 @@ struct Bodies {
   std::vector<Vec2<double>> v;
   std::vector<double> radius;
   std::vector<double> mass;
+  Falling<double> falling;
+  Inelasticity<double> impact;             ///< of two disks
+  std::array<double, 4> wall_restitution;  ///< left, right, bottom, top
   Images images;
 
  private:

@@ -2,7 +2,7 @@
 // The part of fixed-step methods that find contacts within a step (backtrack.hpp): the order of events in a step, walls, and
 // the close pairs in which they look. In each step:
 //
-//   1. move all disks by v dt, as if none met another;
+//   1. move all disks by v dt, under gravity along the parabola, as if none met another;
 //   2. find the pairs and walls that were met on the way, as Search says, each with its time t, -dt <= t <= 0, from the end of
 //      the step;
 //   3. take the earliest: its disks get their new velocities v' at the separation r + v t of that moment, and stand at the end of
@@ -13,9 +13,11 @@
 // event. Events at one instant are taken in the order of the disks' ids, so results do not depend on how pairs are found. In step
 // 0, which has no flight before it, pairs that overlap and approach collide where they are, as in guarded.hpp.
 //
-// No step takes more than 100 events per disk; what is left then is taken at the beginning of the next. That many mean a dt in
-// which disks cross the box.
+// No disk takes more than 100 events in a step; what is left then is taken at the beginning of the next. That many mean a dt in
+// which disks cross the box. Inelastic disks that come to rest on a floor, where exact engines end, are turned once in each step
+// as in guarded.hpp, and sink as there.
 
+#include "core/fall_time.hpp"
 #include "core/vec2.hpp"
 #include "effects/impact.hpp"
 #include "stepper/bodies.hpp"
@@ -51,21 +53,22 @@ class ContactStep {
   void check(Bodies& bodies, Tally& tally) {
     const Instant end = tally.time;
     find(bodies);
-    for (std::size_t left = 100 * bodies.count(); !meetings_.empty() && left > 0;) {
+    while (!meetings_.empty()) {
       const Meeting next = meetings_.front();
       std::pop_heap(meetings_.begin(), meetings_.end(), later);
       meetings_.pop_back();
       if (!holds(next)) continue;
-      --left;
       tally.time = end.plus(next.time);
       if (next.j >= 0)
         meet_disk(bodies, next, tally);
       else
         meet_wall(bodies, next, tally);
     }
-    meetings_.clear();
     strays_.clear();
-    for (const std::uint32_t i : turned_) disks_[i].since = never;
+    for (const std::uint32_t i : turned_) {
+      disks_[i].since = never;
+      disks_[i].events = 0;
+    }
     turned_.clear();
     tally.time = end;
   }
@@ -91,10 +94,12 @@ class ContactStep {
 
  private:
   static constexpr double never = -infinity<double>;
+  static constexpr std::uint32_t most_events = 100;  ///< of a disk in a step
 
   struct Disk {
-    double since = never;     ///< its last event in this part of a step, from the end of it
-    std::uint32_t turns = 0;  ///< events so far
+    double since = never;      ///< its last event in this part of a step, from the end of it
+    std::uint32_t events = 0;  ///< in it
+    std::uint32_t turns = 0;   ///< events so far
   };
   struct Meeting {
     double time;  ///< from the end of the step, <= 0
@@ -108,7 +113,10 @@ class ContactStep {
   }
 
   [[nodiscard]] bool holds(const Meeting& m) const {
-    return m.turns_i == disks_[m.i].turns && (m.j < 0 || m.turns_j == disks_[static_cast<std::size_t>(m.j)].turns);
+    return holds(disks_[m.i], m.turns_i) && (m.j < 0 || holds(disks_[static_cast<std::size_t>(m.j)], m.turns_j));
+  }
+  [[nodiscard]] static bool holds(const Disk& disk, std::uint32_t turns) {
+    return disk.turns == turns && disk.events < most_events;
   }
 
   /// Returns into how many parts a flight is cut, so that no disk goes farther in one than the search can follow.
@@ -136,7 +144,7 @@ class ContactStep {
   void fly(Bodies& bodies, double time) {
     span_ = time;
     const bool listed_anew = Search::along_flights && pairs_.about_to_move(bodies, time);
-    for (std::size_t i = 0; i < bodies.count(); ++i) bodies.move(i, bodies.v[i], time);
+    bodies.fly(time);
     if (!Search::along_flights) pairs_.moved(bodies);
     if (!listed_anew) return;
     for (std::uint32_t i = 0; i < bodies.count(); ++i)
@@ -168,26 +176,51 @@ class ContactStep {
   void look_at_walls(const Bodies& bodies, std::uint32_t i) {
     for (int axis = 0; axis < 2; ++axis) {
       const double across = bodies.v[i][axis];
-      if (bodies.domain.periodic[axis] || across == 0.0) continue;
+      if (bodies.domain.periodic[axis]) continue;
+      if (bodies.falling.g[axis] != 0.0) {
+        for (const bool above : {false, true}) look_at_parabola(bodies, i, axis, above);
+        continue;
+      }
+      if (across == 0.0) continue;
       const bool above = across > 0.0;
-      const double room = above ? bodies.domain.upper[axis] - bodies.radius[i] - bodies.r[i][axis]
-                                : bodies.r[i][axis] - (bodies.domain.lower[axis] + bodies.radius[i]);
-      if (!(room < 0.0)) continue;
-      const double time = std::max({room / std::abs(across), -span_, disks_[i].since});
+      const double gap = room(bodies, i, axis, above);
+      if (!(gap < 0.0)) continue;
+      const double time = std::max({gap / std::abs(across), -span_, disks_[i].since});
       add({time, i, -1 - (2 * axis + (above ? 1 : 0)), disks_[i].turns, 0});
     }
   }
 
+  /// Returns the distance of disk i from a wall; negative beyond it.
+  [[nodiscard]] static double room(const Bodies& bodies, std::uint32_t i, int axis, bool above) {
+    return above ? bodies.domain.upper[axis] - bodies.radius[i] - bodies.r[i][axis]
+                 : bodies.r[i][axis] - (bodies.domain.lower[axis] + bodies.radius[i]);
+  }
+
+  /// Looks for the first time since its last event at which disk i came to a wall on its parabola.
+  void look_at_parabola(const Bodies& bodies, std::uint32_t i, int axis, bool above) {
+    const double sign = above ? 1.0 : -1.0, begin = std::max(-span_, disks_[i].since);
+    const double outward = sign * bodies.v[i][axis], acceleration = sign * bodies.falling.g[axis];
+    const double gap = room(bodies, i, axis, above) - begin * (outward + acceleration * (begin / 2));
+    const double rising = -(outward + acceleration * begin);
+    const bool is_beyond = gap < 0.0 && rising >= 0.0;  // and comes back only if it gets out of the wall before
+    const double time = begin + (is_beyond ? return_time(gap, rising, -acceleration) : fall_time(gap, rising, -acceleration));
+    if (time <= 0.0) add({time, i, -1 - (2 * axis + (above ? 1 : 0)), disks_[i].turns, 0});
+  }
+
   void meet_disk(Bodies& bodies, const Meeting& m, Tally& tally) {
     const auto i = m.i, j = static_cast<std::uint32_t>(m.j);
+    bodies.accelerate(i, m.time);
+    bodies.accelerate(j, m.time);
     const Vec2<double> v_i = bodies.v[i], v_j = bodies.v[j];
     const Vec2<double> r = bodies.separation(bodies.r[i], bodies.r[j]) + (v_i - v_j) * m.time;
     if (r.dot(v_i - v_j) < 0) {
-      const double virial = collide<Rule, double>(r, bodies.mass[i], bodies.v[i], bodies.mass[j], bodies.v[j]).virial;
-      tally.pair(i, j, virial, bodies.v[i], bodies.v[j]);
+      const auto impact = collide<Rule, double>(r, bodies.mass[i], bodies.v[i], bodies.mass[j], bodies.v[j], bodies.impact);
+      tally.pair(i, j, impact.virial, impact.lost, bodies.v[i], bodies.v[j]);
       bodies.move(i, v_i - bodies.v[i], m.time);
       bodies.move(j, v_j - bodies.v[j], m.time);
     }
+    bodies.accelerate(i, -m.time);
+    bodies.accelerate(j, -m.time);
     turned(m.time, i);
     turned(m.time, j);
     look_around(bodies, i, j);
@@ -196,15 +229,18 @@ class ContactStep {
 
   void meet_wall(Bodies& bodies, const Meeting& m, Tally& tally) {
     const int wall = -1 - m.j, axis = wall / 2;
+    bodies.accelerate(m.i, m.time);
     const Vec2<double> before = bodies.v[m.i];
     turn_at_wall(bodies, m.i, axis, wall % 2 == 1, tally);
     bodies.move(m.i, before - bodies.v[m.i], m.time);
+    bodies.accelerate(m.i, -m.time);
     turned(m.time, m.i);
     look_around(bodies, m.i, m.i);
   }
 
   void turned(double time, std::uint32_t i) {
     disks_[i].since = time;
+    ++disks_[i].events;
     ++disks_[i].turns;
     turned_.push_back(i);
   }

@@ -59,7 +59,8 @@ bool ClosePairs::about_to_move(const Bodies& bodies, double time) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < bodies.count(); ++i) {
     const double here = bodies.squared_distance(bodies.r[i], built_[i]);
-    const double there = bodies.squared_distance(bodies.r[i] + bodies.v[i] * time, built_[i]);
+    const Vec2<double> end = bodies.r[i] + bodies.mean_velocity(bodies.v[i], time) * time;
+    const double there = bodies.squared_distance(end, built_[i]);
     farthest = std::max({farthest, here, there});
   }
   const bool would_stray = !(farthest <= farthest_squared_);

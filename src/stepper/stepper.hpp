@@ -4,7 +4,7 @@
 // scene, sample and file works as there.
 //
 // Step k happens at k dt, the product taken exactly. A state between two steps is that of the last one, moved on as the method
-// moves: in straight flight, or by a shorter step where it finds contacts within steps. Looking at it changes nothing.
+// moves: in free flight, or by a shorter step where it finds contacts within steps. Looking at it changes nothing.
 
 #include "core/instant.hpp"
 #include "stepper/bodies.hpp"
@@ -26,9 +26,10 @@ namespace carom {
 template <class Step>
 class Stepper {
  public:
-  /// Requires disks inside the box along periodic axes, everything finite, dt > 0.
-  Stepper(const Box& box, const Disks& disks, const State& start, double dt)
-      : bodies_(box, disks, start), step_(bodies_, dt), dt_(dt) {}
+  /// Requires disks inside the box along periodic axes, everything finite, dt > 0. Of `effects` it knows
+  /// restitution, of walls too, and gravity.
+  Stepper(const Box& box, const Disks& disks, const State& start, double dt, const Effects& effects = {})
+      : bodies_(box, disks, start, effects), step_(bodies_, dt), dt_(dt) {}
 
   /// Takes every step at a time <= target (to rounding), then stands at target and returns true. Returns false after the step in
   /// which totals().pair has reached `pair_limit`, and after about as much work as `event_limit` events of an engine.

@@ -4,6 +4,7 @@
 
 #include "core/instant.hpp"
 #include "core/running_totals.hpp"
+#include "core/sides.hpp"
 #include "core/vec2.hpp"
 
 #include <carom/state.hpp>
@@ -17,20 +18,22 @@ namespace carom {
 class Tally {
  public:
   /// A pair's velocities were changed. `virial` is r . dp of the pair as it stood: negative where disks that were already
-  /// parting were sent back.
-  void pair(std::size_t i, std::size_t j, double virial, const Vec2<double>& v_i, const Vec2<double>& v_j) {
+  /// parting were sent back. `lost` is the energy that the collision took.
+  void pair(std::size_t i, std::size_t j, double virial, double lost, const Vec2<double>& v_i, const Vec2<double>& v_j) {
     ++totals.pair;
     totals.virial.add(virial);
+    if (lost != 0) totals.dissipated.add(lost);
     if (!recording) return;
     const bool in_order = i < j;
     log.push_back({time.high, time.low, static_cast<std::int32_t>(in_order ? i : j), static_cast<std::int32_t>(in_order ? j : i),
                    in_order ? v_i : v_j, in_order ? v_j : v_i});
   }
 
-  /// A velocity was turned round at a wall; `impulse` is what the wall took, outward positive.
-  void wall(std::size_t i, Wall which, double impulse, const Vec2<double>& v) {
+  /// A velocity was turned round at a wall; `impulse` and `energy` are what the wall took, the impulse outward positive.
+  void wall(std::size_t i, Wall which, double impulse, double energy, const Vec2<double>& v) {
     ++totals.wall;
-    totals.wall_impulse[static_cast<std::size_t>(-1 - which)].add(impulse);
+    totals.wall_impulse[index_of(which)].add(impulse);
+    if (energy != 0) totals.wall_energy[index_of(which)].add(energy);
     if (recording) log.push_back({time.high, time.low, static_cast<std::int32_t>(i), which, v, Eigen::Vector2d::Zero()});
   }
 

@@ -1,6 +1,8 @@
 #pragma once
 // The reflection of a disk at a wall, which all fixed-step methods share.
 
+#include "core/sides.hpp"
+#include "effects/rebound.hpp"
 #include "stepper/bodies.hpp"
 #include "stepper/tally.hpp"
 
@@ -8,12 +10,18 @@
 
 namespace carom {
 
-/// Reverses the velocity of disk i across the lower wall of an axis, or the upper one where `above`.
+/// Reverses the velocity of disk i across the lower wall of an axis, or the upper one where `above`, and takes from it what the
+/// wall's restitution says. A disk that is pressed against the wall leaves it as rebound() says.
 inline void turn_at_wall(Bodies& bodies, std::size_t i, int axis, bool above, Tally& tally) {
+  const Wall wall = wall_of(axis, above);
+  const double sign = above ? 1.0 : -1.0;
   double& across = bodies.v[i][axis];
-  const double outward = above ? across : -across;
-  across = -across;
-  tally.wall(i, static_cast<Wall>(wall_left - 2 * axis - (above ? 1 : 0)), 2 * bodies.mass[i] * outward, bodies.v[i]);
+  const double outward = sign * across, restitution = bodies.wall_restitution[index_of(wall)];
+  const double parting =
+      outward > 0.0 ? rebound(outward, restitution, sign * bodies.falling.g[axis], bodies.radius[i]) : restitution * outward;
+  across = -sign * parting;
+  const double energy = bodies.mass[i] * (outward * outward - parting * parting) / 2;
+  tally.wall(i, wall, bodies.mass[i] * (outward + parting), energy, bodies.v[i]);
 }
 
 }  // namespace carom

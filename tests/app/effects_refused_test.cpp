@@ -20,10 +20,8 @@ class EffectsRefused : public ProgramTest {
 };
 
 TEST_F(EffectsRefused, ByEveryCommandThatWouldIgnoreThem) {
-  const std::vector<std::vector<std::string>> commands = {{"compare", "gas.toml", "--out", "out"},
-                                                          {"horizon", "gas.toml"},
-                                                          {"run", "gas.toml", "--method", "grid", "--dt", "0.01", "--out", "out"},
-                                                          {"run", "gas.toml", "--verify-horizon", "--out", "out"}};
+  const std::vector<std::vector<std::string>> commands = {
+      {"compare", "gas.toml", "--out", "out"}, {"horizon", "gas.toml"}, {"run", "gas.toml", "--verify-horizon", "--out", "out"}};
   for (std::vector<std::string> command : commands) {
     for (const char* change : {"collision.restitution=0.9", "shear={rate=0.1}"}) {
       std::vector<std::string> words = command;
@@ -34,6 +32,19 @@ TEST_F(EffectsRefused, ByEveryCommandThatWouldIgnoreThem) {
       EXPECT_FALSE(std::filesystem::exists(file("out")));
     }
   }
+}
+
+TEST_F(EffectsRefused, ByFixedStepsThatKnowRestitutionAndGravityAlone) {
+  const std::vector<std::string> command = {"run", "gas.toml", "--method", "grid", "--dt", "0.01", "--out", "out", "--set"};
+  std::vector<std::string> words = command;
+  words.emplace_back("shear={rate=0.1}");
+  const Outcome refused = carom(words);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--method grid: fixed-step methods know the collision rule, hard walls, restitution and "
+                                     "gravity; this scene asks for shear besides"));
+  EXPECT_FALSE(std::filesystem::exists(file("out")));
+  words.back() = "collision.restitution=0.9";
+  EXPECT_EQ(carom(words).exit_code, 0);
 }
 
 TEST_F(EffectsRefused, ButNotAtTheirNeutralValue) {

@@ -6,6 +6,7 @@
 #include "effects/specular.hpp"
 #include "stepper/stepper.hpp"
 #include "stepper/swept.hpp"
+#include "support/exact_run.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -113,67 +114,6 @@ TEST(Backtrack, DisksThatOverlapAtTheStartCollideThereIfTheyApproach) {
     s.run_until(2.0);
     EXPECT_EQ(s.totals().pair, u > 0.0 ? 1U : 0U);
     EXPECT_EQ(s.state().positions(0, 0), 5.75);
-  }
-}
-
-/// What decides on which side of the line a run is, from the events of an exact one.
-struct Line {
-  double shortest_flight = 1e300;   ///< of a disk, between two of its events
-  double shortest_overlap = 1e300;  ///< for how long a pair would overlap if the collision did not happen
-};
-
-struct ExactRun {
-  State end;
-  std::vector<Event> events;
-  Line line;
-};
-
-ExactRun exact_run(const Scene& scene, const State& start, double end) {
-  Simulation exact = make_simulation(scene, start, "textbook-long-double");
-  exact.record_events(true);
-  ExactRun run;
-  std::vector<double> last(static_cast<std::size_t>(exact.disks().count()), -1e300);
-  State before = exact.state();
-  while (const std::optional<Event> event = exact.step(end)) {
-    const State at = exact.state();
-    for (const std::int32_t disk : {event->disk, event->partner}) {
-      if (disk < 0) continue;
-      double& since = last[static_cast<std::size_t>(disk)];
-      run.line.shortest_flight = std::min(run.line.shortest_flight, event->time - since);
-      since = event->time;
-    }
-    if (event->partner >= 0) {
-      Eigen::Vector2d r = at.positions.col(event->disk) - at.positions.col(event->partner);
-      for (int axis = 0; axis < 2; ++axis)
-        if (scene.box.periodic(axis)) r[axis] -= scene.box.lengths()[axis] * std::round(r[axis] / scene.box.lengths()[axis]);
-      const Eigen::Vector2d v = before.velocities.col(event->disk) - before.velocities.col(event->partner);
-      run.line.shortest_overlap = std::min(run.line.shortest_overlap, -2.0 * r.dot(v) / v.squaredNorm());
-    }
-    before = at;
-  }
-  run.events = exact.take_events();
-  run.end = exact.state();
-  return run;
-}
-
-double rms_difference(const Scene& scene, const State& a, const State& b) {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < a.positions.cols(); ++i)
-    for (int axis = 0; axis < 2; ++axis) {
-      double apart = a.positions(axis, i) - b.positions(axis, i);
-      if (scene.box.periodic(axis)) apart -= scene.box.lengths()[axis] * std::round(apart / scene.box.lengths()[axis]);
-      sum += apart * apart;
-    }
-  return std::sqrt(sum / static_cast<double>(a.positions.cols()));
-}
-
-void expect_the_events_of(const ExactRun& exact, Simulation& s, double tolerance, const std::string& what) {
-  const std::vector<Event> events = s.take_events();
-  ASSERT_EQ(events.size(), exact.events.size()) << what;
-  for (std::size_t k = 0; k < events.size(); ++k) {
-    EXPECT_EQ(events[k].disk, exact.events[k].disk) << what << ", event " << k;
-    EXPECT_EQ(events[k].partner, exact.events[k].partner) << what << ", event " << k;
-    EXPECT_NEAR(events[k].time, exact.events[k].time, tolerance) << what << ", event " << k;
   }
 }
 

@@ -1,0 +1,83 @@
+#pragma once
+// Runs by exact events that fixed steps are held against.
+
+#include <carom/scene.hpp>
+#include <carom/simulation.hpp>
+#include <carom/state.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+
+/// What decides on which side of the line a run is, from the events of an exact one.
+struct Line {
+  double shortest_flight = 1e300;   ///< of a disk, between two of its events
+  double shortest_overlap = 1e300;  ///< for how long a pair would overlap if the collision did not happen
+};
+
+struct ExactRun {
+  State end;
+  Totals totals;
+  std::vector<Event> events;
+  Line line;
+};
+
+inline ExactRun exact_run(const Scene& scene, const State& start, double end) {
+  Simulation exact = make_simulation(scene, start, "textbook-long-double");
+  exact.record_events(true);
+  ExactRun run;
+  std::vector<double> last(static_cast<std::size_t>(exact.disks().count()), -1e300);
+  State before = exact.state();
+  while (const std::optional<Event> event = exact.step(end)) {
+    const State at = exact.state();
+    for (const std::int32_t disk : {event->disk, event->partner}) {
+      if (disk < 0) continue;
+      double& since = last[static_cast<std::size_t>(disk)];
+      run.line.shortest_flight = std::min(run.line.shortest_flight, event->time - since);
+      since = event->time;
+    }
+    if (event->partner >= 0) {
+      Eigen::Vector2d r = at.positions.col(event->disk) - at.positions.col(event->partner);
+      for (int axis = 0; axis < 2; ++axis)
+        if (scene.box.periodic(axis)) r[axis] -= scene.box.lengths()[axis] * std::round(r[axis] / scene.box.lengths()[axis]);
+      const Eigen::Vector2d v = before.velocities.col(event->disk) - before.velocities.col(event->partner);
+      run.line.shortest_overlap = std::min(run.line.shortest_overlap, -2.0 * r.dot(v) / v.squaredNorm());
+    }
+    before = at;
+  }
+  run.events = exact.take_events();
+  run.end = exact.state();
+  run.totals = exact.totals();
+  return run;
+}
+
+inline double rms_difference(const Scene& scene, const State& a, const State& b) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < a.positions.cols(); ++i)
+    for (int axis = 0; axis < 2; ++axis) {
+      double apart = a.positions(axis, i) - b.positions(axis, i);
+      if (scene.box.periodic(axis)) apart -= scene.box.lengths()[axis] * std::round(apart / scene.box.lengths()[axis]);
+      sum += apart * apart;
+    }
+  return std::sqrt(sum / static_cast<double>(a.positions.cols()));
+}
+
+inline void expect_the_events_of(const ExactRun& exact, Simulation& s, double tolerance, const std::string& what) {
+  const std::vector<Event> events = s.take_events();
+  ASSERT_EQ(events.size(), exact.events.size()) << what;
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    EXPECT_EQ(events[k].disk, exact.events[k].disk) << what << ", event " << k;
+    EXPECT_EQ(events[k].partner, exact.events[k].partner) << what << ", event " << k;
+    EXPECT_NEAR(events[k].time, exact.events[k].time, tolerance) << what << ", event " << k;
+  }
+}
+
+}  // namespace carom::test
