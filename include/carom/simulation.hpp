@@ -204,7 +204,7 @@ Simulation make_simulation(const Scene& scene, const State& start, const FixedSt
 /// was written, or bytes that have changed since.
 Simulation restore_simulation(const Scene& scene, std::istream& in);
 
-/// "naive", "naive-edge", "guarded", "grid", "backtrack", "swept"
+/// "naive", "naive-edge", "guarded", "grid", "backtrack", "swept", "soft"
 std::vector<std::string> fixed_step_names();
 
 /// "fast", "general", "textbook", "textbook-float", ...: the engines, in the order in which "auto" prefers them.

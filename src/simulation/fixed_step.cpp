@@ -1,5 +1,6 @@
 // From a scene to a fixed-step method with the scene's collision rule.
 
+#include "simulation/fixed_step.hpp"
 #include "effects/reversal.hpp"
 #include "effects/specular.hpp"
 #include "simulation/catalogue.hpp"
@@ -9,6 +10,7 @@
 #include "stepper/grid.hpp"
 #include "stepper/guarded.hpp"
 #include "stepper/naive.hpp"
+#include "stepper/soft.hpp"
 #include "stepper/stepper.hpp"
 #include "stepper/swept.hpp"
 
@@ -19,9 +21,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace carom {
 
@@ -46,12 +51,17 @@ std::unique_ptr<AnyEngine> make(const Scene& scene, const Start& start, double d
   return std::make_unique<EngineAdapter<Stepper<Step<Specular>>>>(scene.box, start.disks, start.state, dt, scene.effects);
 }
 
+std::unique_ptr<AnyEngine> make_soft(const Scene& scene, const Start& start, double dt) {
+  return std::make_unique<EngineAdapter<Stepper<SoftStep<ClosePairs>>>>(scene.box, start.disks, start.state, dt, scene.effects);
+}
+
 struct Entry {
   const char* name;
   std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Start& start, double dt);
 };
 constexpr Entry entries[] = {{"naive", &make<Naive>}, {"naive-edge", &make<NaiveEdge>},    {"guarded", &make<Guarded>},
-                             {"grid", &make<Grid>},   {"backtrack", &make<BacktrackStep>}, {"swept", &make<SweptStep>}};
+                             {"grid", &make<Grid>},   {"backtrack", &make<BacktrackStep>}, {"swept", &make<SweptStep>},
+                             {"soft", &make_soft}};
 
 void require_sound_step(const FixedStep& step, const Scene& scene, const Start& start) {
   if (!(step.dt > 0.0 && std::isfinite(step.dt)))
@@ -76,27 +86,50 @@ void require_sound_step(const FixedStep& step, const Scene& scene, const Start& 
 /// The effects that fixed-step methods have besides the collision rule and hard walls.
 constexpr std::string_view known_effects[] = {"restitution", "gravity", "inelastic_walls"};
 
-void require_known_effects(const Effects& effects) {
+/// Returns which effects no fixed step knows; empty where there are none.
+std::string why_not_by_steps(const Effects& effects) {
   std::vector<std::string> unknown = effects.acting();
   std::erase_if(unknown,
                 [](const std::string& name) { return std::ranges::find(known_effects, name) != std::end(known_effects); });
-  if (unknown.empty()) return;
-  throw std::invalid_argument(
-      fmt::format("fixed-step methods know the collision rule, hard walls, restitution and gravity; this scene asks for {} "
-                  "besides, which exact events alone simulate",
-                  fmt::join(unknown, ", ")));
+  if (unknown.empty()) return "";
+  return fmt::format(
+      "fixed-step methods know the collision rule, hard walls, restitution and gravity; this scene asks for {} besides, which "
+      "exact events alone simulate",
+      fmt::join(unknown, ", "));
+}
+
+/// Springs act along the line of centres, and dashpots let disks part.
+std::string why_not_by_springs(const Effects& effects) {
+  if (effects.collision.rule == CollisionRule::reversal)
+    return "the method \"soft\" has a spring along the line of centres, which cannot turn round the whole relative velocity as "
+           "the rule \"reversal\" does; take another method, or the rule \"specular\"";
+  double least = effects.collision.restitution.value_or(1.0);
+  for (const WallProperties& wall : effects.walls) least = std::min(least, wall.restitution.value_or(1.0));
+  if (least > 0.0) return "";
+  return "the method \"soft\" has springs that let nothing part at restitution 0; take another method, or a restitution above 0";
 }
 
 /// Swept steps tell images apart by the nearest one.
-void require_room_for_images(const Box& box, const Disks& disks) {
+std::string why_not_by_sweeping(const Scene& scene) {
   double largest = 0.0;
-  for (const double radius : disks.radius) largest = std::max(largest, radius);
+  for (const Species& species : scene.species)
+    for (std::int64_t i = 0; i < (species.radii.empty() ? std::min<std::int64_t>(species.count, 1) : species.count); ++i)
+      largest = std::max(largest, species.radius_of(i));
   for (int axis = 0; axis < 2; ++axis)
-    if (box.periodic(axis) && box.lengths()[axis] < 4.2 * largest)
-      throw std::invalid_argument(
-          fmt::format("the method \"swept\" cannot tell a disk from its images where a periodic box of length {:g} is shorter "
-                      "than 2.1 diameters of {:g}; take \"backtrack\"",
-                      box.lengths()[axis], 2.0 * largest));
+    if (scene.box.periodic(axis) && scene.box.lengths()[axis] < 4.2 * largest)
+      return fmt::format(
+          "the method \"swept\" cannot tell a disk from its images where a periodic box of length {:g} is shorter than 2.1 "
+          "diameters of {:g}; take \"backtrack\"",
+          scene.box.lengths()[axis], 2.0 * largest);
+  return "";
+}
+
+/// Returns why a method cannot run the scene, in one sentence; empty where it can.
+std::string why_not(std::string_view method, const Scene& scene) {
+  std::string why = why_not_by_steps(scene.effects);
+  if (why.empty() && method == "soft") why = why_not_by_springs(scene.effects);
+  if (why.empty() && method == "swept") why = why_not_by_sweeping(scene);
+  return why;
 }
 
 }  // namespace
@@ -107,6 +140,12 @@ std::vector<std::string> fixed_step_names() {
   return names;
 }
 
+std::vector<std::string> fixed_steps_for(const Scene& scene) {
+  std::vector<std::string> names = fixed_step_names();
+  std::erase_if(names, [&](const std::string& name) { return !why_not(name, scene).empty(); });
+  return names;
+}
+
 Simulation Simulation::begin(const Scene& scene, Start start, const FixedStep& step) {
   const auto named = [&](const Entry& entry) { return entry.name == step.method; };
   const auto* const entry = std::find_if(std::begin(entries), std::end(entries), named);
@@ -114,8 +153,7 @@ Simulation Simulation::begin(const Scene& scene, Start start, const FixedStep& s
     throw std::invalid_argument(
         fmt::format("there is no fixed-step method \"{}\"; choose one of {}", step.method, fmt::join(fixed_step_names(), ", ")));
   require_sound_step(step, scene, start);
-  require_known_effects(scene.effects);
-  if (step.method == "swept") require_room_for_images(scene.box, start.disks);
+  if (const std::string why = why_not(step.method, scene); !why.empty()) throw std::invalid_argument(why);
   auto running = entry->make(scene, start, step.dt);
   return Simulation(
       std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry->name, std::move(running), "", step.dt}));

@@ -49,7 +49,7 @@ class MethodOption : public ProgramTest {
 
 TEST_F(MethodOption, EveryMethodWritesTheSameFilesAsTheExactOne) {
   ASSERT_EQ(carom({"run", "gas.toml", "--out", "exact"}).exit_code, 0);
-  for (const std::string method : {"naive", "naive-edge", "guarded", "grid", "backtrack", "swept"}) {
+  for (const std::string method : {"naive", "naive-edge", "guarded", "grid", "backtrack", "swept", "soft"}) {
     const Outcome outcome = carom({"run", "gas.toml", "--method", method, "--dt", "0.01", "--out", method});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, IsEmpty());
@@ -92,7 +92,7 @@ TEST_F(MethodOption, WhatDoesNotFitTogetherIsRefusedInOneSentence) {
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(directory_.path() / "gas"));
   };
-  refused({"--method", "leapfrog"}, "choose exact or one of: naive, naive-edge, guarded, grid, backtrack, swept");
+  refused({"--method", "leapfrog"}, "choose exact or one of: naive, naive-edge, guarded, grid, backtrack, swept, soft");
   refused({"--dt", "0.1"}, "exact events need none");
   refused({"--method", "grid", "--engine", "textbook"}, "leave out one of the two");
   refused({"--method", "grid", "--dt", "0"}, "dt must be positive and finite");

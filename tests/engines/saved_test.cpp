@@ -131,9 +131,10 @@ TEST(EnginesSaved, InEveryPrecision) {
 }
 
 TEST(EnginesSaved, WithEveryFixedStepMethodBetweenTwoStepsToo) {
-  const Scene scene = load_scene(example_path("box"));
   for (const std::string& method : fixed_step_names()) {
     SCOPED_TRACE(method);
+    Scene scene = load_scene(example_path("box"));
+    if (method == "soft") scene.effects.collision.rule = CollisionRule::specular;  // the one that springs know
     expect_the_same_after([&] { return make_simulation(scene, FixedStep{method, 0.01}); }, 1.005, 4.0, 1'000'000);
   }
 }

@@ -50,7 +50,8 @@ TEST(StepEffects, AnInelasticPairKeepsTheShareOfItsSpeedThatRestitutionSays) {
   const std::vector<Placed> pair = {{{6.0, 8.0}, {1.0, 0.0}, 0.5, 1.0}, {{8.0, 8.0}, {-3.0, 0.0}, 0.5, 3.0}};
   for (const CollisionRule rule : {CollisionRule::specular, CollisionRule::reversal})
     for (const std::string& method : fixed_step_names()) {
-      if (method == "naive" || method == "naive-edge") continue;  // which turns the pair again and again while it overlaps
+      // Naive steps turn the pair again and again while it overlaps; a spring takes many.
+      if (method == "naive" || method == "naive-edge" || method == "soft") continue;
       Scene scene = falling_scene(pair, 16.0);
       scene.effects.gravity.reset();
       scene.effects.collision = {.rule = rule, .restitution = 0.25};

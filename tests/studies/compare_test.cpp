@@ -53,7 +53,7 @@ TEST(Compare, HoldsEveryMethodAgainst113BitsFromEveryStart) {
   for (const std::uint64_t seed : {1U, 2U}) {
     for (const char* engine : {"textbook-float", "textbook", "fast", "textbook-long-double"}) expected.emplace(engine, 0.0, seed);
     for (const double dt : {0.02, 0.01, 0.005})
-      for (const char* method : {"naive", "guarded", "grid", "backtrack", "swept"})
+      for (const char* method : {"naive", "guarded", "grid", "backtrack", "swept", "soft"})
         expected.emplace(method, dt, seed);  // walls alone need naive-edge
   }
   for (const MethodRun& run : comparison.runs) found.insert(key_of(run));
@@ -141,12 +141,12 @@ TEST(Compare, ARunThatWouldTakeTooLongIsLeftOutByName) {
   options.longest = 0.05;
   const Comparison comparison = compare(dozen_scene(), options, {});
   EXPECT_TRUE(comparison.complete);
-  ASSERT_EQ(comparison.left_out.size(), 5U);  // a billion steps per time
+  ASSERT_EQ(comparison.left_out.size(), 6U);  // a billion steps per time
   for (const LeftOut& one : comparison.left_out) {
     EXPECT_EQ(one.method.dt, 1e-9);
     EXPECT_GT(one.seconds, 0.05);
   }
-  EXPECT_EQ(comparison.runs.size(), 3U + 5U);
+  EXPECT_EQ(comparison.runs.size(), 3U + 6U);
 }
 
 TEST(Compare, WallsAddTheNaiveMethodThatMeetsThemAtTheEdge) {
@@ -154,7 +154,7 @@ TEST(Compare, WallsAddTheNaiveMethodThatMeetsThemAtTheEdge) {
   std::set<std::string> names;
   for (const MethodRun& run : comparison.runs) names.insert(run.method.name);
   EXPECT_EQ(names, (std::set<std::string>{"textbook-float", "textbook", "textbook-long-double", "naive", "naive-edge", "guarded",
-                                          "grid", "backtrack", "swept"}));
+                                          "grid", "backtrack", "swept", "soft"}));
 }
 
 TEST(Compare, TakesErrorsOnTheScenesOwnSamplesWhereItHasSome) {

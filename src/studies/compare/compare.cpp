@@ -7,6 +7,7 @@
 #include "observe/pressure.hpp"
 #include "scene/drawn.hpp"
 #include "simulation/catalogue.hpp"
+#include "simulation/fixed_step.hpp"
 #include "simulation/start.hpp"
 #include "studies/compare/costs.hpp"
 #include "studies/compare/reference.hpp"
@@ -137,7 +138,7 @@ class Study {
     for (const std::string& engine : compared_engines(scene_, options_.engine)) all.push_back({engine});
     const bool walls = !scene_.box.periodic(0) || !scene_.box.periodic(1);
     for (const double dt : result_.plan.dts) {
-      for (const std::string& name : fixed_step_names())
+      for (const std::string& name : fixed_steps_for(scene_))
         if (walls || name != "naive-edge") all.push_back({name, dt});  // they differ at walls alone
     }
     return all;

@@ -40,7 +40,7 @@ int group_of(const std::string& method) {
   static const std::map<std::string, int> groups = {
       {"fast", 0},          {"grid", 1},           {"guarded", 2},  {"naive", 3},
       {"naive-edge", 4},    {"textbook-float", 5}, {"textbook", 6}, {"textbook-long-double", 7},
-      {"textbook-quad", 5}, {"backtrack", 4},      {"swept", 7}};
+      {"textbook-quad", 5}, {"backtrack", 4},      {"swept", 7},    {"soft", 5}};
   const auto found = groups.find(method);
   return found == groups.end() ? 7 : found->second;
 }

@@ -1,0 +1,15 @@
+#pragma once
+// Which fixed-step methods can run a scene.
+
+#include <carom/scene.hpp>
+
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// Returns those of fixed_step_names() that can run the scene, in the same order. The others throw std::invalid_argument where a
+/// simulation is made.
+[[nodiscard]] std::vector<std::string> fixed_steps_for(const Scene& scene);
+
+}  // namespace carom
