@@ -22,13 +22,13 @@ void enter_run_until(benchmark::State& state) {
   for (auto _ : state) simulation.run_until(now);
 }
 
-void look_at_state(benchmark::State& state) {
+void read_state(benchmark::State& state) {
   const Simulation simulation = gas(state);
   State seen;
   for (auto _ : state) simulation.state(seen);
 }
 
 BENCHMARK(enter_run_until)->Arg(1'000)->Arg(100'000);
-BENCHMARK(look_at_state)->Arg(1'000)->Arg(100'000);
+BENCHMARK(read_state)->Arg(1'000)->Arg(100'000);
 
 }  // namespace
