@@ -97,7 +97,7 @@ void study(const std::string& method, const Scene& scene, double collisions_per_
     equilibrating.run_until(equilibrating.time() + 0.1 * free_time / count);  // clear of contact
     const State state = equilibrating.state();
     from.push_back({state, Reference(scene, state, end, 1, [] { return true; }),
-                    seconds_in_loop(scene, state, {"auto", 0.0}, {end}).back()});
+                    seconds_of_run(scene, state, {"auto", 0.0}, {end}).until.back()});
     Simulation longer = make_simulation(scene, state);
     const double before = thread_seconds();
     longer.run_until(long_end);

@@ -196,17 +196,21 @@ void add_compare(CLI::App& program, Action& action, const Invocation& invocation
   command->add_option("--out", options->out, "Directory for the results (default: the scene's name and -compare)")
       ->type_name("DIR");
   command
-      ->add_option("--dt", options->dts,
-                   "A time step to compare (default: three per decade about the mean free time); may be repeated")
+      ->add_option(
+          "--dt", options->dts,
+          "A time step to compare (default: three per decade about the mean free time); may be repeated. A single one is "
+          "the short study of seconds: one start, and no other sizes and packing fractions")
       ->type_name("DT")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--seeds", options->seeds, "Number of starts: the scene's seed and those after it (default: 8)")
+  command
+      ->add_option("--seeds", options->seeds,
+                   "Number of starts: the scene's seed and those after it (default: 8; 1 with a single --dt)")
       ->type_name("N");
   command
       ->add_option(
           "--longest", options->longest,
-          "Seconds that one run of a fixed-step method may take (default: 0.5); a longer one is cut short, or left out and named")
+          "Seconds that one run of a fixed-step method may take (default: 0.3); a longer one is cut short, or left out and named")
       ->type_name("SECONDS");
   command
       ->add_option("--play", options->play,

@@ -21,6 +21,9 @@ using namespace std::chrono_literals;
 constexpr auto terminal_interval = 200ms;
 constexpr auto log_interval = 2s;
 
+/// The share of the work after which the pace says something of the rest.
+constexpr double least_done = 0.02;
+
 constexpr auto clear_line = "\r\x1b[K";
 
 }  // namespace
@@ -47,8 +50,18 @@ void ProgressLine::update(const Progress& progress) {
 }
 
 void ProgressLine::update(const std::string& doing, double fraction) {
+  if (!shown_) return;
   const Clock::time_point now = Clock::now();
-  if (shown_ && is_due(now)) show(fmt::format("{}  {:.0f} %", doing, 100.0 * std::clamp(fraction, 0.0, 1.0)), now);
+  if (!begun_) begun_ = {now, fraction};
+  if (!is_due(now)) return;
+  std::string text = fmt::format("{}  {:.0f} %", doing, 100.0 * std::clamp(fraction, 0.0, 1.0));
+  // The rest takes as long as its share says, by the pace since the first call.
+  const double done = fraction - begun_->second;
+  if (done > least_done && fraction < 1.0) {
+    const double seconds = std::chrono::duration<double>(now - begun_->first).count();
+    text += fmt::format("  about {} left", duration(seconds * (1.0 - fraction) / done));
+  }
+  show(text, now);
 }
 
 bool ProgressLine::is_due(Clock::time_point now) const {

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace carom::cli {
 
@@ -27,7 +28,8 @@ class ProgressLine {
   /// Cheap when called more often than the line changes.
   void update(const Progress& progress);
 
-  /// Shows the progress of work that is not a run: what is being done, and the fraction that is done (0 to 1).
+  /// Shows the progress of work that is not a run: what is being done, the fraction that is done (0 to 1), and after some of it
+  /// the time that the rest will take.
   void update(const std::string& doing, double fraction);
 
  private:
@@ -41,6 +43,7 @@ class ProgressLine {
   bool terminal_;
   RunEstimate estimate_;
   std::optional<Clock::time_point> last_;
+  std::optional<std::pair<Clock::time_point, double>> begun_;  ///< time and fraction of the first work that is not a run
 };
 
 }  // namespace carom::cli

@@ -1,9 +1,12 @@
 #include "theory/fixed_step.hpp"
 
+#include "theory/equation_of_state.hpp"
+
 #include <boost/math/quadrature/gauss.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace carom::theory {
 
@@ -59,6 +62,12 @@ double mean_depth(double step) {
            (g * step);
   };
   return over_speeds(1.0 / step, depth_of) / (1.0 - missed_fraction(step, Notices::approaching));
+}
+
+double bias_of_Z(double step, double eta) {
+  const double Z = kolafa_rottner(eta);
+  const double eta_times_slope = 1.0 / structure_factor_at_zero(eta) - Z;
+  return -3.0 * std::numbers::inv_sqrtpi * step * eta_times_slope / Z;
 }
 
 }  // namespace carom::theory

@@ -112,17 +112,91 @@ TEST(ComparePage, BiasesAreTakenFromTheExactEngineSeedBySeed) {
   }
 }
 
+TEST(ComparePage, ThePricesHaveARowForEveryMethodAndSayWhyOneIsMissing) {
+  KnownLaws laws;
+  laws.starts = 8;
+  Comparison comparison = laws.comparison({"grid", "backtrack"});
+  for (MethodRun& run : comparison.runs)
+    if (run.method.name == "backtrack") run.error[0] = run.method.dt <= 0.01 ? 1e-14 : 0.5;
+  const Page page = compare_page(comparison, dozen_scene(), "");
+  const TextTable& table = table_of(page, "Prices");
+  ASSERT_EQ(table.rows.size(), 4U);
+  EXPECT_THAT(table.rows[0], ElementsAre("exact: fast engine", "1 ×", "1 ×", HasSubstr("1 ×"), HasSubstr("1 ×")));
+  EXPECT_EQ(table.rows[1][1], "50 ×, dt = 4e-05, extrapolated by 5 in dt");
+  EXPECT_EQ(table.rows[2][0], "backtrack");
+  EXPECT_EQ(table.rows[2][2], "0.1 ×, dt = 0.02");
+  EXPECT_THAT(table.rows[3], ElementsAre("grid, Richardson", "–", "–", HasSubstr(" ×"), HasSubstr(" ×")));
+  laws.error_per_dt = 1e9;
+  comparison = laws.comparison();
+  const Page without_law = compare_page(comparison, dozen_scene(), "");
+  EXPECT_THAT(table_of(without_law, "Prices").rows[1][1], HasSubstr("not reached: the error is"));
+}
+
+TEST(ComparePage, TheHorizonOfEveryStepStandsAtItsPrice) {
+  // Errors of e, 2 e, 4 e, 8 e at times 2, 4, 6, 8 pass 1e-3 where e is between 1.25e-4 and 1e-3: with dt = 0.01 and 0.003 only.
+  KnownLaws laws;
+  Comparison comparison = laws.comparison();
+  HorizonRow row;
+  row.engine = "textbook";
+  row.collisions_per_disk = 40.0;
+  row.seconds = 2.0;
+  comparison.plan.horizon.rows = {row};
+  comparison.plan.horizon.timed_until = 4.0;
+  const std::vector<Plot> plots = plots_of(compare_page(comparison, dozen_scene(), ""));
+  const auto trust = std::find_if(plots.begin(), plots.end(), [](const Plot& plot) { return plot.id == "trust"; });
+  ASSERT_NE(trust, plots.end());
+  const Series* grid = series_of(*trust, name_of("grid"));
+  ASSERT_TRUE(grid != nullptr && grid->x.size() == 2);
+  // 1e-6 / 0.01 s for a time of 2; a mean free time of 0.5; twelve disks; in nanoseconds.
+  EXPECT_NEAR(grid->x[0], 1e-4 / 2.0 * 0.5 / 12.0 * 1e9, 1e-9);
+  EXPECT_NEAR(grid->y[0], 4.0 / 0.5, 1e-9);
+  EXPECT_NEAR(grid->y[1], (6.0 + 2.0 * std::log2(1.0 / 0.6)) / 0.5, 1e-9);  // from 6e-4 to 1.2e-3
+  const Series* exact = series_of(*trust, name_of("textbook"));
+  ASSERT_TRUE(exact != nullptr && exact->x.size() == 1);
+  EXPECT_NEAR(exact->x[0], 2.0 / 4.0 * 0.5 / 12.0 * 1e9, 1e-6);
+  EXPECT_EQ(exact->y[0], 40.0);
+}
+
+TEST(ComparePage, StepsWithAMistakeHaveAPlotWhereThereAreSome) {
+  Comparison comparison = KnownLaws{}.comparison({"backtrack"});
+  const auto page = [&] { return compare_page(comparison, dozen_scene(), ""); };
+  EXPECT_THAT(html_page(page()), HasSubstr("No method that finds contacts within a step was compared"));
+  comparison.runs[1].mistakes = StepMistakes{.steps = 200, .mistaken = 0};
+  EXPECT_THAT(html_page(page()), HasSubstr("Of 200 steps of the methods that find contacts within a step, none had a mistake"));
+  comparison.runs[1].mistakes->mistaken = 50;
+  const std::vector<Plot> plots = plots_of(page());
+  const auto plot = std::find_if(plots.begin(), plots.end(), [](const Plot& p) { return p.id == "mistakes"; });
+  ASSERT_NE(plot, plots.end());
+  EXPECT_THAT(plot->series.front().y, ElementsAre(0.25));
+  EXPECT_NEAR(plot->series.front().y_high.front() - 0.25, std::sqrt(0.25 * 0.75 / 200.0), 1e-15);
+}
+
+TEST(ComparePage, TheLawOfTheBiasIsDrawnForTheFluidThatItKnows) {
+  const auto law_in = [](const Scene& scene) {
+    const std::vector<Plot> plots = plots_of(compare_page(KnownLaws{}.comparison(), scene, ""));
+    for (const Plot& plot : plots)
+      if (const Series* law = series_of(plot, "law of the smaller diameter"); plot.id == "bias-z" && law != nullptr) return *law;
+    return Series{};
+  };
+  const Series law = law_in(dozen_scene());
+  ASSERT_FALSE(law.x.empty());
+  // Proportional to dt.
+  EXPECT_NEAR(law.y.front() / law.x.front(), law.y.back() / law.x.back(), 1e-12 * std::abs(law.y.front() / law.x.front()));
+  EXPECT_LT(law.y.front(), 0.0);
+  EXPECT_TRUE(law_in(dozen_scene(Boundary::walls)).x.empty());
+}
+
 TEST(ComparePage, CostsAreThereWhereTheyWereMeasuredAndInOrder) {
   Comparison comparison = KnownLaws{}.comparison();
   const Scene scene = dozen_scene();
   EXPECT_THAT(ids_of(compare_page(comparison, scene, "")), Not(Contains("cost-size")));
   comparison.costs = some_costs(scene.packing_fraction());
   const Page page = compare_page(comparison, scene, "");
-  EXPECT_THAT(ids_of(page), ElementsAre("work-precision", "error-in-time", "faults", "overlap", "bias-z", "bias-rate",
+  EXPECT_THAT(ids_of(page), ElementsAre("work-precision", "trust", "error-in-time", "faults", "overlap", "bias-z", "bias-rate",
                                         "bias-path", "cost-size", "cost-density"));
   const std::vector<Plot> plots = plots_of(page);
-  EXPECT_THAT(plots[7].series.front().x, ElementsAre(64.0, 256.0, 1024.0));
-  EXPECT_THAT(plots[8].series.front().x, ElementsAre(0.1, scene.packing_fraction(), 0.7));
+  EXPECT_THAT(plots[8].series.front().x, ElementsAre(64.0, 256.0, 1024.0));
+  EXPECT_THAT(plots[9].series.front().x, ElementsAre(0.1, scene.packing_fraction(), 0.7));
 }
 
 TEST(ComparePage, EnergyHasAPlotWhereItHasChangedAndASentenceWhereItHasNot) {
@@ -136,16 +210,20 @@ TEST(ComparePage, EnergyHasAPlotWhereItHasChangedAndASentenceWhereItHasNot) {
 TEST(ComparePage, TheTableHasARowForEveryMethodAndStepAndNamesWhatWasLeftOut) {
   const KnownLaws laws;
   Comparison comparison = laws.comparison({"grid", "naive"});
-  comparison.left_out = {{{"guarded", 1e-9}, 600.0}};
+  comparison.left_out = {{{"guarded", 1e-9}, 600.0, ""},
+                         {{"soft", 0.1}, 0.0, "soft disks have no gravity"},
+                         {{"soft", 0.2}, 0.0, "soft disks have no gravity"}};
   const Page page = compare_page(comparison, dozen_scene(), "carom compare dozen.toml");
   const TextTable& table = table_of(page, "Every method and step");
   EXPECT_EQ(table.rows.size(), 1U + 2U * laws.dts.size());
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
   const TextTable& to_Z = table_of(page, "Processor time for Z");
-  EXPECT_EQ(to_Z.rows.size(), 3U);
+  EXPECT_EQ(to_Z.rows.size(), 4U);  // with Richardson's of grid
   for (const auto& row : to_Z.rows) EXPECT_EQ(row.size(), to_Z.columns.size());
   const std::string html = html_page(page);
   EXPECT_THAT(html, HasSubstr("guarded with dt = 1e-09 (about 10 min)"));
+  EXPECT_THAT(html, HasSubstr("Not run: soft: soft disks have no gravity."));
+  EXPECT_EQ(html.find("soft: soft"), html.rfind("soft: soft")) << "a reason is told once";
   EXPECT_THAT(html, HasSubstr("carom compare dozen.toml"));
 }
 
@@ -161,7 +239,7 @@ TEST(BrowserComparePage, DrawsEveryPlotOfARealComparisonWhateverItsTitle) {
   write_text(directory.file("report.html"), html_page(page));
   const std::string dom = dump_dom(directory.file("report.html"));
   EXPECT_THAT(dom.substr(0, dom.find("<head>")), HasSubstr("data-errors=\"\""));
-  EXPECT_THAT(dom.substr(0, dom.find("<head>")), HasSubstr("data-plots=\"10\""));
+  EXPECT_THAT(dom.substr(0, dom.find("<head>")), HasSubstr("data-plots=\"11\""));
   EXPECT_THAT(dom, HasSubstr("<h1>Error and cost: &lt;/script&gt;&lt;script&gt;document.title='taken'"));
   EXPECT_THAT(dom, Not(HasSubstr("<title>taken")));
   for (const Plot& plot : plots_of(page)) {

@@ -9,10 +9,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
 
 namespace carom::test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 
 /// What logarithms, sums over the points and powers of them may round.
@@ -75,6 +80,12 @@ TEST(Summaries, ARunThatWasCutShortSaysNothingOfAverages) {
   EXPECT_EQ(summaries[1].error.median, 0.05 * 0.1);
 }
 
+Price price_of(const Answers& answers, const std::string& method, const std::string& target) {
+  for (const Price& price : answers.prices)
+    if (price.method == method && price.target == target) return price;
+  throw std::runtime_error("there is no price of " + method + " for " + target);
+}
+
 class KnownAnswers : public ::testing::Test {
  protected:
   KnownLaws laws_;
@@ -92,53 +103,175 @@ TEST_F(KnownAnswers, TheOrderOfAFirstOrderMethodIsOne) {
 
 TEST_F(KnownAnswers, ThePriceOfAMillionthIsExtrapolatedByTheLaw) {
   const Answers answers = answers_of(laws_.comparison());
-  ASSERT_TRUE(answers.to_millionth);
+  const Price price = price_of(answers, "grid", "error 1e-6");
   const double dt = 1e-6 / laws_.error_per_dt;  // a fifth of the smallest that was run
-  EXPECT_TRUE(answers.to_millionth->extrapolated);
-  EXPECT_NEAR(answers.to_millionth->dt / dt, 1.0, rounding);
-  EXPECT_NEAR(answers.to_millionth->seconds / (laws_.step_seconds / dt), 1.0, rounding);
-  ASSERT_FALSE(answers.sentences.empty());
-  EXPECT_THAT(answers.sentences.front(), HasSubstr(" 50 times "));  // 0.05 s against a millisecond
+  ASSERT_TRUE(price.ratio && price.dt && price.seconds);
+  EXPECT_NEAR(price.extrapolation, 5.0, 5.0 * rounding);
+  EXPECT_NEAR(*price.dt / dt, 1.0, rounding);
+  EXPECT_NEAR(*price.seconds / (laws_.step_seconds / dt), 1.0, rounding);
+  EXPECT_NEAR(*price.ratio, 50.0, 50.0 * rounding);  // 0.05 s against a millisecond
+  EXPECT_EQ(price.lowest, price.highest);            // every start is the same
+  // A fifth is further than a headline goes.
+  EXPECT_EQ(best_fixed_step(answers.prices, "error 1e-6"), nullptr);
+  EXPECT_THAT(answers.sentences.front(), HasSubstr("No fixed step that was run comes within a factor of 3 in dt"));
+}
+
+TEST_F(KnownAnswers, TheHeadlineIsTheCheapestMethodWithItsSpreadAndTheMachine) {
+  Comparison comparison = laws_.comparison({"grid", "guarded", "backtrack"});
+  for (MethodRun& run : comparison.runs) {
+    if (run.method.name == "guarded") run.seconds_early *= 10.0;
+    if (run.method.name != "backtrack") continue;
+    run.error[0] = run.method.dt <= 0.01 ? 1e-14 : 0.5;
+    run.seconds_early = laws_.exact_seconds * (2.0 + 0.5 * static_cast<double>(run.seed)) * 0.01 / run.method.dt;
+  }
+  const Answers answers = answers_of(comparison);
+  const Price* best = best_fixed_step(answers.prices, "error 1e-6");
+  ASSERT_NE(best, nullptr);
+  EXPECT_EQ(best->method, "backtrack");
+  EXPECT_EQ(best->dt, 0.01);
+  EXPECT_NEAR(*best->ratio, 3.25, rounding);  // of 2.5, 3, 3.5 and 4
+  EXPECT_NEAR(best->lowest, 2.5, rounding);
+  EXPECT_NEAR(best->highest, 4.0, rounding);
+  EXPECT_FALSE(best->extrapolated());
+  EXPECT_THAT(
+      answers.sentences.front(),
+      HasSubstr("the best fixed step (backtrack with dt = 0.02 mean free times) needs 3.2 times (2.5 to 4 over 4 starts) the "
+                "processor time of the exact engine, both on one core of Some Processor"));
+  EXPECT_THAT(answers.sentences[1], HasSubstr("(grid) still has an error of 5.0e-06 diameters there at 10 times"));
+  EXPECT_THAT(answers.sentences, Contains(HasSubstr("On 4 cores that step would be as fast")));
+}
+
+TEST_F(KnownAnswers, AStepIsRightOnlyWhereEveryShorterOneIsToo) {
+  Comparison comparison = laws_.comparison({"backtrack"});
+  for (MethodRun& run : comparison.runs)
+    if (!run.method.exact()) run.error[0] = run.method.dt == 0.001 ? 0.2 : 1e-14;  // a mistake in the middle of the ladder
+  const Answers answers = answers_of(comparison);
+  for (const char* target : {"error 1e-6", "error 1e-10"}) {
+    const Price price = price_of(answers, "backtrack", target);
+    EXPECT_EQ(price.dt, 0.0003);
+    EXPECT_FALSE(price.extrapolated());
+  }
+}
+
+TEST_F(KnownAnswers, TheCheapestOfTheRightStepsCounts) {
+  Comparison comparison = laws_.comparison({"swept"});
+  for (MethodRun& run : comparison.runs) {
+    if (run.method.exact()) continue;
+    run.error[0] = 1e-14;
+    if (run.method.dt == 0.1) run.seconds_early = 1.0;  // so many contacts in a step that it takes longest
+  }
+  const Price price = price_of(answers_of(comparison), "swept", "error 1e-10");
+  EXPECT_EQ(price.dt, 0.03);
+  EXPECT_NEAR(*price.ratio, laws_.step_seconds / 0.03 / laws_.exact_seconds, rounding);
+}
+
+TEST_F(KnownAnswers, AStartWithoutAPriceMakesTheSpreadInfiniteAndMostOfThemLeaveNone) {
+  Comparison comparison = laws_.comparison({"backtrack"});
+  const auto spoil = [&](std::uint64_t from) {
+    for (MethodRun& run : comparison.runs)
+      if (!run.method.exact()) run.error[0] = run.seed >= from ? 0.7 : 1e-14;
+  };
+  spoil(4);
+  Price price = price_of(answers_of(comparison), "backtrack", "error 1e-6");
+  EXPECT_TRUE(price.ratio);
+  EXPECT_EQ(price.highest, infinity<double>);
+  spoil(2);
+  price = price_of(answers_of(comparison), "backtrack", "error 1e-6");
+  EXPECT_FALSE(price.ratio);
+  EXPECT_THAT(price.remark, HasSubstr("not reached: the error is 7.0e-01 with the shortest step that was run"));
 }
 
 TEST_F(KnownAnswers, ThePriceOfAnErrorAmongThoseThatWereRunLiesOnTheLawToo) {
-  const std::vector<MethodSummary> summaries = summaries_of(laws_.comparison());
-  for (const double error : {1e-5, 7e-5, 1e-3, 4.9e-3, 0.1}) {
-    const auto price = price_of_error(summaries, "grid", error);
-    ASSERT_TRUE(price);
-    EXPECT_FALSE(price->extrapolated);
-    EXPECT_NEAR(price->dt / (error / laws_.error_per_dt), 1.0, rounding);
-    EXPECT_NEAR(price->seconds / (laws_.step_seconds / price->dt), 1.0, rounding);
+  laws_.error_per_dt = 2e-3;  // 1e-6 takes a step between 3e-4 and 1e-3
+  const Price price = price_of(answers_of(laws_.comparison()), "grid", "error 1e-6");
+  EXPECT_FALSE(price.extrapolated());
+  ASSERT_TRUE(price.dt && price.ratio);
+  EXPECT_NEAR(*price.dt / 5e-4, 1.0, rounding);
+  EXPECT_NEAR(*price.ratio / (laws_.step_seconds / 5e-4 / laws_.exact_seconds), 1.0, rounding);
+}
+
+TEST_F(KnownAnswers, AnExactEngineIsPricedWhereItsPrecisionSuffices) {
+  Comparison comparison = laws_.comparison();
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    MethodRun run = laws_.run({"textbook-float"}, seed);
+    run.error[0] = 1e-7;
+    run.seconds_early = 3.0 * laws_.exact_seconds;
+    comparison.runs.push_back(run);
   }
-  EXPECT_FALSE(price_of_error(summaries, "guarded", 1e-3));  // there are no points of it
+  const Answers answers = answers_of(comparison);
+  EXPECT_EQ(price_of(answers, "fast", "error 1e-6").ratio, 1.0);
+  EXPECT_NEAR(*price_of(answers, "textbook-float", "error 1e-6").ratio, 3.0, rounding);
+  const Price finer = price_of(answers, "textbook-float", "error 1e-10");
+  EXPECT_FALSE(finer.ratio);
+  EXPECT_EQ(finer.remark, "not reached: the error is 1.0e-07 in this precision");
 }
 
 TEST_F(KnownAnswers, ErrorsThatFollowNoLawHaveNoPriceAndNoOrder) {
   laws_.error_per_dt = 1e9;
   const Answers answers = answers_of(laws_.comparison());
   EXPECT_FALSE(answers.order);
-  EXPECT_FALSE(answers.to_millionth);
+  EXPECT_FALSE(price_of(answers, "grid", "error 1e-6").ratio);
   ASSERT_FALSE(answers.sentences.empty());
-  EXPECT_THAT(answers.sentences.front(), HasSubstr("Too few of the steps"));
+  EXPECT_THAT(answers.sentences.front(), HasSubstr("No fixed step that was run is right to 1e-6 diameters"));
 }
 
 TEST_F(KnownAnswers, MethodsCrossWhereTheStepCostsWhatTheEventsDo) {
   const Answers answers = answers_of(laws_.comparison());
-  ASSERT_TRUE(answers.crossover_dt && answers.crossover_error);
-  EXPECT_NEAR(*answers.crossover_dt / (laws_.step_seconds / laws_.exact_seconds), 1.0, rounding);
-  EXPECT_NEAR(*answers.crossover_error / (laws_.error_per_dt * *answers.crossover_dt), 1.0, rounding);
+  ASSERT_TRUE(answers.crossover);
+  EXPECT_EQ(answers.crossover->method, "grid");
+  EXPECT_NEAR(answers.crossover->dt / (laws_.step_seconds / laws_.exact_seconds), 1.0, rounding);
+  EXPECT_NEAR(answers.crossover->error / (laws_.error_per_dt * answers.crossover->dt), 1.0, rounding);
+}
+
+TEST_F(KnownAnswers, TheCrossoverIsThatOfTheMethodThatIsCheaperForTheSmallestErrors) {
+  Comparison comparison = laws_.comparison({"grid", "backtrack"});
+  for (MethodRun& run : comparison.runs)
+    if (run.method.name == "backtrack") run.error[0] /= 100.0;
+  const Answers answers = answers_of(comparison);
+  ASSERT_TRUE(answers.crossover);
+  EXPECT_EQ(answers.crossover->method, "backtrack");
+  EXPECT_THAT(answers.sentences, Contains(HasSubstr("A fixed step is the better choice for errors above")));
 }
 
 TEST_F(KnownAnswers, MethodsThatNeverCrossAreSaidNotTo) {
   laws_.step_seconds = 1.0;
   Answers answers = answers_of(laws_.comparison());
-  EXPECT_FALSE(answers.crossover_dt || answers.crossover_error);
-  ASSERT_GE(answers.sentences.size(), 2U);
-  EXPECT_THAT(answers.sentences[1], HasSubstr("The exact engine is cheaper than the fixed step at every dt"));
+  EXPECT_FALSE(answers.crossover);
+  EXPECT_THAT(answers.sentences, Contains(HasSubstr("The exact engine is cheaper than every fixed step that was run")));
   laws_.step_seconds = 1e-12;
   answers = answers_of(laws_.comparison());
-  EXPECT_FALSE(answers.crossover_dt || answers.crossover_error);
-  EXPECT_THAT(answers.sentences[1], HasSubstr("The fixed step is cheaper than the exact engine at every dt"));
+  EXPECT_FALSE(answers.crossover);
+  EXPECT_THAT(answers.sentences, Contains(HasSubstr("Every fixed step that was run is cheaper than the exact engine")));
+}
+
+TEST_F(KnownAnswers, SetUpPaysOffAfterTheCollisionsThatTheCheaperLoopTakes) {
+  // The exact loop takes 5e-4 s per time. Grid needs 1e-6 diameters with dt = 1e-3 at the price of the exact engine's loop; made
+  // three times as dear it loses 1e-3 s per time, and 4e-3 s of set-up are made up after 4 times, which are 8 mean free times.
+  laws_.error_per_dt = 1e-3;
+  laws_.step_seconds = 3.0 * 1e-3 * laws_.exact_seconds;
+  laws_.exact_setup = 5e-3;
+  laws_.step_setup = 1e-3;
+  const Answers answers = answers_of(laws_.comparison());
+  ASSERT_TRUE(answers.break_even);
+  EXPECT_EQ(answers.break_even->method, "grid");
+  EXPECT_EQ(answers.break_even->exact_setup, 5e-3);
+  EXPECT_EQ(answers.break_even->method_setup, 1e-3);
+  EXPECT_NEAR(answers.break_even->collisions_per_disk, 8.0, 8.0 * rounding);
+  laws_.exact_setup = 0.0;
+  EXPECT_EQ(answers_of(laws_.comparison()).break_even->collisions_per_disk, 0.0);
+}
+
+TEST_F(KnownAnswers, TheHorizonIsWhereTheErrorPassesTheTolerance) {
+  const Comparison comparison = laws_.comparison();
+  // Errors of 5e-4, 1e-3, 2e-3, 4e-3 at times 2, 4, 6, 8: at 4, where it is the tolerance. The mean free time is 0.5.
+  const std::optional<double> at_a_sample = horizon_of(comparison.plan, laws_.run({"grid", 0.01}, 1));
+  ASSERT_TRUE(at_a_sample);
+  EXPECT_NEAR(*at_a_sample, 4.0 / 0.5, rounding);
+  // Errors of 3e-4, 6e-4, 1.2e-3: log2(1 / 0.6) of the way from time 4 to 6.
+  laws_.error_per_dt = 0.03;
+  EXPECT_NEAR(*horizon_of(comparison.plan, laws_.run({"grid", 0.01}, 1)), (4.0 + 2.0 * std::log2(1.0 / 0.6)) / 0.5, rounding);
+  EXPECT_FALSE(horizon_of(comparison.plan, laws_.run({"grid", 0.1}, 1))) << "lost before the first sample";
+  EXPECT_FALSE(horizon_of(comparison.plan, laws_.run({"fast"}, 1))) << "never lost";
 }
 
 TEST_F(KnownAnswers, ExactEventsKnowZWhenChanceIsSmallEnough) {
@@ -167,6 +300,43 @@ TEST_F(KnownAnswers, FixedStepsKnowZAtTheStepWhereChanceAndBiasTogetherAreCheape
     const double time = KnownLaws::end * std::pow(deviation / accuracy, 2) * 1.5;  // A^2 / (A^2 - B^2) = 3 / 2
     EXPECT_NEAR(*row.seconds / (time * laws_.step_seconds / best / KnownLaws::early_time), 1.0, 1.6e-4);
   }
+}
+
+TEST_F(KnownAnswers, RichardsonTakesTheStepWhereItsBiasOfSecondOrderAndChanceTogetherAreCheapest) {
+  // A parabola of bias a dt + b dt^2 leaves B = b dt^2 / 2. Costs of k / dt make the time proportional to
+  // 1 / ((A^2 - B^2) sqrt(B)), least at B = A / sqrt(5); the search goes in steps of 2 %.
+  laws_.bias_per_square = -2.0;
+  const Answers answers = answers_of(laws_.comparison());
+  const double accuracy = 0.001;
+  const TimeToZ row = row_of(answers, "richardson", accuracy);
+  ASSERT_TRUE(row.dt && row.seconds);
+  const double best = std::sqrt(2.0 * accuracy / std::sqrt(5.0) / 2.0);
+  EXPECT_NEAR(*row.dt / best, 1.0, 0.0101);
+  const double deviation = laws_.d * std::sqrt(4.0 / 3.0) / 2.0;
+  const double time = KnownLaws::end * std::pow(deviation / accuracy, 2) * 1.25;  // A^2 / (A^2 - B^2) = 5 / 4
+  const double price = laws_.step_seconds / best / KnownLaws::early_time * std::pow(2.0 * std::numbers::sqrt2 + 1.0, 2);
+  EXPECT_NEAR(*row.seconds / (time * price), 1.0, 1e-3);
+}
+
+TEST_F(KnownAnswers, APriceOfZHasAStandardErrorFromLeavingOutOneStartAfterAnother) {
+  EXPECT_TRUE(std::isnan(price_of(answers_of(laws_.comparison()), "grid", "Z 1 %").lowest)) << "three starts know no scatter";
+  laws_.starts = 8;
+  laws_.bias_per_dt = 0.0;
+  laws_.e = 0.0;
+  Comparison comparison = laws_.comparison();
+  Price price = price_of(answers_of(comparison), "grid", "Z 1 %");
+  // Without bias both wait for the same chance, whatever it is: the ratio is that of the loops, in every start.
+  const double loops = laws_.step_seconds / 0.1 / laws_.exact_seconds;
+  ASSERT_TRUE(price.ratio);
+  EXPECT_NEAR(*price.ratio / loops, 1.0, rounding);
+  EXPECT_NEAR(price.highest - price.lowest, 0.0, rounding);
+  // One start that takes longer moves no median, left out or not, but half of them do: medians of 1.5 out of eight, and of 1 or 2
+  // out of the seven others. Their mean is 1.5, and 7/8 of the sum of squares, 8 / 4, is 7/4.
+  for (MethodRun& run : comparison.runs)
+    if (!run.method.exact() && run.seed > 4) run.seconds *= 2.0, run.seconds_early *= 2.0;
+  price = price_of(answers_of(comparison), "grid", "Z 1 %");
+  EXPECT_NEAR(*price.ratio / loops, 1.5, rounding);
+  EXPECT_NEAR((price.highest - price.lowest) / loops, 2.0 * std::sqrt(1.75), rounding);
 }
 
 TEST_F(KnownAnswers, AMethodWithoutBiasTakesItsLargestStep) {
@@ -212,7 +382,8 @@ TEST(Answers, OfNothingAreEmpty) {
   const Answers answers = answers_of(Comparison{});
   EXPECT_TRUE(answers.sentences.empty());
   EXPECT_TRUE(answers.time_to_Z.empty());
-  EXPECT_FALSE(answers.order || answers.to_millionth || answers.crossover_dt);
+  EXPECT_TRUE(answers.prices.empty());
+  EXPECT_FALSE(answers.order || answers.crossover || answers.break_even);
 }
 
 }  // namespace

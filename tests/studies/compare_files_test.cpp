@@ -31,6 +31,7 @@ MethodRun awkward_run() {
   run.method = {"naive-edge", 0.1 + 0.2};
   run.seed = std::numeric_limits<std::uint64_t>::max();
   run.error = {1.0 / 3.0, 5e-324, 1.7976931348623157e308, infinity<double>, -0.0, infinity<double>};
+  run.setup_seconds = 3e-7;
   run.seconds_early = 1e-300;
   run.seconds = 0.1;
   run.time = 1e22;
@@ -48,6 +49,7 @@ MethodRun awkward_run() {
                           .missed = 5,
                           .depth_sum = 0.1 + 0.7,
                           .deepest = 1.0 / 7.0};
+  run.mistakes = StepMistakes{.steps = 200, .mistaken = 7};
   return run;
 }
 
@@ -60,12 +62,16 @@ void expect_same(const MethodRun& a, const MethodRun& b) {
   EXPECT_EQ(a.seed, b.seed);
   EXPECT_EQ(a.pair, b.pair);
   for (const auto member :
-       {&MethodRun::seconds_early, &MethodRun::seconds, &MethodRun::time, &MethodRun::Z, &MethodRun::collision_rate,
-        &MethodRun::mean_free_path, &MethodRun::energy_drift, &MethodRun::worst_overlap})
+       {&MethodRun::setup_seconds, &MethodRun::seconds_early, &MethodRun::seconds, &MethodRun::time, &MethodRun::Z,
+        &MethodRun::collision_rate, &MethodRun::mean_free_path, &MethodRun::energy_drift, &MethodRun::worst_overlap})
     expect_same_bits(a.*member, b.*member);
   expect_same_bits(a.method.dt, b.method.dt);
   ASSERT_EQ(a.error.size(), b.error.size());
   for (std::size_t k = 0; k < a.error.size(); ++k) expect_same_bits(a.error[k], b.error[k]);
+  ASSERT_EQ(a.mistakes.has_value(), b.mistakes.has_value());
+  const StepMistakes none;
+  EXPECT_EQ(a.mistakes.value_or(none).steps, b.mistakes.value_or(none).steps);
+  EXPECT_EQ(a.mistakes.value_or(none).mistaken, b.mistakes.value_or(none).mistaken);
   ASSERT_EQ(a.counts.has_value(), b.counts.has_value());
   if (!a.counts) return;
   for (const auto member :
@@ -191,7 +197,7 @@ TEST(CompareJson, HoldsThePlanThePointsAndTheAnswers) {
   Comparison comparison = KnownLaws{}.comparison({"grid", "naive"});
   comparison.runs.push_back(awkward_run());
   comparison.costs = {awkward_cost()};
-  comparison.left_out = {{{"guarded", 1e-9}, 1e5}};
+  comparison.left_out = {{{"guarded", 1e-9}, 1e5, ""}};
   const json all = json::parse(compare_json(comparison, dozen_scene(), "carom compare \xff"));
   EXPECT_EQ(all["carom"]["version"], build_info().version);
   EXPECT_EQ(all["title"], "A dozen disks");
@@ -210,9 +216,20 @@ TEST(CompareJson, HoldsThePlanThePointsAndTheAnswers) {
   EXPECT_EQ(all["summary"].size(), 1U + 7U + 7U + 1U);
   EXPECT_EQ(all["summary"][0]["error_early"]["median"], 1e-15);
   EXPECT_EQ(all["summary"][1]["method"], "grid");
-  EXPECT_EQ(all["time_to_Z"].size(), 2U * 4U);  // two accuracies, four methods
+  EXPECT_EQ(all["time_to_Z"].size(), 2U * 5U);  // two accuracies; four methods and Richardson
+  // Four methods for each of two errors, and the rows of time_to_Z.
+  ASSERT_EQ(all["prices"].size(), 2U * 4U + 2U * 5U);
+  const json& price = all["prices"][1];
+  EXPECT_EQ(price["method"], "grid");
+  EXPECT_EQ(price["target"], "error 1e-6");
+  EXPECT_NEAR(price["ratio"].get<double>(), 50.0, 1e-10);
+  EXPECT_EQ(price["spread"][0], price["ratio"]);
+  EXPECT_EQ(price["spread"][1], price["ratio"]);
+  EXPECT_EQ(price["extrapolated"], true);
+  EXPECT_TRUE(all["best_fixed_step"].is_null()) << "extrapolated too far";
+  EXPECT_EQ(all["plan"]["machine"], "Some Processor");
   EXPECT_EQ(all["left_out"][0]["method"], "guarded");
-  EXPECT_EQ(all["left_out"][0]["seconds_foreseen"], 1e5);
+  EXPECT_EQ(all["left_out"][0]["seconds_predicted"], 1e5);
   EXPECT_EQ(all["costs"][0]["seconds_per_disk_and_free_time"], 2e-9);
 }
 
@@ -228,7 +245,7 @@ TEST(CompareCsv, HasOneLinePerRunAndAsManyFieldsInEach) {
   for (; std::getline(text, line); ++lines) EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::ranges::count(header, ','));
   EXPECT_EQ(lines, comparison.runs.size());
   EXPECT_THAT(compare_csv(comparison),
-              HasSubstr("fast,0,1,8,0.001,1e-15,0.004,8e-15,10000,1.98,"));  // shortest digits that give the same bits
+              HasSubstr("fast,0,1,8,0,0.001,1e-15,0.004,8e-15,nan,10000,1.98,"));  // shortest digits that give the same bits
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include "observe/energy.hpp"
 #include "observe/mechanics.hpp"
 #include "observe/pressure.hpp"
-#include "studies/benchmark/machine.hpp"
+#include "studies/machine.hpp"
 #include "theory/equation_of_state.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "core/instructions.hpp"
 #include "io/build_json.hpp"
-#include "studies/benchmark/machine.hpp"
+#include "studies/machine.hpp"
 
 #include <fmt/format.h>
 #include <carom/version.hpp>

@@ -1,7 +1,6 @@
 #include "studies/compare/answers.hpp"
 
 #include "studies/compare/sentences.hpp"
-#include "studies/compare/time_to_z.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,63 +8,6 @@
 namespace carom {
 
 namespace {
-
-/// Errors in this range are those of the method: above, disks have lost each other; below, doubles end.
-constexpr double largest_lawful_error = 0.03, smallest_lawful_error = 1e-11;
-
-std::optional<Estimate> mean_of(const std::vector<double>& values) {
-  if (values.empty()) return std::nullopt;
-  const auto n = static_cast<double>(values.size());
-  double mean = 0.0, squares = 0.0;
-  for (const double value : values) mean += value / n;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return Estimate{mean, values.size() < 2 ? NAN : std::sqrt(squares / (n - 1.0) / n)};
-}
-
-/// Returns the run of the engine that runs the scene, from the same start.
-const MethodRun* exact_twin(const Comparison& comparison, const MethodRun& run) {
-  for (const MethodRun& one : comparison.runs)
-    if (one.method.name == comparison.plan.horizon.engine && one.seed == run.seed) return &one;
-  return nullptr;
-}
-
-MethodSummary summary_of(const Comparison& comparison, const Method& method) {
-  MethodSummary summary;
-  summary.method = method;
-  std::vector<double> error, seconds, per_time, Z, rate, path, Z_bias, rate_bias, path_bias;
-  const std::size_t early = comparison.plan.early;
-  for (const MethodRun& run : comparison.runs) {
-    if (run.method.name != method.name || run.method.dt != method.dt) continue;
-    ++summary.runs;
-    if (early >= 1 && run.error.size() >= early) error.push_back(run.error[early - 1]);
-    seconds.push_back(run.seconds_early);
-    per_time.push_back(run.seconds / run.time);
-    if (run.error.size() >= comparison.plan.samples) {
-      Z.push_back(run.Z);
-      rate.push_back(run.collision_rate);
-      if (run.pair > 0) path.push_back(run.mean_free_path);
-      const MethodRun* exact = exact_twin(comparison, run);
-      if (exact != nullptr && exact->pair > 0) {
-        Z_bias.push_back(run.Z / exact->Z - 1.0);
-        rate_bias.push_back(run.collision_rate / exact->collision_rate - 1.0);
-        if (run.pair > 0) path_bias.push_back(run.mean_free_path / exact->mean_free_path - 1.0);
-      }
-    }
-    summary.worst_overlap = std::max(summary.worst_overlap, run.worst_overlap);
-    summary.energy_drift = std::max(summary.energy_drift, std::abs(run.energy_drift));
-    if (run.counts) summary.counts = run.counts;
-  }
-  summary.error = spread_of(error);
-  summary.seconds_early = spread_of(seconds).median;
-  summary.seconds_per_time = spread_of(per_time).median;
-  summary.Z = mean_of(Z);
-  summary.collision_rate = mean_of(rate);
-  summary.mean_free_path = mean_of(path);
-  summary.Z_bias = mean_of(Z_bias);
-  summary.rate_bias = mean_of(rate_bias);
-  summary.path_bias = mean_of(path_bias);
-  return summary;
-}
 
 /// Returns a method's summaries by falling dt.
 std::vector<const MethodSummary*> by_step(const std::vector<MethodSummary>& summaries, const std::string& method) {
@@ -76,16 +18,10 @@ std::vector<const MethodSummary*> by_step(const std::vector<MethodSummary>& summ
   return found;
 }
 
-std::vector<const MethodSummary*> lawful(const std::vector<MethodSummary>& summaries, const std::string& method) {
-  std::vector<const MethodSummary*> steps = by_step(summaries, method);
-  std::erase_if(
-      steps, [](const auto* s) { return !(s->error.median < largest_lawful_error && s->error.median > smallest_lawful_error); });
-  return steps;
-}
-
 /// Returns log error against log dt by least squares.
 std::optional<Estimate> order_of(const std::vector<MethodSummary>& summaries, const std::string& method) {
-  const auto steps = lawful(summaries, method);
+  std::vector<const MethodSummary*> steps = by_step(summaries, method);
+  std::erase_if(steps, [](const auto* s) { return !shows_law(s->error.median); });
   if (steps.size() < 4) return std::nullopt;
   const auto n = static_cast<double>(steps.size());
   double mx = 0.0, my = 0.0, sxx = 0.0, sxy = 0.0, rest = 0.0;
@@ -98,60 +34,48 @@ std::optional<Estimate> order_of(const std::vector<MethodSummary>& summaries, co
   return Estimate{order, std::sqrt(rest / (n - 2.0) / sxx)};
 }
 
-/// Finds where the method's cost passes that of exact events, by a straight line between the logarithms of neighbouring points.
-void find_crossover(const std::vector<MethodSummary>& summaries, Answers& answers) {
-  const auto steps = by_step(summaries, "grid");
+/// Returns where a method's cost passes that of exact events, by a straight line between the logarithms of neighbouring points.
+std::optional<Crossover> crossover_of(const std::vector<MethodSummary>& summaries, const std::string& method,
+                                      double exact_seconds) {
+  std::optional<Crossover> found;
+  const auto steps = by_step(summaries, method);
   for (std::size_t k = 0; k + 1 < steps.size(); ++k) {
     const MethodSummary &cheap = *steps[k], &dear = *steps[k + 1];
-    if (!(cheap.seconds_early < answers.exact_seconds && dear.seconds_early >= answers.exact_seconds)) continue;
+    if (!(cheap.seconds_early < exact_seconds && dear.seconds_early >= exact_seconds)) continue;
     if (!(dear.error.median > 0.0) || !std::isfinite(cheap.error.median)) continue;
-    const double at = std::log(answers.exact_seconds / cheap.seconds_early) / std::log(dear.seconds_early / cheap.seconds_early);
-    answers.crossover_error = std::exp(std::lerp(std::log(cheap.error.median), std::log(dear.error.median), at));
-    answers.crossover_dt = std::exp(std::lerp(std::log(cheap.method.dt), std::log(dear.method.dt), at));
+    const double at = std::log(exact_seconds / cheap.seconds_early) / std::log(dear.seconds_early / cheap.seconds_early);
+    found = Crossover{method, std::exp(std::lerp(std::log(cheap.error.median), std::log(dear.error.median), at)),
+                      std::exp(std::lerp(std::log(cheap.method.dt), std::log(dear.method.dt), at))};
   }
+  return found;
+}
+
+std::optional<Crossover> crossover_of(const std::vector<MethodSummary>& summaries, double exact_seconds) {
+  std::optional<Crossover> best;
+  for (const std::string& method : fixed_step_names()) {
+    const std::optional<Crossover> one = crossover_of(summaries, method, exact_seconds);
+    if (one && (!best || one->error < best->error)) best = one;
+  }
+  return best;
+}
+
+/// Both pay their set-up once and their steady price from there on.
+std::optional<BreakEven> break_even_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries,
+                                       const std::string& exact, const Price& best) {
+  std::vector<double> exact_setup, exact_per_time, method_setup;
+  for (const MethodSummary& summary : summaries) {
+    if (summary.method.name == exact)
+      exact_setup.push_back(summary.setup_seconds), exact_per_time.push_back(summary.seconds_per_time);
+    if (summary.method.name == best.method) method_setup.push_back(summary.setup_seconds);
+  }
+  if (exact_setup.empty() || method_setup.empty() || !(*best.ratio > 1.0)) return std::nullopt;
+  BreakEven even{best.method, exact_setup.front(), spread_of(method_setup).median, 0.0};
+  const double dearer = (*best.ratio - 1.0) * exact_per_time.front();
+  even.collisions_per_disk = std::max(0.0, comparison.plan.in_free_times((even.exact_setup - even.method_setup) / dearer));
+  return even;
 }
 
 }  // namespace
-
-Spread spread_of(std::vector<double> values) {
-  if (values.empty()) return {NAN, NAN, NAN};
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    const double place = share * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, values.size() - 1);
-    if (values[below] == values[above]) return values[below];  // infinities too
-    return std::lerp(values[below], values[above], place - static_cast<double>(below));
-  };
-  return {at(0.5), at(0.25), at(0.75)};
-}
-
-std::vector<MethodSummary> summaries_of(const Comparison& comparison) {
-  std::vector<MethodSummary> all;
-  for (const MethodRun& run : comparison.runs) {
-    const auto same = [&](const MethodSummary& s) { return s.method.name == run.method.name && s.method.dt == run.method.dt; };
-    if (std::none_of(all.begin(), all.end(), same)) all.push_back(summary_of(comparison, run.method));
-  }
-  return all;
-}
-
-std::optional<PriceOfError> price_of_error(const std::vector<MethodSummary>& summaries, const std::string& method, double error) {
-  const auto steps = lawful(summaries, method);
-  if (steps.size() < 3) return std::nullopt;
-  // First order: error / dt is one number; its median over the three smallest steps.
-  std::vector<double> per_dt;
-  for (std::size_t k = steps.size() - 3; k < steps.size(); ++k) per_dt.push_back(steps[k]->error.median / steps[k]->method.dt);
-  const double dt = error / spread_of(per_dt).median;
-  const MethodSummary& last = *steps.back();
-  if (dt < last.method.dt) return PriceOfError{dt, last.seconds_early * last.method.dt / dt, true};
-  for (std::size_t k = steps.size() - 1; k > 0; --k) {
-    const MethodSummary &fine = *steps[k], &coarse = *steps[k - 1];
-    if (dt > coarse.method.dt) continue;
-    const double at = std::log(dt / fine.method.dt) / std::log(coarse.method.dt / fine.method.dt);
-    return PriceOfError{dt, std::exp(std::lerp(std::log(fine.seconds_early), std::log(coarse.seconds_early), at)), false};
-  }
-  return PriceOfError{dt, steps.front()->seconds_early * steps.front()->method.dt / dt, false};
-}
 
 Answers answers_of(const Comparison& comparison) {
   Answers answers;
@@ -163,9 +87,11 @@ Answers answers_of(const Comparison& comparison) {
     answers.exact_error = summary.error.median;
   }
   answers.order = order_of(summaries, "grid");
-  answers.to_millionth = price_of_error(summaries, "grid", 1e-6);
-  find_crossover(summaries, answers);
+  answers.crossover = crossover_of(summaries, answers.exact_seconds);
   answers.time_to_Z = time_to_Z(comparison, summaries);
+  answers.prices = prices_of(comparison, summaries);
+  if (const Price* best = best_fixed_step(answers.prices, "error 1e-6"))
+    answers.break_even = break_even_of(comparison, summaries, answers.exact, *best);
   answers.sentences = compare_sentences(comparison, summaries, answers);
   return answers;
 }

@@ -40,8 +40,10 @@ constexpr std::array<std::string_view, 5> compare_products = {"points.jsonl", si
                                                               "compare.json"};
 
 CompareOptions checked(const CompareCommandOptions& options) {
-  if (options.seeds < 1 || options.seeds > 10'000)
-    throw UsageError(fmt::format("--seeds {}: it can be 1 to 10000", options.seeds));
+  // One step of the user's own is the short study: one start, and no other sizes and densities.
+  const bool is_short = options.dts.size() == 1;
+  const std::int64_t seeds = options.seeds.value_or(is_short ? 1 : 8);
+  if (seeds < 1 || seeds > 10'000) throw UsageError(fmt::format("--seeds {}: it can be 1 to 10000", seeds));
   if (!(options.longest > 0.0))
     throw UsageError(fmt::format("--longest {:g}: a run takes some time; give a positive number", options.longest));
   for (const double dt : options.dts)
@@ -50,7 +52,7 @@ CompareOptions checked(const CompareCommandOptions& options) {
   if (engine != "auto" && engine != "fast" && engine != "textbook")
     throw UsageError(fmt::format(
         "--engine {}: every precision is compared anyway; choose auto, fast or textbook for the scene's own run", engine));
-  return {options.dts, static_cast<std::uint64_t>(options.seeds), options.longest, engine, !options.no_costs};
+  return {options.dts, static_cast<std::uint64_t>(seeds), options.longest, engine, !options.no_costs && !is_short};
 }
 
 /// The longest step, since what is wrong with a step is that it is too long.

@@ -13,10 +13,10 @@ namespace carom::cli {
 
 struct CompareCommandOptions {
   SceneOptions scene;
-  std::string out;          ///< empty: the scene's name without its ending, and "-compare"
-  std::vector<double> dts;  ///< empty: the usual ladder
-  std::int64_t seeds = 8;
-  double longest = 0.5;                   ///< seconds
+  std::string out;                        ///< empty: the scene's name without its ending, and "-compare"
+  std::vector<double> dts;                ///< empty: the usual ladder
+  std::optional<std::int64_t> seeds;      ///< empty: 8, or 1 with a single dt
+  double longest = 0.3;                   ///< seconds
   std::optional<std::string> play;        ///< METHOD[:DT], or empty: make the page on which that flies beside exact events
   std::optional<std::string> trajectory;  ///< a file of the user's own, to be compared with exact events in place of all else
   std::optional<double> every;            ///< time between frames of a trajectory without times

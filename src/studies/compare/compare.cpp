@@ -7,12 +7,13 @@
 #include "observe/pressure.hpp"
 #include "scene/drawn.hpp"
 #include "simulation/catalogue.hpp"
-#include "simulation/fixed_step.hpp"
 #include "simulation/start.hpp"
 #include "studies/compare/costs.hpp"
+#include "studies/compare/mistakes.hpp"
 #include "studies/compare/reference.hpp"
 #include "studies/horizon/horizon.hpp"
 #include "studies/horizon/pace.hpp"
+#include "studies/machine.hpp"
 
 #include <fmt/format.h>
 
@@ -33,8 +34,18 @@ constexpr double early_fraction = 1.0 / 16.0;
 
 constexpr std::uint64_t most_samples = 100;
 
-/// Pairs that an audit may look at: a quarter of a second.
-constexpr double audited_pairs = 2e8;
+/// Shorter runs are repeated for about so long.
+constexpr double least_seconds = 0.02;
+
+/// Pairs that an audit may look at: a sixteenth of a second.
+constexpr double audited_pairs = 5e7;
+
+/// Methods that find contacts within a step are right to rounding from some step on, and their price is that of a step that was
+/// run. They have twice as many steps per decade down to this many mean free times.
+constexpr double shortest_extra_step = 0.004;
+
+/// Steps of a method that finds contacts that are compared with exact events.
+constexpr std::uint64_t compared_steps = 200;
 
 /// Three per decade, from 2 mean free times down to 4e-7: as far as a method can go in the time that it is given.
 std::vector<double> usual_ladder(double mean_free_time) {
@@ -92,6 +103,7 @@ class Study {
     plan.drawn = start_is_drawn(scene_);
     for (std::uint64_t k = 0; k < (plan.drawn ? options_.seeds : 1); ++k) plan.seeds.push_back(scene_.run.seed + k);
     plan.longest = options_.longest;
+    plan.machine = cli::processor();
     if (hooks_.planned) hooks_.planned(plan, *start);
     return true;
   }
@@ -137,9 +149,14 @@ class Study {
     std::vector<Method> all;
     for (const std::string& engine : compared_engines(scene_, options_.engine)) all.push_back({engine});
     const bool walls = !scene_.box.periodic(0) || !scene_.box.periodic(1);
+    const double between = std::pow(10.0, -1.0 / 6.0);
     for (const double dt : result_.plan.dts) {
-      for (const std::string& name : fixed_steps_for(scene_))
-        if (walls || name != "naive-edge") all.push_back({name, dt});  // they differ at walls alone
+      for (const std::string& name : fixed_step_names()) {
+        if (!walls && name == "naive-edge") continue;  // they differ at walls alone
+        all.push_back({name, dt});
+        const bool twice = options_.dts.empty() && finds_contacts(name);
+        if (twice && result_.plan.in_free_times(dt * between) > shortest_extra_step) all.push_back({name, dt * between});
+      }
     }
     return all;
   }
@@ -160,10 +177,12 @@ class Study {
     const bool first = seed == result_.plan.seeds.front();
     const double seeds = static_cast<double>(result_.plan.seeds.size());
     const double before = static_cast<double>(seed - result_.plan.seeds.front()) / seeds;
+    const std::vector<double> shares = shares_of_time(all);
     double done = 0.0;
-    for (const Method& method : all) {
-      fraction_ = 0.05 + 0.8 * (before + done / static_cast<double>(all.size()) / seeds);
-      done += 1.0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Method& method = all[k];
+      fraction_ = 0.05 + 0.8 * (before + done / seeds);
+      done += shares[k];
       if (has(method, seed)) continue;
       if (!start) {
         start = start_with(seed);
@@ -182,14 +201,35 @@ class Study {
       run->seed = seed;
       if (first && !method.exact()) {
         const double time = result_.plan.sample_step * static_cast<double>(samples);
-        run->counts =
-            audit(scene_, *start, {method.name, method.dt}, time, audited_pairs, [&] { return going_on(doing_, fraction_); });
+        const auto proceed = [&] { return going_on(doing_, fraction_); };
+        if (finds_contacts(method.name)) {
+          run->mistakes = mistakes_of(scene_, *start, method, time, compared_steps, proceed);
+        } else {
+          run->counts = audit(scene_, *start, {method.name, method.dt}, time, audited_pairs, proceed);
+        }
         if (stopped_) return false;
       }
       result_.runs.push_back(*run);
       if (hooks_.run_done) hooks_.run_done(*run);
     }
     return true;
+  }
+
+  /// Returns which share of a start's processor time each method takes: all the same for the first start, and for the others as
+  /// they took from the first.
+  [[nodiscard]] std::vector<double> shares_of_time(const std::vector<Method>& all) const {
+    std::vector<double> shares;
+    double sum = 0.0;
+    for (const Method& method : all) {
+      double seconds = 0.0;
+      for (const MethodRun& run : result_.runs)
+        if (run.seed == result_.plan.seeds.front() && run.method.name == method.name && run.method.dt == method.dt)
+          seconds = std::max(run.seconds, least_seconds);
+      shares.push_back(seconds);
+      sum += seconds;
+    }
+    for (double& share : shares) share = sum > 0.0 ? share / sum : 1.0 / static_cast<double>(all.size());
+    return shares;
   }
 
   /// Returns how far a method is run: to the end, to the early sample, or not at all. It is the same for every seed as for the
@@ -199,14 +239,20 @@ class Study {
     if (method.exact()) return plan.samples;
     for (const MethodRun& run : result_.runs)
       if (run.method.name == method.name && run.method.dt == method.dt) return run.error.size();
-    const double per_time = seconds_per_time(method, start);
+    double per_time = 0.0;
+    try {
+      per_time = seconds_per_time(method, start);
+    } catch (const std::invalid_argument& error) {
+      result_.left_out.push_back({method, 0.0, error.what()});
+      return 0;
+    }
     if (per_time * plan.until() <= plan.longest) return plan.samples;
     if (per_time * plan.early_time() <= plan.longest) return plan.early;
-    result_.left_out.push_back({method, per_time * plan.early_time()});
+    result_.left_out.push_back({method, per_time * plan.early_time(), ""});
     return 0;
   }
 
-  /// Foreseen, from a few steps.
+  /// Predicted, from a few steps.
   [[nodiscard]] double seconds_per_time(const Method& method, const State& start) const {
     Simulation pilot = begin(scene_, start, method);
     const double began = thread_seconds();
@@ -223,7 +269,9 @@ class Study {
     const ComparePlan& plan = result_.plan;
     MethodRun run;
     run.method = method;
+    const double made = thread_seconds();
     Simulation simulation = begin(scene_, start, method);
+    run.setup_seconds = thread_seconds() - made;
     double speeds = 0.0;
     for (std::uint64_t k = 1; k <= samples; ++k) {
       if (!going_on(doing_, fraction_)) return std::nullopt;
@@ -238,18 +286,23 @@ class Study {
           std::max(run.worst_overlap, deepest_overlap(scene_.box, disks.radius, state.positions, state.remainders).relative);
     }
     run.time = simulation.time();
-    if (run.seconds < 0.05) {  // too short for a clock: again, undisturbed
-      const std::vector<double> least = seconds_in_loop(scene_, start, method, {plan.early_time(), run.time});
-      run.seconds_early = least[0];
-      run.seconds = least[1];
+    if (run.seconds < least_seconds) {  // too short for a clock: again, undisturbed
+      const RunSeconds least = seconds_of_run(scene_, start, method, {plan.early_time(), run.time});
+      run.setup_seconds = std::min(run.setup_seconds, least.setup);
+      run.seconds_early = least.until[0];
+      run.seconds = least.until[1];
     }
-    // Exact engines have made lists and predictions before the clock runs, which would flatter a short stretch: the steady price.
-    if (method.exact()) run.seconds_early = run.seconds * plan.early_time() / run.time;
+    // The steady price: exact engines have made lists and predictions before the clock runs, and the step in which a sample lies
+    // is completed after it. Both would flatter a short stretch.
+    if (samples == plan.samples) run.seconds_early = run.seconds * plan.early_time() / run.time;
     const Totals totals = simulation.totals();
     const double count = static_cast<double>(disks.count());
     run.pair = totals.pair;
-    run.Z = compressibility(totals.virial / run.time, count, kinetic_temperature(scene_.box, disks, start));
-    run.collision_rate = 2.0 * static_cast<double>(totals.pair) / (count * run.time);
+    const double counted = counted_time(method, run.time);
+    if (counted > 0.0) {
+      run.Z = compressibility(totals.virial / counted, count, kinetic_temperature(scene_.box, disks, start));
+      run.collision_rate = 2.0 * static_cast<double>(totals.pair) / (count * counted);
+    }
     run.mean_free_path = totals.pair == 0 ? 0.0 : speeds / static_cast<double>(samples) / run.collision_rate;
     run.energy_drift = kinetic_energy(disks, simulation.state()) / kinetic_energy(disks, start) - 1.0;
     return run;

@@ -17,7 +17,7 @@ namespace carom {
 struct CompareOptions {
   std::vector<double> dts;  ///< empty: three per decade, from two mean free times down to 4e-7 of one
   std::uint64_t seeds = 8;  ///< the scene's seed and those after it; the scene's alone where nothing of the start is drawn
-  double longest = 0.5;     ///< seconds; see ComparePlan
+  double longest = 0.3;     ///< seconds; see ComparePlan
   std::string engine = "auto";
   bool costs = true;                      ///< measure cost against size and density too
   std::uint64_t lyapunov_collisions = 0;  ///< see HorizonOptions

@@ -2,6 +2,7 @@
 // The measurements of a comparison of methods, as plain data. studies/compare/compare.cpp fills it, studies/compare/files.cpp
 // stores it, and studies/compare/answers.cpp and the page read it.
 
+#include "studies/compare/mistakes.hpp"
 #include "studies/horizon/method.hpp"
 #include "studies/horizon/report.hpp"
 #include "studies/step_audit.hpp"
@@ -26,7 +27,8 @@ struct ComparePlan {
   std::vector<double> dts;  ///< time steps of the fixed-step methods, falling
   std::vector<std::uint64_t> seeds;  ///< one per start
   bool drawn = true;                 ///< another seed gives another start; else there is one
-  double longest = 0.0;              ///< seconds of processor time that one run of a fixed-step method may be foreseen to take
+  double longest = 0.0;              ///< seconds of processor time that one run of a fixed-step method may be predicted to take
+  std::string machine;               ///< the processor's name
 
   [[nodiscard]] double early_time() const { return static_cast<double>(early) * sample_step; }
   [[nodiscard]] double until() const { return static_cast<double>(samples) * sample_step; }
@@ -39,22 +41,25 @@ struct MethodRun {
   std::uint64_t seed = 0;
   std::vector<double>
       error;  ///< rms distance from the 113-bit trajectory at the samples, in sigma; fewer samples where cut short
-  double seconds_early = 0.0;        ///< processor time of the loop until the early sample
-  double seconds = 0.0;              ///< processor time until `time`
-  double time = 0.0;                 ///< reached; plan.until(), or less where that would have taken too long
-  std::uint64_t pair = 0;            ///< reversals
-  double Z = 0.0;                    ///< Z from r . dp of each reversal
-  double collision_rate = 0.0;       ///< reversals of one disk per time
-  double mean_free_path = 0.0;       ///< mean speed over collision_rate; length
-  double energy_drift = 0.0;         ///< relative
-  double worst_overlap = 0.0;        ///< over the samples, in units of the pair's sigma
-  std::optional<StepCounts> counts;  ///< counts of a fixed-step method, over the first steps
+  double setup_seconds = 0.0;            ///< processor time to make the simulation, before its first step or event
+  double seconds_early = 0.0;            ///< processor time of the loop until the early sample
+  double seconds = 0.0;                  ///< processor time until `time`
+  double time = 0.0;                     ///< reached; plan.until(), or less where that would have taken too long
+  std::uint64_t pair = 0;                ///< reversals
+  double Z = 0.0;                        ///< Z from r . dp of each reversal
+  double collision_rate = 0.0;           ///< reversals of one disk per time
+  double mean_free_path = 0.0;           ///< mean speed over collision_rate; length
+  double energy_drift = 0.0;             ///< relative
+  double worst_overlap = 0.0;            ///< over the samples, in units of the pair's sigma
+  std::optional<StepCounts> counts;      ///< of a method that reverses disks where it finds them, over the first steps
+  std::optional<StepMistakes> mistakes;  ///< of a method that finds contacts within a step, over the first steps
 };
 
-/// A method that was not run because it would have taken too long.
+/// A method that was not run: it would have taken too long, or it cannot run the scene.
 struct LeftOut {
   Method method;
-  double seconds = 0.0;  ///< foreseen, for the early sample alone
+  double seconds = 0.0;  ///< predicted, for the early sample alone; 0 where it cannot run the scene
+  std::string reason;    ///< why it cannot run the scene, as a sentence; else empty
 };
 
 /// The cost of a similar scene at another size or density, at fixed accuracy: Z to 1 %.

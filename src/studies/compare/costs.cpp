@@ -28,6 +28,9 @@ constexpr std::uint64_t run_up = 40, measured = 200;
 constexpr double longest_in_diameters = 0.1, longest_in_free_times = 0.2;
 constexpr double bias_free_times = 60.0;
 
+/// Methods that find contacts within a step are right with steps longer by this factor.
+constexpr double longer_with_contacts = 2.0;
+
 using Proceed = std::function<bool()>;
 
 /// Runs in slices between which `proceed` may stop the run. Returns false where it did.
@@ -72,16 +75,17 @@ std::optional<Gas> gas_like(const Scene& scene, std::int64_t disks, double packi
 }
 
 /// Relative bias of Z per dt: a line through nothing at dt = 0, fitted to three steps. Empty where stopped.
-std::optional<double> bias_slope(const Gas& gas, double temperature, const Proceed& proceed) {
+std::optional<double> bias_slope(const Gas& gas, const Method& longest, double temperature, const Proceed& proceed) {
   double numerator = 0.0, denominator = 0.0;
   for (const double share : {1.0, 0.5, 0.25}) {
-    const double dt = share * gas.longest_step;
-    Simulation grid = make_simulation(gas.scene, gas.state, FixedStep{"grid", dt});
+    const double dt = share * longest.dt;
+    Simulation steps = make_simulation(gas.scene, gas.state, FixedStep{longest.name, dt});
     for (int slice = 1; slice <= 30; ++slice) {
       if (!proceed()) return std::nullopt;
-      grid.run_until(bias_free_times * gas.free_time * slice / 30.0);
+      steps.run_until(bias_free_times * gas.free_time * slice / 30.0);
     }
-    const double Z = compressibility(grid.totals().virial / grid.time(), static_cast<double>(grid.disks().count()), temperature);
+    const double Z = compressibility(steps.totals().virial / counted_time({longest.name, dt}, steps.time()),
+                                     static_cast<double>(steps.disks().count()), temperature);
     numerator += dt * (Z / gas.Z - 1.0);
     denominator += dt * dt;
   }
@@ -93,7 +97,7 @@ double seconds_per_disk_and_free_time(const Gas& gas, const Method& method) {
   const double disks = static_cast<double>(gas.scene.disk_count());
   const bool all_pairs = method.name == "guarded" || method.name.starts_with("naive");
   const double free_times = all_pairs ? 1.0 : std::max(2.0, 4e4 / disks);
-  return seconds_in_loop(gas.scene, gas.state, method, {free_times * gas.free_time}).front() / (disks * free_times);
+  return seconds_of_run(gas.scene, gas.state, method, {free_times * gas.free_time}).until.front() / (disks * free_times);
 }
 
 }  // namespace
@@ -123,18 +127,24 @@ bool measure_costs(const Scene& scene, Comparison& comparison,
     const std::optional<Gas> gas = gas_like(scene, disks, density, temperature, go_on);
     if (stopped) return false;
     if (!gas) continue;
-    const std::optional<double> slope = bias_slope(*gas, temperature, go_on);
-    if (!slope) return false;
-    const double dt = std::min(gas->longest_step, 0.01 / std::max(1e-300, std::abs(*slope)));
-    std::vector<Method> methods = {{make_simulation(gas->scene).engine()}, {"textbook"}, {"grid", dt}};
-    if (disks <= usual_size) methods.push_back({"guarded", dt});
+    // Each method with the step for which its bias of Z is 1 %, or with its longest.
+    std::vector<std::pair<Method, double>> methods = {{{make_simulation(gas->scene).engine()}, 0.0}, {{"textbook"}, 0.0}};
+    for (const Method& longest :
+         {Method{"grid", gas->longest_step}, Method{"backtrack", longer_with_contacts * gas->longest_step},
+          Method{"swept", longer_with_contacts * gas->longest_step}}) {
+      const std::optional<double> slope = bias_slope(*gas, longest, temperature, go_on);
+      if (!slope) return false;
+      const double dt = std::min(longest.dt, 0.01 / std::max(1e-300, std::abs(*slope)));
+      methods.push_back({{longest.name, dt}, *slope});
+      if (longest.name == "grid" && disks <= usual_size) methods.push_back({{"guarded", dt}, *slope});
+    }
     std::vector<CostPoint> measured_here;
-    for (const Method& method : methods) {
+    for (const auto& [method, slope] : methods) {
       if (!proceed(fmt::format("cost of {} disks at packing fraction {:.2g}: {}", disks, density, method.name),
                    begun / static_cast<double>(points.size())))
         return false;
-      measured_here.push_back({disks, density, method.name, method.dt, gas->free_time,
-                               seconds_per_disk_and_free_time(*gas, method), gas->Z, method.exact() ? 0.0 : *slope});
+      measured_here.push_back(
+          {disks, density, method.name, method.dt, gas->free_time, seconds_per_disk_and_free_time(*gas, method), gas->Z, slope});
     }
     for (const CostPoint& point : measured_here) {
       comparison.costs.push_back(point);

@@ -41,6 +41,7 @@ Json json_of(const MethodRun& run) {
                {"dt", run.method.dt},
                {"seed", run.seed},
                {"time", run.time},
+               {"setup_seconds", run.setup_seconds},
                {"seconds_early", run.seconds_early},
                {"seconds", run.seconds},
                {"pair", run.pair},
@@ -51,6 +52,7 @@ Json json_of(const MethodRun& run) {
                {"worst_overlap", number(run.worst_overlap)},
                {"error", json_of(run.error)}};
   if (run.counts) json["counts"] = json_of(*run.counts);
+  if (run.mistakes) json["mistakes"] = {{"steps", run.mistakes->steps}, {"mistaken", run.mistakes->mistaken}};
   return json;
 }
 
@@ -59,6 +61,7 @@ MethodRun run_of(const Json& json) {
   run.method = {json.at("method"), json.at("dt")};
   run.seed = json.at("seed");
   run.time = json.at("time");
+  run.setup_seconds = json.at("setup_seconds");
   run.seconds_early = json.at("seconds_early");
   run.seconds = json.at("seconds");
   run.pair = json.at("pair");
@@ -68,6 +71,8 @@ MethodRun run_of(const Json& json) {
   run.energy_drift = number(json.at("energy_drift"));
   run.worst_overlap = number(json.at("worst_overlap"));
   for (const Json& error : json.at("error")) run.error.push_back(number(error));
+  if (json.contains("mistakes"))
+    run.mistakes = StepMistakes{.steps = json["mistakes"].at("steps"), .mistaken = json["mistakes"].at("mistaken")};
   if (!json.contains("counts")) return run;
   const Json& counts = json["counts"];
   run.counts = StepCounts{.steps = counts.at("steps"),
@@ -109,7 +114,22 @@ Json json_of(const ComparePlan& plan) {
           {"dt", plan.dts},
           {"seeds", plan.seeds},
           {"drawn", plan.drawn},
-          {"longest", plan.longest}};
+          {"longest", plan.longest},
+          {"machine", plan.machine}};
+}
+
+Json or_null(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
+Json json_of(const Price& price) {
+  return {{"method", price.method},
+          {"target", price.target},
+          {"ratio", or_null(price.ratio)},
+          {"spread", price.ratio ? Json{number(price.lowest), number(price.highest)} : Json(nullptr)},
+          {"extrapolated", price.extrapolated()},
+          {"extrapolation", price.extrapolation},
+          {"dt", or_null(price.dt)},
+          {"seconds", or_null(price.seconds)},
+          {"remark", price.remark}};
 }
 
 Json json_of(const MethodSummary& s) {
@@ -120,6 +140,7 @@ Json json_of(const MethodSummary& s) {
                 {{"median", number(s.error.median)},
                  {"lower_quartile", number(s.error.lower)},
                  {"upper_quartile", number(s.error.upper)}}},
+               {"setup_seconds", number(s.setup_seconds)},
                {"seconds_early", number(s.seconds_early)},
                {"seconds_per_time", number(s.seconds_per_time)}};
   const auto with_error = [](const std::optional<Estimate>& e) {
@@ -130,6 +151,7 @@ Json json_of(const MethodSummary& s) {
   json["mean_free_path"] = with_error(s.mean_free_path);
   json["bias"] = {
       {"Z", with_error(s.Z_bias)}, {"collision_rate", with_error(s.rate_bias)}, {"mean_free_path", with_error(s.path_bias)}};
+  json["horizon_in_collisions_per_disk"] = or_null(s.horizon);
   json["worst_overlap"] = number(s.worst_overlap);
   json["energy_drift"] = number(s.energy_drift);
   return json;
@@ -192,12 +214,19 @@ std::string compare_json(const Comparison& comparison, const Scene& scene, const
       {"exact_seconds", number(answers.exact_seconds)},
       {"exact_error", number(answers.exact_error)},
       {"order", answers.order ? Json{{"value", answers.order->value}, {"error", answers.order->error}} : Json(nullptr)},
-      {"to_millionth", answers.to_millionth ? Json{{"dt", answers.to_millionth->dt},
-                                                   {"seconds", answers.to_millionth->seconds},
-                                                   {"extrapolated", answers.to_millionth->extrapolated}}
-                                            : Json(nullptr)},
       {"crossover",
-       answers.crossover_error ? Json{{"error", *answers.crossover_error}, {"dt", *answers.crossover_dt}} : Json(nullptr)}};
+       answers.crossover
+           ? Json{{"method", answers.crossover->method}, {"error", answers.crossover->error}, {"dt", answers.crossover->dt}}
+           : Json(nullptr)},
+      {"break_even", answers.break_even ? Json{{"method", answers.break_even->method},
+                                               {"exact_setup_seconds", answers.break_even->exact_setup},
+                                               {"method_setup_seconds", answers.break_even->method_setup},
+                                               {"collisions_per_disk", answers.break_even->collisions_per_disk}}
+                                        : Json(nullptr)}};
+  const Price* best = best_fixed_step(answers.prices, "error 1e-6");
+  json["best_fixed_step"] = best != nullptr ? Json(best->method) : Json(nullptr);
+  json["prices"] = Json::array();
+  for (const Price& price : answers.prices) json["prices"].push_back(json_of(price));
   json["plan"] = json_of(comparison.plan);
   json["horizon"] = horizon_json(comparison.plan.horizon);
   json["summary"] = Json::array();
@@ -206,14 +235,15 @@ std::string compare_json(const Comparison& comparison, const Scene& scene, const
   for (const TimeToZ& row : answers.time_to_Z)
     json["time_to_Z"].push_back({{"method", row.method},
                                  {"relative_error", row.accuracy},
-                                 {"dt", row.dt ? number(*row.dt) : Json(nullptr)},
-                                 {"seconds", row.seconds ? number(*row.seconds) : Json(nullptr)},
+                                 {"dt", or_null(row.dt)},
+                                 {"seconds", or_null(row.seconds)},
                                  {"remark", row.remark}});
   json["runs"] = Json::array();
   for (const MethodRun& run : comparison.runs) json["runs"].push_back(json_of(run));
   json["left_out"] = Json::array();
   for (const LeftOut& one : comparison.left_out)
-    json["left_out"].push_back({{"method", one.method.name}, {"dt", one.method.dt}, {"seconds_foreseen", one.seconds}});
+    json["left_out"].push_back(
+        {{"method", one.method.name}, {"dt", one.method.dt}, {"seconds_predicted", one.seconds}, {"reason", one.reason}});
   json["costs"] = Json::array();
   for (const CostPoint& point : comparison.costs) json["costs"].push_back(json_of(point));
   // A path or a command line need not be UTF-8, and JSON must be.
@@ -222,21 +252,23 @@ std::string compare_json(const Comparison& comparison, const Scene& scene, const
 
 std::string compare_csv(const Comparison& comparison) {
   std::string text =
-      "method,dt,seed,time,seconds_early,error_early,seconds,error_end,pair,Z,collision_rate,mean_free_path,energy_drift,worst_"
-      "overlap,"
-      "found,missed,repeated,spurious,mean_depth,deepest\n";
+      "method,dt,seed,time,setup_seconds,seconds_early,error_early,seconds,error_end,horizon,pair,Z,collision_rate,mean_free_"
+      "path,"
+      "energy_drift,worst_overlap,found,missed,repeated,spurious,mean_depth,deepest,compared_steps,mistaken_steps\n";
   for (const MethodRun& run : comparison.runs) {
     const std::size_t early = comparison.plan.early;
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", run.method.name, run.method.dt, run.seed, run.time,
-                        run.seconds_early, early >= 1 && run.error.size() >= early ? run.error[early - 1] : NAN, run.seconds,
-                        run.error.empty() ? NAN : run.error.back(), run.pair, run.Z, run.collision_rate, run.mean_free_path,
-                        run.energy_drift, run.worst_overlap);
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", run.method.name, run.method.dt, run.seed, run.time,
+                    run.setup_seconds, run.seconds_early, early >= 1 && run.error.size() >= early ? run.error[early - 1] : NAN,
+                    run.seconds, run.error.empty() ? NAN : run.error.back(), horizon_of(comparison.plan, run).value_or(NAN),
+                    run.pair, run.Z, run.collision_rate, run.mean_free_path, run.energy_drift, run.worst_overlap);
     if (run.counts) {
       const StepCounts& c = *run.counts;
-      text += fmt::format(",{},{},{},{},{},{}\n", c.found, c.missed, c.repeated, c.spurious, c.mean_depth(), c.deepest);
+      text += fmt::format(",{},{},{},{},{},{}", c.found, c.missed, c.repeated, c.spurious, c.mean_depth(), c.deepest);
     } else {
-      text += ",,,,,,\n";
+      text += ",,,,,,";
     }
+    text += run.mistakes ? fmt::format(",{},{}\n", run.mistakes->steps, run.mistakes->mistaken) : ",,\n";
   }
   return text;
 }

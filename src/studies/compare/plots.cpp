@@ -114,14 +114,16 @@ Plot error_in_time(const Comparison& comparison) {
 
 Plot work_precision(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
   const ComparePlan& plan = comparison.plan;
-  Plot plot{.id = "work-precision",
-            .title = "Error against processor time",
-            .caption = fmt::format("Error after {:.2g} collisions per disk against the processor time until then: medians over "
-                                   "the starts, with bars over the "
-                                   "middle half of them. Lower left is better. Every point of a fixed-step method is one dt.",
-                                   plan.in_free_times(plan.early_time())),
-            .x = {.title = "processor time (s)", .log = true},
-            .y = {.title = "rms error of position (diameters)", .log = true}};
+  Plot plot{
+      .id = "work-precision",
+      .title = "Error against processor time",
+      .caption = fmt::format("Error after {:.2g} collisions per disk against the processor time until then: medians over "
+                             "the starts, with bars over the middle half of them. Lower left is better. Every "
+                             "point of a fixed-step method is one dt. Guarded has the trajectory of grid and can be shown by "
+                             "a press on its name.",
+                             plan.in_free_times(plan.early_time())),
+      .x = {.title = "processor time (s)", .log = true},
+      .y = {.title = "rms error of position (diameters)", .log = true}};
   std::vector<std::string> names;
   for (const MethodSummary& summary : summaries)
     if (std::find(names.begin(), names.end(), summary.method.name) == names.end()) names.push_back(summary.method.name);
@@ -136,6 +138,7 @@ Plot work_precision(const Comparison& comparison, const std::vector<MethodSummar
       series.labels.push_back(summary.method.exact() ? "no time step" : fmt::format("dt = {:.3g}", summary.method.dt));
     }
     if (series.x.size() == 1) series.style = Style::points;
+    series.visible = name != "guarded";  // the trajectory of grid at a higher price
     plot.series.push_back(std::move(series));
   }
   // 113 bits have nothing better to be held against: their error is that of 64 bits times the ratio of the units in the last
@@ -150,6 +153,48 @@ Plot work_precision(const Comparison& comparison, const std::vector<MethodSummar
                            .labels = {"no time step"},
                            .style = Style::points,
                            .group = group_of("textbook-quad")});
+  }
+  return plot;
+}
+
+Plot trust_for_price(const Comparison& comparison, const std::vector<MethodSummary>& summaries, double disks) {
+  const ComparePlan& plan = comparison.plan;
+  Plot plot{
+      .id = "trust",
+      .title = "Horizon against processor time",
+      .caption = fmt::format("The number of collisions per disk until the error of position exceeds {:g} diameters, against the "
+                             "processor time of one disk from one collision to its next. Upper left is better. Medians over "
+                             "the starts; steps that lose the trajectory before the first sample are not drawn.",
+                             plan.horizon.tolerance),
+      .x = {.title = "processor time per disk and mean free time (ns)", .log = true},
+      .y = {.title = "horizon (collisions per disk)"}};
+  if (plan.horizon.lyapunov && plan.horizon.lyapunov->is_chaotic())
+    plot.caption += fmt::format(
+        " Errors grow by e in {:.2g} collisions per disk: a step that is ten times shorter gains {:.2g} if the method is of "
+        "first "
+        "order, and a bit of precision gains {:.2g}.",
+        1.0 / plan.horizon.lyapunov->per_collision, std::numbers::ln10 / plan.horizon.lyapunov->per_collision,
+        std::numbers::ln2 / plan.horizon.lyapunov->per_collision);
+  const double nanoseconds = 1e9 * plan.mean_free_time / disks;
+  for (Series& series : over_steps(comparison, summaries, [](const MethodSummary& s) -> std::optional<Estimate> {
+         if (!s.horizon) return std::nullopt;
+         return Estimate{*s.horizon, 0.0};
+       })) {
+    series.x.clear();
+    for (const MethodSummary& summary : summaries)
+      if (name_of(summary.method.name) == series.name && summary.horizon)
+        series.x.push_back(nanoseconds * summary.seconds_per_time);
+    series.visible = series.name != name_of("guarded");
+    plot.series.push_back(std::move(series));
+  }
+  for (const HorizonRow& row : plan.horizon.rows) {
+    if (!row.collisions_per_disk || !(row.seconds > 0.0) || !(plan.horizon.timed_until > 0.0)) continue;
+    plot.series.push_back({.name = name_of(row.engine) + (row.estimated ? " (horizon extrapolated)" : ""),
+                           .x = {nanoseconds * row.seconds / plan.horizon.timed_until},
+                           .y = {*row.collisions_per_disk},
+                           .labels = {"no time step"},
+                           .style = Style::points,
+                           .group = group_of(row.engine)});
   }
   return plot;
 }
@@ -187,6 +232,24 @@ Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSumma
   return plot;
 }
 
+Plot mistakes_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
+  Plot plot{.id = "mistakes",
+            .title = "Steps with a mistake",
+            .caption =
+                "Of methods that find contacts within a step: the fraction of steps after which a disk is not where exact "
+                "events from the beginning of the step bring it. Such a step has missed a pair that met and parted within it, "
+                "or has taken two collisions of one disk in the wrong order. Bars: one standard error of the count. Zero is not "
+                "drawn.",
+            .x = {.title = in_free_times, .log = true},
+            .y = {.title = "fraction of steps", .log = true}};
+  plot.series = over_steps(comparison, summaries, [&](const MethodSummary& s) -> std::optional<Estimate> {
+    if (!s.mistakes || s.mistakes->mistaken == 0) return std::nullopt;
+    const double p = s.mistakes->fraction();
+    return Estimate{p, std::sqrt(p * (1.0 - p) / static_cast<double>(s.mistakes->steps))};
+  });
+  return plot;
+}
+
 Plot overlap_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
   Plot plot{.id = "overlap",
             .title = "Overlap",
@@ -216,7 +279,7 @@ Plot overlap_of_steps(const Comparison& comparison, const std::vector<MethodSumm
 }
 
 Plot bias_of(const Comparison& comparison, const std::vector<MethodSummary>& summaries, const std::string& id,
-             const std::string& what, std::optional<Estimate> MethodSummary::*bias) {
+             const std::string& what, std::optional<Estimate> MethodSummary::*bias, const Series& law) {
   Plot plot{
       .id = id,
       .title = fmt::format("Bias of {}", what),
@@ -229,8 +292,27 @@ Plot bias_of(const Comparison& comparison, const std::vector<MethodSummary>& sum
     if (!(s.*bias)) return std::nullopt;
     return Estimate{100.0 * (s.*bias)->value, 100.0 * (s.*bias)->error};
   });
+  if (!law.x.empty()) {
+    plot.caption +=
+        " The dashed line is theory for steps that reverse disks where they find them: to the pressure, such a step is a smaller "
+        "diameter (docs/accuracy.md).";
+    plot.series.push_back(law);
+  }
   plot.marks = {{.axis = Mark::Across::y, .value = 0.0, .label = "exact"}};
   return plot;
+}
+
+Series law_of_bias(const Comparison& comparison, double packing_fraction) {
+  const ComparePlan& plan = comparison.plan;
+  if (plan.thermal_speed == 0.0 || packing_fraction > theory::densest_fluid) return {};
+  Series line{.name = "law of the smaller diameter", .style = Style::dashed, .group = 6};
+  for (const double dt : plan.dts) {
+    const double bias = theory::bias_of_Z(plan.thermal_speed * dt / plan.sigma, packing_fraction);
+    if (std::abs(bias) > 0.1) continue;  // not small: the law ends
+    line.x.push_back(plan.in_free_times(dt));
+    line.y.push_back(100.0 * bias);
+  }
+  return line;
 }
 
 Plot energy_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {

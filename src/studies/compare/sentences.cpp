@@ -23,60 +23,81 @@ std::string starts_words(const ComparePlan& plan) {
 
 namespace {
 
-bool was_run(const std::vector<MethodSummary>& summaries, const std::string& method) {
-  return std::any_of(summaries.begin(), summaries.end(), [&](const MethodSummary& s) { return s.method.name == method; });
-}
-
 std::string collisions_per_disk(double number) {
   const std::string text = fmt::format("{:.2g}", number);
   return text + (text == "1" ? " collision per disk" : " collisions per disk");
 }
 
-std::string what_it_costs(const ComparePlan& plan, const std::vector<MethodSummary>& summaries, const Answers& answers) {
+/// Returns text such as "2.2 times (1.9 to 2.6)"; the spread where there are several starts.
+std::string times(const Price& price, const ComparePlan& plan) {
+  const std::string ratio = two_digits(*price.ratio) + " times";
+  if (plan.seeds.size() < 2 || !std::isfinite(price.highest)) return ratio;
+  return fmt::format("{} ({} to {} over {})", ratio, two_digits(price.lowest), two_digits(price.highest), starts_words(plan));
+}
+
+std::string with_its_step(const Price& price, const ComparePlan& plan) {
+  return fmt::format("{} with dt = {:.2g} mean free times", price.method, plan.in_free_times(*price.dt));
+}
+
+/// The price of the best fixed step.
+std::string what_it_costs(const ComparePlan& plan, const Answers& answers) {
   const std::string when =
       fmt::format("after {} (t = {:.4g})", collisions_per_disk(plan.in_free_times(plan.early_time())), plan.early_time());
-  if (!was_run(summaries, "grid"))
-    return fmt::format("The exact engine is right to {:.1e} diameters {}. No fixed step was run: each would have taken too long.",
-                       answers.exact_error, when);
-  if (!answers.to_millionth)
+  const std::string exact = fmt::format("The exact engine is right to {:.1e} diameters", answers.exact_error);
+  const bool any =
+      std::any_of(answers.prices.begin(), answers.prices.end(), [](const Price& p) { return p.target == "error 1e-6" && p.dt; });
+  const Price* best = best_fixed_step(answers.prices, "error 1e-6");
+  if (best != nullptr)
     return fmt::format(
-        "The exact engine is right to {:.1e} diameters {}. Too few of the steps that were run have errors between 1e-11 and 0.03 "
-        "diameters there to extrapolate the cost of a finer one.",
-        answers.exact_error, when);
-  const double ratio = answers.to_millionth->seconds / answers.exact_seconds;
+        "For an error of 1e-6 diameters {} the best fixed step ({}{}) needs {} the processor time of the exact engine, both on "
+        "one "
+        "core of {}. {} there.",
+        when, with_its_step(*best, plan),
+        best->extrapolated() ? fmt::format(", extrapolated by {:.2g} in dt", best->extrapolation) : "", times(*best, plan),
+        plan.machine, exact);
+  return fmt::format("{} {}. {}", exact, when,
+                     any ? "No fixed step that was run comes within a factor of 3 in dt of an error of 1e-6 diameters."
+                         : "No fixed step that was run is right to 1e-6 diameters, and their errors do not say which would be.");
+}
+
+/// The method that reverses disks where it finds them, against the best.
+std::string what_not_knowing_when_costs(const std::vector<MethodSummary>& summaries, const Answers& answers) {
+  const Price* best = best_fixed_step(answers.prices, "error 1e-6");
+  const MethodSummary* finest = nullptr;
+  for (const MethodSummary& summary : summaries)
+    if (summary.method.name == "grid" && (finest == nullptr || summary.method.dt < finest->method.dt)) finest = &summary;
+  if (best == nullptr || best->method == "grid" || finest == nullptr || !(finest->error.median > 1e-6)) return "";
   return fmt::format(
-      "For an error of 1e-6 diameters {} the fixed step needs {} times the processor time of the exact engine{}. The exact "
-      "engine "
-      "is right to {:.1e} diameters there.",
-      when, two_digits(ratio),
-      answers.to_millionth->extrapolated
-          ? fmt::format(" (extrapolated at first order to dt = {:.1e}, smaller than those run)", answers.to_millionth->dt)
-          : "",
-      answers.exact_error);
+      "A fixed step that reverses disks where it finds them overlapping (grid) still has an error of {:.1e} diameters there at "
+      "{} "
+      "times the processor time of the exact engine.",
+      finest->error.median, two_digits(finest->seconds_early / answers.exact_seconds));
 }
 
 /// Error, in diameters, above which the trajectory counts as lost.
 constexpr double lost = 0.3;
 
 std::string where_it_is_cheaper(const ComparePlan& plan, const std::vector<MethodSummary>& summaries, const Answers& answers) {
-  if (!was_run(summaries, "grid")) return "";
-  if (answers.crossover_error && *answers.crossover_error < lost)
+  if (answers.crossover && answers.crossover->error < lost)
     return fmt::format(
-        "The fixed step is cheaper for errors above {} diameters (dt above {:.2g} mean free times, with the grid). The exact "
-        "engine "
-        "is cheaper for smaller errors.",
-        two_digits(*answers.crossover_error), plan.in_free_times(*answers.crossover_dt));
-  if (answers.crossover_error)
+        "A fixed step is the better choice for errors above {} diameters ({} with dt above {:.2g} mean free times). The exact "
+        "engine is cheaper for smaller errors.",
+        two_digits(answers.crossover->error), answers.crossover->method, plan.in_free_times(answers.crossover->dt));
+  if (answers.crossover)
     return fmt::format(
-        "The fixed step is cheaper only with dt above {:.2g} mean free times, where its error is {} diameters and the trajectory "
-        "is lost.",
-        plan.in_free_times(*answers.crossover_dt), two_digits(*answers.crossover_error));
-  double cheapest = INFINITY;
-  for (const MethodSummary& summary : summaries)
-    if (summary.method.name == "grid") cheapest = std::min(cheapest, summary.seconds_early);
-  if (cheapest < answers.exact_seconds)
-    return "The fixed step is cheaper than the exact engine at every dt that was run, and less accurate at each.";
-  return "The exact engine is cheaper than the fixed step at every dt that was run.";
+        "A fixed step is cheaper than the exact engine only with dt above {:.2g} mean free times ({}), where its error is {} "
+        "diameters and the trajectory is lost.",
+        plan.in_free_times(answers.crossover->dt), answers.crossover->method, two_digits(answers.crossover->error));
+  bool any = false, cheaper = false, dearer = false;
+  for (const MethodSummary& summary : summaries) {
+    if (summary.method.exact() || !(summary.seconds_early > 0.0)) continue;
+    any = true;
+    (summary.seconds_early < answers.exact_seconds ? cheaper : dearer) = true;
+  }
+  if (!any) return "No fixed step was run: each would have taken too long.";
+  if (!cheaper) return "The exact engine is cheaper than every fixed step that was run.";
+  if (!dearer) return "Every fixed step that was run is cheaper than the exact engine, and less accurate.";
+  return "";
 }
 
 std::string what_the_naive_does(const std::vector<MethodSummary>& summaries, const Answers& answers) {
@@ -99,21 +120,23 @@ std::string what_the_naive_does(const std::vector<MethodSummary>& summaries, con
       repeated > 0.0 ? fmt::format("; {} % of its reversals repeat an earlier one", two_digits(100.0 * repeated)) : "", energy);
 }
 
-std::string what_pressure_costs(const Answers& answers) {
-  const auto seconds = [&](const std::string& method, double accuracy) -> std::optional<double> {
-    for (const TimeToZ& row : answers.time_to_Z)
-      if (row.method == method && row.accuracy == accuracy) return row.seconds;
-    return std::nullopt;
-  };
-  const auto ratio = [&](double accuracy) -> std::optional<double> {
-    const auto exact = seconds(answers.exact, accuracy), grid = seconds("grid", accuracy);
-    return exact && grid ? std::optional(*grid / *exact) : std::nullopt;
-  };
-  const auto percent = ratio(0.01), thousandth = ratio(0.001);
-  if (!percent || !thousandth) return "";
+std::string what_pressure_costs(const ComparePlan& plan, const Answers& answers) {
+  const Price* percent = best_fixed_step(answers.prices, "Z 1 %");
+  const Price* thousandth = best_fixed_step(answers.prices, "Z 0.1 %");
+  if (percent == nullptr || thousandth == nullptr) return "";
   return fmt::format(
-      "For Z to 1 % the fixed step needs {} times the processor time of the exact engine, for Z to 0.1 % {} times.",
-      two_digits(*percent), two_digits(*thousandth));
+      "For Z to 1 % the best fixed step ({}) needs {} times the processor time of the exact engine, for Z to 0.1 % ({}) {} "
+      "times.",
+      with_its_step(*percent, plan), two_digits(*percent->ratio), with_its_step(*thousandth, plan),
+      two_digits(*thousandth->ratio));
+}
+
+std::string what_cores_would_do(const Answers& answers) {
+  const Price* best = best_fixed_step(answers.prices, "error 1e-6");
+  if (best == nullptr || !(*best->ratio > 1.0)) return "";
+  return fmt::format(
+      "On {:.0f} cores that step would be as fast as the exact engine on one, if it lost nothing by sharing the work.",
+      std::ceil(*best->ratio));
 }
 
 }  // namespace
@@ -121,9 +144,12 @@ std::string what_pressure_costs(const Answers& answers) {
 std::vector<std::string> compare_sentences(const Comparison& comparison, const std::vector<MethodSummary>& summaries,
                                            const Answers& answers) {
   if (!(answers.exact_seconds > 0.0)) return {};
-  std::vector<std::string> sentences = {what_it_costs(comparison.plan, summaries, answers),
+  std::vector<std::string> sentences = {what_it_costs(comparison.plan, answers),
+                                        what_not_knowing_when_costs(summaries, answers),
                                         where_it_is_cheaper(comparison.plan, summaries, answers),
-                                        what_the_naive_does(summaries, answers), what_pressure_costs(answers)};
+                                        what_pressure_costs(comparison.plan, answers),
+                                        what_cores_would_do(answers),
+                                        what_the_naive_does(summaries, answers)};
   if (!comparison.plan.drawn)
     sentences.emplace_back("This scene's start contains nothing random. There is one start, and a bias has no error bar.");
   std::erase(sentences, "");

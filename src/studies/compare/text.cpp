@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <optional>
+#include <string>
+#include <vector>
 
 namespace carom::cli {
 
@@ -36,7 +38,8 @@ void put(TerminalTable& table, const MethodSummary& s, const ComparePlan& plan, 
   table.add({s.method.name, s.method.exact() ? "" : fmt::format("{:.2g}", plan.in_free_times(s.method.dt)),
              fmt::format("{:.1e}", s.error.median), duration(s.seconds_early), Z,
              counted ? percent_of(s.counts->missed_fraction(), s.counts->collisions()) : "",
-             counted ? percent_of(s.counts->repeated_fraction(), s.counts->reversals()) : ""});
+             counted ? percent_of(s.counts->repeated_fraction(), s.counts->reversals()) : "",
+             s.mistakes && s.mistakes->steps > 0 ? percent(s.mistakes->fraction()) : ""});
 }
 
 std::string table_of(const Comparison& comparison) {
@@ -44,9 +47,9 @@ std::string table_of(const Comparison& comparison) {
   const MethodSummary* exact = nullptr;
   for (const MethodSummary& summary : summaries)
     if (summary.method.name == comparison.plan.horizon.engine) exact = &summary;
-  TerminalTable table("lrrrrrr");
-  table.add({"", "dt / mean", "error /", "processor", "bias of Z", "missed", "repeated"});
-  table.add({"method", "free time", "diameter", "time", "%", "%", "%"});
+  TerminalTable table("lrrrrrrr");
+  table.add({"", "dt / mean", "error /", "processor", "bias of Z", "missed", "repeated", "wrong steps"});
+  table.add({"method", "free time", "diameter", "time", "%", "%", "%", "%"});
   for (const MethodSummary& summary : summaries)
     if (summary.method.exact()) put(table, summary, comparison.plan, exact);
   for (const std::string& method : fixed_step_names())
@@ -63,19 +66,57 @@ std::string legend(const ComparePlan& plan) {
       "  processor time: time to reach t = {:.4g}\n"
       "  bias of Z: Z minus that of the exact engine{}\n"
       "  missed: pairs that touched and parted without a collision, in per cent of all collisions that should happen\n"
-      "  repeated: reversals of a pair that was already reversed in the same encounter, in per cent of all reversals\n",
+      "  repeated: reversals of a pair that was already reversed in the same encounter, in per cent of all reversals\n"
+      "  wrong steps: of methods that find contacts within a step, steps after which a disk is not where exact events bring it\n",
       plan.early_time(), plan.sigma, plan.early_time(),
       starts > 1 ? fmt::format(" from the same start, in per cent, ± its standard error over {} starts", starts)
                  : ", in per cent");
 }
 
-std::string time_to_Z(const Answers& answers) {
-  if (answers.time_to_Z.empty()) return "";
-  TerminalTable table("rll");
-  for (const TimeToZ& one : answers.time_to_Z)
-    table.add({fmt::format("{} %", 100.0 * one.accuracy), one.method,
-               one.seconds ? duration(*one.seconds) + (one.dt ? fmt::format(", dt = {:.2g}", *one.dt) : "") : one.remark});
-  return "\n  processor time for Z = PA/(NkT) with an error of\n" + table.text();
+/// Returns a line for all runs that would have taken too long, and a line for each method that cannot run the scene.
+std::string left_out(const Comparison& comparison) {
+  std::uint64_t slow = 0;
+  std::string lines;
+  for (const LeftOut& one : comparison.left_out) {
+    if (one.reason.empty()) {
+      ++slow;
+    } else if (const std::string line = fmt::format("  left out: {}: {}\n", one.method.name, one.reason);
+               lines.find(line) == std::string::npos) {
+      lines += line;
+    }
+  }
+  if (slow > 0)
+    lines += fmt::format("  left out, because longer than {}: {} (--longest raises the limit)\n",
+                         duration(comparison.plan.longest), counted(slow, "slow run"));
+  return lines;
+}
+
+std::string price_cell(const Price& price, const ComparePlan& plan) {
+  if (!price.ratio) return "-";
+  const std::string step = price.dt ? fmt::format(" ({:.2g})", plan.in_free_times(*price.dt)) : "";
+  return two_digits(*price.ratio) + (price.extrapolated() ? "*" : "") + step;
+}
+
+/// Returns the table of prices: a row per method, a column per target.
+std::string prices_of(const Answers& answers, const ComparePlan& plan) {
+  if (answers.prices.empty()) return "";
+  TerminalTable table("lllll");
+  table.add({"", "1e-6 diameters", "1e-10 diameters", "Z to 1 %", "Z to 0.1 %"});
+  std::vector<std::string> methods;
+  for (const Price& price : answers.prices)
+    if (std::find(methods.begin(), methods.end(), price.method) == methods.end()) methods.push_back(price.method);
+  for (const std::string& method : methods) {
+    std::vector<std::string> cells = {method};
+    for (const Target& target : price_targets()) {
+      const auto same = [&](const Price& p) { return p.method == method && p.target == target.name; };
+      const auto price = std::find_if(answers.prices.begin(), answers.prices.end(), same);
+      cells.push_back(price == answers.prices.end() ? "-" : price_cell(*price, plan));
+    }
+    table.add(cells);
+  }
+  return "\n  price: processor time over that of the exact engine, and in brackets the dt in mean free times\n" + table.text() +
+         "  *: extrapolated to a shorter dt than was run.  -: not reached, or not known from these runs (compare.json says "
+         "why)\n";
 }
 
 }  // namespace
@@ -92,10 +133,8 @@ std::string compare_text(const Comparison& comparison, const Scene& scene, bool 
         scene.packing_fraction(), starts_words(plan), plan.early_time(), plan.in_free_times(plan.early_time()),
         plan.mean_free_time);
     text += table_of(comparison) + "\n" + legend(plan);
-    if (!comparison.left_out.empty())
-      text += fmt::format("  left out, because longer than {}: {} (--longest raises the limit)\n", duration(plan.longest),
-                          counted(comparison.left_out.size(), "slow run"));
-    text += time_to_Z(answers) + "\n";
+    text += left_out(comparison);
+    text += prices_of(answers, plan) + "\n";
   }
   for (const std::string& sentence : answers.sentences) text += sentence + "\n";
   return text;

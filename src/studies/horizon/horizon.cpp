@@ -276,7 +276,7 @@ class HorizonSearch {
       const double done = static_cast<double>(k) / static_cast<double>(result_.rows.size());
       if (!proceed("timing " + row.engine, lyapunov_share + lockstep_share + (1.0 - lyapunov_share - lockstep_share) * done))
         break;
-      row.seconds = seconds_in_loop(scene_, start_, {row.engine}, {result_.timed_until}).front();
+      row.seconds = seconds_of_run(scene_, start_, {row.engine}, {result_.timed_until}).until.front();
       if (row.engine == "textbook") base = row.seconds;
     }
     for (HorizonRow& row : result_.rows) row.price = base > 0.0 ? row.seconds / base : 0.0;

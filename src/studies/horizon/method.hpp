@@ -19,6 +19,14 @@ struct Method {
   [[nodiscard]] bool exact() const { return dt == 0.0; }
 };
 
+/// Returns whether a fixed-step method goes to the moment of a contact within its step. It is right to rounding then, until a
+/// step has a mistake.
+[[nodiscard]] bool finds_contacts(const std::string& method);
+
+/// Returns the part of `time` whose collisions a run of this method has counted: until its last step, or all of it by exact
+/// events.
+[[nodiscard]] double counted_time(const Method& method, double time);
+
 /// Makes a simulation by this method from a given state. Throws as make_simulation.
 [[nodiscard]] Simulation begin(const Scene& scene, const State& start, const Method& method);
 
@@ -30,9 +38,15 @@ struct Method {
 /// Processor time of this thread, in seconds from some zero.
 [[nodiscard]] double thread_seconds();
 
-/// Seconds of processor time that the loop of `method` takes from `start` to each of `times` (ascending): the least of a few
-/// turns, since what disturbs only adds.
-[[nodiscard]] std::vector<double> seconds_in_loop(const Scene& scene, const State& start, const Method& method,
-                                                  const std::vector<double>& times);
+/// Processor time of one run, in seconds.
+struct RunSeconds {
+  double setup = 0.0;         ///< to make the simulation, before its first step or event
+  std::vector<double> until;  ///< in the loop, from the start to each of the times that were asked for
+};
+
+/// Returns the processor time that `method` takes from `start` to each of `times` (ascending): the least of a few runs, since
+/// what disturbs only adds.
+[[nodiscard]] RunSeconds seconds_of_run(const Scene& scene, const State& start, const Method& method,
+                                        const std::vector<double>& times);
 
 }  // namespace carom

@@ -1,6 +1,6 @@
 // Facts about the machine, from Linux and glibc.
 
-#include "studies/benchmark/machine.hpp"
+#include "studies/machine.hpp"
 
 #include "core/large_memory.hpp"
 
