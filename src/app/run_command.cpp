@@ -73,7 +73,7 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   if (options.pace && !options.watch) throw UsageError("--pace slows a run down for those who watch it: give --watch too");
   if (options.pace && !(*options.pace > 0.0 && std::isfinite(*options.pace)))
     throw UsageError(fmt::format("--pace {:g}: it is simulated time per second and must be positive", *options.pace));
-  if (options.verify_horizon) require_no_effects(scene, "--verify-horizon");
+  if (options.verify_horizon) require_known_effects(scene, "--verify-horizon");
   if (options.method != "exact" && !scene.observe.empty())
     throw UsageError(fmt::format("--method {}: [observe] measures exact trajectories; leave out one of the two", options.method));
   Simulation simulation = simulation_for(options, scene, engine);

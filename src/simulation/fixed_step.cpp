@@ -86,18 +86,6 @@ void require_sound_step(const FixedStep& step, const Scene& scene, const Start& 
 /// The effects that fixed-step methods have besides the collision rule and hard walls.
 constexpr std::string_view known_effects[] = {"restitution", "gravity", "inelastic_walls"};
 
-/// Returns which effects no fixed step knows; empty where there are none.
-std::string why_not_by_steps(const Effects& effects) {
-  std::vector<std::string> unknown = effects.acting();
-  std::erase_if(unknown,
-                [](const std::string& name) { return std::ranges::find(known_effects, name) != std::end(known_effects); });
-  if (unknown.empty()) return "";
-  return fmt::format(
-      "fixed-step methods know the collision rule, hard walls, restitution and gravity; this scene asks for {} besides, which "
-      "exact events alone simulate",
-      fmt::join(unknown, ", "));
-}
-
 /// Springs act along the line of centres, and dashpots let disks part.
 std::string why_not_by_springs(const Effects& effects) {
   if (effects.collision.rule == CollisionRule::reversal)
@@ -126,13 +114,24 @@ std::string why_not_by_sweeping(const Scene& scene) {
 
 /// Returns why a method cannot run the scene, in one sentence; empty where it can.
 std::string why_not(std::string_view method, const Scene& scene) {
-  std::string why = why_not_by_steps(scene.effects);
+  std::string why = why_no_fixed_step(scene.effects);
   if (why.empty() && method == "soft") why = why_not_by_springs(scene.effects);
   if (why.empty() && method == "swept") why = why_not_by_sweeping(scene);
   return why;
 }
 
 }  // namespace
+
+std::string why_no_fixed_step(const Effects& effects) {
+  std::vector<std::string> unknown = effects.acting();
+  std::erase_if(unknown,
+                [](const std::string& name) { return std::ranges::find(known_effects, name) != std::end(known_effects); });
+  if (unknown.empty()) return "";
+  return fmt::format(
+      "fixed-step methods know the collision rule, hard walls, restitution and gravity; this scene asks for {} besides, which "
+      "exact events alone simulate",
+      fmt::join(unknown, ", "));
+}
 
 std::vector<std::string> fixed_step_names() {
   std::vector<std::string> names;

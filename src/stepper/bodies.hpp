@@ -7,7 +7,6 @@
 #include "effects/gravity.hpp"
 #include "effects/impact.hpp"
 
-#include <carom/effects.hpp>
 #include <carom/state.hpp>
 
 #include <array>

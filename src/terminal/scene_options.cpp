@@ -4,6 +4,7 @@
 
 #include "scene/table_reader.hpp"
 #include "scene/text_file.hpp"
+#include "simulation/fixed_step.hpp"
 #include "terminal/command.hpp"
 
 #include <fmt/format.h>
@@ -49,11 +50,9 @@ Scene load(const SceneOptions& options) {
   return load_scene(options.path, overrides);
 }
 
-void require_no_effects(const Scene& scene, const std::string& what) {
-  if (scene.effects.neutral()) return;
-  throw UsageError(
-      fmt::format("{}: {} knows nothing but the collision rule and hard walls, and this scene asks for {}; leave that out",
-                  scene.source, what, words_beyond_the_rule(scene.effects)));
+void require_known_effects(const Scene& scene, const std::string& what) {
+  if (const std::string why = why_no_fixed_step(scene.effects); !why.empty())
+    throw UsageError(fmt::format("{}: {} compares with fixed steps: {}", scene.source, what, why));
 }
 
 const std::string& checked_engine(const SceneOptions& options) {

@@ -26,8 +26,8 @@ struct SceneOptions {
 /// all of them. Throws SceneError.
 Scene load(const SceneOptions& options);
 
-/// Throws UsageError where effects beyond the collision rule and hard walls act, which `what` ("carom horizon") does not support.
-void require_no_effects(const Scene& scene, const std::string& what);
+/// Throws UsageError where effects act that fixed-step methods do not know, and so `what` ("carom horizon") does not.
+void require_known_effects(const Scene& scene, const std::string& what);
 
 /// "auto", or one of engine_names(). Throws UsageError where the user named another.
 const std::string& checked_engine(const SceneOptions& options);

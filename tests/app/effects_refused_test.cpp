@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace carom::test {
@@ -23,12 +24,13 @@ TEST_F(EffectsRefused, ByEveryCommandThatWouldIgnoreThem) {
   const std::vector<std::vector<std::string>> commands = {
       {"compare", "gas.toml", "--out", "out"}, {"horizon", "gas.toml"}, {"run", "gas.toml", "--verify-horizon", "--out", "out"}};
   for (std::vector<std::string> command : commands) {
-    for (const char* change : {"collision.restitution=0.9", "shear={rate=0.1}"}) {
+    for (const auto& [change, name] : {std::pair{"shear={rate=0.1}", "shear"}, {"drag={rate=0.1}", "drag"}}) {
       std::vector<std::string> words = command;
       words.insert(words.end(), {"--set", change});
       const Outcome outcome = carom(words);
       EXPECT_EQ(outcome.exit_code, 2) << command[0] << " with " << change << outcome.err;
-      EXPECT_THAT(outcome.err, HasSubstr("knows nothing but the collision rule and hard walls"));
+      EXPECT_THAT(outcome.err,
+                  HasSubstr(std::string("this scene asks for ") + name + " besides, which exact events alone simulate"));
       EXPECT_FALSE(std::filesystem::exists(file("out")));
     }
   }

@@ -43,7 +43,7 @@ Difference finite_difference(const Scene& scene, const State& start, const Diffe
 
 Difference tangent(const Scene& scene, const State& start, const Difference& d, double time) {
   Simulation simulation = make_simulation(scene, start, "textbook-quad");
-  TangentFlow flow(scene.box, simulation.disks(), scene.effects.collision.rule, start, d.topRows<2>(), d.bottomRows<2>());
+  TangentFlow flow(scene.box, simulation.disks(), scene.effects, start, d.topRows<2>(), d.bottomRows<2>());
   simulation.record_events(true);
   simulation.run_until(time);
   for (const Event& event : simulation.take_events()) flow.follow(event);
@@ -65,6 +65,7 @@ struct Flow {
   CollisionRule rule;
   bool mixture;
   Boundary boundary;
+  double weight = 0.0;  ///< downward acceleration
 };
 
 /// By its name: its bytes are not all set.
@@ -78,11 +79,13 @@ TEST_P(TangentOf, ATrajectoryIsTheLimitOfFiniteDifferences) {
   const Flow& flow = GetParam();
   Scene scene = flow.mixture ? mixture_scene(16, 0.4, flow.boundary) : gas_scene(16, 0.4, flow.boundary);
   scene.effects.collision.rule = flow.rule;
+  if (flow.weight > 0.0) scene.effects.gravity = Gravity{{0.0, -flow.weight}};
   Simulation simulation = make_simulation(scene);
   simulation.run_until(10.0);  // away from the lattice, whose disks may lie on an edge
   State start = simulation.state();
   start.time = 0.0;
-  const double time = flow.rule == CollisionRule::reversal ? 1.5 : 0.6;  // two to four collisions per disk
+  // Two to four collisions per disk. Weight makes the mixture denser below, where disks collide more often.
+  const double time = flow.rule == CollisionRule::reversal && flow.weight == 0.0 ? 1.5 : 0.6;
   const auto relative_error = [&](double size) {
     const Difference d = ripple(start.positions.cols(), size);
     const Difference grown = tangent(scene, start, d, time);
@@ -99,7 +102,10 @@ INSTANTIATE_TEST_SUITE_P(Each, TangentOf,
                          ::testing::Values(Flow{"SpecularGas", CollisionRule::specular, false, Boundary::periodic},
                                            Flow{"SpecularMixtureInWalls", CollisionRule::specular, true, Boundary::walls},
                                            Flow{"ReversalGas", CollisionRule::reversal, false, Boundary::periodic},
-                                           Flow{"ReversalMixtureInWalls", CollisionRule::reversal, true, Boundary::walls}),
+                                           Flow{"ReversalMixtureInWalls", CollisionRule::reversal, true, Boundary::walls},
+                                           Flow{"SpecularGasUnderGravity", CollisionRule::specular, false, Boundary::walls, 2.0},
+                                           Flow{"ReversalMixtureUnderGravity", CollisionRule::reversal, true, Boundary::walls,
+                                                2.0}),
                          [](const auto& flow) { return flow.param.name; });
 
 // Equal smooth disks head on, relative velocity g, displaced by y across: the line of centres turns by y / sigma, and the
@@ -108,7 +114,7 @@ TEST(TangentFlow, AHeadOnCollisionOfSmoothDisksTurnsByTwiceTheDisplacement) {
   const System s = system_of(square_box(8.0, Boundary::walls), {{{2.0, 4.0}, {1.0, 0.0}}, {{4.0, 4.0}, {-1.0, 0.0}}});
   Eigen::Matrix2Xd dr = Eigen::Matrix2Xd::Zero(2, 2);
   dr(1, 0) = 0.5;
-  TangentFlow flow(s.box, s.disks, CollisionRule::specular, s.state, dr, Eigen::Matrix2Xd::Zero(2, 2));
+  TangentFlow flow(s.box, s.disks, Effects{}, s.state, dr, Eigen::Matrix2Xd::Zero(2, 2));
   flow.follow({0.5, 0.0, 0, 1, {-1.0, 0.0}, {1.0, 0.0}});
   EXPECT_EQ(flow.dr()(1, 0), 0.5);
   EXPECT_EQ(flow.dv()(1, 0) - flow.dv()(1, 1), -2.0 * 2.0 * -0.5);
@@ -119,7 +125,7 @@ TEST(TangentFlow, AHeadOnCollisionOfSmoothDisksTurnsByTwiceTheDisplacement) {
 
 TEST(TangentFlow, AWallTurnsRoundTheDifferenceAcrossIt) {
   const System s = system_of(square_box(4.0, Boundary::walls), {{{2.0, 2.0}, {1.0, 0.25}}});
-  TangentFlow flow(s.box, s.disks, CollisionRule::specular, s.state, Eigen::Vector2d(0.5, 0.25), Eigen::Vector2d(0.125, 1.0));
+  TangentFlow flow(s.box, s.disks, Effects{}, s.state, Eigen::Vector2d(0.5, 0.25), Eigen::Vector2d(0.125, 1.0));
   flow.follow({1.5, 0.0, 0, wall_right, {-1.0, 0.25}, {0.0, 0.0}});
   EXPECT_EQ(flow.dr(), Eigen::Matrix2Xd(Eigen::Vector2d(-0.5 - 1.5 * 0.125, 0.25 + 1.5)));
   EXPECT_EQ(flow.dv(), Eigen::Matrix2Xd(Eigen::Vector2d(-0.125, 1.0)));

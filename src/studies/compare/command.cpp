@@ -85,7 +85,7 @@ ExitCode compare_own(const CompareCommandOptions& options) {
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
-  require_no_effects(scene, "carom compare");
+  require_known_effects(scene, "carom compare");
   const Simulation as_given = make_simulation(scene, engine);
   const std::vector<State> frames =
       as_usage_error([&] { return read_trajectory_file(*options.trajectory, scene, as_given.disks(), options.every); });
@@ -116,10 +116,13 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
   const CompareOptions study = checked(options);
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const Scene scene = load(options.scene);
-  require_no_effects(scene, "carom compare");
+  require_known_effects(scene, "carom compare");
   (void)make_simulation(scene, study.engine);  // whatever is wrong with the scene is said before anything is written
   check_steps(scene, study.dts);
   std::optional<PlayChoice> play;
+  if (options.play && !scene.effects.neutral())
+    throw UsageError(fmt::format("{}: --play draws straight flights, and this scene asks for {}; leave one of the two out",
+                                 scene.source, words_beyond_the_rule(scene.effects)));
   if (options.play) play = checked_play(*options.play, scene);
   const std::string key = study_key(scene, study);
   const StopRequest stop;

@@ -3,6 +3,7 @@
 #include "studies/compare/compare.hpp"
 
 #include "neighbours/disks_at_rest.hpp"
+#include "observe/energy.hpp"
 #include "observe/mechanics.hpp"
 #include "observe/pressure.hpp"
 #include "scene/drawn.hpp"
@@ -64,7 +65,7 @@ class Study {
     for (const std::uint64_t seed : result_.plan.seeds) {
       if (!compare_from(seed)) return result_;
     }
-    if (options_.costs) {
+    if (options_.costs && scene_.effects.neutral()) {
       const auto proceed = [&](const std::string& doing, double fraction) { return going_on(doing, 0.85 + 0.15 * fraction); };
       if (!measure_costs(scene_, result_, proceed, hooks_.cost_done)) return result_;
     }
@@ -104,6 +105,7 @@ class Study {
     for (std::uint64_t k = 0; k < (plan.drawn ? options_.seeds : 1); ++k) plan.seeds.push_back(scene_.run.seed + k);
     plan.longest = options_.longest;
     plan.machine = cli::processor();
+    plan.conservative = !scene_.effects.dissipate();
     if (hooks_.planned) hooks_.planned(plan, *start);
     return true;
   }
@@ -112,7 +114,9 @@ class Study {
   void choose_samples(ComparePlan& plan) const {
     const HorizonRow* row = plan.horizon.row(plan.horizon.engine);
     const double horizon = row != nullptr && row->time ? *row->time : std::max(plan.horizon.time, 20.0 * plan.mean_free_time);
-    const double wanted = beyond_horizon * horizon;
+    // Where the work had no end, as where disks come to rest on each other, no method is sent further.
+    const bool is_cut = plan.horizon.ended == HorizonEnd::limit || plan.horizon.ended == HorizonEnd::stuck;
+    const double wanted = is_cut ? std::min(beyond_horizon * horizon, plan.horizon.time) : beyond_horizon * horizon;
     const double until = scene_.run.time && *scene_.run.time > 0.0 ? std::min(wanted, *scene_.run.time) : wanted;
     plan.sample_step = until / static_cast<double>(most_samples);
     if (scene_.run.sample_every && *scene_.run.sample_every <= until / 8.0)
@@ -204,7 +208,7 @@ class Study {
         const auto proceed = [&] { return going_on(doing_, fraction_); };
         if (finds_contacts(method.name)) {
           run->mistakes = mistakes_of(scene_, *start, method, time, compared_steps, proceed);
-        } else {
+        } else if (method.name != "soft") {  // whose springs reverse nothing at one instant
           run->counts = audit(scene_, *start, {method.name, method.dt}, time, audited_pairs, proceed);
         }
         if (stopped_) return false;
@@ -304,7 +308,7 @@ class Study {
       run.collision_rate = 2.0 * static_cast<double>(totals.pair) / (count * counted);
     }
     run.mean_free_path = totals.pair == 0 ? 0.0 : speeds / static_cast<double>(samples) / run.collision_rate;
-    run.energy_drift = kinetic_energy(disks, simulation.state()) / kinetic_energy(disks, start) - 1.0;
+    run.energy_drift = total_energy(scene_.box, scene_.effects, disks, simulation.state()) / reference.energy(samples) - 1.0;
     return run;
   }
 

@@ -28,6 +28,7 @@ struct ComparePlan {
   std::vector<std::uint64_t> seeds;  ///< one per start
   bool drawn = true;                 ///< another seed gives another start; else there is one
   double longest = 0.0;              ///< seconds of processor time that one run of a fixed-step method may be predicted to take
+  bool conservative = true;          ///< no contact dissipates energy
   std::string machine;               ///< the processor's name
 
   [[nodiscard]] double early_time() const { return static_cast<double>(early) * sample_step; }
@@ -49,7 +50,7 @@ struct MethodRun {
   double Z = 0.0;                        ///< Z from r . dp of each reversal
   double collision_rate = 0.0;           ///< reversals of one disk per time
   double mean_free_path = 0.0;           ///< mean speed over collision_rate; length
-  double energy_drift = 0.0;             ///< relative
+  double energy_drift = 0.0;             ///< of the final energy from that of the 113-bit trajectory, relative
   double worst_overlap = 0.0;            ///< over the samples, in units of the pair's sigma
   std::optional<StepCounts> counts;      ///< of a method that reverses disks where it finds them, over the first steps
   std::optional<StepMistakes> mistakes;  ///< of a method that finds contacts within a step, over the first steps

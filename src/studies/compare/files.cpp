@@ -115,6 +115,7 @@ Json json_of(const ComparePlan& plan) {
           {"seeds", plan.seeds},
           {"drawn", plan.drawn},
           {"longest", plan.longest},
+          {"conservative", plan.conservative},
           {"machine", plan.machine}};
 }
 

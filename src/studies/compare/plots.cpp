@@ -324,6 +324,14 @@ Plot energy_of_steps(const Comparison& comparison, const std::vector<MethodSumma
                 "so this stays at rounding while the trajectory is wrong. Zero is not drawn.",
             .x = {.title = in_free_times, .log = true},
             .y = {.title = "relative change of energy", .log = true}};
+  if (!comparison.plan.conservative) {
+    plot.title = "Energy";
+    plot.caption =
+        "Largest relative difference of the final energy from that of the 113-bit trajectory, over the starts. Contacts "
+        "dissipate "
+        "energy here, so a contact that comes late or not at all shows in it.";
+    plot.y.title = "relative difference of energy";
+  }
   plot.series = over_steps(comparison, summaries, [](const MethodSummary& s) {
     return std::optional(Estimate{s.energy_drift, 0.0});
   });

@@ -1,5 +1,6 @@
 #include "studies/compare/reference.hpp"
 
+#include "observe/energy.hpp"
 #include "studies/state_distance.hpp"
 
 #include <carom/simulation.hpp>
@@ -16,6 +17,7 @@ Reference::Reference(const Scene& scene, const State& start, double step, std::u
     if (!proceed()) return;
     exact.run_until_sample(k, step);
     State state = exact.state();
+    energies_.push_back(total_energy(scene.box, scene.effects, exact.disks(), state));
     state.velocities.resize(2, 0);  // not asked for, and half of the memory
     state.images.resize(2, 0);
     samples_.push_back(std::move(state));

@@ -17,12 +17,16 @@ class Reference {
 
   [[nodiscard]] bool complete() const { return complete_; }
 
+  /// Returns the energy in sample k.
+  [[nodiscard]] double energy(std::uint64_t k) const { return energies_[k - 1]; }
+
   /// Root of the mean square distance of the disks from where they are in sample k, to the nearest image.
   [[nodiscard]] double rms_distance(std::uint64_t k, const State& state) const;
 
  private:
   Box box_;
   std::vector<State> samples_;  ///< positions and remainders alone
+  std::vector<double> energies_;
   bool complete_ = false;
 };
 

@@ -100,7 +100,7 @@ std::string where_it_is_cheaper(const ComparePlan& plan, const std::vector<Metho
   return "";
 }
 
-std::string what_the_naive_does(const std::vector<MethodSummary>& summaries, const Answers& answers) {
+std::string what_the_naive_does(const ComparePlan& plan, const std::vector<MethodSummary>& summaries, const Answers& answers) {
   const MethodSummary* exact = nullptr;
   const MethodSummary* naive = nullptr;  // at its smallest step with a pressure
   for (const MethodSummary& summary : summaries) {
@@ -113,11 +113,14 @@ std::string what_the_naive_does(const std::vector<MethodSummary>& summaries, con
   const std::string energy = naive->energy_drift > 0.0 ? fmt::format("changed by {:.0e}", naive->energy_drift) : "not changed";
   const bool differs = naive->Z_bias && std::abs(naive->Z_bias->value) > 2.0 * naive->Z_bias->error;
   if (!differs && repeated < 0.01) return "";
-  return fmt::format(
-      "The naive method with dt = {:.2g} has Z = {:.4g} where the exact engine has {:.4g}{}. Its energy has {}: conservation of "
-      "energy does not show such errors.",
-      naive->method.dt, naive->Z->value, exact->Z->value,
-      repeated > 0.0 ? fmt::format("; {} % of its reversals repeat an earlier one", two_digits(100.0 * repeated)) : "", energy);
+  std::string text = fmt::format(
+      "The naive method with dt = {:.2g} has Z = {:.4g} where the exact engine has {:.4g}{}.", naive->method.dt, naive->Z->value,
+      exact->Z->value,
+      repeated > 0.0 ? fmt::format("; {} % of its reversals repeat an earlier one", two_digits(100.0 * repeated)) : "");
+  constexpr double unnoticed = 1e-9;  // of the energy: what a user takes for rounding
+  if (plan.conservative && naive->energy_drift < unnoticed)
+    text += fmt::format(" Its energy has {}: conservation of energy does not show such errors.", energy);
+  return text;
 }
 
 std::string what_pressure_costs(const ComparePlan& plan, const Answers& answers) {
@@ -149,7 +152,7 @@ std::vector<std::string> compare_sentences(const Comparison& comparison, const s
                                         where_it_is_cheaper(comparison.plan, summaries, answers),
                                         what_pressure_costs(comparison.plan, answers),
                                         what_cores_would_do(answers),
-                                        what_the_naive_does(summaries, answers)};
+                                        what_the_naive_does(comparison.plan, summaries, answers)};
   if (!comparison.plan.drawn)
     sentences.emplace_back("This scene's start contains nothing random. There is one start, and a bias has no error bar.");
   std::erase(sentences, "");

@@ -38,7 +38,7 @@ ExitCode measure(const HorizonCommandOptions& options) {
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
-  require_no_effects(scene, "carom horizon");
+  require_known_effects(scene, "carom horizon");
   const StopRequest stop;
   const std::optional<State> start = [&] {
     ProgressLine line(mode, scene);

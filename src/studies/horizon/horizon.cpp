@@ -2,6 +2,7 @@
 
 #include "core/real.hpp"
 #include "simulation/all_events.hpp"
+#include "simulation/fixed_step.hpp"
 #include "studies/horizon/difference.hpp"
 #include "studies/horizon/lyapunov.hpp"
 #include "studies/horizon/method.hpp"
@@ -308,10 +309,8 @@ class HorizonSearch {
 }  // namespace
 
 Horizon measure_horizon(const Scene& scene, const State& start, const HorizonOptions& options) {
-  if (!scene.effects.neutral())
-    throw std::invalid_argument(fmt::format(
-        "a horizon is measured where nothing but the collision rule and hard walls acts; this scene asks for {} besides",
-        words_beyond_the_rule(scene.effects)));
+  if (const std::string why = why_no_fixed_step(scene.effects); !why.empty())
+    throw std::invalid_argument("no horizon is measured: " + why);
   return HorizonSearch(scene, start, options)();
 }
 

@@ -69,6 +69,7 @@ std::optional<Lyapunov> measure_lyapunov(const Scene& scene, const State& start,
                                          const LyapunovOptions& options) {
   const Eigen::Index disks = start.positions.cols();
   if (!(pace.collision_rate > 0.0) || pace.stuck || disks == 0) return std::nullopt;
+  if (scene.effects.dissipate()) return std::nullopt;  // it slows down: there is no steady rate
   const auto count = static_cast<double>(disks);
   const std::uint64_t asked =
       options.collisions > 0 ? options.collisions : std::max<std::uint64_t>(500'000, 100 * static_cast<std::uint64_t>(disks));
@@ -79,7 +80,7 @@ std::optional<Lyapunov> measure_lyapunov(const Scene& scene, const State& start,
   const double speed = std::sqrt(start.velocities.squaredNorm() / (2.0 * count));
 
   Simulation simulation = make_simulation(scene, start);
-  TangentFlow flow(scene.box, simulation.disks(), scene.effects.collision.rule, simulation.state(),
+  TangentFlow flow(scene.box, simulation.disks(), scene.effects, simulation.state(),
                    length * any_direction(disks, scene.run.seed, 0), speed * any_direction(disks, scene.run.seed, 1));
   flow.scale(1.0 / flow.norm(length, speed));
   simulation.record_events(true);

@@ -4,9 +4,9 @@
 
 namespace carom {
 
-TangentFlow::TangentFlow(const Box& box, const Disks& disks, CollisionRule rule, const State& start, const Eigen::Matrix2Xd& dr,
-                         const Eigen::Matrix2Xd& dv)
-    : box_(box), disks_(disks), rule_(rule) {
+TangentFlow::TangentFlow(const Box& box, const Disks& disks, const Effects& effects, const State& start,
+                         const Eigen::Matrix2Xd& dr, const Eigen::Matrix2Xd& dv)
+    : box_(box), disks_(disks), rule_(effects.collision.rule), acceleration_(effects.acceleration()) {
   all_.reserve(disks.count());
   for (Eigen::Index i = 0; i < start.positions.cols(); ++i)
     all_.push_back({start.positions.col(i), start.velocities.col(i), dr.col(i), dv.col(i), start.time, 0.0});
@@ -16,10 +16,12 @@ void TangentFlow::follow(const Event& event) {
   Disk& a = disk(event.disk);
   bring(a, event.time, event.time_remainder);
   if (event.partner < 0) {
-    // The delay is -dr / v across the wall, and dr + v tau - v' tau with v' = -v gives -dr there.
+    // The delay is -dr / v across the wall, and dr + v tau - v' tau with v' = -v gives -dr there. The velocity is -(dv + g tau)
+    // - g tau.
     const int across = event.partner >= wall_right ? 0 : 1;
+    const double delay = -a.dr[across] / a.v[across];
     a.dr[across] = -a.dr[across];
-    a.dv[across] = -a.dv[across];
+    a.dv[across] = -a.dv[across] - 2.0 * acceleration_[across] * delay;
     a.v = event.velocity;
     return;
   }
@@ -49,9 +51,10 @@ void TangentFlow::follow(const Event& event) {
   b.v = event.partner_velocity;
 }
 
-void TangentFlow::bring(Disk& a, double time, double remainder) {
+void TangentFlow::bring(Disk& a, double time, double remainder) const {
   const double flight = (time - a.time) + (remainder - a.remainder);
-  a.r += flight * a.v;
+  a.r += flight * (a.v + 0.5 * flight * acceleration_);
+  a.v += flight * acceleration_;
   a.dr += flight * a.dv;
   a.time = time;
   a.remainder = remainder;

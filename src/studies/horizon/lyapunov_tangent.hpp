@@ -6,7 +6,9 @@
 // times. With M the map of the collision and tau the delay of the second trajectory, the difference of the two after both have
 // collided, taken back to one time, is
 //
-//     dr' = dM_r(dr + v tau) - v' tau,    dv' = dM_v(dr + v tau, dv).
+//     dr' = dM_r(dr + v tau) - v' tau,    dv' = dM_v(dr + v tau, dv + g tau) - g tau.
+//
+// Gravity g is the same for both disks of a pair and leaves no trace there: it acts at walls alone.
 
 #include "core/vec2.hpp"
 
@@ -23,7 +25,8 @@ namespace carom {
 class TangentFlow {
  public:
   /// Begins at `start`. `dr` and `dv` are 2 x N: the difference at that time, of any length.
-  TangentFlow(const Box& box, const Disks& disks, CollisionRule rule, const State& start, const Eigen::Matrix2Xd& dr,
+  /// The trajectory is that of the collision rule, hard walls and gravity; other effects are not known.
+  TangentFlow(const Box& box, const Disks& disks, const Effects& effects, const State& start, const Eigen::Matrix2Xd& dr,
               const Eigen::Matrix2Xd& dv);
 
   /// The next event of the trajectory. Requires all of them, in order.
@@ -51,12 +54,13 @@ class TangentFlow {
   };
 
   [[nodiscard]] Disk& disk(std::int32_t i) { return all_[static_cast<std::size_t>(i)]; }
-  static void bring(Disk& a, double time, double remainder);
+  void bring(Disk& a, double time, double remainder) const;
   [[nodiscard]] Vec2<double> separation(const Disk& a, const Disk& b) const;
 
   Box box_;
   const Disks& disks_;
   CollisionRule rule_;
+  Vec2<double> acceleration_;
   std::vector<Disk> all_;
 };
 

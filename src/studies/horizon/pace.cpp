@@ -21,11 +21,14 @@ Pace measure_pace(const Scene& scene, const State& start) {
   const double enough = std::max(4000.0, 4.0 * disks);
   Simulation simulation = make_simulation(scene, start);
   const auto events = [&] { return static_cast<double>(detail::all_events(simulation.totals())); };
-  bool stuck = false;
-  for (double time = passage; time <= 4096.0 * passage * std::sqrt(disks) && events() < enough && !stuck; time *= 2.0)
-    stuck = simulation.run_until(time) != StopReason::time;
+  // Disks that come to rest on each other meet ever more often: some more events than enough are the end.
+  const RunLimits limits{.events = static_cast<std::uint64_t>(8.0 * enough)};
+  StopReason reason = StopReason::time;
+  for (double time = passage; time <= 4096.0 * passage * std::sqrt(disks) && events() < enough && reason == StopReason::time;
+       time *= 2.0)
+    reason = simulation.run_until(time, limits);
   Pace pace;
-  pace.stuck = stuck;
+  pace.stuck = reason != StopReason::time && reason != StopReason::events;
   if (!(simulation.time() > 0.0)) return pace;
   pace.time = simulation.time();
   pace.collision_rate = 2.0 * static_cast<double>(simulation.totals().pair) / disks / pace.time;
