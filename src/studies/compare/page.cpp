@@ -196,12 +196,17 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
   const ComparePlan& plan = comparison.plan;
   const Answers answers = answers_of(comparison);
   const std::vector<MethodSummary> summaries = summaries_of(comparison);
+  // What a reader takes away first; the rest stands below the prices.
+  constexpr std::size_t lead_sentences = 3;
+  const auto split = answers.sentences.begin() + static_cast<std::ptrdiff_t>(std::min(lead_sentences, answers.sentences.size()));
+  const std::vector<std::string> lead(answers.sentences.begin(), split);
+  const std::vector<std::string> rest(split, answers.sentences.end());
   Page page{.title = "Error and cost: " + (scene.title.empty() ? scene.source : scene.title),
             .subtitle = fmt::format("{} disks, packing fraction {:.4g}, {} rule; {}; mean free time {:.4g} (scene units)",
                                     scene.disk_count(), scene.packing_fraction(),
                                     scene.effects.collision.rule == CollisionRule::reversal ? "reversal" : "specular",
                                     starts_words(plan), plan.mean_free_time),
-            .lead = fmt::format("{}", fmt::join(answers.sentences, " ")),
+            .lead = fmt::format("{}", fmt::join(lead, " ")),
             .key_numbers = key_numbers(comparison, answers)};
   const bool is_plain_fluid = scene.effects.neutral() && scene.box.periodic(0) && scene.box.periodic(1);
   page.sections = {
@@ -220,6 +225,7 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
         bias_of(comparison, summaries, "bias-rate", "the collision rate", &MethodSummary::rate_bias),
         bias_of(comparison, summaries, "bias-path", "the mean free path", &MethodSummary::path_bias),
         energy_block(comparison, summaries)}}};
+  if (!rest.empty()) page.sections.front().blocks.emplace_back(Paragraph{fmt::format("{}", fmt::join(rest, " "))});
   if (answers.break_even) page.sections.front().blocks.emplace_back(Paragraph{break_even_text(*answers.break_even)});
   if (std::vector<Block> blocks = costs(comparison, answers, scene); !blocks.empty())
     page.sections.push_back({"Cost of an average", std::move(blocks)});
