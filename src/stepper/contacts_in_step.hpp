@@ -122,9 +122,7 @@ class ContactStep {
   /// Returns into how many parts a flight is cut, so that no disk goes farther in one than the search can follow.
   [[nodiscard]] double parts(const Bodies& bodies, double time) const {
     if (farthest_ == infinity<double>) return 1.0;
-    double fastest = 0.0;
-    for (const Vec2<double>& v : bodies.v) fastest = std::max(fastest, v.squaredNorm());
-    return std::max(1.0, std::ceil(std::sqrt(fastest) * time / farthest_));
+    return std::max(1.0, std::ceil(fastest_within(bodies, time) * time / farthest_));
   }
 
   void advance(Bodies& bodies, double time, Tally& tally) {
@@ -143,18 +141,21 @@ class ContactStep {
 
   void fly(Bodies& bodies, double time) {
     span_ = time;
-    const bool listed_anew = Search::along_flights && pairs_.about_to_move(bodies, time);
+    if (Search::along_flights) pairs_.about_to_move(bodies, time, fastest_within(bodies, time));
     bodies.fly(time);
-    if (!Search::along_flights) pairs_.moved(bodies);
-    if (!listed_anew) return;
-    for (std::uint32_t i = 0; i < bodies.count(); ++i)
-      if (pairs_.strayed(bodies, i)) strays_.push_back(i);
+    if (!Search::along_flights) pairs_.moved(bodies, time);
+  }
+
+  /// Returns a bound of all speeds in a flight for `time`.
+  [[nodiscard]] static double fastest_within(const Bodies& bodies, double time) {
+    return bodies.fastest() + (bodies.falling.present() ? bodies.falling.g.norm() * time : 0.0);
   }
 
   void find(const Bodies& bodies) {
     walled_ = !bodies.domain.periodic[0] || !bodies.domain.periodic[1];
-    pairs_.for_pairs([&](std::uint32_t i, std::uint32_t j, double sigma_squared) { look_closely(bodies, i, j, sigma_squared); });
-    for (const std::uint32_t i : strays_) look_at_all(bodies, i, i);
+    pairs_.for_pairs([&](std::uint32_t i, std::uint32_t j, double sigma_squared) {
+      if (Search::meets(bodies, i, j, sigma_squared, span_)) add_if_met(bodies, i, j, sigma_squared);
+    });
     if (!walled_) return;
     for (std::uint32_t i = 0; i < bodies.count(); ++i) look_at_walls(bodies, i);
   }
@@ -165,7 +166,10 @@ class ContactStep {
   }
 
   void look_closely(const Bodies& bodies, std::uint32_t i, std::uint32_t j, double sigma_squared) {
-    if (!Search::meets(bodies, i, j, sigma_squared, span_)) return;
+    if (Search::meets(bodies, i, j, sigma_squared, span_)) add_if_met(bodies, i, j, sigma_squared);
+  }
+
+  [[gnu::noinline]] void add_if_met(const Bodies& bodies, std::uint32_t i, std::uint32_t j, double sigma_squared) {
     if (i > j) std::swap(i, j);
     const double begin = std::max({-span_, disks_[i].since, disks_[j].since});
     const double time =

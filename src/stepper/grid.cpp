@@ -26,13 +26,20 @@ double best_margin(double density, double sigma, double farthest, double smalles
 
 }  // namespace
 
-ClosePairs::ClosePairs(const Bodies& bodies, double dt, double least_margin) {
+ClosePairs::ClosePairs(const Bodies& bodies, double dt, double least_margin) : least_margin_(least_margin) {
+  sorted_.resize(bodies.count());
+  cell_.resize(bodies.count());
   if (bodies.count() == 0) return;
-  double fastest = 0.0;
-  for (const Vec2<double>& v : bodies.v) fastest = std::max(fastest, v.norm());
+  tune(bodies, bodies.fastest(), dt);
+  rebuild(bodies);
+}
+
+/// Chooses margin and cells for flights for `time` of disks as fast as that.
+void ClosePairs::tune(const Bodies& bodies, double fastest, double time) {
+  tuned_for_ = fastest * time;
   const double sigma = 2.0 * *std::max_element(bodies.radius.begin(), bodies.radius.end());
   const double density = static_cast<double>(bodies.count()) / bodies.domain.length.prod();
-  margin_ = best_margin(density, sigma, fastest * dt, least_margin * fastest * dt);
+  margin_ = best_margin(density, sigma, tuned_for_, least_margin_ * tuned_for_);
   farthest_squared_ = 0.25 * margin_ * margin_ * (1.0 - 1e-9);
   // Cells no narrower than the reach of a pair, and not more than a few per disk. Where fewer than three would go round a
   // periodic axis, one is all.
@@ -44,35 +51,32 @@ ClosePairs::ClosePairs(const Bodies& bodies, double dt, double least_margin) {
     per_length_[axis] = static_cast<double>(cells_[axis]) / bodies.domain.length[axis];
   }
   first_.resize(cells_[0] * cells_[1] + 1);
-  sorted_.resize(bodies.count());
-  cell_.resize(bodies.count());
+}
+
+double ClosePairs::room(const Bodies& bodies) const {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < bodies.count(); ++i) farthest = std::max(farthest, bodies.squared_distance(bodies.r[i], built_[i]));
+  return farthest <= farthest_squared_ ? std::sqrt(farthest_squared_) - std::sqrt(farthest) : -1.0;
+}
+
+void ClosePairs::moved(const Bodies& bodies, double time) {
+  if (room(bodies) >= 0.0) return;
+  const double fastest = bodies.fastest();
+  if (fastest * time > 1.2 * tuned_for_) tune(bodies, fastest, time);
   rebuild(bodies);
 }
 
-void ClosePairs::moved(const Bodies& bodies) {
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < bodies.count(); ++i) farthest = std::max(farthest, bodies.squared_distance(bodies.r[i], built_[i]));
-  if (!(farthest <= farthest_squared_)) rebuild(bodies);
-}
-
-bool ClosePairs::about_to_move(const Bodies& bodies, double time) {
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < bodies.count(); ++i) {
-    const double here = bodies.squared_distance(bodies.r[i], built_[i]);
-    const Vec2<double> end = bodies.r[i] + bodies.mean_velocity(bodies.v[i], time) * time;
-    const double there = bodies.squared_distance(end, built_[i]);
-    farthest = std::max({farthest, here, there});
-  }
-  const bool would_stray = !(farthest <= farthest_squared_);
-  if (would_stray) rebuild(bodies);
-  return would_stray;
+void ClosePairs::about_to_move(const Bodies& bodies, double time, double fastest) {
+  if (bodies.count() == 0 || fastest * time <= room(bodies) * (1.0 - 1e-9)) return;
+  if (fastest * time > 1.2 * tuned_for_) tune(bodies, fastest, time);
+  rebuild(bodies);
 }
 
 /// Disks beyond a wall count as in the cell next to it.
 std::size_t ClosePairs::cell_of(const Bodies& bodies, const Vec2<double>& r) const {
   std::size_t place[2];
   for (int axis = 0; axis < 2; ++axis) {
-    const double cells = std::floor((r[axis] - bodies.domain.lower[axis]) * per_length_[axis]);
+    const double cells = (r[axis] - bodies.domain.lower[axis]) * per_length_[axis];
     place[axis] = static_cast<std::size_t>(std::clamp(cells, 0.0, static_cast<double>(cells_[axis] - 1)));
   }
   return place[0] + cells_[0] * place[1];

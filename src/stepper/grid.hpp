@@ -19,12 +19,12 @@ class ClosePairs {
   /// Returns the approximate number of disk pairs that a step examines.
   [[nodiscard]] static double work(double disks) { return 8 * disks; }
 
-  /// Makes the list anew if a disk has strayed.
-  void moved(const Bodies& bodies);
+  /// Makes the list anew if a disk has strayed. All have just flown for `time`.
+  void moved(const Bodies& bodies, double time);
 
-  /// Makes the list anew if a disk has strayed or would do so in a time of straight flight from here. Returns whether it did.
-  /// Requires flights shorter than half the box along periodic axes.
-  bool about_to_move(const Bodies& bodies, double time);
+  /// Makes the list anew if a disk may have strayed or may do so in a coming flight for `time`, in which none is faster than
+  /// `fastest`. Requires flights shorter than half the box along periodic axes.
+  void about_to_move(const Bodies& bodies, double time, double fastest);
 
   /// Returns whether disk i is too far from where it was for the list to have all pairs of it that are in contact.
   [[nodiscard]] bool strayed(const Bodies& bodies, std::size_t i) const {
@@ -58,7 +58,8 @@ class ClosePairs {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(margin_, farthest_squared_, cells_[0], cells_[1], per_length_, first_, sorted_, cell_, built_, close_, pairs_);
+    archive(margin_, tuned_for_, farthest_squared_, cells_[0], cells_[1], per_length_, first_, sorted_, cell_, built_, close_,
+            pairs_);
   }
 
  private:
@@ -85,6 +86,9 @@ class ClosePairs {
     double sigma_squared;
   };
 
+  /// Returns how far any disk may still go without having strayed; negative where one has.
+  [[nodiscard]] double room(const Bodies& bodies) const;
+  void tune(const Bodies& bodies, double fastest, double time);
   void find_contacts(const Bodies& bodies);
   void rebuild(const Bodies& bodies);
   void list_both_ways();
@@ -92,7 +96,9 @@ class ClosePairs {
   void add_close(const Bodies& bodies, std::size_t a, std::size_t begin, std::size_t end);
   [[nodiscard]] std::size_t cell_of(const Bodies& bodies, const Vec2<double>& r) const;
 
+  double least_margin_;            ///< in flights of the fastest disk
   double margin_ = 0.0;            ///< pairs with a gap below this are in the list
+  double tuned_for_ = 0.0;         ///< the longest flight in a step that the margin is made for
   double farthest_squared_ = 0.0;  ///< square of how far a disk may go until the list is made anew
   std::size_t cells_[2] = {1, 1};
   Vec2<double> per_length_;           ///< cells per unit of length

@@ -27,7 +27,7 @@ class AllPairs {
   /// Returns the number of disk pairs that a step examines.
   [[nodiscard]] static double work(double disks) { return disks * disks / 2; }
 
-  void moved(const Bodies& /*bodies*/) {}
+  void moved(const Bodies& /*bodies*/, double /*time*/) {}
   [[nodiscard]] static std::size_t bytes() { return 0; }
 
   /// Calls contact(i, j, r_i - r_j) for i < j closer than the sum of their radii, in the order of i, then of j. Requires that
@@ -53,7 +53,7 @@ class GuardedStep {
 
   void advance(Bodies& bodies, Tally& /*tally*/) {
     move_on(bodies, dt_);
-    pairs_.moved(bodies);
+    pairs_.moved(bodies, dt_);
   }
 
   void check(Bodies& bodies, Tally& tally) {
@@ -83,7 +83,8 @@ class GuardedStep {
       const double across = bodies.v[i][axis];
       const bool below = across < 0 && bodies.r[i][axis] < bodies.domain.lower[axis] + bodies.radius[i];
       const bool above = across > 0 && bodies.r[i][axis] > bodies.domain.upper[axis] - bodies.radius[i];
-      if (below || above) turn_at_wall(bodies, i, axis, above, tally);
+      if (!below && !above) continue;
+      turn_at_wall(bodies, i, axis, above, tally);
     }
   }
 

@@ -133,7 +133,7 @@ class SoftStep {
   void advance(Bodies& bodies, double time) {
     kick(bodies, time / 2);
     bodies.fly(time);
-    pairs_.moved(bodies);
+    pairs_.moved(bodies, time);
     span_ = time;
   }
 

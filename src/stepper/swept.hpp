@@ -17,7 +17,8 @@
 // along their flights. So the list is made before the move if a disk would leave that range in it, and disks that leave it
 // nevertheless are held against all others. Images are told apart by the nearest one at the end of the step, which is the one
 // that was met if disks go less than (L / 2 - sigma) / 2 along a periodic axis of length L. A step in which the fastest goes more
-// than a third of that, or a quarter of the spacing of disks, beyond which lists become long, is taken in parts.
+// than a third of that, or a quarter of the spacing of disks and half a diameter, beyond which lists become long, is taken in
+// parts.
 
 #include "core/vec2.hpp"
 #include "stepper/bodies.hpp"
@@ -37,10 +38,10 @@ struct AnywhereWithin {
   [[nodiscard]] static bool meets(const Bodies& bodies, std::uint32_t i, std::uint32_t j, double sigma_squared, double span) {
     const Vec2<double> r = bodies.separation(bodies.r[i], bodies.r[j]);
     const double gap = r.squaredNorm() - sigma_squared;
-    if (gap < 0.0) return true;
     const Vec2<double> v = bodies.v[i] - bodies.v[j];
     const double b = r.dot(v), v_squared = v.squaredNorm();
-    return b > 0.0 && b <= v_squared * span && b * b >= v_squared * gap * (1.0 - 1e-9);
+    const bool within = (b > 0.0) & (b <= v_squared * span);  // one branch for all, since none of these can be foretold
+    return (gap < 0.0) | (within & (b * b >= v_squared * gap * (1.0 - 1e-9)));
   }
 
   [[nodiscard]] static double entry(const Vec2<double>& r, const Vec2<double>& v, double sigma_squared, double begin) {
@@ -55,11 +56,12 @@ struct AnywhereWithin {
 
   /// Returns how far the fastest disk may go in a part of a step.
   [[nodiscard]] static double farthest(const Bodies& bodies) {
-    double most = 0.25 * std::sqrt(bodies.domain.length.prod() / static_cast<double>(std::max<std::size_t>(1, bodies.count())));
-    double largest = 0.0;
-    for (const double radius : bodies.radius) largest = std::max(largest, radius);
+    if (bodies.count() == 0) return infinity<double>;
+    const double sigma = 2.0 * *std::max_element(bodies.radius.begin(), bodies.radius.end());
+    const double spacing = std::sqrt(bodies.domain.length.prod() / static_cast<double>(bodies.count()));
+    double most = std::max(0.25 * spacing, 0.5 * sigma);
     for (int axis = 0; axis < 2; ++axis)
-      if (bodies.domain.periodic[axis]) most = std::min(most, (bodies.domain.length[axis] / 2.0 - 2.0 * largest) / 6.0);
+      if (bodies.domain.periodic[axis]) most = std::min(most, (bodies.domain.length[axis] / 2.0 - sigma) / 6.0);
     return most;
   }
 };

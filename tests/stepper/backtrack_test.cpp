@@ -183,8 +183,8 @@ class EveryPair {
   EveryPair(const Bodies& bodies, double /*dt*/, double /*least_margin*/) : radius_(bodies.radius) {}
 
   [[nodiscard]] static double work(double disks) { return disks * disks / 2; }
-  void moved(const Bodies& /*bodies*/) {}
-  [[nodiscard]] static bool about_to_move(const Bodies& /*bodies*/, double /*time*/) { return false; }
+  void moved(const Bodies& /*bodies*/, double /*time*/) {}
+  void about_to_move(const Bodies& /*bodies*/, double /*time*/, double /*fastest*/) {}
   [[nodiscard]] static bool strayed(const Bodies& /*bodies*/, std::size_t /*i*/) { return false; }
   [[nodiscard]] static std::size_t bytes() { return 0; }
   template <class Look>
