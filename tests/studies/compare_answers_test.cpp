@@ -153,6 +153,15 @@ TEST_F(KnownAnswers, AStepIsRightOnlyWhereEveryShorterOneIsToo) {
   }
 }
 
+TEST_F(KnownAnswers, RoundingOfShorterStepsSpoilsNoLongerOne) {
+  Comparison comparison = laws_.comparison({"backtrack"});
+  for (MethodRun& run : comparison.runs)
+    if (!run.method.exact()) run.error[0] = run.method.dt <= 0.01 ? 1e-13 / run.method.dt : 0.5;  // 1e-9 at the shortest
+  const Price price = price_of(answers_of(comparison), "backtrack", "error 1e-10");
+  EXPECT_EQ(price.dt, 0.01);
+  EXPECT_FALSE(price.extrapolated());
+}
+
 TEST_F(KnownAnswers, TheCheapestOfTheRightStepsCounts) {
   Comparison comparison = laws_.comparison({"swept"});
   for (MethodRun& run : comparison.runs) {

@@ -15,6 +15,9 @@ namespace {
 /// three.
 constexpr double steady = 3.0;
 
+/// Errors below this may be rounding, which grows with the number of steps. A missed collision moves disks by more.
+constexpr double largest_rounding = 1e-8;
+
 /// One step of a method from one start.
 struct Point {
   double dt = 0.0;
@@ -61,12 +64,13 @@ std::optional<StartPrice> extrapolated(const std::vector<Point>& points, double 
 }
 
 std::optional<StartPrice> price_from(const std::vector<Point>& points, double error) {
-  std::size_t first = points.size();  // of the steps that are right, together with all shorter ones
-  while (first > 0 && points[first - 1].error <= error) --first;
+  std::size_t first = points.size();  // of the steps that are right, together with all shorter ones but for rounding
+  while (first > 0 && points[first - 1].error <= std::max(error, largest_rounding)) --first;
+  while (first < points.size() && points[first].error > error) ++first;
   if (first == points.size()) return extrapolated(points, error);
   Point best = points[first];
   for (std::size_t k = first; k < points.size(); ++k)
-    if (points[k].seconds < best.seconds) best = points[k];
+    if (points[k].error <= error && points[k].seconds < best.seconds) best = points[k];
   if (first > 0 && shows_law(points[first - 1].error) && shows_law(points[first].error)) {
     const Point longer = between(points[first - 1], points[first], error);
     if (longer.seconds < best.seconds) best = longer;

@@ -27,9 +27,9 @@ struct Target {
 /// The price of one target by one method.
 ///
 /// For positions, each start has a price: the least processor time among the steps that are right to the target together with
-/// all shorter ones. Between two steps of which one is too long the first-order law says which step would do; below the shortest
-/// that was run it is extrapolated by that law, if the last three steps follow it. `ratio`, `dt` and `seconds` are medians over
-/// the starts, and `lowest` and `highest` the extremes.
+/// all shorter ones, but for rounding of 1e-8 at most, which grows as steps become shorter. Between two steps of which one is too
+/// long the first-order law says which step would do; below the shortest that was run it is extrapolated by that law, if the last
+/// three steps follow it. `ratio`, `dt` and `seconds` are medians over the starts, and `lowest` and `highest` the extremes.
 ///
 /// For Z the price is that of time_to_Z(), and `lowest` and `highest` are one standard error away (the jackknife over the
 /// starts), NaN below five starts.
