@@ -120,9 +120,14 @@ struct Effects {
   [[nodiscard]] double drag_rate() const;
 };
 
-/// Returns whether the total momentum along `axis` is conserved: the axis is periodic, and nothing but other disks (no
-/// thermostat, obstacle or thermal wall) acts on a disk.
-[[nodiscard]] bool keeps_momentum(const Box& box, const Effects& effects, int axis);
+/// Returns whether the total momentum along `axis` is conserved: the axis is periodic, and no effect acts that changes the
+/// momentum of the disks (a thermostat, obstacles, thermal walls, drag, shear or growth).
+[[nodiscard]] bool conserves_momentum(const Box& box, const Effects& effects, int axis);
+
+/// Returns whether motion of the centre of mass along `axis` is heat, a part of the temperature: the axis has walls, or
+/// obstacles, a thermostat or thermal walls exchange momentum with the disks at random. Where it is none, N disks have N - 1
+/// degrees of freedom along the axis. Drag, growth and shear change momentum without making it heat.
+[[nodiscard]] bool centre_of_mass_is_thermal(const Box& box, const Effects& effects, int axis);
 
 /// Returns the names of all effects in the words and order of the scene format: "specular", "walls" (where `walled`),
 /// "restitution", ... Effects at their neutral value are included.

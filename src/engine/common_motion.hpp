@@ -18,7 +18,8 @@ class CommonMotion {
  public:
   CommonMotion(const Box& box, const Effects& effects) {
     const bool sheared = effects.shear_rate() != 0.0;
-    for (int axis = 0; axis < 2; ++axis) kept_[axis] = effects.dissipate() && !sheared && keeps_momentum(box, effects, axis);
+    for (int axis = 0; axis < 2; ++axis)
+      kept_[axis] = effects.dissipate() && !sheared && !centre_of_mass_is_thermal(box, effects, axis);
   }
 
   /// Whether momentum along any axis is to be kept.

@@ -32,13 +32,13 @@ Eigen::Vector2d total_momentum(const Disks& disks, const State& state) {
 
 namespace {
 
-double temperature_of(const std::array<bool, 2>& kept, const Disks& disks, const State& state) {
+double temperature_of(const std::array<bool, 2>& is_thermal, const Disks& disks, const State& state) {
   const double mass = disks.total_mass();
   const Eigen::Vector2d momentum = total_momentum(disks, state);
   double kinetic = kinetic_energy(disks, state);
   double freedom = 2.0 * static_cast<double>(disks.count());
   for (std::size_t a = 0; a < 2; ++a) {
-    if (!kept[a] || disks.count() == 0) continue;
+    if (is_thermal[a] || disks.count() == 0) continue;
     const double along = momentum[static_cast<Eigen::Index>(a)];
     kinetic -= along * along / (2.0 * mass);
     freedom -= 1.0;
@@ -49,15 +49,15 @@ double temperature_of(const std::array<bool, 2>& kept, const Disks& disks, const
 }  // namespace
 
 double kinetic_temperature(const Box& box, const Disks& disks, const State& state) {
-  return temperature_of({box.periodic(0), box.periodic(1)}, disks, state);
+  return temperature_of({!box.periodic(0), !box.periodic(1)}, disks, state);
 }
 
 double kinetic_temperature(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
-  const std::array<bool, 2> kept = {keeps_momentum(box, effects, 0), keeps_momentum(box, effects, 1)};
-  if (!detail::MeanFlow(box, effects).present()) return temperature_of(kept, disks, state);
+  const std::array<bool, 2> is_thermal = {centre_of_mass_is_thermal(box, effects, 0), centre_of_mass_is_thermal(box, effects, 1)};
+  if (!detail::MeanFlow(box, effects).present()) return temperature_of(is_thermal, disks, state);
   State in_flow;
   in_flow.velocities = velocities_in_flow(box, effects, disks, state);
-  return temperature_of(kept, disks, in_flow);
+  return temperature_of(is_thermal, disks, in_flow);
 }
 
 double spin_temperature(const Disks& disks, const State& state) {
@@ -73,7 +73,7 @@ Eigen::Matrix2Xd velocities_in_flow(const Box& box, const Effects& effects, cons
   if (!(mass > 0.0)) return in_flow.velocities;
   const Eigen::Vector2d common = total_momentum(disks, in_flow) / mass;
   for (int axis = 0; axis < 2; ++axis)
-    if (keeps_momentum(box, effects, axis)) in_flow.velocities.row(axis).array() -= common[axis];
+    if (!centre_of_mass_is_thermal(box, effects, axis)) in_flow.velocities.row(axis).array() -= common[axis];
   return in_flow.velocities;
 }
 

@@ -19,8 +19,8 @@ namespace carom {
 /// collision changes, and f = 2 N minus the number of such axes. 0 where no degree of freedom is left.
 [[nodiscard]] double kinetic_temperature(const Box& box, const Disks& disks, const State& state);
 
-/// Returns kT with the scene's effects. Where keeps_momentum() is false for a periodic axis, motion of the centre of mass along
-/// it counts as heat. Velocities are relative to the flow where there is one.
+/// Returns kT with the scene's effects. Motion of the centre of mass along an axis is heat where
+/// centre_of_mass_is_thermal() is true. Velocities are relative to the flow where there is one.
 [[nodiscard]] double kinetic_temperature(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 
 /// Returns kT of the spins, 2 sum of (I w^2 / 2) / N, I = m r^2 / 2; 0 where disks are smooth

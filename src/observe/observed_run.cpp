@@ -75,7 +75,11 @@ std::string ObservedRun::suffix(std::size_t species) const {
   return "_" + (unique ? word : std::to_string(species));
 }
 
-bool ObservedRun::keeps_momentum(int axis) const { return carom::keeps_momentum(scene.box, scene.effects, axis); }
+bool ObservedRun::conserves_momentum(int axis) const { return carom::conserves_momentum(scene.box, scene.effects, axis); }
+
+bool ObservedRun::centre_of_mass_is_thermal(int axis) const {
+  return carom::centre_of_mass_is_thermal(scene.box, scene.effects, axis);
+}
 
 bool is_driven(const Effects& effects) {
   return detail::any_acting(effects, &detail::EffectTraits::changes_velocities_in_flight);
@@ -87,16 +91,16 @@ std::string_view what_drives(const Effects& effects) {
 
 Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state) {
   if (run.has_flow()) return velocities_in_flow(run.scene.box, run.scene.effects, run.disks, state);
-  return state.velocities.colwise() - kept_velocity(run, state);
+  return state.velocities.colwise() - non_thermal_velocity(run, state);
 }
 
-Eigen::Vector2d kept_velocity(const ObservedRun& run, const State& state) {
+Eigen::Vector2d non_thermal_velocity(const ObservedRun& run, const State& state) {
   const double mass = run.disks.total_mass();
   Eigen::Vector2d common(0.0, 0.0);
   if (!(mass > 0.0)) return common;
   common = total_momentum(run.disks, state) / mass;
   for (int axis = 0; axis < 2; ++axis)
-    if (!run.keeps_momentum(axis)) common[axis] = 0.0;
+    if (run.centre_of_mass_is_thermal(axis)) common[axis] = 0.0;
   return common;
 }
 

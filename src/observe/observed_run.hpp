@@ -32,8 +32,9 @@ struct ObservedRun {
   /// Returns text such as "" with one species, else "_NAME", with nothing in it that a file could not have in a name; "_0", "_1"
   /// where that is ambiguous
   [[nodiscard]] std::string suffix(std::size_t species) const;
-  /// Returns whether the total momentum along an axis is kept, so that the common motion is no heat.
-  [[nodiscard]] bool keeps_momentum(int axis) const;
+  [[nodiscard]] bool conserves_momentum(int axis) const;
+  /// Returns whether motion of the centre of mass along an axis is a part of the temperature.
+  [[nodiscard]] bool centre_of_mass_is_thermal(int axis) const;
   /// Returns whether heat depends on where a disk is: thermal velocities are relative to a mean flow.
   [[nodiscard]] bool has_flow() const { return detail::MeanFlow(scene.box, scene.effects).present(); }
 };
@@ -43,10 +44,10 @@ struct ObservedRun {
 /// The first of them: "[thermostat]". Requires is_driven().
 [[nodiscard]] std::string_view what_drives(const Effects& effects);
 
-/// Returns the thermal velocities: without the mean flow, and without the common motion where momentum is conserved.
+/// Returns the thermal velocities: without the mean flow, and without the motion of the centre of mass that is not heat.
 [[nodiscard]] Eigen::Matrix2Xd peculiar_velocities(const ObservedRun& run, const State& state);
-/// Returns the velocity of the centre of mass along axes that conserve momentum, which does not count as heat; zero along others.
-[[nodiscard]] Eigen::Vector2d kept_velocity(const ObservedRun& run, const State& state);
+/// Returns the velocity of the centre of mass along axes on which its motion is not heat; zero along others.
+[[nodiscard]] Eigen::Vector2d non_thermal_velocity(const ObservedRun& run, const State& state);
 
 /// Velocity of all disks together; zero where it is no more than what rounding leaves.
 [[nodiscard]] Eigen::Vector2d common_velocity(const ObservedRun& run, const State& state);

@@ -45,8 +45,8 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     follows_ = run.collisions_known && !is_driven(effects) && run.disks.count() > 0;
     equal_ = all_equal(run.disks.radius) && all_equal(run.disks.mass);
     equal_radii_ = all_equal(run.disks.radius);
-    freedom_ =
-        2.0 * static_cast<double>(run.disks.count()) - (run.keeps_momentum(0) ? 1.0 : 0.0) - (run.keeps_momentum(1) ? 1.0 : 0.0);
+    freedom_ = 2.0 * static_cast<double>(run.disks.count()) - (run.centre_of_mass_is_thermal(0) ? 0.0 : 1.0) -
+               (run.centre_of_mass_is_thermal(1) ? 0.0 : 1.0);
     why_no_Z_ = carom::why_no_Z(effects);
     has_Z_walls_ = why_no_walls().empty();
   }
@@ -112,7 +112,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     now.area = box_of(run_.scene.box, state).area();
     const bool in_flow = run_.has_flow();
     const Eigen::Matrix2Xd v = in_flow ? peculiar_velocities(run_, state) : Eigen::Matrix2Xd();
-    const Eigen::Vector2d common = in_flow ? Eigen::Vector2d(0.0, 0.0) : kept_velocity(run_, state);
+    const Eigen::Vector2d common = in_flow ? Eigen::Vector2d(0.0, 0.0) : non_thermal_velocity(run_, state);
     for (std::size_t i = 0; i < run_.disks.count(); ++i) {
       const Eigen::Vector2d u = (in_flow ? v : state.velocities).col(static_cast<Eigen::Index>(i)) - common;
       now.flow[0] += run_.disks.mass[i] * u.x() * u.x();
@@ -125,7 +125,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     // N disks of which N - 1 move freely carry the momentum of N kT all the same: the trace is that of Z.
     const double count = static_cast<double>(run_.disks.count());
     const auto share = [&](int axis) {
-      return run_.keeps_momentum(axis) && count > 1.0 ? std::sqrt(count / (count - 1.0)) : 1.0;
+      return !run_.centre_of_mass_is_thermal(axis) && count > 1.0 ? std::sqrt(count / (count - 1.0)) : 1.0;
     };
     for (std::size_t c = 0; c < 4; ++c) now.flow[c] *= share(c < 2 ? 0 : 1) * share(c % 2 == 0 ? 0 : 1);
     return now;

@@ -27,7 +27,7 @@ class Temperature final : public SavedObservable<Temperature> {
       const double m = run_.disks.mass[i];
       const Eigen::Vector2d squares = m * v.col(static_cast<Eigen::Index>(i)).cwiseAbs2();
       Eigen::Vector2d share;  // what the common motion leaves a disk of its degrees of freedom
-      for (int axis = 0; axis < 2; ++axis) share[axis] = run_.keeps_momentum(axis) ? 1.0 - m / mass : 1.0;
+      for (int axis = 0; axis < 2; ++axis) share[axis] = run_.centre_of_mass_is_thermal(axis) ? 1.0 : 1.0 - m / mass;
       sum += squares;
       freedom += share;
       if (species_.empty()) continue;

@@ -23,7 +23,7 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
       : SavedObservable(request, run), slopes_(run.species_count()), changes_(run.species_count()), noted_(run.species_count()) {
     const Effects& effects = run.scene.effects;
     const bool curved = !effects.acceleration().isZero(0.0);
-    follows_ = run.collisions_known && !curved && !is_driven(effects) && run.keeps_momentum(0) && run.keeps_momentum(1);
+    follows_ = run.collisions_known && !curved && !is_driven(effects) && run.conserves_momentum(0) && run.conserves_momentum(1);
     for (std::size_t s = 0; s < run.species_count(); ++s) {
       tracked_.emplace_back(run, s);
       instants_.emplace_back(tracked_.back().channels(), MultipleTau::Pairs::products, lags, 1);
@@ -43,7 +43,7 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Matrix2Xd peculiar = peculiar_velocities(run_, state);
-    const Eigen::Vector2d drift = state.time * kept_velocity(run_, state);
+    const Eigen::Vector2d drift = state.time * non_thermal_velocity(run_, state);
     std::vector<double> squares(tracked_.size());
     for (std::size_t i = 0; i < run_.disks.count(); ++i)
       squares[static_cast<std::size_t>(run_.disks.species[i])] += peculiar.col(static_cast<Eigen::Index>(i)).squaredNorm();

@@ -86,8 +86,7 @@ std::string conserved(const Box& box, const Effects& effects) {
     return std::ranges::none_of(detail::all_effects(),
                                 [&](const EffectTraits& effect) { return !(effect.*trait) && effect.acts(effects); });
   };
-  const bool driven = detail::any_acting(effects, &EffectTraits::changes_velocities_in_flight);
-  const bool x = !driven && keeps_momentum(box, effects, 0), y = !driven && keeps_momentum(box, effects, 1);
+  const bool x = conserves_momentum(box, effects, 0), y = conserves_momentum(box, effects, 1);
   std::vector<std::string_view> names;
   if (all_conserve(&EffectTraits::conserves_energy)) names.emplace_back("energy");
   if (x || y) names.emplace_back(x && y ? "momentum" : x ? "momentum along x" : "momentum along y");

@@ -123,7 +123,8 @@ Json player_description(const Scene& scene, const std::string& title, const std:
   json["gravity"] = vector(effects.acceleration());
   json["growth"] = effects.growth_rate();
   json["obstacles"] = obstacles_of(effects);
-  json["keepsMomentum"] = Json::array({keeps_momentum(box, effects, 0), keeps_momentum(box, effects, 1)});
+  json["centreOfMassIsThermal"] =
+      Json::array({centre_of_mass_is_thermal(box, effects, 0), centre_of_mass_is_thermal(box, effects, 1)});
   json["whyNoZ"] = why_no_Z(effects);
   return json;
 }

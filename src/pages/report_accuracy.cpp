@@ -42,13 +42,11 @@ SummaryRow momentum_row(const RunRecord& record) {
     return {"momentum", now, fmt::format("changed by ({:.1e}, {:.1e})", change.x(), change.y())};
   const Scene& scene = record.source->scene;
   const ObservedRun run{scene, record.source->disks};
-  const bool driven = is_driven(scene.effects);
   const double scale = std::sqrt(2.0 * run.disks.total_mass() * std::max(report.energy_initial, report.energy_final));
   std::vector<std::string> parts;
   for (int axis = 0; axis < 2; ++axis) {
     const char* const name = axis == 0 ? "x" : "y";
-    const bool is_kept = run.keeps_momentum(axis) && !driven;
-    parts.push_back(is_kept
+    parts.push_back(run.conserves_momentum(axis)
                         ? fmt::format("relative change along {} {:.1e}", name, scale > 0.0 ? std::abs(change[axis]) / scale : 0.0)
                         : fmt::format("not conserved along {}", name));
   }

@@ -46,10 +46,12 @@ std::string why_there_is_no_Z(const RunReport& report, const Scene* scene) {
              : "nothing was measured";
 }
 
-/// Returns which part of the kinetic energy is counted as heat: centre-of-mass motion is not, along axes that conserve momentum.
+/// Returns which part of the kinetic energy is counted as heat: centre-of-mass motion is not where it exchanges no energy with
+/// the disks at random.
 std::string what_temperature_counts(const Scene* scene) {
   if (scene == nullptr) return "kinetic";
-  const bool x = keeps_momentum(scene->box, scene->effects, 0), y = keeps_momentum(scene->box, scene->effects, 1);
+  const bool x = !centre_of_mass_is_thermal(scene->box, scene->effects, 0);
+  const bool y = !centre_of_mass_is_thermal(scene->box, scene->effects, 1);
   if (x && y) return "kinetic, without centre-of-mass motion";
   if (x || y) return x ? "kinetic, without centre-of-mass motion along x" : "kinetic, without centre-of-mass motion along y";
   return "kinetic";

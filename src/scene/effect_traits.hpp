@@ -42,10 +42,11 @@ struct EffectTraits {
   std::string (*words)(const Effects&) = nullptr;  ///< what it does, with its numbers; null where collision or walls tell it
   std::vector<Exclusion> excludes = {};            ///< effects with which it cannot be combined
 
-  bool conserves_energy = true;            ///< conserves the energy of disks and pistons together
-  bool conserves_momentum = true;          ///< the common motion along a periodic axis is no heat: nothing pushes disks at random
-  bool conserves_angular_momentum = true;  ///< of orbits and spins together, while disks are away from the edges of the box
-  bool has_potential_energy = false;       ///< energy may be stored otherwise than in motion
+  bool conserves_energy = true;             ///< conserves the energy of disks and pistons together
+  bool conserves_momentum = true;           ///< conserves the total momentum of the disks along a periodic axis
+  bool thermalises_centre_of_mass = false;  ///< exchanges momentum at random: motion of the centre of mass is heat
+  bool conserves_angular_momentum = true;   ///< of orbits and spins together, in collisions of disks
+  bool has_potential_energy = false;        ///< energy may be stored otherwise than in motion
   bool changes_radii = false;
   bool lets_temperature_fluctuate = false;  ///< kinetic energy is exchanged with a bath, spins or wells
   bool changes_velocities_in_flight =

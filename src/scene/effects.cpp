@@ -21,9 +21,13 @@ bool Effects::dissipate() const {
          std::ranges::any_of(walls, [](const WallProperties& wall) { return wall.restitution.value_or(1.0) < 1.0; });
 }
 
-bool keeps_momentum(const Box& box, const Effects& effects, int axis) {
-  const auto pushes = [&](const detail::EffectTraits& effect) { return !effect.conserves_momentum && effect.acts(effects); };
-  return box.periodic(axis) && std::ranges::none_of(detail::all_effects(), pushes);
+bool conserves_momentum(const Box& box, const Effects& effects, int axis) {
+  const auto changes_it = [&](const detail::EffectTraits& effect) { return !effect.conserves_momentum && effect.acts(effects); };
+  return box.periodic(axis) && std::ranges::none_of(detail::all_effects(), changes_it);
+}
+
+bool centre_of_mass_is_thermal(const Box& box, const Effects& effects, int axis) {
+  return !box.periodic(axis) || detail::any_acting(effects, &detail::EffectTraits::thermalises_centre_of_mass);
 }
 
 std::vector<std::string> names_of(const Effects& effects, bool walled) {

@@ -20,7 +20,7 @@ class MovingAsOne {
  public:
   MovingAsOne(const Scene& scene, const Disks& disks) : disks_(disks) {
     for (int axis = 0; axis < 2; ++axis)
-      kept_[axis] = scene.effects.dissipate() && keeps_momentum(scene.box, scene.effects, axis);
+      kept_[axis] = scene.effects.dissipate() && !centre_of_mass_is_thermal(scene.box, scene.effects, axis);
   }
 
   /// Events until reached() has something to say: it looks once in a million, and so at the same one whoever else looks on.

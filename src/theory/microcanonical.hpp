@@ -9,10 +9,11 @@ namespace carom::theory {
 class Microcanonical {
  public:
   /// Requires more than two disks.
-  Microcanonical(std::int64_t disks, bool momentum_kept) : free_(static_cast<double>(disks) - (momentum_kept ? 1.0 : 0.0)) {}
+  Microcanonical(std::int64_t disks, bool conserves_momentum)
+      : free_(static_cast<double>(disks) - (conserves_momentum ? 1.0 : 0.0)) {}
 
   /// Share of the disks whose v^2 is at most `share` times the mean of v^2: 1 - (1 - share / n)^(n - 1), where n is the number of
-  /// disks, less one where momentum is kept.
+  /// disks, less one where momentum is conserved.
   [[nodiscard]] double speeds_below(double share) const;
   /// Returns the inverse: the v^2, over its mean, below which this fraction of the disks is.
   [[nodiscard]] double square_below_which(double share_of_disks) const;

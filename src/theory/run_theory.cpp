@@ -86,8 +86,8 @@ void RunTheory::find_velocities() {
   level.gravity.reset();  // weight changes the density, and no velocity
   if (effects.collision.rule != CollisionRule::specular || source_->disks.count() < 3 || !why_no_Z(level).empty()) return;
   const ObservedRun run{source_->scene, source_->disks};
-  const bool x = run.keeps_momentum(0), y = run.keeps_momentum(1);
-  keeps_momentum_ = x && y;
+  const bool x = run.conserves_momentum(0), y = run.conserves_momentum(1);
+  conserves_momentum_ = x && y;
   const bool is_fixed = effects.neutral() && x == y;
   velocities_ = is_fixed ? Velocities::fixed_energy : Velocities::maxwell;
   kT_ = effects.bath_temperature().value_or(kT_);
@@ -110,12 +110,12 @@ double RunTheory::velocity_density(const Kind& kind, double x, bool of_energy) c
   const double all_mass = source_->disks.total_mass();
   const bool is_fixed = velocities_ == Velocities::fixed_energy;
   // Where momentum is conserved, a disk has less than kT, the less the heavier it is.
-  const double mean = kT_ * (is_fixed && keeps_momentum_ ? 1.0 - kind.mass / all_mass : 1.0);
+  const double mean = kT_ * (is_fixed && conserves_momentum_ ? 1.0 - kind.mass / all_mass : 1.0);
   if (!is_fixed) {
     const double energy = of_energy ? x : 0.5 * kind.mass * x * x;
     return std::exp(-energy / mean) / mean * (of_energy ? 1.0 : kind.mass * x);
   }
-  const theory::Microcanonical law(report_.disks, keeps_momentum_);
+  const theory::Microcanonical law(report_.disks, conserves_momentum_);
   return of_energy ? law.energy_density(x, mean) : law.speed_density(x, 2.0 * mean / kind.mass);
 }
 
@@ -242,8 +242,8 @@ std::optional<Expected> RunTheory::of(const std::string& observable, const std::
   const std::string name = observable + "." + scalar;
   if (velocities_ == Velocities::fixed_energy && observable == "velocity_moments" && source_->species == 1 &&
       all_equal(source_->disks.mass)) {
-    const theory::Microcanonical law(report_.disks, keeps_momentum_);
-    const double square = 2.0 * kT_ / mass_ * (keeps_momentum_ ? 1.0 - 1.0 / static_cast<double>(report_.disks) : 1.0);
+    const theory::Microcanonical law(report_.disks, conserves_momentum_);
+    const double square = 2.0 * kT_ / mass_ * (conserves_momentum_ ? 1.0 - 1.0 / static_cast<double>(report_.disks) : 1.0);
     const std::string source = fmt::format("law for {} disks", report_.disks);
     if (scalar == "speed") return Expected{0.5 * std::sqrt(pi * square) * law.speed_factor(), source};
     if (scalar == "v2") return Expected{square, source};

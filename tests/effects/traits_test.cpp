@@ -1,6 +1,7 @@
 // The table of effects against what the engines do: what each effect conserves, and the memory that it takes.
 
 #include "app/expected_cost.hpp"
+#include "observe/mechanics.hpp"
 #include "pages/effects_words.hpp"
 #include "scene/effect_traits.hpp"
 #include "support/effect_scenes.hpp"
@@ -13,6 +14,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace carom::test {
@@ -107,6 +109,33 @@ TEST_P(EffectTraitsHold, AngularMomentumAndEnergyAreConservedAsTheTableSays) {
   }
 }
 
+TEST_P(EffectTraitsHold, MomentumAlongAPeriodicAxisIsConservedAsTheTableSays) {
+  const EffectTraits& effect = detail::effect_named(GetParam());
+  const bool is_sheared = effect.name == "shear";
+  const int axis = is_sheared ? 0 : 1;  // images above move along x
+  Scene scene = cluster(effect);
+  scene.box = {{-6.0, -6.0}, {6.0, 6.0}, {is_sheared ? Boundary::periodic : Boundary::walls, Boundary::periodic}};
+  if (effect.name == "gravity") scene.effects.gravity->acceleration = {-1.0, 0.0};
+  if (effect.name == "pistons") std::swap(scene.effects.walls[1], scene.effects.walls[3]);
+  const auto momentum = [&](const Simulation& simulation) {
+    return total_momentum(simulation.disks(), simulation.state())[axis];
+  };
+  for (const char* engine : engines_with_effects) {
+    SCOPED_TRACE(engine);
+    Simulation simulation = make_simulation(scene, engine);
+    const double p = momentum(simulation);
+    simulation.run_until(effect.name == "growth" ? 4.0 : 8.0);
+    ASSERT_GT(simulation.totals().pair, 0U);
+    const double change = std::abs(momentum(simulation) - p);
+    EXPECT_EQ(effect.conserves_momentum, conserves_momentum(scene.box, scene.effects, axis));
+    if (effect.conserves_momentum) {
+      EXPECT_LE(change, 1e-12 * 100.0);
+    } else {
+      EXPECT_GT(change, 1e-3);
+    }
+  }
+}
+
 TEST_P(EffectTraitsHold, MemoryPerDiskIsThatOfTheTable) {
   const EffectTraits& effect = detail::effect_named(GetParam());
   const auto bytes = [&](bool with, std::int64_t disks) {
@@ -138,6 +167,18 @@ TEST(ExpectedMemory, IsWithinATenthOfThatOfAGas) {
   scene.effects.thermostat = Thermostat{1.0, 1.0};
   scene.effects.collision.roughness = 1.0;
   EXPECT_NEAR(cli::expected_bytes_per_disk(scene.effects), measured(), 0.1 * measured());
+}
+
+TEST(CentreOfMass, IsThermalWhereMomentumIsExchangedAtRandom) {
+  const Box box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::periodic, Boundary::walls}};
+  Effects effects;
+  EXPECT_FALSE(centre_of_mass_is_thermal(box, effects, 0));
+  EXPECT_TRUE(centre_of_mass_is_thermal(box, effects, 1));
+  effects.drag = Drag{0.5};  // the momentum decays, and heats nothing
+  EXPECT_FALSE(centre_of_mass_is_thermal(box, effects, 0));
+  EXPECT_FALSE(conserves_momentum(box, effects, 0));
+  effects.thermostat = Thermostat{1.0, 0.5};
+  EXPECT_TRUE(centre_of_mass_is_thermal(box, effects, 0));
 }
 
 TEST(ConservedQuantities, AreNamed) {

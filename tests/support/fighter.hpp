@@ -26,8 +26,8 @@ struct Fighter {
   double pull = 0.0;      ///< acceleration of what falls
 };
 
-/// Whether the disks have nobody to give momentum along an axis to but each other.
-inline bool keeps_momentum(const Scene& scene, int axis) {
+/// Whether momentum along an axis passes only between disks.
+inline bool passes_momentum_only_between_disks(const Scene& scene, int axis) {
   const Effects& effects = scene.effects;
   const bool thermal = std::any_of(effects.walls.begin(), effects.walls.end(), [](const auto& wall) { return wall.temperature; });
   return scene.box.periodic(axis) && effects.obstacles.empty() && !thermal && !effects.thermostat && !effects.shear;
@@ -137,7 +137,7 @@ inline Fighter fight(const Scene& scene, const std::string& engine, std::uint64_
       gained += disks.mass[i] * (end.velocities(axis, column) - begin.velocities(axis, column));
       size += std::sqrt(2.0 * disks.mass[i] * turnover);  // no disk ever had more
     }
-    if (keeps_momentum(scene, axis) && !(std::abs(gained) <= 1e-11 * size))
+    if (passes_momentum_only_between_disks(scene, axis) && !(std::abs(gained) <= 1e-11 * size))
       fighter.complaint = fmt::format("{}: momentum along axis {} changed by {} of {}", engine, axis, gained, size);
   }
   // Every event rounds what it moves a few times, by 1e-16 of it; there are some thousand of them.

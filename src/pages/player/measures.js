@@ -23,7 +23,7 @@ function energyOf(moment) {
   let heat = kinetic;
   let freedom = 2 * disks;
   [px, py].forEach((p, axis) => {
-    if (!description.keepsMomentum[axis]) return;
+    if (description.centreOfMassIsThermal[axis]) return;
     heat -= (p * p) / (2 * totalMass);
     freedom -= 1;
   });
