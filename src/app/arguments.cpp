@@ -86,8 +86,9 @@ void add_progress(CLI::App& command, std::string& when) {
 
 void add_threads(CLI::App& command, RunOptions& options) {
   command
-      .add_option("--threads", options.threads,
-                  "2 measures observables on a thread of their own, 1 does not (default: 2 where there is a second processor)")
+      .add_option(
+          "--threads", options.threads,
+          "Threads for the run: with 2, observables are measured on the second (default: 2 where there is a second processor)")
       ->type_name("N")
       ->check(CLI::Range(1, 2));
 }

@@ -70,7 +70,7 @@ void require_positive(const char* option, const std::optional<double>& value, co
 /// Options that say nothing about what is asked for are mistakes.
 void require_fitting(const MovieOptions& options, bool is_film) {
   const auto refuse = [](const char* option, const char* sentence) { throw UsageError(fmt::format("{}: {}", option, sentence)); };
-  if (is_film && options.at) refuse("--at", "a film has no one time; give --from and --to, or a picture's name with -o");
+  if (is_film && options.at) refuse("--at", "this is the time of a picture; give --from and --to, or a picture's name with -o");
   constexpr auto only_films = "a picture shows one time; give --at, or a film's name with -o";
   if (!options.trails_of.empty() && !options.trails)
     refuse("--trails-of", "give --trails TIME too, which says how long they are");

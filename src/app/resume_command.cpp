@@ -121,7 +121,7 @@ ExitCode resume(const ResumeOptions& options, const Invocation& invocation) {
 }
 
 ExitCode extend(const ResumeOptions& options, const Invocation& invocation) {
-  if (!options.time && !options.collisions) throw UsageError("carom extend: say how far, with --time or with --collisions");
+  if (!options.time && !options.collisions) throw UsageError("carom extend: give the new end, with --time or with --collisions");
   return go_on(options, invocation, [&](const CheckpointFacts& facts) {
     if (!facts.finished)
       throw UsageError(fmt::format("{}: this run has not come to its end; carom resume goes on with it", options.directory));

@@ -44,8 +44,7 @@ Simulation simulation_for(const RunOptions& options, const Scene& scene, const s
     throw UsageError(
         fmt::format("--method {}: there is no such method; choose exact or one of: {}", options.method, fmt::join(names, ", ")));
   if (options.verify_horizon)
-    throw UsageError(fmt::format("--verify-horizon holds exact trajectories against each other; leave it out, or --method {}",
-                                 options.method));
+    throw UsageError(fmt::format("--verify-horizon compares exact trajectories; leave it out, or --method {}", options.method));
   if (options.verify)
     throw UsageError(
         fmt::format("--verify checks the plans of an event-driven engine; leave it out, or --method {}", options.method));
@@ -70,7 +69,7 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
   if (options.verify == std::uint64_t{0}) throw UsageError("--verify 0: give the number of events between two checks, 1 or more");
-  if (options.pace && !options.watch) throw UsageError("--pace slows a run down for those who watch it: give --watch too");
+  if (options.pace && !options.watch) throw UsageError("--pace sets the speed of --watch: give --watch too");
   if (options.pace && !(*options.pace > 0.0 && std::isfinite(*options.pace)))
     throw UsageError(fmt::format("--pace {:g}: it is simulated time per second and must be positive", *options.pace));
   if (options.verify_horizon) require_known_effects(scene, "--verify-horizon");

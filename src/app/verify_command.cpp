@@ -42,7 +42,7 @@ Recorded recorded(const fs::path& directory) {
     const auto json = as_usage_error([&] { return detail::summary_in(directory); });
     if (!json.contains("resolved_scene"))
       throw UsageError(fmt::format(
-          "{}: this run's scene is not in its summary: an earlier version wrote it, or it is no run's; run the scene again",
+          "{}: the summary does not hold the scene of the run: an earlier version of carom wrote it; run the scene again",
           path.string()));
     Recorded run{
         .resolved_scene = json.at("resolved_scene"), .engine = json.at("engine"), .commit = json.at("carom").at("commit")};

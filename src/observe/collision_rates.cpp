@@ -51,8 +51,8 @@ class CollisionRate final : public SavedObservable<CollisionRate> {
     put(found, "rate", all_, run_.scene.disk_count());
     if (kinds_ > 1 && !by_species_)
       found.note = run_.collisions_known
-                       ? fmt::format("rates by species are not told apart where {} acts", what_drives(run_.scene.effects))
-                       : "rates by species are not told apart, since the run kept no collisions (--events)";
+                       ? fmt::format("there are no rates by species where {} acts", what_drives(run_.scene.effects))
+                       : "there are no rates by species, since the run stored no collisions (--events)";
     for (std::size_t k = 0; k < rates_.size(); ++k) {
       put(found, "rate" + run_.suffix(k / kinds_) + run_.suffix(k % kinds_), rates_[k], run_.scene.species[k / kinds_].count);
     }

@@ -41,7 +41,7 @@ Masses masses_of(const Scene& scene) {
 
 std::string_view why_no_Z(const Effects& effects) {
   if (std::abs(effects.collision.roughness.value_or(-1.0)) != 1.0) return "collisions take energy away";
-  if (has_walls_of_different_temperature(effects)) return "walls differ in temperature, or from the thermostat";
+  if (has_walls_of_different_temperature(effects)) return "walls and thermostat have different temperatures";
   return detail::first_reason(effects, &detail::EffectTraits::why_no_Z);
 }
 
@@ -54,7 +54,7 @@ std::string_view why_errors_are_of_one_start(const Scene& scene) {
   others.obstacles.clear();  // they turn velocities, and change no speed
   if (others.collision.rule != CollisionRule::reversal || temperature_fluctuates(others) || !why_no_Z(others).empty()) return {};
   if (const Masses masses = masses_of(scene); masses.least != masses.most) return {};
-  return "under reversal, disks of equal mass only exchange velocities: errors hold within this run, not between starts";
+  return "under reversal, disks of equal mass only exchange velocities: another start may differ by more than the errors";
 }
 
 bool is_crystal(const Scene& scene) { return scene.packing_fraction() > 0.72; }
@@ -65,9 +65,9 @@ std::string_view why_error_of_Z_is_off(const Scene& scene, double collisions_per
   const double sum = masses.least + masses.most;
   const double share = 2.0 * (masses.least / sum) * (masses.most / sum);
   if (masses.least != masses.most && !temperature_fluctuates(scene.effects) && collisions_per_disk * share < blocks)
-    return "the lightest and heaviest disks exchange energy more slowly than this run tells errors: the error of Z is a lower "
+    return "light and heavy disks exchange energy too slowly for this run: the error of Z is a lower "
            "bound";
-  if (is_crystal(scene)) return "in a crystal most of the virial swings to and fro: the error of Z is up to 3 times too large";
+  if (is_crystal(scene)) return "in a crystal most of the virial oscillates: the error of Z is up to 3 times too large";
   return {};
 }
 

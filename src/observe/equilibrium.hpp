@@ -20,7 +20,7 @@ namespace carom {
 [[nodiscard]] std::string_view why_errors_are_of_one_start(const Scene& scene);
 
 /// Returns whether the scene is so dense (packing fraction beyond 0.72) that its disks rattle in a crystal. Most of the virial
-/// then swings to and fro, and blocks overestimate the error of its mean.
+/// then oscillates, and blocks overestimate the error of its mean.
 [[nodiscard]] bool is_crystal(const Scene& scene);
 
 /// Returns the reason why the error of the summary's Z is a lower bound or too large, as a sentence without its stop; empty where

@@ -66,7 +66,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     Measurement found{.name = name()};
     put_Z(found, "Z", virial_, 1.0, std::string(why_no_Z_));
     if (Scalar& Z = found.scalars.front(); Z.value && is_crystal(run_.scene))
-      Z.note = "in a crystal most of the virial swings to and fro: the error is up to 1.4 times too large";
+      Z.note = "in a crystal most of the virial oscillates: the error is up to 1.4 times too large";
     Scalar reduced{.name = "reduced"};
     if (const Scalar& Z = found.scalars.front(); Z.value) {
       const double factor = 4.0 * run_.scene.packing_fraction() / std::numbers::pi;
@@ -83,8 +83,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
       Scalar scalar{.name = names[c], .unit = "energy / area"};
       if (follows_) tensor_[c].fill(scalar, step_);
       if (!follows_)
-        scalar.note =
-            run_.collisions_known ? "velocities change between collisions, so impulses are not known one by one" : no_log;
+        scalar.note = run_.collisions_known ? "velocities change between collisions, so single impulses are not known" : no_log;
       found.scalars.push_back(std::move(scalar));
     }
     return found;

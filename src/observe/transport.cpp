@@ -109,7 +109,7 @@ Measurement Transport::finish(double time, const Totals&) {
 
   if (std::ranges::any_of(mean_flux_, flows_steadily)) {
     found.note =
-        "the flux has a mean that is not zero, as the stress of a strained crystal has: what grows with it is no coefficient";
+        "the flux has a mean that is not zero, as the stress of a strained crystal: its growth is no transport coefficient";
     for (Scalar& scalar : found.scalars) scalar = {.name = scalar.name, .unit = unit, .note = found.note};
   }
   if (found.note.empty()) found.note = MultipleTau::note_on_errors(moments);

@@ -70,7 +70,7 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
       if (follows_) {
         Scalar slope{.name = "initial_slope" + run_.suffix(s), .unit = "1 / time"};
         if (run_.scene.effects.dissipate())
-          slope.note = "collisions take energy away, so that no slope is that of all times";
+          slope.note = "collisions take energy away, so the slope changes with time";
         else
           slopes_[s].fill(slope, step_);
         if (!slope.value && slope.note.empty()) slope.note = "nothing moves, or nothing was measured";

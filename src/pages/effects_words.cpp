@@ -91,7 +91,7 @@ std::string conserved(const Box& box, const Effects& effects) {
   if (all_conserve(&EffectTraits::conserves_energy)) names.emplace_back("energy");
   if (x || y) names.emplace_back(x && y ? "momentum" : x ? "momentum along x" : "momentum along y");
   if (effects.collision.rule == CollisionRule::specular && all_conserve(&EffectTraits::conserves_angular_momentum))
-    names.emplace_back("angular momentum away from the edges of the box");
+    names.emplace_back("angular momentum in collisions of disks");
   return names.empty() ? "nothing" : fmt::format("{}", fmt::join(names, ", "));
 }
 

@@ -79,7 +79,7 @@ std::string html(const Plot& plot) {
   const std::string id = html_text(plot.id);
   return "<figure class=\"plot\" id=\"plot-" + id + "\">\n<h3>" + html_text(plot.title) +
          "</h3>\n<div class=\"canvas\" role=\"img\" aria-label=\"" + html_text("Plot: " + plot.title) + "\"></div>\n" +
-         "<noscript><p class=\"note\">This plot is drawn by a script, which is switched off here. Its numbers stand in the "
+         "<noscript><p class=\"note\">This plot is drawn by a script, which is switched off here. Its numbers are in the "
          "source of the page, as JSON, in the element numbers-" +
          id + ".</p></noscript>\n" + caption(plot.caption) +
          "<details class=\"numbers\"><summary>Numbers</summary><div></div></details>\n"
@@ -88,7 +88,7 @@ std::string html(const Plot& plot) {
 }
 
 std::string html(const EmbeddedPage& page) {
-  return "<figure class=\"embedded\">\n<noscript><p class=\"note\">What stands here is made by a script, which is switched "
+  return "<figure class=\"embedded\">\n<noscript><p class=\"note\">This part is drawn by a script, which is switched "
          "off.</p></noscript>\n<iframe title=\"" +
          html_text(page.title) + "\" srcdoc=\"" + detail::html_document_text(page.html) + "\"></iframe>\n</figure>\n";
 }

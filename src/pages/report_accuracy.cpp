@@ -58,7 +58,8 @@ std::string what_rounding_allows(const RunReport& report) {
   const std::string text = fmt::format(
       "Each of n = {} collisions rounds the velocities of two of the N disks by some u = {}. At random this adds up to a "
       "relative "
-      "change of energy, and of momentum over √(2 M E) (that of all disks moving one way), of the order of 4 u √n / N = {:.1e}",
+      "change of energy, and of momentum over √(2 M E) (the momentum if all disks moved in one direction), of the order of 4 u "
+      "√n / N = {:.1e}",
       grouped(report.totals.pair + report.totals.wall + report.totals.obstacle), is_single ? "2⁻²⁴" : "2⁻⁵³",
       rounding_of(report));
   // Supplied and lost energy is added up collision by collision, and each addition rounds a sum as large as the energy itself.

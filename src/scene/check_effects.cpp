@@ -31,9 +31,10 @@ void check_equilibration(const Scene& scene) {
 
 void check_collision(const Collision& collision) {
   if (!collision.roughness || collision.rule == CollisionRule::specular) return;
-  throw Refusal("collision.roughness",
-                "collision.roughness acts across the line of centres, where rule = \"reversal\" leaves nothing to choose; take "
-                "rule = \"specular\", or remove roughness");
+  throw Refusal(
+      "collision.roughness",
+      "collision.roughness changes the velocity across the line of centres, which rule = \"reversal\" already reverses; take "
+      "rule = \"specular\", or remove roughness");
 }
 
 void check_gravity(const Scene& scene) {
@@ -91,7 +92,7 @@ void check_square_well(const Scene& scene) {
       throw Refusal(
           "square_well.width",
           fmt::format("square_well.width is {}; it must be above 1 + {:.3g} here: the well of the smallest disks is {:.3g} "
-                      "wide, and coordinates up to {:.6g} do not tell its edge from the disk",
+                      "wide, and coordinates up to {:.6g} do not resolve it",
                       well.width, least / (2.0 * radii.smallest), thickness, coordinate));
   }
 }

@@ -113,7 +113,7 @@ void check_observe(const Scene& scene) {
     check_structure(scene, request);
     if (request.every) check_step(scene, fmt::format("observe.{}.every", request.name), *request.every);
     if (request.name == "wall_fluxes" && scene.box.periodic(0) && scene.box.periodic(1))
-      refuse_observable(request, "asks what goes through walls, and this box is periodic; remove it, or give an axis walls");
+      refuse_observable(request, "measures fluxes through walls, and this box is periodic; remove it, or give an axis walls");
     if (const std::string_view why = first_reason(scene.effects, &EffectTraits::why_no_displacements);
         !why.empty() && one_of(request.name, {"mean_square_displacement", "velocity_autocorrelation"}))
       refuse_observable(request, std::string(why));

@@ -21,7 +21,7 @@ void check_sample_log(const SampleLog& log) {
   const double ratio = std::pow(log.base, static_cast<double>(log.per_block - 1));
   if (ratio > most_log_ratio)
     throw Refusal("run.sample_log",
-                  fmt::format("run.sample_log divides a block by {}^{} = {:.3g}; more than {:.0e} cannot be told apart, so make "
+                  fmt::format("run.sample_log divides a block by {}^{} = {:.3g}; more than {:.0e} cannot be resolved, so make "
                               "base or per_block smaller",
                               log.base, log.per_block - 1, ratio, most_log_ratio));
 }

@@ -170,9 +170,8 @@ void check_drive(const Drive& drive, const Sizes& sizes) {
 
 void check_mass(const std::string& path, double mass) {
   if (mass >= least_mass && mass <= most_mass) return;
-  throw Refusal(path,
-                fmt::format("{} is {}; it must lie between {:.0e} and {:.0e}, or its inverse would not be a number of all digits",
-                            path, mass, least_mass, most_mass));
+  throw Refusal(path, fmt::format("{} is {}; it must lie between {:.0e} and {:.0e}, or its inverse would lose digits", path, mass,
+                                  least_mass, most_mass));
 }
 
 void check_masses(const Scene& scene, const Sizes& sizes) {
@@ -191,7 +190,7 @@ void check_masses(const Scene& scene, const Sizes& sizes) {
     if (wall.load == 0.0 || *wall.mass * most_countable > sizes.heaviest) continue;
     throw Refusal(path,
                   fmt::format("{} is {}; it must be above {:.3g} here: the lighter a piston under load, the more often it must "
-                              "hit a disk to turn it, and more than 2^53 times cannot be computed",
+                              "hit a disk to reverse it, and more than 2^53 times cannot be computed",
                               path, *wall.mass, sizes.heaviest / most_countable));
   }
 }
@@ -202,7 +201,7 @@ void check_coordinates(const Scene& scene, const Sizes& sizes) {
     if (reach <= most_radii * sizes.smallest) continue;
     throw Refusal(
         fmt::format("box.{}", axis_names[axis]),
-        fmt::format("box.{} reaches to {:.6g}, where doubles are {:.2g} apart, and places must be known to a thousandth of "
+        fmt::format("box.{} reaches to {:.6g}, where doubles are {:.2g} apart, and positions must be resolved to a thousandth of "
                     "the smallest radius, {:.6g}; move the box to the origin, make it smaller, or disks larger",
                     axis_names[axis], reach, spacing * reach, sizes.smallest));
   }
@@ -221,7 +220,7 @@ void check_runaways(const Scene& scene, const Sizes& sizes, double fastest) {
     const std::string path = fmt::format("walls.{}.velocity", wall_names[w]);
     throw Refusal(
         path, fmt::format("{} is {}; it must be {} {:.3g} here: at time {:.6g} the wall would be where doubles are {:.2g} "
-                          "apart, and places must be known to a thousandth of the smallest radius, {:.6g}",
+                          "apart, and positions must be resolved to a thousandth of the smallest radius, {:.6g}",
                           path, upper ? outward : -outward, upper ? "below" : "above", (upper ? 1.0 : -1.0) * room / time, time,
                           spacing * outward * time, sizes.smallest));
   }
@@ -237,13 +236,14 @@ void check_thermostat(const Scene& scene, const Sizes& sizes) {
   const double speed = std::sqrt(bath.temperature / sizes.heaviest), way = least_way * sizes.smallest;
   if (bath.rate * way > speed)
     refuse(speed / way,
-           fmt::format("at temperature {} the heaviest disk would move by {:.3g} from one kick to the next, less than "
-                       "coordinates can tell",
-                       bath.temperature, speed / bath.rate));
+           fmt::format(
+               "at temperature {} the heaviest disk would move by {:.3g} from one redraw of its velocity to the next, less than "
+               "coordinates resolve",
+               bath.temperature, speed / bath.rate));
   const auto disks = static_cast<double>(scene.disk_count());
   if (sizes.duration && bath.rate * disks * *sizes.duration > most_countable)
     refuse(most_countable / disks / *sizes.duration,
-           fmt::format("until time {} there would be {:.3g} kicks, and there can be at most "
+           fmt::format("until time {} there would be {:.3g} redraws of velocities, and there can be at most "
                        "2^53",
                        *sizes.duration, bath.rate * disks * *sizes.duration));
 }
@@ -263,7 +263,7 @@ void check_step(const Scene& scene, const std::string& path, double step, double
   if (step * fastest >= way || fastest == 0.0) return;
   throw Refusal(path,
                 fmt::format("{} is {}; it must be above {:.3g} here: from one sample to the next the fastest disk would move by "
-                            "{:.3g}, less than coordinates can tell",
+                            "{:.3g}, less than coordinates resolve",
                             path, step, way / fastest, step * fastest));
 }
 

@@ -69,8 +69,7 @@ void check_step(const Scene& scene, const std::string& path, double step, double
 
 // Sentences that the reader of files says too, of what no Scene can hold.
 
-inline constexpr const char* endless_run =
-    "[run] says neither how long nor how many collisions; give time = 5.0, collisions = 1_000_000, or both";
+inline constexpr const char* endless_run = "[run] has no end; give time = 5.0, collisions = 1_000_000, or both";
 std::string unequal_counts(const std::string& path, std::int64_t count, std::size_t positions);
 std::string ends_of_growth(const char* has);
 

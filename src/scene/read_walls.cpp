@@ -18,7 +18,7 @@ WallProperties read_wall(const toml::table& node, const std::string& path) {
   wall.load = table.number(keys::piston_load);
   if (node.empty()) {
     throw SceneError(table.where(),
-                     fmt::format("{} says nothing; give restitution, temperature, velocity, or mass and load, or remove "
+                     fmt::format("{} has no property; give restitution, temperature, velocity, or mass and load, or remove "
                                  "it: a wall that is not named is hard and at rest",
                                  path));
   }

@@ -203,9 +203,7 @@ class EngineAdapter final : public AnyEngine {
   static constexpr bool has_recorder = requires(Engine & engine) { engine.recorder(); };
   static constexpr bool stalls = requires(const Engine& engine) { engine.stall(); };
   /// Which engine runs a scene is decided before: no scene gets here.
-  [[noreturn]] static void refuse_to_be_driven() {
-    throw std::logic_error("this engine does not let anything be changed from outside");
-  }
+  [[noreturn]] static void refuse_to_be_driven() { throw std::logic_error("this engine supports no changes during a run"); }
 #if CAROM_CHECK_INVARIANTS
   /// Once per collision of every disk: ends the program with the first fault.
   void check_now_and_then() {

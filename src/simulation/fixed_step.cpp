@@ -65,7 +65,7 @@ constexpr Entry entries[] = {{"naive", &make<Naive>}, {"naive-edge", &make<Naive
 
 void require_sound_step(const FixedStep& step, const Scene& scene, const Start& start) {
   if (!(step.dt > 0.0 && std::isfinite(step.dt)))
-    throw std::invalid_argument(fmt::format("a time step of {:g} leads nowhere; dt must be positive and finite", step.dt));
+    throw std::invalid_argument(fmt::format("the time step is {:g}; it must be positive and finite", step.dt));
   const double fastest = start.disks.count() == 0 ? 0.0 : start.state.velocities.cwiseAbs().maxCoeff();
   if (!(fastest * step.dt < 1e150))
     throw std::invalid_argument(

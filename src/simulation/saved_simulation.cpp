@@ -112,7 +112,7 @@ Simulation restore_simulation(const Scene& given, std::istream& in) {
     return std::runtime_error("the simulation cannot be restored: " + sentence);
   };
   try {
-    if (read_first_line(in) != first_line) throw std::runtime_error("this does not begin like what Simulation::save() writes");
+    if (read_first_line(in) != first_line) throw std::runtime_error("this was not written by Simulation::save()");
     CheckedReading checked(in);
     std::istream within(&checked);
     LoadingArchive archive(within);

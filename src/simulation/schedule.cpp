@@ -464,7 +464,7 @@ RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
   parts.require_rule();
   if (!parts.scene.run.time && !parts.scene.run.collisions) throw SceneError({}, detail::endless_run);
   if (hooks.collisions && !simulation.supports_collision_records())
-    throw std::invalid_argument("this simulation does not tell of collisions; see Simulation::supports_collision_records()");
+    throw std::invalid_argument("this simulation has no collision records; see Simulation::supports_collision_records()");
   if (hooks.stop_when && simulation.time_step())
     throw std::invalid_argument("a fixed-step method ends at a time or a number of collisions of pairs only");
   for (const SamplingGrid& grid : hooks.grids)

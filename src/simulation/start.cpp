@@ -51,7 +51,7 @@ void require_room_to_move(const Scene& scene, const Start& start) {
       throw detail::scene_error(
           scene, fmt::format("disks.{}.velocities", start.disks.species[i]),
           fmt::format(
-              "disk {} of diameter {:g} fills the box from wall to wall in {} and cannot move that way; give it more room, or no "
+              "disk {} of diameter {:g} fills the box from wall to wall in {} and cannot move along it; give it more room, or no "
               "velocity there",
               i, diameter, a == 0 ? "x" : "y"));
     }

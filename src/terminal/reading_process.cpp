@@ -106,7 +106,7 @@ ExitCode in_reading_process(const fs::path& file, const std::function<ExitCode()
       throw std::runtime_error(
           fmt::format("{}: the process that read it was killed; perhaps there is not enough memory", file.string()));
     case SIGPROF:
-      throw UsageError(fmt::format("{}: reading it comes to no end, so it is damaged; run the scene again", file.string()));
+      throw UsageError(fmt::format("{}: reading it does not end, so it is damaged; run the scene again", file.string()));
     default:
       throw UsageError(fmt::format("{}: reading it ends in a crash ({}), so it is damaged; run the scene again", file.string(),
                                    strsignal(number)));

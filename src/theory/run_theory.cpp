@@ -66,7 +66,7 @@ RunTheory::RunTheory(const RunReport& report, std::optional<TheorySource> source
     find_Z();
   else
     why_not_Z_ =
-        "No theory stands beside it: equations of state are of equal elastic disks in a periodic box on which nothing else "
+        "No theory is given: equations of state hold for equal elastic disks in a periodic box on which nothing else "
         "acts.";
 }
 
@@ -144,7 +144,7 @@ std::vector<TheoryCurve> RunTheory::flight_curves(const Table& table) const {
   const bool of_times = table.name == "free_times";
   const double scale = of_times ? free_time : free_path;
   const double mean = of_times ? 1.0 : std::sqrt(0.5 * pi);
-  TheoryCurve law{.name = "dilute gas, speeds told apart"}, plain{.name = "exponential", .dashed = true};
+  TheoryCurve law{.name = "dilute gas, summed over speeds"}, plain{.name = "exponential", .dashed = true};
   for (const double x : steps_over(table)) {
     const double s = x / scale;
     law.x.push_back(x);

@@ -128,7 +128,7 @@ TEST_F(MovieCommand, RefusesOptionsThatCannotBe) {
   film({"--speed", "0"}, "--speed 0: it must be a simulated time above zero");
   film({"--speed", "1e-9"}, "the film would have 6e+10 frames");
   film({"--speed", "1e-300"}, "the film would have 6e+301 frames");
-  film({"--at", "1"}, "--at: a film has no one time");
+  film({"--at", "1"}, "--at: this is the time of a picture");
   for (const char* const size : {"0", "15", "8193", "64x", "x64", "64x0", "-64", "big", "64 x 64", "99999999999"})
     film({"--size", size}, std::string("--size ") + size + ": it can be the longer side or WIDTHxHEIGHT");
   film({"--colour", "red"}, "--colour red: it can be speed, species, collisions, id or plain");

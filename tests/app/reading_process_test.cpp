@@ -51,7 +51,7 @@ TEST(ReadingProcessTest, ACrashIsOneSentence) {
 }
 
 TEST(ReadingProcessTest, ReadingWithoutEndIsOneSentence) {
-  EXPECT_EXIT(run([] { return raised(SIGPROF); }), ExitedWithCode(2), "^usage: some.h5md: reading it comes to no end.*\n$");
+  EXPECT_EXIT(run([] { return raised(SIGPROF); }), ExitedWithCode(2), "^usage: some.h5md: reading it does not end.*\n$");
 }
 
 TEST(ReadingProcessTest, AnInterruptIsAnInterrupt) {

@@ -93,7 +93,7 @@ TEST_F(Resume, AFinishedRunIsExtended) {
   ASSERT_EQ(carom({"run", "gas.toml", "--out", "whole", "-q", "--set", "run.collisions=40000"}).exit_code, 0);
   ASSERT_EQ(carom({"run", "gas.toml", "--out", "longer", "-q", "--checkpoint-every", "1h"}).exit_code, 0);
   refused({"resume", "longer"}, "this run has come to its end; carom extend takes it to a later one");
-  refused({"extend", "longer"}, "say how far, with --time or with --collisions");
+  refused({"extend", "longer"}, "give the new end, with --time or with --collisions");
   refused({"extend", "longer", "--collisions", "30000"}, "the run has had 30000 already; give more");
   refused({"extend", "longer", "--time", "0.5"}, "already; give a later one");
   EXPECT_EQ(carom({"extend", "longer", "-q", "--collisions", "40000"}).exit_code, 0);

@@ -184,7 +184,7 @@ TEST(CentreOfMass, IsThermalWhereMomentumIsExchangedAtRandom) {
 TEST(ConservedQuantities, AreNamed) {
   Box box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::periodic, Boundary::walls}};
   Effects effects;
-  EXPECT_EQ(conserved(box, effects), "energy, momentum along x, angular momentum away from the edges of the box");
+  EXPECT_EQ(conserved(box, effects), "energy, momentum along x, angular momentum in collisions of disks");
   effects.collision.rule = CollisionRule::reversal;
   EXPECT_EQ(conserved(box, effects), "energy, momentum along x");
   effects.drag = Drag{0.5};
@@ -192,7 +192,7 @@ TEST(ConservedQuantities, AreNamed) {
   effects = {};
   effects.collision.restitution = 0.5;
   box.boundary[1] = Boundary::periodic;
-  EXPECT_EQ(conserved(box, effects), "momentum, angular momentum away from the edges of the box");
+  EXPECT_EQ(conserved(box, effects), "momentum, angular momentum in collisions of disks");
 }
 
 }  // namespace

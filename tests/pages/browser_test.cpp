@@ -135,7 +135,7 @@ TEST(BrowserPage, WhatGoesWrongIsReportedAndShownWhereThePlotWouldBe) {
   EXPECT_THAT(root(dom), HasSubstr("nonsense is not defined"));
   EXPECT_THAT(root(dom), HasSubstr("refused to load https://example.org/"));
   EXPECT_THAT(root(dom), HasSubstr("data-plots=\"3\""));
-  EXPECT_THAT(figure(dom, "pressure"), HasSubstr("<p class=\"error\">This did not work: plot-pressure: SyntaxError"));
+  EXPECT_THAT(figure(dom, "pressure"), HasSubstr("<p class=\"error\">Error: plot-pressure: SyntaxError"));
 }
 
 }  // namespace

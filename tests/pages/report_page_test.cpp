@@ -167,7 +167,7 @@ TEST_F(ReportPage, LawsOfVelocitiesAndFlightsAreDensities) {
     EXPECT_NEAR(integral(*law), 1.0, 0.04) << id;
   }
   for (const char* const id : {"free-times", "free-paths"}) {
-    const Series* const law = series_of(page, id, "dilute gas, speeds told apart");
+    const Series* const law = series_of(page, id, "dilute gas, summed over speeds");
     ASSERT_NE(law, nullptr) << id;
     EXPECT_NEAR(integral(*law), 1.0, 0.04) << id;  // and beyond ten mean free times is one flight in e^7
   }
@@ -204,7 +204,7 @@ TEST_F(ReportPage, WithoutATrajectoryThereIsNothingToWatchAndTheRestStays) {
   EXPECT_THAT(file.html,
               AllOf(HasSubstr("The run stored no trajectory"), HasSubstr("Kolafa &amp; Rottner, N = 40"),
                     HasSubstr("The scene with every default"), Not(HasSubstr("as it was written")), Not(HasSubstr("<iframe"))));
-  EXPECT_THAT(file.player, HasSubstr("nothing to watch"));
+  EXPECT_THAT(file.player, HasSubstr("no replay: "));
 }
 
 TEST_F(ReportPage, ARunWhoseSceneIsInNoFileHasAPageThatSaysSo) {

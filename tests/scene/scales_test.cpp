@@ -90,7 +90,7 @@ TEST(Scales, RunsThatTimeAloneEndsCanBeComputed) {
 }
 
 TEST(Scales, WallsThatRunAwayStayWhereDoublesTellTheDisks) {
-  const char* far = "and places must be known to a thousandth of the smallest radius, 0.03125";
+  const char* far = "and positions must be resolved to a thousandth of the smallest radius, 0.03125";
   const double reach = 1e-3 * 0x1p52 / 32.0;
   expect_most("walls", for_a_while, "walls.top={{ velocity = {:e} }}", reach / 4.0, far);
   expect_most("walls", for_a_while, "walls.left={{ velocity = -{:e} }}", reach / 4.0, far);
@@ -113,7 +113,7 @@ TEST(Scales, PistonsAreNotTooLightToTurnADisk) {
 }
 
 TEST(Scales, MassesHaveProducts) {
-  const char* why = "or its inverse would not be a number of all digits";
+  const char* why = "or its inverse would lose digits";
   expect_most("walls", by_collisions, "disks.0.mass={:e}", 1e300, why);
   expect_least("walls", by_collisions, "disks.0.mass={:e}", 1e-300, why);
   expect_least("walls", by_collisions, "walls.top={{ mass = {:e}, load = 0.0 }}", 1e-300, why);
@@ -122,7 +122,7 @@ TEST(Scales, MassesHaveProducts) {
 TEST(Scales, ThermostatsLetDisksMove) {
   // A disk moves at 1 / 2 from kick to kick: 2^-50 of its radius.
   expect_most("periodic", by_collisions, "thermostat={{ temperature = 0.25, rate = {:e} }}", 0.5 * 0x1p55,
-              "less than coordinates can tell");
+              "less than coordinates resolve");
   expect_most("periodic", for_a_while, "thermostat={{ temperature = 0.25, rate = {:e} }}", 0x1p53 / 20.0,
               "and there can be at most 2^53");
 }
@@ -132,7 +132,7 @@ TEST(Scales, SamplesCanBeCounted) {
                                 "run.sample_log={{ base = 2.0, per_block = 2, block = {:e} }}"}) {
     const double per_step = key.starts_with("run.sample_log") ? 2.0 : 1.0;
     expect_least("periodic", for_a_while, key, per_step * 4.0 / 0x1p53, "there can be at most 2^53");
-    expect_least("periodic", by_collisions, key, 0x1p-55, "less than coordinates can tell");
+    expect_least("periodic", by_collisions, key, 0x1p-55, "less than coordinates resolve");
   }
 }
 

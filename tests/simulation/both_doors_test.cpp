@@ -636,7 +636,7 @@ TEST(OneDoor, LeavesNamesAndTheEndToAProgram) {
   EXPECT_EQ(simulation.run_until(0.1), StopReason::time);
   Simulation other = make_simulation(scene);
   EXPECT_EQ(what_is_refused([&] { (void)run_schedule(other); }),
-            "[run] says neither how long nor how many collisions; give time = 5.0, collisions = 1_000_000, or both");
+            "[run] has no end; give time = 5.0, collisions = 1_000_000, or both");
 }
 
 }  // namespace

@@ -149,8 +149,8 @@ TEST(SavedSimulation, OfAnotherSceneIsRefusedByTheFirstDifference) {
 }
 
 TEST(SavedSimulation, OfAnotherKindIsRefused) {
-  EXPECT_THAT(said_of(walled_gas(), ""), HasSubstr("this does not begin like what Simulation::save() writes"));
-  EXPECT_THAT(said_of(walled_gas(), "a file of somebody else, and long enough"), HasSubstr("does not begin like"));
+  EXPECT_THAT(said_of(walled_gas(), ""), HasSubstr("this was not written by Simulation::save()"));
+  EXPECT_THAT(said_of(walled_gas(), "a file of somebody else, and long enough"), HasSubstr("was not written by"));
 }
 
 TEST(SavedSimulation, IsRefusedWhereverItWasCutShort) {

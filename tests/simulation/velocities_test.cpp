@@ -210,7 +210,7 @@ TEST(Velocities, ADiskThatFillsTheBoxFromWallToWallMustNotMoveThatWay) {
   };
   EXPECT_EQ(start(1.0, 0.0), "");
   EXPECT_EQ(start(1.0, 0.1),
-            "disk 0 of diameter 1 fills the box from wall to wall in y and cannot move that way; give it more room, or no "
+            "disk 0 of diameter 1 fills the box from wall to wall in y and cannot move along it; give it more room, or no "
             "velocity there");
   EXPECT_NE(start(std::nan(""), 0.0), "");
 }

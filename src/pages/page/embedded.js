@@ -1,5 +1,5 @@
-// Pages within the page: where they are narrow and stack their parts they get the height that these need, and what goes wrong in
-// them is said on the page round them too.
+// Pages within the page. Where such a page is narrow and stacks its parts, its frame gets the height of all of them. Errors in it
+// are shown on the enclosing page too.
 "use strict";
 
 function connectEmbedded(frame) {

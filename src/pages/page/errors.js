@@ -1,15 +1,15 @@
-// Collects everything that goes wrong in the page: in data-errors of the document, for tests, and before the reader's eyes.
+// Collects the errors of the page in data-errors of the document, for tests, and shows them to the reader.
 "use strict";
 
 document.documentElement.dataset.errors = "";
 
-/// Notes an error, and shows it in `place` or, without one, at the top of the page.
+/// Records an error, and shows it in `place` or, without one, at the top of the page.
 function pageError(message, place) {
   const root = document.documentElement;
   root.dataset.errors += (root.dataset.errors ? "\n" : "") + message;
   const note = document.createElement("p");
   note.className = "error";
-  note.textContent = "This did not work: " + message;
+  note.textContent = "Error: " + message;
   if (place) {
     place.replaceChildren(note);
   } else if (document.body) {

@@ -1,7 +1,7 @@
-// Pictures of a plot as files: what is on the screen, on white, with the plot's title.
+// Saves a plot as a picture: what the screen shows, on white, with the title of the plot.
 "use strict";
 
-const picture = { width: 960, height: 600, titleHeight: 48 };  // in pixels; PNG has twice as many
+const picture = { width: 960, height: 600, titleHeight: 48 };  // pixels; a PNG has twice as many
 
 function savePicture(canvas, plot, format) {
   const theme = lightTheme();
@@ -35,7 +35,7 @@ const camera =
   "0-9zm0 2a2.5 2.5 0 1 0 0 5 2.5 2.5 0 0 0 0-5z";
 const arrow = "M11 3h2v9l3.5-3.5 1.4 1.4L12 16l-5.9-6.1 1.4-1.4L11 12V3zM4 18h16v2H4z";
 
-/// The buttons of a plot.
+/// Returns the buttons of a plot.
 function plotButtons(plot) {
   return [
     ["zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d"],

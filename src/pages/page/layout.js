@@ -1,4 +1,4 @@
-// What stands around the curves of a plot, and the whole of it: axes, reference lines, legend.
+// The layout of a plot: axes, reference lines, legend.
 "use strict";
 
 function markLine(mark, theme) {
@@ -9,16 +9,17 @@ function markLine(mark, theme) {
   return { ...(mark.axis === "x" ? upright : level), type: "line", layer: "below", line };
 }
 
-/// At the end of the line, inside the plot. Unlike shapes, annotations on a logarithmic axis stand at the logarithm.
+/// Returns the label of a reference line, at its end inside the plot. On a logarithmic axis the position of an annotation is the
+/// logarithm, unlike that of a shape.
 function markLabel(mark, plot, theme) {
   const at = plot[mark.axis].log ? Math.log10(mark.value) : mark.value;
   const upright = { xref: "x", x: at, yref: "paper", y: 0.99, yanchor: "top", textangle: -90 };
   const level = { xref: "paper", x: 0.995, yref: "y", y: at, yanchor: "bottom" };
-  const look = { xanchor: "right", showarrow: false, bgcolor: theme.paper + "cc", font: { color: theme.muted, size: 12 } };
-  return { ...(mark.axis === "x" ? upright : level), ...look, text: plotText(mark.label) };
+  const style = { xanchor: "right", showarrow: false, bgcolor: theme.paper + "cc", font: { color: theme.muted, size: 12 } };
+  return { ...(mark.axis === "x" ? upright : level), ...style, text: plotText(mark.label) };
 }
 
-/// A long title of an upright axis in two lines, its unit in the second, so that nothing is cut off.
+/// Breaks the long title of a vertical axis into two lines, with the unit in the second, so that nothing is cut off.
 function axisTitle(axis, isUpright) {
   const text = plotText(axis.title);
   return isUpright && axis.title.length > 36 ? text.replace(/ (?=\([^()]*\)$)/, "<br>") : text;

@@ -1,7 +1,7 @@
-// The numbers of a plot as a table in the page and as a CSV file. Both list what the plot was given, drawn or not.
+// The numbers of a plot as a table in the page and as a CSV file. Both list all numbers of the plot, visible or not.
 "use strict";
 
-/// One row per point, all series one after the other; a cell is text, a number, or null where a number is not finite.
+/// Returns one row per point, series after series; a cell is text, a number, or null where a number is not finite.
 function numberRows(plot) {
   const has = (key) => plot.series.some((series) => series[key]);
   const keys = ["x", "y", ...["y_low", "y_high", "labels"].filter(has)];
@@ -51,8 +51,8 @@ function saveText(text, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-/// Fills `details` when it is opened for the first time: large tables cost nothing until then. Hides it where there
-/// are no numbers.
+/// Fills `details` when it is opened for the first time, so that large tables cost nothing until then. Hides it where there are
+/// no numbers.
 function offerNumbers(details, plot) {
   details.hidden = !plot.series.some((series) => series.x.length > 0);
   details.addEventListener("toggle", () => {

@@ -1,13 +1,13 @@
-// Draws every plot of the page, and again when the colours of the screen change or the page is printed.
+// Draws every plot of the page, and draws again when the colours of the screen change or the page is printed.
 //
 // For tests: data-plots of the document is the number of plots drawn, data-points of each figure the number of points in it,
-// data-errors all that went wrong.
+// data-errors all errors.
 "use strict";
 
 const paperSize = { width: 670, height: 360 };  // in pixels; fits on A4 and on letter paper within the margins of page.css
 const drawn = [];                               // {canvas, plot} of every plot
 
-/// Points that plotly has put into the drawing, error bars and bands not counted.
+/// Returns the number of points that plotly has drawn, without error bars and bands.
 function pointsIn(canvas) {
   const isNumber = (value) => typeof value === "number" && Number.isFinite(value);
   let count = 0;
@@ -37,7 +37,7 @@ async function draw(figure) {
   }
 }
 
-/// Keeps what the reader has zoomed to and switched off.
+/// Keeps the reader's zoom and the series that are switched off.
 function drawAgain(theme, size) {
   for (const { canvas, plot } of drawn) {
     const { data, layout } = plotFigure(plot, theme);

@@ -1,4 +1,4 @@
-// The colours of plots. They stand in page.css, so that text and plots agree; this reads those that hold at the moment.
+// The colours of plots. page.css defines them for text and plots alike; this file reads the present ones.
 "use strict";
 
 const colourCount = 8;
@@ -17,7 +17,7 @@ function currentTheme() {
   };
 }
 
-/// What holds on white paper, whatever the screen shows: for print and for exported pictures.
+/// Returns the colours for white paper, whatever the screen shows: for print and for exported pictures.
 function lightTheme() {
   const classes = document.documentElement.classList;
   const wasLight = classes.contains("light");

@@ -1,7 +1,7 @@
-// From the series of a plot to what plotly draws: its traces.
+// Converts the series of a plot to the traces that plotly draws.
 "use strict";
 
-// Beside the colour, for readers and printers that see none. Sizes, in pixels, make them look equally large.
+// Symbols distinguish series without colours too. Sizes, in pixels, make them appear equally large.
 const symbols = [
   { symbol: "circle", size: 8 },
   { symbol: "square", size: 8 },
@@ -13,7 +13,7 @@ const symbols = [
   { symbol: "star", size: 11 },
 ];
 
-/// Plotly takes HTML-like marks in names and titles for formatting; this keeps them what they are.
+/// Plotly interprets HTML-like marks in names and titles as formatting; this escapes them.
 /// (It fills in %{...} too, but only in figures that have `meta`.)
 function plotText(text) {
   return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
@@ -21,7 +21,7 @@ function plotText(text) {
 
 const raisedDigits = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
 
-/// Five digits, with a power of ten where plain digits would be hard to read.
+/// Returns a number with five digits, with a power of ten where plain digits would be hard to read.
 function plotNumber(value) {
   const size = Math.abs(value);
   if (value === 0 || (size >= 1e-3 && size < 1e6)) return String(Number(value.toPrecision(5)));
@@ -34,7 +34,7 @@ function isDrawable(value, axis) {
   return value !== null && (!axis.log || value > 0);
 }
 
-/// Whether each point of a series is drawn.
+/// Returns for each point of a series whether it is drawn.
 function drawnPoints(series, plot) {
   return series.x.map((x, i) => isDrawable(x, plot.x) && isDrawable(series.y[i], plot.y));
 }
@@ -49,7 +49,7 @@ function hoverText(series, plot, i) {
   return lines.join("<br>");
 }
 
-/// The outline of the region between y_low and y_high: one polygon for each stretch without a gap.
+/// Returns the outline of the region between y_low and y_high: one polygon for each part without a gap.
 function bandOutline(series, plot) {
   const outline = { x: [], y: [] };
   let begin = 0;

@@ -1,19 +1,19 @@
-// The moment that is shown, and how it moves on: with the reader's clock, from collision to collision, or where it is put.
+// The moment that is shown, and how it changes: by the reader's clock, from collision to collision, or to a chosen time.
 "use strict";
 
 const moment = emptyMoment();
 const duration = replay.duration;
 const steps = replay.stepTimes;  // of the collisions, or of the samples where there is no log
-let isStale = true;              // what is on the screen is no longer what it should be
+let isStale = true;              // the screen does not show `moment` and the settings yet
 
-/// To a time, after all that happened by then; or after `done` events, for stops between events at one time.
+/// Shows a time, after all events up to it; or after `done` events, which distinguishes events at one time.
 function showTime(time, done = undefined) {
   const within = Math.min(Math.max(time, 0), duration);
   replay.read(within, done ?? replay.doneAt(within), moment);
   isStale = true;
 }
 
-/// To just after the next event, or the one before.
+/// Shows the state just after the next event, or after the one before.
 function stepEvent(direction) {
   change({ isPlaying: false });
   if (direction > 0) {
@@ -27,7 +27,7 @@ function stepEvent(direction) {
   else showTime(0, description.exact ? 0 : 1);
 }
 
-/// On by so many seconds of the reader's clock. At an end of the run it begins again, or stays.
+/// Advances by a number of seconds of the reader's clock. At an end of the run playing starts again or stops.
 function advance(seconds) {
   if (!settings.isPlaying || !(duration > 0)) return;
   let time = moment.time + (settings.isBackwards ? -1 : 1) * settings.rate * seconds;
@@ -41,13 +41,13 @@ function advance(seconds) {
   showTime(time);
 }
 
-/// Playing from an end in its own direction begins anew.
+/// Plays or pauses. At the end of the run playing starts again from the other end.
 function togglePlay() {
   const atEnd = settings.isBackwards ? moment.time <= 0 : moment.time >= duration;
   if (!settings.isPlaying && atEnd) showTime(settings.isBackwards ? duration : 0);
   change({ isPlaying: !settings.isPlaying });
 }
 
-// A disk of typical speed takes some six seconds through the box, but the run at least four from its beginning to its end.
+// A disk of typical speed crosses the box in some six seconds. The whole run takes at least four.
 const usualRate = Math.min((0.16 * Math.min(extent[1] - extent[0], extent[3] - extent[2])) / speedScale, duration / 4) || 1;
 settings.rate = usualRate;

@@ -1,12 +1,12 @@
-// Buttons, sliders and lists: each says what it wants to change, and shows what is.
+// Buttons, sliders and lists: each changes a setting and shows its value.
 "use strict";
 
 const control = (name) => document.getElementById(name);
 const toggles = { trails: "trails", arrows: "arrows", ghosts: "ghosts", loop: "loop", reverse: "isBackwards" };
-const scrubSteps = 100000;  // of the slider, finer than pixels
-const rateSteps = 60;       // of the slider, to either side: six decades down, three up
+const scrubSteps = 100000;  // steps of the time slider, finer than pixels
+const rateSteps = 60;       // steps of the speed slider to either side: six decades down, three up
 
-/// The slider of speed is logarithmic: its middle is the usual one.
+/// The speed slider is logarithmic; its middle is `usualRate`.
 const rateOf = (position) => usualRate * 10 ** (position > 0 ? (3 * position) / rateSteps : (6 * position) / rateSteps);
 const positionOf = (rate) => {
   const decades = Math.log10(rate / usualRate);
@@ -20,7 +20,7 @@ function follow(i) {
   change({ followed: Number.isInteger(i) && i >= 0 && i < disks ? i : -1 });
 }
 
-/// The next of a list's choices, for keys.
+/// Chooses the next entry of a list, for keys.
 function choose(name, setting, by = 1) {
   const values = [...control(name).options].map((option) => option.value);
   change({ [setting]: values[(values.indexOf(settings[setting]) + by + values.length) % values.length] });
@@ -34,7 +34,7 @@ function fillLists() {
   for (const value of ["auto", "light", "dark"]) control("theme").add(new Option(value === "auto" ? "as the screen" : value, value));
 }
 
-/// Takes the settings over into the controls.
+/// Copies the settings into the controls.
 function showSettings() {
   control("play").setAttribute("aria-pressed", settings.isPlaying);
   control("play").querySelector("use").setAttribute("href", settings.isPlaying ? "#icon-pause" : "#icon-play");
@@ -51,7 +51,7 @@ function showSettings() {
   isStale = true;
 }
 
-/// Takes the moment over into the slider.
+/// Copies the moment into the time slider.
 function showScrub() {
   const position = String(duration > 0 ? Math.round((scrubSteps * moment.time) / duration) : 0);
   if (control("scrub").value !== position) control("scrub").value = position;
@@ -87,11 +87,11 @@ function connectControls() {
   control("follow").addEventListener("change", (event) => follow(event.target.value === "" ? -1 : Number(event.target.value)));
   if (!box.periodic[0] && !box.periodic[1]) control("ghosts").hidden = true;
   control("next").title = `To the next ${replay.stepName} (.)`;
-  control("previous").title = `To the ${replay.stepName} before (,)`;
+  control("previous").title = `To the previous ${replay.stepName} (,)`;
   document.querySelector("[data-step]").textContent = replay.stepName;
 }
 
-/// As near again, and drawn.
+/// Zooms by a factor about the middle, and has the box drawn again.
 function zoomBy(factor) {
   zoom(factor);
   isStale = true;

@@ -1,14 +1,14 @@
-// Draws one moment: box, obstacles, disks with their true radii, and what the reader wants besides.
+// Draws one moment: box, obstacles, disks to scale, and the trails, arrows and images that the reader has switched on.
 "use strict";
 
-let context = canvas.getContext("2d", { alpha: false });  // of the canvas that is drawn on
+let context = canvas.getContext("2d", { alpha: false });  // context of the canvas that is drawn on
 const stageContext = context;
-const bucket = new Uint8Array(disks);        // of every disk, the number of its colour
+const bucket = new Uint8Array(disks);        // colour number of each disk
 const ordered = new Uint32Array(disks);      // disks by colour, so that each colour is set once
 const bucketEnd = new Uint32Array(colourSteps + 1);
 let colours = [];
 
-/// Sorts the disks by the colours that they have at the moment.
+/// Sorts the disks by their colours at the moment.
 function colourDisks(moment) {
   const colouring = colourings[settings.colourBy];
   colours = colouring.isKind ? kinds : scaleColours.cached(settings.palette, theme.isDark);
@@ -33,7 +33,8 @@ scaleColours.cached = (() => {
   };
 })();
 
-/// Circle by circle, which browsers draw faster than many in one path; those that can be seen within `frame`, in pixels.
+/// Draws each disk that can be seen within `frame` (in pixels) as a circle of its own, which browsers draw faster than many in
+/// one path.
 function drawDisks(moment, shifts, frame) {
   const isOutlined = moment.scale * view.scale * largestRadius >= outlinedFrom;
   context.strokeStyle = theme.isDark ? "rgba(255,255,255,0.35)" : "rgba(0,0,0,0.4)";
@@ -52,7 +53,7 @@ function drawDisks(moment, shifts, frame) {
         const py = pixelY(moment.y[i] + offsetY);
         if (px + r < frame.left || px - r > frame.right || py + r < frame.top || py - r > frame.bottom) continue;
         if (r < 1) {
-          context.fillRect(px - r, py - r, 2 * r, 2 * r);  // too small to be seen round
+          context.fillRect(px - r, py - r, 2 * r, 2 * r);  // smaller than a pixel: a square looks the same
         } else {
           context.beginPath();
           context.arc(px, py, r, 0, 2 * Math.PI);
@@ -64,7 +65,7 @@ function drawDisks(moment, shifts, frame) {
   }
   context.globalAlpha = 1;
 }
-const outlinedFrom = 5;  // pixels: smaller ones would be all rim
+const outlinedFrom = 5;  // pixels: the outline would cover a smaller disk
 const largestRadius = radius.reduce((most, r) => Math.max(most, r), 0);
 
 function boxPath(moment) {
@@ -73,7 +74,7 @@ function boxPath(moment) {
   context.rect(pixelX(left), pixelY(top), (right - left) * view.scale, (top - bottom) * view.scale);
 }
 
-/// Walls as solid lines outside the box, periodic edges as dashes.
+/// Draws walls as solid lines outside the box, and periodic edges as dashed lines.
 function drawEdges(moment) {
   const [left, right, bottom, top] = moment.walls;
   const thick = 3;
@@ -124,17 +125,17 @@ function drawObstacles(shifts) {
 }
 
 function drawTrails(moment, shifts, frame) {
-  const isOne = disks > 5000;  // of more they would be a grey mist
+  const isOne = disks > 5000;  // the trails of more disks would cover the box
   const fallen = Math.hypot(...description.gravity) * trailTime;
   context.strokeStyle = theme.accent;
   context.globalAlpha = 0.45;
-  context.lineWidth = 1;  // broader ones take browsers many times as long
+  context.lineWidth = 1;  // browsers draw broader lines many times more slowly
   for (const [a, b] of shifts) {
     for (let i = 0; i < disks; ++i) {
       if (isOne && i !== settings.followed) continue;
       const px = pixelX(moment.x[i] + a * box.lengths[0] + b * moment.displacement);
       const py = pixelY(moment.y[i] + b * box.lengths[1]);
-      // An image whose path begins beyond the frame seldom comes in: not unless it was much faster than it is.
+      // The path of an image outside the frame reaches into it only if the disk was much faster before.
       const reach = 2 * (speedOf(moment, i) + fallen) * trailTime * view.scale;
       if (px + reach < frame.left || px - reach > frame.right || py + reach < frame.top || py - reach > frame.bottom) continue;
       context.beginPath();
@@ -145,7 +146,7 @@ function drawTrails(moment, shifts, frame) {
   context.globalAlpha = 1;
 }
 
-/// From the rim along the velocity; the typical speed is as long as 3.5 % of the box.
+/// Draws velocities as arrows from the rim of each disk; the typical speed is 3.5 % of the box long.
 function drawArrows(moment) {
   const unit = (0.035 * Math.min(extent[1] - extent[0], extent[3] - extent[2]) * view.scale) / speedScale;
   const head = 4;
@@ -180,7 +181,7 @@ function drawRing(moment, i, colour, width) {
   context.stroke();
 }
 
-/// The two that have just collided, where the reader stands at a collision.
+/// Marks the disks that have just collided, where the moment is that of a collision.
 function drawCollision(moment) {
   const e = moment.done - 1;
   if (!description.exact || settings.isPlaying || e < 0 || columns.time[e] !== moment.time) return;
@@ -189,12 +190,12 @@ function drawCollision(moment) {
   if (columns.partner[e] < disks) drawRing(moment, columns.partner[e], theme.ink, 2);
 }
 
-/// On a canvas as large as the stage.
+/// Draws the moment on a canvas of the size of the stage.
 function drawMoment(moment, target = stageContext) {
   context = target;
   context.setTransform(1, 0, 0, 1, 0, 0);
   context.fillStyle = theme.paper;
-  context.fillRect(0, 0, canvas.width, canvas.height);  // to the last pixel, which the page may have only a part of
+  context.fillRect(0, 0, canvas.width, canvas.height);  // with the last row and column, of which the page may show a part
   context.setTransform(view.density, 0, 0, view.density, 0, 0);
   boxPath(moment);
   context.fillStyle = theme.stage;
@@ -205,7 +206,7 @@ function drawMoment(moment, target = stageContext) {
   context.save();
   if (!showsImages) {
     boxPath(moment);
-    context.clip();  // what sticks out on one side comes in on the other
+    context.clip();  // an image shows on the other side what the edge cuts off
   }
   drawObstacles(shifts);
   const [left, right, bottom, top] = moment.walls;

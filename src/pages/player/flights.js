@@ -1,13 +1,13 @@
-// The exact replay. Between two of its events a disk is in free flight, and every flight is stored with its beginning: time,
-// place, velocity. A moment is the flights that hold then, found in a few steps from those of the moment shown before, or by
-// halving. Time runs backwards as well as forwards.
+// The exact replay. Between two events a disk is in free flight. Each flight is stored with the time, position and velocity of
+// its beginning. The state at a time follows from the flight of each disk at that time, which is found from the flight shown
+// before, or by bisection. Time runs in both directions.
 "use strict";
 
 /// The flights of all disks, those of disk i from first[i] to first[i + 1] - 1 in order of time.
 function buildFlights({ start, time, disk, partner, velocity }) {
-  const rescale = disks + 4;  // the code of a multiplication of all velocities
+  const rescale = disks + 4;  // code of the event that multiplies all velocities by a factor
   const first = new Uint32Array(disks + 1);
-  const rescaled = new Uint32Array(time.length + 1);  // how often, by each event
+  const rescaled = new Uint32Array(time.length + 1);  // number of such events up to each event
   let rescalings = 0;
   for (let e = 0; e < time.length; ++e) {
     rescaled[e + 1] = rescaled[e] + (partner[e] === rescale ? 1 : 0);
@@ -32,13 +32,13 @@ function buildFlights({ start, time, disk, partner, velocity }) {
     flights.vx[slot] = vx;
     flights.vy[slot] = vy;
   };
-  /// A new flight of disk i; what its velocity becomes is said by `turned` from what it was.
-  const begin = (i, event, when, turned) => {
+  /// Begins a new flight of disk i; `velocityAfter` returns the new velocity from the old one.
+  const begin = (i, event, when, velocityAfter) => {
     const old = last[i];
     const dt = when - flights.time[old];
     const x = flights.x[old] + (flights.vx[old] + 0.5 * gx * dt) * dt;
     const y = flights.y[old] + (flights.vy[old] + 0.5 * gy * dt) * dt;
-    const [vx, vy] = turned(flights.vx[old] + gx * dt, flights.vy[old] + gy * dt);
+    const [vx, vy] = velocityAfter(flights.vx[old] + gx * dt, flights.vy[old] + gy * dt);
     put(++last[i], event, when, x, y, vx, vy);
   };
   for (let i = 0; i < disks; ++i) {
@@ -57,7 +57,7 @@ function buildFlights({ start, time, disk, partner, velocity }) {
   return flights;
 }
 
-/// Sides of the box that move: the last change of motion before `time` of each, and on from there.
+/// Returns the positions of moving sides of the box: each moves on from its last change of velocity before `time`.
 function wallsAt(time, walls) {
   for (let side = 0; side < 4; ++side) {
     const track = columns[`wall${side}`];
@@ -73,15 +73,15 @@ function wallsAt(time, walls) {
   }
 }
 
-/// Of the events of a log: {start, time, disk, partner, velocity}.
+/// Returns the replay of the events of a log: {start, time, disk, partner, velocity}.
 function exactReplay(log = columns) {
   const flights = buildFlights(log);
   const { first, event } = flights;
-  const cursor = first.slice(0, disks);  // of every disk, the flight that held at the moment read last
+  const cursor = first.slice(0, disks);  // flight of each disk at the time read last
   const [gx, gy] = description.gravity;
   let readBefore = 0;
 
-  /// The flight of disk i after `done` events.
+  /// Returns the flight of disk i after `done` events.
   const flightOf = (i, done) => {
     let low = first[i];
     let high = first[i + 1];
@@ -110,9 +110,9 @@ function exactReplay(log = columns) {
     stepTimes: log.time,
     duration: description.duration,
     doneAt: (time) => countUpTo(log.time, time),
-    /// Of disk i, up to the moment read last.
+    /// Returns the number of collisions of disk i up to the time read last.
     collisionsOf: (i) => cursor[i] - first[i] - flights.rescaled[readBefore],
-    /// Fills `moment` with the state at `time` after `done` events, all of which are at or before it.
+    /// Fills `moment` with the state at `time` after `done` events, all of which are at or before that time.
     read(time, done, moment) {
       moveCursors(done);
       moment.time = time;

@@ -3,7 +3,7 @@
 
 const hexaticOffered = disks >= 7 && disks <= 5000;
 
-/// |psi| of every disk into `order`. Neighbours are looked for in square cells that hold two disks or so.
+/// Writes |psi| of every disk into `order`. Neighbours are searched in square cells of about two disks.
 function hexaticOrder(moment, order) {
   const left = box.periodic[0] ? box.lower[0] : moment.walls[0];
   const bottom = box.periodic[1] ? box.lower[1] : moment.walls[2];
@@ -29,14 +29,14 @@ function hexaticOrder(moment, order) {
     const cx = cell(moment.x[i], left, width, across);
     const cy = cell(moment.y[i], bottom, height, up);
     let found = 0;
-    // Ring after ring of cells, until the sixth neighbour is nearer than the next ring can be, or all cells are seen.
+    // Search ring after ring of cells, until the sixth neighbour is nearer than the next ring, or all cells are searched.
     for (let ring = 0; ring <= Math.max(across, up); ++ring) {
       if (found === 6 && square[5] <= ((ring - 1) * Math.min(cellWidth, cellHeight)) ** 2) break;
       for (let b = -ring; b <= ring; ++b) {
         for (let a = -ring; a <= ring; a += Math.abs(b) === ring ? 1 : Math.max(2 * ring, 1)) {
           let ax = cx + a;
           let by = cy + b;
-          if (box.periodic[0] && (2 * Math.abs(a) > across || 2 * a === -across)) continue;  // seen from the other side
+          if (box.periodic[0] && (2 * Math.abs(a) > across || 2 * a === -across)) continue;  // the nearest image is on the other side
           if (box.periodic[1] && (2 * Math.abs(b) > up || 2 * b === -up)) continue;
           if (box.periodic[0]) ax = (ax + across) % across;
           if (box.periodic[1]) by = (by + up) % up;

@@ -1,5 +1,5 @@
-// Every control has a key. Fields and sliders that have the focus keep the keys that they need themselves; Space always plays, and
-// Enter presses a button that has the focus.
+// Every control has a key. Fields and sliders with the focus keep the keys that they need. Space always plays or pauses, and Enter
+// presses the button with the focus.
 "use strict";
 
 const keys = {
@@ -32,7 +32,7 @@ const keys = {
   Escape: () => follow(-1),
 };
 
-/// A key of one page alone, in the list of keys too.
+/// Adds a key that only this page has, and its entry in the list of keys.
 function addKey(letter, what, action) {
   keys[letter.toLowerCase()] = action;
   const [term, key, text] = ["dt", "kbd", "dd"].map((tag) => document.createElement(tag));
@@ -54,11 +54,11 @@ function connectKeyboard() {
     event.preventDefault();
     action(event);
   });
-  // Some browsers press the button that has the focus when Space comes up.
+  // Some browsers press the button with the focus when Space is released.
   window.addEventListener("keyup", (event) => {
     if (event.key === " " && !control("help").open) event.preventDefault();
   });
-  // A list from which the mouse has chosen leaves the letters to the page.
+  // After a choice by mouse a list gives up the focus, so that letters are keys of the page again.
   window.addEventListener("change", (event) => {
     if (event.target.tagName === "SELECT" && !event.target.matches(":focus-visible")) event.target.blur();
   });

@@ -1,7 +1,7 @@
 // What the colours of the disks mean, below them.
 "use strict";
 
-/// What the colours of the disks mean.
+/// Fills in the legend of the present colouring.
 function showLegend() {
   const colouring = colourings[settings.colourBy];
   const legend = document.getElementById("legend");
@@ -24,7 +24,7 @@ function showLegend() {
   }
 }
 
-/// They may change from moment to moment.
+/// Shows the values at the ends of the scale, which may change from moment to moment.
 function showLegendEnds() {
   const colouring = colourings[settings.colourBy];
   if (colouring.isKind) return;

@@ -1,10 +1,10 @@
-// What is measured at the moment shown: energy, temperature, speeds; and what collisions have added up to by then.
+// Measurements at the moment shown: energy, temperature and speeds; and sums over the collisions up to it.
 "use strict";
 
 const { mass, radius, species } = columns;
 const totalMass = mass.reduce((sum, m) => sum + m, 0);
 
-/// Kinetic and potential energy, and kT = 2 K' / f: K' without the common motion where no collision changes that.
+/// Returns kinetic and potential energy, and kT = 2 K' / f. K' leaves out the motion of the centre of mass where that is no heat.
 function energyOf(moment) {
   const [gx, gy] = description.gravity;
   const ground = [0, 1].map((axis) => (description.gravity[axis] < 0 ? box.lower[axis] : box.upper[axis]));
@@ -30,7 +30,7 @@ function energyOf(moment) {
   return { kinetic, potential, heat, temperature: freedom > 0 ? Math.max(0, (2 * heat) / freedom) : 0, freedom };
 }
 
-/// Running sums over events: entry k is what the first k have made.
+/// Returns running sums over events: entry k is the sum over the first k.
 function eventTotals() {
   const { time, disk, partner } = columns;
   const count = time.length;
@@ -44,7 +44,7 @@ function eventTotals() {
   const { heat: heatAtStart, freedom } = energyOf(moment);
   let heat = heatAtStart;
   let before = 0;
-  const turned = (i, e) => {  // what its next flight adds to the energy
+  const startNextFlight = (i, e) => {  // adds the change of kinetic energy; returns the change of velocity
     const old = slot[i];
     const now = ++slot[i];
     const dt = time[e] - begun[old];
@@ -66,15 +66,15 @@ function eventTotals() {
     totals.walls[e + 1] = totals.walls[e] + (isPair || isRescaling ? 0 : 1);
     totals.virial[e + 1] = totals.virial[e];
     if (isRescaling) {
-      for (let i = 0; i < disks; ++i) turned(i, e);
+      for (let i = 0; i < disks; ++i) startNextFlight(i, e);
       continue;
     }
-    const kick = turned(disk[e], e);
+    const change = startNextFlight(disk[e], e);
     if (!isPair) continue;
-    turned(partner[e], e);
+    startNextFlight(partner[e], e);
     const a = slot[disk[e]];
     const b = slot[partner[e]];
-    totals.virial[e + 1] += mass[disk[e]] * (kick.dx * apart(x[a], x[b], 0) + kick.dy * apart(y[a], y[b], 1));
+    totals.virial[e + 1] += mass[disk[e]] * (change.dx * apart(x[a], x[b], 0) + change.dy * apart(y[a], y[b], 1));
   }
   totals.heatAtStart = (2 * heatAtStart) / freedom;
   return totals;
@@ -82,7 +82,7 @@ function eventTotals() {
 
 const totals = description.exact ? eventTotals() : null;
 
-/// Z = 1 + W / (2 N times the integral of kT over time), of everything up to the moment; null where it means nothing.
+/// Returns Z = 1 + W / (2 N times the integral of kT over time) over all up to the moment; null where Z has no meaning.
 function compressibility(moment, temperature) {
   if (description.whyNoZ || disks === 0) return null;
   if (!totals) return description.Z;
@@ -91,7 +91,7 @@ function compressibility(moment, temperature) {
   return heat > 0 && totals.pairs[moment.done] > 0 ? 1 + totals.virial[moment.done] / (2 * disks * heat) : null;
 }
 
-/// The fastest root mean square speed of some moments of the run: what colours and histograms are scaled by.
+/// Returns the largest root mean square speed at some moments of the run. It scales colours and histograms.
 function typicalSpeed() {
   const moment = emptyMoment();
   let largest = 0;
@@ -107,7 +107,7 @@ function typicalSpeed() {
 
 const speedScale = typicalSpeed();
 
-/// [mass, number of disks] of every mass there is; of many masses, of classes between the lightest and the heaviest.
+/// Pairs [mass, number of disks], one per mass; where there are many masses, one per class of masses.
 const massClasses = (() => {
   const most = 48;
   let counts = new Map();
@@ -125,13 +125,13 @@ const massClasses = (() => {
   return [...counts];
 })();
 
-/// Unlike Math.hypot without care for overflow, and several times as fast.
+/// Faster than Math.hypot by a factor of several, because it does not guard against overflow.
 const speedOf = (moment, i) => Math.sqrt(moment.vx[i] * moment.vx[i] + moment.vy[i] * moment.vy[i]);
 
 const speedBins = 36;
 const speedRange = 3.2 * speedScale;
 
-/// How many disks have which speed, in `counts`; the last bin holds all that are faster.
+/// Fills `counts` with the histogram of speeds; the last bin holds all faster disks too.
 function countSpeeds(moment, counts) {
   counts.fill(0);
   for (let i = 0; i < disks; ++i) {
@@ -140,7 +140,8 @@ function countSpeeds(moment, counts) {
   }
 }
 
-/// Disks per bin about speed v in equilibrium: the two-dimensional Maxwell-Boltzmann distribution, each mass by itself.
+/// Returns the number of disks per bin at speed v in equilibrium: the two-dimensional Maxwell-Boltzmann distribution, summed over
+/// masses.
 function maxwellCount(v, temperature) {
   let sum = 0;
   for (const [m, count] of massClasses) sum += count * ((m * v) / temperature) * Math.exp((-m * v * v) / (2 * temperature));

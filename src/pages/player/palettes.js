@@ -1,5 +1,5 @@
-// Colours: scales that rise evenly in lightness, which also readers who see few colours can follow (van der Walt and Smith's
-// viridis; Nunez, Anderton and Renslow's cividis, made to look alike to all), and those of Okabe and Ito for kinds of disks.
+// Colours: scales of evenly rising lightness, which colour-blind readers can follow too (viridis of van der Walt and Smith;
+// cividis of Nunez, Anderton and Renslow), and the colours of Okabe and Ito for kinds of disks.
 "use strict";
 
 const colourSteps = 64;
@@ -16,7 +16,7 @@ function mixed(from, to, share) {
   return "#" + [0, 1, 2].map((k) => Math.round(part(from, k) + share * (part(to, k) - part(from, k))).toString(16).padStart(2, "0")).join("");
 }
 
-/// The colours of a scale from its low end to its high end; on dark paper the blues run the other way.
+/// Returns the colours of a scale from its low end to its high end; on a dark page the order of the blues is reversed.
 function scaleColours(name, isDark) {
   const anchors = name === "blues" && isDark ? [...scales[name]].reverse() : scales[name];
   return Array.from({ length: colourSteps }, (_, k) => {
@@ -26,8 +26,8 @@ function scaleColours(name, isDark) {
   });
 }
 
-/// What the colours of the disks can mean: for each disk a number from 0 to 1, or the number of its kind, after `prepare` where
-/// there is one; and what the ends of the legend say.
+/// The quantities that colours can show. `value` is a number from 0 to 1 for each disk, or the number of its kind; `prepare` must
+/// be called first where there is one. `ends` are the texts at the ends of the legend.
 const colourings = {
   speed: {
     label: "speed",
@@ -54,10 +54,10 @@ const colourings = {
   psi6: { label: "sixfold order |ψ6|", isOffered: hexaticOffered, prepare: (moment) => hexaticOrder(moment, psi), ends: () => ["0", "1"], value: (moment, i) => psi[i] },
 };
 const psi = new Float64Array(hexaticOffered ? disks : 0);
-let fewest = 0;  // collisions of any disk by now
+let fewest = 0;  // smallest number of collisions of a disk up to the moment
 let most = 0;
 
-/// Four digits, and no more than needed: 1.5, 0.001234, 1.2e+5.
+/// Returns a number with at most four digits: 1.5, 0.001234, 1.20·10^5.
 function shortNumber(value) {
   if (value === null || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";

@@ -1,4 +1,4 @@
-// Beside the box of a run: numbers of the moment, and the histogram of speeds with the curve of equilibrium.
+// The panel beside the box: numbers of the moment, and the histogram of speeds with the equilibrium distribution.
 "use strict";
 
 const speedPlot = plotOn("speeds");
@@ -53,7 +53,7 @@ function showReadings(moment) {
   drawSpeeds(moment, temperature);
 }
 
-/// What this page has in each place where players differ.
+/// The parts of this page that other players do not have.
 const panel = {
   describe() {
     const badge = control("how");

@@ -1,10 +1,10 @@
-// Puts the page to work, and keeps it going: one frame after the other for as long as it is open. What a page shows beside what all
-// players have is its `panel`.
+// Starts the page and draws one frame after the other for as long as it is open. The parts that only one kind of player has are
+// its `panel`.
 //
-// For scripts: window.carom is the player; data-errors of the document says what went wrong.
+// For scripts: window.carom is the player; data-errors of the document lists errors.
 "use strict";
 
-/// Moves on by so many seconds, and draws where something has changed.
+/// Advances by a number of seconds, and draws if something has changed.
 function frame(seconds) {
   const before = moment.time;
   const wasPlaying = settings.isPlaying;
@@ -12,7 +12,7 @@ function frame(seconds) {
   if (!isStale) return;
   isStale = false;
   const { time } = moment;
-  const isFilm = wasPlaying && Math.abs(time - before) <= 1.001 * settings.rate * seconds;  // and has not begun again at an end
+  const isFilm = wasPlaying && Math.abs(time - before) <= 1.001 * settings.rate * seconds;  // false where playing has started again
   followView(moment);
   panel.show(isFilm ? before : time);
   say("time", `${time.toPrecision(9).replace(/\.?0+$/, "")} / ${shortNumber(duration)}`);
@@ -22,8 +22,8 @@ function frame(seconds) {
   ++window.carom.frames;
 }
 
-/// Calls frame(seconds since the last one) for as long as the page is open; and frame(0) at once when a canvas has changed its size,
-/// which leaves it black.
+/// Calls frame(seconds since the last one) for as long as the page is open. When a canvas changes its size, which clears it, calls
+/// frame(0) at once.
 function keepShowing() {
   const resize = () => {
     resizeView();
@@ -38,7 +38,7 @@ function keepShowing() {
   for (const element of [canvas, ...plots.map((plot) => plot.element)]) resized.observe(element);
   let shownAt = 0;
   const animate = (now) => {
-    const longest = 0.1;  // seconds: after a pause of the browser the run goes on where it was
+    const longest = 0.1;  // seconds: after a pause of the browser the run continues where it was
     frame(Math.min((now - shownAt) / 1000, longest));
     shownAt = now;
     requestAnimationFrame(animate);
@@ -67,7 +67,7 @@ window.carom = {
   columns,
 };
 
-if (window.parent !== window) document.documentElement.dataset.embedded = "";  // the page round it has title and facts
+if (window.parent !== window) document.documentElement.dataset.embedded = "";  // the enclosing page shows title and facts
 fillLists();
 connectControls();
 connectKeyboard();

@@ -3,8 +3,8 @@
 
 const plots = [];
 
-/// A canvas and its size in pixels of the page, which is looked up only when it changes: asked for in every frame, it would have the
-/// page laid out in every frame.
+/// Returns a canvas with its size in pixels of the page. The size is read only when it changes: a read in every frame would force
+/// a layout of the page in every frame.
 function plotOn(id) {
   const element = document.getElementById(id);
   const plot = { element, context: element.getContext("2d"), width: 1, height: 1, density: 1 };
@@ -21,7 +21,7 @@ function resizePlots() {
   }
 }
 
-/// Empties the plot and sets its letters.
+/// Clears the plot and sets its font.
 function clearPlot({ context, width, height, density }) {
   context.setTransform(density, 0, 0, density, 0, 0);
   context.clearRect(0, 0, width, height);

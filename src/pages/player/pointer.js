@@ -1,10 +1,10 @@
 // Mouse and fingers on the box: drag to move it, wheel or two fingers to zoom, a click to follow a disk.
 "use strict";
 
-/// Of a canvas that shows `moment`.
+/// Connects mouse and fingers to a canvas that shows `moment`.
 function connectPointer(canvas, moment) {
   const held = new Map();  // pointers that are down, by number
-  let travelled = 0;       // since they went down: a click does not travel
+  let travelled = 0;       // pixels since the first went down; at most `click` for a click
   const click = 4;         // pixels
 
   const place = (event) => {
@@ -17,7 +17,7 @@ function connectPointer(canvas, moment) {
     try {
       canvas.setPointerCapture(event.pointerId);
     } catch {
-      // a pointer that no device makes, as scripts do, cannot be held on to
+      // pointers that a script has made cannot be captured
     }
   });
   canvas.addEventListener("pointermove", (event) => {

@@ -1,11 +1,11 @@
-// Many disks, pixel by pixel: where there are more than a thousand, this is several times as fast as the browser's circles. Hard
-// disks do not overlap, so however near one looks, it takes a few operations per pixel of the canvas.
+// Draws disks pixel by pixel. For more than a thousand disks this is several times as fast as the browser's circles. Hard disks do
+// not overlap, so the cost is a few operations per pixel of the canvas at any zoom.
 "use strict";
 
 const raster = { canvas: new OffscreenCanvas(1, 1), image: null, pixels: null };
 raster.context = raster.canvas.getContext("2d");
 
-/// As large as the canvas, and empty.
+/// Makes the raster as large as the canvas, and empty.
 function clearRaster() {
   if (raster.image && raster.image.width === canvas.width && raster.image.height === canvas.height) {
     raster.pixels.fill(0);
@@ -17,8 +17,8 @@ function clearRaster() {
   raster.pixels = new Uint32Array(raster.image.data.buffer);
 }
 
-/// Fills a circle, and its outermost pixel with the colour of its rim; a pixel there is covered by as much as its middle is within
-/// half a pixel of the edge.
+/// Fills a circle, with its outermost pixels in the colour of the rim. The coverage of a pixel follows from the distance of its
+/// middle from the edge.
 function rasterCircle(x, y, r, colour, rim, opacity) {
   const { width, height } = raster.image;
   const { pixels } = raster;

@@ -1,5 +1,5 @@
-// The replay of runs without an event log: straight lines from sample to sample, the short way round where the box is periodic.
-// Velocities are those of the sample before: between two samples nobody knows them.
+// The replay of runs without an event log: straight lines from sample to sample, to the nearest image where the box is periodic.
+// Velocities are those of the last sample, because those between two samples are unknown.
 "use strict";
 
 function sampleReplay() {
@@ -8,8 +8,8 @@ function sampleReplay() {
   const last = sampleTime.length - 1;
   const place = (k, i, axis) => lower[axis] + positionStep[axis] * samplePosition[2 * (k * disks + i) + axis];
 
-  /// The way of disk i from sample k to the next one.
-  const way = (k, i) => {
+  /// Returns the displacement of disk i from sample k to the next one.
+  const displacement = (k, i) => {
     let dx = place(k + 1, i, 0) - place(k, i, 0);
     let dy = place(k + 1, i, 1) - place(k, i, 1);
     if (box.periodic[1]) {
@@ -20,14 +20,14 @@ function sampleReplay() {
     if (box.periodic[0]) dx -= Math.round(dx / box.lengths[0]) * box.lengths[0];
     return [dx, dy];
   };
-  /// Of the images above: at every whole box length it begins again from 0.
+  /// Returns the offset of the images above; it starts again from 0 at every whole box length.
   const displacementAt = (k, next, share) => {
     let more = sampleDisplacement[next] - sampleDisplacement[k];
     more -= Math.round(more / box.lengths[0]) * box.lengths[0];
     return sampleDisplacement[k] + share * more;
   };
   return {
-    way,
+    displacement,
     stepName: "sample",
     stepTimes: sampleTime,
     duration: description.duration,
@@ -44,7 +44,7 @@ function sampleReplay() {
         let x = place(k, i, 0);
         let y = place(k, i, 1);
         if (share > 0) {
-          const [dx, dy] = way(k, i);
+          const [dx, dy] = displacement(k, i);
           x += share * dx;
           y += share * dy;
         }
@@ -60,5 +60,5 @@ function sampleReplay() {
   };
 }
 
-/// From event to event where the file holds them, else from sample to sample.
+/// Replays events where the file holds them, else samples.
 const replay = description.exact ? exactReplay() : sampleReplay();

@@ -1,4 +1,4 @@
-// What the reader has chosen. Everything that depends on it asks here; whoever changes it says so, and is heard.
+// The reader's settings. Other files read them here; change() changes them and calls the listeners.
 "use strict";
 
 const settings = {
@@ -22,7 +22,7 @@ function change(changes) {
   for (const listener of listeners) listener(changes);
 }
 
-/// Dark or light, as the reader or else the screen has it; player.css knows it by this attribute.
+/// Sets the attribute by which player.css chooses dark or light: the reader's choice, or that of the screen.
 const darkScreen = matchMedia("(prefers-color-scheme: dark)");
 function applyTheme() {
   const isDark = settings.theme === "auto" ? darkScreen.matches : settings.theme === "dark";

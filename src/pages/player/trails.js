@@ -1,11 +1,11 @@
-// Where disks came from: their paths during the last stretch of time, traced back flight by flight. A path is drawn in one piece
-// from where the disk is now, also where it came through a periodic edge.
+// Trails: the paths of disks during the last part of the run, traced back flight by flight. A path is drawn in one piece from the
+// present position, without a jump at periodic edges.
 "use strict";
 
-const longestTrail = 64;  // corners of one path
+const longestTrail = 64;  // corners of one path at most
 const trailTime = (0.16 * Math.min(extent[1] - extent[0], extent[3] - extent[2])) / speedScale;
 
-/// Adds the path of disk i to `context`, from where it is in pixels.
+/// Adds the path of disk i to `context`; its position in pixels is given.
 function traceFlights(context, i, moment, px, py) {
   const { flights, cursor } = moment;
   const [gx, gy] = description.gravity;
@@ -32,7 +32,7 @@ function traceFlights(context, i, moment, px, py) {
   }
 }
 
-/// The same from samples.
+/// Adds the path of disk i from samples.
 function traceSamples(context, i, moment, px, py) {
   const times = replay.stepTimes;
   let k = Math.min(Math.max(moment.done - 1, 0), times.length - 2);
@@ -43,7 +43,7 @@ function traceSamples(context, i, moment, px, py) {
   let y = py;
   context.moveTo(x, y);
   for (let corners = 0; k >= 0 && until > begin && corners < longestTrail; --k, ++corners) {
-    const [dx, dy] = replay.way(k, i);
+    const [dx, dy] = replay.displacement(k, i);
     const share = (until - Math.max(times[k], begin)) / (times[k + 1] - times[k]);
     x -= view.scale * dx * share;
     y += view.scale * dy * share;

@@ -1,11 +1,11 @@
-// From the run's lengths to pixels and back: where the reader looks, how near, and whom the view follows.
+// The view: the map from lengths of the run to pixels and back, zoom, and the disk that the view follows.
 "use strict";
 
 const stages = [...document.querySelectorAll(".stage canvas")];  // one box, or two with one view
 const canvas = stages[0];
-const view = { width: 1, height: 1, density: 1, scale: 1, x: 0, y: 0 };  // pixels per length; x, y: the place in the middle
+const view = { width: 1, height: 1, density: 1, scale: 1, x: 0, y: 0 };  // scale: pixels per length; x, y: the position in the middle
 
-/// The box as large as it ever is.
+/// The largest extent of the box during the run.
 const extent = (() => {
   const moment = emptyMoment();
   const found = [Infinity, -Infinity, Infinity, -Infinity];
@@ -33,7 +33,7 @@ const pixelY = (y) => view.height / 2 - (y - view.y) * view.scale;
 const placeX = (px) => (px - view.width / 2) / view.scale + view.x;
 const placeY = (py) => (view.height / 2 - py) / view.scale + view.y;
 
-/// Nearer by a factor; the place under the pixel stays where it is.
+/// Zooms by a factor; the position under the pixel stays there.
 function zoom(factor, px = view.width / 2, py = view.height / 2) {
   isFitted = false;
   const x = placeX(px);
@@ -50,14 +50,14 @@ function pan(dx, dy) {
   view.y += dy / view.scale;
 }
 
-/// Brings the disk that is followed into the middle.
+/// Moves the followed disk to the middle.
 function followView(moment) {
   if (settings.followed < 0) return;
   view.x = moment.x[settings.followed];
   view.y = moment.y[settings.followed];
 }
 
-/// Takes every box as large as the page has the first.
+/// Gives every canvas the size that the page gives the first.
 function resizeView() {
   const { width, height } = canvas.getBoundingClientRect();
   Object.assign(view, { width, height, density: window.devicePixelRatio || 1 });
@@ -68,8 +68,8 @@ function resizeView() {
   if (isFitted && settings.followed < 0) fitView();
 }
 
-/// Whole box lengths by which images are seen besides the box itself: pairs of numbers. `round` says whether all that the view
-/// reaches are asked for, or only those that an edge of the box cuts off.
+/// Returns the shifts, in box lengths, of the images to draw. With `round` these are all that the view reaches, else only those
+/// that an edge of the box cuts off.
 function visibleShifts(all) {
   const most = 4;
   const range = (axis, low, high) => {
@@ -85,11 +85,11 @@ function visibleShifts(all) {
   return shifts;
 }
 
-/// The disk at a pixel, or -1.
+/// Returns the disk at a pixel, or -1.
 function diskAt(px, py, moment) {
   const x = placeX(px);
   const y = placeY(py);
-  const reach = 4 / view.scale;  // a finger's breadth round a small one
+  const reach = 4 / view.scale;  // pixels of tolerance round a small disk
   let best = -1;
   let nearest = Infinity;
   for (let i = 0; i < disks; ++i) {

@@ -1,5 +1,5 @@
-// The two curves: how far the two sides have come apart, on a scale of decades, and how many overlaps there were. They are drawn up
-// to the moment shown. A press on one shows the moment there.
+// The two curves, up to the moment shown: the distance between the two sides on a logarithmic scale, and the number of overlaps. A
+// click on a curve shows the moment there.
 "use strict";
 
 const distancePlot = plotOn("distance");
@@ -9,7 +9,7 @@ const inset = { left: 46, right: 14, top: 8, bottom: 22 };
 const plotX = (plot, time) => inset.left + (time / duration) * (plot.width - inset.left - inset.right);
 const plotY = (plot, share) => plot.height - inset.bottom - share * (plot.height - inset.top - inset.bottom);
 
-/// Round numbers from 0 to at most `end`, some `count` of them.
+/// Returns about `count` round numbers from 0 to at most `end`.
 function roundTicks(end, count) {
   const rough = end / count;
   const decade = 10 ** Math.floor(Math.log10(rough));
@@ -17,7 +17,7 @@ function roundTicks(end, count) {
   return Array.from({ length: Math.floor(end / step + 1e-9) + 1 }, (_, k) => k * step);
 }
 
-/// Empties the plot and draws its axes; `levels` are pairs of a share of the height and what it says.
+/// Clears the plot and draws its axes; `levels` are pairs of a fraction of the height and a label.
 function drawAxes(plot, levels) {
   const { context, width, height } = plot;
   clearPlot(plot);
@@ -43,7 +43,7 @@ function drawAxes(plot, levels) {
   }
 }
 
-/// Through points of time and share, the last of them marked: that is now.
+/// Draws a curve through points (time, fraction of the height), and marks the last, which is the moment shown.
 function drawCurve(plot, points, colour) {
   const { context } = plot;
   if (points.length === 0) return;
@@ -64,7 +64,7 @@ const decades = { low: lowestDecade, high: Math.max(1, Math.ceil(Math.log10(Math
 const shareOfDistance = (distance) =>
   Math.min(Math.max((Math.log10(Math.max(distance, 1e-300)) - decades.low) / (decades.high - decades.low), 0), 1);
 
-/// Growth by e per Lyapunov time, through where the curve is a tenth of a diameter: its slope alone means something.
+/// Draws the growth by e per Lyapunov time through the point at a tenth of a diameter; only the slope has a meaning.
 function drawGrowth() {
   const through = columns.distance.findIndex((d) => d >= 0.1);
   if (!description.lyapunov || through < 0) return;
@@ -102,7 +102,7 @@ function drawOverlapCount(time) {
   const most = Math.max(overlapBegin.length, 1) * 1.04;
   drawAxes(overlapPlot, ticks.map((count) => [count / most, count.toLocaleString("en")]));
   const begun = overlapsBegunBy(time);
-  const every = Math.max(1, Math.floor(begun / 2000));  // more points than pixels
+  const every = Math.max(1, Math.floor(begun / 2000));  // fewer points than pixels
   const points = [[0, 0]];
   for (let k = 0; k < begun; k += every) points.push([overlapBegin[k], k / most], [overlapBegin[k], (k + 1) / most]);
   drawCurve(overlapPlot, [...points, [time, begun / most]], theme.overlap);

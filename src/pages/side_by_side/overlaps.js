@@ -1,10 +1,10 @@
-// Which disks of the fixed steps overlap, at a moment or in the stretch of time that a frame stands for, so that none goes by
-// unseen between two frames; and the rings and lenses that show it.
+// The overlaps of the fixed-step method at a moment, or during the interval of a frame, so that none is missed between two frames;
+// and the rings and lenses that show them.
 "use strict";
 
 const { overlapFirst, overlapSecond, overlapBegin, overlapEnd, overlapDepth } = columns;
 
-/// Largest of the first k values, for all k: what can be searched by halving.
+/// Returns the largest of the first k values, for all k, which bisection can search.
 function largestSoFar(values) {
   const largest = Float64Array.from(values);
   for (let k = 1; k < largest.length; ++k) largest[k] = Math.max(largest[k], largest[k - 1]);
@@ -13,7 +13,7 @@ function largestSoFar(values) {
 const lastEnd = largestSoFar(overlapEnd);
 const deepest = largestSoFar(overlapDepth);
 
-/// The numbers of those that last at any time in [from, to].
+/// Returns the numbers of the overlaps that exist at any time in [from, to].
 function overlapsBetween(from, to) {
   const found = [];
   const begun = countUpTo(overlapBegin, to);
@@ -24,7 +24,7 @@ function overlapsBetween(from, to) {
 const overlapsBegunBy = (time) => countUpTo(overlapBegin, time);
 const deepestBy = (time) => (overlapsBegunBy(time) > 0 ? deepest[overlapsBegunBy(time) - 1] : 0);
 
-/// To the middle of the next one, where it can be seen.
+/// Shows the middle of the next overlap.
 function showNextOverlap() {
   for (let k = overlapsBegunBy(moment.time); k < overlapBegin.length; ++k) {
     const middle = (overlapBegin[k] + overlapEnd[k]) / 2;
@@ -35,14 +35,14 @@ function showNextOverlap() {
   }
 }
 
-/// The part of the plane that disks i and j share, in pixels, where they do at the moment.
+/// Fills the area that disks i and j share at the moment.
 function fillLens(i, j, moment, shift) {
   const apart = [moment.x[j] - moment.x[i], moment.y[j] - moment.y[i]].map((d, axis) =>
     box.periodic[axis] ? d - Math.round(d / box.lengths[axis]) * box.lengths[axis] : d,
   );
   const distance = Math.hypot(...apart);
   if (distance >= radius[i] + radius[j] || distance <= Math.abs(radius[i] - radius[j])) return;
-  const toOther = Math.atan2(-apart[1], apart[0]);  // pixels count downwards
+  const toOther = Math.atan2(-apart[1], apart[0]);  // the y axis of pixels points down
   const halfAngle = (own, other) => Math.acos((distance * distance + own * own - other * other) / (2 * distance * own));
   const a = halfAngle(radius[i], radius[j]);
   const b = halfAngle(radius[j], radius[i]);
@@ -54,8 +54,8 @@ function fillLens(i, j, moment, shift) {
   context.fill();
 }
 
-/// On the canvas drawn last. A ring is a line of the warning colour between two dark ones, which can be told without colours; its
-/// outer edge is the disk's own.
+/// Draws overlaps on the canvas drawn last. A ring is a line of the warning colour between two dark ones, which is visible without
+/// colours too; its outer edge is that of the disk.
 function drawOverlaps(moment, numbers) {
   if (numbers.length === 0) return;
   const shifts = visibleShifts(settings.ghosts);

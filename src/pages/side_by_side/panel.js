@@ -1,10 +1,10 @@
-// Beside the boxes of two flights from one start: how far they are from each other, overlaps, curves of both.
+// The panel beside two runs from one start: the distance between them, overlaps, and curves of both.
 "use strict";
 
 const stepsCanvas = stages[1];
 const stepsContext = stepsCanvas.getContext("2d", { alpha: false });
 
-/// What this page has in each place where players differ.
+/// The parts of this page that other players do not have.
 const panel = {
   describe() {
     control("how").textContent = "side by side";
@@ -14,7 +14,7 @@ const panel = {
     control("next-overlap").disabled = overlapBegin.length === 0;
     window.carom.stepsMoment = stepsMoment;
   },
-  /// Overlaps since the last frame of a film flash in this one.
+  /// Draws the moment. While the page plays, overlaps since the last frame are marked too.
   show(since) {
     const { time } = moment;
     const distance = measureTwins();

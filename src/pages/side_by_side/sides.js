@@ -1,11 +1,11 @@
-// The two sides as replays: the collisions of the exact run, and the turns of the fixed steps, between which disks fly straight as
-// well. The clock of the page goes from step to step.
+// The two sides as replays: the collisions of the exact run, and the changes of velocity in the fixed steps. Between these, disks
+// fly straight in both. The clock of the page advances from step to step.
 "use strict";
 
 const { dt, count: stepCount } = description.steps;
 
-/// A turn is an event of one disk alone, as those at a wall are.
-function turnsAsEvents() {
+/// Returns the changes of velocity in the fixed steps as events of one disk each, as collisions with a wall are.
+function velocityChangesAsEvents() {
   const { start, turnStep, turnDisk, turnVelocity } = columns;
   const velocity = new Float64Array(2 * turnVelocity.length);
   for (let e = 0; e < turnStep.length; ++e) velocity.set(turnVelocity.subarray(2 * e, 2 * e + 2), 4 * e);
@@ -14,8 +14,8 @@ function turnsAsEvents() {
 }
 
 const exact = exactReplay();
-const stepped = exactReplay(turnsAsEvents());
-const stepsMoment = emptyMoment();  // of the fixed steps, at the time of the moment shown
+const stepped = exactReplay(velocityChangesAsEvents());
+const stepsMoment = emptyMoment();  // state of the fixed-step method at the time of the moment shown
 const stepTimes = Float64Array.from({ length: stepCount }, (_, step) => Math.min((step + 1) * dt, description.duration));
 
 /// Reads both sides; `done` counts steps.

@@ -72,7 +72,7 @@ std::string summary_of(std::span<const CaseVerdict> verdicts) {
 }
 
 std::string always_checked() {
-  return "Checked in every run besides: the engine's invariants, that every number is finite, that neither events nor samples go "
+  return "Also checked in every run: the engine's invariants, that every number is finite, that neither events nor samples go "
          "back in "
          "time, why the run stopped and when, the deepest overlap, and that every engine has the same events in the same order.";
 }
