@@ -2,7 +2,7 @@
 
 #include "studies/sweep/page.hpp"
 
-#include "studies/sweep/units.hpp"
+#include "studies/sweep/numbers.hpp"
 #include "support/browser.hpp"
 #include "support/child_process.hpp"
 #include "text/units.hpp"

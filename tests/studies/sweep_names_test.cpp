@@ -1,6 +1,6 @@
 // Names of points: short, unique, and fit for a file system.
 
-#include "studies/sweep/names.hpp"
+#include "studies/sweep/sweep.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

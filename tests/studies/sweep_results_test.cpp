@@ -1,6 +1,5 @@
 // What a sweep finds in the files of its runs, and the tables that it makes of it.
 
-#include "studies/sweep/hdf5.hpp"
 #include "studies/sweep/results.hpp"
 #include "studies/sweep/tables.hpp"
 

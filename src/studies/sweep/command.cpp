@@ -4,16 +4,14 @@
 
 #include "studies/sweep/command.hpp"
 #include "studies/study_directory.hpp"
-#include "studies/sweep/hdf5.hpp"
+#include "studies/sweep/child_runs.hpp"
 #include "studies/sweep/mpi.hpp"
 #include "studies/sweep/page.hpp"
-#include "studies/sweep/progress.hpp"
 #include "studies/sweep/ranks.hpp"
 #include "studies/sweep/reader.hpp"
 #include "studies/sweep/results.hpp"
 #include "studies/sweep/tables.hpp"
 #include "studies/sweep/text.hpp"
-#include "studies/sweep/threads.hpp"
 #include "text/durations.hpp"
 #include "text/numbers.hpp"
 

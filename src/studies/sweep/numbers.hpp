@@ -1,5 +1,6 @@
 #pragma once
-// The numbers of a summary.json by name, "pressure.Z": what can be averaged over seeds. What a clock measured is none of them.
+// The numbers of a summary.json by name, "pressure.Z", which can be averaged over seeds, and the units of these and of the keys
+// of a scene. Measurements of a clock are none of them.
 
 #include <carom/scene.hpp>
 
@@ -11,6 +12,14 @@
 #include <vector>
 
 namespace carom {
+
+/// Returns the unit of a number of summary.json outside of `observables`, as in docs/output.md: "energy" for "energy.final";
+/// empty for a pure number.
+[[nodiscard]] std::string unit_of_number(std::string_view name);
+
+/// Returns the unit of a key of the scene, as in docs/scene-format.md: "length" for "disks.0.radius"; empty for a pure number and
+/// for words.
+[[nodiscard]] std::string unit_of_key(std::string_view key);
 
 struct SummaryNumber {
   std::string name;             ///< keys joined by dots, entries of lists numbered from 0; "observables.temperature.kT"

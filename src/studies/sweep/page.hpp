@@ -1,5 +1,5 @@
 #pragma once
-// A sweep's results as a page: every number against every swept key, with error bars; tables; what has failed.
+// A sweep's results as a page: every number against every swept key, with error bars, tables, and the runs that failed.
 
 #include "studies/sweep/results.hpp"
 
@@ -7,6 +7,7 @@
 
 namespace carom {
 
+/// Returns the page of a sweep.
 [[nodiscard]] Page sweep_page(const Sweep& sweep, const SweepResults& results);
 
 }  // namespace carom

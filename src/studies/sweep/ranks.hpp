@@ -2,8 +2,8 @@
 // Distribution of runs over processes: the first one has the list, and each asks it for a run when it is idle. So no process
 // waits for the slowest, and a process that fails loses only the run that it had.
 
+#include "studies/sweep/child_runs.hpp"
 #include "studies/sweep/mpi.hpp"
-#include "studies/sweep/threads.hpp"
 #include "terminal/command.hpp"
 
 #include <functional>

@@ -1,12 +1,79 @@
 #include "studies/sweep/results.hpp"
 
+#include "text/numbers.hpp"
+
+#include <fmt/format.h>
 #include <boost/math/statistics/univariate_statistics.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <fstream>
+#include <system_error>
 #include <utility>
 
 namespace carom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Returns the text as JSON stores it: a path need not be UTF-8.
+std::string kept(const std::string& text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+/// Network file systems remember for a while that a file was not there; to list its directory makes them ask again.
+void look_again(const fs::path& directory) {
+  std::error_code ignored;
+  for (fs::directory_iterator entry(directory, ignored); entry != fs::directory_iterator(); entry.increment(ignored)) continue;
+}
+
+FoundRun run_of(const Json& summary, const std::string& resolved) {
+  const std::string stopped = summary.at("stopped");
+  if (stopped == "interrupted") return {};
+  if (kept(summary.at("resolved_scene")) != kept(resolved)) return {.state = RunState::other};
+  if (!summary.value("measured", true))
+    return {.state = RunState::failed, .failure = fmt::format("the run ended while it was still equilibrating ({})", stopped)};
+  const Json& build = summary.at("carom");
+  return {.state = RunState::finished,
+          .stopped = stopped,
+          .version = fmt::format("{} (commit {})", build.value("version", "?"), build.value("commit", "?")),
+          .numbers = numbers_of(summary)};
+}
+
+}  // namespace
+
+std::string_view to_string(RunState state) {
+  switch (state) {
+    case RunState::missing:
+      return "missing";
+    case RunState::finished:
+      return "finished";
+    case RunState::failed:
+      return "failed";
+    case RunState::other:
+      return "other";
+  }
+  return "";
+}
+
+FoundRun find_run(const fs::path& directory, const std::function<std::string()>& resolved) {
+  look_again(directory);
+  if (std::ifstream file(directory / failure_file); file) {
+    FoundRun run{.state = RunState::failed};
+    std::getline(file, run.failure);
+    return run;
+  }
+  std::error_code error;
+  if (!fs::is_regular_file(directory / "summary.json", error)) return {};
+  try {
+    return run_of(Json::parse(std::ifstream(directory / "summary.json")), resolved());
+  } catch (const Json::exception&) {  // cut short, or nobody's summary
+    return {};
+  }
+}
 
 namespace {
 
@@ -95,6 +162,31 @@ SweepResults collect(const Sweep& sweep, const std::filesystem::path& directory)
     }
   }
   return results;
+}
+
+std::optional<double> number_of(const std::string& value) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  return error == std::errc() && end == value.data() + value.size() && !value.empty() ? std::optional(number) : std::nullopt;
+}
+
+bool is_numeric(const Sweep& sweep, std::size_t key) {
+  return std::all_of(sweep.points.begin(), sweep.points.end(), [&](const SweepPoint& point) {
+    return point.values[key].empty() || number_of(point.values[key]).has_value();
+  });
+}
+
+std::string plain_value(const std::string& value) {
+  const bool is_plain_string = value.size() >= 2 && value.front() == '"' && value.find('\\') == std::string::npos;
+  return is_plain_string ? value.substr(1, value.size() - 2) : value;
+}
+
+bool differ(double a, double b) { return std::abs(a - b) > 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+std::string average_words(const SeedAverage& average) {
+  if (!average.mean) return "–";
+  const bool has_error = average.error && differ(*average.mean, *average.mean + *average.error);
+  return has_error ? with_error(*average.mean, *average.error) : fmt::format("{:.6g}", *average.mean);
 }
 
 }  // namespace carom

@@ -1,17 +1,44 @@
 #pragma once
 // The results of a sweep, from the files of its runs alone and in the order of its points: they do not depend on the number of
-// threads or processes.
+// threads or processes. A run is finished exactly when its summary.json is there, of this very scene, and it was not interrupted;
+// any other run is done again.
 
-#include "studies/sweep/state.hpp"
+#include "studies/sweep/numbers.hpp"
 #include "studies/sweep/sweep.hpp"
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace carom {
+
+enum class RunState {
+  missing,  ///< not begun, begun and not finished, or interrupted
+  finished,
+  failed,
+  other  ///< finished, with another scene
+};
+[[nodiscard]] std::string_view to_string(RunState state);
+
+/// Holds the sentence of a run that has failed.
+inline constexpr std::string_view failure_file = "failure.txt";
+/// The scene of a run with every default, which the run reads.
+inline constexpr std::string_view scene_file = "scene.toml";
+
+struct FoundRun {
+  RunState state = RunState::missing;
+  std::string failure = {};                 ///< a sentence, of a run that has failed
+  std::string stopped = {};                 ///< why it ended, of one that is finished
+  std::string version = {};                 ///< and by which program: "0.1.0 (commit 1234567)"
+  std::vector<SummaryNumber> numbers = {};  ///< its results
+};
+
+/// `resolved` gives the scene of the run with every default; it is asked for only where there are results to hold it against.
+[[nodiscard]] FoundRun find_run(const std::filesystem::path& directory, const std::function<std::string()>& resolved);
 
 /// Over the seeds of a point that have the number.
 struct SeedAverage {
@@ -36,5 +63,18 @@ struct SweepResults {
 
 /// Reads what is below `directory`.
 [[nodiscard]] SweepResults collect(const Sweep& sweep, const std::filesystem::path& directory);
+
+/// Returns a value in TOML as a number; absent where it is none, or absent itself.
+[[nodiscard]] std::optional<double> number_of(const std::string& value);
+/// Returns whether all values of this key are numbers.
+[[nodiscard]] bool is_numeric(const Sweep& sweep, std::size_t key);
+/// Returns a string without the quotes that TOML needs; other values as they are.
+[[nodiscard]] std::string plain_value(const std::string& value);
+
+/// Returns whether two numbers differ by more than rounding leaves: a part in 10^9 of the larger.
+[[nodiscard]] bool differ(double a, double b);
+
+/// Returns text such as "1.0970 ± 0.0041", "50", or a dash where there is none.
+[[nodiscard]] std::string average_words(const SeedAverage& average);
 
 }  // namespace carom

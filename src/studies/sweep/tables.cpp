@@ -1,12 +1,17 @@
-// Numbers have the fewest digits that read back as the same double; what is absent is an empty cell.
+// Numbers have the fewest digits that read back as the same double; an absent one is an empty cell. The HDF5 file is made in
+// memory, where no disk can be full, and does not depend on the day or the machine.
 
 #include "studies/sweep/tables.hpp"
 
-#include "studies/sweep/values.hpp"
+#include "io/h5md_parts.hpp"
+#include "io/hdf5_handle.hpp"
+#include "studies/sweep/results.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -83,6 +88,120 @@ std::string points_csv(const Sweep& sweep, const SweepResults& results) {
     put_line(text, row);
   }
   return text;
+}
+
+namespace {
+
+using detail::checked;
+using detail::create_group;
+using detail::Hdf5Id;
+using detail::write_attribute;
+using detail::write_column;
+
+/// Returns NaN for an absent number.
+double number(const std::optional<double>& value) { return value.value_or(std::numeric_limits<double>::quiet_NaN()); }
+
+/// The number of its point for every run; for points their own number.
+using Points = std::vector<std::size_t>;
+
+/// A swept key is a column of numbers where all of its values are numbers, else of texts.
+void write_parameters(hid_t table, const Sweep& sweep, const Points& points) {
+  const Hdf5Id group = create_group(table, "parameters");
+  for (std::size_t k = 0; k < sweep.keys.size(); ++k) {
+    if (is_numeric(sweep, k)) {
+      std::vector<double> values;
+      for (const std::size_t point : points) values.push_back(number(number_of(sweep.points[point].values[k])));
+      write_column(group.get(), sweep.keys[k], values);
+    } else {
+      std::vector<std::string> values;
+      for (const std::size_t point : points) values.push_back(plain_value(sweep.points[point].values[k]));
+      write_column(group.get(), sweep.keys[k], values);
+    }
+  }
+}
+
+void write_points(hid_t file, const Sweep& sweep, const SweepResults& results) {
+  const Hdf5Id table = create_group(file, "points");
+  Points points;
+  std::vector<std::string> names;
+  std::vector<std::int64_t> finished, failed;
+  for (std::size_t point = 0; point < sweep.points.size(); ++point) {
+    points.push_back(point);
+    names.push_back(sweep.points[point].name);
+    finished.push_back(static_cast<std::int64_t>(results.count(sweep, point, RunState::finished)));
+    failed.push_back(static_cast<std::int64_t>(results.count(sweep, point, RunState::failed)));
+  }
+  write_column(table.get(), "name", names);
+  write_column(table.get(), "finished", finished);
+  write_column(table.get(), "failed", failed);
+  write_parameters(table.get(), sweep, points);
+  const Hdf5Id mean = create_group(table.get(), "mean");
+  const Hdf5Id error = create_group(table.get(), "error");
+  for (std::size_t k = 0; k < results.numbers.size(); ++k) {
+    std::vector<double> means, errors;
+    for (const std::vector<SeedAverage>& averages : results.averages) {
+      means.push_back(number(averages[k].mean));
+      errors.push_back(number(averages[k].error));
+    }
+    write_column(mean.get(), results.numbers[k], means);
+    write_column(error.get(), results.numbers[k], errors);
+  }
+}
+
+void write_runs(hid_t file, const Sweep& sweep, const SweepResults& results) {
+  const Hdf5Id table = create_group(file, "runs");
+  Points points;
+  std::vector<std::int64_t> numbers, seeds;
+  std::vector<std::string> directories, states, stopped, failures;
+  for (std::size_t run = 0; run < sweep.run_count(); ++run) {
+    points.push_back(run / sweep.seeds.size());
+    numbers.push_back(static_cast<std::int64_t>(points.back()));
+    seeds.push_back(static_cast<std::int64_t>(sweep.seed_of(run)));
+    directories.push_back(sweep.directory_of(run).string());
+    states.emplace_back(to_string(results.runs[run].state));
+    stopped.push_back(results.runs[run].stopped);
+    failures.push_back(results.runs[run].failure);
+  }
+  write_column(table.get(), "point", numbers);
+  write_column(table.get(), "seed", seeds);
+  write_column(table.get(), "directory", directories);
+  write_column(table.get(), "state", states);
+  write_column(table.get(), "stopped", stopped);
+  write_column(table.get(), "failure", failures);
+  write_parameters(table.get(), sweep, points);
+  const Hdf5Id group = create_group(table.get(), "numbers");
+  for (std::size_t k = 0; k < results.numbers.size(); ++k) {
+    std::vector<double> values;
+    for (const std::vector<std::optional<double>>& run : results.values) values.push_back(number(run[k]));
+    write_column(group.get(), results.numbers[k], values);
+  }
+}
+
+void write_provenance(hid_t file, const Sweep& sweep, const SweepResults& results) {
+  write_attribute(file, "creator", std::string("carom"));
+  detail::write_build(file);
+  if (!results.versions.empty()) write_attribute(file, "runs_by", results.versions);
+  write_attribute(file, "sweep", sweep.text);
+  write_attribute(file, "sweep_source", sweep.source);
+  write_attribute(file, "scene", sweep.scene_text);
+  write_attribute(file, "scene_source", sweep.scene_path);
+}
+
+}  // namespace
+
+std::string sweep_hdf5(const Sweep& sweep, const SweepResults& results) {
+  const detail::SilentHdf5 silent;
+  constexpr std::size_t increment = std::size_t{1} << 20;
+  const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  checked(H5Pset_fapl_core(access.get(), increment, false));
+  const Hdf5Id file(H5Fcreate("sweep.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
+  write_provenance(file.get(), sweep, results);
+  write_points(file.get(), sweep, results);
+  write_runs(file.get(), sweep, results);
+  checked(H5Fflush(file.get(), H5F_SCOPE_GLOBAL));
+  std::string bytes(static_cast<std::size_t>(checked(H5Fget_file_image(file.get(), nullptr, 0))), '\0');
+  checked(H5Fget_file_image(file.get(), bytes.data(), bytes.size()));
+  return bytes;
 }
 
 }  // namespace carom

@@ -1,11 +1,12 @@
 #pragma once
-// One run of a sweep as a child process, this very program: a crash, or a lack of memory, ends that run alone.
+// Runs of a sweep as child processes of this program, several at a time: a crash, or a lack of memory, ends one run alone.
 
 #include "terminal/signals.hpp"
 
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace carom::cli {
@@ -27,5 +28,14 @@ struct RunEnd {
 /// failure there too. Calls `tick` some times a second; stops the run, which then completes its files, where `stop` says so or
 /// `tick` returns false. Never throws: whatever goes wrong is the failure of this run.
 [[nodiscard]] RunEnd carry_out(const RunOrder& order, const StopRequest& stop, const std::function<bool()>& tick);
+
+/// The source of runs, which is also told how they end. Each function is called by one thread at a time.
+struct RunDesk {
+  std::function<std::optional<RunOrder>()> next;  ///< nothing: there are no more
+  std::function<void(const RunOrder&, const RunEnd&)> done;
+};
+
+/// Carries out all that `desk` hands out, so many at a time. `work` is called by several threads at once.
+void run_in_threads(int threads, const RunDesk& desk, const std::function<RunEnd(const RunOrder&)>& work);
 
 }  // namespace carom::cli

@@ -1,15 +1,16 @@
-#include "studies/sweep/child_run.hpp"
+// One thread waits for each child process, so there may be more threads than processors.
+
+#include "studies/sweep/child_runs.hpp"
 
 #include "io/child_process.hpp"
 #include "io/output_error.hpp"
 #include "io/partial_file.hpp"
 #include "io/run_directory.hpp"
-#include "studies/sweep/state.hpp"
+#include "studies/sweep/results.hpp"
 #include "terminal/command.hpp"
 
-#include <fmt/format.h>
-
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,7 +19,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <future>
 #include <iterator>
+#include <mutex>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -157,6 +160,25 @@ RunEnd carry_out(const RunOrder& order, const StopRequest& stop, const std::func
     // Without the file the run counts as not finished, and the process that started it reports its sentence once.
   }
   return end;
+}
+
+void run_in_threads(int threads, const RunDesk& desk, const std::function<RunEnd(const RunOrder&)>& work) {
+  std::mutex asking, answering;
+  const auto next = [&] {
+    const std::scoped_lock lock(asking);
+    return desk.next();
+  };
+  const auto carry_out_all = [&] {
+    while (const std::optional<RunOrder> order = next()) {
+      const RunEnd end = work(*order);
+      const std::scoped_lock lock(answering);
+      desk.done(*order, end);
+    }
+  };
+  std::vector<std::future<void>> others;
+  for (int k = 1; k < threads; ++k) others.push_back(std::async(std::launch::async, carry_out_all));
+  carry_out_all();
+  for (std::future<void>& other : others) other.get();
 }
 
 }  // namespace carom::cli
