@@ -11,7 +11,7 @@
 
 #include "diverging_runs.hpp"
 #include "event_replay.hpp"
-#include "io/build_json.hpp"
+#include "io/json.hpp"
 #include "shared_out.hpp"
 #include "support/systems.hpp"
 #include "thread_costs.hpp"

@@ -5,7 +5,7 @@
 #include "app/expected_cost.hpp"
 #include "app/scene_description.hpp"
 #include "observe/mechanics.hpp"
-#include "pages/effects_words.hpp"
+#include "pages/scene_words.hpp"
 #include "scene/drawn.hpp"
 #include "text/numbers.hpp"
 

@@ -4,7 +4,7 @@
 #include "observe/mechanics.hpp"
 #include "scene/effect_traits.hpp"
 #include "text/numbers.hpp"
-#include "theory/collision_rate.hpp"
+#include "theory/kinetic.hpp"
 
 #include <carom/observe.hpp>
 

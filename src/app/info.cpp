@@ -3,7 +3,6 @@
 #include "app/info.hpp"
 
 #include "app/info_parts.hpp"
-#include "app/info_sweep.hpp"
 #include "io/checkpoint.hpp"
 #include "io/run_directory.hpp"
 #include "text/numbers.hpp"

@@ -1,7 +1,6 @@
 // Describes an HDF5 file of Carom: a trajectory.h5md, or the sweep.h5 of a sweep.
 
 #include "app/info_parts.hpp"
-#include "app/info_sweep.hpp"
 #include "io/h5md_parts.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/output_error.hpp"

@@ -1,6 +1,5 @@
-#include "app/info_sweep.hpp"
-
 #include "app/info_parts.hpp"
+
 #include "io/hdf5_handle.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // Descriptions of trajectory.xyz, samples.csv and other tables. They are read line by line, so their size does not matter.
 
 #include "app/info_parts.hpp"
-#include "app/info_sweep.hpp"
 #include "io/output_error.hpp"
 
 #include <fmt/format.h>

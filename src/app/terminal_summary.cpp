@@ -10,7 +10,6 @@
 #include "terminal/observed_lines.hpp"
 #include "text/numbers.hpp"
 #include "text/table.hpp"
-#include "text/units.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

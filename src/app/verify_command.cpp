@@ -2,9 +2,9 @@
 // such a run again, for carom info --reproduce.
 
 #include "app/commands.hpp"
-#include "app/scratch_directory.hpp"
 #include "io/finished_run.hpp"
 #include "io/hdf5_handle.hpp"
+#include "io/output_error.hpp"
 #include "io/same_results.hpp"
 #include "terminal/named_after.hpp"
 #include "terminal/reading_process.hpp"
@@ -15,15 +15,54 @@
 #include <carom/version.hpp>
 #include <nlohmann/json.hpp>
 
+#include <stdlib.h>  // mkdtemp is POSIX, not C++
+
+#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string>
+#include <system_error>
 
 namespace carom::cli {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+fs::path place_for_temporary_files() {
+  std::error_code error;
+  const fs::path place = fs::temp_directory_path(error);
+  if (!error) return place;
+  for (const char* name : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"})  // in the order in which the library looks
+    if (const char* value = std::getenv(name))
+      throw UsageError(
+          fmt::format("{}={}: there is no such directory for temporary files; set {} to one that is there", name, value, name));
+  throw UsageError("there is no directory for temporary files; set TMPDIR to one that is there");
+}
+
+/// A temporary directory below that of the system (TMPDIR names it), which is removed with all that is in it.
+class ScratchDirectory {
+ public:
+  /// Throws UsageError where it cannot be made.
+  ScratchDirectory() {
+    std::string name = (place_for_temporary_files() / "carom-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw UsageError(detail::system_error(name, "make this directory", errno).what());
+    path_ = name;
+  }
+  ~ScratchDirectory() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchDirectory(const ScratchDirectory&) = delete;
+  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
+
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
 
 /// The facts of a run's summary that its repetition needs.
 struct Recorded {

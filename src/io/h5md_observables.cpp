@@ -1,11 +1,11 @@
 #include "io/h5md_observables.hpp"
 
 #include "io/h5md_parts.hpp"
-#include "observe/any_wall.hpp"
 #include "observe/energy.hpp"
 #include "observe/geometry.hpp"
 #include "observe/mechanics.hpp"
 #include "scene/effect_traits.hpp"
+#include "scene/walls.hpp"
 
 #include <algorithm>
 #include <array>

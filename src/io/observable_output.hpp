@@ -2,7 +2,7 @@
 // The results of observables in files: the key `observables` of summary.json, and tables of comma-separated values, each with a
 // comment with the units, a heading and rows.
 
-#include "io/json_number.hpp"
+#include "io/json.hpp"
 
 #include <carom/observe.hpp>
 

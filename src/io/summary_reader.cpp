@@ -1,6 +1,6 @@
 #include "io/summary.hpp"
 
-#include "io/json_number.hpp"
+#include "io/json.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,9 @@
 #include "observe/effects_report.hpp"
 
-#include "observe/any_wall.hpp"
 #include "observe/geometry.hpp"
 #include "observe/mechanics.hpp"
 #include "scene/effect_traits.hpp"
-#include "scene/wall_names.hpp"
+#include "scene/walls.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "observe/energy.hpp"
 
-#include "observe/any_wall.hpp"
 #include "observe/mechanics.hpp"
 #include "scene/effect_traits.hpp"
+#include "scene/walls.hpp"
 
 #include <algorithm>
 

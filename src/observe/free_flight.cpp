@@ -6,11 +6,10 @@
 #include "core/instant.hpp"
 #include "observe/blocking.hpp"
 #include "observe/ended_flights.hpp"
-#include "observe/followed_disks.hpp"
 #include "observe/followers.hpp"
 #include "observe/observables.hpp"
-#include "observe/sampled_disks.hpp"
 #include "observe/saved_observable.hpp"
+#include "observe/tracked_disks.hpp"
 #include "scene/effect_traits.hpp"
 
 #include <algorithm>

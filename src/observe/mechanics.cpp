@@ -1,8 +1,8 @@
 #include "observe/mechanics.hpp"
 
-#include "observe/any_wall.hpp"
 #include "observe/energy.hpp"
 #include "scene/mean_flow.hpp"
+#include "scene/walls.hpp"
 
 #include <algorithm>
 #include <array>

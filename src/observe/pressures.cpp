@@ -12,7 +12,6 @@
 
 #include "core/all_equal.hpp"
 #include "observe/blocking.hpp"
-#include "observe/bounded_part.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/followers.hpp"
 #include "observe/geometry.hpp"

@@ -2,12 +2,11 @@
 // Averages over time.
 
 #include "observe/blocking.hpp"
-#include "observe/bounded_part.hpp"
 #include "observe/geometry.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 #include "observe/wall_momentum.hpp"
-#include "scene/wall_names.hpp"
+#include "scene/walls.hpp"
 
 #include <array>
 

@@ -52,7 +52,7 @@ foreach(name IN LISTS carom_page_files)
   math(EXPR index "${index} + 1")
 endforeach()
 file(WRITE ${OUTPUT} "// Written by embed_files.cmake from src/pages.
-#include \"pages/embedded_files.hpp\"
+#include \"pages/html_parts.hpp\"
 
 namespace carom::detail {
 namespace {

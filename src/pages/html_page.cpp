@@ -1,8 +1,6 @@
 // Puts a page together: head, contents, sections and their blocks, facts, and the embedded files that draw it.
 
-#include "pages/embedded_files.hpp"
-#include "pages/html_text.hpp"
-#include "pages/plot_json.hpp"
+#include "pages/html_parts.hpp"
 
 #include <carom/pages/page.hpp>
 

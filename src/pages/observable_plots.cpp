@@ -1,6 +1,6 @@
-#include "pages/observable_plots.hpp"
+#include "pages/report_parts.hpp"
 
-#include "text/units.hpp"
+#include "text/numbers.hpp"
 
 #include <fmt/format.h>
 

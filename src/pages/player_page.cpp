@@ -2,8 +2,7 @@
 
 #include "pages/player_page.hpp"
 
-#include "pages/embedded_files.hpp"
-#include "pages/html_text.hpp"
+#include "pages/html_parts.hpp"
 #include "pages/number_columns.hpp"
 
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 
 #include "pages/player_parts.hpp"
 
-#include "io/json_number.hpp"
+#include "io/json.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/mechanics.hpp"
 

@@ -1,12 +1,10 @@
 #include "pages/report_page.hpp"
 
-#include "pages/observable_plots.hpp"
 #include "pages/player_page.hpp"
 #include "pages/report_parts.hpp"
 #include "pages/scene_words.hpp"
 #include "pages/summary_rows.hpp"
 #include "text/numbers.hpp"
-#include "text/units.hpp"
 #include "theory/equation_of_state.hpp"
 
 #include <carom/io/run_reader.hpp>

@@ -1,6 +1,6 @@
 #include "pages/report_parts.hpp"
 
-#include "text/units.hpp"
+#include "text/numbers.hpp"
 
 #include <algorithm>
 #include <cmath>

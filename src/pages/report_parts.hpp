@@ -1,8 +1,9 @@
 #pragma once
-// Parts of a report: blocks that several of its sections have, and the section on accuracy.
+// The parts of the page of a run that have files of their own.
 
 #include "io/run_record.hpp"
-#include "pages/summary_row.hpp"
+#include "pages/summary_rows.hpp"
+#include "theory/run_theory.hpp"
 
 #include <carom/pages/page.hpp>
 
@@ -22,5 +23,9 @@ namespace carom {
 /// Returns the section on how exact the run was: energy, momentum and overlap beside what rounding explains, `more` that others
 /// add, and near misses.
 [[nodiscard]] Section accuracy_section(const RunRecord& record, std::vector<Block> more);
+
+/// Returns the plots of a table of [observe], with error bars and theory: one, or two where a table holds things that have no
+/// axis in common. A table that is not known here is plotted column by column against its first one.
+[[nodiscard]] std::vector<Plot> plots_of(const Table& table, const RunTheory& theory);
 
 }  // namespace carom

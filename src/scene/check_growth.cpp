@@ -3,7 +3,7 @@
 #include "scene/checks.hpp"
 #include "scene/growth_room.hpp"
 #include "scene/number_keys.hpp"
-#include "scene/wall_names.hpp"
+#include "scene/walls.hpp"
 
 #include <fmt/format.h>
 

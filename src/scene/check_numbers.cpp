@@ -4,7 +4,7 @@
 #include "scene/checks.hpp"
 #include "scene/effect_traits.hpp"
 #include "scene/number_keys.hpp"
-#include "scene/wall_names.hpp"
+#include "scene/walls.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 // Predictions square products of speed and length; both must be normal numbers: 1e-150 < v r, v L < 1e150. docs/numerics.md
 
 #include "scene/checks.hpp"
-#include "scene/wall_names.hpp"
+#include "scene/walls.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "scene/checks.hpp"
 #include "scene/number_keys.hpp"
-#include "scene/wall_names.hpp"
+#include "scene/walls.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,14 @@
 #pragma once
-// The words of the scene format: which key belongs where, and what to say when a word is not one of them.
+// The words of the scene format and of other programs: which key belongs where, and the sentence for a word that is no key.
 
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace carom::detail {
+
+/// Returns the clause that names Carom's key for a word such as "dt", "nsteps" or "N"; empty where the word is not known.
+std::string_view meant_by(std::string_view word);
 
 /// The number of single-character edits (a swap of neighbours counts as one) between two words, ignoring case.
 std::size_t edit_distance(std::string_view a, std::string_view b);

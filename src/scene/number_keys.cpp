@@ -2,8 +2,8 @@
 
 #include "scene/number_keys.hpp"
 
-#include "scene/number_text.hpp"
 #include "scene/refusal.hpp"
+#include "scene/value_text.hpp"
 
 #include <fmt/format.h>
 

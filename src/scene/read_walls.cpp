@@ -1,7 +1,7 @@
 // The [walls] table: one key per side of the box that is more than a hard wall at rest.
 
 #include "scene/read_tables.hpp"
-#include "scene/wall_names.hpp"
+#include "scene/walls.hpp"
 
 #include <fmt/format.h>
 

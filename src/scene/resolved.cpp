@@ -2,7 +2,6 @@
 
 #include <carom/scene.hpp>
 
-#include "scene/number_text.hpp"
 #include "scene/resolved_effects.hpp"
 #include "scene/value_text.hpp"
 

@@ -3,8 +3,8 @@
 #include "scene/resolved_effects.hpp"
 
 #include "scene/effect_traits.hpp"
-#include "scene/number_text.hpp"
-#include "scene/wall_names.hpp"
+#include "scene/value_text.hpp"
+#include "scene/walls.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

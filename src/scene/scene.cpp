@@ -3,12 +3,11 @@
 #include <carom/scene.hpp>
 
 #include "scene/checks.hpp"
+#include "scene/document.hpp"
 #include "scene/effect_traits.hpp"
-#include "scene/overrides.hpp"
 #include "scene/read_tables.hpp"
 #include "scene/refusal.hpp"
 #include "scene/resolved_effects.hpp"
-#include "scene/text_file.hpp"
 
 #include <fmt/format.h>
 

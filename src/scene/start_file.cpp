@@ -2,10 +2,10 @@
 
 #include "scene/start_file.hpp"
 
+#include "scene/document.hpp"
 #include "scene/excerpt.hpp"
 #include "scene/npy_file.hpp"
 #include "scene/start_rows.hpp"
-#include "scene/text_file.hpp"
 
 #include <fmt/format.h>
 

@@ -2,10 +2,10 @@
 
 #include "scene/table_reader.hpp"
 
+#include "scene/document.hpp"
 #include "scene/excerpt.hpp"
 #include "scene/known_keys.hpp"
-#include "scene/number_text.hpp"
-#include "scene/overrides.hpp"
+#include "scene/value_text.hpp"
 
 #include <fmt/format.h>
 

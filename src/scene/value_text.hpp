@@ -1,5 +1,5 @@
 #pragma once
-// A value of a TOML document as text again, on one line.
+// Values as TOML text.
 
 #include <toml++/toml.h>
 
@@ -7,6 +7,9 @@
 #include <string_view>
 
 namespace carom::detail {
+
+/// Returns the fewest digits that read back to the same bits, and always a TOML float: "1.0", "0.1", "1e-300", "-0.0", "inf".
+std::string number_text(double value);
 
 /// Returns `text` in quotes, escaped as TOML requires.
 std::string quoted_text(std::string_view text);

@@ -1,7 +1,7 @@
 #pragma once
 // The distances between two trajectories, as the terminal and JSON show them.
 
-#include "io/json_number.hpp"
+#include "io/json.hpp"
 #include "studies/state_distance.hpp"
 
 #include <cstddef>

@@ -2,7 +2,6 @@
 
 #include "text/numbers.hpp"
 #include "text/table.hpp"
-#include "text/units.hpp"
 
 #include <fmt/format.h>
 

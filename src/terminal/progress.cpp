@@ -1,5 +1,3 @@
-// One line on stderr that says how far a run has come: rewritten in place on a terminal, appended now and then elsewhere.
-
 #include "terminal/progress.hpp"
 
 #include "terminal/command.hpp"

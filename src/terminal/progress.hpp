@@ -1,27 +1,48 @@
 #pragma once
-// One line on stderr that says how far a run has come.
+// The progress of a run on one line of stderr.
 
 #include "terminal/run_estimate.hpp"
 
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
 
+#include <unistd.h>
+
 #include <chrono>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
 
 namespace carom::cli {
 
+/// A line on stderr that is rewritten in place; nothing where stderr is no terminal.
+class StatusLine {
+ public:
+  StatusLine() = default;
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+  ~StatusLine() { show(""); }
+  void show(const std::string& text) const {
+    if (!terminal_) return;
+    std::fprintf(stderr, "\r\x1b[K%s", text.c_str());
+    std::fflush(stderr);
+  }
+
+ private:
+  bool terminal_ = isatty(STDERR_FILENO) == 1;
+};
+
 enum class ProgressMode { automatic, always, never };  ///< automatic: only where stderr is a terminal
 
 /// Returns the mode that --progress and --quiet ask for. Throws UsageError where `when` is not auto, always or never.
 ProgressMode progress_mode(const std::string& when, bool quiet);
 
+/// The progress of a run: rewritten in place on a terminal, appended now and then elsewhere.
 class ProgressLine {
  public:
   ProgressLine(ProgressMode mode, const Scene& scene);
-  ~ProgressLine();  ///< leaves an empty line where the progress stood
+  ~ProgressLine();  ///< clears the line
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 

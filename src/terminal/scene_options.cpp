@@ -2,6 +2,7 @@
 
 #include "terminal/scene_options.hpp"
 
+#include "scene/document.hpp"
 #include "scene/table_reader.hpp"
 #include "scene/text_file.hpp"
 #include "simulation/fixed_step.hpp"

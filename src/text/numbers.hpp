@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and names as a person reads them.
+// Numbers and units as people read them.
 
 #include <cstdint>
 #include <optional>
@@ -7,6 +7,13 @@
 #include <string_view>
 
 namespace carom {
+
+/// Returns text such as "length^2 / time" as "length² / time".
+[[nodiscard]] std::string unit_words(std::string_view unit);
+
+/// Returns the label of an axis, heading or line with its unit in brackets, which is empty for a pure number: "speed (length /
+/// time in scene units)", "time (scene units)".
+[[nodiscard]] std::string with_unit(const std::string& label, std::string_view unit);
 
 /// Returns 1234567 as "1,234,567"
 std::string grouped(std::uint64_t number);

@@ -1,6 +1,7 @@
 #pragma once
-// Equations of state of the hard-disk fluid, from the literature.
+// Equations of state of hard disks, and reference data for them.
 
+#include <array>
 #include <cstdint>
 
 namespace carom::theory {
@@ -21,5 +22,38 @@ namespace carom::theory {
 /// Returns the limit of the structure factor S(k) at small k: kT times the isothermal compressibility times the density,
 /// 1 / (Z + eta Z'). Range and source as above.
 [[nodiscard]] double structure_factor_at_zero(double eta);
+
+/// Virial coefficients B_n / (pi sigma^2 / 4)^(n - 1), Clisby & McCoy, J. Stat. Phys. 122, 15 (2006): b_2 ... b_10; b_5 and b_6
+/// on are known to the last digits given, or one or two of them.
+inline constexpr std::array<double, 9> virial_coefficients = {2.0,     3.1280178, 4.2578545, 5.336897, 6.36296,
+                                                              7.35186, 8.3191,    9.2721,    10.216};
+
+/// Z = 1 + sum of b_n eta^(n - 1). The first term left out is below 12 eta^10.
+constexpr double virial_series(double eta) {
+  double z = 0.0;
+  for (auto b = virial_coefficients.rbegin(); b != virial_coefficients.rend(); ++b) z = (z + *b) * eta;
+  return 1.0 + z;
+}
+
+/// The pressure of a number of hard disks in a square periodic box.
+struct ReferencePressure {
+  std::int64_t disks;
+  double packing_fraction;
+  double pressure;  ///< P sigma^2 / kT
+  double error;     ///< one standard error
+};
+
+/// Fluids: Li, Nishikawa, Hoellmer, Carillo, Maggs & Krauth, J. Chem. Phys. 157, 234111 (2022), and the data set that belongs to
+/// it (github.com/jellyfysh/HistoricDisks, DigitizedData/ThisWork.csv). The values hold for that number of disks, without a
+/// correction for its being finite.
+inline constexpr std::array<ReferencePressure, 5> li_2022 = {{{72, 0.650, 6.901074, 0.000071},
+                                                              {72, 0.660, 7.383221, 0.000087},
+                                                              {72, 0.670, 7.85637, 0.00011},
+                                                              {72, 0.680, 8.23631, 0.00034},
+                                                              {224, 0.670, 7.979479, 0.000058}}};
+
+/// From the same source, 128^2 disks: the fluid that is about to freeze, and liquid and hexatic in one box.
+inline constexpr std::array<ReferencePressure, 3> li_2022_transition = {
+    {{16384, 0.698, 9.17405, 0.00049}, {16384, 0.708, 9.17630, 0.00074}, {16384, 0.716, 9.1587, 0.0010}}};
 
 }  // namespace carom::theory

@@ -2,7 +2,7 @@
 
 #include "app/expected_cost.hpp"
 #include "observe/mechanics.hpp"
-#include "pages/effects_words.hpp"
+#include "pages/scene_words.hpp"
 #include "scene/effect_traits.hpp"
 #include "support/effect_scenes.hpp"
 #include "support/scenes.hpp"

@@ -1,8 +1,8 @@
 // Errors of means whose exact error is known: by blocking, and by what else is known of the samples.
 
 #include "observe/blocking.hpp"
-#include "observe/bounded_part.hpp"
 #include "observe/multiple_tau.hpp"
+#include "observe/wall_momentum.hpp"
 
 #include <gtest/gtest.h>
 

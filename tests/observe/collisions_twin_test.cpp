@@ -4,7 +4,7 @@
 #include "support/systems.hpp"
 
 #include "observe/mechanics.hpp"
-#include "observe/sampled_disks.hpp"
+#include "observe/tracked_disks.hpp"
 
 #include <gmock/gmock.h>
 

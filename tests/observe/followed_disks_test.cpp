@@ -1,4 +1,4 @@
-#include "observe/followed_disks.hpp"
+#include "observe/tracked_disks.hpp"
 
 #include <gtest/gtest.h>
 

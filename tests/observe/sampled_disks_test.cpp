@@ -1,4 +1,4 @@
-#include "observe/sampled_disks.hpp"
+#include "observe/tracked_disks.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // The library holds the files of src/show as they are.
 
-#include "pages/embedded_files.hpp"
+#include "pages/html_parts.hpp"
 
 #include "support/child_process.hpp"
 

@@ -1,7 +1,6 @@
 // A page as text: what it contains, what it cannot contain.
 
-#include "pages/embedded_files.hpp"
-#include "pages/html_text.hpp"
+#include "pages/html_parts.hpp"
 #include "pages/sample_page.hpp"
 
 #include <carom/pages/page.hpp>

@@ -1,6 +1,6 @@
 // Text in HTML.
 
-#include "pages/html_text.hpp"
+#include "pages/html_parts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The numbers of a plot as the page holds them.
 
-#include "pages/plot_json.hpp"
+#include "pages/html_parts.hpp"
 
 #include <gtest/gtest.h>
 

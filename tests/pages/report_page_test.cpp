@@ -2,8 +2,8 @@
 
 #include "pages/report_page.hpp"
 
+#include "pages/html_parts.hpp"
 #include "pages/page_parts.hpp"
-#include "pages/plot_json.hpp"
 #include "studies/horizon/json.hpp"
 #include "studies/horizon/page.hpp"
 #include "support/child_process.hpp"

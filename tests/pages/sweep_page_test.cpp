@@ -5,7 +5,7 @@
 #include "studies/sweep/numbers.hpp"
 #include "support/browser.hpp"
 #include "support/child_process.hpp"
-#include "text/units.hpp"
+#include "text/numbers.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 // Numbers for random scenes, in RapidCheck's hands: those that need all their digits.
 
-#include "scene/number_text.hpp"
+#include "scene/value_text.hpp"
 
 #include <fmt/format.h>
 #include <rapidcheck.h>

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "scene/number_text.hpp"
 #include "scene/random_numbers.hpp"
 #include "scene/scene_equality.hpp"
 #include "scene/scene_texts.hpp"
+#include "scene/value_text.hpp"
 
 #include <limits>
 

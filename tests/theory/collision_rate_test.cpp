@@ -1,4 +1,4 @@
-#include "theory/collision_rate.hpp"
+#include "theory/kinetic.hpp"
 
 #include "support/systems.hpp"
 #include "theory/equation_of_state.hpp"

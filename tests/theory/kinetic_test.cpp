@@ -1,6 +1,5 @@
 #include "theory/kinetic.hpp"
 
-#include "theory/clisby_mccoy_2006.hpp"
 #include "theory/equation_of_state.hpp"
 
 #include <gtest/gtest.h>

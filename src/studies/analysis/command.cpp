@@ -1,7 +1,7 @@
 // carom analyze RUN_DIR [OBSERVABLE...]: measures afterwards, from what a run has kept.
 
 #include "studies/analysis/command.hpp"
-#include "io/build_json.hpp"
+#include "io/json.hpp"
 #include "io/observable_output.hpp"
 #include "io/run_directory.hpp"
 #include "studies/analysis/analysis.hpp"

@@ -4,7 +4,7 @@
 #include "studies/benchmark/command.hpp"
 #include "studies/benchmark/contender.hpp"
 #include "studies/benchmark/measured_on.hpp"
-#include "terminal/status_line.hpp"
+#include "terminal/progress.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>

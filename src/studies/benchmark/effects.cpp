@@ -7,7 +7,7 @@
 #include "studies/benchmark/contender.hpp"
 #include "studies/benchmark/measured_on.hpp"
 #include "studies/benchmark/priced_effects.hpp"
-#include "terminal/status_line.hpp"
+#include "terminal/progress.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "studies/compare/files.hpp"
 
-#include "io/build_json.hpp"
+#include "io/json.hpp"
 #include "studies/compare/answers.hpp"
 #include "studies/horizon/json.hpp"
 

@@ -1,7 +1,6 @@
 #include "studies/compare/own_trajectory.hpp"
 
-#include "io/build_json.hpp"
-#include "io/json_number.hpp"
+#include "io/json.hpp"
 #include "neighbours/disks_at_rest.hpp"
 #include "observe/mechanics.hpp"
 #include "studies/compare/flown_overlaps.hpp"

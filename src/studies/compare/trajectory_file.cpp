@@ -1,8 +1,8 @@
 #include "studies/compare/trajectory_file.hpp"
 
 #include "core/nearest_image.hpp"
+#include "scene/document.hpp"
 #include "scene/npy_file.hpp"
-#include "scene/text_file.hpp"
 #include "studies/diff/diff.hpp"
 
 #include <carom/io/run_reader.hpp>

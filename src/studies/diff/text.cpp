@@ -1,8 +1,7 @@
 #include "studies/diff/text.hpp"
 
-#include "io/build_json.hpp"
-#include "io/json_number.hpp"
-#include "scene/wall_names.hpp"
+#include "io/json.hpp"
+#include "scene/walls.hpp"
 #include "studies/distance_table.hpp"
 #include "text/numbers.hpp"
 #include "text/table.hpp"

@@ -2,10 +2,8 @@
 
 #include "studies/hard_cases/command.hpp"
 #include "studies/hard_cases/hard_case.hpp"
-#include "studies/hard_cases/page.hpp"
 #include "studies/hard_cases/steps.hpp"
 #include "studies/hard_cases/table.hpp"
-#include "studies/hard_cases/text.hpp"
 #include "terminal/signals.hpp"
 #include "text/numbers.hpp"
 

@@ -1,10 +1,10 @@
 // Reads a file into a HardCase: numbers in hexfloat become decimal ones, the tables [case] and [expect] are read here, and the
 // rest is a scene for the scene's own reader. Lines keep their numbers, so that every message names the right one.
 
+#include "scene/document.hpp"
 #include "scene/known_keys.hpp"
-#include "scene/number_text.hpp"
 #include "scene/read_tables.hpp"
-#include "scene/text_file.hpp"
+#include "scene/value_text.hpp"
 #include "studies/hard_cases/hard_case.hpp"
 
 #include <carom/scene.hpp>

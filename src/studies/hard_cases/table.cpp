@@ -1,7 +1,6 @@
 #include "studies/hard_cases/table.hpp"
 
-#include "io/build_json.hpp"
-#include "io/json_number.hpp"
+#include "io/json.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -123,4 +122,78 @@ std::string hard_cases_json(std::span<const CaseVerdict> verdicts) {
   return json.dump(2, ' ', false, detail::Json::error_handler_t::replace);
 }
 
+namespace {
+
+TextTable table_of(std::span<const CaseVerdict> verdicts, const std::string& family) {
+  TextTable table{.title = family,
+                  .columns = {"case", "what it states", "engines", "checked", "nearest to its bound", "verdict"}};
+  for (const CaseVerdict& one : verdicts) {
+    if (one.family != family) continue;
+    const HardCaseRow row = row_of(one);
+    table.rows.push_back({row.name, one.title, row.engines, row.checked, row.worst, row.verdict});
+  }
+  return table;
+}
+
+}  // namespace
+
+Page hard_case_page(std::span<const HardCase> cases, std::span<const CaseVerdict> verdicts, const std::string& command_line) {
+  const auto held = std::count_if(verdicts.begin(), verdicts.end(), [](const CaseVerdict& one) { return one.holds(); });
+  Page page{.title = "Hard cases",
+            .subtitle = summary_of(verdicts),
+            .lead = always_checked(),
+            .key_numbers = {{fmt::format("{} of {}", held, verdicts.size()), "cases hold"}}};
+  for (const std::string& family : hard_case_families()) {
+    Section section{.heading = family, .blocks = {table_of(verdicts, family)}};
+    if (std::get<TextTable>(section.blocks.front()).rows.empty()) continue;
+    for (const HardCase& one : cases)
+      if (one.family == family) section.blocks.emplace_back(Listing{one.name, one.text});
+    page.sections.push_back(std::move(section));
+  }
+  page.facts = {{"Command", command_line}};
+  add_build(page.facts);
+  return page;
+}
+
 }  // namespace carom
+
+namespace carom::cli {
+
+namespace {
+
+std::string line(const std::string& name, const std::string& engines, const std::string& verdict, const std::string& worst,
+                 const std::string& checked) {
+  return fmt::format("{:<38} {:>7}  {:<8} {:<46} {}\n", name, engines, verdict, worst, checked);
+}
+
+}  // namespace
+
+std::string hardcases_list(std::span<const HardCase> cases) {
+  std::string text, family;
+  for (const HardCase& one : cases) {
+    if (one.family != family) text += fmt::format("{}{}\n", family.empty() ? "" : "\n", one.family);
+    family = one.family;
+    text += fmt::format("  {:<38} {}{}\n", one.name, one.title, one.takes_long ? " (--long)" : "");
+  }
+  return text;
+}
+
+std::string hardcases_header() { return line("case", "engines", "verdict", "nearest to its bound", "checked"); }
+
+std::string hardcases_row(const CaseVerdict& verdict) {
+  const HardCaseRow row = row_of(verdict);
+  return line(row.name, verdict.engines.empty() ? "-" : fmt::format("{}", verdict.engines.size()), row.verdict,
+              verdict.holds() ? row.worst : "see below", row.checked);
+}
+
+std::string hardcases_footer(std::span<const CaseVerdict> verdicts) {
+  std::string text = "\n";
+  for (const CaseVerdict& one : verdicts)
+    for (const CaseCheck& check : one.checks)
+      if (!check.holds)
+        text += fmt::format("{}, {}: {} {:.3g} is not within {:.3g}{}\n", one.name, check.engine, check.what, check.value,
+                            check.bound, check.remark.empty() ? "" : ": " + check.remark);
+  return fmt::format("{}{}\n{}\n", text, always_checked(), summary_of(verdicts));
+}
+
+}  // namespace carom::cli

@@ -1,7 +1,9 @@
 #pragma once
-// Verdicts of hard cases as people and programs read them: rows of a table, Markdown, JSON.
+// Verdicts of hard cases as people and programs read them: a table on a terminal, Markdown, JSON, a page.
 
 #include "studies/hard_cases/hard_case.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <cstddef>
 #include <span>
@@ -31,4 +33,20 @@ struct HardCaseRow {
 
 [[nodiscard]] std::string hard_cases_json(std::span<const CaseVerdict> verdicts);
 
+/// Returns the page of the verdicts; `cases` are in the order of `verdicts`.
+[[nodiscard]] Page hard_case_page(std::span<const HardCase> cases, std::span<const CaseVerdict> verdicts,
+                                  const std::string& command_line);
+
 }  // namespace carom
+
+namespace carom::cli {
+
+/// Returns every case with what it states, by family.
+std::string hardcases_list(std::span<const HardCase> cases);
+
+std::string hardcases_header();
+std::string hardcases_row(const CaseVerdict& verdict);
+/// Returns what was checked, how many cases hold, and one line for every check that fails.
+std::string hardcases_footer(std::span<const CaseVerdict> verdicts);
+
+}  // namespace carom::cli

@@ -1,7 +1,7 @@
 // carom horizon SCENE: how far the scene's trajectory can be trusted, in a table and one sentence. Writes no files.
 
 #include "studies/horizon/command.hpp"
-#include "io/build_json.hpp"
+#include "io/json.hpp"
 #include "studies/horizon/json.hpp"
 #include "studies/horizon/method.hpp"
 #include "studies/horizon/sentence.hpp"

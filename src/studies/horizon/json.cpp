@@ -1,6 +1,6 @@
 #include "studies/horizon/json.hpp"
 
-#include "io/json_number.hpp"
+#include "io/json.hpp"
 #include "io/output_error.hpp"
 
 #include <fmt/format.h>

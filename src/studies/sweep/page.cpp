@@ -4,7 +4,6 @@
 #include "studies/sweep/results.hpp"
 #include "studies/sweep/sweep.hpp"
 #include "text/numbers.hpp"
-#include "text/units.hpp"
 
 #include <carom/version.hpp>
 

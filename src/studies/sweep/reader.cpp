@@ -1,10 +1,10 @@
 #include "studies/sweep/reader.hpp"
 
+#include "scene/document.hpp"
 #include "scene/drawn.hpp"
 #include "scene/excerpt.hpp"
 #include "scene/known_keys.hpp"
 #include "scene/table_reader.hpp"
-#include "scene/text_file.hpp"
 #include "scene/value_text.hpp"
 #include "studies/sweep/numbers.hpp"
 #include "studies/sweep/sweep.hpp"

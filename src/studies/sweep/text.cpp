@@ -4,7 +4,6 @@
 #include "studies/sweep/results.hpp"
 #include "text/numbers.hpp"
 #include "text/table.hpp"
-#include "text/units.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,6 @@
 
 #include "studies/validate/encounters.hpp"
 #include "studies/validate/gas.hpp"
-#include "theory/collision_rate.hpp"
 #include "theory/equation_of_state.hpp"
 #include "theory/goodness_of_fit.hpp"
 #include "theory/kinetic.hpp"

@@ -4,7 +4,6 @@
 #include "studies/validate/command.hpp"
 #include "studies/study_directory.hpp"
 #include "studies/validate/files.hpp"
-#include "studies/validate/page.hpp"
 #include "studies/validate/validation.hpp"
 #include "terminal/progress.hpp"
 #include "terminal/signals.hpp"

@@ -2,10 +2,8 @@
 // hexatic, the solid near close packing.
 
 #include "studies/validate/gas.hpp"
-#include "theory/clisby_mccoy_2006.hpp"
 #include "theory/equation_of_state.hpp"
 #include "theory/kinetic.hpp"
-#include "theory/li_2022.hpp"
 #include "theory/microcanonical.hpp"
 
 #include <carom/blocking.hpp>

@@ -1,7 +1,6 @@
 #include "studies/validate/files.hpp"
 
-#include "io/build_json.hpp"
-#include "io/json_number.hpp"
+#include "io/json.hpp"
 
 #include <carom/version.hpp>
 

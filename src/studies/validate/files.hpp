@@ -1,9 +1,11 @@
 #pragma once
-// A validation in files: trials.jsonl, which grows by a line with every trial that is finished and from which an interrupted
-// validation goes on; validation.json with everything.
+// A validation in files: trials.jsonl, which grows by a line with every finished trial and from which an interrupted validation
+// goes on; validation.json with everything; the page.
 
 #include "studies/finished_parts.hpp"
 #include "studies/validate/validation.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <filesystem>
 #include <string>
@@ -29,5 +31,7 @@ class TrialsFile {
 [[nodiscard]] Validation load_trials(const std::filesystem::path& path, const std::string& key);
 
 [[nodiscard]] std::string validation_json(const Validation& validation, const std::string& command_line);
+
+Page validation_page(const Validation& validation, const std::string& command_line);
 
 }  // namespace carom

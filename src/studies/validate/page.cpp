@@ -1,4 +1,4 @@
-#include "studies/validate/page.hpp"
+#include "studies/validate/files.hpp"
 
 #include "theory/equation_of_state.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and vectors as JSON: null stands for what has no meaning and for what is not finite.
+// What all JSON files share: numbers and vectors, null for what has no meaning or is not finite, and the program that wrote them.
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
@@ -22,5 +22,8 @@ inline std::optional<double> number_in(const Json& json) {
 inline std::optional<double> number_in(const Json& json, const char* key) {
   return json.contains(key) ? number_in(json.at(key)) : std::nullopt;
 }
+
+/// Returns version, commit, compiler, flags, and the instruction set that runs here
+[[nodiscard]] nlohmann::ordered_json build_json();
 
 }  // namespace carom::detail

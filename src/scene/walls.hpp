@@ -1,10 +1,18 @@
 #pragma once
+// The four walls of a scene: their names, axes and properties.
 
 #include <carom/effects.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 namespace carom {
+
+/// The names of the walls in the order of Effects::walls. Wall w lies across axis w / 2, and is the upper one where w is odd.
+inline constexpr std::array<const char*, 4> wall_names = {"left", "right", "bottom", "top"};
+
+constexpr int axis_of_wall(std::size_t wall) { return static_cast<int>(wall / 2); }
 
 /// Returns whether a wall can be anywhere but where the scene puts it.
 inline bool moves(const WallProperties& wall) { return wall.mass || wall.velocity.value_or(0.0) != 0.0; }

@@ -1,4 +1,4 @@
-#include "io/build_json.hpp"
+#include "io/json.hpp"
 
 #include "core/instructions.hpp"
 
