@@ -2,6 +2,8 @@
 // The state of a simulation at one instant, and what it has counted since its start: plain data, in double precision whatever the
 // precision of the engine.
 
+#include <carom/box.hpp>
+
 #include <Eigen/Core>
 
 #include <array>
@@ -51,6 +53,9 @@ struct State {
   std::uint64_t bonds = 0;            ///< number of pairs within each other's square well
   double shear_displacement = 0.0;    ///< offset of the images above from those below, in [0, length along x)
 };
+
+/// Returns the scene's box with its walls where the state has them.
+[[nodiscard]] Box box_of(const Box& box, const State& state);
 
 /// Returns the hash of a state: 16 hexadecimal digits, FNV-1a of 64 bits over the time and, for each disk in turn, its position,
 /// velocity and (where there is any) spin, as IEEE doubles of 8 bytes, least significant byte first. Runs that end with equal

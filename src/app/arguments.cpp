@@ -12,7 +12,6 @@
 #include "studies/sweep/command.hpp"
 #include "studies/validate/command.hpp"
 
-#include "app/manual.hpp"
 #include "scene/known_keys.hpp"
 #include "studies/hard_cases/hard_case.hpp"
 #include "text/numbers.hpp"

@@ -1,4 +1,4 @@
-#include "app/manual.hpp"
+#include "app/arguments.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,7 @@
 
 #include "app/commands.hpp"
 #include "pages/player_page.hpp"
-#include "terminal/page_file.hpp"
+#include "terminal/output_paths.hpp"
 #include "terminal/reading_process.hpp"
 #include "text/numbers.hpp"
 

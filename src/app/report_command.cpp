@@ -3,7 +3,7 @@
 #include "app/commands.hpp"
 #include "pages/report_page.hpp"
 #include "studies/horizon/page.hpp"
-#include "terminal/page_file.hpp"
+#include "terminal/output_paths.hpp"
 #include "terminal/reading_process.hpp"
 #include "text/numbers.hpp"
 

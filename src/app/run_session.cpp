@@ -10,7 +10,6 @@
 #include "studies/horizon/text.hpp"
 #include "terminal/progress.hpp"
 #include "terminal/signals.hpp"
-#include "text/durations.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 #include "io/hdf5_handle.hpp"
 #include "io/output_error.hpp"
 #include "io/same_results.hpp"
-#include "terminal/named_after.hpp"
+#include "terminal/output_paths.hpp"
 #include "terminal/reading_process.hpp"
 #include "text/numbers.hpp"
 

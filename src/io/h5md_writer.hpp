@@ -49,7 +49,6 @@ class H5mdWriter {
   void save(std::ostream& out);
 
   [[nodiscard]] std::uint64_t safe_samples() const { return safe_samples_; }  ///< number of samples up to the last flush
-  [[nodiscard]] std::uint64_t safe_events() const { return safe_events_; }
   [[nodiscard]] std::size_t buffered_bytes() const;  ///< all memory that holds data, without HDF5's own caches
 
  private:

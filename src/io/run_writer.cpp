@@ -38,7 +38,18 @@ Wanted wanted_by(const Scene& scene) {
           .csv = scene.output.csv && samples};
 }
 
-/// Whether it has its own name or is .partial still.
+/// The sizes in bytes of the text files at a checkpoint; 0 where a file is not written. RunWriter::save() writes them first.
+struct TextSizes {
+  std::uint64_t xyz = 0, csv = 0;
+};
+TextSizes read_text_sizes(std::istream& saved) {
+  LoadingArchive archive(saved);
+  TextSizes sizes;
+  archive(sizes.xyz, sizes.csv);
+  return sizes;
+}
+
+/// Throws OutputError where a file of the run is missing or has fewer bytes. It may have its own name, or be .partial still.
 void require_file(const RunDirectory& directory, const char* name, std::uint64_t bytes) {
   for (const std::filesystem::path& path : {directory.final_name(name), directory.partial_name(name)}) {
     std::error_code error;
@@ -82,12 +93,10 @@ RunWriter::RunWriter(const RunDirectory& directory, const Scene& scene, const Di
       if (csv) csv_.emplace(open(csv_name), rough);
     } else {
       directory_.take_back();
-      LoadingArchive archive(*saved);
-      std::uint64_t xyz_bytes = 0, csv_bytes = 0;
-      archive(xyz_bytes, csv_bytes);
+      const TextSizes sizes = read_text_sizes(*saved);
       if (h5md) h5md_.emplace(open(h5md_name), scene, disks, provenance, *saved);
-      if (xyz) xyz_.emplace(open(xyz_name), scene, disks, xyz_bytes);
-      if (csv) csv_.emplace(open(csv_name), rough, csv_bytes);
+      if (xyz) xyz_.emplace(open(xyz_name), scene, disks, sizes.xyz);
+      if (csv) csv_.emplace(open(csv_name), rough, sizes.csv);
     }
   } catch (...) {
     if (!holds_data_) discard_partials();
@@ -97,12 +106,10 @@ RunWriter::RunWriter(const RunDirectory& directory, const Scene& scene, const Di
 
 void RunWriter::require_files(const RunDirectory& directory, const Scene& scene, std::istream& saved) {
   const auto [h5md, xyz, csv] = wanted_by(scene);
-  LoadingArchive archive(saved);
-  std::uint64_t xyz_bytes = 0, csv_bytes = 0;
-  archive(xyz_bytes, csv_bytes);
+  const TextSizes sizes = read_text_sizes(saved);
   if (h5md) require_file(directory, h5md_name, detail::Hdf5File::saved_size(saved));
-  if (xyz) require_file(directory, xyz_name, xyz_bytes);
-  if (csv) require_file(directory, csv_name, csv_bytes);
+  if (xyz) require_file(directory, xyz_name, sizes.xyz);
+  if (csv) require_file(directory, csv_name, sizes.csv);
 }
 
 void RunWriter::save(std::ostream& out) {

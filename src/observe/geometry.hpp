@@ -1,15 +1,16 @@
 #pragma once
-// Lengths and areas of box and disks at one instant: walls may move, and disks may grow.
+// Box and disks of a state at one instant, whose walls may have moved, whose disks may have grown and whose edges may be sheared:
+// lengths, areas and the deepest overlap.
+
+#include "neighbours/disks_at_rest.hpp"
 
 #include <carom/box.hpp>
+#include <carom/effects.hpp>
 #include <carom/state.hpp>
 
 #include <vector>
 
 namespace carom {
-
-/// Returns the scene's box with its walls where the state has them.
-[[nodiscard]] Box box_of(const Box& box, const State& state);
 
 /// Returns scale * Disks::radius
 [[nodiscard]] std::vector<double> radii_of(const Disks& disks, const State& state);
@@ -20,5 +21,8 @@ namespace carom {
 /// Returns the diameter of the largest disk as the state has it; 1 without disks. Three-dimensional readers take it for the box's
 /// thickness.
 [[nodiscard]] double largest_diameter(const Disks& disks, const State& state);
+
+/// `box` and `effects` are the scene's. Requires positions inside the box as the state has it.
+[[nodiscard]] DeepestOverlap deepest_overlap(const Box& box, const Effects& effects, const Disks& disks, const State& state);
 
 }  // namespace carom

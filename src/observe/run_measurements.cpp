@@ -3,8 +3,8 @@
 #include "observe/effects_report.hpp"
 #include "observe/energy.hpp"
 #include "observe/equilibrium.hpp"
+#include "observe/geometry.hpp"
 #include "observe/mechanics.hpp"
-#include "observe/overlap.hpp"
 
 #include <algorithm>
 #include <numbers>

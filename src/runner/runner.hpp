@@ -9,7 +9,7 @@
 #include "observe/run_measurements.hpp"
 #include "observe/run_report.hpp"
 #include "pages/report_page.hpp"
-#include "text/durations.hpp"
+#include "text/numbers.hpp"
 
 #include <carom/observe.hpp>
 #include <carom/simulation.hpp>

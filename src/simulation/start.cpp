@@ -160,13 +160,9 @@ Start start_of(const Scene& scene, Disks all, const State& state) {
 }
 
 void require_between_walls(const Scene& scene, const State& state) {
-  for (const int axis : {0, 1}) {
-    if (scene.box.periodic(axis)) continue;
-    const std::size_t low = 2 * static_cast<std::size_t>(axis);
-    const double lower = state.walls.empty() ? scene.box.lower[axis] : state.walls[low].position;
-    const double upper = state.walls.empty() ? scene.box.upper[axis] : state.walls[low + 1].position;
-    require_inside(scene, state, axis, lower, upper, "put it between the walls");
-  }
+  const Box box = box_of(scene.box, state);
+  for (const int axis : {0, 1})
+    if (!box.periodic(axis)) require_inside(scene, state, axis, box.lower[axis], box.upper[axis], "put it between the walls");
 }
 
 }  // namespace carom

@@ -1,6 +1,6 @@
 // Overlap of disks that have grown, in boxes that have moved or are sheared.
 
-#include "observe/overlap.hpp"
+#include "observe/geometry.hpp"
 
 #include "support/systems.hpp"
 

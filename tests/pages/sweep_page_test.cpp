@@ -1,6 +1,6 @@
 // The page of a sweep: a curve for every combination of what else is changed, with error bars, in the order of x.
 
-#include "studies/sweep/page.hpp"
+#include "studies/sweep/products.hpp"
 
 #include "studies/sweep/numbers.hpp"
 #include "support/browser.hpp"

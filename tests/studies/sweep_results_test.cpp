@@ -1,7 +1,7 @@
 // What a sweep finds in the files of its runs, and the tables that it makes of it.
 
+#include "studies/sweep/products.hpp"
 #include "studies/sweep/results.hpp"
-#include "studies/sweep/tables.hpp"
 
 #include "io/hdf5_handle.hpp"
 #include "support/sweep_files.hpp"

@@ -3,7 +3,7 @@
 
 #include "support/program_test.hpp"
 
-#include "studies/sweep/reader.hpp"
+#include "studies/sweep/sweep.hpp"
 
 #include <string>
 

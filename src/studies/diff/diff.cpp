@@ -1,7 +1,7 @@
 #include "studies/diff/diff.hpp"
 
 #include "io/finished_run.hpp"
-#include "observe/overlap.hpp"
+#include "observe/geometry.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

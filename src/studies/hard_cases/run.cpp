@@ -1,7 +1,7 @@
 #include "studies/hard_cases/run.hpp"
 
 #include "core/nearest_image.hpp"
-#include "observe/overlap.hpp"
+#include "observe/geometry.hpp"
 #include "observe/run_measurements.hpp"
 #include "simulation/all_events.hpp"
 

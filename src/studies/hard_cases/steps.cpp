@@ -2,7 +2,7 @@
 
 #include "core/nearest_image.hpp"
 #include "observe/energy.hpp"
-#include "observe/overlap.hpp"
+#include "observe/geometry.hpp"
 #include "text/table.hpp"
 
 #include <carom/scene.hpp>

@@ -6,13 +6,11 @@
 #include "studies/study_directory.hpp"
 #include "studies/sweep/child_runs.hpp"
 #include "studies/sweep/mpi.hpp"
-#include "studies/sweep/page.hpp"
+#include "studies/sweep/products.hpp"
 #include "studies/sweep/ranks.hpp"
-#include "studies/sweep/reader.hpp"
 #include "studies/sweep/results.hpp"
-#include "studies/sweep/tables.hpp"
+#include "studies/sweep/sweep.hpp"
 #include "studies/sweep/text.hpp"
-#include "text/durations.hpp"
 #include "text/numbers.hpp"
 
 #include <carom/pages/page.hpp>

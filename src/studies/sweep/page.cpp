@@ -1,4 +1,4 @@
-#include "studies/sweep/page.hpp"
+#include "studies/sweep/products.hpp"
 
 #include "studies/sweep/numbers.hpp"
 #include "studies/sweep/results.hpp"

@@ -1,4 +1,4 @@
-#include "studies/sweep/reader.hpp"
+#include "studies/sweep/sweep.hpp"
 
 #include "scene/document.hpp"
 #include "scene/drawn.hpp"
@@ -7,7 +7,6 @@
 #include "scene/table_reader.hpp"
 #include "scene/value_text.hpp"
 #include "studies/sweep/numbers.hpp"
-#include "studies/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>

@@ -1,5 +1,5 @@
 #pragma once
-// Many runs of one scene: a grid or a list of changes to it, and for each of them several seeds. Plain data, as read from a sweep
+// Many runs of one scene: a grid or a list of changes to it, and for each of them several seeds. Plain data, read from a sweep
 // file (docs/sweeps.md), and the names of points.
 
 #include <carom/scene.hpp>
@@ -65,5 +65,9 @@ inline constexpr std::array<std::string_view, 4> sweep_products = {"runs.csv", "
 
 /// Returns whether a user may call a point so: letters, digits and . _ = + -, a letter or a digit first, at most 100 of them.
 [[nodiscard]] bool is_point_name(std::string_view name);
+
+/// Reads the file at `path` and the scene that it names; the scene of every point is read and checked. Throws SceneError: one
+/// sentence with the place in the sweep file.
+[[nodiscard]] Sweep load_sweep(const std::string& path);
 
 }  // namespace carom

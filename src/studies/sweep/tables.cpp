@@ -1,7 +1,7 @@
 // Numbers have the fewest digits that read back as the same double; an absent one is an empty cell. The HDF5 file is made in
 // memory, where no disk can be full, and does not depend on the day or the machine.
 
-#include "studies/sweep/tables.hpp"
+#include "studies/sweep/products.hpp"
 
 #include "io/h5md_parts.hpp"
 #include "io/hdf5_handle.hpp"

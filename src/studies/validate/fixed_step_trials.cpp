@@ -1,6 +1,6 @@
 // The methods of fixed steps put to the same questions: what they get wrong, and what they do not. Shown, not judged.
 
-#include "observe/overlap.hpp"
+#include "observe/geometry.hpp"
 #include "studies/validate/gas.hpp"
 #include "studies/validate/speed_law.hpp"
 #include "theory/equation_of_state.hpp"

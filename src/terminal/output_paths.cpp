@@ -1,4 +1,4 @@
-#include "terminal/page_file.hpp"
+#include "terminal/output_paths.hpp"
 
 #include "io/partial_file.hpp"
 #include "terminal/command.hpp"

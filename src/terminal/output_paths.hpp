@@ -1,11 +1,19 @@
 #pragma once
-// The file of a page about a run, and how it is written: a page of the same kind may be replaced, no other file is.
+// Where a command puts what it makes of a run: a directory beside that of the run, or a page.
 
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace carom::cli {
+
+/// Returns the path of a directory with a suffix behind its name: of "runs/gas/" and "-again", runs/gas-again.
+inline std::filesystem::path named_after(const std::string& directory, const char* word) {
+  const std::filesystem::path name = std::filesystem::path(directory).lexically_normal();
+  std::filesystem::path beside = name.has_filename() ? name : name.parent_path();
+  beside += word;
+  return beside;
+}
 
 struct PageKind {
   std::string_view name;  ///< "player"

@@ -1,8 +1,10 @@
 #pragma once
-// A sweep's results as tables: one row per run, and one per point with means over its seeds and their standard errors. The files
-// are runs.csv, sweep.csv and sweep.h5.
+// The files that a sweep makes of its results: runs.csv with a row per run, sweep.csv with a row per point (means over its seeds
+// and their standard errors), both as sweep.h5, and report.html.
 
 #include "studies/sweep/results.hpp"
+
+#include <carom/pages/page.hpp>
 
 #include <string>
 
@@ -15,5 +17,8 @@ namespace carom {
 
 /// Returns the bytes of sweep.h5. Throws detail::Hdf5Error.
 [[nodiscard]] std::string sweep_hdf5(const Sweep& sweep, const SweepResults& results);
+
+/// Returns the page of a sweep.
+[[nodiscard]] Page sweep_page(const Sweep& sweep, const SweepResults& results);
 
 }  // namespace carom
