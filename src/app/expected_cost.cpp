@@ -22,7 +22,7 @@ namespace carom::cli {
 namespace {
 
 /// Length of the trial run. It is checked every tenth of a second and so ends at 0.2 s: long enough for some hundred thousand
-/// collisions, short enough not to be noticed.
+/// collisions, and short enough for a person not to wait.
 constexpr double trial_seconds = 0.15;
 
 /// Largest packing fraction at which the disks are a fluid with a known collision rate.

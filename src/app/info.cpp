@@ -84,7 +84,7 @@ std::string describe_directory(const fs::path& path) {
   if (text.empty()) text = detail::describe_runs_of_sweep(path);
   for (const std::string_view product : run_products) {
     if (product.starts_with("observe_") || product.ends_with(".html"))
-      continue;  // the summary tells of them; a page is for looking at
+      continue;  // the summary describes them, and a page needs no description
     for (const fs::path& file : {path / product, path / fmt::format("{}{}", product, partial_ending)}) {
       std::error_code error;
       const bool unfinished_checkpoint = file.extension() == partial_ending && product.starts_with("checkpoint");

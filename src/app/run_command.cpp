@@ -52,7 +52,7 @@ Simulation simulation_for(const RunOptions& options, const Scene& scene, const s
     throw UsageError(fmt::format("--engine {}: a fixed-step method has no engine; leave out one of the two", engine));
   if (!options.dt && !scene.run.sample_every)
     throw UsageError(fmt::format("--method {} needs a time step: give --dt, or the scene a run.sample_every", options.method));
-  constexpr double most_steps = 9007199254740992.0;  // 2^53, beyond which steps cannot be told apart
+  constexpr double most_steps = 9007199254740992.0;  // 2^53, beyond which doubles cannot count steps
   if (options.dt && *options.dt > 0.0 && scene.run.time && *scene.run.time / *options.dt > most_steps)
     throw UsageError(
         fmt::format("--dt {:g}: the run would take {:.1g} steps; take longer ones", *options.dt, *scene.run.time / *options.dt));

@@ -35,7 +35,7 @@ fs::path place_for_temporary_files() {
   std::error_code error;
   const fs::path place = fs::temp_directory_path(error);
   if (!error) return place;
-  for (const char* name : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"})  // in the order in which the library looks
+  for (const char* name : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"})  // in the order of the library
     if (const char* value = std::getenv(name))
       throw UsageError(
           fmt::format("{}={}: there is no such directory for temporary files; set {} to one that is there", name, value, name));

@@ -1,6 +1,6 @@
 #pragma once
 // DIR/checkpoint.h5: all that a run needs to go on as if it had never been interrupted. An HDF5 file behind 512 bytes of text
-// that say how long the file is and what its checksum is (128 bits of XXH3), so that whatever happens to it is noticed before
+// that say how long the file is and what its checksum is (128 bits of XXH3), so that any change of it is detected before
 // anything is read. It is written beside the last one, and takes its name when it is safe on the disk; the last one stays, as
 // DIR/checkpoint-previous.h5.
 

@@ -1,4 +1,4 @@
-// Buffered text with every failure noticed.
+// Buffered text that reports every failure.
 
 #include "io/text_file.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// All pairs of disks nearer than a distance in a periodic box: a grid of cells at least as wide, looked through once per state.
+// All pairs of disks nearer than a distance in a periodic box: a grid of cells at least as wide, searched once per state.
 
 #include <carom/box.hpp>
 

@@ -68,7 +68,7 @@ struct ResultKey {
   const char* key;            ///< in summary.json; a slash leads into a table
   const char* unit = "";      ///< unit of the number; "energy" is energy that disks gained
   const char* quantity = "";  ///< name in tables for people; empty where they leave the number out
-  const char* remark = "";    ///< what stands beside the number there
+  const char* remark = "";    ///< remark beside the number
 };
 
 /// Calls visit(section, part, numbers) for each part that is a section of summary.json of its own; numbers(*part, put) calls

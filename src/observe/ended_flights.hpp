@@ -1,5 +1,5 @@
 #pragma once
-// Free flights that collisions have ended, gathered until there are enough of them to be looked at together.
+// Free flights that collisions have ended, gathered until there are enough to process together.
 
 #include "core/instant.hpp"
 

@@ -228,7 +228,7 @@ class FreeFlight final : public SavedObservable<FreeFlight>, public RecordFollow
   EndedFlights ended_;
   std::uint64_t count_ = 0;                  ///< number of collisions in it
   std::uint64_t counted_ = 0, samples_ = 0;  ///< flights, and samples, since the last one of the histograms
-  std::uint64_t histograms_ = 0;             ///< that were looked at
+  std::uint64_t histograms_ = 0;             ///< that were examined
   const EndedFlightsKernel& kernel_ = ended_flights_kernel();
   Blocking mean_time_, mean_path_;
 };

@@ -74,7 +74,7 @@ class Observation::Driver {
     return next;
   }
 
-  /// All that happened so far has been looked at.
+  /// All collisions so far have been processed.
   void finish() {
     if (thread_) thread_->finish();
   }

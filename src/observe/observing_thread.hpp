@@ -1,6 +1,6 @@
 #pragma once
 // Observables at work on a thread of their own, behind the run that feeds them: events and states are copied, collision records
-// are written where they will be read, and all are handed over and looked at in the order in which they came, so that results are
+// are written where they will be read, and all are handed over and processed in the order in which they came, so that results are
 // the same to the last bit.
 
 #include "observe/observable_group.hpp"
@@ -55,7 +55,7 @@ class ObservingThread {
   void rethrow();
 
   ObservableGroup& group_;
-  const std::size_t most_states_;  ///< that are handed over and not yet looked at
+  const std::size_t most_states_;  ///< that are handed over and not yet processed
   Work gathered_;                  ///< of the run's thread, not handed over yet
   std::mutex mutex_;               ///< of all below
   std::condition_variable changed_;

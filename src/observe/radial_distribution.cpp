@@ -4,7 +4,7 @@
 // The contact value g(sigma+) of disks of one size comes from bins of their own next to contact: the cubic through them, taken at
 // contact. Each bin's count is compared with the cubic's integral over the bin, so the width of bins enters no further; the
 // cubic's own error is below 1e-3 where ln g bends over distances of sigma / 4, which it does up to freezing. It is a linear
-// function of the counts, so blocking tells its error.
+// function of the counts, so blocking gives its error.
 
 #include "core/all_equal.hpp"
 #include "observe/blocking.hpp"

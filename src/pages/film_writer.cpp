@@ -170,7 +170,7 @@ bool FilmWriter::frame(std::span<const std::uint32_t> pixels) {
     } else if (errno == EAGAIN) {
       if (!keep_going_()) return false;
       pollfd room{.fd = pipe_, .events = POLLOUT, .revents = 0};
-      ::poll(&room, 1, 100);  // milliseconds, within which Ctrl-C is noticed
+      ::poll(&room, 1, 100);  // milliseconds: the longest delay of Ctrl-C
     } else if (errno != EINTR) {
       fail();
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Columns of numbers in one string of bytes, with a list of where each is: what the page turns into typed arrays.
+// Columns of numbers in one string of bytes, with the offset of each, which the page converts to typed arrays.
 
 #include <nlohmann/json.hpp>
 

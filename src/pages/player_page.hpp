@@ -12,14 +12,14 @@ namespace carom {
 
 /// A kind of player. Files are below src/pages.
 struct PlayerKind {
-  std::string_view mark;                    ///< mark near the beginning, by which this kind of page is told from other files
+  std::string_view mark;                    ///< mark near the beginning that identifies this kind of page
   std::string_view untitled;                ///< the page's title, where the description has none
   std::string_view parts;                   ///< a file: what stands in each {PLACE} of player/player.html, below a line {PLACE}
   std::string_view replay;                  ///< a script: the constant `replay`, with the state at any time
   std::span<const std::string_view> panel;  ///< scripts, the last of which makes the constant `panel`
 };
 
-/// The mark near the beginning of every player of a run, by which it is told from other files.
+/// The mark near the beginning of every player of a run, which identifies it.
 inline constexpr std::string_view player_mark = "<meta name=\"generator\" content=\"carom play\">";
 
 /// Returns the player of a run, or one of another kind.

@@ -16,7 +16,7 @@
 
 namespace carom {
 
-/// The mark near the beginning of every report, by which it is told from other files.
+/// The mark near the beginning of every report, which identifies it.
 inline constexpr std::string_view report_mark = "<meta name=\"generator\" content=\"carom report\">";
 
 /// Returns what theory says of a run that was read back; `record` must live as long as that.

@@ -1,6 +1,6 @@
 #pragma once
 // One run with its files: from its start, or from a checkpoint, to its summary and its page. Nothing is printed, and nothing ends
-// the program: the caller is told what happens, and says when to stop.
+// the program: hooks report events to the caller, and can stop the run.
 
 #include "io/checkpoint.hpp"
 #include "io/provenance.hpp"

@@ -1,6 +1,7 @@
 // Ranges in which the arithmetic of every engine keeps its digits, and in which a run can come to its end. What is held against
 // them are not the numbers of a scene but what follows from them: how fast what acts makes disks, where walls get to, how far a
-// disk moves from one kick, or one sample, to the next. Each refusal says the range of the number itself in this scene.
+// disk moves from one event of the thermostat, or one sample, to the next. Each refusal says the range of the number itself in
+// this scene.
 //
 // Predictions square products of speed and length; both must be normal numbers: 1e-150 < v r, v L < 1e150. docs/numerics.md
 

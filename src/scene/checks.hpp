@@ -17,7 +17,7 @@ namespace carom::detail {
 inline constexpr double touching = 1e-9;
 /// pi / (2 sqrt 3): no arrangement of equal disks is denser, in a rectangle or on a torus.
 inline constexpr double closest_packing = std::numbers::pi / (2.0 * std::numbers::sqrt3);
-/// Numbers of samples, steps and kicks are exact in double precision below it.
+/// Numbers of samples, steps and events of the thermostat are exact in double precision below it.
 inline constexpr double most_countable = 9007199254740992.0;  // 2^53
 inline constexpr const char* axis_names[] = {"x", "y"};
 

@@ -36,11 +36,12 @@ struct EffectTraits {
   bool (*is_present)(const Effects&);  ///< the scene names it
   bool (*acts)(const Effects&);        ///< the scene names it at another value than its neutral one, which leaves the same bits
 
-  std::vector<EffectNumber> numbers = {};          ///< of the table [name], all of them required
-  std::vector<std::string_view> other_keys = {};   ///< of that table, which have readers of their own
-  std::string_view unit_of_other_keys = {};        ///< unit of the numbers under them; empty for pure numbers
-  std::string (*words)(const Effects&) = nullptr;  ///< what it does, with its numbers; null where collision or walls tell it
-  std::vector<Exclusion> excludes = {};            ///< effects with which it cannot be combined
+  std::vector<EffectNumber> numbers = {};         ///< of the table [name], all of them required
+  std::vector<std::string_view> other_keys = {};  ///< of that table, which have readers of their own
+  std::string_view unit_of_other_keys = {};       ///< unit of the numbers under them; empty for pure numbers
+  std::string (*words)(const Effects&) =
+      nullptr;  ///< what it does, with its numbers; null where the words on collision or walls contain it
+  std::vector<Exclusion> excludes = {};  ///< effects with which it cannot be combined
 
   bool conserves_energy = true;             ///< conserves the energy of disks and pistons together
   bool conserves_momentum = true;           ///< conserves the total momentum of the disks along a periodic axis
@@ -66,7 +67,7 @@ struct EffectTraits {
   std::string_view why_no_transport = {};      ///< Green-Kubo and Einstein-Helfand: follows "observe.NAME has no meaning here: "
 };
 
-/// All effects beyond the collision rule and hard walls, in the order in which people are told of them.
+/// All effects beyond the collision rule and hard walls, in the order of all lists that people read.
 [[nodiscard]] const std::vector<EffectTraits>& all_effects();
 
 /// The row of a name. Requires that there is one.

@@ -12,7 +12,7 @@
 namespace carom::detail {
 
 BoxDraft read_box(const toml::table& table);
-/// `path` is "disks.0"; relative start files are looked for in `directory`.
+/// `path` is "disks.0"; relative start files are in `directory`.
 DisksDraft read_disks(const toml::table& table, const std::string& path, const std::string& directory);
 /// Fills positions, and with them count, rows and whatever the columns of a start file give.
 void read_positions(const TableReader& table, const std::string& directory, DisksDraft& disks);

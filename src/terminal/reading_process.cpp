@@ -95,7 +95,7 @@ ExitCode in_reading_process(const fs::path& file, const std::function<ExitCode()
     if (getppid() != parent) return exit_failed;
     return command();
   }
-  setpgid(child, child);  // before any signal, whoever of the two comes first
+  setpgid(child, child);  // before any signal, in either order of the two processes
   const HandOn hand_on_signals(child);
   const int status = status_of(child);
   if (WIFEXITED(status)) return static_cast<ExitCode>(WEXITSTATUS(status));

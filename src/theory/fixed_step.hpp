@@ -11,10 +11,10 @@ enum class Notices {
 };
 
 /// Returns the fraction of collisions that a step passes over. `step` = v_T dt / sigma with v_T = sqrt(kT / m). For small steps
-/// step^2 / 4 where contact is noticed, step^2 where approach is.
+/// step^2 / 4 where contact is detected, step^2 where approach is.
 [[nodiscard]] double missed_fraction(double step, Notices notices);
 
-/// Mean of (sigma - |r|) / sigma at the step at which a collision is noticed, of pairs that approach. For small steps
+/// Mean of (sigma - |r|) / sigma at the step at which a collision is detected, of pairs that approach. For small steps
 /// (sqrt(pi) / 2) step.
 [[nodiscard]] double mean_depth(double step);
 

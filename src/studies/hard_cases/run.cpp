@@ -15,7 +15,7 @@ namespace carom {
 
 namespace {
 
-/// Ends of blocks at which overlap is looked for, before it becomes rarer: states are copied for it.
+/// Ends of blocks at which overlap is computed, before it becomes rarer: states are copied for it.
 constexpr std::uint64_t most_contacts = 256;
 
 /// Looks on while the schedule runs.

@@ -26,7 +26,7 @@ struct EngineRun {
   std::vector<Event> events;  ///< the first ones
   double last_sample = 0.0;   ///< its time
   double overlap = 0.0;       ///< deepest, in contact distances: at the start, samples, collisions now and then, and the end
-  bool finite = true;         ///< every number in every state that was looked at
+  bool finite = true;         ///< every number in every examined state is finite
   bool monotone = true;       ///< neither an event nor a sample before the one that came before it
   std::vector<std::string> faults;  ///< faults found by check_invariants(), except overlap, which has a bound of its own
 };

@@ -24,7 +24,7 @@ namespace {
 constexpr double diameters_per_step = 0.05;
 /// A case is followed for so many steps at most: the faults of a method show in the first few collisions.
 constexpr double most_steps = 2'000.0;
-/// And for so many pairs looked at, a second or so with the tenfold steps that are to do better.
+/// And for so many examined pairs, a second or so with the tenfold steps that are to do better.
 constexpr double most_looks = 2e7;
 /// Errors below this many diameters count as held: a first-order method that is right has about dt v / sigma.
 constexpr double held = 1e-6;

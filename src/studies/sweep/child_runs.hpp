@@ -29,9 +29,9 @@ struct RunEnd {
 /// `tick` returns false. Never throws: whatever goes wrong is the failure of this run.
 [[nodiscard]] RunEnd carry_out(const RunOrder& order, const StopRequest& stop, const std::function<bool()>& tick);
 
-/// The source of runs, which is also told how they end. Each function is called by one thread at a time.
+/// The source of runs, to which their ends are reported. Each function is called by one thread at a time.
 struct RunDesk {
-  std::function<std::optional<RunOrder>()> next;  ///< nothing: there are no more
+  std::function<std::optional<RunOrder>()> next;  ///< empty when there are no more
   std::function<void(const RunOrder&, const RunEnd&)> done;
 };
 

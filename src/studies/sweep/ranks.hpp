@@ -14,7 +14,7 @@ namespace carom::cli {
 class SweepServer {
  public:
   explicit SweepServer(Ranks& ranks) : ranks_(ranks), working_(ranks.size() - 1) {}
-  ~SweepServer();  ///< sends the others home
+  ~SweepServer();  ///< has the other processes end
   SweepServer(const SweepServer&) = delete;
   SweepServer& operator=(const SweepServer&) = delete;
 

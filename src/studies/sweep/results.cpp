@@ -70,7 +70,7 @@ FoundRun find_run(const fs::path& directory, const std::function<std::string()>&
   if (!fs::is_regular_file(directory / "summary.json", error)) return {};
   try {
     return run_of(Json::parse(std::ifstream(directory / "summary.json")), resolved());
-  } catch (const Json::exception&) {  // cut short, or nobody's summary
+  } catch (const Json::exception&) {  // cut short, or not a summary
     return {};
   }
 }

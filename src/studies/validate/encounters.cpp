@@ -7,7 +7,7 @@ namespace carom::validation {
 
 namespace {
 
-/// Returns the bin of a speed; the last is for all that are faster, and is not looked at.
+/// Returns the bin of a speed; the last holds all faster disks, and is not compared.
 std::size_t bin_of(double speed) {
   return std::min(Encounters::speeds, static_cast<std::size_t>(speed / Encounters::speed_width));
 }

@@ -15,7 +15,7 @@ namespace carom::validation {
 
 namespace {
 
-constexpr std::int64_t few_disks = 64;  // few, so that the law for few disks can be told from that for many
+constexpr std::int64_t few_disks = 64;  // few, so that the law for few disks can be distinguished from that for many
 
 /// All along x, half of them to either side, so that momentum is zero.
 void all_along_x(State& start) {
