@@ -56,10 +56,9 @@ SummaryRow momentum_row(const RunRecord& record) {
 std::string what_rounding_allows(const RunReport& report) {
   const bool is_single = unit_of(report) > 1e-10;
   const std::string text = fmt::format(
-      "Each of n = {} collisions rounds the velocities of two of the N disks by some u = {}. At random this adds up to a "
-      "relative "
-      "change of energy, and of momentum over √(2 M E) (the momentum if all disks moved in one direction), of the order of 4 u "
-      "√n / N = {:.1e}",
+      "Each of n = {} collisions rounds the velocities of two of the N disks by about u = {}. At random this adds up to "
+      "4 u √n / N = {:.1e}: in the relative change of energy, and in that of momentum over √(2 M E), the momentum if all disks "
+      "moved in one direction",
       grouped(report.totals.pair + report.totals.wall + report.totals.obstacle), is_single ? "2⁻²⁴" : "2⁻⁵³",
       rounding_of(report));
   // Supplied and lost energy is added up collision by collision, and each addition rounds a sum as large as the energy itself.
@@ -77,7 +76,7 @@ std::string what_rounding_allows(const RunReport& report) {
 
 TextTable numerics_table(const Numerics& numerics) {
   const auto count = [](std::uint64_t value) { return grouped(value); };
-  TextTable table{.title = "Near misses of the arithmetic", .columns = {"kind", "number", "meaning"}};
+  TextTable table{.title = "Numerical near misses", .columns = {"kind", "number", "meaning"}};
   table.rows = {
       {"simultaneous", count(numerics.simultaneous), "collisions at exactly the time of the collision before"},
       {"overlapping", count(numerics.overlapping),
@@ -86,11 +85,12 @@ TextTable numerics_table(const Numerics& numerics) {
            : fmt::format(
                  "pairs that overlapped by more than rounding when they collided, by up to {:.1e} of their contact distance",
                  numerics.deepest_overlap)},
-      {"grazing", count(numerics.grazing), "collisions that rounding decided: the pair might as well have passed"},
-      {"already receding", count(numerics.already_receding), "collisions without exchange: rounding had the pair recede already"},
-      {"epochs", count(numerics.epochs), "times at which the engine's clock was set to zero again"},
+      {"grazing", count(numerics.grazing), "contacts that rounding decided: the pair may as well have missed"},
+      {"already receding", count(numerics.already_receding),
+       "collisions without exchange of momentum: by rounding the pair already receded"},
+      {"epochs", count(numerics.epochs), "times that the engine's clock was set to zero"},
       {"early epochs", count(numerics.early_epochs), "epochs begun early because a disk had become too fast"},
-      {"list rebuilds", count(numerics.list_rebuilds), "times that all neighbour lists, or all cells, were built anew"}};
+      {"list rebuilds", count(numerics.list_rebuilds), "times that all neighbour lists, or all cells, were rebuilt"}};
   table.caption = "None of these is an error. Where the first four are many, rounding decided much of this run.";
   return table;
 }
