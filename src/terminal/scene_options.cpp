@@ -4,7 +4,6 @@
 
 #include "scene/document.hpp"
 #include "scene/table_reader.hpp"
-#include "scene/text_file.hpp"
 #include "simulation/fixed_step.hpp"
 #include "terminal/command.hpp"
 

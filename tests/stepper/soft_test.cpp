@@ -1,8 +1,8 @@
 // Springs in fixed steps: one contact in closed form, what is conserved, and the limit of hard disks.
 
 #include "stepper/soft.hpp"
+#include "observe/geometry.hpp"
 #include "observe/mechanics.hpp"
-#include "observe/overlap.hpp"
 #include "stepper/guarded.hpp"
 #include "stepper/stepper.hpp"
 #include "support/exact_run.hpp"

@@ -1,7 +1,7 @@
 #include "studies/benchmark/measured_on.hpp"
 
 #include "core/instructions.hpp"
-#include "io/build_json.hpp"
+#include "io/json.hpp"
 #include "studies/machine.hpp"
 
 #include <fmt/format.h>
