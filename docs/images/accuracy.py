@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
-"""Draws what accuracy costs from what `carom compare` wrote for the scenes accuracy_*.toml beside this file.
+"""Measures and draws what accuracy costs: `carom compare` of the scenes accuracy_*.toml beside this file.
 
-    docs/images/accuracy.py DILUTE MODERATE DENSE
+    docs/images/accuracy.py DIRECTORY [--carom build/release/carom]
 
-Each argument is the directory of one comparison. Needs python3-matplotlib. Writes accuracy_work.svg, accuracy_growth.svg and
-accuracy_steps.svg beside this file.
+Runs the comparisons into DIRECTORY (each a minute and a half on an idle machine), or takes those that it holds. Needs
+python3-matplotlib. Writes accuracy_work.svg, accuracy_trust.svg, accuracy_growth.svg, accuracy_steps.svg, and their numbers as
+accuracy_prices.csv and accuracy_points.csv beside this file, and prints the tables of docs/accuracy.md.
 """
+import argparse
+import csv
 import json
 import pathlib
 import statistics
-import sys
+import subprocess
 
 import matplotlib
 
@@ -19,13 +22,27 @@ matplotlib.rcParams["font.size"] = 8
 import matplotlib.pyplot as plt
 
 here = pathlib.Path(__file__).resolve().parent
-studies = [json.loads((pathlib.Path(argument) / "compare.json").read_text()) for argument in sys.argv[1:]]
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("directory", type=pathlib.Path)
+parser.add_argument("--carom", default="build/release/carom")
+arguments = parser.parse_args()
+
+
+def study_of(name):
+    directory = arguments.directory / name
+    if not (directory / "compare.json").exists():
+        subprocess.run([arguments.carom, "compare", str(here / f"accuracy_{name}.toml"), "--out", str(directory)], check=True)
+    return json.loads((directory / "compare.json").read_text())
+
+
+every = {name: study_of(name) for name in ("dilute", "moderate", "dense", "reversal")}
+studies = [every[name] for name in ("dilute", "moderate", "dense")]
 
 names = {"fast": "exact, fast engine", "textbook": "exact, double", "textbook-float": "exact, float",
-         "textbook-long-double": "exact, 64 bits", "grid": "fixed step, grid", "guarded": "fixed step, guarded",
-         "naive": "fixed step, naive"}
-colours = {"fast": "#0072b2", "grid": "#d55e00", "guarded": "#009e73", "naive": "#cc79a7", "textbook-float": "#56b4e9",
-           "textbook": "#000000", "textbook-long-double": "#7f7f00"}
+         "textbook-long-double": "exact, 64 bits", "grid": "grid", "naive": "naive", "backtrack": "backtrack", "swept": "swept",
+         "soft": "soft"}
+colours = {"fast": "#0072b2", "grid": "#d55e00", "naive": "#cc79a7", "textbook-float": "#56b4e9", "textbook": "#000000",
+           "textbook-long-double": "#7f7f00", "backtrack": "#e69f00", "swept": "#009e73", "soft": "#999999"}
 
 
 def panels(height):
@@ -56,6 +73,23 @@ save(figure, axes, "accuracy_work.svg")
 figure, axes = panels(3.2)
 for axis, study in zip(axes, studies):
     plan = study["plan"]
+    per_disk = 1e9 * plan["mean_free_time"] / study["disks"]
+    for method, name in names.items():
+        rows = [row for row in study["summary"] if row["method"] == method and row["horizon_in_collisions_per_disk"]]
+        if rows and rows[0]["dt"] > 0:
+            axis.plot([per_disk * row["seconds_per_time"] for row in rows], [row["horizon_in_collisions_per_disk"] for row in rows],
+                      "o-", markersize=3, color=colours[method], label=name, linewidth=1)
+        exact = [row for row in study["horizon"]["rows"] if row["engine"] == method and row["collisions_per_disk"]]
+        for row in exact:
+            axis.plot(per_disk * row["seconds"] / study["horizon"]["timed_until"], row["collisions_per_disk"], "D", markersize=5,
+                      color=colours[method], label=name)
+    axis.set(xscale="log", xlabel="processor time per disk and mean free time (ns)")
+axes[0].set_ylabel("horizon (collisions per disk)")
+save(figure, axes, "accuracy_trust.svg")
+
+figure, axes = panels(3.2)
+for axis, study in zip(axes, studies):
+    plan = study["plan"]
     steps = [dt for dt in plan["dt"] if dt < 0.2 * plan["mean_free_time"]][::6]
     for method in ("textbook-float", "textbook", "fast", "textbook-long-double"):
         errors = [run["error"] for run in study["runs"] if run["method"] == method]
@@ -77,7 +111,7 @@ save(figure, axes, "accuracy_growth.svg")
 figure, axes = panels(3.2)
 for axis, study in zip(axes, studies):
     plan = study["plan"]
-    for method in ("naive", "grid"):
+    for method in ("naive", "grid", "backtrack", "swept", "soft"):
         rows = [row for row in study["summary"] if row["method"] == method and row["bias"]["Z"]]
         axis.errorbar([row["dt"] / plan["mean_free_time"] for row in rows],
                       [100 * row["bias"]["Z"]["value"] for row in rows], [100 * row["bias"]["Z"]["error"] for row in rows], fmt="o-", markersize=3, linewidth=1,
@@ -86,3 +120,40 @@ for axis, study in zip(axes, studies):
     axis.set(xscale="log", xlabel="dt (mean free times)")
 axes[0].set_ylabel("bias of Z (%)")
 save(figure, axes, "accuracy_steps.svg")
+
+with open(here / "accuracy_prices.csv", "w", newline="") as file:
+    table = csv.writer(file)
+    table.writerow(["scene", "machine", "method", "target", "ratio", "least", "greatest", "extrapolation", "dt", "seconds"])
+    for name, study in every.items():
+        for price in study["prices"]:
+            if price["ratio"] is not None:
+                table.writerow([name, study["plan"]["machine"], price["method"], price["target"], price["ratio"], *price["spread"],
+                                price["extrapolation"], price["dt"], price["seconds"]])
+
+with open(here / "accuracy_points.csv", "w", newline="") as file:
+    table = csv.writer(file)
+    table.writerow(["scene", "method", "dt", "error_early", "seconds_early", "horizon", "bias_of_Z", "error_of_bias"])
+    for name, study in every.items():
+        for row in study["summary"]:
+            bias = row["bias"]["Z"] or {"value": None, "error": None}
+            table.writerow([name, row["method"], row["dt"], row["error_early"]["median"], row["seconds_early"],
+                            row["horizon_in_collisions_per_disk"], bias["value"], bias["error"]])
+
+
+def cell(study, method, target):
+    for price in study["prices"]:
+        if price["method"] == method and price["target"] == target and price["ratio"] is not None:
+            two_digits = f"{price['ratio']:.2g}"
+            ratio = two_digits if price["ratio"] < 100 else f"{float(two_digits):,.0f}"
+            step = f" ({price['dt'] / study['plan']['mean_free_time']:.2g})" if price["dt"] else ""
+            return ratio + ("*" if price["extrapolated"] else "") + step
+    return "–"
+
+
+for name, study in every.items():
+    print(f"\n{name}: {study['plan']['machine']}")
+    for sentence in study["sentences"]:
+        print(f"  {sentence}")
+    for method in names:
+        print(f"| {method} | " + " | ".join(cell(study, method, target) for target in
+                                            ("error 1e-6", "error 1e-10", "Z 1 %", "Z 0.1 %")) + " |")
