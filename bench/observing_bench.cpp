@@ -2,8 +2,9 @@
 // each observable that follows collisions, with all of them, and with those that look at states, each at its default step; in the
 // thread of the run, and beside it. The same stretch of one trajectory runs with and without them in turns, from a simulation
 // made anew each time: stretches that follow each other differ by some per cent, since an engine tries other neighbourhoods from
-// time to time. What counts is the median of the ratios. The time is that of a clock on the wall. Before a time is taken one run
-// is looked at: energy is kept, and the rate that was observed is that of the totals.
+// time to time. What counts is the median of the ratios. The time is that of a clock on the wall; beside it stands the ratio of
+// the processor time of the run's thread alone, which other programs disturb less. Before a time is taken one run is looked at:
+// energy is kept, and the rate that was observed is that of the totals.
 
 #include "observe/mechanics.hpp"
 #include "support/systems.hpp"
@@ -15,6 +16,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -57,6 +59,13 @@ std::string fault(Simulation simulation) {
   return std::abs(drift) < 1e-16 * static_cast<double>(collisions) ? "" : "the energy has changed";
 }
 
+/// The processor time of this thread so far.
+double thread_seconds() {
+  timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 void observing(benchmark::State& state, const std::vector<std::string>& observables, bool beside = false) {
   const Scene scene = scene_with(observables, 0.01 * static_cast<double>(state.range(0)), state.range(1));
   const auto begun = [&] {
@@ -69,22 +78,25 @@ void observing(benchmark::State& state, const std::vector<std::string>& observab
     state.SkipWithError(what.c_str());
     return;
   }
-  std::vector<double> ratios, plain, observed;
-  const auto time = [&](auto&& go, std::vector<double>& times) {
+  std::vector<double> ratios, thread_ratios, plain, observed, plain_thread, observed_thread;
+  const auto time = [&](auto&& go, std::vector<double>& times, std::vector<double>& thread_times) {
     Simulation simulation = begun();
     const auto began = std::chrono::steady_clock::now();
+    const double thread_began = thread_seconds();
     go(simulation);
+    thread_times.push_back((thread_seconds() - thread_began) / collisions);
     times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() / collisions);
   };
-  const auto without = [&] { time([](Simulation& simulation) { run_schedule(simulation); }, plain); };
+  const auto without = [&] { time([](Simulation& simulation) { run_schedule(simulation); }, plain, plain_thread); };
   const auto with = [&] {
-    time([&](Simulation& simulation) { benchmark::DoNotOptimize(observe(simulation, beside)); }, observed);
+    time([&](Simulation& simulation) { benchmark::DoNotOptimize(observe(simulation, beside)); }, observed, observed_thread);
   };
   for (auto _ : state) {
     const bool first = plain.size() % 2 == 0;  // they take turns in coming first
     first ? without() : with();
     first ? with() : without();
     ratios.push_back(observed.back() / plain.back());
+    thread_ratios.push_back(observed_thread.back() / plain_thread.back());
     state.SetIterationTime(observed.back() * collisions);
   }
   const auto middle = [](std::vector<double>& values) {
@@ -94,6 +106,7 @@ void observing(benchmark::State& state, const std::vector<std::string>& observab
   state.counters["s/collision"] = middle(observed);
   state.counters["unobserved"] = middle(plain);
   state.counters["ratio"] = middle(ratios);
+  state.counters["ratio of thread"] = middle(thread_ratios);
   state.counters["ratio of fastest"] =
       *std::min_element(observed.begin(), observed.end()) / *std::min_element(plain.begin(), plain.end());
 }
