@@ -101,7 +101,7 @@ void EventLoop<Impact, Layout, World>::choose_epoch_length() {
   limits_.suit_epoch(epoch_length_);
 }
 
-/// The longest epoch that accelerations, moving walls, growth and shear allow.
+/// The longest epoch that the effects allow.
 template <class Impact, class Layout, class World>
 double EventLoop<Impact, Layout, World>::longest_epoch_of_world() const {
   double longest = never;
