@@ -95,9 +95,9 @@ TEST_F(MethodOption, WhatDoesNotFitTogetherIsRefusedInOneSentence) {
   refused({"--method", "leapfrog"}, "choose exact or one of: naive, naive-edge, guarded, grid, backtrack, swept, soft");
   refused({"--dt", "0.1"}, "exact events need none");
   refused({"--method", "grid", "--engine", "textbook"}, "leave out one of the two");
-  refused({"--method", "grid", "--dt", "0"}, "dt must be positive and finite");
-  refused({"--method", "grid", "--dt", "-1"}, "dt must be positive and finite");
-  refused({"--method", "grid", "--dt", "nan"}, "dt must be positive and finite");
+  refused({"--method", "grid", "--dt", "0"}, "it must be positive and finite");
+  refused({"--method", "grid", "--dt", "-1"}, "it must be positive and finite");
+  refused({"--method", "grid", "--dt", "nan"}, "it must be positive and finite");
   refused({"--method", "grid", "--dt", "1e300"}, "take a shorter one");
   refused({"--method", "grid", "--dt", "soon"}, "--dt");
 }

@@ -160,5 +160,5 @@
   // Words.
   check("the method is named", reading("steps-words") === "guarded, dt = 0.05");
   check("steps are counted", columns.turnStep.length > 0 && count === Math.floor(duration / dt + 1e-9));
-  check("the keys", byId("help").textContent.includes("to the next step") && byId("help").textContent.includes("Oto the next overlap"));
+  check("the keys", byId("help").textContent.includes("next step, previous one") && byId("help").textContent.includes("Oto the next overlap"));
 }
