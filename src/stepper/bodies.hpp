@@ -137,7 +137,7 @@ struct Bodies {
   void move_block(std::size_t i, double t) {
     using Pair = double __attribute__((vector_size(16)));
     const Pair lower{domain.lower[0], domain.lower[1]}, upper{domain.upper[0], domain.upper[1]};
-    auto inside = lower <= lower;
+    auto inside = lower <= upper;  // true on both axes
     for (std::size_t k = i; k < i + block; ++k) {
       const Pair place = Pair{r[k][0], r[k][1]} + Pair{v[k][0], v[k][1]} * t;
       inside &= (place >= lower) & (place < upper);
