@@ -2,19 +2,18 @@
 
 #include "engine/boundary_planner.hpp"
 
+#include "core/real.hpp"
 #include "effects/plain_world.hpp"
 #include "effects/world.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace carom::test {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double radius = 0.5, epoch_length = 1024.0;
+constexpr double radius = 0.5, length_of_epoch = 1024.0;
 
 Box box_with(Boundary across_x, Boundary across_y) {
   Box box;
@@ -41,9 +40,9 @@ struct OneDisk {
     return state;
   }
 
-  Plan planned(double now = 0.0, double leaving = never) {
-    plans[0] = {never, leaving, -1, neighbourhood_edge, 1, 1};
-    planner.plan(0, line, radius, now, epoch_length, plans);
+  Plan planned(double now = 0.0, double leaving = infinity<double>) {
+    plans[0] = {infinity<double>, leaving, -1, neighbourhood_edge, 1, 1};
+    planner.plan(0, line, radius, now, length_of_epoch, plans);
     return plans[0];
   }
   [[nodiscard]] bool within_reach() const { return planner.within_reach(frame.neighbourhood_centre(0, line, 0.0, 0.0)); }
@@ -77,7 +76,7 @@ TYPED_TEST(BoundaryPlannerIn, ADiskInContactThatMovesIntoItsWallMeetsItNowAndARe
   const Plan away = OneDisk<TypeParam>(box, {4.0, 0.5}, {0.0, 1.0}).planned();
   EXPECT_EQ(away.edge, std::int32_t{wall_top});
   EXPECT_NEAR(away.edge_time, 7.0, 1e-14);
-  EXPECT_EQ((OneDisk<TypeParam>(box, {4.0, 4.0}, {3.0, 0.0}).planned().edge_time), never);
+  EXPECT_EQ((OneDisk<TypeParam>(box, {4.0, 4.0}, {3.0, 0.0}).planned().edge_time), infinity<double>);
 }
 
 TYPED_TEST(BoundaryPlannerIn, OnlyWallsThatANeighbourhoodComesNearAreWithinReach) {

@@ -2,23 +2,22 @@
 
 #include "engine/plans.hpp"
 
+#include "core/real.hpp"
+
 #include <carom/state.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 #include <vector>
 
 namespace carom::test {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
 TEST(Plans, TheEarlierOfTwoEventsIsTheNextAndTheEdgeWinsATie) {
-  for (const double pair : {1.0, 2.0, never})
-    for (const double edge : {1.0, 2.0, never}) {
+  for (const double pair : {1.0, 2.0, infinity<double>})
+    for (const double edge : {1.0, 2.0, infinity<double>}) {
       const Plan plan{pair, edge, 7, wall_top, 1, 1};
       EXPECT_EQ(plan.edge_first(), edge <= pair);
       EXPECT_EQ(plan.time(), edge <= pair ? edge : pair);
@@ -27,7 +26,7 @@ TEST(Plans, TheEarlierOfTwoEventsIsTheNextAndTheEdgeWinsATie) {
 }
 
 TEST(Plans, AWallTakesThePlaceOfALaterEventAndOfLeavingTheNeighbourhoodAtItsTime) {
-  Plan plan{never, 2.0, -1, neighbourhood_edge, 1, 1};
+  Plan plan{infinity<double>, 2.0, -1, neighbourhood_edge, 1, 1};
   plan.consider_edge(3.0, wall_left);
   EXPECT_EQ(plan.edge, neighbourhood_edge);
   plan.consider_edge(2.0, wall_left);
@@ -44,14 +43,14 @@ TEST(Plans, APlanIsStaleOnceThePartnerHasCollidedAndStaysSoInANewEpoch) {
   Plans plans(3, ids);
   plans[0] = {5.0, 9.0, 1, neighbourhood_edge, 4, 4};
   plans[1] = {6.0, 3.0, 2, neighbourhood_edge, 3, 3};
-  plans[2] = {never, 7.0, -1, neighbourhood_edge, 5, 5};
+  plans[2] = {infinity<double>, 7.0, -1, neighbourhood_edge, 5, 5};
   EXPECT_FALSE(plans.is_stale(plans[0]));
   EXPECT_TRUE(plans.is_stale(plans[1]));
   plans.rebase(4.0);
   EXPECT_EQ(plans[0].pair_time, 1.0);
   EXPECT_EQ(plans[0].edge_time, 5.0);
   EXPECT_EQ(plans[1].edge_time, 0.0);  // never before the zero of time
-  EXPECT_EQ(plans[2].pair_time, never);
+  EXPECT_EQ(plans[2].pair_time, infinity<double>);
   EXPECT_FALSE(plans.is_stale(plans[0]));
   EXPECT_TRUE(plans.is_stale(plans[1]));
   plans[1].last_collided = 2;
@@ -66,9 +65,9 @@ TEST(Plans, AnEarlierCollisionPrecedesThePlannedOneAndAtOneTimeThatWithTheLowerI
   EXPECT_FALSE(plans.precedes_planned(0, 5.1, 1));
   EXPECT_TRUE(plans.precedes_planned(0, 5.0, 1));   // id 0 before id 1
   EXPECT_FALSE(plans.precedes_planned(0, 5.0, 2));  // id 3 after id 1
-  EXPECT_FALSE(plans.precedes_planned(0, never, -1));
-  plans[0] = {never, 9.0, -1, neighbourhood_edge, 1, 1};
-  EXPECT_FALSE(plans.precedes_planned(0, never, -1));
+  EXPECT_FALSE(plans.precedes_planned(0, infinity<double>, -1));
+  plans[0] = {infinity<double>, 9.0, -1, neighbourhood_edge, 1, 1};
+  EXPECT_FALSE(plans.precedes_planned(0, infinity<double>, -1));
 }
 
 TEST(Plans, AWallAtTheTimeOfAPartnerWithALowerIdWaits) {
@@ -80,7 +79,7 @@ TEST(Plans, AWallAtTheTimeOfAPartnerWithALowerIdWaits) {
     EXPECT_EQ(plans[0].pair_time, 5.0);
     return plans[0].edge_time;
   };
-  EXPECT_EQ(edge_time(5.0, 1, wall_left), never);
+  EXPECT_EQ(edge_time(5.0, 1, wall_left), infinity<double>);
   EXPECT_EQ(edge_time(5.0, 2, wall_left), 5.0);
   EXPECT_EQ(edge_time(4.0, 1, wall_left), 4.0);
   EXPECT_EQ(edge_time(5.0, 1, neighbourhood_edge), 5.0);
