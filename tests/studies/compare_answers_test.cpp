@@ -162,6 +162,12 @@ TEST_F(KnownAnswers, RoundingOfShorterStepsSpoilsNoLongerOne) {
   EXPECT_FALSE(price.extrapolated());
 }
 
+TEST_F(KnownAnswers, AMethodThatFindsContactsIsNotExtrapolated) {
+  const Answers answers = answers_of(laws_.comparison({"backtrack", "guarded"}));  // wrong at every step, as by a law
+  EXPECT_FALSE(price_of(answers, "backtrack", "error 1e-6").ratio);
+  EXPECT_TRUE(price_of(answers, "guarded", "error 1e-6").extrapolated());
+}
+
 TEST_F(KnownAnswers, TheCheapestOfTheRightStepsCounts) {
   Comparison comparison = laws_.comparison({"swept"});
   for (MethodRun& run : comparison.runs) {

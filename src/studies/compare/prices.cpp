@@ -63,11 +63,12 @@ std::optional<StartPrice> extrapolated(const std::vector<Point>& points, double 
   return StartPrice{last.seconds * factor, last.dt / factor, factor};
 }
 
-std::optional<StartPrice> price_from(const std::vector<Point>& points, double error) {
+/// `has_order`: the errors of the method fall with dt by a law, and not in one fall from a mistake to rounding.
+std::optional<StartPrice> price_from(const std::vector<Point>& points, double error, bool has_order) {
   std::size_t first = points.size();  // of the steps that are right, together with all shorter ones but for rounding
   while (first > 0 && points[first - 1].error <= std::max(error, largest_rounding)) --first;
   while (first < points.size() && points[first].error > error) ++first;
-  if (first == points.size()) return extrapolated(points, error);
+  if (first == points.size()) return has_order ? extrapolated(points, error) : std::nullopt;
   Point best = points[first];
   for (std::size_t k = first; k < points.size(); ++k)
     if (points[k].error <= error && points[k].seconds < best.seconds) best = points[k];
@@ -88,7 +89,7 @@ Price price_of_position(const Comparison& comparison, const Method& method, cons
     if (exact.empty() || points.empty()) continue;
     ++starts;
     errors.push_back(points.back().error);
-    const std::optional<StartPrice> from_here = price_from(points, target.accuracy);
+    const std::optional<StartPrice> from_here = price_from(points, target.accuracy, !finds_contacts(method.name));
     ratios.push_back(from_here ? from_here->seconds / exact.front().seconds : INFINITY);
     seconds.push_back(from_here ? from_here->seconds : INFINITY);
     if (!from_here) continue;
