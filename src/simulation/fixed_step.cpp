@@ -139,12 +139,6 @@ std::vector<std::string> fixed_step_names() {
   return names;
 }
 
-std::vector<std::string> fixed_steps_for(const Scene& scene) {
-  std::vector<std::string> names = fixed_step_names();
-  std::erase_if(names, [&](const std::string& name) { return !why_not(name, scene).empty(); });
-  return names;
-}
-
 Simulation Simulation::begin(const Scene& scene, Start start, const FixedStep& step) {
   const auto named = [&](const Entry& entry) { return entry.name == step.method; };
   const auto* const entry = std::find_if(std::begin(entries), std::end(entries), named);

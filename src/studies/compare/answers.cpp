@@ -44,8 +44,8 @@ std::optional<Crossover> crossover_of(const std::vector<MethodSummary>& summarie
     if (!(cheap.seconds_early < exact_seconds && dear.seconds_early >= exact_seconds)) continue;
     if (!(dear.error.median > 0.0) || !std::isfinite(cheap.error.median)) continue;
     const double at = std::log(exact_seconds / cheap.seconds_early) / std::log(dear.seconds_early / cheap.seconds_early);
-    found = Crossover{method, std::exp(std::lerp(std::log(cheap.error.median), std::log(dear.error.median), at)),
-                      std::exp(std::lerp(std::log(cheap.method.dt), std::log(dear.method.dt), at))};
+    found = Crossover{method, between_logarithms(cheap.error.median, dear.error.median, at),
+                      between_logarithms(cheap.method.dt, dear.method.dt, at)};
   }
   return found;
 }

@@ -45,8 +45,7 @@ std::vector<Point> points_of(const Comparison& comparison, const std::string& me
 /// Returns the step with that error on the line through two points, in logarithms.
 Point between(const Point& coarse, const Point& fine, double error) {
   const double at = std::log(error / fine.error) / std::log(coarse.error / fine.error);
-  const auto lerp = [&](double a, double b) { return std::exp(std::lerp(std::log(a), std::log(b), at)); };
-  return {lerp(fine.dt, coarse.dt), error, lerp(fine.seconds, coarse.seconds)};
+  return {between_logarithms(fine.dt, coarse.dt, at), error, between_logarithms(fine.seconds, coarse.seconds, at)};
 }
 
 std::optional<StartPrice> extrapolated(const std::vector<Point>& points, double error) {
@@ -134,13 +133,11 @@ std::vector<std::vector<TimeToZ>> without_one_start(const Comparison& comparison
   return all;
 }
 
-/// Returns the standard error of a ratio by the jackknife: sqrt((n - 1) / n sum (x_k - mean)^2); NaN where a start is needed.
+/// Returns the standard error of a ratio by the jackknife, sqrt((n - 1) / n sum (x_k - mean)^2), which is n - 1 times that of the
+/// mean; NaN where a start is needed.
 double jackknife_error(const std::vector<double>& without_one) {
-  const auto n = static_cast<double>(without_one.size());
-  double mean = 0.0, squares = 0.0;
-  for (const double value : without_one) mean += value / n;
-  for (const double value : without_one) squares += (value - mean) * (value - mean);
-  return std::sqrt((n - 1.0) / n * squares);
+  const std::optional<Estimate> mean = mean_of(without_one);
+  return mean ? (static_cast<double>(without_one.size()) - 1.0) * mean->error : NAN;
 }
 
 }  // namespace

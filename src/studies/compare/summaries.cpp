@@ -8,15 +8,6 @@ namespace carom {
 
 namespace {
 
-std::optional<Estimate> mean_of(const std::vector<double>& values) {
-  if (values.empty()) return std::nullopt;
-  const auto n = static_cast<double>(values.size());
-  double mean = 0.0, squares = 0.0;
-  for (const double value : values) mean += value / n;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return Estimate{mean, values.size() < 2 ? NAN : std::sqrt(squares / (n - 1.0) / n)};
-}
-
 /// Returns the run of the engine that runs the scene, from the same start.
 const MethodRun* exact_twin(const Comparison& comparison, const MethodRun& run) {
   for (const MethodRun& one : comparison.runs)
@@ -68,6 +59,17 @@ MethodSummary summary_of(const Comparison& comparison, const Method& method) {
 }
 
 }  // namespace
+
+std::optional<Estimate> mean_of(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  const auto n = static_cast<double>(values.size());
+  double mean = 0.0, squares = 0.0;
+  for (const double value : values) mean += value / n;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return Estimate{mean, values.size() < 2 ? NAN : std::sqrt(squares / (n - 1.0) / n)};
+}
+
+double between_logarithms(double a, double b, double at) { return std::exp(std::lerp(std::log(a), std::log(b), at)); }
 
 Spread spread_of(std::vector<double> values) {
   if (values.empty()) return {NAN, NAN, NAN};

@@ -14,6 +14,13 @@ struct Estimate {
   double error = 0.0;  ///< standard error over the starts; NaN for a single one
 };
 
+/// Returns the mean with its standard error; empty without values.
+[[nodiscard]] std::optional<Estimate> mean_of(const std::vector<double>& values);
+
+/// Returns the number on the way from `a` to `b` (at = 0 to 1) on a straight line between their logarithms. Requires both
+/// positive.
+[[nodiscard]] double between_logarithms(double a, double b, double at);
+
 /// Over the seeds.
 struct Spread {
   double median = 0.0;

@@ -26,12 +26,8 @@ std::optional<Exact> exact_of(const Comparison& comparison) {
     time += run.time;
   }
   if (Z.size() < 4) return std::nullopt;
-  const auto n = static_cast<double>(Z.size());
-  double mean = 0.0, squares = 0.0;
-  for (const double z : Z) mean += z / n;
-  for (const double z : Z) squares += (z - mean) * (z - mean);
-  const double deviation = std::sqrt(squares / (n - 1.0));
-  return Exact{mean, deviation / mean * std::sqrt(pairs / n), pairs / time};
+  const Estimate mean = *mean_of(Z);
+  return Exact{mean.value, mean.error / mean.value * std::sqrt(pairs), pairs / time};  // the deviation is error * sqrt(runs)
 }
 
 std::vector<const MethodSummary*> with_pressure(const std::vector<MethodSummary>& summaries, const std::string& method) {
@@ -76,7 +72,7 @@ double seconds_per_time(const std::vector<const MethodSummary*>& steps, double d
     const MethodSummary &fine = *steps[k - 1], &coarse = *steps[k];
     if (dt > coarse.method.dt) continue;
     const double at = std::log(dt / fine.method.dt) / std::log(coarse.method.dt / fine.method.dt);
-    return std::exp(std::lerp(std::log(fine.seconds_per_time), std::log(coarse.seconds_per_time), at));
+    return between_logarithms(fine.seconds_per_time, coarse.seconds_per_time, at);
   }
   return steps.back()->seconds_per_time;
 }
