@@ -13,8 +13,6 @@
 namespace carom::test {
 namespace {
 
-constexpr double radius = 0.5, length_of_epoch = 1024.0;
-
 Box box_with(Boundary across_x, Boundary across_y) {
   Box box;
   box.lower = {0.0, 0.0};
@@ -26,6 +24,8 @@ Box box_with(Boundary across_x, Boundary across_y) {
 /// One disk by itself, of which leaving its neighbourhood is planned at a time.
 template <class World>
 struct OneDisk {
+  static constexpr double radius = 0.5, length_of_epoch = 1024.0;
+
   OneDisk(const Box& box, const Vec2<double>& position, const Vec2<double>& velocity, const Effects& effects = {})
       : start(state_of(position, velocity)), world(box, effects, start, 1), frame(box, 1, world), planner(box, frame, world) {
     frame.begin(0, line, start, 0, radius);
@@ -86,7 +86,7 @@ TYPED_TEST(BoundaryPlannerIn, OnlyWallsThatANeighbourhoodComesNearAreWithinReach
   EXPECT_FALSE((OneDisk<TypeParam>(walls, {1.1, 4.0}, {1.0, 1.0}).within_reach()));
   EXPECT_TRUE((OneDisk<TypeParam>(walls, {8.0, 7.1}, {1.0, 1.0}).within_reach()));
   OneDisk<TypeParam> disk(walls, {1.1, 4.0}, {1.0, 1.0});
-  disk.planner.set_neighbourhoods(0.5, 2.0 * radius);
+  disk.planner.set_neighbourhoods(0.5, 2.0 * disk.radius);
   EXPECT_TRUE(disk.within_reach());
 }
 
