@@ -22,7 +22,7 @@ namespace carom::test {
 namespace {
 
 using Soft = SoftStep<ClosePairs>;
-constexpr double steps = Soft::steps_per_contact;
+constexpr double steps_per_contact = Soft::steps_per_contact;
 
 System pair_of(double mass, double other_mass, double gap = 1.0) {
   return system_of(square_box(16.0, Boundary::walls),
@@ -34,13 +34,14 @@ TEST(Soft, TheLightestPairIsInContactForTheChosenNumberOfSteps) {
     const System s = system_of(square_box(16.0, Boundary::walls),
                                {{{2, 2}, {0, 0}, 0.5, 3.0}, {{4, 2}, {0, 0}, 0.5, 0.5}, {{6, 2}, {0, 0}, 0.5, 2.0}});
     const double reduced = 0.5 * 2.0 / 2.5;
-    EXPECT_NEAR(std::numbers::pi * std::sqrt(reduced / Soft::stiffness(Bodies(s.box, s.disks, s.state), dt)), steps * dt, 1e-15);
+    EXPECT_NEAR(std::numbers::pi * std::sqrt(reduced / Soft::stiffness(Bodies(s.box, s.disks, s.state), dt)),
+                steps_per_contact * dt, 1e-15);
   }
 }
 
 TEST(Soft, AHeadOnPairPartsAsItCameAContactLater) {
   // For gaps that put the begin of the contact anywhere in a step.
-  constexpr double dt = 0.002, contact = steps * dt;
+  constexpr double dt = 0.002, contact = steps_per_contact * dt;
   for (double phase = 0.0; phase < 1.0; phase += 0.05) {
     const double gap = 0.5 + 2.0 * phase * dt;
     const System s = pair_of(1.0, 1.0, gap);
@@ -53,7 +54,8 @@ TEST(Soft, AHeadOnPairPartsAsItCameAContactLater) {
       deepest = std::max(deepest, 1.0 - (state.positions(0, 1) - state.positions(0, 0)));
     }
     const State end = stepper.state();
-    EXPECT_NEAR(end.velocities(0, 1) - end.velocities(0, 0), 2.0, 2.0 * 2.1 / (steps * steps * steps));
+    EXPECT_NEAR(end.velocities(0, 1) - end.velocities(0, 0), 2.0,
+                2.0 * 2.1 / (steps_per_contact * steps_per_contact * steps_per_contact));
     const double hard = 1.0 + 2.0 * (2.0 - gap / 2.0);  // their distance at time 2
     EXPECT_NEAR((hard - (end.positions(0, 1) - end.positions(0, 0))) / (2.0 * contact), 1.0, 3e-3);
     EXPECT_NEAR(deepest, 2.0 * contact / std::numbers::pi, 0.003 * deepest);
@@ -71,7 +73,7 @@ TEST(Soft, AHeadOnPairPartsAsItCameAContactLater) {
 /// gamma dt / mu times itself. Returns half of that.
 double randomness(double restitution) {
   const double log = -std::log(restitution);
-  return log / std::hypot(std::numbers::pi, log) * (std::numbers::pi / steps);
+  return log / std::hypot(std::numbers::pi, log) * (std::numbers::pi / steps_per_contact);
 }
 
 TEST(Soft, DampingLeavesTheShareOfTheSpeedThatRestitutionSays) {
@@ -120,7 +122,7 @@ TEST(Soft, AWallTakesTwiceTheMomentumOrLessWhereItIsInelastic) {
 
 TEST(Soft, MomentumStaysToRoundingAndEnergyWhereNoSpringIsPressed) {
   // A random part of a contact's energy, which is below 2.
-  const double change = 2.0 * 2.0 * 0.52 / (steps * steps);
+  const double change = 2.0 * 2.0 * 0.52 / (steps_per_contact * steps_per_contact);
   for (const Scene& scene : {gas_scene(12, 0.4, Boundary::periodic), mixture_scene(12, 0.4, Boundary::periodic)}) {
     const System s = system_of(scene);
     constexpr double dt = 0.0005;
