@@ -68,6 +68,26 @@ struct RunLimits {
   /// event, and change it as a program may between two calls of run_until(). With it the engine is entered anew for every event,
   /// which takes several times as long.
   std::function<bool(const Event& event)> stop_when = {};
+  /// Called some twenty times a second, between two events; where it returns false, the run ends there as `interrupted`. It is
+  /// not to change the simulation. It costs less than a thousandth of the time.
+  std::function<bool()> proceed = {};
+};
+
+/// States at times that are a multiple of a step.
+struct SamplingGrid {
+  double step = 0.0;  ///< time, > 0 and finite
+  /// At k * step, k = 0, 1, 2, ...; every collision up to then has been handed on. Where step is a multiple of run.sample_every,
+  /// or of the length of a block, to rounding, these are the scene's own samples, to the last bit.
+  std::function<void(std::uint64_t k, const State& state, const Totals& totals)> sample;
+  /// The state may be without all but time, velocities, scale and walls.
+  bool velocities_alone = false;
+};
+
+/// The samples of a grid that Simulation::run_sampled() takes.
+struct SampleRange {
+  std::uint64_t first = 0;               ///< smaller k are left out
+  std::uint64_t stride = 1;              ///< only multiples of it are taken, >= 1
+  std::uint64_t most = RunLimits::none;  ///< the run ends, as by `condition`, before the next sample
 };
 
 class Simulation {
@@ -104,6 +124,12 @@ class Simulation {
 
   /// Runs as run_until() does up to k * dt, the product taken exactly: grid times do not drift however large k is.
   StopReason run_until_sample(std::uint64_t k, double dt, const RunLimits& limits = {});
+
+  /// Runs as run_until() does, and on the way calls grid.sample with the states at k * grid.step, from now to `until`. Both ends
+  /// are included; a multiple of the step to rounding counts as one. A sample whose exact time is after `until` by rounding is
+  /// that of the exact time, and the simulation then ends at `until` all the same: so have the samples of run_schedule() their
+  /// bits. Throws std::invalid_argument as above, and where the step is not positive or the stride is 0.
+  StopReason run_sampled(double until, const SamplingGrid& grid, const RunLimits& limits = {}, const SampleRange& range = {});
 
   /// Goes to the next event, if there is one up to and including `until`, and returns it: a collision with a disk, a wall or an
   /// obstacle, the edge of a well, or a new velocity by the thermostat (Event::partner says which). Otherwise goes to `until`,
@@ -227,16 +253,6 @@ struct Progress {
 /// run that is limited by collisions: collisions / sample_every_collisions. 0 where the one or the other is absent.
 std::uint64_t last_sample(const Run& run);
 
-/// States on a grid of their own, beside those of the scene.
-struct SamplingGrid {
-  double step = 0.0;  ///< time, > 0 and finite
-  /// At k * step, k = 0, 1, 2, ...; every collision up to then has been handed on. Where step is a multiple of run.sample_every,
-  /// or of the length of a block, to rounding, these are the scene's own samples, to the last bit.
-  std::function<void(std::uint64_t k, const State& state, const Totals& totals)> sample;
-  /// The state may be without all but time, velocities, scale and walls.
-  bool velocities_alone = false;
-};
-
 /// A moment between two events at which a run can be saved.
 struct SavingMoment {
   Progress progress;
@@ -259,8 +275,8 @@ struct RunHooks {
   /// `collisions`, which gets no more records than there is room for. Where it is not there, or returns none, memory is used
   /// again.
   std::function<std::span<CollisionRecord>()> room_for_records;
-  std::function<void(const Progress& progress)> block;    ///< after about every collision per disk, at collisions
-  std::vector<SamplingGrid> grids;                        ///< of equal steps the first comes first
+  std::function<void(const Progress& progress)> block;  ///< after about every collision per disk, at collisions
+  std::vector<SamplingGrid> grids;                      ///< beside the scene's own samples; of equal steps the first comes first
   std::function<bool(const Progress& progress)> proceed;  ///< several times a second; false stops the run
   /// Called after every collision of the measured run, before it is handed on; the run ends at the collision for which it is
   /// true, the same one on every machine. With it the engine is entered anew for every event, which takes several times as long.

@@ -4,6 +4,7 @@
 
 #include "core/two_doubles.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -40,6 +41,11 @@ struct Instant {
 
   friend bool operator<(const Instant& a, const Instant& b) { return a.high < b.high || (a.high == b.high && a.low < b.low); }
 };
+
+/// Returns whether two times are equal to rounding: 200 * 0.01 is later than 2 by its rounding, and yet meant to be 2.
+[[nodiscard]] inline bool equal_to_rounding(const Instant& a, const Instant& b) {
+  return std::abs(a.high - b.high) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(b.high);
+}
 
 /// Later than everything that can happen.
 inline constexpr Instant forever{std::numeric_limits<double>::max(), 0.0};

@@ -4,6 +4,7 @@
 #include <carom/simulation.hpp>
 
 #include "simulation/any_engine.hpp"
+#include "simulation/proceed_watch.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -58,6 +59,8 @@ struct Simulation::Parts {
   void require_rule() const;
   /// Simulation::run_until() for an exact time.
   StopReason run_to(const Instant& target, const RunLimits& limits);
+  /// Does the same, for runs in several stretches with one watch.
+  StopReason run_to(const Instant& target, const RunLimits& limits, detail::ProceedWatch& watch);
   /// Goes to the next event, unless `target` or the limit of collisions comes first or the engine cannot go on. `arrived`:
   /// whether it stands at the target.
   std::optional<Event> next_event(const Instant& target, std::uint64_t collision_limit, bool& arrived);

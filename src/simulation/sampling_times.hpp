@@ -4,7 +4,9 @@
 #include "core/instant.hpp"
 
 #include <carom/scene.hpp>
+#include <carom/simulation.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -31,6 +33,14 @@ class SamplingTimes {
 
   /// The largest k with at(k) <= time; a time that is a multiple of the block to rounding counts as one. At most about 2^53.
   [[nodiscard]] std::uint64_t last(double time) const;
+
+  /// The least k with at(k) >= time that the range has; one that is equal to rounding counts.
+  [[nodiscard]] std::uint64_t next(const Instant& time, const SampleRange& range) const {
+    std::uint64_t k = last(time.high);
+    if (at(k) < time && !equal_to_rounding(at(k), time)) ++k;
+    k = std::max(k, range.first);
+    return k + (range.stride - k % range.stride) % range.stride;
+  }
 
   /// The m with at(k * m) = k * step, to rounding; nothing where there is none.
   [[nodiscard]] std::optional<std::uint64_t> stride(double step) const;

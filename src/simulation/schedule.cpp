@@ -150,13 +150,13 @@ class Schedule {
       const bool beyond = end < when;  // by the rounding of k * step, as 3 * 0.1 is beyond 0.3
       if (beyond && !advance_and_count(end, collisions)) return;
       const Instant before = engine_.now();
-      const std::uint64_t happened = happenings();
+      const std::uint64_t happened = detail::happenings(engine_.counts());
       const bool arrived = advance_and_count(when, collisions);
       const bool at_start = !(Instant{} < when);
       if (!arrived && !(at_start && collisions == 0)) return;  // the start is sampled even where nothing is to happen
       if (!take_samples(when) || !arrived) return;
       // The run ends at its end, whether it is sampled or not.
-      if (beyond && happenings() == happened) engine_.set_back(before);
+      if (beyond && detail::happenings(engine_.counts()) == happened) engine_.set_back(before);
       if (is_hopeless()) {
         stop(StopReason::no_collisions);
         return;
@@ -238,11 +238,6 @@ class Schedule {
     Instant next = forever;
     for (const Grid& grid : grids_) next = std::min(next, time_of(grid));
     return next;
-  }
-
-  /// Events so far, and new epochs.
-  [[nodiscard]] std::uint64_t happenings() const {
-    return detail::all_events(engine_.counts()) + engine_.counts().numerics.epochs;
   }
 
   /// Takes the sample of every grid that has one now, all from one state. Returns false where the state is not finite, which ends

@@ -3,11 +3,16 @@
 #include <carom/simulation.hpp>
 
 #include "scene/effect_traits.hpp"
+#include "simulation/all_events.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
+#include "simulation/proceed_watch.hpp"
+#include "simulation/sampling_times.hpp"
 #include "simulation/standstill.hpp"
 #include "simulation/start.hpp"
 #include "simulation/velocities_determine_contacts.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +21,7 @@
 
 namespace carom {
 
-namespace {
-
-/// Events between two looks at the clock: some tenths of a second.
-constexpr std::uint64_t events_at_a_time = 1'000'000;
-
-}  // namespace
-
-StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& limits) {
+StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& limits, detail::ProceedWatch& watch) {
   if (!std::isfinite(target.high) || !std::isfinite(target.low))
     throw std::invalid_argument("a simulation runs to a finite time only");
   if (time_step && (limits.events != RunLimits::none || limits.stop_when))
@@ -38,13 +36,19 @@ StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& lim
       const std::optional<Event> event = next_event(target, limits.collisions, arrived);
       if (event && limits.stop_when(*event)) return StopReason::condition;
     } else {
-      arrived = engine->run_until(target, limits.collisions, std::min(events_at_a_time, limits.events - happened));
+      arrived = engine->run_until(target, limits.collisions, std::min(watch.events(), limits.events - happened));
     }
     if (arrived) return StopReason::time;
     if (const auto reason = detail::why_stopped(*engine, scene.effects)) return *reason;
     if (engine->counts().pair >= limits.collisions) return StopReason::collisions;
     if (const auto reason = standstill.reached(*engine, {target, limits.collisions})) return *reason;
+    if (watch.stopped()) return StopReason::interrupted;
   }
+}
+
+StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& limits) {
+  detail::ProceedWatch watch(limits.proceed);
+  return run_to(target, limits, watch);
 }
 
 std::optional<Event> Simulation::Parts::next_event(const Instant& target, std::uint64_t collision_limit, bool& arrived) {
@@ -85,6 +89,38 @@ StopReason Simulation::run_until(double time, const RunLimits& limits) { return 
 
 StopReason Simulation::run_until_sample(std::uint64_t k, double dt, const RunLimits& limits) {
   return parts_->run_to(Instant::product(k, dt), limits);
+}
+
+StopReason Simulation::run_sampled(double until, const SamplingGrid& grid, const RunLimits& limits, const SampleRange& range) {
+  if (!(grid.step > 0.0 && std::isfinite(grid.step)))
+    throw std::invalid_argument(fmt::format("samples are {:g} apart; that must be positive and finite", grid.step));
+  if (!std::isfinite(until)) throw std::invalid_argument("a simulation runs to a finite time only");
+  if (range.stride == 0) throw std::invalid_argument("every 0th sample is none; the stride must be 1 or more");
+  detail::AnyEngine& engine = *parts_->engine;
+  const detail::SamplingTimes times(grid.step);
+  detail::ProceedWatch watch(limits.proceed);
+  const Instant end{until, 0.0};
+  const std::uint64_t last = times.last(until);
+  State state;
+  std::uint64_t taken = 0;
+  for (std::uint64_t k = times.next(engine.now(), range); k <= last; k += range.stride) {
+    if (taken++ == range.most) return StopReason::condition;
+    const Instant when = std::max(times.at(k), engine.now());
+    const bool beyond = end < when;  // by the rounding of k * step, as 3 * 0.1 is beyond 0.3
+    if (beyond)
+      if (const StopReason reason = parts_->run_to(end, limits, watch); reason != StopReason::time) return reason;
+    const Instant before = engine.now();
+    const std::uint64_t happened = detail::happenings(engine.counts());
+    if (const StopReason reason = parts_->run_to(when, limits, watch); reason != StopReason::time) return reason;
+    if (grid.sample) {
+      grid.velocities_alone ? engine.store_velocities(state) : engine.state(state);
+      state.time = when.high;
+      grid.sample(k, state, engine.totals());
+    }
+    if (beyond && detail::happenings(engine.counts()) == happened) engine.set_back(before);
+    if (watch.stopped()) return StopReason::interrupted;
+  }
+  return parts_->run_to(end, limits, watch);
 }
 
 std::optional<Event> Simulation::step(double until) {

@@ -34,7 +34,7 @@ class Standstill {
 
   /// Asked now and then: why the run will not come to its end, or nothing.
   [[nodiscard]] std::optional<StopReason> reached(const AnyEngine& engine, const RunEnd& end) {
-    const std::uint64_t events = all_events(engine.counts()) + engine.counts().numerics.epochs;
+    const std::uint64_t events = happenings(engine.counts());
     if (events < block_.events) start_anew(engine, events);  // the clock was reset
     if (creeps(engine, events)) return reason_;
     if (converges(engine, events, end)) return reason_;

@@ -117,11 +117,6 @@ class Stepper {
   }
 
  private:
-  /// Returns whether two times are equal to rounding: 200 * 0.01 is later than 2 by its rounding, and yet meant to be 2.
-  [[nodiscard]] static bool equal_to_rounding(const Instant& a, const Instant& b) {
-    return std::abs(a.high - b.high) <= 2.0 * std::numeric_limits<double>::epsilon() * std::abs(b.high);
-  }
-
   void take_step(const Instant& when) {
     now_ = when;
     tally_.time = when;
