@@ -172,6 +172,19 @@ struct Scene {
 /// lattices and random positions have room for the disks is checked where they are placed.
 void check(const Scene& scene);
 
+/// One value for each disk of a scene, in the order of its species; absent values stay the scene's own.
+struct DiskArrays {
+  std::vector<Eigen::Vector2d> positions = {};   ///< length; required
+  std::vector<Eigen::Vector2d> velocities = {};  ///< length / time; absent where empty
+  std::vector<double> radii = {};                ///< length, > 0; absent where empty
+  std::vector<double> masses = {};               ///< mass, > 0; absent where empty
+};
+
+/// Returns the scene with its disks at these places. A scene of one species takes any number of disks; with several species their
+/// counts stay, and the arrays are divided among them. `text` of what is returned is its resolved_toml(). Throws SceneError where
+/// arrays have other lengths than the positions, or as check(), which it calls.
+Scene with_disks(Scene scene, const DiskArrays& disks);
+
 /// Reads, completes and checks a scene file. Each override is "dotted.key=value" with a value in TOML syntax (a bare word stands
 /// for a string); "disks.0.radius" is the radius of the first species. Throws SceneError for anything that the scene format does
 /// not allow, and where the file cannot be read.
