@@ -2,7 +2,7 @@
 // cost.
 
 #include "app/commands.hpp"
-#include "app/expected_cost.hpp"
+#include "runner/expected_cost.hpp"
 #include "app/scene_description.hpp"
 #include "observe/mechanics.hpp"
 #include "pages/scene_words.hpp"

@@ -1,4 +1,4 @@
-#include "app/expected_cost.hpp"
+#include "runner/expected_cost.hpp"
 
 #include "core/seconds_since.hpp"
 #include "observe/mechanics.hpp"
@@ -17,7 +17,7 @@
 #include <variant>
 #include <vector>
 
-namespace carom::cli {
+namespace carom {
 
 namespace {
 
@@ -192,4 +192,4 @@ std::string words(const ExpectedCost& cost) {
                      number_of(*cost.collisions), cost.by_theory ? " by kinetic theory" : "", trial);
 }
 
-}  // namespace carom::cli
+}  // namespace carom

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace carom::cli {
+namespace carom {
 
 /// The cost of the whole schedule, equilibration included: event loop and observables, without writing files.
 struct ExpectedCost {
@@ -53,4 +53,4 @@ class Trial {
 /// collisions per second)".
 std::string words(const ExpectedCost& cost);
 
-}  // namespace carom::cli
+}  // namespace carom

@@ -18,7 +18,7 @@ set(observe_may_use simulation effects neighbours scene core)
 set(theory_may_use observe simulation scene core)
 set(io_may_use observe theory simulation scene core)
 set(pages_may_use io observe theory simulation scene text core)
-set(runner_may_use pages io observe simulation scene text core)
+set(runner_may_use pages io observe theory simulation scene text core)
 set(terminal_may_use io observe simulation scene text core)
 set(studies_may_use terminal pages io observe theory simulation neighbours scene text core)
 # Each folder of studies/ is a slice that uses what all of them share (the files of studies/ itself), and no other slice but these.
@@ -30,6 +30,7 @@ foreach(slice IN LISTS slices)
   set(${slice}_may_use studies ${studies_may_use} ${${name}_uses_slices})
 endforeach()
 set(app_may_use ${slices} studies terminal runner pages io observe theory simulation scene text core)
+set(python_may_use ${slices} studies terminal runner pages io observe theory simulation scene text core)
 set(public_may_use nothing)  # include/carom/: the installed headers see nothing of src/
 
 # The room that a public header speaks for. One that is not named here is for the program and for other projects alone.

@@ -1,6 +1,6 @@
 // The table of effects against what the engines do: what each effect conserves, and the memory that it takes.
 
-#include "app/expected_cost.hpp"
+#include "runner/expected_cost.hpp"
 #include "observe/mechanics.hpp"
 #include "pages/scene_words.hpp"
 #include "scene/effect_traits.hpp"
@@ -163,10 +163,10 @@ INSTANTIATE_TEST_SUITE_P(All, EffectTraitsHold, testing::ValuesIn(names_of_all()
 TEST(ExpectedMemory, IsWithinATenthOfThatOfAGas) {
   Scene scene = gas_scene(20'000, 0.5, Boundary::periodic);
   const auto measured = [&] { return static_cast<double>(make_simulation(scene).bytes()) / 20'000.0; };
-  EXPECT_NEAR(cli::expected_bytes_per_disk(scene.effects), measured(), 0.1 * measured());
+  EXPECT_NEAR(expected_bytes_per_disk(scene.effects), measured(), 0.1 * measured());
   scene.effects.thermostat = Thermostat{1.0, 1.0};
   scene.effects.collision.roughness = 1.0;
-  EXPECT_NEAR(cli::expected_bytes_per_disk(scene.effects), measured(), 0.1 * measured());
+  EXPECT_NEAR(expected_bytes_per_disk(scene.effects), measured(), 0.1 * measured());
 }
 
 TEST(CentreOfMass, IsThermalWhereMomentumIsExchangedAtRandom) {
