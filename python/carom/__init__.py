@@ -1,0 +1,40 @@
+"""Carom: hard disks in a box, moved exactly from collision to collision.
+
+>>> import carom
+>>> sim = carom.Simulation(carom.Scene.preset("box"))
+>>> frames = sim.sample(dt=0.001, until=5.0)
+>>> frames.positions.shape
+(5001, 64, 2)
+
+A `Scene` says what is to be simulated, with the keys of the scene format. A `Simulation` moves the disks; `run()` does a scene's whole
+schedule with its observables, and writes files where it is told to. What the program `carom` does, these do with the same bits.
+"""
+
+from carom._errors import Interrupted, OutputError, SceneError, StoppedEarly
+from carom._events import EVENT, Event, partner_name
+from carom.frames import Frames, State
+from carom.scene import Check, Scene, build, presets
+from carom.simulation import CollidingPair, Simulation, Stop, engines, fixed_step_methods
+
+__version__: str = build()["version"]
+
+__all__ = [
+    "EVENT",
+    "Check",
+    "CollidingPair",
+    "Event",
+    "Frames",
+    "Interrupted",
+    "OutputError",
+    "Scene",
+    "SceneError",
+    "Simulation",
+    "State",
+    "StoppedEarly",
+    "Stop",
+    "build",
+    "engines",
+    "fixed_step_methods",
+    "partner_name",
+    "presets",
+]

@@ -1,0 +1,248 @@
+"""States at one instant, and over time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import _core
+from carom.scene import Scene, numbers, pairs
+
+if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
+
+Floats = npt.NDArray[np.float64]
+Integers = npt.NDArray[np.int64]
+
+
+class State:
+    """Positions and velocities of all disks at one instant. Arrays are read-only.
+
+    A state that `Simulation.state` returns can begin another simulation: `Simulation(scene, state=state)`. So can one that is made
+    of arrays:
+
+    >>> state = carom.State(positions=[[0.0, 0.0], [0.5, 0.0]], velocities=[[1.0, 0.0], [0.0, 0.0]])
+    >>> state.count
+    2
+
+    Args:
+        positions: shape (N, 2), length.
+        velocities: shape (N, 2), length / time; None: at rest.
+        images: shape (N, 2), whole numbers of box lengths that disks have travelled past periodic edges; None: none.
+        spins: shape (N,), angular velocities, 1 / time; None: smooth disks.
+        time: of the state. A simulation that begins with it begins at 0.
+    """
+
+    __slots__ = ("_core",)
+
+    def __init__(
+        self,
+        positions: npt.ArrayLike,
+        velocities: npt.ArrayLike | None = None,
+        images: npt.ArrayLike | None = None,
+        spins: npt.ArrayLike | None = None,
+        time: float = 0.0,
+    ) -> None:
+        self._core = _core.State(
+            pairs(positions, "positions"),
+            None if velocities is None else pairs(velocities, "velocities"),
+            None if images is None else np.ascontiguousarray(images, dtype=np.int64),
+            None if spins is None else numbers(spins, "spins"),
+            time,
+        )
+
+    @classmethod
+    def _of(cls, core: _core.State) -> State:
+        state = cls.__new__(cls)
+        state._core = core
+        return state
+
+    @property
+    def time(self) -> float:
+        """The time since the start of the measured run."""
+        return self._core.time
+
+    @property
+    def count(self) -> int:
+        """The number of disks."""
+        return len(self.positions)
+
+    @property
+    def positions(self) -> Floats:
+        """Positions, shape (N, 2), length; along periodic axes inside the box."""
+        return self._core.positions
+
+    @property
+    def velocities(self) -> Floats:
+        """Velocities, shape (N, 2), length / time."""
+        return self._core.velocities
+
+    @property
+    def images(self) -> Integers:
+        """Numbers of box lengths travelled past periodic edges, shape (N, 2); 0 along walled axes."""
+        return self._core.images
+
+    @property
+    def spins(self) -> Floats:
+        """Angular velocities, shape (N,), 1 / time, counter-clockwise; shape (0,) where disks are smooth."""
+        return self._core.spins
+
+    @property
+    def scale(self) -> float:
+        """The factor by which disks that grow have grown; 1 in other scenes."""
+        return self._core.scale
+
+    @property
+    def walls(self) -> list[tuple[float, float]]:
+        """Position and velocity of the walls left, right, bottom, top; empty where none of them moves."""
+        return self._core.walls
+
+    @property
+    def state_hash(self) -> str:
+        """16 hexadecimal digits: runs that end with equal hashes have ended in the same bits, whatever ran them."""
+        return self._core.state_hash
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, State):
+            return NotImplemented
+        return self.state_hash == other.state_hash and bool(np.array_equal(self.images, other.images))
+
+    def __hash__(self) -> int:
+        return hash(self.state_hash)
+
+    def __repr__(self) -> str:
+        return f"<carom.State of {self.count} disks at time {self.time:g}, state_hash {self.state_hash}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        core = self._core
+        spins = core.spins if len(core.spins) else None
+        remainders = core.remainders if len(core.remainders) else None
+        arrays = tuple(None if a is None else np.array(a) for a in (core.positions, core.velocities, core.images, spins))
+        return _unpickled, (*arrays, core.time, core.scale, core.walls, core.bonds, core.shear_displacement, remainders)
+
+
+def _unpickled(*arguments: Any) -> State:
+    return State._of(_core.State(*arguments))
+
+
+@dataclass(eq=False)
+class Frames:
+    """States at equal distances in time. All arrays begin with the axis of frames, F of them.
+
+    Attributes:
+        time: shape (F,).
+        positions: shape (F, N, 2), length; along periodic axes inside the box. None where velocities alone were sampled.
+        velocities: shape (F, N, 2), length / time; None where they were not sampled.
+        images: shape (F, N, 2), box lengths travelled past periodic edges; None where the box has none.
+        spins: shape (F, N), 1 / time; None where disks are smooth.
+        scale: shape (F,): radii at frame k are scale[k] * radii.
+        collisions: shape (F,), pair collisions since time 0.
+        virial: shape (F,), the sum of sigma_ij times the normal impulse over these; mass length^2 / time.
+        radii: shape (N,), length.
+        species: shape (N,), numbers of the species that `scene.species` names.
+        scene: the scene.
+        state_hash: that of the simulation when sampling ended.
+        interrupted: whether Ctrl-C has ended it.
+    """
+
+    time: Floats
+    positions: Floats | None
+    velocities: Floats | None
+    images: Integers | None
+    spins: Floats | None
+    scale: Floats
+    collisions: npt.NDArray[np.uint64]
+    virial: Floats
+    radii: Floats
+    species: npt.NDArray[np.int32]
+    scene: Scene = field(repr=False)
+    state_hash: str = ""
+    interrupted: bool = False
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __getitem__(self, k: int) -> State:
+        """Returns frame k, counted from the end where k is negative."""
+        if self.positions is None:
+            raise ValueError("these frames have no positions; sample with positions=True")
+        k = range(len(self))[k]
+
+        def row(array: Any) -> Any:
+            return None if array is None else np.ascontiguousarray(array[k])
+
+        return State._of(
+            _core.State(
+                row(self.positions), row(self.velocities), row(self.images), row(self.spins), float(self.time[k]), float(self.scale[k])
+            )
+        )
+
+    @property
+    def unwrapped(self) -> Floats:
+        """Positions that go on past periodic edges, shape (F, N, 2): for displacements."""
+        if self.positions is None:
+            raise ValueError("these frames have no positions; sample with positions=True")
+        if self.images is None:
+            return self.positions
+        (x0, x1), (y0, y1) = self.scene.box
+        lengths = np.array([x1 - x0, y1 - y0])
+        return np.asarray(self.positions + self.images * lengths)
+
+    def animate(self, every: int = 1, color: str = "speed", trail: int = 0, interval: float = 30) -> FuncAnimation:
+        """Returns the frames as an animation of matplotlib.
+
+        Args:
+            every: shows every so-manieth frame.
+            color: "speed", "species" or any colour of matplotlib.
+            trail: the number of frames over which a disk leaves a trail.
+            interval: milliseconds from one frame to the next.
+        """
+        from carom.animate import animation_of_frames
+
+        return animation_of_frames(self, every=every, color=color, trail=trail, interval=interval)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Writes all arrays and the scene into an .npz file, for `numpy.load()`."""
+        arrays = {
+            name: value
+            for name in ("time", "positions", "velocities", "images", "spins", "scale", "collisions", "virial", "radii", "species")
+            if (value := getattr(self, name)) is not None
+        }
+        np.savez(fspath(path), scene=np.array(self.scene.toml), state_hash=np.array(self.state_hash), **arrays)
+
+    def to_xarray(self) -> Any:
+        """Returns an xarray.Dataset with the coordinates time, disk and axis ("x", "y"). Needs xarray (pip install carom[tables])."""
+        import xarray
+
+        dims = {"time": ("time",), "scale": ("time",), "collisions": ("time",), "virial": ("time",), "radii": ("disk",), "species": ("disk",)}
+        dims |= {name: ("time", "disk", "axis") for name in ("positions", "velocities", "images")} | {"spins": ("time", "disk")}
+        variables = {name: (d, getattr(self, name)) for name, d in dims.items() if name != "time" and getattr(self, name) is not None}
+        coordinates = {"time": self.time, "axis": ["x", "y"]}
+        return xarray.Dataset(variables, coords=coordinates, attrs={"scene": self.scene.toml, "state_hash": self.state_hash})
+
+    def to_mdanalysis(self) -> Any:
+        """Returns an MDAnalysis.Universe with these positions (z = 0) and velocities, an atom per disk. Needs MDAnalysis."""
+        import MDAnalysis
+        from MDAnalysis.coordinates.memory import MemoryReader
+
+        if self.positions is None:
+            raise ValueError("these frames have no positions; sample with positions=True")
+        disks = len(self.radii)
+
+        def in_space(array: Floats) -> npt.NDArray[np.float32]:
+            spatial = np.zeros((len(self), disks, 3), np.float32)
+            spatial[:, :, :2] = array
+            return spatial
+
+        universe = MDAnalysis.Universe.empty(disks, trajectory=True, velocities=self.velocities is not None)
+        universe.add_TopologyAttr("radii", self.radii)
+        (x0, x1), (y0, y1) = self.scene.box
+        size = np.array([x1 - x0, y1 - y0, 1.0, 90.0, 90.0, 90.0], np.float32)
+        dt = float(self.time[1] - self.time[0]) if len(self) > 1 else 1.0
+        velocities = None if self.velocities is None else in_space(self.velocities)
+        universe.load_new(in_space(self.positions), format=MemoryReader, dimensions=size, dt=dt, velocities=velocities)
+        return universe

@@ -1,0 +1,575 @@
+"""A scene brought to life."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import os
+import warnings
+from collections.abc import Callable, Iterator
+from enum import StrEnum
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import _core
+from carom._errors import OutputError, StoppedEarly
+from carom._events import Event, events_in
+from carom._progress import Progress, reporting
+from carom.frames import Floats, Frames, Integers, State
+from carom._toml import scene_text
+from carom.scene import Scene, SceneLike, as_scene, numbers, pairs, scene_of_parts
+
+if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
+
+    from carom.player import Player
+
+#: Two disks in contact, which a collision rule of one's own gets: it sets `velocity` and `partner_velocity`, and reads the rest.
+CollidingPair = _core.CollidingPair
+CollisionRule = Callable[[_core.CollidingPair], object]
+
+_NONE = 2**64 - 1
+_MAGIC = b"carom simulation file 1\n"
+
+
+class Stop(StrEnum):
+    """Why a run returned. A member equals its text: `stop == "jammed"`."""
+
+    TIME = "time"  #: the time asked for was reached
+    COLLISIONS = "collisions"  #: the number of pair collisions asked for was reached
+    EVENTS = "events"  #: the number of events asked for was reached
+    CONDITION = "condition"  #: what the caller asked for was reached
+    INTERRUPTED = "interrupted"  #: Ctrl-C, or a limit of real time
+    JAMMED = "jammed"  #: time has stopped: disks touch and have no room to move
+    COLLAPSED = "collapsed"  #: time has stopped: inelastic disks collide at ever shorter intervals
+    OVERHEATED = "overheated"  #: time has all but stopped: disks become ever faster
+    COOLED = "cooled"  #: inelastic disks have become too slow to compute with
+    GROWN = "grown"  #: the packing fraction or pressure up to which disks were to grow was reached
+    AT_REST = "at_rest"  #: drag has stopped the disks
+    NO_COLLISIONS = "no_collisions"  #: no pair will ever collide
+    INVALID_STATE = "invalid_state"  #: a number is not finite, or the engine found a fault in its plan
+
+    @property
+    def early(self) -> bool:
+        """Whether the disks could not go on."""
+        return self not in (Stop.TIME, Stop.COLLISIONS, Stop.EVENTS, Stop.CONDITION, Stop.INTERRUPTED)
+
+
+def as_stop(reason: str, time: float, disks: list[int] | None = None) -> Stop:
+    """Returns the reason, with a warning where the disks could not go on."""
+    stop = Stop(reason)
+    if stop.early:
+        which = f" (disks {', '.join(map(str, disks[:8]))}{', ...' if len(disks) > 8 else ''})" if disks else ""
+        warnings.warn(f"the run ended early, at time {time:g}: {stop}{which}", StoppedEarly, stacklevel=3)
+    return stop
+
+
+class Simulation:
+    """Disks that move from event to event, exactly.
+
+    >>> sim = carom.Simulation(carom.Scene.preset("box"))
+    >>> sim.run_until(5.0)
+    <Stop.TIME: 'time'>
+    >>> sim.positions.shape
+    (64, 2)
+
+    The same scene and seed give the same bits as the program `carom`, on every machine; `state_hash` tells. Arrays are read-only
+    copies of what was there when they were asked for. To move disks by hand, make a state and begin anew:
+    `Simulation(scene, state=carom.State(positions, velocities))`; `set_velocities()` changes velocities in passing.
+
+    A simulation belongs to one caller at a time; two threads need one each. Two simulations never share anything.
+
+    Args:
+        scene: a Scene, the path of a scene file, or a mapping.
+        seed: in place of the scene's run.seed.
+        engine: "auto", or one of the names that `carom.engines()` returns.
+        method: a fixed-step method in place of exact events: one of `carom.fixed_step_methods()`, such as "naive".
+        dt: its step, time.
+        state: where the disks begin, in place of the scene's own start.
+        on_collision: a rule of one's own for collisions of two disks, see `set_collision_rule()`.
+
+    Raises:
+        SceneError: where the scene is wrong, or its disks cannot be placed.
+        ValueError: where there is no such engine or method, or the state does not fit.
+    """
+
+    def __init__(
+        self,
+        scene: SceneLike,
+        *,
+        seed: int | None = None,
+        engine: str = "auto",
+        method: str | None = None,
+        dt: float | None = None,
+        state: State | None = None,
+        on_collision: CollisionRule | None = None,
+    ) -> None:
+        given = as_scene(scene)
+        if seed is not None:
+            given = given.set({"run.seed": seed})
+        if (method is None) != (dt is None):
+            raise ValueError("a fixed-step method needs both: method=\"naive\" and its step dt=0.001")
+        if method is not None and engine != "auto":
+            raise ValueError("a fixed-step method has no engine; leave out one of the two")
+        self._begin(given, _core.Simulation(given._core, engine, method, dt or 0.0, None if state is None else state._core))
+        if on_collision is not None:
+            self.set_collision_rule(on_collision)
+
+    def _begin(self, scene: Scene, core: _core.Simulation) -> None:
+        self._core = core
+        self._made = scene
+        self._now: Scene | None = scene
+        self._rule: CollisionRule | None = None
+        self._state: State | None = None
+        self._disks: tuple[Floats, Floats, npt.NDArray[np.int32]] | None = None
+        self._trajectory: Frames | None = None
+
+    # What it is.
+
+    @property
+    def scene(self) -> Scene:
+        """The scene, with what acts on the disks now."""
+        if self._now is None:
+            self._now = Scene._of(self._core.scene)
+        return self._now
+
+    @property
+    def engine(self) -> str:
+        """The name of the engine, or of the fixed-step method."""
+        return self._core.engine
+
+    @property
+    def engine_reason(self) -> str:
+        """Why that engine, in half a sentence; empty for a fixed-step method."""
+        return self._core.engine_reason
+
+    @property
+    def dt(self) -> float | None:
+        """The step of a fixed-step method; None where events are exact."""
+        return self._core.time_step
+
+    @property
+    def count(self) -> int:
+        """The number of disks."""
+        return len(self.radii)
+
+    def _properties(self) -> tuple[Floats, Floats, npt.NDArray[np.int32]]:
+        if self._disks is None:
+            self._disks = self._core.disks()
+        return self._disks
+
+    @property
+    def radii(self) -> Floats:
+        """Radii, shape (N,), length. Disks that grow have `state.scale` times these."""
+        return self._properties()[0]
+
+    @property
+    def masses(self) -> Floats:
+        """Masses, shape (N,)."""
+        return self._properties()[1]
+
+    @property
+    def species(self) -> npt.NDArray[np.int32]:
+        """The number of the species of each disk, shape (N,); `scene.species` names them."""
+        return self._properties()[2]
+
+    # Where it stands.
+
+    @property
+    def time(self) -> float:
+        """The time since the start of the measured run."""
+        return self._core.time
+
+    @property
+    def collisions(self) -> int:
+        """The number of collisions of two disks since time 0."""
+        return self._core.collisions
+
+    @property
+    def totals(self) -> dict[str, Any]:
+        """Counts of all events since time 0 by kind, and their sums: virial, impulses to walls, energies."""
+        return self._core.totals
+
+    @property
+    def state(self) -> State:
+        """The exact state now, to rounding. Reading it never changes what follows; it is kept until the clock moves."""
+        if self._state is None:
+            self._state = State._of(self._core.state())
+        return self._state
+
+    @property
+    def positions(self) -> Floats:
+        """Positions now, shape (N, 2), length; along periodic axes inside the box. Read-only."""
+        return self.state.positions
+
+    @property
+    def velocities(self) -> Floats:
+        """Velocities now, shape (N, 2), length / time. Read-only; `set_velocities()` changes them."""
+        return self.state.velocities
+
+    @property
+    def images(self) -> Integers:
+        """Box lengths travelled past periodic edges, shape (N, 2)."""
+        return self.state.images
+
+    @property
+    def unwrapped(self) -> Floats:
+        """Positions that go on past periodic edges, shape (N, 2)."""
+        (x0, x1), (y0, y1) = self.scene.box
+        return np.asarray(self.positions + self.images * np.array([x1 - x0, y1 - y0]))
+
+    @property
+    def spins(self) -> Floats:
+        """Angular velocities, shape (N,), 1 / time; shape (0,) where disks are smooth."""
+        return self.state.spins
+
+    @property
+    def kinetic_energy(self) -> float:
+        """The kinetic energy of all disks, spins of solid disks included; mass length^2 / time^2."""
+        energy = 0.5 * float(self.masses @ (self.velocities**2).sum(axis=1))
+        if len(self.spins):
+            energy += 0.25 * float((self.masses * (self.radii * self.state.scale) ** 2) @ self.spins**2)
+        return energy
+
+    @property
+    def state_hash(self) -> str:
+        """16 hexadecimal digits of time, positions, velocities and spins: equal where the bits are equal."""
+        return self.state.state_hash
+
+    @property
+    def trajectory(self) -> Frames | None:
+        """The frames of the last `sample()`, also where it was interrupted; None before."""
+        return self._trajectory
+
+    # Going on.
+
+    def _moved(self) -> None:
+        self._state = None
+
+    def run(self, duration: float, *, progress: Progress | None = None) -> Stop:
+        """Goes on for `duration`. Repeated calls add up with rounding; `sample()` has an exact grid."""
+        return self.run_until(self.time + duration, progress=progress)
+
+    def run_until(self, time: float, collisions: int | None = None, *, progress: Progress | None = None) -> Stop:
+        """Processes every event up to and including `time`; an earlier time does nothing. Bits do not depend on where one stops.
+
+        Args:
+            time: since the start of the measured run.
+            collisions: ends the run earlier, at this number of pair collisions since time 0.
+            progress: True for a bar (needs tqdm), or a function of the fraction done.
+
+        Returns:
+            why it returned. Where the disks could not go on, a StoppedEarly warning says so too.
+        """
+        begin = self.time
+        with reporting(progress, "run") as report:
+            tell = None if report is None else lambda now: report(_fraction(begin, now, time))
+            try:
+                reason = self._core.run_until(time, collisions, tell)
+            finally:
+                self._moved()
+        return as_stop(reason, self.time)
+
+    def step(self, until: float = math.inf) -> Event | None:
+        """Goes to the next event up to `until`, and returns it: a collision with a disk, a wall or an obstacle, the edge of a square
+        well, or a new velocity by the thermostat. Returns None where there is none; the simulation then stands at `until`."""
+        self._moved()
+        event = self._core.step(until)
+        return None if event is None else Event(*event)
+
+    def events(self, until: float) -> Iterator[Event]:
+        """Iterates over all events up to `until`; the simulation stands at the event at hand."""
+        while (event := self.step(until)) is not None:
+            yield event
+
+    def record(self, until: float) -> npt.NDArray[Any]:
+        """Runs up to `until` and returns all collisions on the way as a structured array, in order of time.
+
+        Its fields are time, time_remainder, disk, partner, velocity (2) and partner_velocity (2), as in `Event`. Edges of square
+        wells are among them, new velocities by a thermostat are not.
+        """
+        try:
+            memory, reason = self._core.record(until)
+        finally:
+            self._moved()
+        as_stop(reason, self.time)
+        return events_in(memory)
+
+    def sample(
+        self,
+        dt: float,
+        until: float,
+        *,
+        positions: bool = True,
+        velocities: bool = True,
+        stride: int = 1,
+        progress: Progress | None = None,
+    ) -> Frames:
+        """Runs up to `until` and returns the states at k dt, k whole, from now to then, both included: the program's samples, to the
+        last bit, where dt is the scene's run.sample_every.
+
+        Args:
+            dt: from one sample to the next; time.
+            until: where the run ends.
+            positions, velocities: whether they are kept.
+            stride: keeps every so-manieth sample alone.
+            progress: True for a bar (needs tqdm), or a function of the fraction done.
+
+        Raises:
+            MemoryError: where the frames cannot fit into this machine; `frames()` needs no memory for them.
+            KeyboardInterrupt: on Ctrl-C. `trajectory` has the frames until then, and the simulation can go on.
+        """
+        first, count = self._sample_range(dt, until, 0, stride)
+        room = _Room(self, count, positions, velocities)
+        begin = self.time
+        reason: str | None = None
+        with reporting(progress, "sample") as report:
+            tell = None if report is None else lambda now: report(_fraction(begin, now, until))
+            try:
+                reason = self._core.run_sampled(until, dt, first, stride, _NONE, *room.arrays, tell)
+            finally:
+                self._moved()
+                self._trajectory = room.frames(self, interrupted=reason is None)
+        as_stop(reason, self.time)
+        return self._trajectory
+
+    def frames(self, dt: float, until: float, *, stride: int = 1) -> Iterator[State]:
+        """Iterates over the states that `sample()` returns, in constant memory."""
+        first, count = self._sample_range(dt, until, 0, stride)
+        for k in range(first, first + count * stride, stride):
+            room = _Room(self, 1, True, True)
+            try:
+                reason = self._core.run_sampled(until, dt, k, stride, 1, *room.arrays, None)
+            finally:
+                self._moved()
+            frames = room.frames(self, interrupted=False)
+            if not len(frames):
+                as_stop(reason, self.time)
+                return
+            yield frames[0]
+            as_stop(reason, self.time)
+            if Stop(reason).early:
+                return
+
+    def _sample_range(self, dt: float, until: float, first: int, stride: int) -> tuple[int, int]:
+        if not (dt > 0 and math.isfinite(dt)):
+            raise ValueError(f"samples are {dt:g} apart; that must be positive and finite")
+        if not math.isfinite(until):
+            raise ValueError("a simulation runs to a finite time only")
+        if stride < 1:
+            raise ValueError(f"stride={stride}: every so-manieth sample is kept, and that is 1 or more")
+        return self._core.sample_range(until, dt, first, stride)
+
+    def play(self, until: float) -> Player:
+        """Runs up to `until` and returns the run as a player: exact at any instant, in the notebook or as a page."""
+        from carom.player import play
+
+        return play(self, until)
+
+    def animate(self, dt: float, frames: int | None = None, color: str = "speed", interval: float = 30) -> FuncAnimation:
+        """Returns an animation of matplotlib that runs the simulation as it is shown, by `dt` from frame to frame.
+
+        Args:
+            dt: simulated time from one frame to the next.
+            frames: their number; None: without end.
+            color: "speed", "species" or any colour of matplotlib.
+            interval: milliseconds from one frame to the next.
+        """
+        from carom.animate import live_animation
+
+        return live_animation(self, dt, frames, color=color, interval=interval)
+
+    # Changing it while it runs.
+
+    def set(self, key: str | dict[str, Any], value: Any = None) -> None:
+        """Changes what acts on the disks from now on, by a key of the scene: `sim.set("gravity.acceleration", (0, -1))`.
+
+        Time, totals and random numbers go on. Whatever acts can be changed: collision, gravity, walls, obstacles, growth, thermostat,
+        shear, square_well, drag; a dict changes several keys at once. A table whose value is None no longer acts.
+
+        Raises:
+            SceneError: where the scene, as it would begin now, is wrong. Then nothing is changed.
+            ValueError: for a key that does not say what acts on the disks.
+        """
+        changes = key if isinstance(key, dict) else {key: value}
+        acting = {name: table for name, table in self.scene.to_dict().items() if name in _EFFECTS}
+        for name, entry in changes.items():
+            path = name.split(".")
+            if path[0] not in _EFFECTS:
+                raise ValueError(f"{name} does not say what acts on the disks while they move; {', '.join(_EFFECTS)} do")
+            _put(acting, path, entry)
+        self._core.set_effects(scene_text(acting))
+        self._moved()
+        self._now = self._disks = None
+
+    def set_velocities(self, velocities: npt.ArrayLike, spins: npt.ArrayLike | None = None) -> None:
+        """Gives all disks these velocities, shape (N, 2), and where they spin these spins, shape (N,). All else goes on."""
+        self._core.set_velocities(pairs(velocities, "velocities"), None if spins is None else numbers(spins, "spins"))
+        self._moved()
+
+    def set_collision_rule(self, rule: CollisionRule | None) -> None:
+        """Has two disks that meet do what `rule` says; None brings the scene's rule back.
+
+        `rule(pair)` is called at every collision of two disks and sets `pair.velocity` and `pair.partner_velocity`; it reads their
+        masses, radii, ids and `pair.normal`, the unit vector from the partner to the disk. The disks must not approach each other
+        afterwards. This is slow, about a microsecond per collision; the simulation cannot be asked anything meanwhile.
+        """
+        self._core.set_collision_rule(rule)
+        self._rule = rule
+
+    def reset_clock(self) -> None:
+        """Makes now the zero of time and forgets all totals, as a run does when it has equilibrated. The state stays."""
+        self._core.reset_clock()
+        self._moved()
+
+    def check_invariants(self) -> list[str]:
+        """Compares the engine's plan with what an exhaustive search finds. Returns one sentence per fault: none, if all is well."""
+        return self._core.check_invariants()
+
+    # Keeping it.
+
+    def copy(self) -> Simulation:
+        """Returns another simulation that goes on to the same bits."""
+        return _restored(self._made, self._core.save(), self._rule)
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Simulation:
+        return self.copy()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self._made, self._core.save(), self._rule)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Writes the simulation into a file from which `Simulation.load()` goes on to the same bits, with this build of carom."""
+        if self._rule is not None:
+            raise ValueError("a collision rule of one's own cannot be saved; set_collision_rule(None) takes it away")
+        part = f"{fspath(path)}.partial"
+        try:
+            with open(part, "wb") as file:
+                file.write(_MAGIC + json.dumps(self._made.parts()).encode() + b"\n" + self._core.save())
+            os.replace(part, path)
+        except OSError as error:
+            raise OutputError(f"{fspath(path)}: cannot write the simulation: {error.strerror}") from None
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Simulation:
+        """Returns the simulation that `save()` wrote. Raises OutputError for any other file, and for one of another build."""
+        try:
+            with open(path, "rb") as file:
+                content = io.BytesIO(file.read())
+        except OSError as error:
+            raise OutputError(f"{fspath(path)}: cannot read the simulation: {error.strerror}") from None
+        if content.read(len(_MAGIC)) != _MAGIC:
+            raise OutputError(f"{fspath(path)}: this was not written by Simulation.save()")
+        try:
+            return _restored(scene_of_parts(*json.loads(content.readline())), content.read(), None)
+        except (RuntimeError, ValueError, TypeError) as error:
+            raise OutputError(f"{fspath(path)}: {error}") from None
+
+    def __repr__(self) -> str:
+        return f"<carom.Simulation of {self.count} disks at time {self.time:g}, {self.collisions} collisions, engine {self.engine}>"
+
+
+#: Tables of a scene that say what acts on the disks.
+_EFFECTS = ("collision", "gravity", "walls", "obstacles", "growth", "thermostat", "shear", "square_well", "drag")
+
+
+def _put(tables: dict[str, Any], path: list[str], value: Any) -> None:
+    """Sets one entry of nested mappings; None removes it."""
+    for name in path[:-1]:
+        tables = tables.setdefault(name, {})
+    if value is None:
+        tables.pop(path[-1], None)
+    else:
+        tables[path[-1]] = value
+
+
+def _restored(made: Scene, saved: bytes, rule: CollisionRule | None) -> Simulation:
+    simulation = Simulation.__new__(Simulation)
+    simulation._begin(made, _core.Simulation.restore(made._core, saved))
+    simulation._now = None
+    if rule is not None:
+        simulation.set_collision_rule(rule)
+    return simulation
+
+
+def _fraction(begin: float, now: float, end: float) -> float:
+    return 1.0 if end <= begin else min(1.0, (now - begin) / (end - begin))
+
+
+class _Room:
+    """Memory for frames, into which the engine writes."""
+
+    def __init__(self, simulation: Simulation, count: int, positions: bool, velocities: bool) -> None:
+        disks = simulation.count
+        periodic = any(simulation.scene.periodic)
+        spins = len(simulation.spins)
+        per_frame = 16 * disks * (positions + velocities + (positions and periodic)) + 8 * spins + 32
+        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+        if count * per_frame > memory:
+            raise MemoryError(
+                f"{count:,} frames of {disks:,} disks take {count * per_frame / 1e9:.2g} GB; iterate over sim.frames(dt, until), or "
+                "give a stride"
+            )
+        self.time, self.scale, self.virial = (np.empty(count) for _ in range(3))
+        self.collisions = np.empty(count, np.uint64)
+        self.positions = np.empty((count, disks, 2)) if positions else None
+        self.velocities = np.empty((count, disks, 2)) if velocities else None
+        self.images = np.empty((count, disks, 2), np.int64) if positions and periodic else None
+        self.spins = np.empty((count, spins)) if spins else None
+        self.written = np.zeros(1, np.int64)
+
+    @property
+    def arrays(self) -> tuple[Any, ...]:
+        return (
+            self.time,
+            self.positions,
+            self.velocities,
+            self.images,
+            self.spins,
+            self.scale,
+            self.virial,
+            self.collisions,
+            self.written,
+        )
+
+    def frames(self, simulation: Simulation, interrupted: bool) -> Frames:
+        count = int(self.written[0])
+
+        def done(array: Any) -> Any:
+            if array is None:
+                return None
+            view = array[:count]
+            view.flags.writeable = False
+            return view
+
+        return Frames(
+            time=done(self.time),
+            positions=done(self.positions),
+            velocities=done(self.velocities),
+            images=done(self.images),
+            spins=done(self.spins),
+            scale=done(self.scale),
+            collisions=done(self.collisions),
+            virial=done(self.virial),
+            radii=simulation.radii,
+            species=simulation.species,
+            scene=simulation.scene,
+            state_hash=simulation.state_hash,
+            interrupted=interrupted,
+        )
+
+
+def engines() -> list[str]:
+    """Returns the names of the engines, those first that "auto" prefers."""
+    return _core.engine_names()
+
+
+def fixed_step_methods() -> list[str]:
+    """Returns the names of the fixed-step methods: "naive", "naive-edge", "guarded", "grid", "backtrack", "swept", "soft"."""
+    return _core.fixed_step_names()

@@ -1,0 +1,43 @@
+#pragma once
+// Memory that numpy and the library share, and the exceptions and interruptions of calls that take long.
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstddef>
+#include <functional>
+#include <initializer_list>
+#include <utility>
+
+namespace carom::python {
+
+namespace nb = nanobind;
+
+/// An array for numpy, which cannot write to it.
+template <class Value>
+using Array = nb::ndarray<nb::numpy, const Value>;
+
+/// Returns the values as an array that owns them: nothing is copied.
+template <class Value, class Holder>
+[[nodiscard]] Array<Value> array_that_owns(Holder&& values, std::initializer_list<std::size_t> shape) {
+  using Held = std::remove_cvref_t<Holder>;
+  auto* const held = new Held(std::forward<Holder>(values));
+  const nb::capsule owner(held, [](void* p) noexcept { delete static_cast<Held*>(p); });
+  return Array<Value>(reinterpret_cast<const Value*>(held->data()), shape.size(), shape.begin(), owner);
+}
+
+/// Returns values that `owner` holds as an array that keeps the owner alive.
+template <class Value>
+[[nodiscard]] Array<Value> array_within(const Value* values, std::initializer_list<std::size_t> shape, nb::handle owner) {
+  return Array<Value>(values, shape.size(), shape.begin(), owner);
+}
+
+/// Takes the lock of the interpreter, and lets pending signals and the caller's `report` raise what they like: KeyboardInterrupt
+/// comes out of the call at hand. Signals are those of the main thread.
+inline void look_at_python(const std::function<void()>& report = {}) {
+  const nb::gil_scoped_acquire locked;
+  if (PyErr_CheckSignals() != 0) throw nb::python_error();
+  if (report) report();
+}
+
+}  // namespace carom::python

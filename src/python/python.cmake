@@ -1,0 +1,47 @@
+# The Python package: python/carom, and the extension carom._core that it stands on. Both are laid out in the build directory, so that
+# PYTHONPATH=build/release/python is all that a test needs; pip installs them as a wheel (pyproject.toml).
+#
+# nanobind comes with the interpreter's packages. With AUTO nothing is built where it is missing.
+set(carom_python_found FALSE)
+if(NOT CAROM_PYTHON STREQUAL "OFF")
+  set(Python_FIND_VIRTUALENV FIRST)
+  find_package(Python 3.11 COMPONENTS Interpreter Development.Module)
+  if(Python_FOUND)
+    execute_process(COMMAND ${Python_EXECUTABLE} -m nanobind --cmake_dir OUTPUT_VARIABLE nanobind_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE
+                    ERROR_QUIET RESULT_VARIABLE status)
+    if(status EQUAL 0)
+      find_package(nanobind CONFIG REQUIRED)
+      set(carom_python_found TRUE)
+    endif()
+  endif()
+  if(NOT carom_python_found)
+    set(why "no Python 3.11 or newer with its headers (on Debian python3-dev)")
+    if(Python_FOUND)
+      set(why "${Python_EXECUTABLE} has no nanobind (pip install nanobind)")
+    endif()
+    if(NOT CAROM_PYTHON STREQUAL "AUTO")
+      message(FATAL_ERROR "CAROM_PYTHON=${CAROM_PYTHON}, and there is ${why}")
+    endif()
+    message(STATUS "The Python package is not built: there is ${why}")
+  endif()
+endif()
+
+if(carom_python_found)
+  file(GLOB sources CONFIGURE_DEPENDS src/python/*.cpp)
+  nanobind_add_module(carom_python STABLE_ABI NB_STATIC NB_SUPPRESS_WARNINGS ${sources})
+  set(laid_out ${PROJECT_BINARY_DIR}/python/carom)
+  set_target_properties(carom_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${laid_out} CXX_VISIBILITY_PRESET hidden)
+  target_include_directories(carom_python PRIVATE src)
+  target_link_libraries(carom_python PRIVATE carom_studies carom_build_flags fmt::fmt nlohmann_json::nlohmann_json)
+  target_compile_options(carom_python PRIVATE $<$<CONFIG:Release>:-O1>)  # what takes time is in the library
+  target_link_options(carom_python PRIVATE LINKER:--gc-sections LINKER:--exclude-libs,ALL LINKER:--as-needed)
+  # Python files stay where they are; links to them stand beside the extension.
+  file(GLOB files RELATIVE ${PROJECT_SOURCE_DIR}/python/carom CONFIGURE_DEPENDS python/carom/*.py python/carom/py.typed)
+  file(MAKE_DIRECTORY ${laid_out})
+  foreach(file IN LISTS files)
+    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/python/carom/${file} ${laid_out}/${file} SYMBOLIC)
+  endforeach()
+  nanobind_add_stub(carom_python_stub MODULE _core OUTPUT ${laid_out}/_core.pyi PYTHON_PATH $<TARGET_FILE_DIR:carom_python> DEPENDS carom_python)
+  install(TARGETS carom_python LIBRARY DESTINATION carom COMPONENT python EXCLUDE_FROM_ALL)
+  install(FILES ${laid_out}/_core.pyi DESTINATION carom COMPONENT python EXCLUDE_FROM_ALL)
+endif()

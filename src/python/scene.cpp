@@ -1,0 +1,113 @@
+// Scenes, as Python sees them.
+
+#include "pages/scene_words.hpp"
+#include "python/buffers.hpp"
+#include "python/parts.hpp"
+#include "runner/expected_cost.hpp"
+#include "scene/presets.hpp"
+
+#include <carom/scene.hpp>
+#include <carom/simulation.hpp>
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom::python {
+
+namespace {
+
+using Pairs = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
+using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+std::vector<Eigen::Vector2d> pairs_of(const std::optional<Pairs>& array) {
+  std::vector<Eigen::Vector2d> pairs;
+  if (!array) return pairs;
+  pairs.reserve(array->shape(0));
+  for (std::size_t i = 0; i < array->shape(0); ++i) pairs.emplace_back((*array)(i, 0), (*array)(i, 1));
+  return pairs;
+}
+
+std::vector<double> numbers_of(const std::optional<Numbers>& array) {
+  if (!array) return {};
+  return {array->data(), array->data() + array->shape(0)};
+}
+
+}  // namespace
+
+void add_scene(nb::module_& module) {
+  nb::class_<Scene>(module, "Scene")
+      .def_static("load", &load_scene, nb::arg("path"), nb::arg("overrides") = std::vector<std::string>{})
+      .def_static("parse", &parse_scene, nb::arg("text"), nb::arg("source"), nb::arg("overrides") = std::vector<std::string>{},
+                  nb::arg("directory") = ".")
+      .def(
+          "with_disks",
+          [](const Scene& scene, const Pairs& positions, const std::optional<Pairs>& velocities,
+             const std::optional<Numbers>& radii, const std::optional<Numbers>& masses) {
+            return with_disks(scene, {pairs_of(positions), pairs_of(velocities), numbers_of(radii), numbers_of(masses)});
+          },
+          nb::arg("positions"), nb::arg("velocities").none(), nb::arg("radii").none(), nb::arg("masses").none())
+      .def_prop_ro("toml", [](const Scene& scene) { return resolved_toml(scene); })
+      .def_ro("text", &Scene::text)
+      .def_ro("overrides", &Scene::overrides)
+      .def_ro("source", &Scene::source)
+      .def_ro("title", &Scene::title)
+      .def_prop_ro("count", &Scene::disk_count)
+      .def_prop_ro("packing_fraction", &Scene::packing_fraction)
+      .def_prop_ro("seed", [](const Scene& scene) { return scene.run.seed; })
+      .def_prop_ro("time", [](const Scene& scene) { return scene.run.time; })
+      .def_prop_ro("sample_every", [](const Scene& scene) { return scene.run.sample_every; })
+      .def_prop_ro("lower",
+                   [](const Scene& scene) {
+                     return std::vector<double>{scene.box.lower.x(), scene.box.lower.y()};
+                   })
+      .def_prop_ro("upper",
+                   [](const Scene& scene) {
+                     return std::vector<double>{scene.box.upper.x(), scene.box.upper.y()};
+                   })
+      .def_prop_ro("periodic",
+                   [](const Scene& scene) {
+                     return std::vector<bool>{scene.box.periodic(0), scene.box.periodic(1)};
+                   })
+      .def_prop_ro("species",
+                   [](const Scene& scene) {
+                     std::vector<std::string> names;
+                     for (const Species& species : scene.species) names.push_back(species.name);
+                     return names;
+                   })
+      .def_prop_ro("observables", [](const Scene& scene) {
+        std::vector<std::string> names;
+        for (const ObservableRequest& request : scene.observe) names.push_back(request.name);
+        return names;
+      });
+  module.def("preset_names", &preset_names, "Returns the names of all presets, \"box\" first.");
+  module.def("preset", &preset, nb::arg("name"), "Returns the TOML text of a preset.");
+  module.def("engine_names", &engine_names, "Returns the names of all engines, the preferred ones first.");
+  module.def("fixed_step_names", &fixed_step_names, "Returns the names of all fixed-step methods.");
+  module.def(
+      "describe",
+      [](const Scene& scene) {
+        std::vector<std::pair<std::string, std::string>> rows;
+        for (const SummaryRow& row : words_of(scene)) rows.emplace_back(row.quantity, row.value);
+        return rows;
+      },
+      nb::arg("scene"), "Returns the scene in words: pairs of a quantity and its value, as carom check prints them.");
+  module.def(
+      "expected_cost",
+      [](const Scene& scene, const std::string& engine) {
+        const nb::gil_scoped_release released;
+        Trial trial(scene, engine);
+        const ExpectedCost cost = trial.run();
+        return std::tuple(trial.simulation().engine(), trial.simulation().engine_reason(), words(cost), cost.seconds,
+                          cost.collisions);
+      },
+      nb::arg("scene"), nb::arg("engine"), "Returns engine, reason, cost in words, seconds and collisions after a short trial.");
+}
+
+}  // namespace carom::python

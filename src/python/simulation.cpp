@@ -1,0 +1,335 @@
+// A running simulation, as Python sees it. Calls that take long leave the interpreter's lock to others, and look at signals some
+// twenty times a second.
+
+#include "python/buffers.hpp"
+#include "python/parts.hpp"
+#include "scene/resolved_effects.hpp"
+#include "simulation/sampling_times.hpp"
+
+#include <carom/simulation.hpp>
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace carom::python {
+
+namespace {
+
+using Pairs = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
+using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+template <class Value, class... Shape>
+using Room = nb::ndarray<Value, nb::c_contig, nb::device::cpu, Shape...>;
+
+/// time, remainder, disk, partner, velocity, velocity of the partner
+using EventTuple = std::tuple<double, double, std::int32_t, std::int32_t, std::tuple<double, double>, std::tuple<double, double>>;
+
+EventTuple tuple_of(const Event& event) {
+  return {event.time,
+          event.time_remainder,
+          event.disk,
+          event.partner,
+          {event.velocity.x(), event.velocity.y()},
+          {event.partner_velocity.x(), event.partner_velocity.y()}};
+}
+
+/// Where the samples of a run go: memory of numpy's, one entry or row per frame. What is absent is not written.
+struct FrameRoom {
+  Room<double, nb::ndim<1>> time;
+  std::optional<Room<double, nb::shape<-1, -1, 2>>> positions, velocities;
+  std::optional<Room<std::int64_t, nb::shape<-1, -1, 2>>> images;
+  std::optional<Room<double, nb::shape<-1, -1>>> spins;
+  Room<double, nb::ndim<1>> scale, virial;
+  Room<std::uint64_t, nb::ndim<1>> collisions;
+  Room<std::int64_t, nb::ndim<1>> written;  ///< one number: frames so far
+
+  void write(const State& state, const Totals& totals) const {
+    const auto frame = static_cast<std::size_t>(written.data()[0]);
+    const auto copy = [&](const auto& matrix, const auto& room) {
+      if (room) std::copy_n(matrix.data(), matrix.size(), room->data() + frame * static_cast<std::size_t>(matrix.size()));
+    };
+    time.data()[frame] = state.time;
+    scale.data()[frame] = state.scale;
+    virial.data()[frame] = totals.virial;
+    collisions.data()[frame] = totals.pair;
+    copy(state.positions, positions);
+    copy(state.velocities, velocities);
+    copy(state.images, images);
+    copy(state.spins, spins);
+    ++written.data()[0];
+  }
+};
+
+/// A simulation that belongs to one caller at a time: a second one is refused in place of a race.
+class Running {
+ public:
+  Running(const Scene& scene, const std::string& engine, const std::optional<FixedStep>& step, const State* start)
+      : simulation_(made(scene, engine, step, start)) {}
+  explicit Running(Simulation simulation) : simulation_(std::move(simulation)) {}
+
+  /// Calls `action` with the simulation, while nobody else has it.
+  template <class Action>
+  auto use(Action&& action) {
+    if (busy_.exchange(true))
+      throw std::runtime_error(
+          "this simulation is running: ask it when the call that runs it has returned, or make one of its own for each thread");
+    struct Release {
+      std::atomic<bool>& busy;
+      ~Release() { busy = false; }
+    } release{busy_};
+    return action(simulation_);
+  }
+
+  /// Does so without the interpreter's lock.
+  template <class Action>
+  auto use_alone(Action&& action) {
+    return use([&](Simulation& simulation) {
+      const nb::gil_scoped_release released;
+      return action(simulation);
+    });
+  }
+
+ private:
+  static Simulation made(const Scene& scene, const std::string& engine, const std::optional<FixedStep>& step,
+                         const State* start) {
+    const nb::gil_scoped_release released;
+    if (step) return start != nullptr ? make_simulation(scene, *start, *step) : make_simulation(scene, *step);
+    return start != nullptr ? make_simulation(scene, *start, engine) : make_simulation(scene, engine);
+  }
+
+  Simulation simulation_;
+  std::atomic<bool> busy_ = false;
+};
+
+/// Limits that look at signals, and tell `report` the time.
+RunLimits limits_of(std::optional<std::uint64_t> collisions, const nb::object& report, const Simulation& simulation) {
+  RunLimits limits;
+  limits.collisions = collisions.value_or(RunLimits::none);
+  limits.proceed = [&report, &simulation] {
+    look_at_python([&] {
+      if (!report.is_none()) report(simulation.time());
+    });
+    return true;
+  };
+  return limits;
+}
+
+/// The scene as it is now: its text is not that which was read.
+Scene scene_now(const Simulation& simulation) {
+  Scene scene = simulation.scene();
+  scene.text = resolved_toml(scene);
+  scene.overrides.clear();
+  return scene;
+}
+
+nb::dict dict_of(const Totals& totals) {
+  const auto pair = [](const Eigen::Vector2d& v) { return std::tuple(v.x(), v.y()); };
+  nb::dict d;
+  d["pair"] = totals.pair;
+  d["wall"] = totals.wall;
+  d["obstacle"] = totals.obstacle;
+  d["well"] = totals.well;
+  d["thermostat"] = totals.thermostat;
+  d["other"] = totals.other;
+  d["stale"] = totals.stale;
+  d["virial"] = totals.virial;
+  d["virial_yx"] = totals.virial_yx;
+  d["wall_impulse"] = std::vector<double>(totals.wall_impulse.begin(), totals.wall_impulse.end());
+  d["wall_energy"] = std::vector<double>(totals.wall_energy.begin(), totals.wall_energy.end());
+  d["obstacle_impulse"] = pair(totals.obstacle_impulse);
+  d["dissipated"] = totals.dissipated;
+  d["thermostat_energy"] = totals.thermostat_energy;
+  d["growth_energy"] = totals.growth_energy;
+  d["shear_energy"] = totals.shear_energy;
+  return d;
+}
+
+/// The two disks of a collision, for a rule in Python, which changes the velocities.
+void add_colliding_pair(nb::module_& module) {
+  const auto get = [](Eigen::Vector2d CollidingPair::*member) {
+    return [member](const CollidingPair& pair) { return std::tuple((pair.*member).x(), (pair.*member).y()); };
+  };
+  const auto set = [](Eigen::Vector2d CollidingPair::*member) {
+    return [member](CollidingPair& pair, const std::tuple<double, double>& v) {
+      pair.*member = {std::get<0>(v), std::get<1>(v)};
+    };
+  };
+  nb::class_<CollidingPair>(module, "CollidingPair")
+      .def_ro("disk", &CollidingPair::disk)
+      .def_ro("partner", &CollidingPair::partner)
+      .def_ro("mass", &CollidingPair::mass)
+      .def_ro("partner_mass", &CollidingPair::partner_mass)
+      .def_ro("radius", &CollidingPair::radius)
+      .def_ro("partner_radius", &CollidingPair::partner_radius)
+      .def_prop_ro("normal", get(&CollidingPair::normal))
+      .def_prop_rw("velocity", get(&CollidingPair::velocity), set(&CollidingPair::velocity))
+      .def_prop_rw("partner_velocity", get(&CollidingPair::partner_velocity), set(&CollidingPair::partner_velocity));
+}
+
+CollisionFunction rule_of(nb::object rule) {
+  if (rule.is_none()) return {};
+  // The function is copied and destroyed by threads that need not hold the lock.
+  const std::shared_ptr<nb::object> held(new nb::object(std::move(rule)), [](nb::object* object) {
+    const nb::gil_scoped_acquire locked;
+    delete object;
+  });
+  return [held](CollidingPair& pair) {
+    const nb::gil_scoped_acquire locked;
+    (*held)(nb::cast(&pair, nb::rv_policy::reference));
+  };
+}
+
+}  // namespace
+
+void add_simulation(nb::module_& module) {
+  add_colliding_pair(module);
+  nb::class_<Running>(module, "Simulation")
+      .def(
+          "__init__",
+          [](Running* self, const Scene& scene, const std::string& engine, const std::optional<std::string>& method, double dt,
+             const State* state) {
+            std::optional<FixedStep> step;
+            if (method) step = FixedStep{*method, dt};
+            new (self) Running(scene, engine, step, state);
+          },
+          nb::arg("scene"), nb::arg("engine"), nb::arg("method").none(), nb::arg("dt"), nb::arg("state").none())
+      .def_static(
+          "restore",
+          [](const Scene& scene, const nb::bytes& saved) {
+            std::istringstream in(std::string(saved.c_str(), saved.size()));
+            const nb::gil_scoped_release released;
+            return new Running(restore_simulation(scene, in));
+          },
+          nb::arg("scene"), nb::arg("saved"), nb::rv_policy::take_ownership)
+      .def("save",
+           [](Running& self) {
+             std::ostringstream out;
+             self.use_alone([&](Simulation& simulation) { simulation.save(out); });
+             const std::string bytes = out.str();
+             return nb::bytes(bytes.data(), bytes.size());
+           })
+      .def_prop_ro("time", [](Running& self) { return self.use([](Simulation& s) { return s.time(); }); })
+      .def_prop_ro("collisions", [](Running& self) { return self.use([](Simulation& s) { return s.counts().pair; }); })
+      .def_prop_ro("engine", [](Running& self) { return self.use([](Simulation& s) { return s.engine(); }); })
+      .def_prop_ro("engine_reason", [](Running& self) { return self.use([](Simulation& s) { return s.engine_reason(); }); })
+      .def_prop_ro("time_step", [](Running& self) { return self.use([](Simulation& s) { return s.time_step(); }); })
+      .def_prop_ro("bytes", [](Running& self) { return self.use([](Simulation& s) { return s.bytes(); }); })
+      .def_prop_ro("scene", [](Running& self) { return self.use([](Simulation& s) { return scene_now(s); }); })
+      .def_prop_ro("totals", [](Running& self) { return self.use([](Simulation& s) { return dict_of(s.totals()); }); })
+      .def("disks",
+           [](Running& self) {
+             const Disks disks = self.use([](Simulation& s) { return s.disks(); });
+             const std::size_t n = disks.count();
+             return std::tuple(array_that_owns<double>(disks.radius, {n}), array_that_owns<double>(disks.mass, {n}),
+                               array_that_owns<std::int32_t>(disks.species, {n}));
+           })
+      .def("state", [](Running& self) { return self.use_alone([](Simulation& s) { return s.state(); }); })
+      .def(
+          "run_until",
+          [](Running& self, double time, std::optional<std::uint64_t> collisions, const nb::object& report) {
+            return to_string(self.use_alone([&](Simulation& s) { return s.run_until(time, limits_of(collisions, report, s)); }));
+          },
+          nb::arg("time"), nb::arg("collisions").none() = nb::none(), nb::arg("report").none() = nb::none())
+      .def(
+          "sample_range",
+          [](Running& self, double until, double step, std::uint64_t first, std::uint64_t stride) {
+            const detail::SamplingTimes times(step);
+            const double now = self.use([](Simulation& s) { return s.time(); });
+            const std::uint64_t begin = times.next({now, 0.0}, {.first = first, .stride = stride}), last = times.last(until);
+            return std::tuple(begin, last < begin ? 0 : (last - begin) / stride + 1);
+          },
+          nb::arg("until"), nb::arg("step"), nb::arg("first"), nb::arg("stride"),
+          "Returns the number of the next sample, and how many there are until then.")
+      .def(
+          "run_sampled",
+          [](Running& self, double until, double step, std::uint64_t first, std::uint64_t stride, std::uint64_t most,
+             Room<double, nb::ndim<1>> time, std::optional<Room<double, nb::shape<-1, -1, 2>>> positions,
+             std::optional<Room<double, nb::shape<-1, -1, 2>>> velocities,
+             std::optional<Room<std::int64_t, nb::shape<-1, -1, 2>>> images, std::optional<Room<double, nb::shape<-1, -1>>> spins,
+             Room<double, nb::ndim<1>> scale, Room<double, nb::ndim<1>> virial, Room<std::uint64_t, nb::ndim<1>> collisions,
+             Room<std::int64_t, nb::ndim<1>> written, const nb::object& report) {
+            const FrameRoom room{time, positions, velocities, images, spins, scale, virial, collisions, written};
+            const bool whole = positions || images || spins;
+            const SamplingGrid grid{
+                .step = step,
+                .sample = [&](std::uint64_t, const State& state, const Totals& totals) { room.write(state, totals); },
+                .velocities_alone = !whole};
+            return to_string(self.use_alone([&](Simulation& s) {
+              return s.run_sampled(until, grid, limits_of({}, report, s), {.first = first, .stride = stride, .most = most});
+            }));
+          },
+          nb::arg("until"), nb::arg("step"), nb::arg("first"), nb::arg("stride"), nb::arg("most"), nb::arg("time"),
+          nb::arg("positions").none(), nb::arg("velocities").none(), nb::arg("images").none(), nb::arg("spins").none(),
+          nb::arg("scale"), nb::arg("virial"), nb::arg("collisions"), nb::arg("written"), nb::arg("report").none())
+      .def(
+          "step",
+          [](Running& self, double until) -> std::optional<EventTuple> {
+            const std::optional<Event> event = self.use([&](Simulation& s) { return s.step(until); });
+            return event ? std::optional(tuple_of(*event)) : std::nullopt;
+          },
+          nb::arg("until") = std::numeric_limits<double>::infinity())
+      .def(
+          "record",
+          [](Running& self, double until, const nb::object& report) {
+            std::vector<Event> events;
+            const StopReason reason = self.use_alone([&](Simulation& s) {
+              s.record_events(true);
+              struct End {
+                Simulation& simulation;
+                std::vector<Event>& events;
+                ~End() {
+                  simulation.take_events(events);
+                  simulation.record_events(false);
+                }
+              } end{s, events};
+              return s.run_until(until, limits_of({}, report, s));
+            });
+            const std::size_t bytes = events.size() * sizeof(Event);
+            return std::tuple(array_that_owns<std::uint8_t>(std::move(events), {bytes}), to_string(reason));
+          },
+          nb::arg("until"), nb::arg("report").none() = nb::none())
+      .def(
+          "set_effects",
+          [](Running& self, const std::string& toml) {
+            const Effects effects = detail::parse_effects(toml);
+            self.use_alone([&](Simulation& s) { s.set_effects(effects); });
+          },
+          nb::arg("toml"))
+      .def(
+          "set_velocities",
+          [](Running& self, const Pairs& velocities, const std::optional<Numbers>& spins) {
+            const auto columns = static_cast<Eigen::Index>(velocities.shape(0));
+            const Eigen::Matrix2Xd matrix = Eigen::Map<const Eigen::Matrix2Xd>(velocities.data(), 2, columns);
+            Eigen::VectorXd turning;
+            if (spins) turning = Eigen::Map<const Eigen::VectorXd>(spins->data(), static_cast<Eigen::Index>(spins->shape(0)));
+            self.use_alone([&](Simulation& s) { s.set_velocities(matrix, turning); });
+          },
+          nb::arg("velocities"), nb::arg("spins").none() = nb::none())
+      .def(
+          "set_collision_rule",
+          [](Running& self, nb::object rule) {
+            CollisionFunction function = rule_of(std::move(rule));
+            self.use_alone([&](Simulation& s) { s.set_collision_rule(std::move(function)); });
+          },
+          nb::arg("rule").none())
+      .def_prop_ro("has_collision_rule",
+                   [](Running& self) { return self.use([](Simulation& s) { return s.has_collision_rule(); }); })
+      .def("reset_clock", [](Running& self) { self.use([](Simulation& s) { s.reset_clock(); }); })
+      .def("check_invariants", [](Running& self) { return self.use_alone([](Simulation& s) { return s.check_invariants(); }); });
+}
+
+}  // namespace carom::python
