@@ -13,6 +13,7 @@ schedule with its observables, and writes files where it is told to. What the pr
 from carom._errors import Interrupted, OutputError, SceneError, StoppedEarly
 from carom._events import EVENT, Event, partner_name
 from carom.frames import Frames, State
+from carom.results import Measurement, Number, Table
 from carom.scene import Check, Scene, build, presets
 from carom.simulation import CollidingPair, Simulation, Stop, engines, fixed_step_methods
 
@@ -25,6 +26,8 @@ __all__ = [
     "Event",
     "Frames",
     "Interrupted",
+    "Measurement",
+    "Number",
     "OutputError",
     "Scene",
     "SceneError",
@@ -32,6 +35,7 @@ __all__ = [
     "State",
     "StoppedEarly",
     "Stop",
+    "Table",
     "build",
     "engines",
     "fixed_step_methods",

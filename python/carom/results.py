@@ -1,0 +1,257 @@
+"""What was measured: numbers with their errors, and tables with their units."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from matplotlib.axes import Axes
+
+
+def with_error(value: float, error: float) -> str:
+    """Returns a value with its standard error, both to the error's second digit: "2.0602 ± 0.0010"."""
+    if not (math.isfinite(value) and math.isfinite(error) and error > 0):
+        return f"{value:.6g}"
+    digits = 1 - math.floor(math.log10(float(f"{error:.1e}")))
+    if digits < 0:
+        scale = 10.0**-digits
+        return f"{round(value / scale) * scale:.0f} ± {round(error / scale) * scale:.0f}"
+    if digits > 12:
+        return f"{value:.6e} ± {error:.1e}"
+    return f"{value:.{digits}f} ± {error:.{digits}f}"
+
+
+@dataclass(frozen=True)
+class Number:
+    """A measured number with its standard error.
+
+    >>> Number(2.06018, 0.00103)
+    2.0602 ± 0.0010
+
+    Attributes:
+        value: nan where the number has no meaning in this run; `note` then says why.
+        error: the standard error, which allows for correlations; None where the run is too short to tell.
+        unit: in units of the scene, such as "energy"; empty for a pure number.
+        decorrelation_time: the integrated correlation time tau: a run of length T has T / (2 tau) independent samples. None where the
+            run is too short, or none was measured; `error` is then a lower bound, if there is one.
+        note: a remark, or empty.
+    """
+
+    value: float
+    error: float | None = None
+    unit: str = ""
+    decorrelation_time: float | None = None
+    note: str = ""
+
+    def __float__(self) -> float:
+        return self.value
+
+    def __str__(self) -> str:
+        return f"{self.value:.6g}" if self.error is None else with_error(self.value, self.error)
+
+    __repr__ = __str__
+
+    def __format__(self, spec: str) -> str:
+        return format(self.value, spec) if spec else str(self)
+
+
+class Table(Mapping[str, npt.NDArray[Any]]):
+    """Columns of equal length, by name. `table["r"]` is a numpy array; the standard errors of a column are called NAME_error.
+
+    >>> table = Table({"t": [0.0, 1.0], "x": [1.0, 0.5], "x_error": [0.1, 0.1]}, {"t": "time", "x": "length"})
+    >>> table["x"].tolist()
+    [1.0, 0.5]
+
+    Args:
+        columns: arrays or lists of one length.
+        units: of columns, in units of the scene; those that are absent are pure numbers or words.
+        title: what the table holds.
+    """
+
+    def __init__(
+        self, columns: Mapping[str, npt.ArrayLike], units: Mapping[str, str] | None = None, title: str = ""
+    ) -> None:
+        self._columns = {name: np.asarray(column) for name, column in columns.items()}
+        lengths = {name: len(column) for name, column in self._columns.items()}
+        if len(set(lengths.values())) > 1:
+            raise ValueError(f"columns of a table have one length, and these have {lengths}")
+        self.units = dict(units or {})
+        self.title = title
+
+    def __getitem__(self, name: str) -> npt.NDArray[Any]:
+        if name not in self._columns:
+            raise KeyError(f"there is no column {name!r}; there are {', '.join(self._columns)}")
+        return self._columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    @property
+    def columns(self) -> list[str]:
+        """The names of the columns."""
+        return list(self._columns)
+
+    @property
+    def rows(self) -> int:
+        """The number of rows."""
+        return len(next(iter(self._columns.values()))) if self._columns else 0
+
+    def label(self, name: str) -> str:
+        """Returns the name of a column with its unit in brackets, for an axis."""
+        unit = self.units.get(name, "")
+        return f"{name} ({unit})" if unit else name
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Returns the table as a DataFrame; units are in its attrs. Needs pandas (pip install carom[tables])."""
+        import pandas
+
+        frame = pandas.DataFrame({name: list(column) if column.ndim > 1 else column for name, column in self.items()})
+        frame.attrs = {"units": dict(self.units), "title": self.title}
+        return frame
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Returns the table as a Dataset over its first column. Needs xarray (pip install carom[tables])."""
+        import xarray
+
+        index, *others = self.columns
+        variables = {name: ((index,), self[name], {"units": self.units.get(name, "")}) for name in others}
+        return xarray.Dataset(variables, coords={index: self[index]}, attrs={"title": self.title})
+
+    def plot(
+        self, x: str | None = None, y: str | Sequence[str] | None = None, yerr: str | None = None, ax: Axes | None = None, **style: Any
+    ) -> Axes:
+        """Draws columns over the first one, with error bars where there are errors. Needs matplotlib (pip install carom[plot]).
+
+        Args:
+            x: the column along the axis; None: the first one.
+            y: the column or columns to draw; None: all numbers that are not errors.
+            yerr: the column of errors; None: NAME_error, where it is there.
+            ax: where to draw; None: a figure of its own.
+            style: what matplotlib's errorbar() takes besides.
+        """
+        import matplotlib.pyplot as plt
+
+        axes = plt.subplots()[1] if ax is None else ax
+        x = x or self.columns[0]
+        numeric = [name for name in self if name != x and not name.endswith("_error") and self[name].dtype.kind in "biuf"]
+        names = numeric if y is None else [y] if isinstance(y, str) else list(y)
+        for name in names:
+            errors = yerr or f"{name}_error"
+            axes.errorbar(self[x], self[name], self[errors] if errors in self else None, **{"label": name, "capsize": 2, **style})
+        axes.set_xlabel(self.label(x))
+        if len(names) == 1:
+            axes.set_ylabel(self.label(names[0]))
+        else:
+            axes.legend()
+        if self.title:
+            axes.set_title(self.title, fontsize="medium")
+        return axes
+
+    def _cells(self) -> list[list[str]]:
+        def cell(value: Any) -> str:
+            if isinstance(value, (float, np.floating)):
+                return "" if math.isnan(value) else f"{value:.6g}"
+            return "" if value is None else str(value)
+
+        return [[cell(self[name][row]) for name in self] for row in range(self.rows)]
+
+    def __str__(self) -> str:
+        cells = [[self.label(name) for name in self], *self._cells()]
+        if len(cells) > 42:
+            cells = [*cells[:21], ["..."] * len(self), *cells[-20:]]
+        widths = [max(len(row[k]) for row in cells) for k in range(len(self))]
+        lines = ["  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True)).rstrip() for row in cells]
+        return "\n".join([self.title, *lines] if self.title else lines)
+
+    def __repr__(self) -> str:
+        return f"<carom.Table {self.title!r} of {self.rows} rows: {', '.join(self)}>"
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{html.escape(self.label(name))}</th>" for name in self)
+        cells = self._cells()
+        body = "".join(f"<tr>{''.join(f'<td>{html.escape(c)}</td>' for c in row)}</tr>" for row in cells[:60])
+        more = f"<p>{self.rows - 60:,} more rows</p>" if self.rows > 60 else ""
+        caption = f"<caption>{html.escape(self.title)}</caption>" if self.title else ""
+        return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
+
+
+class Measurement(Mapping[str, Number]):
+    """What one observable has measured: numbers by name, and tables.
+
+    Attributes:
+        name: of the observable.
+        tables: by name; most observables have one or none, which `table` is.
+        note: a remark on all of it, or empty.
+    """
+
+    def __init__(self, name: str, numbers: Mapping[str, Number], tables: Mapping[str, Table], note: str = "") -> None:
+        self.name = name
+        self._numbers = dict(numbers)
+        self.tables = dict(tables)
+        self.note = note
+
+    def __getitem__(self, name: str) -> Number:
+        if name not in self._numbers:
+            have = ", ".join(self._numbers) or "none"
+            raise KeyError(f"{self.name} has no number {name!r}; its numbers are: {have}; its tables: {', '.join(self.tables) or 'none'}")
+        return self._numbers[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._numbers)
+
+    def __len__(self) -> int:
+        return len(self._numbers)
+
+    @property
+    def table(self) -> Table:
+        """The first table. Raises KeyError where there is none."""
+        if not self.tables:
+            raise KeyError(f"{self.name} has no table; its numbers are: {', '.join(self._numbers)}")
+        return next(iter(self.tables.values()))
+
+    def plot(self, **style: Any) -> Axes:
+        """Draws the first table: see Table.plot()."""
+        return self.table.plot(**style)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Returns the numbers as a DataFrame, a row each. Needs pandas (pip install carom[tables])."""
+        return self.numbers.to_pandas()
+
+    @property
+    def numbers(self) -> Table:
+        """The numbers as a table: name, value, error, unit, note."""
+        numbers = self._numbers.values()
+        return Table(
+            {
+                "name": np.array(list(self._numbers), dtype=object),
+                "value": [n.value for n in numbers],
+                "error": [math.nan if n.error is None else n.error for n in numbers],
+                "unit": np.array([n.unit for n in numbers], dtype=object),
+                "note": np.array([n.note for n in numbers], dtype=object),
+            },
+            title=self.name,
+        )
+
+    def __str__(self) -> str:
+        lines = [f"{name} = {number}{f' {number.unit}' if number.unit else ''}" for name, number in self._numbers.items()]
+        lines += [f"table {name}: {', '.join(table)} ({table.rows} rows)" for name, table in self.tables.items()]
+        return "\n".join([f"{self.name}:", *(f"  {line}" for line in lines)])
+
+    def __repr__(self) -> str:
+        return f"<carom.Measurement {self.name}: {', '.join([*self._numbers, *self.tables])}>"
+
+    def _repr_html_(self) -> str:
+        tables = "".join(table._repr_html_() for table in self.tables.values())
+        return (self.numbers._repr_html_() if self._numbers else f"<p>{html.escape(self.name)}</p>") + tables
