@@ -74,7 +74,7 @@ class Session {
         mode_(progress_mode(options_.progress, options_.quiet)),
         walltime_(options_.walltime ? read_option("--walltime", *options_.walltime, seconds_in)
                                     : std::numeric_limits<double>::infinity()),
-        runner_(given.simulation, given.directory, given.provenance,
+        runner_(given.simulation, &given.directory, given.provenance,
                 {.checkpoint_every = options_.checkpoint_every,
                  .verify_every = options_.verify.value_or(0),
                  .threads = options_.threads,

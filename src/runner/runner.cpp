@@ -13,9 +13,7 @@
 
 namespace carom {
 
-namespace {}  // namespace
-
-Runner::Runner(Simulation& simulation, const RunDirectory& directory, Provenance provenance, RunnerOptions options,
+Runner::Runner(Simulation& simulation, const RunDirectory* directory, Provenance provenance, RunnerOptions options,
                const Checkpoint* from)
     : simulation_(simulation),
       scene_(simulation.scene()),
@@ -31,8 +29,9 @@ Runner::Runner(Simulation& simulation, const RunDirectory& directory, Provenance
     extended_ = from->facts().finished;
   } else {
     observation_.emplace(simulation_);
-    writer_.emplace(directory_, scene_, simulation_.disks(), provenance_);
+    if (directory_ != nullptr) writer_.emplace(*directory_, scene_, simulation_.disks(), provenance_);
   }
+  if (options_.observe) options_.observe(*observation_);
 }
 
 RunnerOutcome Runner::run(const RunnerHooks& hooks) {
@@ -41,9 +40,9 @@ RunnerOutcome Runner::run(const RunnerHooks& hooks) {
   outcome.report.observables = observation_->results();
   if (options_.verify_every > 0) outcome.report.verification = {options_.verify_every, result.verified, result.faults};
   if (start_ && hooks.complete && result.stopped != StopReason::interrupted) hooks.complete(outcome.report, *start_);
-  outcome.files = writer_->finish(outcome.report);
+  if (writer_) outcome.files = writer_->finish(outcome.report);
   if (saved_) outcome.files.emplace_back(checkpoint_name);
-  if (options_.report) write_report(outcome);
+  if (options_.report && directory_ != nullptr) write_report(outcome);
   return outcome;
 }
 
@@ -52,14 +51,16 @@ RunResult Runner::simulate(const RunnerHooks& hooks) {
   schedule.verify_every = options_.verify_every;
   schedule.start = [&](const State& start) {
     measurements_.start(start);
-    writer_->start(start, observation_->reference_temperature());
+    if (writer_) writer_->start(start, observation_->reference_temperature());
     if (options_.keep_start) start_ = start;
   };
   schedule.sample = [&](std::uint64_t k, const State& state) {
     measurements_.sample(state);
-    writer_->sample(k, state, simulation_.totals());
+    const Totals totals = simulation_.totals();
+    if (writer_) writer_->sample(k, state, totals);
+    if (hooks.sample) hooks.sample(state, totals);
   };
-  if (scene_.output.events) schedule.events = [&](std::span<const Event> events) { writer_->events(events); };
+  if (writer_ && scene_.output.events) schedule.events = [&](std::span<const Event> events) { writer_->events(events); };
   schedule.block = [&](const Progress& progress) { measurements_.block(progress); };
   schedule.proceed = [&](const Progress& progress) {
     stopped_ = hooks.proceed && !hooks.proceed(progress);
@@ -68,7 +69,9 @@ RunResult Runner::simulate(const RunnerHooks& hooks) {
   schedule.checkpoint = [&](const SavingMoment& moment) {
     if (is_due(moment)) save(moment, hooks);
   };
-  const bool beside = options_.threads ? *options_.threads > 1 : std::thread::hardware_concurrency() > 1;
+  const bool beside = options_.observe   ? false
+                      : options_.threads ? *options_.threads > 1
+                                         : std::thread::hardware_concurrency() > 1;
   beside ? observation_->attach_on_thread(schedule) : observation_->attach(schedule);
   schedule.grids.insert(schedule.grids.end(), hooks.grids.begin(), hooks.grids.end());
   std::istringstream saved_schedule(schedule_);
@@ -85,6 +88,7 @@ double Runner::wall_seconds() const {
 
 /// A run that is stopped is always saved; others as the plan says, and then at their end too.
 bool Runner::is_due(const SavingMoment& moment) const {
+  if (directory_ == nullptr) return false;
   if (moment.ended) return stopped_ || plan_;
   if (extended_ && !saved_) return true;  // another end is known from now on
   if (!plan_) return false;
@@ -122,7 +126,7 @@ void Runner::save(const SavingMoment& moment, const RunnerHooks& hooks) {
   last_saved_ = Clock::now();
   saved_collisions_ = moment.progress.totals.pair;
   try {
-    write_checkpoint(directory_, facts, simulation_.state(), parts);
+    write_checkpoint(*directory_, facts, simulation_.state(), parts);
     saved_ = true;
   } catch (const OutputError& error) {  // the run may still come to its end
     if (hooks.warn) hooks.warn(fmt::format("{}; the run goes on unsaved", error.what()));
@@ -143,7 +147,7 @@ void Runner::read(const Checkpoint& from) {
       LoadingArchive archive(in);
       archive(start_.emplace());
     });
-  from.read("files", [&](std::istream& in) { writer_.emplace(directory_, scene_, simulation_.disks(), provenance_, in); });
+  from.read("files", [&](std::istream& in) { writer_.emplace(*directory_, scene_, simulation_.disks(), provenance_, in); });
 }
 
 /// Observables keep the steps that followed from the end which the run began with; from another end others would follow.
@@ -159,8 +163,8 @@ std::string Runner::scene_with_steps() const {
 void Runner::write_report(RunnerOutcome& outcome) const {
   constexpr const char* name = "report.html";
   try {
-    PartialFile file(directory_.final_name(name));
-    file.write(report_of(directory_.path(), options_.more_on_accuracy).html);
+    PartialFile file(directory_->final_name(name));
+    file.write(report_of(directory_->path(), options_.more_on_accuracy).html);
     file.publish();
     outcome.files.emplace_back(name);
   } catch (const std::exception& error) {

@@ -32,6 +32,9 @@ struct RunnerOptions {
   bool report = false;                   ///< make the page of the run too
   MoreOnAccuracy more_on_accuracy = {};  ///< for that page
   bool keep_start = false;               ///< keep the start of the measured run for RunnerHooks::complete
+  /// Adds observables of the program's own, which are measured in the run's thread; a run that goes on from a checkpoint
+  /// continues them.
+  std::function<void(Observation& observation)> observe = {};
   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();  ///< wall time counts from here
 };
 
@@ -43,8 +46,9 @@ struct RunnerHooks {
   /// Adds to the report of a run that was not stopped, before it is written. `start` is that of the measured run. Is called only
   /// with RunnerOptions::keep_start.
   std::function<void(RunReport& report, const State& start)> complete = {};
-  std::function<void(const std::string& sentence)> warn = {};  ///< what went wrong without ending the run
-  std::vector<SamplingGrid> grids = {};                        ///< RunHooks::grids
+  std::function<void(const std::string& sentence)> warn = {};                 ///< what went wrong without ending the run
+  std::function<void(const State& state, const Totals& totals)> sample = {};  ///< RunHooks::sample, once it was written
+  std::vector<SamplingGrid> grids = {};                                       ///< RunHooks::grids
 };
 
 struct RunnerOutcome {
@@ -55,9 +59,10 @@ struct RunnerOutcome {
 
 class Runner {
  public:
-  /// Opens all files. `simulation` is at its start, or as `from` has it; all arguments but the options must live as long as this.
-  /// Throws OutputError where a file cannot be written, std::invalid_argument where saving_plan() does.
-  Runner(Simulation& simulation, const RunDirectory& directory, Provenance provenance, RunnerOptions options,
+  /// Opens all files; without a directory there are none, and nothing is saved. `simulation` is at its start, or as `from` has
+  /// it; all arguments but the options must live as long as this. Throws OutputError where a file cannot be written,
+  /// std::invalid_argument where saving_plan() does.
+  Runner(Simulation& simulation, const RunDirectory* directory, Provenance provenance, RunnerOptions options,
          const Checkpoint* from = nullptr);
 
   /// Runs the scene's schedule, saves the run as the options say, and writes all files. Call it once. Throws OutputError where a
@@ -83,7 +88,7 @@ class Runner {
 
   Simulation& simulation_;
   const Scene& scene_;
-  const RunDirectory& directory_;
+  const RunDirectory* directory_;
   Provenance provenance_;
   const RunnerOptions options_;
   const Checkpoint* from_;

@@ -1,6 +1,7 @@
 // A run with its files, its checkpoints and its page, made by the library alone.
 
 #include "runner/runner.hpp"
+#include "runner/resumed_run.hpp"
 
 #include "support/temporary_directory.hpp"
 
@@ -9,9 +10,14 @@
 #include <carom/scene.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <istream>
+#include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
+#include <vector>
 
 namespace carom {
 namespace {
@@ -68,7 +74,7 @@ Finished run_gas(const std::filesystem::path& path, RunnerOptions options, doubl
                  std::optional<int> questions = {}) {
   Simulation simulation = make_simulation(gas(time));
   const RunDirectory directory(path, false);
-  Runner runner(simulation, directory, provenance_of(simulation), std::move(options));
+  Runner runner(simulation, &directory, provenance_of(simulation), std::move(options));
   RunnerHooks hooks;
   if (questions) hooks.proceed = [&](const Progress&) { return --*questions > 0; };
   RunnerOutcome outcome = runner.run(hooks);
@@ -112,7 +118,7 @@ TEST(Runner, SavesARunThatIsStoppedAndGoesOnToTheSameBits) {
   const Checkpoint from(directory.path());
   std::optional<Simulation> simulation;
   from.read("simulation", [&](std::istream& in) { simulation.emplace(restore_simulation(gas(time), in)); });
-  Runner runner(*simulation, directory, from.facts().provenance, {.threads = 1}, &from);
+  Runner runner(*simulation, &directory, from.facts().provenance, {.threads = 1}, &from);
   EXPECT_TRUE(runner.saved());
   const RunnerOutcome rest = runner.run();
   EXPECT_EQ(rest.report.state_hash, whole.outcome.report.state_hash);
@@ -124,7 +130,7 @@ TEST(Runner, HandsTheStartOfTheMeasuredRunToWhoeverCompletesTheReport) {
   Simulation simulation = make_simulation(gas());
   const State start = simulation.state();
   const RunDirectory directory(place.path() / "gas", false);
-  Runner runner(simulation, directory, provenance_of(simulation), {.threads = 1, .keep_start = true});
+  Runner runner(simulation, &directory, provenance_of(simulation), {.threads = 1, .keep_start = true});
   int calls = 0;
   const RunnerOutcome outcome = runner.run({.complete = [&](RunReport& report, const State& handed) {
     ++calls;
@@ -140,7 +146,7 @@ TEST(Runner, SaysThatAReportFailedAndKeepsTheRun) {
   std::filesystem::create_directories(place.path() / "gas/report.html.partial");
   const RunDirectory directory = RunDirectory::reopen(place.path() / "gas");
   Simulation simulation = make_simulation(gas());
-  Runner runner(simulation, directory, provenance_of(simulation), {.threads = 1, .report = true});
+  Runner runner(simulation, &directory, provenance_of(simulation), {.threads = 1, .report = true});
   const RunnerOutcome outcome = runner.run();
   EXPECT_TRUE(outcome.report_failed);
   EXPECT_THAT(outcome.files, Contains("summary.json"));
@@ -151,8 +157,53 @@ TEST(Runner, RefusesAPlanThatIsNone) {
   const TemporaryDirectory place;
   Simulation simulation = make_simulation(gas());
   const RunDirectory directory(place.path() / "gas", false);
-  EXPECT_THROW(Runner(simulation, directory, provenance_of(simulation), {.checkpoint_every = "now and then"}),
+  EXPECT_THROW(Runner(simulation, &directory, provenance_of(simulation), {.checkpoint_every = "now and then"}),
                std::invalid_argument);
+}
+
+TEST(Runner, WithoutADirectoryHasTheSameReportAndWritesNothing) {
+  const TemporaryDirectory temporary;
+  const Finished written = run_gas(temporary.path() / "run", {.threads = 1});
+  Simulation simulation = make_simulation(gas());
+  std::vector<double> times;
+  const RunnerOutcome outcome = Runner(simulation, nullptr, provenance_of(simulation), {.checkpoint_every = "1s", .report = true})
+                                    .run({.sample = [&](const State& state, const Totals&) { times.push_back(state.time); }});
+  EXPECT_EQ(outcome.report.state_hash, written.outcome.report.state_hash);
+  EXPECT_EQ(outcome.report.Z, written.outcome.report.Z);
+  EXPECT_THAT(outcome.files, IsEmpty());
+  EXPECT_EQ(times.size(), outcome.report.samples);
+  EXPECT_EQ(times.back(), 40.0);
+}
+
+/// Counts samples; saved and continued.
+class SampleCount final : public Observable {
+ public:
+  [[nodiscard]] std::string name() const override { return "sample_count"; }
+  [[nodiscard]] double step() const override { return 0.5; }
+  void sample(const State&, const Totals&) override { ++count_; }
+  void save(std::ostream& out) const override { out << count_ << '\n'; }
+  void load(std::istream& in) override { in >> count_; }
+  Measurement finish(double, const Totals&) override { return {.name = name(), .scalars = {{.name = "count", .value = count_}}}; }
+
+ private:
+  double count_ = 0.0;
+};
+
+TEST(Runner, ObservablesOfTheProgramAreMeasuredAndGoOnFromACheckpoint) {
+  const RunnerOptions options = {.observe = [](Observation& observation) { observation.add(std::make_unique<SampleCount>()); }};
+  const TemporaryDirectory temporary;
+  const Finished stopped = run_gas(temporary.path() / "run", options, 1e7, 2);
+  ASSERT_TRUE(stopped.saved);
+  const auto counted = [](const RunReport& report) { return report.observables.back().scalars.front().value.value_or(0.0); };
+  const double before = counted(stopped.outcome.report);
+  EXPECT_EQ(before, std::floor(stopped.outcome.report.time / 0.5) + 1.0);
+
+  const double end = std::ceil(stopped.outcome.report.time) + 10.0;
+  const ResumedRun resumed(temporary.path() / "run", {.time = end});
+  resumed.check_end({.time = end});
+  Simulation simulation = resumed.simulation();
+  Runner runner(simulation, &resumed.directory, resumed.provenance(), options, &resumed.from);
+  EXPECT_EQ(counted(runner.run().report), end / 0.5 + 1.0);
 }
 
 }  // namespace
