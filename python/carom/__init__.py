@@ -13,14 +13,18 @@ schedule with its observables, and writes files where it is told to. What the pr
 from carom._errors import Interrupted, OutputError, SceneError, StoppedEarly
 from carom._events import EVENT, Event, partner_name
 from carom.frames import Frames, State
+from carom.observables import COLLISION, Blocking, Observable
 from carom.results import Measurement, Number, Table
+from carom.runs import Result, Run, open_run, resume, run
 from carom.scene import Check, Scene, build, presets
 from carom.simulation import CollidingPair, Simulation, Stop, engines, fixed_step_methods
 
 __version__: str = build()["version"]
 
 __all__ = [
+    "COLLISION",
     "EVENT",
+    "Blocking",
     "Check",
     "CollidingPair",
     "Event",
@@ -28,7 +32,10 @@ __all__ = [
     "Interrupted",
     "Measurement",
     "Number",
+    "Observable",
     "OutputError",
+    "Result",
+    "Run",
     "Scene",
     "SceneError",
     "Simulation",
@@ -39,6 +46,9 @@ __all__ = [
     "build",
     "engines",
     "fixed_step_methods",
+    "open_run",
     "partner_name",
     "presets",
+    "resume",
+    "run",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from carom.results import Result
+    from carom.runs import Result
 
 
 class SceneError(ValueError):

@@ -218,7 +218,7 @@ class Frames:
         """Returns an xarray.Dataset with the coordinates time, disk and axis ("x", "y"). Needs xarray (pip install carom[tables])."""
         import xarray
 
-        dims = {"time": ("time",), "scale": ("time",), "collisions": ("time",), "virial": ("time",), "radii": ("disk",), "species": ("disk",)}
+        dims: dict[str, tuple[str, ...]] = {"time": ("time",), "scale": ("time",), "collisions": ("time",), "virial": ("time",), "radii": ("disk",), "species": ("disk",)}
         dims |= {name: ("time", "disk", "axis") for name in ("positions", "velocities", "images")} | {"spins": ("time", "disk")}
         variables = {name: (d, getattr(self, name)) for name, d in dims.items() if name != "time" and getattr(self, name) is not None}
         coordinates = {"time": self.time, "axis": ["x", "y"]}

@@ -330,7 +330,7 @@ class Simulation:
         with reporting(progress, "sample") as report:
             tell = None if report is None else lambda now: report(_fraction(begin, now, until))
             try:
-                reason = self._core.run_sampled(until, dt, first, stride, _NONE, *room.arrays, tell)
+                reason = self._core.run_sampled(until, dt, first, stride, _NONE, **vars(room), report=tell)
             finally:
                 self._moved()
                 self._trajectory = room.frames(self, interrupted=reason is None)
@@ -343,7 +343,7 @@ class Simulation:
         for k in range(first, first + count * stride, stride):
             room = _Room(self, 1, True, True)
             try:
-                reason = self._core.run_sampled(until, dt, k, stride, 1, *room.arrays, None)
+                reason = self._core.run_sampled(until, dt, k, stride, 1, **vars(room), report=None)
             finally:
                 self._moved()
             frames = room.frames(self, interrupted=False)
@@ -503,7 +503,7 @@ def _fraction(begin: float, now: float, end: float) -> float:
 
 
 class _Room:
-    """Memory for frames, into which the engine writes."""
+    """Memory for frames, into which the engine writes: the arrays that `run_sampled` takes by name."""
 
     def __init__(self, simulation: Simulation, count: int, positions: bool, velocities: bool) -> None:
         disks = simulation.count
@@ -523,20 +523,6 @@ class _Room:
         self.images = np.empty((count, disks, 2), np.int64) if positions and periodic else None
         self.spins = np.empty((count, spins)) if spins else None
         self.written = np.zeros(1, np.int64)
-
-    @property
-    def arrays(self) -> tuple[Any, ...]:
-        return (
-            self.time,
-            self.positions,
-            self.velocities,
-            self.images,
-            self.spins,
-            self.scale,
-            self.virial,
-            self.collisions,
-            self.written,
-        )
 
     def frames(self, simulation: Simulation, interrupted: bool) -> Frames:
         count = int(self.written[0])

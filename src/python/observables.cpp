@@ -1,4 +1,180 @@
+#include "python/observables.hpp"
+
+#include "core/archive.hpp"
+#include "python/buffers.hpp"
 #include "python/parts.hpp"
+
+#include <carom/blocking.hpp>
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <iterator>
+#include <optional>
+#include <ostream>
+#include <span>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
 namespace carom::python {
-void add_observables(nanobind::module_&) {}
+
+namespace {
+
+// numpy reads collisions where they are: carom.observables.COLLISION has these places.
+static_assert(sizeof(PairCollision) == 128 && offsetof(PairCollision, disk) == 8 && offsetof(PairCollision, separation) == 16 &&
+              offsetof(PairCollision, impulse) == 32 && offsetof(PairCollision, velocity_before) == 48 &&
+              offsetof(PairCollision, velocity) == 64 && offsetof(PairCollision, partner_velocity_before) == 80 &&
+              offsetof(PairCollision, partner_velocity) == 96 && offsetof(PairCollision, contact) == 112);
+
+class PythonObservable final : public Observable {
+ public:
+  explicit PythonObservable(nb::object object)
+      : object_(std::move(object)),
+        name_(nb::cast<std::string>(object_.attr("name"))),
+        step_(nb::cast<double>(object_.attr("step"))),
+        needs_positions_(nb::cast<bool>(object_.attr("needs_positions"))),
+        follows_collisions_(nb::cast<bool>(object_.attr("follows_collisions"))) {}
+  PythonObservable(const PythonObservable&) = delete;
+  PythonObservable& operator=(const PythonObservable&) = delete;
+  ~PythonObservable() override {
+    const nb::gil_scoped_acquire locked;
+    object_.reset();
+  }
+
+  [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] double step() const override { return step_; }
+  [[nodiscard]] bool needs_positions() const override { return needs_positions_; }
+  [[nodiscard]] bool follows_collisions() const override { return follows_collisions_; }
+
+  void start(const State& state) override {
+    const nb::gil_scoped_acquire locked;
+    object_.attr("_start")(State(state));
+  }
+  void sample(const State& state, const Totals& totals) override {
+    const nb::gil_scoped_acquire locked;
+    hand_over();
+    object_.attr("_sample")(State(state), totals.pair, totals.virial);
+  }
+  void collisions(std::span<const PairCollision> collisions) override {
+    waiting_.insert(waiting_.end(), collisions.begin(), collisions.end());
+    if (waiting_.size() < batch) return;
+    const nb::gil_scoped_acquire locked;
+    hand_over();
+  }
+  Measurement finish(double time, const Totals& totals) override;
+
+  void save(std::ostream& out) const override {
+    const nb::gil_scoped_acquire locked;
+    const_cast<PythonObservable*>(this)->hand_over();
+    const auto bytes = nb::cast<nb::bytes>(object_.attr("_save")());
+    out.write(bytes.c_str(), static_cast<std::streamsize>(bytes.size()));
+  }
+  void load(std::istream& in) override {
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const nb::gil_scoped_acquire locked;
+    object_.attr("_load")(nb::bytes(bytes.data(), bytes.size()));
+  }
+
+ private:
+  /// A call of Python takes as long as some ten collisions.
+  static constexpr std::size_t batch = 4096;
+
+  /// Hands on the collisions that wait. Requires the lock.
+  void hand_over() {
+    if (waiting_.empty()) return;
+    const std::size_t bytes = waiting_.size() * sizeof(PairCollision);
+    object_.attr("_collisions")(array_that_owns<std::uint8_t>(std::move(waiting_), {bytes}));
+    waiting_ = {};
+    waiting_.reserve(batch + batch / 4);
+  }
+
+  nb::object object_;
+  std::string name_;
+  double step_;
+  bool needs_positions_, follows_collisions_;
+  std::vector<PairCollision> waiting_;
+};
+
+Measurement PythonObservable::finish(double time, const Totals& totals) {
+  const nb::gil_scoped_acquire locked;
+  hand_over();
+  using Numbers =
+      std::vector<std::tuple<std::string, double, std::optional<double>, std::string, std::optional<double>, std::string>>;
+  using Columns = std::vector<std::tuple<std::string, std::string, std::vector<double>>>;
+  const auto [scalars, tables] = nb::cast<std::pair<Numbers, std::vector<std::pair<std::string, Columns>>>>(
+      object_.attr("_finish")(time, totals.pair, totals.virial));
+  Measurement measured{.name = name_};
+  for (const auto& [scalar, value, error, unit, correlation_time, note] : scalars)
+    measured.scalars.push_back({.name = scalar,
+                                .unit = unit,
+                                .value = value,
+                                .error = error,
+                                .integrated_correlation_time = correlation_time,
+                                .note = note});
+  for (const auto& [table, columns] : tables) {
+    Table& made = measured.tables.emplace_back(Table{.name = table});
+    for (const auto& [column, unit, values] : columns) made.columns.push_back({column, unit, values});
+  }
+  return measured;
+}
+
+}  // namespace
+
+std::unique_ptr<Observable> observable_of(const nb::object& object) { return std::make_unique<PythonObservable>(object); }
+
+nb::tuple tuple_of(const Measurement& measurement) {
+  nb::list scalars, tables;
+  for (const Scalar& scalar : measurement.scalars)
+    scalars.append(
+        nb::make_tuple(scalar.name, scalar.value, scalar.error, scalar.unit, scalar.integrated_correlation_time, scalar.note));
+  for (const Table& table : measurement.tables) {
+    nb::list columns;
+    for (const Column& column : table.columns)
+      columns.append(nb::make_tuple(column.name, column.unit, array_that_owns<double>(column.values, {column.values.size()})));
+    tables.append(nb::make_tuple(table.name, columns));
+  }
+  return nb::make_tuple(measurement.name, measurement.note, scalars, tables);
+}
+
+void add_observables(nb::module_& module) {
+  using Values = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+  nb::class_<Blocking>(module, "Blocking")
+      .def(nb::init<>())
+      .def(
+          "add",
+          [](Blocking& self, const Values& values, const std::optional<Values>& weights) {
+            for (std::size_t i = 0; i < values.shape(0); ++i) self.add(values.data()[i], weights ? weights->data()[i] : 1.0);
+          },
+          nb::arg("values"), nb::arg("weights").none() = nb::none())
+      .def("estimate",
+           [](const Blocking& self) -> std::optional<std::tuple<double, std::optional<double>, std::optional<double>, bool>> {
+             const auto estimate = self.estimate();
+             if (!estimate) return std::nullopt;
+             return std::tuple(estimate->mean, estimate->error, estimate->statistical_inefficiency, estimate->lower_bound);
+           })
+      .def_prop_ro("samples", &Blocking::samples)
+      .def("levels",
+           [](const Blocking& self) {
+             std::ostringstream out;
+             SavingArchive archive(out);
+             archive(self);
+             const std::string bytes = out.str();
+             return nb::bytes(bytes.data(), bytes.size());
+           })
+      .def("set_levels", [](Blocking& self, const nb::bytes& levels) {
+        std::istringstream in(std::string(levels.c_str(), levels.size()));
+        LoadingArchive archive(in);
+        archive(self);
+      });
+}
+
 }  // namespace carom::python

@@ -1,4 +1,247 @@
+// Runs of a scene's whole schedule, with files and without, and what they leave.
+
+#include "io/run_directory.hpp"
+#include "io/same_results.hpp"
+#include "io/summary.hpp"
+#include "python/buffers.hpp"
+#include "python/observables.hpp"
 #include "python/parts.hpp"
+#include "runner/resumed_run.hpp"
+#include "runner/runner.hpp"
+#include "studies/analysis/analysis.hpp"
+#include "text/numbers.hpp"
+
+#include <carom/io/run_reader.hpp>
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace carom::python {
-void add_runs(nanobind::module_&) {}
+
+namespace {
+
+using AnyTuple = nb::typed<nb::tuple, nb::any, nb::ellipsis>;
+using Objects = nb::typed<nb::list, nb::object>;
+
+/// The samples of a run, in memory.
+struct SampledStates {
+  std::vector<double> time, scale, virial, positions, velocities, spins;
+  std::vector<std::int64_t> images;
+  std::vector<std::uint64_t> collisions;
+
+  void add(const State& state, const Totals& totals) {
+    const auto append = [](auto& all, const auto& matrix) {
+      all.insert(all.end(), matrix.data(), matrix.data() + matrix.size());
+    };
+    time.push_back(state.time);
+    scale.push_back(state.scale);
+    virial.push_back(totals.virial);
+    collisions.push_back(totals.pair);
+    append(positions, state.positions);
+    append(velocities, state.velocities);
+    append(images, state.images);
+    append(spins, state.spins);
+  }
+
+  /// time, positions, velocities, images, spins, scale, collisions, virial
+  nb::tuple arrays(std::size_t disks) && {
+    const std::size_t frames = time.size(), spinning = spins.empty() ? 0 : disks;
+    return nb::make_tuple(
+        array_that_owns<double>(std::move(time), {frames}), array_that_owns<double>(std::move(positions), {frames, disks, 2}),
+        array_that_owns<double>(std::move(velocities), {frames, disks, 2}),
+        array_that_owns<std::int64_t>(std::move(images), {frames, disks, 2}),
+        array_that_owns<double>(std::move(spins), {frames, spinning}), array_that_owns<double>(std::move(scale), {frames}),
+        array_that_owns<std::uint64_t>(std::move(collisions), {frames}), array_that_owns<double>(std::move(virial), {frames}));
+  }
+};
+
+/// What a run is asked for besides its scene.
+struct RunWishes {
+  Objects observables;                          ///< carom.Observable
+  std::optional<std::string> checkpoint_every;  ///< as saving_plan() reads it
+  std::optional<double> walltime;               ///< seconds
+  std::optional<int> threads;
+  bool report = false;
+  bool frames = false;
+  nb::object progress;  ///< called with the time, the collisions, and whether it still equilibrates; None
+};
+
+class PythonRun {
+ public:
+  PythonRun(Simulation& simulation, const RunDirectory* directory, Provenance provenance, const RunWishes& wishes,
+            const Checkpoint* from = nullptr)
+      : simulation_(simulation),
+        wishes_(wishes),
+        runner_(simulation, directory, std::move(provenance),
+                {.checkpoint_every = wishes.checkpoint_every,
+                 .threads = wishes.threads,
+                 .report = wishes.report,
+                 .observe = wishes.observables.size() == 0 ? std::function<void(Observation&)>()
+                                                           : [&](Observation& observation) { observe(observation); },
+                 .began = began_},
+                from) {}
+
+  AnyTuple operator()() {
+    RunnerHooks hooks;
+    hooks.proceed = [this](const Progress& progress) { return may_go_on(progress); };
+    hooks.warn = [this](const std::string& sentence) { warnings_.push_back(sentence); };
+    if (wishes_.frames) hooks.sample = [this](const State& state, const Totals& totals) { sampled_.add(state, totals); };
+    RunnerOutcome outcome = [&] {
+      const nb::gil_scoped_release released;
+      return runner_.run(hooks);
+    }();
+    if (outcome.report_failed) warnings_.push_back(*outcome.report_failed);
+    nb::list measured;
+    for (const Measurement& measurement : outcome.report.observables) measured.append(tuple_of(measurement));
+    const std::size_t disks = simulation_.disks().count();
+    const nb::object frames = wishes_.frames ? nb::object(std::move(sampled_).arrays(disks)) : nb::none();
+    return nb::borrow<AnyTuple>(nb::make_tuple(summary_json(outcome.report, runner_.provenance()), measured,
+                                               outcome.report.stopped_disks, outcome.files, frames, simulation_.state(),
+                                               interrupted_, runner_.saved_now(), warnings_, simulation_.disks().radius,
+                                               simulation_.disks().species));
+  }
+
+ private:
+  void observe(Observation& observation) {
+    const nb::gil_scoped_acquire locked;
+    for (const nb::handle object : wishes_.observables) observation.add(observable_of(nb::borrow<nb::object>(object)));
+  }
+
+  /// Ctrl-C stops the run, which then completes its files. Whatever else a signal or `progress` raises comes out of it at once.
+  bool may_go_on(const Progress& progress) {
+    const nb::gil_scoped_acquire locked;
+    if (PyErr_CheckSignals() != 0) {
+      if (PyErr_ExceptionMatches(PyExc_KeyboardInterrupt) == 0) throw nb::python_error();
+      PyErr_Clear();
+      interrupted_ = true;
+    } else if (!wishes_.progress.is_none()) {
+      wishes_.progress(progress.time, progress.totals.pair, progress.equilibrating);
+    }
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began_;
+    return !interrupted_ && (!wishes_.walltime || passed.count() < *wishes_.walltime);
+  }
+
+  Simulation& simulation_;
+  const RunWishes& wishes_;
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  Runner runner_;
+  SampledStates sampled_;
+  bool interrupted_ = false;
+  std::vector<std::string> warnings_;
+};
+
+AnyTuple run(const Scene& scene, const std::string& engine, const std::optional<std::string>& method, double dt,
+             const std::optional<std::string>& path, bool overwrite, const RunWishes& wishes) {
+  Simulation simulation = [&] {
+    const nb::gil_scoped_release released;
+    return method ? make_simulation(scene, FixedStep{*method, dt}) : make_simulation(scene, engine);
+  }();
+  std::optional<RunDirectory> directory;
+  if (path) directory.emplace(*path, overwrite);
+  const Provenance provenance{.resolved_scene = resolved_toml(scene),
+                              .command_line = {},
+                              .engine = simulation.engine(),
+                              .time_step = simulation.time_step()};
+  try {
+    return PythonRun(simulation, directory ? &*directory : nullptr, provenance, wishes)();
+  } catch (...) {
+    if (directory) directory->discard_if_empty();
+    throw;
+  }
+}
+
+AnyTuple resume(const std::string& path, std::optional<double> time, std::optional<std::uint64_t> collisions,
+                const RunWishes& wishes) {
+  const LaterEnd end{time, collisions};
+  const ResumedRun resumed(path, end);
+  if (resumed.complete() && !end.given())
+    throw std::invalid_argument(path + ": this run has come to its end; give a later one, time=... or collisions=...");
+  resumed.check_end(end);
+  Simulation simulation = [&] {
+    const nb::gil_scoped_release released;
+    return resumed.simulation();
+  }();
+  RunWishes with_its_own = wishes;
+  const CheckpointFacts& facts = resumed.from.facts();
+  with_its_own.report = wishes.report || facts.report;
+  if (!wishes.checkpoint_every && !facts.checkpoint_every.empty()) with_its_own.checkpoint_every = facts.checkpoint_every;
+  return PythonRun(simulation, &resumed.directory, resumed.provenance(), with_its_own, &resumed.from)();
+}
+
+}  // namespace
+
+void add_runs(nb::module_& module) {
+  module.def(
+      "run",
+      [](const Scene& scene, const std::string& engine, const std::optional<std::string>& method, double dt,
+         const std::optional<std::string>& directory, bool overwrite, const Objects& observables,
+         const std::optional<std::string>& checkpoint_every, std::optional<double> walltime, std::optional<int> threads,
+         bool report, bool frames, const nb::object& progress) {
+        return run(scene, engine, method, dt, directory, overwrite,
+                   {observables, checkpoint_every, walltime, threads, report, frames, progress});
+      },
+      nb::arg("scene"), nb::arg("engine"), nb::arg("method").none(), nb::arg("dt"), nb::arg("directory").none(),
+      nb::arg("overwrite"), nb::arg("observables"), nb::arg("checkpoint_every").none(), nb::arg("walltime").none(),
+      nb::arg("threads").none(), nb::arg("report"), nb::arg("frames"), nb::arg("progress").none());
+  module.def(
+      "resume",
+      [](const std::string& directory, std::optional<double> time, std::optional<std::uint64_t> collisions,
+         const Objects& observables, const std::optional<std::string>& checkpoint_every, std::optional<double> walltime,
+         std::optional<int> threads, bool report, const nb::object& progress) {
+        return resume(directory, time, collisions, {observables, checkpoint_every, walltime, threads, report, false, progress});
+      },
+      nb::arg("directory"), nb::arg("time").none(), nb::arg("collisions").none(), nb::arg("observables"),
+      nb::arg("checkpoint_every").none(), nb::arg("walltime").none(), nb::arg("threads").none(), nb::arg("report"),
+      nb::arg("progress").none());
+  module.def("seconds_in", &seconds_in, nb::arg("text"), "Returns the seconds of \"90s\", \"10min\", \"1h30min\".");
+  module.def(
+      "analyse",
+      [](const std::string& directory, const std::vector<std::string>& observables) {
+        const Analysis analysis = [&] {
+          const nb::gil_scoped_release released;
+          return analyse(directory, observables, [](double) { look_at_python(); });
+        }();
+        nb::list measured;
+        for (const Measurement& measurement : analysis.observables) measured.append(tuple_of(measurement));
+        return nb::borrow<nb::typed<nb::list, AnyTuple>>(measured);
+      },
+      nb::arg("directory"), nb::arg("observables"));
+  module.def(
+      "compare_results",
+      [](const std::string& one, const std::string& other) {
+        const nb::gil_scoped_release released;
+        return compare_results(one, other).differences;
+      },
+      nb::arg("one"), nb::arg("other"), "Returns one sentence for each difference of two run directories.");
+  nb::class_<RunReader>(module, "RunReader")
+      .def(
+          "__init__", [](RunReader* self, const std::string& directory) { new (self) RunReader(directory); },
+          nb::arg("directory"))
+      .def_prop_ro("scene", [](const RunReader& run) { return run.scene(); })
+      .def_prop_ro("samples", &RunReader::samples)
+      .def_prop_ro("events", &RunReader::events)
+      .def_prop_ro("has_event_log", &RunReader::has_event_log)
+      .def("sample", &RunReader::sample, nb::arg("k"))
+      .def("sample_times",
+           [](const RunReader& run) {
+             std::vector<double> times = run.sample_times();
+             const std::size_t count = times.size();
+             return array_that_owns<double>(std::move(times), {count});
+           })
+      .def("event_log", [](const RunReader& run) {
+        std::vector<Event> events = run.event_log();
+        const std::size_t bytes = events.size() * sizeof(Event);
+        return array_that_owns<std::uint8_t>(std::move(events), {bytes});
+      });
+}
+
 }  // namespace carom::python

@@ -136,9 +136,9 @@ Scene scene_now(const Simulation& simulation) {
   return scene;
 }
 
-nb::dict dict_of(const Totals& totals) {
+nb::typed<nb::dict, nb::str, nb::any> dict_of(const Totals& totals) {
   const auto pair = [](const Eigen::Vector2d& v) { return std::tuple(v.x(), v.y()); };
-  nb::dict d;
+  nb::typed<nb::dict, nb::str, nb::any> d;
   d["pair"] = totals.pair;
   d["wall"] = totals.wall;
   d["obstacle"] = totals.obstacle;

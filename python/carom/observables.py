@@ -1,0 +1,152 @@
+"""Observables of one's own, and standard errors of correlated series."""
+
+from __future__ import annotations
+
+import math
+import pickle
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import _core
+from carom.frames import State
+from carom.results import Number, Table
+from carom.scene import numbers
+
+#: The fields of a collision in the batches that `Observable.collisions()` gets; their memory is the library's own.
+COLLISION = np.dtype(
+    {
+        "names": [
+            "time",
+            "disk",
+            "partner",
+            "separation",
+            "impulse",
+            "velocity_before",
+            "velocity",
+            "partner_velocity_before",
+            "partner_velocity",
+            "contact",
+        ],
+        "formats": ["f8", "i4", "i4", *[("f8", 2)] * 6, "?"],
+        "offsets": [0, 8, 12, 16, 32, 48, 64, 80, 96, 112],
+        "itemsize": 128,
+    }
+)
+
+
+class Blocking:
+    """The mean of a series of correlated samples, with its standard error by blocking (Flyvbjerg and Petersen, 1989).
+
+    Samples are equidistant in time, or in number of collisions. Memory grows with the logarithm of their number.
+
+    >>> series = carom.Blocking()
+    >>> series.add(np.random.default_rng(1).normal(size=10_000))
+    >>> abs(float(series.estimate())) < 0.05
+    True
+    """
+
+    def __init__(self) -> None:
+        self._core = _core.Blocking()
+
+    def add(self, values: npt.ArrayLike, weights: npt.ArrayLike | None = None) -> None:
+        """Adds samples, a number or an array of shape (n,). With weights the mean is that of values over that of weights."""
+        series = numbers(np.atleast_1d(np.asarray(values)), "values")
+        weight = None if weights is None else numbers(np.atleast_1d(np.asarray(weights)), "weights")
+        if weight is not None and len(weight) != len(series):
+            raise ValueError(f"there are {len(weight)} weights and {len(series)} values; give one for each")
+        self._core.add(series, weight)
+
+    @property
+    def samples(self) -> int:
+        """The number of samples."""
+        return self._core.samples
+
+    def estimate(self, unit: str = "", step: float | None = None) -> Number:
+        """Returns mean and standard error. `step` is the time between samples, from which the decorrelation time follows."""
+        found = self._core.estimate()
+        if found is None:
+            return Number(math.nan, unit=unit, note="there are no samples")
+        mean, error, inefficiency, lower_bound = found
+        time = None if step is None or inefficiency is None else 0.5 * (inefficiency - 1.0) * step
+        return Number(mean, error, unit, time, "the error is a lower bound: the run is too short" if lower_bound else "")
+
+    def __getstate__(self) -> bytes:
+        return self._core.levels()
+
+    def __setstate__(self, levels: bytes) -> None:
+        self._core = _core.Blocking()
+        self._core.set_levels(levels)
+
+
+class Observable:
+    """A quantity to be measured while a scene runs: derive from it, and give objects to `carom.run(observables=[...])`.
+
+    Override what you need. A run measures in its own thread; an observable must not ask the simulation that runs.
+
+    Attributes:
+        name: the key of the results; letters, digits and underscores.
+        step: the time between two calls of `sample()`; 0: it is never called.
+        needs_positions: whether `sample()` reads more of a state than velocities; without, samples cost a fraction.
+        follows_collisions: whether `collisions()` is called.
+    """
+
+    name: str = "observable"
+    step: float = 0.0
+    needs_positions: bool = True
+    follows_collisions: bool = False
+
+    def start(self, state: State) -> None:
+        """Is called with the state at the start of the measured run."""
+
+    def sample(self, state: State, collisions: int, virial: float) -> None:
+        """Is called at the times k `step`, with the state and the pair collisions and their virial up to then."""
+
+    def collisions(self, batch: npt.NDArray[Any]) -> None:
+        """Is called with the pair collisions since the last call, some 4,096 at a time, and all before a sample.
+
+        `batch` is a structured array of dtype `carom.COLLISION`: time, disk, partner, separation (2, from the partner to the disk),
+        impulse (2, that the disk got), velocity_before (2), velocity (2), partner_velocity_before (2), partner_velocity (2), contact.
+        """
+
+    def finish(self, time: float, collisions: int, virial: float) -> Mapping[str, Any]:
+        """Is called when the run has ended. Returns the results by name: Numbers, plain numbers, and Tables."""
+        return {}
+
+    # What the library calls.
+
+    def _start(self, state: _core.State) -> None:
+        self.start(State._of(state))
+
+    def _sample(self, state: _core.State, collisions: int, virial: float) -> None:
+        self.sample(State._of(state), collisions, virial)
+
+    def _collisions(self, memory: npt.NDArray[np.uint8]) -> None:
+        self.collisions(memory.view(COLLISION))
+
+    def _finish(self, time: float, collisions: int, virial: float) -> tuple[list[Any], list[Any]]:
+        scalars, tables = [], []
+        for name, found in self.finish(time, collisions, virial).items():
+            if isinstance(found, Table):
+                columns = [(c, found.units.get(c, ""), [float(v) for v in found[c]]) for c in found]
+                tables.append((name, columns))
+            elif isinstance(found, Number):
+                scalars.append((name, found.value, found.error, found.unit, found.decorrelation_time, found.note))
+            else:
+                scalars.append((name, _float(found, f"{self.name}.{name}"), None, "", None, ""))
+        return scalars, tables
+
+    def _save(self) -> bytes:
+        return pickle.dumps(self.__dict__)
+
+    def _load(self, saved: bytes) -> None:
+        self.__dict__.update(pickle.loads(saved))
+
+
+def _float(value: Any, name: str) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is a {type(value).__name__}; results are Numbers, plain numbers and Tables") from None

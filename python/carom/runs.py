@@ -1,0 +1,501 @@
+"""A scene's whole schedule: equilibrate, measure, write files; and finished runs, read back."""
+
+from __future__ import annotations
+
+import html
+import json
+import math
+import tempfile
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import _core
+from carom._errors import Interrupted, OutputError
+from carom._events import events_in
+from carom._files import hdf5
+from carom._measured import measurements_of
+from carom._progress import Progress, reporting
+from carom._toml import value_text
+from carom.frames import Frames, State
+from carom.observables import Observable
+from carom.results import Measurement, Number
+from carom.scene import Scene, SceneLike, as_scene
+from carom.simulation import Stop, as_stop
+
+if TYPE_CHECKING:
+    import pandas
+
+    from carom.pages import Page
+    from carom.player import Player
+
+#: Observables of a run: names of the scene format with their settings, {"pressure": True}; objects of one's own; or both in a list.
+Observables = Mapping[str, Any] | Iterable[str | Observable]
+
+
+@dataclass(eq=False)
+class Result:
+    """What a run has measured.
+
+    Attributes:
+        summary: everything in numbers, with the keys of summary.json (docs/output.md).
+        observables: what the observables have measured, by name.
+        stopped: why the run ended.
+        state: the final state.
+        scene: the scene that ran.
+        frames: the samples; None where they were not asked for.
+        directory: where the files are; None where none were written.
+        files: their names, in the order in which they were completed.
+        saved: whether there is a checkpoint, from which `carom.resume(directory)` goes on.
+    """
+
+    summary: dict[str, Any]
+    observables: dict[str, Measurement]
+    stopped: Stop
+    state: State
+    scene: Scene = field(repr=False)
+    frames: Frames | None = field(default=None, repr=False)
+    directory: Path | None = None
+    files: list[str] = field(default_factory=list)
+    saved: bool = False
+
+    @property
+    def time(self) -> float:
+        """The time that the run has reached."""
+        return float(self.summary["time"])
+
+    @property
+    def engine(self) -> str:
+        """The engine, or the fixed-step method."""
+        return str(self.summary["engine"])
+
+    @property
+    def state_hash(self) -> str:
+        """16 hexadecimal digits of the final state: equal where the bits are equal."""
+        return str(self.summary["state_hash"])
+
+    @property
+    def collisions(self) -> int:
+        """The number of collisions of two disks."""
+        return int(self.summary["events"]["pair"])
+
+    @property
+    def Z(self) -> Number:
+        """The compressibility factor P A / (N kT) from the virial, with its standard error over blocks."""
+        return _number(self.summary.get("pressure") or {}, "Z")
+
+    @property
+    def temperature(self) -> Number:
+        """The mean kT of the samples, or of the final state where there are none; energy."""
+        return Number(float(self.summary["temperature"]["mean"]), unit="energy")
+
+    def to_series(self) -> pandas.Series[Any]:
+        """Returns all numbers of the summary as a pandas Series; names are keys joined by dots. Needs pandas."""
+        import pandas
+
+        return pandas.Series(dict(_flat(self.summary)))
+
+    def report(self) -> Page:
+        """Returns the page of the run, as `carom report` makes it. Raises ValueError where the run has written no files."""
+        if self.directory is None:
+            raise ValueError("a report is made from the files of a run; run with out=\"directory\"")
+        return open_run(self.directory).report()
+
+    def __str__(self) -> str:
+        lines = [
+            f"{self.summary['disks']} disks, {self.collisions:,} collisions until time {self.time:g} ({self.stopped}), engine "
+            f"{self.engine}",
+            f"Z = {self.Z}, kT = {self.temperature}, state_hash {self.state_hash}",
+        ]
+        return "\n".join([*lines, *map(str, self.observables.values())])
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<p>{html.escape(line)}</p>" for line in str(self).split("\n")[:2])
+        return head + "".join(measured._repr_html_() for measured in self.observables.values())
+
+
+def _number(table: Mapping[str, Any], key: str) -> Number:
+    value, error, note = table.get(key), table.get(f"{key}_error"), str(table.get("note", ""))
+    return Number(math.nan if value is None else float(value), None if error is None else float(error), note=note)
+
+
+def _flat(value: Any, path: str = "") -> Iterable[tuple[str, float]]:
+    """All numbers of nested mappings and lists, by their keys joined by dots."""
+    if isinstance(value, Mapping):
+        for key, entry in value.items():
+            yield from _flat(entry, f"{path}.{key}" if path else str(key))
+    elif isinstance(value, list):
+        for k, entry in enumerate(value):
+            yield from _flat(entry, f"{path}.{k}")
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        yield path, value
+
+
+def _with_observables(scene: Scene, observables: Observables | None) -> tuple[Scene, list[Observable]]:
+    """Returns the scene that asks for the observables of the scene format, and those of one's own."""
+    if observables is None:
+        return scene, []
+    if isinstance(observables, (str, Observable)):
+        observables = [observables]
+    settings = dict(observables) if isinstance(observables, Mapping) else {o: True for o in observables if isinstance(o, str)}
+    own = [] if isinstance(observables, Mapping) else [o for o in observables if not isinstance(o, str)]
+    for observable in own:
+        if not isinstance(observable, Observable):
+            raise TypeError(f"{observable!r} is no observable; give a name such as \"pressure\", or a carom.Observable")
+    return (scene.set({f"observe.{name}": value for name, value in settings.items()}) if settings else scene), own
+
+
+def run(
+    scene: SceneLike,
+    *,
+    out: str | PathLike[str] | None = None,
+    overwrite: bool = False,
+    seed: int | None = None,
+    engine: str = "auto",
+    method: str | None = None,
+    dt: float | None = None,
+    observables: Observables | None = None,
+    events: bool = False,
+    frames: bool = False,
+    report: bool = False,
+    threads: int | None = None,
+    checkpoint_every: str | None = None,
+    walltime: float | str | None = None,
+    progress: Progress | None = None,
+) -> Result:
+    """Runs a scene's whole schedule: equilibrates, measures until its time or its collisions, and writes files where `out` is given.
+
+    >>> result = carom.run(carom.Scene.preset("box"), observables={"pressure": True})
+    >>> result.collisions, result.stopped == "time"
+    (343, True)
+
+    The bits are those of `carom run`, and so are the files.
+
+    Args:
+        scene: a Scene, the path of a scene file, or a mapping.
+        out: a directory for summary.json, trajectory.h5md and whatever else the scene asks for; None: nothing is written.
+        overwrite: whether results of an earlier run in that directory are replaced.
+        seed: in place of the scene's run.seed.
+        engine: "auto", or one of `carom.engines()`.
+        method, dt: a fixed-step method in place of exact events, and its step; without dt it is the scene's run.sample_every.
+        observables: besides those of the scene: {"pressure": True, "radial_distribution": {"range": 4.0}}, or a list of names and
+            objects of carom.Observable.
+        events: whether all collisions are written too.
+        frames: whether the result keeps the samples in memory.
+        report: whether the page report.html is made too.
+        threads: 2: observables are measured on a thread of their own; None: where there is a second processor.
+        checkpoint_every: "10min" or "1e8 collisions"; with `out` a run that is stopped is saved in any case.
+        walltime: ends the run, saved, after so much real time: seconds, or "1h30min".
+        progress: True for a bar (needs tqdm), or a function of the fraction done.
+
+    Raises:
+        Interrupted: on Ctrl-C. Its `result` holds all until then, the files are complete, and `carom.resume(out)` goes on.
+        SceneError: where the scene is wrong; OutputError: where a file cannot be written; ValueError: where arguments do not fit.
+    """
+    given = as_scene(scene)
+    if seed is not None:
+        given = given.set({"run.seed": seed})
+    if events:
+        given = given.set({"output.events": True})
+    given, own = _with_observables(given, observables)
+    if method is None and dt is not None:
+        raise ValueError("dt is the step of a fixed-step method; exact events need none: leave it out, or give a method")
+    if method is not None:
+        if engine != "auto":
+            raise ValueError("a fixed-step method has no engine; leave out one of the two")
+        if own or given._core.observables:
+            raise ValueError(f'method="{method}": observables measure exact trajectories; leave out one of the two')
+        dt = dt if dt is not None else given._core.sample_every
+        if dt is None:
+            raise ValueError(f'method="{method}" needs a time step: give dt, or the scene a run.sample_every')
+    if out is None and (checkpoint_every is not None or report):
+        raise ValueError("checkpoints and reports are files; give out=\"directory\" too")
+    with reporting(progress, "run") as tell:
+        arguments = (
+            given._core,
+            engine,
+            method,
+            dt or 0.0,
+            None if out is None else fspath(out),
+            overwrite,
+            own,
+            checkpoint_every,
+            _seconds(walltime),
+            threads,
+            report,
+            frames,
+            _teller(given, tell),
+        )
+        if out is None:
+            return _result(given, None, _core.run(*arguments))
+        try:
+            with hdf5():
+                return _result(given, Path(out), _core.run(*arguments))
+        except OutputError as error:
+            raise OutputError(str(error).replace("with --force", "with overwrite=True").replace("with --out", "with out=")) from None
+
+
+def resume(
+    directory: str | PathLike[str],
+    *,
+    time: float | None = None,
+    collisions: int | None = None,
+    observables: Sequence[Observable] = (),
+    threads: int | None = None,
+    checkpoint_every: str | None = None,
+    walltime: float | str | None = None,
+    report: bool = False,
+    progress: Progress | None = None,
+) -> Result:
+    """Goes on with a run that was stopped, from its newest checkpoint, as if it had never stopped.
+
+    Args:
+        directory: of the run.
+        time, collisions: a later end than that of the scene; a run that has come to its end needs one.
+        observables: objects of the classes of one's own with which the run began, in the same order; they go on from what they had.
+        threads, checkpoint_every, walltime, report, progress: as for `carom.run()`.
+
+    Raises:
+        OutputError: where there is nothing to go on from; ValueError: where the end does not lie ahead.
+    """
+    with hdf5(), reporting(progress, "run") as tell:
+        teller = None if tell is None else lambda now, done, equilibrating: tell(0.0 if time is None else min(1.0, now / time))
+        parts = _core.resume(
+            fspath(directory), time, collisions, list(observables), checkpoint_every, _seconds(walltime), threads, report, teller
+        )
+        scene = Scene.parse(json.loads(parts[0])["resolved_scene"])
+        return _result(scene, Path(directory), parts)
+
+
+def _seconds(walltime: float | str | None) -> float | None:
+    return _core.seconds_in(walltime) if isinstance(walltime, str) else walltime
+
+
+def _teller(scene: Scene, tell: Any) -> Any:
+    if tell is None:
+        return None
+    end, collisions = scene._core.time, scene.to_dict()["run"].get("collisions")
+
+    def told(now: float, done: int, equilibrating: bool) -> None:
+        if not equilibrating:
+            tell(max(now / end if end else 0.0, done / collisions if collisions else 0.0))
+
+    return told
+
+
+def _result(scene: Scene, directory: Path | None, parts: tuple[Any, ...]) -> Result:
+    summary_text, measured, disks, files, sampled, state, interrupted, saved, remarks, radii, species = parts
+    summary = json.loads(summary_text)
+    for remark in remarks:
+        warnings.warn(remark, stacklevel=3)
+    frames = None
+    if sampled is not None:
+        times, positions, velocities, images, spins, scale, collisions, virial = sampled
+        frames = Frames(
+            time=times,
+            positions=positions,
+            velocities=velocities,
+            images=images if any(scene.periodic) else None,
+            spins=spins if spins.shape[1] else None,
+            scale=scale,
+            collisions=collisions,
+            virial=virial,
+            radii=np.array(radii),
+            species=np.array(species, np.int32),
+            scene=scene,
+            state_hash=summary["state_hash"],
+            interrupted=interrupted,
+        )
+    result = Result(
+        summary=summary,
+        observables=measurements_of(measured),
+        stopped=as_stop(summary["stopped"], summary["time"], disks),
+        state=State._of(state),
+        scene=scene,
+        frames=frames,
+        directory=directory,
+        files=files,
+        saved=saved,
+    )
+    if interrupted:
+        raise Interrupted(result)
+    return result
+
+
+class Run:
+    """A finished run in a directory, as `carom run` or `carom.run(out=...)` have written it. `carom.open_run()` makes it."""
+
+    def __init__(self, directory: str | PathLike[str]) -> None:
+        self.directory = Path(directory)
+        path = self.directory / "summary.json"
+        try:
+            self.summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            raise OutputError(
+                f"{self.directory}: this is no directory of a finished run (no summary.json); name one that carom run has written"
+            ) from None
+        except OSError as error:
+            raise OutputError(f"{path}: cannot read this file: {error.strerror}") from None
+        except ValueError:
+            raise OutputError(f"{path}: this is not the summary of a run; copy it anew or run again") from None
+        self._reader: _core.RunReader | None = None
+
+    def _open(self) -> _core.RunReader:
+        if self._reader is None:
+            with hdf5():
+                self._reader = _core.RunReader(fspath(self.directory))
+        return self._reader
+
+    @property
+    def scene(self) -> Scene:
+        """The scene that ran, with every default."""
+        return Scene.parse(self.summary["resolved_scene"])
+
+    @property
+    def state_hash(self) -> str:
+        """16 hexadecimal digits of the final state."""
+        return str(self.summary["state_hash"])
+
+    @property
+    def frames(self) -> StoredFrames:
+        """The samples in trajectory.h5md, which are read when they are asked for. Needs h5py (pip install carom[files])."""
+        return StoredFrames(self.directory / "trajectory.h5md", self.scene)
+
+    @property
+    def events(self) -> npt.NDArray[Any]:
+        """All collisions, a structured array as `Simulation.record()` returns it. Raises ValueError where none were written."""
+        reader = self._open()
+        if not reader.has_event_log:
+            raise ValueError(f"{self.directory}: this run has written no collisions; run with events=True")
+        with hdf5():
+            return events_in(reader.event_log())
+
+    @property
+    def observables(self) -> dict[str, Measurement]:
+        """What the run has observed, measured again from its samples and collisions: the same numbers to the last bit."""
+        return self.analyze()
+
+    def analyze(self, observables: Mapping[str, Any] | Iterable[str] | None = None) -> dict[str, Measurement]:
+        """Measures observables of the scene format in what the run has kept; None: those of its own scene.
+
+        Raises ValueError where the run has not kept what one of them needs.
+        """
+        wanted = []
+        if observables is not None:
+            settings = observables if isinstance(observables, Mapping) else dict.fromkeys(observables, True)
+            wanted = [name if value is True else f"{name}={value_text(value, str(name))}" for name, value in settings.items()]
+        with hdf5():
+            return measurements_of(_core.analyse(fspath(self.directory), wanted))
+
+    def verify(self) -> list[str]:
+        """Runs the scene again. Returns one sentence for each difference from what is in the directory: none, if all is the same."""
+        dt = self.summary.get("dt")
+        if self.summary["stopped"] == "interrupted":
+            raise ValueError(f"{self.directory}: this run was interrupted, and another one would not end there")
+        name = self.summary["engine"]
+        with tempfile.TemporaryDirectory(prefix="carom-") as place, warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            again = Path(place) / "again"
+            if dt is None:
+                run(self.scene, out=again, engine=name)
+            else:
+                run(self.scene, out=again, method=name, dt=dt)
+            with hdf5():
+                return _core.compare_results(fspath(self.directory), fspath(again))
+
+    def play(self) -> Player:
+        """Returns the run as a player: exact, where its collisions were written."""
+        from carom.player import player_of
+
+        with hdf5():
+            return player_of(self.directory)
+
+    def report(self) -> Page:
+        """Returns the page of the run, as `carom report` makes it."""
+        from carom.player import report_of
+
+        with hdf5():
+            return report_of(self.directory)
+
+    def __repr__(self) -> str:
+        return f"<carom.Run in {self.directory}: {self.summary['disks']} disks until time {self.summary['time']:g}>"
+
+
+class StoredFrames:
+    """The samples of a run in its file. Arrays behave as h5py's: `frames.positions[::100]` reads every hundredth frame.
+
+    Attributes:
+        scene: the scene that ran.
+    """
+
+    def __init__(self, path: Path, scene: Scene) -> None:
+        self.scene = scene
+        self._path = path
+        if not path.exists():
+            raise OutputError(f"{path}: there is no such file: this run kept no trajectory")
+
+    @property
+    def time(self) -> npt.NDArray[np.float64]:
+        """Times, shape (F,)."""
+        return self._dataset("time")[:]
+
+    @property
+    def positions(self) -> StoredArray:
+        """Positions, shape (F, N, 2)."""
+        return self._dataset("position")
+
+    @property
+    def velocities(self) -> StoredArray:
+        """Velocities, shape (F, N, 2)."""
+        return self._dataset("velocity")
+
+    def __len__(self) -> int:
+        return self.positions.shape[0]
+
+    def _dataset(self, name: str) -> StoredArray:
+        return StoredArray(self._path, name)
+
+
+class StoredArray:
+    """One array of a trajectory file, read piece by piece; the file is open only meanwhile."""
+
+    def __init__(self, path: Path, name: str) -> None:
+        self._path, self._name = path, name
+        self.shape: tuple[int, ...] = self._read(lambda dataset: (*dataset.shape[:2], min(2, dataset.shape[-1])) if dataset.ndim == 3 else dataset.shape)
+
+    def _read(self, action: Any) -> Any:
+        import h5py
+
+        with hdf5(), h5py.File(self._path, "r") as file:
+            group = file["particles"]
+            particles = group[next(iter(group))]
+            dataset = particles["position/time"] if self._name == "time" else particles[f"{self._name}/value"]
+            return action(dataset)
+
+    def __getitem__(self, index: Any) -> npt.NDArray[np.float64]:
+        array = self._read(lambda dataset: dataset[index])
+        whole = np.asarray(array)
+        # H5MD has three coordinates; a box has two.
+        return whole if self._name == "time" or len(self.shape) < 3 else np.ascontiguousarray(whole[..., :2])
+
+    def __len__(self) -> int:
+        return self.shape[0]
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[np.float64]:
+        return np.asarray(self[:], dtype=dtype)
+
+
+def open_run(directory: str | PathLike[str]) -> Run:
+    """Opens a finished run: its summary now, its trajectory when it is asked for.
+
+    Raises OutputError where `directory` is none that `carom run` has finished writing.
+    """
+    return Run(directory)
+
+

@@ -1,0 +1,20 @@
+#pragma once
+// Observables that are written in Python, and what observables have measured.
+
+#include <carom/observe.hpp>
+
+#include <nanobind/nanobind.h>
+
+#include <memory>
+
+namespace carom::python {
+
+/// Returns an observable that calls the methods of a carom.Observable: name, step, needs_positions and follows_collisions once,
+/// the others as the library calls its own. Collisions come in batches. Requires the interpreter's lock.
+[[nodiscard]] std::unique_ptr<Observable> observable_of(const nanobind::object& object);
+
+/// Returns what was measured as plain tuples, of which carom._measured makes numbers and tables: (name, note, scalars, tables), a
+/// scalar being (name, value, error, unit, time, note) and a table (name, [(column, unit, array)]).
+[[nodiscard]] nanobind::tuple tuple_of(const Measurement& measurement);
+
+}  // namespace carom::python
