@@ -19,7 +19,7 @@ from carom.runs import Result, Run, open_run, resume, run
 from carom.scene import Check, Scene, build, presets
 from carom.simulation import CollidingPair, Simulation, Stop, engines, fixed_step_methods
 
-__version__: str = build()["version"]
+__version__ = build()["version"]
 
 __all__ = [
     "COLLISION",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -179,6 +178,8 @@ class Table(Mapping[str, npt.NDArray[Any]]):
         return f"<carom.Table {self.title!r} of {self.rows} rows: {', '.join(self)}>"
 
     def _repr_html_(self) -> str:
+        import html
+
         head = "".join(f"<th>{html.escape(self.label(name))}</th>" for name in self)
         cells = self._cells()
         body = "".join(f"<tr>{''.join(f'<td>{html.escape(c)}</td>' for c in row)}</tr>" for row in cells[:60])
@@ -253,5 +254,7 @@ class Measurement(Mapping[str, Number]):
         return f"<carom.Measurement {self.name}: {', '.join([*self._numbers, *self.tables])}>"
 
     def _repr_html_(self) -> str:
+        import html
+
         tables = "".join(table._repr_html_() for table in self.tables.values())
         return (self.numbers._repr_html_() if self._numbers else f"<p>{html.escape(self.name)}</p>") + tables

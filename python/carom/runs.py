@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import html
-import json
 import math
-import tempfile
+import threading
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from os import PathLike, fspath
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +17,7 @@ import numpy.typing as npt
 from carom import _core
 from carom._errors import Interrupted, OutputError
 from carom._events import events_in
-from carom._files import hdf5
+from carom._hdf5 import hdf5
 from carom._measured import measurements_of
 from carom._progress import Progress, reporting
 from carom._toml import value_text
@@ -30,8 +28,11 @@ from carom.scene import Scene, SceneLike, as_scene
 from carom.simulation import Stop, as_stop
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     import pandas
 
+    from carom import _files
     from carom.pages import Page
     from carom.player import Player
 
@@ -116,6 +117,8 @@ class Result:
         return "\n".join([*lines, *map(str, self.observables.values())])
 
     def _repr_html_(self) -> str:
+        import html
+
         head = "".join(f"<p>{html.escape(line)}</p>" for line in str(self).split("\n")[:2])
         return head + "".join(measured._repr_html_() for measured in self.observables.values())
 
@@ -216,8 +219,13 @@ def run(
             raise ValueError(f'method="{method}" needs a time step: give dt, or the scene a run.sample_every')
     if out is None and (checkpoint_every is not None or report):
         raise ValueError("checkpoints and reports are files; give out=\"directory\" too")
+    from pathlib import Path
+
+    from carom import _files
+
     with reporting(progress, "run") as tell:
-        arguments = (
+        call = partial(
+            _files.run,
             given._core,
             engine,
             method,
@@ -230,13 +238,13 @@ def run(
             threads,
             report,
             frames,
-            _teller(given, tell),
         )
+        teller = _teller(given, tell)
         if out is None:
-            return _result(given, None, _core.run(*arguments))
+            return _result(given, None, _beside(call, teller, bool(own)))
         try:
             with hdf5():
-                return _result(given, Path(out), _core.run(*arguments))
+                return _result(given, Path(out), _beside(call, teller, bool(own)))
         except OutputError as error:
             raise OutputError(str(error).replace("with --force", "with overwrite=True").replace("with --out", "with out=")) from None
 
@@ -264,13 +272,60 @@ def resume(
     Raises:
         OutputError: where there is nothing to go on from; ValueError: where the end does not lie ahead.
     """
+    import json
+    from pathlib import Path
+
+    from carom import _files
+
     with hdf5(), reporting(progress, "run") as tell:
         teller = None if tell is None else lambda now, done, equilibrating: tell(0.0 if time is None else min(1.0, now / time))
-        parts = _core.resume(
-            fspath(directory), time, collisions, list(observables), checkpoint_every, _seconds(walltime), threads, report, teller
+        own = list(observables)
+        call = partial(
+            _files.resume, fspath(directory), time, collisions, own, checkpoint_every, _seconds(walltime), threads, report
         )
+        parts = _beside(call, teller, bool(own))
         scene = Scene.parse(json.loads(parts[0])["resolved_scene"])
         return _result(scene, Path(directory), parts)
+
+
+def _beside(call: Callable[[Any], tuple[Any, ...]], teller: Any, has_own: bool) -> tuple[Any, ...]:
+    """Makes the call. Where observables are written in Python it runs on another thread: Python raises KeyboardInterrupt in the main
+    thread alone, and in the middle of an observable it would lose the collisions at hand."""
+    if not has_own or threading.current_thread() is not threading.main_thread():
+        return call(teller)
+    stop = threading.Event()
+
+    def told(*progress: Any) -> bool:
+        if teller is not None:
+            teller(*progress)
+        return not stop.is_set()
+
+    outcome: list[Any] = []
+    ended = threading.Event()
+
+    def work() -> None:
+        try:
+            outcome.append(call(told))
+        except BaseException as error:
+            outcome.append(error)
+        ended.set()
+
+    threading.Thread(target=work, name="carom.run", daemon=True).start()
+    while not ended.is_set():
+        try:
+            ended.wait(0.05)
+        except KeyboardInterrupt:
+            if stop.is_set():
+                raise
+            stop.set()
+    if isinstance(outcome[0], BaseException):
+        raise outcome[0]
+    parts: tuple[Any, ...] = outcome[0]
+    return (*parts[:_INTERRUPTED], stop.is_set() or parts[_INTERRUPTED], *parts[_INTERRUPTED + 1 :])
+
+
+#: The place of `interrupted` in what the library returns of a run.
+_INTERRUPTED = 6
 
 
 def _seconds(walltime: float | str | None) -> float | None:
@@ -290,6 +345,8 @@ def _teller(scene: Scene, tell: Any) -> Any:
 
 
 def _result(scene: Scene, directory: Path | None, parts: tuple[Any, ...]) -> Result:
+    import json
+
     summary_text, measured, disks, files, sampled, state, interrupted, saved, remarks, radii, species = parts
     summary = json.loads(summary_text)
     for remark in remarks:
@@ -332,6 +389,9 @@ class Run:
     """A finished run in a directory, as `carom run` or `carom.run(out=...)` have written it. `carom.open_run()` makes it."""
 
     def __init__(self, directory: str | PathLike[str]) -> None:
+        import json
+        from pathlib import Path
+
         self.directory = Path(directory)
         path = self.directory / "summary.json"
         try:
@@ -344,12 +404,14 @@ class Run:
             raise OutputError(f"{path}: cannot read this file: {error.strerror}") from None
         except ValueError:
             raise OutputError(f"{path}: this is not the summary of a run; copy it anew or run again") from None
-        self._reader: _core.RunReader | None = None
+        self._reader: _files.RunReader | None = None
 
-    def _open(self) -> _core.RunReader:
+    def _open(self) -> _files.RunReader:
+        from carom import _files
+
         if self._reader is None:
             with hdf5():
-                self._reader = _core.RunReader(fspath(self.directory))
+                self._reader = _files.RunReader(fspath(self.directory))
         return self._reader
 
     @property
@@ -378,23 +440,35 @@ class Run:
 
     @property
     def observables(self) -> dict[str, Measurement]:
-        """What the run has observed, measured again from its samples and collisions: the same numbers to the last bit."""
-        return self.analyze()
+        """What the run has measured, as its files have it."""
+        from carom import _files
+
+        with hdf5():
+            return measurements_of(_files.observables_in(fspath(self.directory)))
 
     def analyze(self, observables: Mapping[str, Any] | Iterable[str] | None = None) -> dict[str, Measurement]:
-        """Measures observables of the scene format in what the run has kept; None: those of its own scene.
+        """Measures observables of the scene format in the samples and collisions that the run has kept; None: those of its own scene.
+
+        Where samples are taken at the same times, the numbers are those of the run to the last bit.
 
         Raises ValueError where the run has not kept what one of them needs.
         """
+        from carom import _files
+
         wanted = []
         if observables is not None:
             settings = observables if isinstance(observables, Mapping) else dict.fromkeys(observables, True)
             wanted = [name if value is True else f"{name}={value_text(value, str(name))}" for name, value in settings.items()]
         with hdf5():
-            return measurements_of(_core.analyse(fspath(self.directory), wanted))
+            return measurements_of(_files.analyse(fspath(self.directory), wanted))
 
     def verify(self) -> list[str]:
         """Runs the scene again. Returns one sentence for each difference from what is in the directory: none, if all is the same."""
+        import tempfile
+        from pathlib import Path
+
+        from carom import _files
+
         dt = self.summary.get("dt")
         if self.summary["stopped"] == "interrupted":
             raise ValueError(f"{self.directory}: this run was interrupted, and another one would not end there")
@@ -407,7 +481,7 @@ class Run:
             else:
                 run(self.scene, out=again, method=name, dt=dt)
             with hdf5():
-                return _core.compare_results(fspath(self.directory), fspath(again))
+                return _files.compare_results(fspath(self.directory), fspath(again))
 
     def play(self) -> Player:
         """Returns the run as a player: exact, where its collisions were written."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike, fspath
@@ -58,7 +56,7 @@ class Scene:
     >>> scene = carom.Scene(
     ...     box={"x": (-1, 1), "y": (-1, 1), "boundary": "walls"},
     ...     disks={"count": 64, "radius": 0.03, "mass": 1, "positions": "random", "velocities": {"uniform": 1}},
-    ...     run={"time": 5, "sample_every": 0.001})
+    ...     collision={"rule": "reversal"}, run={"time": 5, "sample_every": 0.001})
     >>> scene.count
     64
 
@@ -186,12 +184,16 @@ class Scene:
 
     def to_dict(self) -> dict[str, Any]:
         """Returns the scene with every default as nested dicts, with the keys of the scene format."""
+        import tomllib
+
         return tomllib.loads(self.toml)
 
     def check(self, engine: str = "auto") -> Check:
         """Draws the start and lets it run for a fifth of a second. Returns what would be simulated, by which engine, at what cost."""
-        name, reason, cost, seconds, collisions = _core.expected_cost(self._core, engine)
-        return Check(tuple(_core.describe(self._core)), name, reason, cost, seconds, collisions)
+        from carom import _files
+
+        name, reason, cost, seconds, collisions = _files.expected_cost(self._core, engine)
+        return Check(tuple(_files.describe(self._core)), name, reason, cost, seconds, collisions)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Scene) and self.toml == other.toml
@@ -258,7 +260,6 @@ def numbers(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
     return array
 
 
-def build() -> dict[str, Any]:
-    """Returns the facts about this build: version, commit, compiler, flags, instruction set."""
-    facts: dict[str, Any] = json.loads(_core.build_json())
-    return facts
+def build() -> dict[str, str]:
+    """Returns the facts about this build: version, commit, compiler, flags, instructions."""
+    return _core.build()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import json
 import math
 import os
 import warnings
@@ -33,6 +31,7 @@ CollidingPair = _core.CollidingPair
 CollisionRule = Callable[[_core.CollidingPair], object]
 
 _NONE = 2**64 - 1
+_LATEST = 1e15  # later than any run gets to
 _MAGIC = b"carom simulation file 1\n"
 
 
@@ -56,7 +55,7 @@ class Stop(StrEnum):
     @property
     def early(self) -> bool:
         """Whether the disks could not go on."""
-        return self not in (Stop.TIME, Stop.COLLISIONS, Stop.EVENTS, Stop.CONDITION, Stop.INTERRUPTED)
+        return self not in (Stop.TIME, Stop.COLLISIONS, Stop.EVENTS, Stop.CONDITION, Stop.INTERRUPTED, Stop.GROWN)
 
 
 def as_stop(reason: str, time: float, disks: list[int] | None = None) -> Stop:
@@ -274,6 +273,22 @@ class Simulation:
                 self._moved()
         return as_stop(reason, self.time)
 
+    def equilibrate(self, *, progress: Progress | None = None) -> Stop:
+        """Runs the scene's run.equilibrate and makes then the zero of time, as `carom.run()` does before it measures.
+
+        A scene without it stays where it is. Returns why the equilibration ended.
+        """
+        asked = self.scene.to_dict()["run"].get("equilibrate")
+        if asked is None:
+            return Stop.TIME
+        if "time" in asked:
+            stop = self.run_until(asked["time"], progress=progress)
+        else:
+            stop = self.run_until(_LATEST, math.ceil(asked["collisions_per_disk"] * self.count / 2), progress=progress)
+        if not stop.early:
+            self.reset_clock()
+        return stop
+
     def step(self, until: float = math.inf) -> Event | None:
         """Goes to the next event up to `until`, and returns it: a collision with a disk, a wall or an obstacle, the edge of a square
         well, or a new velocity by the thermostat. Returns None where there is none; the simulation then stands at `until`."""
@@ -446,6 +461,8 @@ class Simulation:
 
     def save(self, path: str | PathLike[str]) -> None:
         """Writes the simulation into a file from which `Simulation.load()` goes on to the same bits, with this build of carom."""
+        import json
+
         if self._rule is not None:
             raise ValueError("a collision rule of one's own cannot be saved; set_collision_rule(None) takes it away")
         part = f"{fspath(path)}.partial"
@@ -459,6 +476,9 @@ class Simulation:
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Simulation:
         """Returns the simulation that `save()` wrote. Raises OutputError for any other file, and for one of another build."""
+        import io
+        import json
+
         try:
             with open(path, "rb") as file:
                 content = io.BytesIO(file.read())

@@ -233,7 +233,8 @@ std::vector<Event> RunReader::event_log(std::uint64_t first, std::uint64_t numbe
     };
     std::vector<Event> events(number);
     if (number == 0) return events;
-    const std::vector<double> time = column("time", 1), disk = column("disk", 1), partner = column("partner", 1);
+    const std::vector<double> time = column("time", 1), remainder = column("time_remainder", 1), disk = column("disk", 1),
+                              partner = column("partner", 1);
     const std::vector<double> velocity = column("velocity", 2), partner_velocity = column("partner_velocity", 2);
     const auto count = static_cast<double>(disks_.count());
     const double last_obstacle = first_obstacle + 1.0 - static_cast<double>(scene_.effects.obstacles.size());
@@ -246,11 +247,13 @@ std::vector<Event> RunReader::event_log(std::uint64_t first, std::uint64_t numbe
       if (!(time[e] >= before)) throw Hdf5Error("the events are not in order of time");
       before = time[e];
       events[e] = {.time = time[e],
+                   .time_remainder = remainder[e],
                    .disk = static_cast<std::int32_t>(disk[e]),
                    .partner = static_cast<std::int32_t>(p),
                    .velocity = {velocity[2 * e], velocity[2 * e + 1]},
                    .partner_velocity = {partner_velocity[2 * e], partner_velocity[2 * e + 1]}};
-      if (!events[e].velocity.allFinite() || !events[e].partner_velocity.allFinite() || !std::isfinite(before))
+      if (!events[e].velocity.allFinite() || !events[e].partner_velocity.allFinite() || !std::isfinite(before) ||
+          !std::isfinite(remainder[e]))
         throw Hdf5Error("an event holds what is no number");
     }
     return events;

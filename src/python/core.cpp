@@ -1,17 +1,20 @@
-// carom._core: the library as Python sees it. It is private to the package carom, which says what each thing means to a user.
+// carom._core: the library as Python sees it. Like carom._files it is private to the package carom, which says what each thing
+// means to a user.
 
-#include "io/json.hpp"
-#include "io/output_error.hpp"
+#include "core/instructions.hpp"
 #include "python/parts.hpp"
+#include "text/numbers.hpp"
 
+#include <carom/io/output_error.hpp>
 #include <carom/scene.hpp>
 #include <carom/version.hpp>
 
+#include <nanobind/stl/map.h>
 #include <nanobind/stl/string.h>
-#include <nlohmann/json.hpp>
 
 #include <exception>
-#include <stdexcept>
+#include <map>
+#include <string>
 
 namespace nb = nanobind;
 
@@ -41,14 +44,19 @@ NB_MODULE(_core, module) {
   nb::register_exception_translator(translate);
   // A module that is left at exit with objects alive is Python's habit, and no leak.
   nb::set_leak_warnings(false);
-  module.def(
-      "build_json", [] { return detail::build_json().dump(); }, "Returns version, commit, compiler and flags as JSON.");
+  module.def("build", [] {
+    const BuildInfo& build = build_info();
+    return std::map<std::string, std::string>{{"version", build.version},
+                                              {"commit", build.commit},
+                                              {"compiler", build.compiler},
+                                              {"flags", build.flags},
+                                              {"instructions", name_of(chosen_instructions())}};
+  });
+  module.def("seconds_in", &seconds_in, nb::arg("text"));
   add_scene(module);
   add_state(module);
   add_simulation(module);
-  add_observables(module);
-  add_runs(module);
-  add_studies(module);
+  add_blocking(module);
 }
 
 }  // namespace carom::python

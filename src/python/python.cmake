@@ -1,4 +1,4 @@
-# The Python package: python/carom, and the extension carom._core that it stands on. Both are laid out in the build directory, so that
+# The Python package: python/carom, and the extensions carom._core and carom._files that it stands on. All are laid out in the build directory, so that
 # PYTHONPATH=build/release/python is all that a test needs; pip installs them as a wheel (pyproject.toml).
 #
 # nanobind comes with the interpreter's packages. With AUTO nothing is built where it is missing.
@@ -27,21 +27,34 @@ if(NOT CAROM_PYTHON STREQUAL "OFF")
 endif()
 
 if(carom_python_found)
-  file(GLOB sources CONFIGURE_DEPENDS src/python/*.cpp)
-  nanobind_add_module(carom_python STABLE_ABI NB_STATIC NB_SUPPRESS_WARNINGS ${sources})
   set(laid_out ${PROJECT_BINARY_DIR}/python/carom)
-  set_target_properties(carom_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${laid_out} CXX_VISIBILITY_PRESET hidden)
-  target_include_directories(carom_python PRIVATE src)
-  target_link_libraries(carom_python PRIVATE carom_studies carom_build_flags fmt::fmt nlohmann_json::nlohmann_json)
-  target_compile_options(carom_python PRIVATE $<$<CONFIG:Release>:-O1>)  # what takes time is in the library
-  target_link_options(carom_python PRIVATE LINKER:--gc-sections LINKER:--exclude-libs,ALL LINKER:--as-needed)
+  set(core_sources blocking core scene simulation state)
+  list(TRANSFORM core_sources REPLACE "(.+)" "src/python/\\1.cpp")
+  file(GLOB files_sources CONFIGURE_DEPENDS src/python/*.cpp)
+  list(TRANSFORM files_sources REPLACE "^${PROJECT_SOURCE_DIR}/" "")
+  list(REMOVE_ITEM files_sources ${core_sources})
+  foreach(module core files)
+    set(target carom_python_${module})
+    nanobind_add_module(${target} STABLE_ABI NB_STATIC NB_SUPPRESS_WARNINGS ${${module}_sources})
+    set_target_properties(${target} PROPERTIES OUTPUT_NAME _${module} LIBRARY_OUTPUT_DIRECTORY ${laid_out} CXX_VISIBILITY_PRESET hidden)
+    target_include_directories(${target} PRIVATE src)
+    target_link_libraries(${target} PRIVATE carom carom_build_flags Boost::headers fmt::fmt)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)  # what takes time is in the library
+    target_link_options(${target} PRIVATE LINKER:--gc-sections LINKER:--exclude-libs,ALL LINKER:--as-needed)
+    install(TARGETS ${target} LIBRARY DESTINATION carom COMPONENT python EXCLUDE_FROM_ALL)
+    install(FILES ${laid_out}/_${module}.pyi DESTINATION carom COMPONENT python EXCLUDE_FROM_ALL)
+  endforeach()
+  target_link_libraries(carom_python_files PRIVATE carom_studies nlohmann_json::nlohmann_json)
   # Python files stay where they are; links to them stand beside the extension.
   file(GLOB files RELATIVE ${PROJECT_SOURCE_DIR}/python/carom CONFIGURE_DEPENDS python/carom/*.py python/carom/py.typed)
   file(MAKE_DIRECTORY ${laid_out})
   foreach(file IN LISTS files)
     file(CREATE_LINK ${PROJECT_SOURCE_DIR}/python/carom/${file} ${laid_out}/${file} SYMBOLIC)
   endforeach()
-  nanobind_add_stub(carom_python_stub MODULE _core OUTPUT ${laid_out}/_core.pyi PYTHON_PATH $<TARGET_FILE_DIR:carom_python> DEPENDS carom_python)
-  install(TARGETS carom_python LIBRARY DESTINATION carom COMPONENT python EXCLUDE_FROM_ALL)
-  install(FILES ${laid_out}/_core.pyi DESTINATION carom COMPONENT python EXCLUDE_FROM_ALL)
+  # Stubs are read from the modules themselves, whose functions name each other's classes.
+  foreach(module core files)
+    nanobind_add_stub(carom_python_stub_${module} MODULE carom._${module} OUTPUT ${laid_out}/_${module}.pyi PYTHON_PATH ${PROJECT_BINARY_DIR}/python
+                      DEPENDS carom_python_core carom_python_files)
+  endforeach()
+  add_custom_target(carom_python DEPENDS carom_python_stub_core carom_python_stub_files)
 endif()

@@ -1,6 +1,7 @@
 // Runs of a scene's whole schedule, with files and without, and what they leave.
 
 #include "io/run_directory.hpp"
+#include "io/run_record.hpp"
 #include "io/same_results.hpp"
 #include "io/summary.hpp"
 #include "python/buffers.hpp"
@@ -9,7 +10,6 @@
 #include "runner/resumed_run.hpp"
 #include "runner/runner.hpp"
 #include "studies/analysis/analysis.hpp"
-#include "text/numbers.hpp"
 
 #include <carom/io/run_reader.hpp>
 
@@ -30,7 +30,13 @@ namespace carom::python {
 namespace {
 
 using AnyTuple = nb::typed<nb::tuple, nb::any, nb::ellipsis>;
-using Objects = nb::typed<nb::list, nb::object>;
+using Objects = nb::typed<nb::list, nb::any>;
+
+nb::typed<nb::list, AnyTuple> tuples_of(const std::vector<Measurement>& measurements) {
+  nb::list tuples;
+  for (const Measurement& measurement : measurements) tuples.append(tuple_of(measurement));
+  return nb::borrow<nb::typed<nb::list, AnyTuple>>(tuples);
+}
 
 /// The samples of a run, in memory.
 struct SampledStates {
@@ -72,7 +78,7 @@ struct RunWishes {
   std::optional<int> threads;
   bool report = false;
   bool frames = false;
-  nb::object progress;  ///< called with the time, the collisions, and whether it still equilibrates; None
+  nb::object progress;  ///< told time, collisions and whether it equilibrates; False from it stops the run; None
 };
 
 class PythonRun {
@@ -100,14 +106,12 @@ class PythonRun {
       return runner_.run(hooks);
     }();
     if (outcome.report_failed) warnings_.push_back(*outcome.report_failed);
-    nb::list measured;
-    for (const Measurement& measurement : outcome.report.observables) measured.append(tuple_of(measurement));
     const std::size_t disks = simulation_.disks().count();
     const nb::object frames = wishes_.frames ? nb::object(std::move(sampled_).arrays(disks)) : nb::none();
-    return nb::borrow<AnyTuple>(nb::make_tuple(summary_json(outcome.report, runner_.provenance()), measured,
-                                               outcome.report.stopped_disks, outcome.files, frames, simulation_.state(),
-                                               interrupted_, runner_.saved_now(), warnings_, simulation_.disks().radius,
-                                               simulation_.disks().species));
+    return nb::borrow<AnyTuple>(nb::make_tuple(summary_json(outcome.report, runner_.provenance()),
+                                               tuples_of(outcome.report.observables), outcome.report.stopped_disks, outcome.files,
+                                               frames, simulation_.state(), interrupted_, runner_.saved_now(), warnings_,
+                                               simulation_.disks().radius, simulation_.disks().species));
   }
 
  private:
@@ -116,15 +120,18 @@ class PythonRun {
     for (const nb::handle object : wishes_.observables) observation.add(observable_of(nb::borrow<nb::object>(object)));
   }
 
-  /// Ctrl-C stops the run, which then completes its files. Whatever else a signal or `progress` raises comes out of it at once.
+  /// Ctrl-C stops the run, which then completes its files, and so does `progress` that returns False. Whatever else a signal or
+  /// `progress` raises comes out of it at once.
   bool may_go_on(const Progress& progress) {
     const nb::gil_scoped_acquire locked;
-    if (PyErr_CheckSignals() != 0) {
-      if (PyErr_ExceptionMatches(PyExc_KeyboardInterrupt) == 0) throw nb::python_error();
-      PyErr_Clear();
+    try {
+      if (PyErr_CheckSignals() != 0) throw nb::python_error();
+      if (!wishes_.progress.is_none() &&
+          wishes_.progress(progress.time, progress.totals.pair, progress.equilibrating).is(nb::handle(Py_False)))
+        interrupted_ = true;
+    } catch (nb::python_error& error) {
+      if (!error.matches(PyExc_KeyboardInterrupt)) throw;
       interrupted_ = true;
-    } else if (!wishes_.progress.is_none()) {
-      wishes_.progress(progress.time, progress.totals.pair, progress.equilibrating);
     }
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began_;
     return !interrupted_ && (!wishes_.walltime || passed.count() < *wishes_.walltime);
@@ -202,7 +209,6 @@ void add_runs(nb::module_& module) {
       nb::arg("directory"), nb::arg("time").none(), nb::arg("collisions").none(), nb::arg("observables"),
       nb::arg("checkpoint_every").none(), nb::arg("walltime").none(), nb::arg("threads").none(), nb::arg("report"),
       nb::arg("progress").none());
-  module.def("seconds_in", &seconds_in, nb::arg("text"), "Returns the seconds of \"90s\", \"10min\", \"1h30min\".");
   module.def(
       "analyse",
       [](const std::string& directory, const std::vector<std::string>& observables) {
@@ -210,11 +216,12 @@ void add_runs(nb::module_& module) {
           const nb::gil_scoped_release released;
           return analyse(directory, observables, [](double) { look_at_python(); });
         }();
-        nb::list measured;
-        for (const Measurement& measurement : analysis.observables) measured.append(tuple_of(measurement));
-        return nb::borrow<nb::typed<nb::list, AnyTuple>>(measured);
+        return tuples_of(analysis.observables);
       },
       nb::arg("directory"), nb::arg("observables"));
+  module.def(
+      "observables_in", [](const std::string& directory) { return tuples_of(read_run_record(directory).report.observables); },
+      nb::arg("directory"));
   module.def(
       "compare_results",
       [](const std::string& one, const std::string& other) {

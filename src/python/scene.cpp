@@ -1,18 +1,14 @@
 // Scenes, as Python sees them.
 
-#include "pages/scene_words.hpp"
 #include "python/buffers.hpp"
 #include "python/parts.hpp"
-#include "runner/expected_cost.hpp"
 #include "scene/presets.hpp"
 
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
 
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
-#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <optional>
@@ -90,24 +86,6 @@ void add_scene(nb::module_& module) {
   module.def("preset", &preset, nb::arg("name"), "Returns the TOML text of a preset.");
   module.def("engine_names", &engine_names, "Returns the names of all engines, the preferred ones first.");
   module.def("fixed_step_names", &fixed_step_names, "Returns the names of all fixed-step methods.");
-  module.def(
-      "describe",
-      [](const Scene& scene) {
-        std::vector<std::pair<std::string, std::string>> rows;
-        for (const SummaryRow& row : words_of(scene)) rows.emplace_back(row.quantity, row.value);
-        return rows;
-      },
-      nb::arg("scene"), "Returns the scene in words: pairs of a quantity and its value, as carom check prints them.");
-  module.def(
-      "expected_cost",
-      [](const Scene& scene, const std::string& engine) {
-        const nb::gil_scoped_release released;
-        Trial trial(scene, engine);
-        const ExpectedCost cost = trial.run();
-        return std::tuple(trial.simulation().engine(), trial.simulation().engine_reason(), words(cost), cost.seconds,
-                          cost.collisions);
-      },
-      nb::arg("scene"), nb::arg("engine"), "Returns engine, reason, cost in words, seconds and collisions after a short trial.");
 }
 
 }  // namespace carom::python

@@ -1,4 +1,4 @@
-// docs/python.md and the blocks of docs/output.md do what they say, where the packages are installed.
+// docs/python-files.md and the blocks of docs/output.md do what they say, where the packages are installed.
 
 #include "support/child_process.hpp"
 
@@ -37,7 +37,7 @@ TEST(ScenesPythonGuide, EveryBlockRunsOnTheFilesOfTheRunItNames) {
       run_carom(directory.path(), {"run", CAROM_SOURCE_DIR "/docs/scenes/gas.toml", "--set", "run.sample_every=false", "--set",
                                    "run.sample_log={ base = 1.3, per_block = 40, block = 100.0 }"});
   ASSERT_EQ(gas.exit_code, 0) << gas.err;
-  const Outcome outcome = run_blocks(directory, "python.md");
+  const Outcome outcome = run_blocks(directory, "python-files.md");
   if (outcome.exit_code == 77) GTEST_SKIP() << "h5py, matplotlib or MDAnalysis is not installed";
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   EXPECT_THAT(outcome.out, testing::HasSubstr("10 blocks"));

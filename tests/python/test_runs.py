@@ -1,0 +1,271 @@
+"""Whole runs: what the program does, with the same numbers, bits and files; observables of one's own; runs read back."""
+
+import json
+import os
+import pathlib
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import carom
+
+ROOT = pathlib.Path(__file__).parents[2]
+PROGRAM = os.environ.get("CAROM_PROGRAM")
+CLOCKS = ("wall_seconds", "loop_seconds", "collisions_per_second", "command_line", "carom", "scene")
+
+
+@pytest.fixture
+def gas():
+    return carom.Scene.load(ROOT / "docs/scenes/gas.toml").set({"run.time": 20.0, "run.sample_every": 0.5})
+
+
+def without_clocks(summary):
+    return {key: value for key, value in summary.items() if key not in CLOCKS}
+
+
+needs_program = pytest.mark.skipif(PROGRAM is None, reason="CAROM_PROGRAM names no program to compare with")
+
+
+@needs_program
+@pytest.mark.parametrize("name", ["box", "granular_gas", "piston", "square_well", "shear", "rough", "growth", "thermostat", "drag"])
+def test_a_run_has_the_programs_summary(name, tmp_path):
+    scene = ROOT / f"docs/scenes/{name}.toml"
+    changes = {"run.time": 2.0} if name not in ("growth", "box") else {}
+    options = [option for key, value in changes.items() for option in ("--set", f"{key}={value}")]
+    subprocess.run([PROGRAM, "run", scene, "--out", tmp_path / "run", "--quiet", *options], check=True)
+    expected = json.loads((tmp_path / "run/summary.json").read_text())
+    result = carom.run(carom.Scene.load(scene).set(changes))
+    assert without_clocks(result.summary) == without_clocks(expected)
+
+
+@needs_program
+def test_files_that_python_wrote_are_the_programs(tmp_path, gas):
+    carom.run(gas, out=tmp_path / "run", events=True, observables=["pressure", "velocity_autocorrelation"])
+    verified = subprocess.run([PROGRAM, "verify", tmp_path / "run"], capture_output=True, text=True)
+    assert verified.returncode == 0, verified.stdout + verified.stderr
+    assert "the same to the last bit" in verified.stdout
+
+
+def test_a_run_without_files_has_the_numbers_of_one_with_files(tmp_path, gas):
+    observables = {"pressure": True, "radial_distribution": {"range": 4.0}}
+    bare = carom.run(gas, observables=observables, frames=True)
+    written = carom.run(gas, observables=observables, out=tmp_path / "run")
+    assert without_clocks(bare.summary) == without_clocks(written.summary)
+    assert np.array_equal(bare.observables["radial_distribution"].table["g"], written.observables["radial_distribution"].table["g"])
+    assert bare.observables["pressure"]["Z"] == written.observables["pressure"]["Z"]
+    assert written.files == ["trajectory.h5md", "summary.json"] or "summary.json" in written.files
+    assert bare.files == [] and bare.directory is None
+    stored = carom.open_run(tmp_path / "run").frames
+    assert np.array_equal(stored.positions, bare.frames.positions)
+    assert np.array_equal(stored.velocities[3:5], bare.frames.velocities[3:5])
+    assert np.array_equal(stored.time, bare.frames.time)
+
+
+def test_frames_of_a_run_are_those_of_a_simulation_that_equilibrated(gas):
+    frames = carom.run(gas, frames=True).frames
+    sim = carom.Simulation(gas)
+    assert sim.equilibrate() == "collisions"
+    sampled = sim.sample(0.5, 20.0)
+    for name in ("time", "positions", "velocities", "images", "collisions", "virial"):
+        assert np.array_equal(getattr(frames, name), getattr(sampled, name)), name
+    assert sampled.state_hash == frames.state_hash
+
+
+class Everything(carom.Observable):
+    """Keeps all that it is told."""
+
+    name, step, follows_collisions = "everything", 0.5, True
+
+    def start(self, state):
+        self.begin = state.time
+        self.times, self.seen, self.batches = [], 0, []
+        self.impulse = carom.Blocking()
+
+    def sample(self, state, collisions, virial):
+        self.times.append(state.time)
+        assert self.seen == collisions, "all collisions come before a sample"
+
+    def collisions(self, batch):
+        self.seen += len(batch)
+        self.batches.append(batch.copy())
+        self.impulse.add(np.hypot(*batch["impulse"].T))
+
+    def finish(self, time, collisions, virial):
+        told = np.concatenate(self.batches)
+        # The virial of the hard-disk force, from what the observable was told.
+        own = (told["separation"] * told["impulse"]).sum()
+        table = carom.Table({"t": self.times, "n": np.arange(len(self.times))}, {"t": "time"})
+        return {"virial": own, "of_library": virial, "impulse": self.impulse.estimate("momentum"), "times": table}
+
+
+def test_an_observable_of_ones_own_is_told_everything_and_changes_nothing(gas):
+    everything = Everything()
+    result = carom.run(gas, observables=["pressure", everything])
+    assert result.state_hash == carom.run(gas).state_hash
+    measured = result.observables["everything"]
+    assert measured["virial"].value == pytest.approx(measured["of_library"].value, rel=1e-11)
+    assert measured["impulse"].error > 0 and measured["impulse"].unit == "momentum"
+    assert measured.table["t"].tolist() == [0.5 * k for k in range(41)]
+    assert everything.seen == result.collisions
+    told = np.concatenate(everything.batches)
+    assert (np.diff(told["time"]) >= 0).all() and told["contact"].all()
+    # Momentum is conserved in each collision; masses are 1.
+    before = told["velocity_before"] + told["partner_velocity_before"]
+    assert np.allclose(before, told["velocity"] + told["partner_velocity"], atol=1e-13)
+
+
+def test_what_an_observable_raises_comes_out_of_the_run(gas, tmp_path):
+    class Broken(carom.Observable):
+        name, follows_collisions = "broken", True
+
+        def collisions(self, batch):
+            raise RuntimeError("it broke")
+
+    with pytest.raises(RuntimeError, match="it broke"):
+        carom.run(gas, observables=[Broken()])
+    with pytest.raises(TypeError, match="no observable"):
+        carom.run(gas, observables=[3])
+
+    class Wrong(carom.Observable):
+        name = "wrong"
+
+        def finish(self, time, collisions, virial):
+            return {"x": object()}
+
+    with pytest.raises(TypeError, match="wrong.x is a object"):
+        carom.run(gas, observables=[Wrong()])
+
+
+def test_ctrl_c_completes_the_files_and_a_checkpoint_goes_on(tmp_path, gas):
+    long = gas.set({"run.time": 1e6, "run.sample_every": 1e3})
+    timer = threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(carom.Interrupted) as caught:
+        carom.run(long, out=tmp_path / "run", observables=[Everything()])
+    timer.join()
+    result = caught.value.result
+    assert result.stopped == "interrupted" and result.saved and result.time > 0
+    assert json.loads((tmp_path / "run/summary.json").read_text())["state_hash"] == result.state_hash
+    end = float(np.ceil(result.time)) + 1.0
+    resumed = carom.resume(tmp_path / "run", time=end, observables=[Everything()])
+    assert resumed.time == end
+    whole = carom.run(gas.set({"run.time": end, "run.sample_every": 1e3}), observables=[Everything()])
+    assert whole.state_hash == resumed.state_hash
+    assert whole.observables["everything"]["impulse"] == resumed.observables["everything"]["impulse"]
+    assert isinstance(pickle.loads(pickle.dumps(caught.value)).result, carom.Result)
+
+
+def test_a_limit_of_real_time_stops_a_run(gas):
+    result = carom.run(gas.set({"run.time": 1e9, "run.sample_every": 1e6}), walltime="1s")
+    assert result.stopped == "interrupted" and 0 < result.time < 1e9
+
+
+def test_progress_is_told(gas):
+    told = []
+    carom.run(gas.set({"run.time": 400.0, "run.sample_every": 100.0}), progress=told.append)
+    assert told == sorted(told) and all(0 <= fraction <= 1.0 + 1e-9 for fraction in told)
+
+
+def test_runs_side_by_side_have_the_bits_of_one_after_the_other(gas, tmp_path):
+    from concurrent.futures import ThreadPoolExecutor
+
+    alone = [carom.run(gas, seed=seed).state_hash for seed in range(4)]
+    with ThreadPoolExecutor(4) as pool:
+        together = list(pool.map(lambda seed: carom.run(gas, seed=seed).state_hash, range(4)))
+        written = list(pool.map(lambda seed: carom.run(gas, seed=seed, out=tmp_path / str(seed)).state_hash, range(4)))
+    assert together == alone and written == alone
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ({"method": "naive", "dt": 0.01, "engine": "fast"}, "a fixed-step method has no engine"),
+        ({"dt": 0.01}, "dt is the step of a fixed-step method"),
+        ({"method": "nave", "dt": 0.01}, 'there is no fixed-step method "nave"'),
+        ({"engine": "slow"}, "slow"),
+        ({"method": "naive", "dt": 0.01, "observables": ["pressure"]}, "observables measure exact trajectories"),
+        ({"checkpoint_every": "10min"}, "checkpoints and reports are files"),
+        ({"observables": ["presure"]}, "presure"),
+        ({"walltime": "soon"}, "give a length of time such as 90s"),
+    ],
+)
+def test_wrong_arguments_are_refused_in_one_sentence(gas, arguments, sentence):
+    with pytest.raises(ValueError, match=sentence) as caught:
+        carom.run(gas, **arguments)
+    assert "\n" not in str(caught.value)
+
+
+def test_results_in_the_way_are_kept(tmp_path, gas):
+    carom.run(gas, out=tmp_path / "run")
+    before = (tmp_path / "run/summary.json").read_bytes()
+    with pytest.raises(carom.OutputError, match="overwrite=True"):
+        carom.run(gas, out=tmp_path / "run")
+    assert (tmp_path / "run/summary.json").read_bytes() == before
+    carom.run(gas, out=tmp_path / "run", overwrite=True)
+
+
+def test_directories_that_are_none_are_named(tmp_path):
+    with pytest.raises(carom.OutputError, match="no directory of a finished run"):
+        carom.open_run(tmp_path)
+    with pytest.raises(carom.OutputError):
+        carom.resume(tmp_path)
+
+
+def test_a_run_read_back_measures_what_the_run_did(tmp_path, gas):
+    result = carom.run(gas, out=tmp_path / "run", events=True, observables={"temperature": True, "free_flight": True})
+    run = carom.open_run(tmp_path / "run")
+    stored = run.observables
+    assert dict(stored["temperature"]) == dict(result.observables["temperature"])
+    measured = run.analyze(["free_flight"])["free_flight"]
+    for observed in (stored["free_flight"], measured):
+        assert dict(observed) == dict(result.observables["free_flight"])
+        for name, table in result.observables["free_flight"].tables.items():
+            assert all(np.array_equal(observed.tables[name][column], table[column], equal_nan=True) for column in table)
+    assert run.verify() == [] and run.scene == result.scene and run.state_hash == result.state_hash
+    sim = carom.Simulation(gas)
+    sim.equilibrate()
+    assert np.array_equal(run.events, sim.record(20.0))
+
+
+def test_results_pickle_and_go_to_pandas(gas):
+    pandas = pytest.importorskip("pandas")
+    result = carom.run(gas, observables=["pressure"], frames=True)
+    copy = pickle.loads(pickle.dumps(result))
+    assert copy.summary == result.summary and copy.observables["pressure"]["Z"] == result.observables["pressure"]["Z"]
+    assert copy.state == result.state and np.array_equal(copy.frames.positions, result.frames.positions)
+    series = result.to_series()
+    assert isinstance(series, pandas.Series) and series["pressure.Z"] == result.Z.value
+    assert "<table>" in result._repr_html_()
+
+
+def test_numbers_print_with_their_errors():
+    assert str(carom.Number(2.06018, 0.00103)) == "2.0602 ± 0.0010"
+    assert str(carom.Number(12345.6, 123.4)) == "12350 ± 120"
+    assert str(carom.Number(5.0, 0.0996)) == "5.00 ± 0.10"
+    assert str(carom.Number(1.5)) == "1.5" and float(carom.Number(1.5)) == 1.5
+
+
+def test_blocking_knows_the_error_of_independent_numbers():
+    series = carom.Blocking()
+    values = np.random.default_rng(1).normal(3.0, 2.0, 40_000)
+    series.add(values)
+    estimate = series.estimate()
+    assert estimate.value == pytest.approx(values.mean(), rel=1e-12)
+    # The standard error of 40,000 independent numbers is 2 / 200; its own relative error by blocks is a few per cent.
+    assert estimate.error == pytest.approx(0.01, rel=0.15)
+    assert pickle.loads(pickle.dumps(series)).estimate() == estimate
+    assert np.isnan(carom.Blocking().estimate().value)
+
+
+def test_import_starts_nothing():
+    code = (
+        "import sys, threading; import carom; "
+        "print([m for m in ('h5py', 'matplotlib', 'pandas', 'xarray', 'tqdm') if m in sys.modules], threading.active_count())"
+    )
+    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    assert shown.strip() == "[] 1"
