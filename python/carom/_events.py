@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -32,8 +31,7 @@ def partner_name(partner: int) -> str:
     return "thermostat" if partner == _THERMOSTAT else _WALLS.get(partner, f"partner {partner}")
 
 
-@dataclass(frozen=True, slots=True)
-class Event:
+class Event(NamedTuple):
     """One collision.
 
     Attributes:
