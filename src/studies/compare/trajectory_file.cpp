@@ -111,8 +111,8 @@ class FrameTable {
     const auto i = static_cast<Eigen::Index>(disk);
     State& frame = frames_.back();
     if (!std::isnan(frame.positions(0, i))) fail(fmt::format("disk {} stands twice in the frame at t = {:g}", i, time));
-    frame.positions.col(i) << number(cells, "x"), number(cells, "y");
-    if (moving) frame.velocities.col(i) << number(cells, "vx"), number(cells, "vy");
+    frame.positions.col(i) = Eigen::Vector2d(number(cells, "x"), number(cells, "y"));
+    if (moving) frame.velocities.col(i) = Eigen::Vector2d(number(cells, "vx"), number(cells, "vy"));
   }
 
   void end_frame() const {
