@@ -18,6 +18,7 @@ from carom.results import Measurement, Number, Table
 from carom.runs import Result, Run, open_run, resume, run
 from carom.scene import Check, Scene, build, presets
 from carom.simulation import CollidingPair, Simulation, Stop, engines, fixed_step_methods
+from carom.starts import Start, read_start
 
 __version__ = build()["version"]
 
@@ -39,6 +40,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "Simulation",
+    "Start",
     "State",
     "StoppedEarly",
     "Stop",
@@ -49,6 +51,7 @@ __all__ = [
     "open_run",
     "partner_name",
     "presets",
+    "read_start",
     "resume",
     "run",
 ]

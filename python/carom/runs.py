@@ -429,6 +429,14 @@ class Run:
         """The samples in trajectory.h5md, which are read when they are asked for. Needs h5py (pip install carom[files])."""
         return StoredFrames(self.directory / "trajectory.h5md", self.scene)
 
+    def state(self, k: int = -1) -> State:
+        """Returns sample k to the last bit, the last one by default: another simulation can begin with it."""
+        with hdf5():
+            reader = self._open()
+            if reader.samples == 0:
+                raise ValueError(f"{self.directory}: this run kept no samples; run it with run.sample_every and its trajectory")
+            return State._of(reader.sample(range(reader.samples)[k]))
+
     @property
     def events(self) -> npt.NDArray[Any]:
         """All collisions, a structured array as `Simulation.record()` returns it. Raises ValueError where none were written."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike, fspath
 from os.path import dirname
-from typing import Any, Union
+from typing import TYPE_CHECKING, Any, TypeGuard, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,9 @@ import numpy.typing as npt
 from carom import _core
 from carom._errors import SceneError
 from carom._toml import scene_text, value_text
+
+if TYPE_CHECKING:
+    from carom.starts import Start
 
 #: Whatever stands for a scene: a Scene, the path of a scene file, or a mapping with the keys of the scene format.
 SceneLike = Union["Scene", str, "PathLike[str]", Mapping[str, Any]]
@@ -112,7 +115,7 @@ class Scene:
 
     def with_disks(
         self,
-        positions: npt.ArrayLike,
+        positions: npt.ArrayLike | Start,
         velocities: npt.ArrayLike | None = None,
         radii: npt.ArrayLike | None = None,
         masses: npt.ArrayLike | None = None,
@@ -121,7 +124,8 @@ class Scene:
 
         Args:
             positions: shape (N, 2), length. A scene of one species takes any N; with several, N is the number of all disks, those of
-                the first species first.
+                the first species first. A Start, which `carom.read_start()` returns, brings all that it has; what is given besides
+                takes the place of that.
             velocities: shape (N, 2), length / time; None: as the scene draws them.
             radii: shape (N,), length; None: those of the scene.
             masses: shape (N,); None: those of the scene.
@@ -130,8 +134,14 @@ class Scene:
             SceneError: where disks overlap, lie outside of the box, or the arrays do not fit together.
             ValueError: where an array has another shape; TypeError: where it holds no numbers.
         """
+        if _is_start(positions):
+            start = positions
+            velocities = start.velocities if velocities is None else velocities
+            radii = start.radii if radii is None else radii
+            masses = start.masses if masses is None else masses
+            positions = start.positions
         core = self._core.with_disks(
-            pairs(positions, "positions"),
+            pairs(cast("npt.ArrayLike", positions), "positions"),
             None if velocities is None else pairs(velocities, "velocities"),
             None if radii is None else numbers(radii, "radii"),
             None if masses is None else numbers(masses, "masses"),
@@ -235,6 +245,10 @@ def as_scene(scene: SceneLike) -> Scene:
     if isinstance(scene, (str, PathLike)):
         return Scene.load(scene)
     raise TypeError(f"{scene!r} is no scene; give a carom.Scene, the path of a scene file, or a mapping")
+
+
+def _is_start(positions: npt.ArrayLike | Start) -> TypeGuard[Start]:
+    return hasattr(positions, "positions")
 
 
 def _floats(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:

@@ -3,16 +3,20 @@
 #include "python/buffers.hpp"
 #include "python/parts.hpp"
 #include "scene/presets.hpp"
+#include "scene/start_file.hpp"
 
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace carom::python {
@@ -82,6 +86,21 @@ void add_scene(nb::module_& module) {
         for (const ObservableRequest& request : scene.observe) names.push_back(request.name);
         return names;
       });
+  module.def(
+      "read_start_file",
+      [](const std::string& path) {
+        detail::StartFile start = detail::read_start_file(path);
+        const auto columns = [](std::vector<Eigen::Vector2d>& values) {
+          const std::size_t count = values.size();
+          return array_that_owns<double>(std::move(values), {count, 2});
+        };
+        const auto column = [](std::vector<double>& values) {
+          const std::size_t count = values.size();
+          return array_that_owns<double>(std::move(values), {count});
+        };
+        return std::tuple(columns(start.positions), columns(start.velocities), column(start.radii), column(start.masses));
+      },
+      nb::arg("path"), "Returns positions, velocities, radii and masses; a column that the file has not is empty.");
   module.def("preset_names", &preset_names, "Returns the names of all presets, \"box\" first.");
   module.def("preset", &preset, nb::arg("name"), "Returns the TOML text of a preset.");
   module.def("engine_names", &engine_names, "Returns the names of all engines, the preferred ones first.");

@@ -16,7 +16,7 @@ import carom
 
 matplotlib.use("Agg")
 ROOT = pathlib.Path(__file__).parents[2]
-MODULES = ["frames", "observables", "results", "runs", "scene", "simulation"]
+MODULES = ["frames", "observables", "results", "runs", "scene", "simulation", "starts"]
 
 
 def blocks():
@@ -53,7 +53,8 @@ def test_every_block_of_the_guide_runs(tmp_path, monkeypatch, capsys):
 
 
 @pytest.mark.parametrize("name", MODULES)
-def test_examples_in_docstrings_hold(name):
+def test_examples_in_docstrings_hold(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     module = __import__(f"carom.{name}", fromlist=["x"])
     found = doctest.testmod(module, extraglobs={"carom": carom, "np": numpy, "Number": carom.Number, "Table": carom.Table})
     assert found.failed == 0

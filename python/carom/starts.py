@@ -1,0 +1,105 @@
+"""Starts from what people have: files of numpy, GSD, and universes of MDAnalysis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from os import PathLike, fspath
+from typing import Any
+
+import numpy as np
+
+from carom import _core
+from carom._errors import OutputError
+from carom.frames import Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """Disks as another program has left them, for `Scene.with_disks()`.
+
+    Attributes:
+        positions: shape (N, 2), length.
+        velocities: shape (N, 2), length / time; None where the source has none.
+        radii, masses: shape (N,); None where the source has none.
+        box: ((x_low, x_high), (y_low, y_high)), for `Scene(box={"x": start.box[0], "y": start.box[1], ...})`; None where the source
+            has none.
+    """
+
+    positions: Floats
+    velocities: Floats | None = None
+    radii: Floats | None = None
+    masses: Floats | None = None
+    box: tuple[tuple[float, float], tuple[float, float]] | None = None
+
+
+def read_start(source: Any, frame: int = -1) -> Start:
+    """Reads where disks are and how they move.
+
+    >>> np.savetxt("start.csv", [[0.0, 0.0, 1.0, 0.0]], delimiter=",", header="x,y,vx,vy")
+    >>> carom.read_start("start.csv").velocities.tolist()
+    [[1.0, 0.0]]
+
+    Args:
+        source: a start file as scenes name it (`.npy`, or CSV with the names of the columns, which `np.savetxt(header=...)` writes); a
+            `.gsd` file, which needs gsd; or an MDAnalysis Universe or AtomGroup. The third coordinate is left out.
+        frame: of a trajectory, counted from the end where it is negative.
+
+    Raises:
+        SceneError: for a file that is no start, with the line; OutputError where it cannot be read.
+    """
+    if isinstance(source, (str, PathLike)):
+        path = fspath(source)
+        return _of_gsd(path, frame) if path.endswith(".gsd") else _of_file(path)
+    if hasattr(source, "atoms") and hasattr(source, "universe"):
+        return _of_universe(source, frame)
+    raise TypeError(f"{type(source).__name__}: a start is read from a .npy, .csv or .gsd file, or an MDAnalysis universe")
+
+
+def _of_file(path: str) -> Start:
+    positions, velocities, radii, masses = _core.read_start_file(path)
+    velocities, radii, masses = (column if len(column) else None for column in (velocities, radii, masses))
+    return Start(positions, velocities, radii, masses)
+
+
+def _plane(vectors: Any) -> Floats:
+    return np.ascontiguousarray(np.asarray(vectors, dtype=np.float64)[:, :2])
+
+
+def _of_gsd(path: str, frame: int) -> Start:
+    import gsd.hoomd
+
+    try:
+        with gsd.hoomd.open(path, "r") as trajectory:
+            found = trajectory[frame]
+    except (OSError, RuntimeError) as error:
+        raise OutputError(f"{path}: cannot read this GSD file: {error}") from None
+    except IndexError:
+        raise ValueError(f"{path}: there is no frame {frame}") from None
+    particles = found.particles
+    x, y = (float(length) for length in found.configuration.box[:2])
+    return Start(
+        _plane(particles.position),
+        None if particles.velocity is None else _plane(particles.velocity),
+        None if particles.diameter is None else np.asarray(particles.diameter, np.float64) / 2,
+        None if particles.mass is None else np.asarray(particles.mass, np.float64),
+        ((-x / 2, x / 2), (-y / 2, y / 2)),
+    )
+
+
+def _of_universe(source: Any, frame: int) -> Start:
+    universe, atoms = source.universe, source.atoms
+    here = universe.trajectory.frame
+    try:
+        universe.trajectory[frame]
+        positions = _plane(atoms.positions)
+        velocities = _plane(atoms.velocities) if universe.trajectory.ts.has_velocities else None
+        size = universe.trajectory.ts.dimensions
+    finally:
+        universe.trajectory[here]
+
+    def column(name: str) -> Floats | None:
+        found = getattr(atoms, name, None)
+        return None if found is None or not np.all(np.asarray(found) > 0) else np.asarray(found, np.float64)
+
+    box = None if size is None else ((0.0, float(size[0])), (0.0, float(size[1])))
+    return Start(positions, velocities, column("radii"), column("masses"), box)

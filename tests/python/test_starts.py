@@ -1,0 +1,86 @@
+"""Starts from files of other programs, and from universes of MDAnalysis."""
+
+import numpy as np
+import pytest
+
+import carom
+
+BOX = {"x": (-5.0, 5.0), "y": (-4.0, 4.0), "boundary": "periodic"}
+XY = np.array([[-4.0, -3.0], [0.5, 1.25], [3.0, 2.0]])
+V = np.array([[1.0, 0.0], [-0.5, 0.25], [0.1, -2.0]])
+
+
+def scene(box=BOX):
+    disks = {"count": 1, "radius": 0.5, "mass": 1, "positions": "random", "velocities": "rest"}
+    return carom.Scene(box=box, disks=disks, collision={"rule": "specular"}, run={"time": 1, "sample_every": 0.1})
+
+
+def begins(start, radii=0.5, masses=1.0):
+    sim = carom.Simulation(scene().with_disks(start))
+    assert np.array_equal(sim.positions, XY) and np.array_equal(sim.velocities, V)
+    assert np.all(sim.radii == radii) and np.all(sim.masses == masses)
+
+
+def test_numpys_own_files(tmp_path):
+    np.save(tmp_path / "start.npy", np.hstack([XY, V]))
+    begins(carom.read_start(tmp_path / "start.npy"))
+
+
+def test_text_as_savetxt_writes_it(tmp_path):
+    columns = np.column_stack([XY, V, [0.25, 0.5, 0.125]])
+    np.savetxt(tmp_path / "start.csv", columns, delimiter=",", header="x,y,vx,vy,radius")
+    begins(carom.read_start(tmp_path / "start.csv"), radii=[0.25, 0.5, 0.125])
+    with pytest.raises(carom.SceneError, match="wx"):
+        np.savetxt(tmp_path / "wrong.csv", columns, delimiter=",", header="x,y,wx,vy,radius")
+        carom.read_start(tmp_path / "wrong.csv")
+
+
+def test_what_is_given_takes_the_place_of_what_was_read(tmp_path):
+    np.save(tmp_path / "start.npy", np.hstack([XY, V]))
+    sim = carom.Simulation(scene().with_disks(carom.read_start(tmp_path / "start.npy"), velocities=2 * V, masses=[1, 2, 3]))
+    assert np.array_equal(sim.velocities, 2 * V) and sim.masses.tolist() == [1, 2, 3]
+
+
+def test_gsd(tmp_path):
+    hoomd = pytest.importorskip("gsd.hoomd", reason="gsd is not installed")
+    frame = hoomd.Frame()
+    frame.configuration.box = [10, 8, 1, 0, 0, 0]
+    frame.particles.N = 3
+    frame.particles.position = np.column_stack([XY, np.zeros(3)])
+    frame.particles.velocity = np.column_stack([V, np.zeros(3)])
+    frame.particles.diameter = [1, 1, 1]
+    frame.particles.mass = [2, 2, 2]
+    with hoomd.open(tmp_path / "start.gsd", "w") as file:
+        file.append(frame)
+    start = carom.read_start(tmp_path / "start.gsd")
+    assert start.box == ((-5.0, 5.0), (-4.0, 4.0))
+    # GSD has single precision: what it cannot hold is what it made of it.
+    sim = carom.Simulation(scene().with_disks(start))
+    assert np.array_equal(sim.positions, XY.astype(np.float32)) and np.array_equal(sim.velocities, V.astype(np.float32))
+    assert np.all(sim.radii == 0.5) and np.all(sim.masses == 2)
+    with pytest.raises(ValueError, match="no frame 7"):
+        carom.read_start(tmp_path / "start.gsd", frame=7)
+    (tmp_path / "none.gsd").write_bytes(b"nothing")
+    with pytest.raises(carom.OutputError, match="none.gsd"):
+        carom.read_start(tmp_path / "none.gsd")
+
+
+def test_a_universe_of_mdanalysis_there_and_back():
+    pytest.importorskip("MDAnalysis", reason="MDAnalysis is not installed")
+    box = {"x": (0, 10), "y": (0, 8), "boundary": "periodic"}
+    sim = carom.Simulation(scene(box).with_disks(XY + [5, 4], V))
+    frames = sim.sample(0.125, 1.0)
+    universe = frames.to_mdanalysis()
+    assert len(universe.trajectory) == len(frames) and universe.atoms.n_atoms == 3
+    start = carom.read_start(universe, frame=-1)
+    assert np.array_equal(start.positions, frames.positions[-1].astype(np.float32))
+    assert np.array_equal(start.velocities, frames.velocities[-1].astype(np.float32))
+    assert start.box == ((0.0, 10.0), (0.0, 8.0)) and np.all(start.radii == 0.5)
+    carom.Simulation(scene(box).with_disks(start))
+
+
+def test_what_is_no_start_is_refused(tmp_path):
+    with pytest.raises(TypeError, match="int: a start is read from"):
+        carom.read_start(3)
+    with pytest.raises(carom.SceneError, match="nothing.csv"):
+        carom.read_start(tmp_path / "nothing.csv")
