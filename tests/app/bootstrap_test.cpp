@@ -13,6 +13,7 @@ namespace carom::test {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -20,8 +21,11 @@ using ::testing::Not;
 class Bootstrap : public ::testing::Test {
  protected:
   Bootstrap() {
-    fs::create_directories(file("checkout"));
-    fs::copy_file(CAROM_SOURCE_DIR "/bootstrap", file("checkout/bootstrap"));
+    for (const char* name :
+         {"bootstrap", "cmake/debian-packages.txt", "python/requirements.txt", "tests/python/requirements.txt"}) {
+      fs::create_directories(file("checkout") / fs::path(name).parent_path());
+      fs::copy_file(fs::path(CAROM_SOURCE_DIR) / name, file("checkout") / name);
+    }
     write_text(file("packages"), "");
     tool("dpkg-query", R"(for word; do if grep -qx -- "$word" "$home/packages"; then
       case $* in *Package*) echo "$word 1 installed" ;; *) printf installed ;; esac; fi; done)");
@@ -35,17 +39,26 @@ class Bootstrap : public ::testing::Test {
         echo "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" >build/release/CMakeCache.txt
         if grep -qx libopenmpi-dev "$home/packages"; then echo 'with MPI' >>"$home/called"; fi ;;
       --build) printf '#!/bin/sh\n' >build/release/carom; chmod +x build/release/carom ;; esac)");
+    // What makes an environment is its interpreter too; it finds PyPI where there is a file of that name.
+    tool("python3", R"(case "$1 $2 $*" in
+      "-m venv "*) mkdir -p "$3/bin"; cp "$0" "$3/bin/python" ;;
+      "-m pip "*) [[ -e $home/PyPI ]] && echo "pip $*" >>"$home/called" ;;
+      "-c "*) echo "$home" ;;
+      *) echo Python 3.11 ;; esac)");
     for (const char* name : {"ctest", "ninja", "g++", "sudo"}) tool(name, "");
   }
 
-  /// How often and with what `./bootstrap verb` has called cmake.
-  std::string calls(const std::string& verb) {
+  /// How often and with what `./bootstrap verb` has called cmake and pip.
+  std::string calls(const std::string& verb, int exit_code = 0) {
     fs::remove(file("called"));
     const std::string path = "PATH=" + file("tools").string() + ":/usr/bin:/bin";
-    const Outcome outcome = run_program(file("checkout"), {"env", "-u", "CI", path, "bash", "bootstrap", verb});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string python = "PYTHON=" + file("tools/python3").string();
+    outcome = run_program(file("checkout"), {"env", "-u", "CI", path, python, "bash", "bootstrap", verb});
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
     return fs::exists(file("called")) ? text_of(file("called")) : "";
   }
+  Outcome outcome;  ///< of the last `./bootstrap verb`
+
   [[nodiscard]] fs::path file(const std::string& name) const { return directory_.path() / name; }
 
  private:
@@ -66,6 +79,27 @@ TEST_F(Bootstrap, ConfiguresAgainOnlyWherePackagesHaveComeSince) {
   EXPECT_THAT(calls("test"), HasSubstr("with MPI"));
   EXPECT_THAT(calls("test"), Not(HasSubstr("--fresh")));
   EXPECT_THAT(calls("run"), Not(HasSubstr("--fresh")));
+}
+
+TEST_F(Bootstrap, TakesPythonPackagesFromPyPIOnce) {
+  write_text(file("PyPI"), "");
+  const std::string run = calls("run");
+  EXPECT_THAT(run, AllOf(HasSubstr("CAROM_PYTHON=OFF"), Not(HasSubstr("pip"))));
+  const std::string python = calls("python");
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("build/python/bin/activate"), HasSubstr("import carom")));
+  EXPECT_EQ(text_of(file("carom.pth")), (fs::canonical(file("checkout")) / "build/release/python\n").string());
+  EXPECT_THAT(python, AllOf(HasSubstr("python/requirements.txt"), HasSubstr("build/python/bin/python"), HasSubstr("--fresh")));
+  EXPECT_THAT(calls("python"), AllOf(Not(HasSubstr("pip")), Not(HasSubstr("--fresh"))));
+  EXPECT_THAT(calls("test"), HasSubstr("tests/python/requirements.txt"));
+  EXPECT_THAT(calls("test"), AllOf(Not(HasSubstr("pip")), Not(HasSubstr("--fresh"))));
+  EXPECT_THAT(calls("python"), AllOf(Not(HasSubstr("pip")), Not(HasSubstr("--fresh"))));
+}
+
+TEST_F(Bootstrap, TestsWithoutPythonWherePyPIIsNotReached) {
+  EXPECT_THAT(calls("test"), HasSubstr("CAROM_PYTHON=OFF"));
+  EXPECT_THAT(outcome.err, HasSubstr("going on without: the Python package will not be tested"));
+  calls("python", 1);
+  EXPECT_THAT(outcome.err, HasSubstr("pip could not install these packages from PyPI"));
 }
 
 }  // namespace
