@@ -47,6 +47,13 @@ add_test(NAME package.compiles_from_sources
                  --build-generator ${CMAKE_GENERATOR} --build-target consumer_object --build-options ${consumer_options} ${from_sources})
 set_tests_properties(package.compiles_from_sources PROPERTIES LABELS package)
 
+# One sentence names the packages where a library is missing.
+add_test(NAME package.names_what_is_missing
+         COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${consumer_directory}/missing -G ${CMAKE_GENERATOR} ${consumer_options}
+                 -DCAROM_PYTHON=OFF -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON -DCMAKE_DISABLE_FIND_PACKAGE_fmt=ON)
+set_tests_properties(package.names_what_is_missing PROPERTIES LABELS package PASS_REGULAR_EXPRESSION
+                     "carom needs what Debian calls: g[+][+] .*libboost-dev.*[(]not[ \n]+found:[ \n]+Boost,[ \n]+fmt[)]")
+
 find_program(DPKG_DEB dpkg-deb)
 get_target_property(carom_type carom TYPE)
 if(DPKG_DEB AND NOT CMAKE_CROSSCOMPILING AND carom_type STREQUAL "STATIC_LIBRARY")
