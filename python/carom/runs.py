@@ -243,8 +243,7 @@ def run(
         if out is None:
             return _result(given, None, _beside(call, teller, bool(own)))
         try:
-            with hdf5():
-                return _result(given, Path(out), _beside(call, teller, bool(own)))
+            return _result(given, Path(out), _beside(_with_files(call), teller, bool(own)))
         except OutputError as error:
             raise OutputError(str(error).replace("with --force", "with overwrite=True").replace("with --out", "with out=")) from None
 
@@ -277,15 +276,25 @@ def resume(
 
     from carom import _files
 
-    with hdf5(), reporting(progress, "run") as tell:
+    with reporting(progress, "run") as tell:
         teller = None if tell is None else lambda now, done, equilibrating: tell(0.0 if time is None else min(1.0, now / time))
         own = list(observables)
         call = partial(
             _files.resume, fspath(directory), time, collisions, own, checkpoint_every, _seconds(walltime), threads, report
         )
-        parts = _beside(call, teller, bool(own))
+        parts = _beside(_with_files(call), teller, bool(own))
         scene = Scene.parse(json.loads(parts[0])["resolved_scene"])
         return _result(scene, Path(directory), parts)
+
+
+def _with_files(call: Callable[[Any], tuple[Any, ...]]) -> Callable[[Any], tuple[Any, ...]]:
+    """Returns the call with HDF5 to itself, on whatever thread it is made: observables may use h5py there too."""
+
+    def guarded(told: Any) -> tuple[Any, ...]:
+        with hdf5():
+            return call(told)
+
+    return guarded
 
 
 def _beside(call: Callable[[Any], tuple[Any, ...]], teller: Any, has_own: bool) -> tuple[Any, ...]:

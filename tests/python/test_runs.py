@@ -165,6 +165,27 @@ def test_a_limit_of_real_time_stops_a_run(gas):
     assert result.stopped == "interrupted" and 0 < result.time < 1e9
 
 
+def test_an_observable_may_write_with_h5py_while_the_run_writes_too(tmp_path, gas):
+    h5py = pytest.importorskip("h5py", reason="h5py is not installed")
+
+    class Writer(carom.Observable):
+        name, step = "writer", 1.0
+
+        def start(self, state):
+            self.file = h5py.File(tmp_path / "own.h5", "w")
+
+        def sample(self, state, collisions, virial):
+            self.file[f"{state.time}"] = state.positions
+
+        def finish(self, time, collisions, virial):
+            count = len(self.file)
+            self.file.close()
+            return {"frames": count}
+
+    result = carom.run(gas, out=tmp_path / "run", observables=[Writer()])
+    assert result.observables["writer"]["frames"].value == 21
+
+
 def test_progress_is_told(gas):
     told = []
     carom.run(gas.set({"run.time": 400.0, "run.sample_every": 100.0}), progress=told.append)
