@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from carom._arguments import real, whole
 from carom.frames import Floats, Frames
 
 if TYPE_CHECKING:
@@ -75,8 +76,7 @@ def animation_of_frames(frames: Frames, *, every: int, color: str, trail: int, i
     positions, velocities = frames.positions, frames.velocities
     if positions is None:
         raise ValueError("these frames have no positions; sample with positions=True")
-    if every < 1:
-        raise ValueError(f"every={every}: every so-manieth frame is shown, and that is 1 or more")
+    every, trail = whole(every, "every", least=1), whole(trail, "trail")
     if color == "speed" and velocities is None:
         raise ValueError('these frames have no velocities for color="speed"; sample with velocities=True, or take another colour')
     picture = _Picture(frames.scene, frames.radii, frames.species, color, trail)
@@ -95,6 +95,7 @@ def live_animation(simulation: Simulation, dt: float, frames: int | None, *, col
     """A simulation that runs as it is shown: see Simulation.animate()."""
     from matplotlib.animation import FuncAnimation
 
+    dt = real(dt, "dt")
     if not dt > 0:
         raise ValueError(f"frames are {dt:g} apart; that must be positive")
     picture = _Picture(simulation.scene, simulation.radii, simulation.species, color)

@@ -10,7 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import _core
-from carom.scene import Scene, numbers, pairs
+from carom._arguments import numbers, pairs, real, whole, whole_pairs
+from carom._errors import OutputError
+from carom.scene import Scene
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -47,12 +49,14 @@ class State:
         spins: npt.ArrayLike | None = None,
         time: float = 0.0,
     ) -> None:
+        places = pairs(positions, "positions")
+        count = len(places)
         self._core = _core.State(
-            pairs(positions, "positions"),
-            None if velocities is None else pairs(velocities, "velocities"),
-            None if images is None else np.ascontiguousarray(images, dtype=np.int64),
-            None if spins is None else numbers(spins, "spins"),
-            time,
+            places,
+            None if velocities is None else pairs(velocities, "velocities", count),
+            None if images is None else whole_pairs(images, "images", count),
+            None if spins is None else numbers(spins, "spins", count),
+            real(time, "time"),
         )
 
     @classmethod
@@ -167,10 +171,12 @@ class Frames:
         return len(self.time)
 
     def __getitem__(self, k: int) -> State:
-        """Returns frame k, counted from the end where k is negative."""
+        """Returns frame k, counted from the end where k is negative; parts of the arrays have many frames."""
         if self.positions is None:
             raise ValueError("these frames have no positions; sample with positions=True")
-        k = range(len(self))[k]
+        k = whole(k, "the number of a frame", least=-(2**63))
+        if not -len(self) <= k < len(self):
+            raise IndexError(f"there is no frame {k}; there are {len(self)}, numbered from 0")
 
         def row(array: Any) -> Any:
             return None if array is None else np.ascontiguousarray(array[k])
@@ -212,7 +218,10 @@ class Frames:
             for name in ("time", "positions", "velocities", "images", "spins", "scale", "collisions", "virial", "radii", "species")
             if (value := getattr(self, name)) is not None
         }
-        np.savez(fspath(path), scene=np.array(self.scene.toml), state_hash=np.array(self.state_hash), **arrays)
+        try:
+            np.savez(fspath(path), scene=np.array(self.scene.toml), state_hash=np.array(self.state_hash), **arrays)
+        except OSError as error:
+            raise OutputError(f"{fspath(path)}: cannot write the frames: {error.strerror}") from None
 
     def to_xarray(self) -> Any:
         """Returns an xarray.Dataset with the coordinates time, disk and axis ("x", "y"). Needs xarray (pip install carom[tables])."""

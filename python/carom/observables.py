@@ -11,9 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import _core
+from carom._arguments import numbers
 from carom.frames import State
 from carom.results import Number, Table
-from carom.scene import numbers
 
 #: The fields of a collision in the batches that `Observable.collisions()` gets; their memory is the library's own.
 COLLISION = np.dtype(

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import _core
+from carom._arguments import numbers, pairs, words
 from carom._errors import SceneError
 from carom._toml import scene_text, value_text
 
@@ -75,6 +76,8 @@ class Scene:
     __slots__ = ("_core", "_directory", "_toml")
 
     def __init__(self, mapping: Mapping[str, Any] | None = None, /, **tables: Any) -> None:
+        if mapping is not None and not isinstance(mapping, Mapping):
+            raise TypeError(f"a scene is {mapping!r}; give a mapping, or the path of a scene file to Scene.load()")
         self._core = _parsed(scene_text({**(mapping or {}), **tables}), _MADE, [], ".")
         self._directory = "."
         self._toml: str | None = None
@@ -88,17 +91,17 @@ class Scene:
     @classmethod
     def load(cls, path: str | PathLike[str], overrides: list[str] | None = None) -> Scene:
         """Reads a scene file. `overrides` are those of the program's --set, such as "run.time=2"."""
-        return cls._of(_core.Scene.load(fspath(path), overrides or []), dirname(fspath(path)) or ".")
+        return cls._of(_core.Scene.load(fspath(path), [words(entry, "an override") for entry in overrides or []]), dirname(fspath(path)) or ".")
 
     @classmethod
     def parse(cls, text: str, directory: str | PathLike[str] = ".") -> Scene:
         """Reads a scene from TOML text. Start files that it names are searched in `directory`."""
-        return cls._of(_core.Scene.parse(text, _MADE, [], fspath(directory)), fspath(directory))
+        return cls._of(_core.Scene.parse(words(text, "the text"), _MADE, [], fspath(directory)), fspath(directory))
 
     @classmethod
     def preset(cls, name: str) -> Scene:
         """Returns one of the scenes that come with carom, such as "box"; `carom.presets()` lists them."""
-        return cls._of(_core.Scene.parse(_core.preset(name), f"{name}.toml", [], "."))
+        return cls._of(_core.Scene.parse(_core.preset(words(name, "the name")), f"{name}.toml", [], "."))
 
     def set(self, changes: Mapping[str, Any]) -> Scene:
         """Returns the scene with other values for some keys.
@@ -109,6 +112,8 @@ class Scene:
         Args:
             changes: values of Python by dotted key; "disks.0.radius" is the radius of the first species.
         """
+        if not isinstance(changes, Mapping):
+            raise TypeError(f"the changes are {changes!r}; give a mapping of keys to values, such as {{'run.time': 2}}")
         overrides = [f"{key}={value_text(value, str(key))}" for key, value in changes.items()]
         core = _parsed(self._core.text, self._core.source, [*self._core.overrides, *overrides], self._directory)
         return Scene._of(core, self._directory)
@@ -249,29 +254,6 @@ def as_scene(scene: SceneLike) -> Scene:
 
 def _is_start(positions: npt.ArrayLike | Start) -> TypeGuard[Start]:
     return hasattr(positions, "positions")
-
-
-def _floats(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
-    array = np.asarray(values)
-    if array.dtype == object or array.dtype.kind not in "biuf":
-        raise TypeError(f"{name}: an array of {array.dtype} holds no numbers; give floats")
-    return np.ascontiguousarray(array, dtype=np.float64)
-
-
-def pairs(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
-    """Returns values as an array of shape (N, 2). Raises ValueError for any other shape."""
-    array = _floats(values, name)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise ValueError(f"{name}: the array has shape {array.shape}; give one of shape (N, 2), a row for each disk")
-    return array
-
-
-def numbers(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
-    """Returns values as an array of shape (N,). Raises ValueError for any other shape."""
-    array = _floats(values, name)
-    if array.ndim != 1:
-        raise ValueError(f"{name}: the array has shape {array.shape}; give one of shape (N,), a number for each disk")
-    return array
 
 
 def build() -> dict[str, str]:

@@ -14,12 +14,13 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import _core
-from carom._errors import OutputError, StoppedEarly
+from carom._arguments import numbers, pairs, real, whole, words
+from carom._errors import OutputError, SceneError, StoppedEarly
 from carom._events import Event, events_in
 from carom._progress import Progress, reporting
-from carom.frames import Floats, Frames, Integers, State
 from carom._toml import scene_text
-from carom.scene import Scene, SceneLike, as_scene, numbers, pairs, scene_of_parts
+from carom.frames import Floats, Frames, Integers, State
+from carom.scene import Scene, SceneLike, as_scene, scene_of_parts
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -114,7 +115,12 @@ class Simulation:
             raise ValueError("a fixed-step method needs both: method=\"naive\" and its step dt=0.001")
         if method is not None and engine != "auto":
             raise ValueError("a fixed-step method has no engine; leave out one of the two")
-        self._begin(given, _core.Simulation(given._core, engine, method, dt or 0.0, None if state is None else state._core))
+        if state is not None and not isinstance(state, State):
+            raise TypeError(f"the state is {state!r}; give a carom.State")
+        name = None if method is None else words(method, "method")
+        step = 0.0 if dt is None else real(dt, "dt")
+        start = None if state is None else state._core
+        self._begin(given, _core.Simulation(given._core, words(engine, "engine"), name, step, start))
         if on_collision is not None:
             self.set_collision_rule(on_collision)
 
@@ -251,7 +257,7 @@ class Simulation:
 
     def run(self, duration: float, *, progress: Progress | None = None) -> Stop:
         """Goes on for `duration`. Repeated calls add up with rounding; `sample()` has an exact grid."""
-        return self.run_until(self.time + duration, progress=progress)
+        return self.run_until(self.time + real(duration, "duration"), progress=progress)
 
     def run_until(self, time: float, collisions: int | None = None, *, progress: Progress | None = None) -> Stop:
         """Processes every event up to and including `time`; an earlier time does nothing. Bits do not depend on where one stops.
@@ -264,11 +270,12 @@ class Simulation:
         Returns:
             why it returned. Where the disks could not go on, a StoppedEarly warning says so too.
         """
-        begin = self.time
+        begin, end = self.time, real(time, "time")
+        limit = None if collisions is None else whole(collisions, "collisions")
         with reporting(progress, "run") as report:
-            tell = None if report is None else lambda now: report(_fraction(begin, now, time))
+            tell = None if report is None else lambda now: report(_fraction(begin, now, end))
             try:
-                reason = self._core.run_until(time, collisions, tell)
+                reason = self._core.run_until(end, limit, tell)
             finally:
                 self._moved()
         return as_stop(reason, self.time)
@@ -292,8 +299,9 @@ class Simulation:
     def step(self, until: float = math.inf) -> Event | None:
         """Goes to the next event up to `until`, and returns it: a collision with a disk, a wall or an obstacle, the edge of a square
         well, or a new velocity by the thermostat. Returns None where there is none; the simulation then stands at `until`."""
+        end = real(until, "until")
         self._moved()
-        event = self._core.step(until)
+        event = self._core.step(end)
         return None if event is None else Event(*event)
 
     def events(self, until: float) -> Iterator[Event]:
@@ -307,8 +315,9 @@ class Simulation:
         Its fields are time, time_remainder, disk, partner, velocity (2) and partner_velocity (2), as in `Event`. Edges of square
         wells are among them, new velocities by a thermostat are not.
         """
+        end = real(until, "until")
         try:
-            memory, reason = self._core.record(until)
+            memory, reason = self._core.record(end)
         finally:
             self._moved()
         as_stop(reason, self.time)
@@ -338,7 +347,8 @@ class Simulation:
             MemoryError: where the frames cannot fit into this machine; `frames()` needs no memory for them.
             KeyboardInterrupt: on Ctrl-C. `trajectory` has the frames until then, and the simulation can go on.
         """
-        first, count = self._sample_range(dt, until, 0, stride)
+        dt, until, stride = real(dt, "dt"), real(until, "until"), whole(stride, "stride", least=1)
+        first, count = self._sample_range(dt, until, stride)
         room = _Room(self, count, positions, velocities)
         begin = self.time
         reason: str | None = None
@@ -354,7 +364,8 @@ class Simulation:
 
     def frames(self, dt: float, until: float, *, stride: int = 1) -> Iterator[State]:
         """Iterates over the states that `sample()` returns, in constant memory."""
-        first, count = self._sample_range(dt, until, 0, stride)
+        dt, until, stride = real(dt, "dt"), real(until, "until"), whole(stride, "stride", least=1)
+        first, count = self._sample_range(dt, until, stride)
         for k in range(first, first + count * stride, stride):
             room = _Room(self, 1, True, True)
             try:
@@ -370,14 +381,12 @@ class Simulation:
             if Stop(reason).early:
                 return
 
-    def _sample_range(self, dt: float, until: float, first: int, stride: int) -> tuple[int, int]:
+    def _sample_range(self, dt: float, until: float, stride: int) -> tuple[int, int]:
         if not (dt > 0 and math.isfinite(dt)):
             raise ValueError(f"samples are {dt:g} apart; that must be positive and finite")
         if not math.isfinite(until):
             raise ValueError("a simulation runs to a finite time only")
-        if stride < 1:
-            raise ValueError(f"stride={stride}: every so-manieth sample is kept, and that is 1 or more")
-        return self._core.sample_range(until, dt, first, stride)
+        return self._core.sample_range(until, dt, 0, stride)
 
     def play(self, until: float) -> Player:
         """Runs up to `until` and returns the run as a player: exact at any instant, in the notebook or as a page."""
@@ -413,17 +422,24 @@ class Simulation:
         changes = key if isinstance(key, dict) else {key: value}
         acting = {name: table for name, table in self.scene.to_dict().items() if name in _EFFECTS}
         for name, entry in changes.items():
-            path = name.split(".")
+            path = words(name, "a key").split(".")
             if path[0] not in _EFFECTS:
-                raise ValueError(f"{name} does not say what acts on the disks while they move; {', '.join(_EFFECTS)} do")
+                raise ValueError(f"{name!r} does not say what acts on the disks while they move; {', '.join(_EFFECTS)} do")
             _put(acting, path, entry)
-        self._core.set_effects(scene_text(acting))
+        try:
+            self._core.set_effects(scene_text(acting))
+        except SceneError as error:
+            raise SceneError(error.sentence) from None  # nobody has seen the lines of that text
         self._moved()
         self._now = self._disks = None
 
     def set_velocities(self, velocities: npt.ArrayLike, spins: npt.ArrayLike | None = None) -> None:
         """Gives all disks these velocities, shape (N, 2), and where they spin these spins, shape (N,). All else goes on."""
-        self._core.set_velocities(pairs(velocities, "velocities"), None if spins is None else numbers(spins, "spins"))
+        turning = None if spins is None else numbers(spins, "spins", self.count)
+        try:
+            self._core.set_velocities(pairs(velocities, "velocities", self.count), turning)
+        except SceneError as error:
+            raise SceneError(error.sentence) from None
         self._moved()
 
     def set_collision_rule(self, rule: CollisionRule | None) -> None:
@@ -433,6 +449,8 @@ class Simulation:
         masses, radii, ids and `pair.normal`, the unit vector from the partner to the disk. The disks must not approach each other
         afterwards. This is slow, about a microsecond per collision; the simulation cannot be asked anything meanwhile.
         """
+        if rule is not None and not callable(rule):
+            raise TypeError(f"the collision rule is {rule!r}; give a function of two disks that meet")
         self._core.set_collision_rule(rule)
         self._rule = rule
 
@@ -500,13 +518,23 @@ _EFFECTS = ("collision", "gravity", "walls", "obstacles", "growth", "thermostat"
 
 
 def _put(tables: dict[str, Any], path: list[str], value: Any) -> None:
-    """Sets one entry of nested mappings; None removes it."""
-    for name in path[:-1]:
-        tables = tables.setdefault(name, {})
-    if value is None:
-        tables.pop(path[-1], None)
-    else:
-        tables[path[-1]] = value
+    """Sets one entry of nested mappings and lists, whose entries are numbered from 0; None removes it."""
+    holder: Any = tables
+    key: Any = ""
+    for k, name in enumerate(path):
+        if k > 0:
+            holder = holder.setdefault(key, {}) if isinstance(holder, dict) else holder[key]
+        key = name
+        if isinstance(holder, list):
+            if not (name.isdecimal() and int(name) < len(holder)):
+                raise ValueError(f"{'.'.join(path[:k])} has {len(holder)} entries, numbered from 0, and none is {name!r}")
+            key = int(name)
+        elif not isinstance(holder, dict):
+            raise ValueError(f"{'.'.join(path[:k])} is {holder!r}, which has no keys")
+    if value is not None:
+        holder[key] = value
+    elif isinstance(holder, list) or key in holder:
+        del holder[key]
 
 
 def _restored(made: Scene, saved: bytes, rule: CollisionRule | None) -> Simulation:
@@ -550,9 +578,8 @@ class _Room:
         def done(array: Any) -> Any:
             if array is None:
                 return None
-            view = array[:count]
-            view.flags.writeable = False
-            return view
+            array.flags.writeable = False
+            return array[:count]
 
         return Frames(
             time=done(self.time),

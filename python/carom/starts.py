@@ -56,9 +56,8 @@ def read_start(source: Any, frame: int = -1) -> Start:
 
 
 def _of_file(path: str) -> Start:
-    positions, velocities, radii, masses = _core.read_start_file(path)
-    velocities, radii, masses = (column if len(column) else None for column in (velocities, radii, masses))
-    return Start(positions, velocities, radii, masses)
+    positions, *columns = _core.read_start_file(path)
+    return Start(positions, *(column if len(column) else None for column in columns))
 
 
 def _plane(vectors: Any) -> Floats:

@@ -23,13 +23,7 @@ SCENES = sorted((ROOT / "docs/scenes").glob("*.toml"))
 def begin(scene: carom.Scene) -> carom.Simulation:
     """Returns the simulation where the program begins to measure."""
     sim = carom.Simulation(scene)
-    match scene.to_dict()["run"].get("equilibrate"):
-        case {"time": time}:
-            sim.run_until(time)
-            sim.reset_clock()
-        case {"collisions_per_disk": collisions}:
-            sim.run_until(1e9, collisions=math.ceil(collisions * scene.count / 2))
-            sim.reset_clock()
+    sim.equilibrate()
     return sim
 
 

@@ -1,0 +1,85 @@
+"""Arguments as the library takes them, and sentences for what they cannot be."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+
+def real(value: Any, name: str) -> float:
+    """Returns a number as a float. Raises TypeError for what is none."""
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is {value!r}; give a number") from None
+    except OverflowError:
+        raise ValueError(f"{name} is {value!r}; no double is as large") from None
+
+
+def whole(value: Any, name: str, least: int = 0) -> int:
+    """Returns a whole number, which may be given as 1e6. Raises TypeError for what is none, and ValueError for one out of range."""
+    try:
+        number = int(value) if isinstance(value, (float, np.floating)) and float(value).is_integer() else operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} is {value!r}; give a whole number") from None
+    if not least <= number < 2**63:
+        raise ValueError(f"{name} is {number}; it must be from {least} to 2^63 - 1")
+    return number
+
+
+def words(value: Any, name: str) -> str:
+    """Returns a string. Raises TypeError for what is none, and ValueError for one that no file can hold."""
+    if not isinstance(value, str):
+        raise TypeError(f"{name} is {value!r}; give a string")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"{name} is {value!r}; half of a pair of surrogates is no character") from None
+    return value
+
+
+def _array(values: npt.ArrayLike, name: str, kinds: str, wanted: str) -> npt.NDArray[Any]:
+    try:
+        array = np.asarray(values)
+    except ValueError:
+        raise ValueError(f"{name}: the rows differ in length; give an array") from None
+    if array.dtype.kind not in kinds:
+        raise TypeError(f"{name}: an array of {array.dtype} is given; give {wanted}")
+    return array
+
+
+def _rows(array: npt.NDArray[Any], name: str, count: int | None) -> None:
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise ValueError(f"{name}: the array has shape {array.shape}; give one of shape (N, 2), a row for each disk")
+    if count is not None and len(array) != count:
+        raise ValueError(f"{name}: there are {len(array)} rows for {count} disks; give one for each")
+
+
+def pairs(values: npt.ArrayLike, name: str, count: int | None = None) -> npt.NDArray[np.float64]:
+    """Returns values as an array of shape (N, 2); where `count` is given, N is that. Raises ValueError for any other shape, and
+    TypeError for what are no numbers."""
+    array = _array(values, name, "biuf", "real numbers")
+    _rows(array, name, count)
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def whole_pairs(values: npt.ArrayLike, name: str, count: int | None = None) -> npt.NDArray[np.int64]:
+    """Returns whole numbers as an array of shape (N, 2), as `pairs()` does."""
+    array = _array(values, name, "iu", "whole numbers")
+    _rows(array, name, count)
+    return np.ascontiguousarray(array, dtype=np.int64)
+
+
+def numbers(values: npt.ArrayLike, name: str, count: int | None = None) -> npt.NDArray[np.float64]:
+    """Returns values as an array of shape (N,); where `count` is given, N is that. Raises as `pairs()` does."""
+    array = _array(values, name, "biuf", "real numbers")
+    if array.ndim != 1:
+        raise ValueError(f"{name}: the array has shape {array.shape}; give one of shape (N,), a number for each disk")
+    if count is not None and len(array) != count:
+        raise ValueError(f"{name}: there are {len(array)} for {count} disks; give one for each")
+    return np.ascontiguousarray(array, dtype=np.float64)
