@@ -23,6 +23,13 @@ constexpr double random_limit_diameters = 5.0;
 
 std::string path_of_position(std::size_t species, std::size_t row) { return fmt::format("disks.{}.positions.{}", species, row); }
 
+/// Returns the path of the radius of one disk, which may be a column of the file of positions.
+std::string path_of_radius(const Species& species, std::size_t s, std::size_t row) {
+  if (species.radii.empty()) return fmt::format("disks.{}", s);
+  if (std::holds_alternative<FilePositions>(species.positions)) return path_of_position(s, row);
+  return fmt::format("disks.{}.radius.{}", s, row);
+}
+
 /// A program may leave species without a name.
 void check_names(const Scene& scene) {
   for (std::size_t i = 0; i < scene.species.size(); ++i) {
@@ -163,8 +170,7 @@ void check_scene(const Scene& scene) {
     const Species& species = scene.species[s];
     const std::size_t sizes = species.radii.empty() ? (species.count > 0 ? 1U : 0U) : species.radii.size();
     for (std::size_t i = 0; i < sizes; ++i)
-      check_fit(scene.box, species.radius_of(static_cast<std::int64_t>(i)),
-                [&] { return species.radii.empty() ? fmt::format("disks.{}", s) : path_of_position(s, i); });
+      check_fit(scene.box, species.radius_of(static_cast<std::int64_t>(i)), [&] { return path_of_radius(species, s, i); });
     check_positions_inside(scene.box, s, species, first_id);
     first_id += species.count;
   }

@@ -25,8 +25,7 @@ void require_pairs(const std::string& path, const std::vector<Eigen::Vector2d>& 
 /// Checks a list that replaces the number for all disks of a species: empty, or one entry per disk.
 void check_list(const std::string& path, const std::vector<double>& list, std::int64_t count, const NumberKey& key) {
   if (!list.empty() && static_cast<std::int64_t>(list.size()) != count)
-    throw Refusal(path, fmt::format("{} has length {}, but there are {} disks; give one {} per disk, or none", path, list.size(),
-                                    count, key.name));
+    throw Refusal(path, unequal_list(path, list.size(), count, key.name));
   for (std::size_t i = 0; i < list.size(); ++i)
     if (!key.holds(list[i])) refuse_number(fmt::format("{}.{}", path, i), list[i], key);
 }
@@ -63,8 +62,8 @@ void check_velocities(const std::string& path, const Species& species) {
 
 void check_species(const std::string& path, const Species& species) {
   check_count(species.count, path + ".count");
-  check_list(path + ".radii", species.radii, species.count, keys::radius);
-  check_list(path + ".masses", species.masses, species.count, keys::mass);
+  check_list(path + ".radius", species.radii, species.count, keys::radius);
+  check_list(path + ".mass", species.masses, species.count, keys::mass);
   if (species.radii.empty() && species.count > 0) require(path, species.radius, keys::radius);
   if (species.masses.empty() && species.count > 0) require(path, species.mass, keys::mass);
   check_positions(path, species);

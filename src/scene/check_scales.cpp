@@ -181,7 +181,7 @@ void check_masses(const Scene& scene, const Sizes& sizes) {
     if (species.count > 0 && species.masses.empty()) check_mass(fmt::format("disks.{}.mass", s), species.mass);
     for (std::size_t i = 0; i < species.masses.size(); ++i)
       if (!(species.masses[i] >= least_mass && species.masses[i] <= most_mass))
-        check_mass(fmt::format("disks.{}.masses.{}", s, i), species.masses[i]);
+        check_mass(fmt::format("disks.{}.mass.{}", s, i), species.masses[i]);
   }
   for (std::size_t w = 0; w < scene.effects.walls.size(); ++w) {
     const WallProperties& wall = scene.effects.walls[w];

@@ -42,4 +42,9 @@ std::string unequal_counts(const std::string& path, std::int64_t count, std::siz
   return fmt::format("{} is {}, but positions has {}; make them agree, or leave count out", path, count, positions);
 }
 
+std::string unequal_list(const std::string& path, std::size_t length, std::int64_t count, std::string_view name) {
+  return fmt::format("{} has length {}, but there are {} disks; give one {} per disk, or one number for all", path, length, count,
+                     name);
+}
+
 }  // namespace carom::detail

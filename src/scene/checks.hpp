@@ -10,6 +10,7 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace carom::detail {
 
@@ -71,6 +72,8 @@ void check_step(const Scene& scene, const std::string& path, double step, double
 
 inline constexpr const char* endless_run = "[run] has no end; give time = 5.0, collisions = 1_000_000, or both";
 std::string unequal_counts(const std::string& path, std::int64_t count, std::size_t positions);
+/// `path` is that of a list of one number per disk; `name` is that of the number.
+std::string unequal_list(const std::string& path, std::size_t length, std::int64_t count, std::string_view name);
 std::string ends_of_growth(const char* has);
 
 }  // namespace carom::detail

@@ -33,8 +33,8 @@ struct DisksDraft {
   Rows rows;         ///< empty unless the positions are in a start file
   std::optional<std::int64_t> count;
   std::optional<double> radius;
-  bool radii_from_file = false;  ///< true also where the column is there and no row is
-  bool masses_from_file = false;
+  bool has_radii = false;   ///< one radius per disk, in a list or a start file; true also where there is no disk
+  bool has_masses = false;  ///< the same of masses
   bool velocities_from_file = false;
   std::optional<double> packing_fraction;  ///< this species' share of the box: sum of pi r^2 / area
 };

@@ -40,8 +40,8 @@ FilePositions from_file(const TableReader& table, const std::string& directory, 
   }
   positions.values = std::move(start.positions);
   disks.rows = std::move(start.rows);
-  disks.radii_from_file = start.has_radii;
-  disks.masses_from_file = start.has_masses;
+  disks.has_radii = start.has_radii;
+  disks.has_masses = start.has_masses;
   disks.velocities_from_file = start.has_velocities;
   disks.species.radii = std::move(start.radii);
   disks.species.masses = std::move(start.masses);

@@ -9,6 +9,9 @@
 #include <fmt/ranges.h>
 
 #include <iterator>
+#include <string_view>
+#include <variant>
+#include <vector>
 
 namespace carom {
 namespace {
@@ -27,6 +30,13 @@ void put_pairs(Buffer& out, const std::vector<Eigen::Vector2d>& pairs) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     put(out, "{}[{}, {}]", i == 0 ? "" : (i % 4 == 0 ? ",\n  " : ", "), number_text(pairs[i][0]), number_text(pairs[i][1]));
   }
+  put(out, "]\n");
+}
+
+void put_numbers(Buffer& out, const std::vector<double>& numbers) {
+  put(out, "[");
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    put(out, "{}{}", i == 0 ? "" : (i % 8 == 0 ? ",\n  " : ", "), number_text(numbers[i]));
   put(out, "]\n");
 }
 
@@ -60,21 +70,26 @@ struct PutVelocities {
   }
 };
 
+/// Radius or mass, as `key` says: one number for all disks, or one for each.
+void put_property(Buffer& out, std::string_view key, double of_all, const std::vector<double>& of_each, const Species& species) {
+  // A value of zero stands for none. A start file has a column then, and so may stay out of the scene.
+  const bool in_file = std::holds_alternative<FilePositions>(species.positions) || (of_each.empty() && species.count > 0);
+  if (of_all > 0.0) {
+    put(out, "{} = {}\n", key, number_text(of_all));
+  } else if (in_file) {
+    put(out, "# {}: a column of the start file\n", key);
+  } else {
+    put(out, "{} = ", key);
+    put_numbers(out, of_each);
+  }
+}
+
 void put_species(Buffer& out, const Species& species) {
   put(out, "\n[[disks]]\n");
   if (!species.name.empty()) put(out, "name = {}\n", quoted_text(species.name));  // a program may leave it out
   put(out, "count = {}\n", species.count);
-  // A value of zero stands for none: it is a column of the start file.
-  if (species.radius > 0.0) {
-    put(out, "radius = {}\n", number_text(species.radius));
-  } else {
-    put(out, "# radius: a column of the start file\n");
-  }
-  if (species.mass > 0.0) {
-    put(out, "mass = {}\n", number_text(species.mass));
-  } else {
-    put(out, "# mass: a column of the start file\n");
-  }
+  put_property(out, "radius", species.radius, species.radii, species);
+  put_property(out, "mass", species.mass, species.masses, species);
   std::visit(PutPositions{out}, species.positions);
   std::visit(PutVelocities{out}, species.velocities);
 }

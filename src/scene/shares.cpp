@@ -26,7 +26,7 @@ void require_fraction(const Share& share) {
 
 std::optional<double> disk_area(const DisksDraft& disks) {
   double sum = 0.0;
-  if (disks.radii_from_file) {
+  if (disks.has_radii) {
     for (const double radius : disks.species.radii) sum += radius * radius;
   } else if (disks.count && disks.radius) {
     sum = static_cast<double>(*disks.count) * *disks.radius * *disks.radius;

@@ -69,7 +69,7 @@ void radius_from_share(DisksDraft& disks, double area) {
 }
 
 void complete(DisksDraft& disks, double area) {
-  const bool has_radius = disks.radius || disks.radii_from_file;
+  const bool has_radius = disks.radius || disks.has_radii;
   if (!disks.count && !(disks.packing_fraction && has_radius)) {
     throw Refusal(disks.path, fmt::format("[[disks]] lacks count; give it, such as {}, or list the positions one by one",
                                           keys::count_example));

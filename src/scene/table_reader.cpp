@@ -102,6 +102,13 @@ Eigen::Vector2d read_pair(const toml::node& node, const std::string& path, std::
   return {first, second};
 }
 
+std::vector<double> read_numbers(const toml::array& list, const std::string& path, const NumberKey& key) {
+  std::vector<double> numbers;
+  numbers.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) numbers.push_back(read_number(list[i], fmt::format("{}.{}", path, i), key));
+  return numbers;
+}
+
 std::vector<Eigen::Vector2d> read_pairs(const toml::array& list, const std::string& path, std::string_view example) {
   std::vector<Eigen::Vector2d> pairs;
   pairs.reserve(list.size());

@@ -36,6 +36,8 @@ std::int64_t read_integer(const toml::node& node, const std::string& path, const
 bool read_switch(const toml::node& node, const std::string& path, const std::string& example);
 std::string read_string(const toml::node& node, const std::string& path, const std::string& example);
 Eigen::Vector2d read_pair(const toml::node& node, const std::string& path, std::string_view example);
+/// [a, b, ...]
+std::vector<double> read_numbers(const toml::array& list, const std::string& path, const NumberKey& key);
 /// [[a, b], ...]
 std::vector<Eigen::Vector2d> read_pairs(const toml::array& list, const std::string& path, std::string_view example);
 

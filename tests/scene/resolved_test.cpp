@@ -144,8 +144,8 @@ class SceneMaker {
     const bool share = !in_file && count > 0 && *rc::gen::arbitrary<bool>();
     if (!in_file) {
       text += share ? "packing_fraction = " + number_text(1e-4 + 1e-3 * unit_interval()) + "\n"
-                    : "radius = " + number_text(0.01 + 0.5 * unit_interval()) + "\n";
-      text += "mass = " + number_text(moderate_positive_double()) + "\n";
+                    : "radius = " + one_or_list(file ? 0 : count, [] { return 0.01 + 0.5 * unit_interval(); }) + "\n";
+      text += "mass = " + one_or_list(file ? 0 : count, moderate_positive_double) + "\n";
       text += "velocities = " + velocities(count) + "\n";
     }
     if (file) folder_.write("start" + std::to_string(s) + ".csv", csv);
@@ -154,6 +154,15 @@ class SceneMaker {
             : listed ? "[" + list + "]"
                      : *rc::gen::element<std::string>("\"random\"", "\"square\"", "\"hexagonal\"")) +
            "\n";
+  }
+
+  /// One number, or where there are disks perhaps a list of one for each.
+  template <class Number>
+  static std::string one_or_list(int count, Number number) {
+    if (count == 0 || *rc::gen::arbitrary<bool>()) return number_text(number());
+    std::string list = number_text(number());
+    for (int i = 1; i < count; ++i) list += ", " + number_text(number());
+    return "[" + list + "]";
   }
 
   static std::string velocities(int count) {

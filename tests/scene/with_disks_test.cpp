@@ -1,5 +1,6 @@
 // Arrays of a program as the disks of a scene.
 
+#include "scene/scene_equality.hpp"
 #include "support/scenes.hpp"
 #include "support/systems.hpp"
 
@@ -31,6 +32,14 @@ Scene two_species() {
   return scene_of(box_of(10.0, 10.0, Boundary::walls), {small, large});
 }
 
+/// The scene with what a file needs and a program may leave out: names, and an end. It has no samples, and so no trajectory.
+Scene as_in_a_file(Scene scene) {
+  for (std::size_t s = 0; s < scene.species.size(); ++s) scene.species[s].name = "disks" + std::to_string(s);
+  scene.run.time = 1.0;
+  scene.output.trajectory = false;
+  return scene;
+}
+
 std::string refusal(const Scene& scene, const DiskArrays& disks) {
   try {
     (void)with_disks(scene, disks);
@@ -54,15 +63,20 @@ TEST(WithDisks, ASimulationBeginsWithWhatTheArraysHold) {
 }
 
 TEST(WithDisks, WhatIsAbsentStaysTheScenesOwn) {
-  Scene timed = two_species();
-  timed.run.time = 1.0;
-  const Scene scene = with_disks(timed, {.positions = three.positions});
+  const Scene scene = with_disks(as_in_a_file(two_species()), {.positions = three.positions});
   const Simulation simulation = make_simulation(scene);
   EXPECT_EQ(simulation.disks().radius, (std::vector{0.2, 0.4, 0.4}));
   EXPECT_EQ(simulation.disks().species, (std::vector<std::int32_t>{0, 1, 1}));
   EXPECT_TRUE(simulation.state().velocities.isZero());
   EXPECT_EQ(scene.text, resolved_toml(scene));
   EXPECT_EQ(resolved_toml(parse_scene(scene.text)), scene.text);
+}
+
+TEST(WithDisks, TheResolvedSceneReadsBackAsTheSameScene) {
+  for (const Scene& scene : {one_species(), two_species()}) {
+    const Scene with = with_disks(as_in_a_file(scene), three);
+    EXPECT_EQ(testing_support::first_difference(parse_scene(with.text), with), "");
+  }
 }
 
 TEST(WithDisks, RefusesArraysThatDoNotFitTogether) {

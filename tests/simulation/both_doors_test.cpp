@@ -76,6 +76,42 @@ std::vector<Case> cases() {
        [](Scene& s) { s.species[0].name = s.species[1].name = "gas"; }},
       {"RadiusNegative", walls, {"disks.0.radius=-0.03"}, [](Scene& s) { s.species[0].radius = -0.03; }},
       {"RadiusZero", walls, {"disks.1.radius=0.0"}, [](Scene& s) { s.species[1].radius = 0.0; }},
+      {"RadiiTooFew",
+       walls,
+       {"disks.0.radius=[0.05, 0.06]"},
+       [](Scene& s) {
+         s.species[0].radii = {0.05, 0.06};
+       }},
+      {"MassesTooMany",
+       walls,
+       {"disks.1.mass=[1.0, 1.0, 1.0]"},
+       [](Scene& s) {
+         s.species[1].masses = {1.0, 1.0, 1.0};
+       }},
+      {"OneRadiusNegative",
+       walls,
+       {"disks.1.radius=[0.1, -0.1]"},
+       [](Scene& s) {
+         s.species[1].radii = {0.1, -0.1};
+       }},
+      {"OneRadiusTooLarge",
+       walls,
+       {"disks.1.radius=[0.1, 1.5]"},
+       [](Scene& s) {
+         s.species[1].radii = {0.1, 1.5};
+       }},
+      {"OneMassOfNaN",
+       walls,
+       {"disks.1.mass=[nan, 1]"},
+       [](Scene& s) {
+         s.species[1].masses = {not_a_number, 1.0};
+       }},
+      {"OneMassTooSmall",
+       walls,
+       {"disks.1.mass=[1e-320, 1]"},
+       [](Scene& s) {
+         s.species[1].masses = {1e-320, 1.0};
+       }},
       {"MassOfNaN", walls, {"disks.0.mass=nan"}, [](Scene& s) { s.species[0].mass = not_a_number; }},
       {"MassInfinite", walls, {"disks.0.mass=inf"}, [](Scene& s) { s.species[0].mass = infinite_number; }},
       {"UniformNegative",
@@ -597,22 +633,6 @@ TEST(OneDoor, RefusesListsOfTheWrongLengthAndNumbersThatAreNone) {
     EXPECT_EQ(what_is_refused([&] { (void)make_simulation(scene); }), sentence);
     return sentence;
   };
-  EXPECT_EQ(refused([](Scene& s) {
-              s.species[0].radii = {0.05, 0.06};
-            }),
-            "disks.0.radii has length 2, but there are 8 disks; give one radius per disk, or none");
-  EXPECT_EQ(refused([](Scene& s) {
-              s.species[1].masses = {1.0, 1.0, 1.0};
-            }),
-            "disks.1.masses has length 3, but there are 2 disks; give one mass per disk, or none");
-  EXPECT_EQ(refused([](Scene& s) {
-              s.species[1].radii = {0.1, -0.1};
-            }),
-            "disks.1.radii.1 is a floating-point number (-0.1); it must be a finite number above zero, such as radius = 0.03");
-  EXPECT_EQ(refused([](Scene& s) {
-              s.species[1].masses = {not_a_number, 1.0};
-            }),
-            "disks.1.masses.0 is a floating-point number (nan); it must be a finite number above zero, such as mass = 1.0");
   EXPECT_EQ(refused([](Scene& s) {
               s.species[1].positions = FilePositions{"start.csv", {{0.0, 0.0}}};
             }),
