@@ -449,10 +449,18 @@ class Simulation:
         masses, radii, ids and `pair.normal`, the unit vector from the partner to the disk. The disks must not approach each other
         afterwards. This is slow, about a microsecond per collision; the simulation cannot be asked anything meanwhile.
         """
-        if rule is not None and not callable(rule):
-            raise TypeError(f"the collision rule is {rule!r}; give a function of two disks that meet")
-        self._core.set_collision_rule(rule)
-        self._rule = rule
+        call: CollisionRule | None = None
+        if rule is not None:
+            if not callable(rule):
+                raise TypeError(f"the collision rule is {rule!r}; give a function of two disks that meet")
+            given = rule
+
+            # The library refers to this function weakly: a rule that holds the simulation is then collected with it.
+            def call(pair: CollidingPair) -> None:
+                given(pair)
+
+        self._core.set_collision_rule(call)
+        self._rule, self._call = rule, call
 
     def reset_clock(self) -> None:
         """Makes now the zero of time and forgets all totals, as a run does when it has equilibrated. The state stays."""

@@ -56,8 +56,13 @@ def read_start(source: Any, frame: int = -1) -> Start:
 
 
 def _of_file(path: str) -> Start:
-    positions, *columns = _core.read_start_file(path)
-    return Start(positions, *(column if len(column) else None for column in columns))
+    positions, velocities, radii, masses = _core.read_start_file(path)
+    return Start(
+        positions,
+        velocities if len(velocities) else None,
+        radii if len(radii) else None,
+        masses if len(masses) else None,
+    )
 
 
 def _plane(vectors: Any) -> Floats:

@@ -164,7 +164,12 @@ void add_colliding_pair(nb::module_& module) {
     return [member](const CollidingPair& pair) { return std::tuple((pair.*member).x(), (pair.*member).y()); };
   };
   const auto set = [](Eigen::Vector2d CollidingPair::*member) {
-    return [member](CollidingPair& pair, const std::tuple<double, double>& v) {
+    return [member](CollidingPair& pair, const nb::object& value) {
+      std::tuple<double, double> v;
+      if (!nb::try_cast(value, v)) {
+        const std::string sentence = std::string("a velocity is ") + nb::repr(value).c_str() + "; give two numbers, (vx, vy)";
+        throw nb::type_error(sentence.c_str());
+      }
       pair.*member = {std::get<0>(v), std::get<1>(v)};
     };
   };
@@ -176,20 +181,28 @@ void add_colliding_pair(nb::module_& module) {
       .def_ro("radius", &CollidingPair::radius)
       .def_ro("partner_radius", &CollidingPair::partner_radius)
       .def_prop_ro("normal", get(&CollidingPair::normal))
-      .def_prop_rw("velocity", get(&CollidingPair::velocity), set(&CollidingPair::velocity))
-      .def_prop_rw("partner_velocity", get(&CollidingPair::partner_velocity), set(&CollidingPair::partner_velocity));
+      .def_prop_rw("velocity", get(&CollidingPair::velocity), set(&CollidingPair::velocity),
+                   nb::for_setter(nb::arg("value").none()))
+      .def_prop_rw("partner_velocity", get(&CollidingPair::partner_velocity), set(&CollidingPair::partner_velocity),
+                   nb::for_setter(nb::arg("value").none()));
 }
 
-CollisionFunction rule_of(nb::object rule) {
-  if (rule.is_none()) return {};
-  // The function is copied and destroyed by threads that need not hold the lock.
-  const std::shared_ptr<nb::object> held(new nb::object(std::move(rule)), [](nb::object* object) {
+/// A collision rule that calls a function of Python, which the caller keeps alive: the rule itself would hide it from the
+/// collector of garbage. The function gets a copy of the pair, which it may keep.
+CollisionFunction rule_of(const nb::object& function) {
+  if (function.is_none()) return {};
+  // The reference is copied and destroyed by threads that need not hold the lock.
+  const std::shared_ptr<nb::weakref> held(new nb::weakref(function), [](nb::weakref* reference) {
     const nb::gil_scoped_acquire locked;
-    delete object;
+    delete reference;
   });
   return [held](CollidingPair& pair) {
     const nb::gil_scoped_acquire locked;
-    (*held)(nb::cast(&pair, nb::rv_policy::reference));
+    const nb::object copy = nb::cast(pair, nb::rv_policy::copy);
+    (*held)()(copy);
+    const auto& changed = nb::cast<const CollidingPair&>(copy);
+    pair.velocity = changed.velocity;
+    pair.partner_velocity = changed.partner_velocity;
   };
 }
 
@@ -321,8 +334,8 @@ void add_simulation(nb::module_& module) {
           nb::arg("velocities"), nb::arg("spins").none() = nb::none())
       .def(
           "set_collision_rule",
-          [](Running& self, nb::object rule) {
-            CollisionFunction function = rule_of(std::move(rule));
+          [](Running& self, const nb::object& rule) {
+            CollisionFunction function = rule_of(rule);
             self.use_alone([&](Simulation& s) { s.set_collision_rule(std::move(function)); });
           },
           nb::arg("rule").none())
