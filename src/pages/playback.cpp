@@ -27,14 +27,14 @@ namespace {
 /// Playback from the events.
 class ExactSource : public Playback::Source {
  public:
-  ExactSource(const RunReader& run, ExactRun exact, std::optional<Trails> trails)
+  ExactSource(const Recording& run, ExactRun exact, std::optional<Trails> trails)
       : run_(run), exact_(std::move(exact)), trails_(std::move(trails)) {}
 
   void read(double time, Moment& moment) override {
     if (!(time >= now_)) begin_anew();
     now_ = time;
     for (; next_ < exact_.events.size() && exact_.events[next_].time <= time; ++next_) apply(exact_.events[next_]);
-    const Scene& scene = run_.scene();
+    const Scene& scene = run_.scene;
     moment.time = time;
     moment.positions.resize(2, exact_.start.positions.cols());
     moment.velocities.resize(2, exact_.start.positions.cols());
@@ -57,8 +57,8 @@ class ExactSource : public Playback::Source {
 
  private:
   void begin_anew() {
-    const std::size_t disks = run_.disks().count();
-    replay_.emplace(run_.scene(), run_.disks(), exact_.start);
+    const std::size_t disks = run_.disks.count();
+    replay_.emplace(run_.scene, run_.disks, exact_.start);
     next_ = 0;
     collisions_.assign(disks, 0);
     if (!trails_) return;
@@ -83,7 +83,7 @@ class ExactSource : public Playback::Source {
     trails_->note(disk, time, replay_->position(disk, time), replay_->velocity(disk, time));
   }
 
-  const RunReader& run_;
+  const Recording run_;
   ExactRun exact_;
   std::optional<Replay> replay_;
   std::optional<Trails> trails_;
@@ -95,13 +95,13 @@ class ExactSource : public Playback::Source {
 /// Playback from sample to sample: straight lines, the short way where the box is periodic.
 class SampleSource : public Playback::Source {
  public:
-  SampleSource(const RunReader& run, std::optional<Trails> trails)
+  SampleSource(const Recording& run, std::optional<Trails> trails)
       : run_(run), times_(run.sample_times()), trails_(std::move(trails)) {}
 
   void read(double time, Moment& moment) override {
     const auto after = std::upper_bound(times_.begin(), times_.end(), time) - times_.begin();
     go_to(static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - 1, 0)));
-    const Box& box = run_.scene().box;
+    const Box& box = run_.scene.box;
     const double share = length_ > 0.0 ? (time - from_.time) / length_ : 0.0;
     const auto between = [&](double here, double there) { return here + share * (there - here); };
     moment.time = time;
@@ -135,7 +135,7 @@ class SampleSource : public Playback::Source {
     to_ = is_last ? from_ : run_.sample(k + 1);
     length_ = to_.time - from_.time;
     current_ = k;
-    const Box& box = run_.scene().box;
+    const Box& box = run_.scene.box;
     const Eigen::Vector2d lengths = box.lengths();
     slid_ = to_.shear_displacement - from_.shear_displacement;
     slid_ -= std::round(slid_ / lengths.x()) * lengths.x();
@@ -148,14 +148,14 @@ class SampleSource : public Playback::Source {
       if (box.periodic(0)) way_(0, i) -= std::round(way_(0, i) / lengths.x()) * lengths.x();
     }
     if (!trails_) return;
-    for (std::size_t i = 0; i < run_.disks().count(); ++i) {
+    for (std::size_t i = 0; i < run_.disks.count(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       const Eigen::Vector2d velocity = length_ > 0.0 ? Eigen::Vector2d(way_.col(column) / length_) : Eigen::Vector2d::Zero();
       trails_->note(i, from_.time, from_.positions.col(column), velocity, from_.shear_displacement + 0.5 * slid_);
     }
   }
 
-  const RunReader& run_;
+  const Recording run_;
   std::vector<double> times_;
   std::optional<Trails> trails_;
   std::optional<std::size_t> current_;
@@ -168,20 +168,20 @@ class SampleSource : public Playback::Source {
 
 Playback::~Playback() = default;
 
-Playback::Playback(const RunReader& run, const PlaybackOptions& options) {
+Playback::Playback(const Recording& run, const PlaybackOptions& options) {
   const std::vector<double> times = run.sample_times();
   begin_ = times.front();
   last_sample_ = times.back();
   ExactRun exact = read_exactly(run, options.most_events, "are kept in memory");
   why_not_ = exact.why_not;
   end_ = last_sample_;
-  if (this->exact()) end_ = std::max({run.end(), last_sample_, exact.events.empty() ? 0.0 : exact.events.back().time});
+  if (this->exact()) end_ = std::max({run.end, last_sample_, exact.events.empty() ? 0.0 : exact.events.back().time});
   std::optional<Trails> trails;
   if (options.trail > 0.0) {
-    const Eigen::Vector2d curving = this->exact() ? run.scene().effects.acceleration() : Eigen::Vector2d::Zero();
-    trails.emplace(run.scene().box, curving, options.trail);
-    for (std::size_t i = 0; i < run.disks().count(); ++i)
-      if (!options.trails_of || run.disks().species[i] == *options.trails_of) trails->follow(i);
+    const Eigen::Vector2d curving = this->exact() ? run.scene.effects.acceleration() : Eigen::Vector2d::Zero();
+    trails.emplace(run.scene.box, curving, options.trail);
+    for (std::size_t i = 0; i < run.disks.count(); ++i)
+      if (!options.trails_of || run.disks.species[i] == *options.trails_of) trails->follow(i);
   }
   if (this->exact())
     source_ = std::make_unique<ExactSource>(run, std::move(exact), std::move(trails));

@@ -2,8 +2,7 @@
 // A recorded run at any time: exactly, from its events, where it kept them; else on straight lines from sample to sample.
 
 #include "pages/moment.hpp"
-
-#include <carom/io/run_reader.hpp>
+#include "pages/recording.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -20,8 +19,8 @@ struct PlaybackOptions {
 
 class Playback {
  public:
-  /// `run` must live as long as this. Throws OutputError where it cannot be read.
-  explicit Playback(const RunReader& run, const PlaybackOptions& options = {});
+  /// Throws OutputError where the run cannot be read.
+  explicit Playback(const Recording& run, const PlaybackOptions& options = {});
   ~Playback();
   Playback(const Playback&) = delete;
   Playback& operator=(const Playback&) = delete;

@@ -14,11 +14,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 using detail::NumberColumns;
 
-Json description_of(const RunReader& run) {
-  Json json = detail::player_description(run.scene(), run.title(), run.species_names(), run.disks().count());
-  json["Z"] = run.Z() ? Json(*run.Z()) : Json(nullptr);
+Json description_of(const Recording& run) {
+  Json json = detail::player_description(run.scene, run.title, run.species_names, run.disks.count());
+  json["Z"] = run.Z ? Json(*run.Z) : Json(nullptr);
   json["facts"] = Json::array({{"Units", "those of the scene; kB = 1"}});
-  for (const auto& [name, value] : run.facts()) json["facts"].push_back({name, value});
+  for (const auto& [name, value] : run.facts) json["facts"].push_back({name, value});
   return json;
 }
 
@@ -42,25 +42,25 @@ double rounding_error(const Scene& scene, const Disks& disks, const State& start
 }
 
 /// The start and every event.
-void put_replay(const RunReader& run, const ExactRun& replayed, NumberColumns& columns, Json& json) {
-  const Scene& scene = run.scene();
+void put_replay(const Recording& run, const ExactRun& replayed, NumberColumns& columns, Json& json) {
+  const Scene& scene = run.scene;
   const State& start = replayed.start;
   const std::vector<Event>& events = replayed.events;
   const double tolerance = player_tolerance * scene.box.lengths().maxCoeff();
-  const double rounding = rounding_error(scene, run.disks(), start, events, run.end());
+  const double rounding = rounding_error(scene, run.disks, start, events, run.end);
   const VelocityDigits digits = rounding <= tolerance ? VelocityDigits::single : VelocityDigits::twice;
-  detail::put_events(scene, run.disks(), start, events, digits, columns, json);
-  json["duration"] = std::max(run.end(), events.empty() ? 0.0 : events.back().time);
+  detail::put_events(scene, run.disks, start, events, digits, columns, json);
+  json["duration"] = std::max(run.end, events.empty() ? 0.0 : events.back().time);
   json["distance"] = replayed.distance;
   json["rounding"] = digits == VelocityDigits::single ? rounding : 0.0;
 }
 
 }  // namespace
 
-PlayerData player_data(const RunReader& run, const PlayerLimits& limits) {
+PlayerData player_data(const Recording& run, const PlayerLimits& limits) {
   NumberColumns columns;
   Json json = description_of(run);
-  detail::put_disks(run.disks(), columns);
+  detail::put_disks(run.disks, columns);
   PlayerData data;
   const ExactRun replayed = read_exactly(run, limits.events, "a page can hold");
   data.why_not = replayed.why_not;

@@ -7,6 +7,7 @@
 // Without the log they are samples with positions in 16 bits, at most 2^-17 of the extent of the box away from the true ones: a
 // hundredth of a pixel, if the box is a thousand pixels wide.
 
+#include "pages/recording.hpp"
 #include "pages/replay.hpp"
 
 #include <nlohmann/json_fwd.hpp>
@@ -31,6 +32,6 @@ struct PlayerData {
 };
 
 /// Throws OutputError where the run cannot be read.
-[[nodiscard]] PlayerData player_data(const RunReader& run, const PlayerLimits& limits = {});
+[[nodiscard]] PlayerData player_data(const Recording& run, const PlayerLimits& limits = {});
 
 }  // namespace carom

@@ -2,9 +2,8 @@
 // The description and the columns of a player, in the parts that its kinds share.
 
 #include "pages/number_columns.hpp"
+#include "pages/recording.hpp"
 #include "pages/replay.hpp"
-
-#include <carom/io/run_reader.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +26,6 @@ void put_events(const Scene& scene, const Disks& disks, const State& start, cons
 
 /// Adds the samples as small numbers, and says in `json` what they count. Every sample where they take at most `most_bytes`, else
 /// every second, third, ... one.
-void put_samples(const RunReader& run, std::uint64_t most_bytes, NumberColumns& columns, nlohmann::ordered_json& json);
+void put_samples(const Recording& run, std::uint64_t most_bytes, NumberColumns& columns, nlohmann::ordered_json& json);
 
 }  // namespace carom::detail

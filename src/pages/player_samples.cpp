@@ -17,15 +17,15 @@ constexpr std::uint64_t bytes_per_disk = 8;
 
 }  // namespace
 
-void put_samples(const RunReader& run, std::uint64_t most_bytes, NumberColumns& columns, nlohmann::ordered_json& json) {
-  const std::uint64_t per_sample = std::max<std::uint64_t>(1, bytes_per_disk * run.disks().count());
+void put_samples(const Recording& run, std::uint64_t most_bytes, NumberColumns& columns, nlohmann::ordered_json& json) {
+  const std::uint64_t per_sample = std::max<std::uint64_t>(1, bytes_per_disk * run.disks.count());
   const std::uint64_t most = std::max<std::uint64_t>(2, most_bytes / per_sample);
-  const std::uint64_t step = std::max<std::uint64_t>(1, (run.samples() + most - 1) / most);
+  const std::uint64_t step = std::max<std::uint64_t>(1, (run.samples + most - 1) / most);
   std::vector<State> states;
-  for (std::uint64_t k = 0; k < run.samples(); k += step) states.push_back(run.sample(k));
+  for (std::uint64_t k = 0; k < run.samples; k += step) states.push_back(run.sample(k));
 
   // Walls that move take the disks beyond the first box.
-  Eigen::Vector2d lower = run.scene().box.lower, upper = run.scene().box.upper;
+  Eigen::Vector2d lower = run.scene.box.lower, upper = run.scene.box.upper;
   double fastest = 0.0;
   for (const State& state : states) {
     if (state.positions.cols() == 0) continue;
@@ -40,7 +40,7 @@ void put_samples(const RunReader& run, std::uint64_t most_bytes, NumberColumns& 
     times.push_back(state.time);
     scales.push_back(state.scale);
     displacements.push_back(state.shear_displacement);
-    for (const double edge : sides_of(run.scene().box, state)) walls.push_back(edge);
+    for (const double edge : sides_of(run.scene.box, state)) walls.push_back(edge);
     for (Eigen::Index i = 0; i < state.positions.cols(); ++i)
       for (int axis = 0; axis < 2; ++axis) {
         const double share = (state.positions(axis, i) - lower[axis]) / (upper[axis] - lower[axis]);

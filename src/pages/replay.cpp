@@ -29,11 +29,10 @@ std::string why_no_replay(const Scene& scene) {
 
 namespace {
 
-std::string why_not_by_its_kind(const RunReader& run, std::uint64_t most_events, std::string_view holder) {
-  if (!run.has_event_log()) return "the run kept no event log (carom run --events)";
-  if (run.events() > most_events)
-    return fmt::format("its {} events are more than the {} that {}", run.events(), most_events, holder);
-  return why_no_replay(run.scene());
+std::string why_not_by_its_kind(const Recording& run, std::uint64_t most_events, std::string_view holder) {
+  if (!run.why_no_log.empty()) return run.why_no_log;
+  if (run.events > most_events) return fmt::format("its {} events are more than the {} that {}", run.events, most_events, holder);
+  return why_no_replay(run.scene);
 }
 
 }  // namespace
@@ -49,6 +48,7 @@ Replay::Replay(const Scene& scene, const Disks& disks, const State& start, Veloc
     const WallProperties& wall = scene.effects.walls[side];
     sides_[side].position = start.walls.size() == 4 ? start.walls[side].position : edges[side];
     sides_[side].velocity = wall.velocity.value_or(0.0);
+    if (wall.mass && start.walls.size() == 4) sides_[side].velocity = start.walls[side].velocity;
     piston_mass_[side] = wall.mass.value_or(0.0);
     if (wall.mass)
       sides_[side].acceleration =
@@ -135,15 +135,14 @@ double distance_from_samples(const Scene& scene, Replay replay, const std::vecto
   return farthest;
 }
 
-ExactRun read_exactly(const RunReader& run, std::uint64_t most_events, std::string_view holder) {
+ExactRun read_exactly(const Recording& run, std::uint64_t most_events, std::string_view holder) {
   ExactRun exact;
   exact.start = run.sample(0);
   exact.why_not = why_not_by_its_kind(run, most_events, holder);
   if (!exact.exact()) return exact;
-  const Scene& scene = run.scene();
+  const Scene& scene = run.scene;
   exact.events = run.event_log();
-  exact.distance = distance_from_samples(scene, Replay(scene, run.disks(), exact.start), exact.events, run.samples(),
-                                         [&](std::uint64_t k) { return run.sample(k); });
+  exact.distance = distance_from_samples(scene, Replay(scene, run.disks, exact.start), exact.events, run.samples, run.sample);
   if (!(exact.distance <= replay_tolerance * scene.box.lengths().maxCoeff())) {
     exact.why_not =
         fmt::format("the collisions in its log do not lead to its samples (they are up to {:.2g} apart)", exact.distance);

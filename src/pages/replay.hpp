@@ -3,7 +3,7 @@
 // log names. What the log does not name but follows from it, the motion of pistons and the rescaling of growing disks, is made up
 // here. The player does the same arithmetic in the browser.
 
-#include <carom/io/run_reader.hpp>
+#include "pages/recording.hpp"
 
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
@@ -79,6 +79,6 @@ struct ExactRun {
 
 /// `holder` ends the sentence about a log of more than `most_events`: "a page can hold". Throws OutputError where the run cannot
 /// be read.
-[[nodiscard]] ExactRun read_exactly(const RunReader& run, std::uint64_t most_events, std::string_view holder);
+[[nodiscard]] ExactRun read_exactly(const Recording& run, std::uint64_t most_events, std::string_view holder);
 
 }  // namespace carom
