@@ -89,6 +89,11 @@ def test_with_disks_takes_all_bits_of_arrays(gas: carom.Scene) -> None:
     assert np.array_equal(sim.positions, places) and np.array_equal(sim.velocities, velocities)
     assert np.array_equal(sim.radii, radii) and np.array_equal(sim.masses, masses)
     assert sim.sample(0.1, until=5.0).radii.tolist() == radii.tolist()
+    for again in (pickle.loads(pickle.dumps(scene)), carom.Scene.parse(scene.toml), carom.Scene(scene.to_dict())):
+        assert again == scene
+        twin = carom.Simulation(again)
+        twin.run_until(5.0)
+        assert twin.state_hash == sim.state_hash
 
 
 @pytest.mark.parametrize(

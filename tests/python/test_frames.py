@@ -1,0 +1,191 @@
+"""Frames and states: what they hold, and what becomes of them."""
+
+from __future__ import annotations
+
+import copy
+import gc
+import pickle
+import weakref
+from pathlib import Path
+
+import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from conftest import GAS, ROOT
+
+import carom
+
+matplotlib.use("agg")
+
+
+def test_a_grid_is_k_dt_with_its_end(gas: carom.Scene) -> None:
+    frames = carom.Simulation(gas).sample(0.1, until=0.7)
+    assert frames.time.tolist() == [k * 0.1 for k in range(8)]  # 7 * 0.1 is beyond 0.7 by its rounding
+    assert frames.positions.shape == frames.velocities.shape == frames.images.shape == (8, 12, 2)
+    assert frames.images.dtype == np.int64 and frames.collisions.dtype == np.uint64
+    assert frames.spins is None
+    assert frames.scale.tolist() == [1.0] * 8
+
+
+def test_sampling_goes_on_where_the_last_one_ended(gas: carom.Scene) -> None:
+    whole = carom.Simulation(gas).sample(0.25, until=5.0)
+    sim = carom.Simulation(gas)
+    parts = [sim.sample(0.25, until=until) for until in (1.1, 3.0, 5.0)]
+    assert [len(part) for part in parts] == [5, 8, 9]
+    assert parts[1][-1] == parts[2][0]  # where it stands is a sample of both
+    assert np.array_equal(np.concatenate([part.positions for part in parts[:2]] + [parts[2].positions[1:]]), whole.positions)
+    assert parts[-1].state_hash == whole.state_hash == sim.state_hash
+    assert sim.trajectory is parts[-1]
+    assert sim.sample(0.25, until=5.1).time.tolist() == [5.0]
+    assert len(sim.sample(0.25, until=5.2)) == 0
+
+
+def test_frames_one_by_one_are_those_of_sample(gas: carom.Scene) -> None:
+    frames = carom.Simulation(gas).sample(0.25, until=5.0)
+    one_by_one = list(carom.Simulation(gas).frames(0.25, until=5.0))
+    assert len(frames) == len(one_by_one) == 21
+    for k, state in enumerate(one_by_one):
+        assert state == frames[k]
+        assert state.time == frames.time[k]
+    assert frames[-1] == frames[20]
+    assert [state.time for state in frames] == frames.time.tolist()
+
+
+def test_stride_keeps_every_so_manieth_sample(gas: carom.Scene) -> None:
+    frames = carom.Simulation(gas).sample(0.25, until=5.0)
+    third = carom.Simulation(gas).sample(0.25, until=5.0, stride=3)
+    assert np.array_equal(third.time, frames.time[::3])
+    assert np.array_equal(third.positions, frames.positions[::3])
+    assert [state.time for state in carom.Simulation(gas).frames(0.25, until=5.0, stride=3)] == third.time.tolist()
+
+
+def test_what_is_not_asked_for_is_not_kept(gas: carom.Scene) -> None:
+    all_of_it = carom.Simulation(gas).sample(0.25, until=3.0)
+    velocities = carom.Simulation(gas).sample(0.25, until=3.0, positions=False)
+    positions = carom.Simulation(gas).sample(0.25, until=3.0, velocities=False)
+    assert velocities.positions is None and velocities.images is None and positions.velocities is None
+    assert np.array_equal(velocities.velocities, all_of_it.velocities)
+    assert np.array_equal(positions.positions, all_of_it.positions)
+    assert np.array_equal(velocities.virial, all_of_it.virial)
+    with pytest.raises(ValueError, match="these frames have no positions"):
+        velocities[0]
+
+
+def test_virial_and_collisions_are_those_of_the_events(gas: carom.Scene) -> None:
+    frames = carom.Simulation(gas).sample(0.5, until=4.0)
+    sim = carom.Simulation(gas)
+    for k, time in enumerate(frames.time):
+        sim.run_until(time)
+        assert frames.collisions[k] == sim.collisions
+        assert frames.virial[k] == sim.totals["virial"]
+
+
+def test_unwrapped_positions_have_no_jumps(gas: carom.Scene) -> None:
+    frames = carom.Simulation(gas).sample(0.05, until=10.0)
+    fastest = np.hypot(*np.moveaxis(frames.velocities, 2, 0)).max()
+    assert np.abs(np.diff(frames.positions, axis=0)).max() > 2.0
+    assert np.abs(np.diff(frames.unwrapped, axis=0)).max() < 0.1 * fastest
+    assert frames.unwrapped[-1] - frames.positions[-1] == pytest.approx(frames.images[-1] * [6.0, 4.0], abs=1e-12)
+
+
+def test_disks_that_grow_have_a_scale() -> None:
+    sim = carom.Simulation(carom.Scene.load(ROOT / "docs/scenes/growth.toml"))
+    frames = sim.sample(0.5, until=5.0)
+    assert np.all(np.diff(frames.scale) > 0)
+    assert sim.state.scale == frames.scale[-1] > frames.scale[0]
+
+
+def test_a_state_of_arrays() -> None:
+    state = carom.State([[1, 2], [3, 3]], velocities=[[0.5, 0], [0, 1]], images=[[1, 0], [-2, 3]], time=4.0)
+    assert (state.count, state.time, state.scale) == (2, 4.0, 1.0)
+    assert state.positions.tolist() == [[1, 2], [3, 3]] and state.images.tolist() == [[1, 0], [-2, 3]]
+    assert carom.State([[1, 2]]).velocities.tolist() == [[0, 0]]
+    for again in (pickle.loads(pickle.dumps(state)), copy.deepcopy(state)):
+        assert again == state and hash(again) == hash(state)
+        assert again.images.tolist() == state.images.tolist() and again.time == 4.0
+    assert state != carom.State([[1, 2], [3, 3]]) and state != 1
+
+
+def test_arrays_outlive_what_they_came_from(gas: carom.Scene) -> None:
+    gc_threshold = gc.get_threshold()
+    gc.set_threshold(1)
+    try:
+        sim = carom.Simulation(gas)
+        sim.run_until(1.0)
+        expected = [np.array(array) for array in (sim.positions, sim.velocities, sim.images, sim.radii)]
+        kept = [sim.positions, sim.velocities, sim.images, sim.radii, sim.record(until=2.0), sim.sample(0.5, until=4.0).positions]
+        record, positions = kept[4].copy(), kept[5].copy()
+        sim.run_until(5.0)
+        gone = weakref.ref(sim)
+        del sim
+        gc.collect()
+        assert gone() is None
+        trash = [np.full(10_000, np.nan) for _ in range(50)]
+        assert all(np.array_equal(array, as_it_was) for array, as_it_was in zip(kept, expected))
+        assert np.array_equal(kept[4], record) and np.array_equal(kept[5], positions)
+        del trash
+    finally:
+        gc.set_threshold(*gc_threshold)
+
+
+def test_an_array_is_kept_until_the_clock_moves(gas: carom.Scene) -> None:
+    sim = carom.Simulation(gas)
+    assert sim.positions.ctypes.data == sim.positions.ctypes.data
+    before = sim.positions
+    copied = before.copy()
+    sim.run_until(1.0)
+    assert np.array_equal(before, copied) and not np.array_equal(sim.positions, before)
+
+
+def test_frames_in_files_and_other_packages(gas: carom.Scene, tmp_path: Path) -> None:
+    xarray = pytest.importorskip("xarray")
+    frames = carom.Simulation(gas).sample(0.5, until=3.0)
+    frames.save(tmp_path / "frames.npz")
+    with np.load(tmp_path / "frames.npz") as file:
+        assert np.array_equal(file["positions"], frames.positions) and np.array_equal(file["time"], frames.time)
+        assert carom.Scene.parse(str(file["scene"])) == frames.scene
+        assert str(file["state_hash"]) == frames.state_hash
+    with pytest.raises(carom.OutputError, match="cannot write the frames"):
+        frames.save(tmp_path / "nowhere" / "frames.npz")
+    data = frames.to_xarray()
+    assert isinstance(data, xarray.Dataset)
+    assert np.array_equal(data["positions"].sel(time=1.5, axis="y"), frames.positions[3, :, 1])
+    again = pickle.loads(pickle.dumps(frames))
+    assert np.array_equal(again.positions, frames.positions) and again.scene == frames.scene
+
+
+@pytest.mark.filterwarnings("ignore:Animation was deleted")
+def test_animations_show_the_frames(gas: carom.Scene, tmp_path: Path) -> None:
+    frames = carom.Simulation(gas).sample(0.25, until=2.0)
+    for color, trail in (("speed", 3), ("species", 0), ("tab:red", 0)):
+        animation = frames.animate(every=2, color=color, trail=trail)
+        animation.save(tmp_path / "frames.gif", writer="pillow", dpi=40)
+        assert (tmp_path / "frames.gif").stat().st_size > 1000
+    sim = carom.Simulation(gas)
+    sim.animate(dt=0.25, frames=4).save(tmp_path / "live.gif", writer="pillow", dpi=40)
+    assert sim.time == 0.75
+    plt.close("all")
+
+
+@pytest.mark.filterwarnings("ignore:Animation was deleted")
+def test_an_animation_draws_disks_where_they_are(gas: carom.Scene) -> None:
+    frames = carom.Simulation(gas).sample(0.25, until=2.0)
+    animation = frames.animate(every=4)
+    shown = [list(animation._func(k))[1] for k in animation.new_frame_seq()]
+    assert np.array_equal(shown[-1].get_offsets(), frames.positions[8])
+    animation._init_draw()
+    plt.close("all")
+
+
+def test_frames_that_cannot_fit_are_refused_before_anything_runs(gas: carom.Scene) -> None:
+    sim = carom.Simulation(gas)
+    with pytest.raises(MemoryError, match="frames of 12 disks take"):
+        sim.sample(1e-9, until=1e6)
+    assert sim.time == 0.0
+
+
+def test_a_box_without_periodic_axes_has_no_images() -> None:
+    frames = carom.Simulation({**GAS, "box": {**GAS["box"], "boundary": "walls"}}).sample(0.5, until=2.0)
+    assert frames.images is None
+    assert frames.unwrapped is frames.positions
