@@ -253,6 +253,7 @@ class Simulation:
     # Going on.
 
     def _moved(self) -> None:
+        """Forgets the state, before it changes."""
         self._state = None
 
     def run(self, duration: float, *, progress: Progress | None = None) -> Stop:
@@ -274,10 +275,8 @@ class Simulation:
         limit = None if collisions is None else whole(collisions, "collisions")
         with reporting(progress, "run") as report:
             tell = None if report is None else lambda now: report(_fraction(begin, now, end))
-            try:
-                reason = self._core.run_until(end, limit, tell)
-            finally:
-                self._moved()
+            self._moved()
+            reason = self._core.run_until(end, limit, tell)
         return as_stop(reason, self.time)
 
     def equilibrate(self, *, progress: Progress | None = None) -> Stop:
@@ -316,10 +315,8 @@ class Simulation:
         wells are among them, new velocities by a thermostat are not.
         """
         end = real(until, "until")
-        try:
-            memory, reason = self._core.record(end)
-        finally:
-            self._moved()
+        self._moved()
+        memory, reason = self._core.record(end)
         as_stop(reason, self.time)
         return events_in(memory)
 
@@ -354,10 +351,10 @@ class Simulation:
         reason: str | None = None
         with reporting(progress, "sample") as report:
             tell = None if report is None else lambda now: report(_fraction(begin, now, until))
+            self._moved()
             try:
                 reason = self._core.run_sampled(until, dt, first, stride, _NONE, **vars(room), report=tell)
             finally:
-                self._moved()
                 self._trajectory = room.frames(self, interrupted=reason is None)
         as_stop(reason, self.time)
         return self._trajectory
@@ -368,10 +365,8 @@ class Simulation:
         first, count = self._sample_range(dt, until, stride)
         for k in range(first, first + count * stride, stride):
             room = _Room(self, 1, True, True)
-            try:
-                reason = self._core.run_sampled(until, dt, k, stride, 1, **vars(room), report=None)
-            finally:
-                self._moved()
+            self._moved()
+            reason = self._core.run_sampled(until, dt, k, stride, 1, **vars(room), report=None)
             frames = room.frames(self, interrupted=False)
             if not len(frames):
                 as_stop(reason, self.time)

@@ -1,0 +1,123 @@
+"""Ctrl-C ends a call soon, leaves the simulation whole at an event, and what goes on has the bits of what was never interrupted."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable
+
+import pytest
+
+import carom
+
+
+def interrupted(action: Callable[[], object], after: float = 0.2) -> float:
+    """Sends SIGINT while `action` runs. Returns how long it took from there to the KeyboardInterrupt, in seconds."""
+    sent: list[float] = []
+
+    def send() -> None:
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(after, send)
+    timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            action()
+        return time.monotonic() - sent[0]
+    finally:
+        timer.cancel()
+        timer.join()
+
+
+CALLS: dict[str, Callable[[carom.Simulation], object]] = {
+    "run_until": lambda sim: sim.run_until(1e9),
+    "run": lambda sim: sim.run(1e9),
+    "sample": lambda sim: sim.sample(1.0, until=1e5, velocities=False),
+    "frames": lambda sim: list(sim.frames(1e8, until=1e9)),
+    "record": lambda sim: sim.record(until=1e9),
+    "events": lambda sim: [None for _ in sim.events(until=1e9)],
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_going_on_gives_the_uninterrupted_bits(gas: carom.Scene, name: str) -> None:
+    sim, twin = carom.Simulation(gas), carom.Simulation(gas)
+    interrupted(lambda: CALLS[name](sim))
+    assert 0 < sim.time < 1e9
+    assert sim.check_invariants() == []
+    ahead = sim.time + 5.0
+    sim.run_until(ahead)
+    twin.run_until(ahead)
+    assert (sim.state_hash, sim.totals) == (twin.state_hash, twin.totals)
+
+
+@pytest.mark.parametrize("engine", carom.engines())
+def test_every_engine_can_be_interrupted(engine: str) -> None:
+    sim = carom.Simulation(carom.Scene.preset("gas"), engine=engine)
+    interrupted(lambda: sim.run_until(1e9))
+    assert sim.time > 0 and sim.check_invariants() == []
+
+
+@pytest.mark.parametrize("method", carom.fixed_step_methods())
+def test_every_fixed_step_can_be_interrupted(gas: carom.Scene, method: str) -> None:
+    sim, twin = (carom.Simulation(gas, method=method, dt=1e-3) for _ in range(2))
+    interrupted(lambda: sim.run_until(1e7))
+    ahead = sim.time + 0.1
+    sim.run_until(ahead)
+    twin.run_until(ahead)
+    assert sim.state_hash == twin.state_hash
+
+
+def test_the_frames_until_then_are_kept(gas: carom.Scene) -> None:
+    sim = carom.Simulation(gas)
+    interrupted(lambda: sim.sample(0.5, until=1e5))
+    frames = sim.trajectory
+    assert frames is not None and frames.interrupted and 0 < len(frames) < 200_000
+    whole = carom.Simulation(gas).sample(0.5, until=float(frames.time[-1]))
+    assert not whole.interrupted
+    assert (frames.positions == whole.positions).all()
+    assert sim.time >= frames.time[-1]
+
+
+def test_a_callback_ends_the_call_with_its_own_exception(gas: carom.Scene) -> None:
+    sim, twin = carom.Simulation(gas), carom.Simulation(gas)
+
+    def enough(fraction: float) -> None:
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        sim.run_until(1e9, progress=enough)
+    ahead = sim.time + 1.0
+    assert sim.run_until(ahead) == twin.run_until(ahead) == "time"
+    assert sim.state_hash == twin.state_hash
+
+
+def test_a_script_ends_as_python_scripts_do() -> None:
+    code = 'import carom; print("begun", flush=True); carom.Simulation(carom.Scene.preset("gas")).run_until(1e9)'
+    script = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert script.stdout is not None and script.stdout.readline() == "begun\n"
+    script.send_signal(signal.SIGINT)
+    _, error = script.communicate(timeout=30)
+    assert script.returncode == -signal.SIGINT
+    assert error.rstrip().endswith("KeyboardInterrupt")
+
+
+def test_no_handler_is_put_in_place_of_the_callers(gas: carom.Scene) -> None:
+    heard: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, frame: heard.append(number))
+    try:
+        timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        ends = time.monotonic() + 0.5
+        sim = carom.Simulation(gas)
+        while time.monotonic() < ends:
+            sim.run(1000.0)
+        timer.join()
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert heard == [signal.SIGINT]
