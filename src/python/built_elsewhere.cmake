@@ -11,3 +11,4 @@ if(NOT status EQUAL 0)
 endif()
 file(GLOB extensions ${CAROM_BUILD_DIR}/python/carom/*.so ${CAROM_BUILD_DIR}/python/carom/*.pyi)
 install(FILES ${extensions} DESTINATION carom COMPONENT python)
+add_custom_target(carom_python)  # what pip asks for is there

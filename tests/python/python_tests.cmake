@@ -28,7 +28,7 @@ foreach(file IN LISTS files)
   string(REGEX REPLACE "^test_" "" name ${name})
   carom_add_python_test(${name} -m pytest -q -p no:cacheprovider ${file})
   set_tests_properties(python.${name} PROPERTIES ENVIRONMENT
-                       "PYTHONPATH=${laid_out};PYTHONDONTWRITEBYTECODE=1;MPLBACKEND=agg;CAROM_PROGRAM=$<TARGET_FILE:carom_cli>")
+                       "PYTHONPATH=${laid_out};PYTHONDONTWRITEBYTECODE=1;MPLBACKEND=agg;CAROM_BUILD_DIR=${PROJECT_BINARY_DIR};CAROM_PROGRAM=$<TARGET_FILE:carom_cli>")
 endforeach()
 set(configuration ${PROJECT_SOURCE_DIR}/pyproject.toml)
 carom_add_python_test(types -m mypy --strict --config-file ${configuration} --cache-dir ${PROJECT_BINARY_DIR}/mypy -p carom)
