@@ -14,6 +14,7 @@ from carom._errors import Interrupted, OutputError, SceneError, StoppedEarly
 from carom._events import EVENT, Event, partner_name
 from carom.frames import Frames, State
 from carom.observables import COLLISION, Blocking, Observable
+from carom.pages import Page, Player
 from carom.results import Measurement, Number, Table
 from carom.runs import Result, Run, open_run, resume, run
 from carom.scene import Check, Scene, build, presets
@@ -35,6 +36,8 @@ __all__ = [
     "Number",
     "Observable",
     "OutputError",
+    "Page",
+    "Player",
     "Result",
     "Run",
     "Scene",

@@ -33,8 +33,7 @@ if TYPE_CHECKING:
     import pandas
 
     from carom import _files
-    from carom.pages import Page
-    from carom.player import Player
+    from carom.pages import Page, Player
 
 #: Observables of a run: names of the scene format with their settings, {"pressure": True}; objects of one's own; or both in a list.
 Observables = Mapping[str, Any] | Iterable[str | Observable]

@@ -25,7 +25,7 @@ from carom.scene import Scene, SceneLike, as_scene, scene_of_parts
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
 
-    from carom.player import Player
+    from carom.pages import Player
 
 #: Two disks in contact, which a collision rule of one's own gets: it sets `velocity` and `partner_velocity`, and reads the rest.
 CollidingPair = _core.CollidingPair
@@ -384,7 +384,11 @@ class Simulation:
         return self._core.sample_range(until, dt, 0, stride)
 
     def play(self, until: float) -> Player:
-        """Runs up to `until` and returns the run as a player: exact at any instant, in the notebook or as a page."""
+        """Runs up to `until` as `run_until()` does, and returns what happened as a player, whose clock begins at 0.
+
+        It is exact at any instant, in a notebook or as a page, and needs no files. Where collisions alone do not determine the motion,
+        or are more than a million, it draws straight lines between samples; `Player.why_not` is then the reason.
+        """
         from carom.player import play
 
         return play(self, until)

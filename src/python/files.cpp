@@ -44,6 +44,7 @@ void add_descriptions(nb::module_& module) {
 NB_MODULE(_files, module) {
   nb::set_leak_warnings(false);
   add_descriptions(module);
+  add_pages(module);
   add_runs(module);
   add_studies(module);
 }

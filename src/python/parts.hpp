@@ -14,6 +14,7 @@ void add_blocking(nanobind::module_& module);
 
 // carom._files
 void add_descriptions(nanobind::module_& module);
+void add_pages(nanobind::module_& module);
 void add_runs(nanobind::module_& module);
 void add_studies(nanobind::module_& module);
 

@@ -128,6 +128,58 @@ RunLimits limits_of(std::optional<std::uint64_t> collisions, const nb::object& r
   return limits;
 }
 
+/// Appends all collisions to `events` as long as it lives.
+class EventRecorder {
+ public:
+  EventRecorder(Simulation& simulation, std::vector<Event>& events) : simulation_(simulation), events_(events) {
+    simulation_.record_events(true);
+  }
+  EventRecorder(const EventRecorder&) = delete;
+  EventRecorder& operator=(const EventRecorder&) = delete;
+  ~EventRecorder() {
+    simulation_.take_events(events_);
+    simulation_.record_events(false);
+  }
+
+ private:
+  Simulation& simulation_;
+  std::vector<Event>& events_;
+};
+
+/// What a player needs of a run: states now and then, and all collisions where they are known and not too many.
+struct PlayerRecording {
+  std::vector<State> samples;
+  std::vector<Event> events;
+  bool has_log = false;
+
+  StopReason record(Simulation& simulation, double until, double step, std::uint64_t most_events, RunLimits limits) {
+    const SamplingGrid grid{.step = step, .sample = [this](std::uint64_t, const State& state, const Totals&) { keep(state); }};
+    keep(simulation.state());
+    StopReason stopped = StopReason::events;
+    if (!simulation.time_step()) {
+      limits.events = simulation.counts().events() + most_events;
+      const EventRecorder recorder(simulation, events);
+      stopped = simulation.run_sampled(until, grid, limits);
+    }
+    has_log = stopped != StopReason::events;
+    if (!has_log) {
+      events = {};
+      limits.events = RunLimits::none;
+      stopped = simulation.run_sampled(until, grid, limits);
+    }
+    keep(simulation.state());
+    return stopped;
+  }
+
+ private:
+  void keep(const State& state) {
+    if (!samples.empty() && !(state.time > samples.back().time)) return;
+    State& kept = samples.emplace_back(state);
+    kept.images.resize(2, 0);  // a player does not look at these
+    kept.remainders.resize(2, 0);
+  }
+};
+
 /// The scene as it is now: its text is not that which was read.
 Scene scene_now(const Simulation& simulation) {
   Scene scene = simulation.scene();
@@ -300,21 +352,26 @@ void add_simulation(nb::module_& module) {
           [](Running& self, double until, const nb::object& report) {
             std::vector<Event> events;
             const StopReason reason = self.use_alone([&](Simulation& s) {
-              s.record_events(true);
-              struct End {
-                Simulation& simulation;
-                std::vector<Event>& events;
-                ~End() {
-                  simulation.take_events(events);
-                  simulation.record_events(false);
-                }
-              } end{s, events};
+              const EventRecorder recorder(s, events);
               return s.run_until(until, limits_of({}, report, s));
             });
             const std::size_t bytes = events.size() * sizeof(Event);
             return std::tuple(array_that_owns<std::uint8_t>(std::move(events), {bytes}), to_string(reason));
           },
           nb::arg("until"), nb::arg("report").none() = nb::none())
+      .def(
+          "record_for_player",
+          [](Running& self, double until, double step, std::uint64_t most_events, const nb::object& report) {
+            PlayerRecording recording;
+            const StopReason reason = self.use_alone(
+                [&](Simulation& s) { return recording.record(s, until, step, most_events, limits_of({}, report, s)); });
+            std::optional<Array<std::uint8_t>> log;
+            const std::size_t bytes = recording.events.size() * sizeof(Event);
+            if (recording.has_log) log = array_that_owns<std::uint8_t>(std::move(recording.events), {bytes});
+            return std::tuple(std::move(recording.samples), std::move(log), to_string(reason));
+          },
+          nb::arg("until"), nb::arg("step"), nb::arg("most_events"), nb::arg("report").none() = nb::none(),
+          "Returns states from now to until, all collisions, or None where they are more than that or not known, and the reason.")
       .def(
           "set_effects",
           [](Running& self, const std::string& toml) {
