@@ -7,6 +7,8 @@ import json
 import math
 import os
 import pickle
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -206,3 +208,24 @@ def test_progress_is_a_fraction_that_grows(gas: carom.Scene) -> None:
     seen: list[float] = []
     carom.Simulation(gas.set({"disks.0.count": 30, "disks.0.radius": 0.3})).run_until(2_000.0, progress=seen.append)
     assert seen and seen == sorted(seen) and 0.0 <= seen[0] and seen[-1] <= 1.0
+
+
+@pytest.mark.parametrize("name", ["box", "gas"])
+def test_no_instruction_set_changes_a_bit(name: str) -> None:
+    code = f"""
+import carom
+sim = carom.Simulation(carom.Scene.preset({name!r}))
+frames = sim.sample(0.5, until=3.0)
+print(carom.build()["instructions"], frames.state_hash, hash(frames.positions.tobytes()))
+"""
+    told = [
+        subprocess.run(
+            [sys.executable, "-c", code],
+            capture_output=True,
+            text=True,
+            env={**os.environ, "CAROM_INSTRUCTIONS": instructions, "PYTHONHASHSEED": "0"},
+        ).stdout.split()
+        for instructions in ("portable", "avx2", "avx512")
+    ]
+    assert told[0][0] == "portable"
+    assert told[0][1:] == told[1][1:] == told[2][1:] != []
