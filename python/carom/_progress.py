@@ -15,6 +15,8 @@ def reporting(progress: Progress | None, what: str) -> Iterator[Callable[[float]
     """Gives a function that takes the fraction done, several times a second; None where nobody wants to know."""
     if progress is None or progress is False:
         yield None
+    elif progress is not True and not callable(progress):
+        raise TypeError(f"progress is {progress!r}; give True, False, or a function of the fraction done")
     elif progress is True:
         from tqdm.auto import tqdm
 

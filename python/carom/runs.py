@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import _core
+from carom._arguments import real, whole, words
 from carom._errors import Interrupted, OutputError
 from carom._events import events_in
 from carom._hdf5 import hdf5
@@ -145,6 +146,8 @@ def _with_observables(scene: Scene, observables: Observables | None) -> tuple[Sc
         return scene, []
     if isinstance(observables, (str, Observable)):
         observables = [observables]
+    if not isinstance(observables, Iterable):
+        raise TypeError(f"observables are {observables!r}; give names such as \"pressure\", a mapping of them, or carom.Observables")
     settings = dict(observables) if isinstance(observables, Mapping) else {o: True for o in observables if isinstance(o, str)}
     own = [] if isinstance(observables, Mapping) else [o for o in observables if not isinstance(o, str)]
     for observable in own:
@@ -213,7 +216,7 @@ def run(
             raise ValueError("a fixed-step method has no engine; leave out one of the two")
         if own or given._core.observables:
             raise ValueError(f'method="{method}": observables measure exact trajectories; leave out one of the two')
-        dt = dt if dt is not None else given._core.sample_every
+        dt = real(dt, "dt") if dt is not None else given._core.sample_every
         if dt is None:
             raise ValueError(f'method="{method}" needs a time step: give dt, or the scene a run.sample_every')
     if out is None and (checkpoint_every is not None or report):
@@ -226,15 +229,15 @@ def run(
         call = partial(
             _files.run,
             given._core,
-            engine,
-            method,
+            words(engine, "engine"),
+            None if method is None else words(method, "method"),
             dt or 0.0,
             None if out is None else fspath(out),
-            overwrite,
+            bool(overwrite),
             own,
-            checkpoint_every,
+            None if checkpoint_every is None else words(checkpoint_every, "checkpoint_every"),
             _seconds(walltime),
-            threads,
+            None if threads is None else whole(threads, "threads", least=1),
             report,
             frames,
         )
@@ -279,7 +282,15 @@ def resume(
         teller = None if tell is None else lambda now, done, equilibrating: tell(0.0 if time is None else min(1.0, now / time))
         own = list(observables)
         call = partial(
-            _files.resume, fspath(directory), time, collisions, own, checkpoint_every, _seconds(walltime), threads, report
+            _files.resume,
+            fspath(directory),
+            None if time is None else real(time, "time"),
+            None if collisions is None else whole(collisions, "collisions"),
+            own,
+            None if checkpoint_every is None else words(checkpoint_every, "checkpoint_every"),
+            _seconds(walltime),
+            None if threads is None else whole(threads, "threads", least=1),
+            report,
         )
         parts = _beside(_with_files(call), teller, bool(own))
         scene = Scene.parse(json.loads(parts[0])["resolved_scene"])
@@ -337,7 +348,12 @@ _INTERRUPTED = 6
 
 
 def _seconds(walltime: float | str | None) -> float | None:
-    return _core.seconds_in(walltime) if isinstance(walltime, str) else walltime
+    if walltime is None:
+        return None
+    seconds = _core.seconds_in(walltime) if isinstance(walltime, str) else real(walltime, "walltime")
+    if not seconds > 0:
+        raise ValueError(f"walltime is {seconds:g} s; it must be positive")
+    return seconds
 
 
 def _teller(scene: Scene, tell: Any) -> Any:
@@ -473,7 +489,8 @@ class Run:
 
         wanted = []
         if observables is not None:
-            settings = observables if isinstance(observables, Mapping) else dict.fromkeys(observables, True)
+            names = [observables] if isinstance(observables, str) else observables
+            settings = names if isinstance(names, Mapping) else dict.fromkeys(names, True)
             wanted = [name if value is True else f"{name}={value_text(value, str(name))}" for name, value in settings.items()]
         with hdf5():
             return measurements_of(_files.analyse(fspath(self.directory), wanted))

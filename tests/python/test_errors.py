@@ -154,6 +154,33 @@ def test_a_mistake_about_a_simulation_is_told_and_changes_nothing(gas: carom.Sce
     assert (sim.state_hash, sim.totals) == (twin.state_hash, twin.totals)
 
 
+MISTAKES_OF_RUNS: list[tuple[dict[str, object], type[Exception], str]] = [
+    ({"engine": "fst"}, ValueError, 'there is no engine "fst"'),
+    ({"engine": 5}, TypeError, "engine is 5; give a string"),
+    ({"method": "naive", "dt": "a"}, TypeError, "dt is 'a'; give a number"),
+    ({"method": "naive", "engine": "fast"}, ValueError, "a fixed-step method has no engine"),
+    ({"dt": 0.1}, ValueError, "exact events need none"),
+    ({"observables": 5}, TypeError, "observables are 5; give names"),
+    ({"observables": [5]}, TypeError, "5 is no observable; give a name"),
+    ({"observables": {"pressur": True}}, carom.SceneError, 'did you mean "pressure"'),
+    ({"observables": {"pressure": {"evry": 5}}}, carom.SceneError, 'did you mean "every"'),
+    ({"threads": "a"}, TypeError, "threads is 'a'; give a whole number"),
+    ({"threads": 0}, ValueError, "threads is 0; it must be from 1"),
+    ({"walltime": -1}, ValueError, "walltime is -1 s; it must be positive"),
+    ({"walltime": "soon"}, ValueError, "give a length of time such as 90s"),
+    ({"checkpoint_every": "1min"}, ValueError, 'give out="directory" too'),
+    ({"out": "/dev/null"}, carom.OutputError, "/dev/null: this is a file, and the results need a directory"),
+    ({"progress": 5}, TypeError, "progress is 5; give True, False, or a function"),
+]
+
+
+@pytest.mark.parametrize("arguments, kind, sentence", MISTAKES_OF_RUNS)
+def test_a_mistake_about_a_run_is_told(gas: carom.Scene, arguments, kind, sentence: str) -> None:
+    with pytest.raises(kind, match=sentence) as raised:
+        carom.run(gas, **arguments)
+    one_sentence(raised.value)
+
+
 def one_sentence(error: BaseException) -> None:
     text = str(error)
     assert text and "\n" not in text and "incompatible function arguments" not in text
