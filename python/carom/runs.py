@@ -165,6 +165,7 @@ def run(
     engine: str = "auto",
     method: str | None = None,
     dt: float | None = None,
+    stiffness: float | None = None,
     observables: Observables | None = None,
     events: bool = False,
     frames: bool = False,
@@ -189,6 +190,7 @@ def run(
         seed: in place of the scene's run.seed.
         engine: "auto", or one of `carom.engines()`.
         method, dt: a fixed-step method in place of exact events, and its step; without dt it is the scene's run.sample_every.
+        stiffness: of the springs of the method "soft", force per overlap; None: such that the shortest contact takes 30 steps.
         observables: besides those of the scene: {"pressure": True, "radial_distribution": {"range": 4.0}}, or a list of names and
             objects of carom.Observable.
         events: whether all collisions are written too.
@@ -211,6 +213,8 @@ def run(
     given, own = _with_observables(given, observables)
     if method is None and dt is not None:
         raise ValueError("dt is the step of a fixed-step method; exact events need none: leave it out, or give a method")
+    if method is None and stiffness is not None:
+        raise ValueError("a stiffness is that of the springs of method=\"soft\"; exact events have none")
     if method is not None:
         if engine != "auto":
             raise ValueError("a fixed-step method has no engine; leave out one of the two")
@@ -232,6 +236,7 @@ def run(
             words(engine, "engine"),
             None if method is None else words(method, "method"),
             dt or 0.0,
+            None if stiffness is None else real(stiffness, "stiffness"),
             None if out is None else fspath(out),
             bool(overwrite),
             own,
@@ -512,7 +517,7 @@ class Run:
             if dt is None:
                 run(self.scene, out=again, engine=name)
             else:
-                run(self.scene, out=again, method=name, dt=dt)
+                run(self.scene, out=again, method=name, dt=dt, stiffness=self.summary.get("stiffness"))
             with hdf5():
                 return _files.compare_results(fspath(self.directory), fspath(again))
 

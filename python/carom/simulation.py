@@ -89,6 +89,7 @@ class Simulation:
         engine: "auto", or one of the names that `carom.engines()` returns.
         method: a fixed-step method in place of exact events: one of `carom.fixed_step_methods()`, such as "naive".
         dt: its step, time.
+        stiffness: of the springs of the method "soft", force per overlap; None: such that the shortest contact takes 30 steps.
         state: where the disks begin, in place of the scene's own start.
         on_collision: a rule of one's own for collisions of two disks, see `set_collision_rule()`.
 
@@ -105,6 +106,7 @@ class Simulation:
         engine: str = "auto",
         method: str | None = None,
         dt: float | None = None,
+        stiffness: float | None = None,
         state: State | None = None,
         on_collision: CollisionRule | None = None,
     ) -> None:
@@ -115,12 +117,15 @@ class Simulation:
             raise ValueError("a fixed-step method needs both: method=\"naive\" and its step dt=0.001")
         if method is not None and engine != "auto":
             raise ValueError("a fixed-step method has no engine; leave out one of the two")
+        if method is None and stiffness is not None:
+            raise ValueError("a stiffness is that of the springs of method=\"soft\"; exact events have none")
         if state is not None and not isinstance(state, State):
             raise TypeError(f"the state is {state!r}; give a carom.State")
         name = None if method is None else words(method, "method")
         step = 0.0 if dt is None else real(dt, "dt")
+        spring = None if stiffness is None else real(stiffness, "stiffness")
         start = None if state is None else state._core
-        self._begin(given, _core.Simulation(given._core, words(engine, "engine"), name, step, start))
+        self._begin(given, _core.Simulation(given._core, words(engine, "engine"), name, step, spring, start))
         if on_collision is not None:
             self.set_collision_rule(on_collision)
 
@@ -156,6 +161,11 @@ class Simulation:
     def dt(self) -> float | None:
         """The step of a fixed-step method; None where events are exact."""
         return self._core.time_step
+
+    @property
+    def stiffness(self) -> float | None:
+        """The stiffness that was given to the method "soft"; None where none was."""
+        return self._core.stiffness
 
     @property
     def count(self) -> int:

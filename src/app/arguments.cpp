@@ -121,6 +121,10 @@ void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
   command->add_option("--dt", options->dt, "Time step of a fixed-step method (default: the scene's run.sample_every)")
       ->type_name("DT");
   command
+      ->add_option("--stiffness", options->stiffness,
+                   "Stiffness of the springs of --method soft, force per overlap (default: 30 steps in the shortest contact)")
+      ->type_name("K");
+  command
       ->add_option("--verify", options->verify,
                    "Check the engine's invariants every K events, and end the run where one is broken")
       ->type_name("K")

@@ -25,6 +25,10 @@ namespace detail {
 
 std::string info_line(std::string_view label, std::string_view text) { return fmt::format("  {:<11} {}\n", label, text); }
 
+std::string engine_line(const std::string& name, std::optional<double> time_step, std::optional<double> stiffness) {
+  return info_line(time_step ? "method" : "engine", method_words(name, time_step, stiffness));
+}
+
 std::string samples_text(std::uintmax_t samples, double first, double last) {
   if (samples == 0) return "none";
   if (samples == 1) return fmt::format("1, at time {}", first);

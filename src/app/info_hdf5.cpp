@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -94,7 +95,11 @@ std::string described(hid_t file) {
   const std::string source = read_string_attribute(file, parameters, "scene_source");
   text += info_line("scene", title.empty() ? source : fmt::format("{} ({})", title, source));
   text += info_line("seed", fmt::format("{}", read_unsigned_attribute(file, parameters, "seed")));
-  text += info_line("engine", read_string_attribute(file, parameters, "engine"));
+  const auto number = [&](const char* name) -> std::optional<double> {
+    const std::vector<double> values = read_numbers_attribute(file, parameters, name);
+    return values.size() == 1 ? std::optional(values.front()) : std::nullopt;
+  };
+  text += engine_line(read_string_attribute(file, parameters, "engine"), number("dt"), number("stiffness"));
   const std::vector<std::string> effects = read_strings_attribute(file, parameters, "effects");
   if (!effects.empty()) text += info_line("effects", fmt::format("{}", fmt::join(effects, ", ")));
   text += info_line("disks", species_line(file, disks));

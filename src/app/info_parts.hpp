@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,8 @@ std::string describe_summary(const std::filesystem::path& path);
 
 /// One line of a description.
 std::string info_line(std::string_view label, std::string_view text);
+/// Returns the line about the engine, or the fixed-step method with its step.
+std::string engine_line(const std::string& name, std::optional<double> time_step, std::optional<double> stiffness);
 /// Returns text such as "5001, from time 0 to 5"
 std::string samples_text(std::uintmax_t samples, double first, double last);
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <optional>
 #include <string_view>
 
 namespace carom::detail {
@@ -97,7 +98,10 @@ std::string described(const Json& json) {
                                                          text_of(json.at("carom").at("commit"))));
   text += info_line("scene", text_of(json.at("scene")));
   text += info_line("seed", text_of(json.at("seed")));
-  text += info_line("engine", text_of(json.at("engine")));
+  const auto number = [&](const char* key) {
+    return json.contains(key) ? std::optional(json.at(key).get<double>()) : std::nullopt;
+  };
+  text += engine_line(text_of(json.at("engine")), number("dt"), number("stiffness"));
   text += info_line("effects", effects_line(json.at("effects")));
   text +=
       info_line("disks", fmt::format("{}, packing fraction {}", text_of(json.at("disks")), text_of(json.at("packing_fraction"))));

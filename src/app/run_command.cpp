@@ -37,6 +37,8 @@ Simulation simulation_for(const RunOptions& options, const Scene& scene, const s
   if (options.method == "exact") {
     if (options.dt)
       throw UsageError("--dt is the step of a fixed-step method; exact events need none: leave it out, or give --method");
+    if (options.stiffness)
+      throw UsageError("--stiffness is that of the springs of --method soft; exact events have none: leave it out, or give both");
     return make_simulation(scene, engine);
   }
   const std::vector<std::string> names = fixed_step_names();
@@ -57,7 +59,8 @@ Simulation simulation_for(const RunOptions& options, const Scene& scene, const s
     throw UsageError(
         fmt::format("--dt {:g}: the run would take {:.1g} steps; take longer ones", *options.dt, *scene.run.time / *options.dt));
   try {
-    return make_simulation(scene, FixedStep{options.method, options.dt.value_or(scene.run.sample_every.value_or(0.0))});
+    return make_simulation(
+        scene, FixedStep{options.method, options.dt.value_or(scene.run.sample_every.value_or(0.0)), options.stiffness});
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("--method {}: {}", options.method, error.what()));
   }
@@ -79,7 +82,8 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   const Provenance provenance{.resolved_scene = resolved_toml(scene),
                               .command_line = invocation.command_line,
                               .engine = simulation.engine(),
-                              .time_step = simulation.time_step()};
+                              .time_step = simulation.time_step(),
+                              .stiffness = simulation.stiffness()};
   const RunDirectory directory = [&] {
     try {
       return RunDirectory(directory_for(options), options.force);
@@ -89,7 +93,7 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   }();
   if (options.verbose)
     fmt::print(stderr, "{}  {:<12}{}\n  files       in {}\n", describe(scene), simulation.time_step() ? "method" : "engine",
-               method_words(simulation.engine(), simulation.time_step()), directory.path().string());
+               method_words(simulation.engine(), simulation.time_step(), simulation.stiffness()), directory.path().string());
 
   try {
     return carry_out({options, invocation, simulation, provenance, directory, nullptr, began});

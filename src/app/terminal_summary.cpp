@@ -33,11 +33,11 @@ std::string lines_of(const RunReport& report, const Scene& scene) {
 }
 
 std::string heading(const RunReport& report, const Scene& scene) {
-  return fmt::format("{}\n{}, packing fraction {:.4g}; {}; seed {}, {}; numbers in scene units\n\n",
-                     report.title.empty() ? report.scene : report.title,
-                     counted(static_cast<std::uint64_t>(report.disks), "disk"), report.packing_fraction,
-                     fmt::join(report.effects, ", "), scene.run.seed,
-                     (report.time_step ? "method " : "engine ") + method_words(report.engine, report.time_step));
+  return fmt::format(
+      "{}\n{}, packing fraction {:.4g}; {}; seed {}, {}; numbers in scene units\n\n",
+      report.title.empty() ? report.scene : report.title, counted(static_cast<std::uint64_t>(report.disks), "disk"),
+      report.packing_fraction, fmt::join(report.effects, ", "), scene.run.seed,
+      (report.time_step ? "method " : "engine ") + method_words(report.engine, report.time_step, report.stiffness));
 }
 
 /// Returns one line per observable, with its first number.

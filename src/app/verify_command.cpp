@@ -67,7 +67,7 @@ class ScratchDirectory {
 /// The facts of a run's summary that its repetition needs.
 struct Recorded {
   std::string resolved_scene, engine, commit;
-  std::optional<double> dt = {};
+  std::optional<double> dt = {}, stiffness = {};
   bool interrupted = false;
 };
 
@@ -86,15 +86,12 @@ Recorded recorded(const fs::path& directory) {
     Recorded run{
         .resolved_scene = json.at("resolved_scene"), .engine = json.at("engine"), .commit = json.at("carom").at("commit")};
     if (json.contains("dt")) run.dt = json.at("dt").get<double>();
+    if (json.contains("stiffness")) run.stiffness = json.at("stiffness").get<double>();
     run.interrupted = json.at("stopped") == "interrupted";
     return run;
   } catch (const nlohmann::json::exception&) {
     throw UsageError(detail::no_summary(directory).what());
   }
-}
-
-std::string engine_options(const Recorded& run) {
-  return run.dt ? fmt::format("--method {} --dt {}", run.engine, *run.dt) : fmt::format("--engine {}", run.engine);
 }
 
 ExitCode run_again(const Recorded& run, const fs::path& scratch, const VerifyOptions& options, const Invocation& invocation) {
@@ -108,6 +105,7 @@ ExitCode run_again(const Recorded& run, const fs::path& scratch, const VerifyOpt
   if (run.dt) {
     again.method = run.engine;
     again.dt = run.dt;
+    again.stiffness = run.stiffness;
   } else {
     again.scene.engine = run.engine;
   }
@@ -120,7 +118,7 @@ std::string reproduction(const std::string& directory, const Invocation& invocat
   const Recorded run = recorded(directory);
   const std::string again = named_after(directory, "-again").filename().string();
   return fmt::format("cat > {0}.toml <<'END_OF_SCENE'\n{1}END_OF_SCENE\n{2} run {0}.toml {3}\n", shell_quoted(again),
-                     run.resolved_scene, invocation.program, engine_options(run));
+                     run.resolved_scene, invocation.program, method_options(run.engine, run.dt, run.stiffness));
 }
 
 ExitCode verify(const VerifyOptions& options, const Invocation& invocation) {

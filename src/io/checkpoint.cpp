@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::size_t head_bytes = 512;
 /// Version of the format of the parts' contents; a program reads only its own.
-constexpr std::uint64_t checkpoint_format = 2;
+constexpr std::uint64_t checkpoint_format = 3;
 
 /// Returns the text before the HDF5 file, which is all of it, so that nothing in it can change unnoticed.
 std::string head_for(std::uint64_t bytes, const XXH128_hash_t& sum) {
@@ -74,6 +74,7 @@ void write_facts(hid_t file, const CheckpointFacts& facts) {
   detail::write_attribute(run, "command_line", facts.provenance.command_line);
   detail::write_attribute(run, "engine", facts.provenance.engine);
   if (facts.provenance.time_step) detail::write_attribute(run, "dt", *facts.provenance.time_step);
+  if (facts.provenance.stiffness) detail::write_attribute(run, "stiffness", *facts.provenance.stiffness);
   detail::write_attribute(run, "time", facts.time);
   detail::write_attribute(run, "collisions", facts.collisions);
   detail::write_attribute(run, "finished", std::uint64_t{facts.finished});
@@ -89,7 +90,8 @@ CheckpointFacts read_facts(hid_t file) {
   return {.provenance = {.resolved_scene = text("resolved_scene"),
                          .command_line = text("command_line"),
                          .engine = text("engine"),
-                         .time_step = number("dt")},
+                         .time_step = number("dt"),
+                         .stiffness = number("stiffness")},
           .scene_source = text("scene_source"),
           .scene_text = text("scene"),
           .overrides = detail::read_strings_attribute(file, "run", "overrides"),

@@ -46,6 +46,7 @@ void write_parameters(hid_t file, const Scene& scene, const Provenance& provenan
   write_attribute(group, "seed", scene.run.seed);
   write_attribute(group, "engine", provenance.engine);
   if (provenance.time_step) write_attribute(group, "dt", *provenance.time_step);
+  if (provenance.stiffness) write_attribute(group, "stiffness", *provenance.stiffness);
   write_attribute(group, "command_line", provenance.command_line);
   write_build(group);
   write_attribute(group, "instructions", std::string(name_of(chosen_instructions())));

@@ -11,6 +11,7 @@ struct Provenance {
   std::string command_line;              ///< the command as the user typed it; empty when the library was called
   std::string engine;                    ///< the name of the engine, or of the fixed-step method, that ran
   std::optional<double> time_step = {};  ///< dt of a fixed-step method; empty where events are exact
+  std::optional<double> stiffness = {};  ///< that was given to it
 };
 
 }  // namespace carom

@@ -83,6 +83,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   json["seed"] = report.seed;
   json["engine"] = report.engine;
   if (report.time_step) json["dt"] = number(report.time_step);
+  if (report.stiffness) json["stiffness"] = number(report.stiffness);
   json["effects"] = report.effects;
   json["disks"] = report.disks;
   json["packing_fraction"] = number(report.packing_fraction);

@@ -137,6 +137,7 @@ RunReport run_report_of(const Json& json) {
   report.seed = json.at("seed").get<std::uint64_t>();
   report.engine = json.at("engine").get<std::string>();
   report.time_step = number_in(json, "dt");
+  report.stiffness = number_in(json, "stiffness");
   report.effects = json.at("effects").get<std::vector<std::string>>();
   report.disks = json.at("disks").get<std::int64_t>();
   report.packing_fraction = finite_in(json.at("packing_fraction"));

@@ -18,6 +18,7 @@ RunMeasurements::RunMeasurements(const Simulation& simulation) : simulation_(sim
   report_.seed = scene.run.seed;
   report_.engine = simulation.engine();
   report_.time_step = simulation.time_step();
+  report_.stiffness = simulation.stiffness();
   report_.effects = names_of(scene.effects, !scene.box.periodic(0) || !scene.box.periodic(1));
   report_.disks = scene.disk_count();
   report_.packing_fraction = scene.packing_fraction();

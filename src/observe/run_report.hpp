@@ -31,6 +31,7 @@ struct RunReport {
   std::uint64_t seed = 1;
   std::string engine;                ///< or the fixed-step method
   std::optional<double> time_step;   ///< dt of a fixed-step method; empty where events are exact
+  std::optional<double> stiffness;   ///< that was given to it
   std::vector<std::string> effects;  ///< names of all effects: "specular", "walls", ...
   std::int64_t disks = 0;
   double packing_fraction = 0.0;

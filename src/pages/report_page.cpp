@@ -46,13 +46,11 @@ std::vector<KeyNumber> key_numbers(const RunReport& report) {
 
 /// Returns how to repeat the run, even where the scene's own file is gone.
 std::string how_again(const RunReport& report) {
-  const std::string how =
-      report.time_step ? fmt::format("--method {} --dt {}", report.engine, *report.time_step) : "--engine " + report.engine;
   return fmt::format(
       "save the scene with every default (above) as again.toml and run: carom run again.toml {}. carom verify RUN_DIR does this "
       "and "
       "compares the results",
-      how);
+      method_options(report.engine, report.time_step, report.stiffness));
 }
 
 Section simulated(const RunRecord& record) {
@@ -68,7 +66,8 @@ Section simulated(const RunRecord& record) {
   const bool species_are_known = source.scene.disk_count() == static_cast<std::int64_t>(source.disks.count());
   if (!species_are_known)
     std::erase_if(rows, [](const SummaryRow& row) { return row.quantity == "disks" || row.quantity == "box"; });
-  rows.push_back({record.report.time_step ? "method" : "engine", method_words(record.report.engine, record.report.time_step)});
+  rows.push_back({record.report.time_step ? "method" : "engine",
+                  method_words(record.report.engine, record.report.time_step, record.report.stiffness)});
   TextTable table{.columns = {"", ""}};
   for (const SummaryRow& row : rows) table.rows.push_back({row.quantity, row.value});
   section.blocks.emplace_back(std::move(table));
@@ -185,7 +184,7 @@ Page report_page(const RunRecord& record, const std::optional<PlayerData>& playe
             .subtitle = fmt::format("{}, packing fraction {:.4g}; {}; seed {}, {} {}; numbers in scene units",
                                     counted(static_cast<std::uint64_t>(report.disks), "disk"), report.packing_fraction,
                                     fmt::join(report.effects, ", "), report.seed, report.time_step ? "method" : "engine",
-                                    method_words(report.engine, report.time_step)),
+                                    method_words(report.engine, report.time_step, report.stiffness)),
             .lead = fmt::format("The run ended at time {:.6g}: {}. It took {}.", report.time,
                                 why_stopped(report, scene_of(record)), duration(report.wall_seconds)),
             .key_numbers = key_numbers(report)};

@@ -147,17 +147,18 @@ class PythonRun {
 };
 
 AnyTuple run(const Scene& scene, const std::string& engine, const std::optional<std::string>& method, double dt,
-             const std::optional<std::string>& path, bool overwrite, const RunWishes& wishes) {
+             std::optional<double> stiffness, const std::optional<std::string>& path, bool overwrite, const RunWishes& wishes) {
   Simulation simulation = [&] {
     const nb::gil_scoped_release released;
-    return method ? make_simulation(scene, FixedStep{*method, dt}) : make_simulation(scene, engine);
+    return method ? make_simulation(scene, FixedStep{*method, dt, stiffness}) : make_simulation(scene, engine);
   }();
   std::optional<RunDirectory> directory;
   if (path) directory.emplace(*path, overwrite);
   const Provenance provenance{.resolved_scene = resolved_toml(scene),
                               .command_line = {},
                               .engine = simulation.engine(),
-                              .time_step = simulation.time_step()};
+                              .time_step = simulation.time_step(),
+                              .stiffness = simulation.stiffness()};
   try {
     return PythonRun(simulation, directory ? &*directory : nullptr, provenance, wishes)();
   } catch (...) {
@@ -190,15 +191,15 @@ void add_runs(nb::module_& module) {
   module.def(
       "run",
       [](const Scene& scene, const std::string& engine, const std::optional<std::string>& method, double dt,
-         const std::optional<std::string>& directory, bool overwrite, const Objects& observables,
+         std::optional<double> stiffness, const std::optional<std::string>& directory, bool overwrite, const Objects& observables,
          const std::optional<std::string>& checkpoint_every, std::optional<double> walltime, std::optional<int> threads,
          bool report, bool frames, const nb::object& progress) {
-        return run(scene, engine, method, dt, directory, overwrite,
+        return run(scene, engine, method, dt, stiffness, directory, overwrite,
                    {observables, checkpoint_every, walltime, threads, report, frames, progress});
       },
-      nb::arg("scene"), nb::arg("engine"), nb::arg("method").none(), nb::arg("dt"), nb::arg("directory").none(),
-      nb::arg("overwrite"), nb::arg("observables"), nb::arg("checkpoint_every").none(), nb::arg("walltime").none(),
-      nb::arg("threads").none(), nb::arg("report"), nb::arg("frames"), nb::arg("progress").none());
+      nb::arg("scene"), nb::arg("engine"), nb::arg("method").none(), nb::arg("dt"), nb::arg("stiffness").none(),
+      nb::arg("directory").none(), nb::arg("overwrite"), nb::arg("observables"), nb::arg("checkpoint_every").none(),
+      nb::arg("walltime").none(), nb::arg("threads").none(), nb::arg("report"), nb::arg("frames"), nb::arg("progress").none());
   module.def(
       "resume",
       [](const std::string& directory, std::optional<double> time, std::optional<std::uint64_t> collisions,

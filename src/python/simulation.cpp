@@ -266,12 +266,13 @@ void add_simulation(nb::module_& module) {
       .def(
           "__init__",
           [](Running* self, const Scene& scene, const std::string& engine, const std::optional<std::string>& method, double dt,
-             const State* state) {
+             std::optional<double> stiffness, const State* state) {
             std::optional<FixedStep> step;
-            if (method) step = FixedStep{*method, dt};
+            if (method) step = FixedStep{*method, dt, stiffness};
             new (self) Running(scene, engine, step, state);
           },
-          nb::arg("scene"), nb::arg("engine"), nb::arg("method").none(), nb::arg("dt"), nb::arg("state").none())
+          nb::arg("scene"), nb::arg("engine"), nb::arg("method").none(), nb::arg("dt"), nb::arg("stiffness").none(),
+          nb::arg("state").none())
       .def_static(
           "restore",
           [](const Scene& scene, const nb::bytes& saved) {
@@ -292,6 +293,7 @@ void add_simulation(nb::module_& module) {
       .def_prop_ro("engine", [](Running& self) { return self.use([](Simulation& s) { return s.engine(); }); })
       .def_prop_ro("engine_reason", [](Running& self) { return self.use([](Simulation& s) { return s.engine_reason(); }); })
       .def_prop_ro("time_step", [](Running& self) { return self.use([](Simulation& s) { return s.time_step(); }); })
+      .def_prop_ro("stiffness", [](Running& self) { return self.use([](Simulation& s) { return s.stiffness(); }); })
       .def_prop_ro("bytes", [](Running& self) { return self.use([](Simulation& s) { return s.bytes(); }); })
       .def_prop_ro("scene", [](Running& self) { return self.use([](Simulation& s) { return scene_now(s); }); })
       .def_prop_ro("totals", [](Running& self) { return self.use([](Simulation& s) { return dict_of(s.totals()); }); })

@@ -5,6 +5,7 @@
 #include "effects/specular.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
+#include "simulation/springs.hpp"
 #include "simulation/start.hpp"
 #include "stepper/backtrack.hpp"
 #include "stepper/grid.hpp"
@@ -43,21 +44,23 @@ template <class Rule>
 using Guarded = GuardedStep<Rule, AllPairs>;
 template <class Rule>
 using Grid = GuardedStep<Rule, ClosePairs>;
+using Soft = SoftStep<ClosePairs>;
 
 template <template <class> class Step>
-std::unique_ptr<AnyEngine> make(const Scene& scene, const Start& start, double dt) {
+std::unique_ptr<AnyEngine> make(const Scene& scene, const Start& start, const FixedStep& step) {
   if (scene.effects.collision.rule == CollisionRule::reversal)
-    return std::make_unique<EngineAdapter<Stepper<Step<Reversal>>>>(scene.box, start.disks, start.state, dt, scene.effects);
-  return std::make_unique<EngineAdapter<Stepper<Step<Specular>>>>(scene.box, start.disks, start.state, dt, scene.effects);
+    return std::make_unique<EngineAdapter<Stepper<Step<Reversal>>>>(scene.box, start.disks, start.state, step.dt, scene.effects);
+  return std::make_unique<EngineAdapter<Stepper<Step<Specular>>>>(scene.box, start.disks, start.state, step.dt, scene.effects);
 }
 
-std::unique_ptr<AnyEngine> make_soft(const Scene& scene, const Start& start, double dt) {
-  return std::make_unique<EngineAdapter<Stepper<SoftStep<ClosePairs>>>>(scene.box, start.disks, start.state, dt, scene.effects);
+std::unique_ptr<AnyEngine> make_soft(const Scene& scene, const Start& start, const FixedStep& step) {
+  return std::make_unique<EngineAdapter<Stepper<Soft>>>(scene.box, start.disks, start.state, step.dt, scene.effects,
+                                                        step.stiffness);
 }
 
 struct Entry {
   const char* name;
-  std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Start& start, double dt);
+  std::unique_ptr<AnyEngine> (*make)(const Scene& scene, const Start& start, const FixedStep& step);
 };
 constexpr Entry entries[] = {{"naive", &make<Naive>}, {"naive-edge", &make<NaiveEdge>},    {"guarded", &make<Guarded>},
                              {"grid", &make<Grid>},   {"backtrack", &make<BacktrackStep>}, {"swept", &make<SweptStep>},
@@ -91,9 +94,7 @@ std::string why_not_by_springs(const Effects& effects) {
   if (effects.collision.rule == CollisionRule::reversal)
     return "the method \"soft\" has a spring along the line of centres, which cannot turn round the whole relative velocity as "
            "the rule \"reversal\" does; take another method, or the rule \"specular\"";
-  double least = effects.collision.restitution.value_or(1.0);
-  for (const WallProperties& wall : effects.walls) least = std::min(least, wall.restitution.value_or(1.0));
-  if (least > 0.0) return "";
+  if (detail::least_restitution(effects) > 0.0) return "";
   return "the method \"soft\" has springs that let nothing part at restitution 0; take another method, or a restitution above 0";
 }
 
@@ -147,17 +148,22 @@ Simulation Simulation::begin(const Scene& scene, Start start, const FixedStep& s
         fmt::format("there is no fixed-step method \"{}\"; choose one of {}", step.method, fmt::join(fixed_step_names(), ", ")));
   require_sound_step(step, scene, start);
   if (const std::string why = why_not(step.method, scene); !why.empty()) throw std::invalid_argument(why);
-  auto running = entry->make(scene, start, step.dt);
-  return Simulation(
-      std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry->name, std::move(running), "", step.dt}));
+  detail::require_stable_springs(step, start.disks, scene.effects);
+  auto running = entry->make(scene, start, step);
+  return Simulation(std::unique_ptr<Parts>(
+      new Parts{scene, std::move(start.disks), entry->name, std::move(running), "", step.dt, step.stiffness}));
 }
 
 Simulation make_simulation(const Scene& scene, const FixedStep& step) {
-  return Simulation::begin(scene, draw_start(scene), step);
+  Simulation simulation = Simulation::begin(scene, draw_start(scene), step);
+  detail::require_springs_that_hold(simulation);
+  return simulation;
 }
 
 Simulation make_simulation(const Scene& scene, const State& start, const FixedStep& step) {
-  return Simulation::begin(scene, start_from(scene, start), step);
+  Simulation simulation = Simulation::begin(scene, start_from(scene, start), step);
+  detail::require_springs_that_hold(simulation);
+  return simulation;
 }
 
 }  // namespace carom

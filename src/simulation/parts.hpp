@@ -38,6 +38,7 @@ struct Simulation::Parts {
   std::unique_ptr<detail::AnyEngine> engine;
   std::string engine_reason = {};
   std::optional<double> time_step = {};  ///< of a fixed-step method
+  std::optional<double> stiffness = {};  ///< that was given to it
   double smallest_radius = smallest_of(disks);
 
   bool recording = false;                   ///< events, for the user

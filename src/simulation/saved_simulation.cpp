@@ -24,7 +24,7 @@ namespace carom {
 namespace {
 
 /// The digit is that of what follows: what one has written, another must not read.
-constexpr std::string_view first_line = "carom simulation 2\n";
+constexpr std::string_view first_line = "carom simulation 3\n";
 
 std::string build() { return fmt::format("{} ({}, {})", build_info().version, build_info().commit, build_info().compiler); }
 
@@ -100,7 +100,7 @@ void Simulation::save(std::ostream& out) const {
   std::ostream within(&checked);
   SavingArchive archive(within);
   archive(build(), parts.made_of.value_or(now), now, Changed(parts.scene));
-  archive(parts.engine_name, parts.engine_asked, parts.engine_reason, parts.time_step, has_collision_rule());
+  archive(parts.engine_name, parts.engine_asked, parts.engine_reason, parts.time_step, parts.stiffness, has_collision_rule());
   archive(parts.continuation.wall_draws, parts.continuation.thermostat_events, state());
   parts.engine->save(archive);
   checked.finish();
@@ -133,12 +133,12 @@ Simulation restore_simulation(const Scene& given, std::istream& in) {
     }
 
     std::string name, asked, reason;
-    std::optional<double> time_step;
+    std::optional<double> time_step, stiffness;
     bool own_rule = false;
     std::uint64_t wall_draws = 0, thermostat_events = 0;
     Start start{disks_of(scene), {}};
-    archive(name, asked, reason, time_step, own_rule, wall_draws, thermostat_events, start.state);
-    Simulation simulation = time_step ? Simulation::begin(scene, std::move(start), FixedStep{name, *time_step})
+    archive(name, asked, reason, time_step, stiffness, own_rule, wall_draws, thermostat_events, start.state);
+    Simulation simulation = time_step ? Simulation::begin(scene, std::move(start), FixedStep{name, *time_step, stiffness})
                                       : Simulation::begin(scene, std::move(start), name);
     Simulation::Parts& parts = *simulation.parts_;
     parts.engine_asked = std::move(asked);

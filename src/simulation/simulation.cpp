@@ -77,6 +77,7 @@ const Scene& Simulation::scene() const { return parts_->scene; }
 const Disks& Simulation::disks() const { return parts_->disks; }
 const std::string& Simulation::engine() const { return parts_->engine_name; }
 std::optional<double> Simulation::time_step() const { return parts_->time_step; }
+std::optional<double> Simulation::stiffness() const { return parts_->stiffness; }
 const std::string& Simulation::engine_reason() const { return parts_->engine_reason; }
 std::size_t Simulation::bytes() const { return parts_->engine->bytes(); }
 double Simulation::time() const { return parts_->engine->now().high; }

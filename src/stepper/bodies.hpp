@@ -1,6 +1,6 @@
 #pragma once
-// The disks of a fixed-step method: positions and velocities at the present step, how disks fly, and what collisions keep of
-// their speed.
+// The disks of a fixed-step method: positions and velocities at the present step, how disks fly, what collisions keep of their
+// speed, and how stiff the springs are of a method that has some.
 
 #include "core/domain.hpp"
 #include "core/sides.hpp"
@@ -14,13 +14,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace carom {
 
 struct Bodies {
-  Bodies(const Box& box, const Disks& disks, const State& start, const Effects& effects = {})
+  Bodies(const Box& box, const Disks& disks, const State& start, const Effects& effects = {}, std::optional<double> spring = {})
       : domain(box),
         around(domain.periodic[0] ? domain.length[0] : infinity<double>,
                domain.periodic[1] ? domain.length[1] : infinity<double>),
@@ -30,6 +31,7 @@ struct Bodies {
         mass(disks.mass),
         falling(effects.gravity),
         impact{(1.0 + effects.collision.restitution.value_or(1.0)) / 2.0, 0.0},
+        stiffness(spring),
         images(Images::Zero(2, static_cast<Eigen::Index>(disks.count()))) {
     for (std::size_t k = 0; k < wall_restitution.size(); ++k) wall_restitution[k] = effects.walls[k].restitution.value_or(1.0);
     for (std::size_t i = 0; i < r.size(); ++i) {
@@ -128,6 +130,7 @@ struct Bodies {
   Falling<double> falling;
   Inelasticity<double> impact;             ///< of two disks
   std::array<double, 4> wall_restitution;  ///< left, right, bottom, top
+  std::optional<double> stiffness;         ///< of springs, force per overlap; empty where it follows from the step
   Images images;
 
  private:

@@ -11,12 +11,15 @@
 //     t_c = pi sqrt(mu / k),    deepest overlap = v_n t_c / pi,    v_n: the speed with which they close.
 //
 // Hard disks are the limit t_c -> 0, and the positions of soft ones differ from theirs by the order of v_n t_c. So a stiffness is
-// a step: k is such that the shortest contact of the scene, that of its two lightest disks, takes `steps_per_contact` steps,
+// a step: unless k is given, it is such that the shortest contact of the scene, that of its two lightest disks, takes
+// `steps_per_contact` steps,
 //
 //     k = mu (pi / (steps_per_contact dt))^2.
 //
-// Velocity Verlet is stable for omega dt < 2 with omega = sqrt(k / mu), which is pi / steps_per_contact here: no dt is unstable,
-// a longer one makes softer disks. Where v_n t_c / pi comes near a diameter disks pass through each other.
+// Velocity Verlet is stable for omega dt < 2, where a pair has omega = sqrt(k / mu), which is pi / steps_per_contact here, and
+// equal disks with contacts all around have up to sqrt(3) times that (stable_step.hpp): no dt is unstable, a longer one makes
+// softer disks. A given k is stable for short steps alone. Where v_n t_c / pi comes near a diameter disks pass through each
+// other.
 //
 // A contact begins and ends between steps. That changes the speed with which an elastic pair parts by a random share, whatever dt
 // is: (pi dt / t_c)^2 / 19 (root mean square; the spread of x - x^2 for two random moments x in a step), 6e-4 for 30 steps. Where
@@ -54,7 +57,8 @@ class SoftStep {
   static constexpr double steps_per_contact = 30.0;
 
   /// Requires restitutions above 0.
-  SoftStep(const Bodies& bodies, double dt) : dt_(dt), stiffness_(stiffness(bodies, dt)), pairs_(bodies, dt) {
+  SoftStep(const Bodies& bodies, double dt)
+      : dt_(dt), stiffness_(bodies.stiffness.value_or(stiffness(bodies, dt))), pairs_(bodies, dt) {
     damping_ = relative_damping(2.0 * bodies.impact.turn - 1.0);
     for (std::size_t wall = 0; wall < 4; ++wall) wall_damping_[wall] = relative_damping(bodies.wall_restitution[wall]);
   }
@@ -89,7 +93,7 @@ class SoftStep {
     archive(pairs_, contacts_);
   }
 
-  /// Returns k for steps of dt.
+  /// Returns the k that steps of dt have where none is given.
   [[nodiscard]] static double stiffness(const Bodies& bodies, double dt) {
     if (bodies.count() == 0) return 0.0;
     double lightest = infinity<double>, second = infinity<double>;
@@ -102,6 +106,13 @@ class SoftStep {
     return reduced * omega * omega;
   }
 
+  /// Returns gamma / sqrt(k mu), below 2. Requires a restitution above 0.
+  [[nodiscard]] static double relative_damping(double restitution) {
+    if (restitution == 1.0) return 0.0;
+    const double log = std::log(restitution);
+    return -2.0 * log / std::hypot(std::numbers::pi, log);
+  }
+
  private:
   /// A disk in contact with a disk j > i, or with wall j < 0, and the force on it.
   struct Contact {
@@ -109,13 +120,6 @@ class SoftStep {
     std::int32_t j;
     double force[2];
   };
-
-  /// Returns gamma / sqrt(k mu).
-  [[nodiscard]] static double relative_damping(double restitution) {
-    if (restitution == 1.0) return 0.0;
-    const double log = std::log(restitution);
-    return -2.0 * log / std::hypot(std::numbers::pi, log);
-  }
 
   /// A spring and dashpot at the present step.
   struct Push {

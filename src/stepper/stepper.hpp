@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,9 +28,10 @@ template <class Step>
 class Stepper {
  public:
   /// Requires disks inside the box along periodic axes, everything finite, dt > 0. Of `effects` it knows
-  /// restitution, of walls too, and gravity.
-  Stepper(const Box& box, const Disks& disks, const State& start, double dt, const Effects& effects = {})
-      : bodies_(box, disks, start, effects), step_(bodies_, dt), dt_(dt) {}
+  /// restitution, of walls too, and gravity. `stiffness` is that of the springs of soft.hpp.
+  Stepper(const Box& box, const Disks& disks, const State& start, double dt, const Effects& effects = {},
+          std::optional<double> stiffness = {})
+      : bodies_(box, disks, start, effects, stiffness), step_(bodies_, dt), dt_(dt) {}
 
   /// Takes every step at a time <= target (to rounding), then stands at target and returns true. Returns false after the step in
   /// which totals().pair has reached `pair_limit`, and after about as much work as `event_limit` events of an engine.

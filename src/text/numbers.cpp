@@ -71,8 +71,17 @@ std::string counted(std::uint64_t number, std::string_view thing) {
   return fmt::format("{} {}{}", grouped(number), thing, number == 1 ? "" : "s");
 }
 
-std::string method_words(const std::string& name, std::optional<double> time_step) {
-  return time_step ? fmt::format("{}, dt = {:g}", name, *time_step) : name;
+std::string method_words(const std::string& name, std::optional<double> time_step, std::optional<double> stiffness) {
+  std::string words = name;
+  if (time_step) words += fmt::format(", dt = {:g}", *time_step);
+  if (stiffness) words += fmt::format(", stiffness = {:g}", *stiffness);
+  return words;
+}
+
+std::string method_options(const std::string& name, std::optional<double> time_step, std::optional<double> stiffness) {
+  if (!time_step) return "--engine " + name;
+  const std::string options = fmt::format("--method {} --dt {}", name, *time_step);
+  return stiffness ? fmt::format("{} --stiffness {}", options, *stiffness) : options;
 }
 
 std::string shell_quoted(const std::string& text) {

@@ -82,6 +82,21 @@ TEST_F(MethodOption, TheStepIsTheSamplingGridUnlessGiven) {
   EXPECT_EQ(json::parse(text("gas/summary.json"))["dt"], 0.0625);
 }
 
+TEST_F(MethodOption, AStiffnessIsToldWhereverTheStepIs) {
+  const Outcome run =
+      carom({"run", "gas.toml", "--method", "soft", "--dt", "0.002", "--stiffness", "2500", "--checkpoint-every", "1h"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("method soft, dt = 0.002, stiffness = 2500;"));
+  EXPECT_EQ(json::parse(text("gas/summary.json"))["stiffness"], 2500.0);
+  for (const char* of : {"gas/summary.json", "gas/trajectory.h5md"})
+    EXPECT_THAT(carom({"info", of}).out, HasSubstr("\n  method      soft, dt = 0.002, stiffness = 2500\n"));
+  ASSERT_EQ(carom({"extend", "gas", "--time", "4", "-q"}).exit_code, 0);
+  EXPECT_EQ(json::parse(text("gas/summary.json"))["stiffness"], 2500.0);
+  EXPECT_EQ(carom({"verify", "gas"}).exit_code, 0);
+  ASSERT_EQ(carom({"run", "gas.toml", "--method", "soft", "--dt", "0.002", "--out", "derived"}).exit_code, 0);
+  EXPECT_FALSE(json::parse(text("derived/summary.json")).contains("stiffness"));
+}
+
 TEST_F(MethodOption, WhatDoesNotFitTogetherIsRefusedInOneSentence) {
   const auto refused = [&](const std::vector<std::string>& more, const std::string& what) {
     std::vector<std::string> arguments = {"run", "gas.toml"};
@@ -100,6 +115,11 @@ TEST_F(MethodOption, WhatDoesNotFitTogetherIsRefusedInOneSentence) {
   refused({"--method", "grid", "--dt", "nan"}, "it must be positive and finite");
   refused({"--method", "grid", "--dt", "1e300"}, "take a shorter one");
   refused({"--method", "grid", "--dt", "soon"}, "--dt");
+  refused({"--stiffness", "5000"}, "--stiffness is that of the springs of --method soft; exact events have none");
+  refused({"--method", "grid", "--stiffness", "5000"}, "has no springs, and so no stiffness");
+  refused({"--method", "soft", "--stiffness", "0"}, "the stiffness is 0; it must be positive and finite");
+  refused({"--method", "soft", "--stiffness", "5000"}, "a time step of 0.0625 is unstable with a stiffness of 5000");
+  refused({"--method", "soft", "--dt", "0.001", "--stiffness", "1e-3"}, "a disk would leave the box through a wall");
 }
 
 }  // namespace

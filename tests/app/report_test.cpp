@@ -83,6 +83,11 @@ TEST_F(ReportCommand, AlsoOfFixedSteps) {
   write_text(file("gas.toml"), fifty_disks);
   ASSERT_EQ(carom({"run", "gas.toml", "--method", "naive", "--dt", "0.01", "-q", "--report"}).exit_code, 0);
   EXPECT_THAT(text_of(file("gas/report.html")), HasSubstr("--method naive --dt 0.01"));
+  ASSERT_EQ(carom({"run", "gas.toml", "--method", "soft", "--dt", "0.001", "--stiffness", "5000", "-q", "--report", "--force"})
+                .exit_code,
+            0);
+  EXPECT_THAT(text_of(file("gas/report.html")), AllOf(HasSubstr("--method soft --dt 0.001 --stiffness 5000"),
+                                                      HasSubstr("method soft, dt = 0.001, stiffness = 5000;")));
 }
 
 TEST_F(ReportCommand, RefusesWhatIsNoFinishedRun) {

@@ -52,6 +52,11 @@ TEST_F(RunAgain, EngineAndMethodAreThoseOfTheRun) {
   EXPECT_EQ(carom({"verify", "gas"}).exit_code, 0);
   ASSERT_EQ(carom({"run", "gas.toml", "-q", "--force", "--method", "naive", "--dt", "0.01"}).exit_code, 0);
   EXPECT_EQ(carom({"verify", "gas"}).exit_code, 0);
+  ASSERT_EQ(carom({"run", "gas.toml", "-q", "--force", "--method", "soft", "--dt", "0.001", "--stiffness", "4321.0123456789"})
+                .exit_code,
+            0);
+  EXPECT_EQ(carom({"verify", "gas"}).exit_code, 0);
+  EXPECT_THAT(carom({"info", "gas", "--reproduce"}).out, HasSubstr(" --method soft --dt 0.001 --stiffness 4321.0123456789\n"));
 }
 
 TEST_F(RunAgain, WhatIsNotTheSameIsNamed) {

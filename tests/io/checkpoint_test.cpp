@@ -23,7 +23,11 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 CheckpointFacts facts_at(double time) {
-  return {.provenance = {.resolved_scene = "[box]\n", .command_line = "carom run ü.toml", .engine = "fast", .time_step = 0.1},
+  return {.provenance = {.resolved_scene = "[box]\n",
+                         .command_line = "carom run ü.toml",
+                         .engine = "fast",
+                         .time_step = 0.1,
+                         .stiffness = 5000.0},
           .scene_source = "ü.toml",
           .scene_text = "# nothing\n",
           .overrides = {"run.time=2"},
@@ -85,6 +89,7 @@ TEST(Checkpoint, HoldsWhatWasWritten) {
   EXPECT_EQ(found.provenance.command_line, expected.provenance.command_line);
   EXPECT_EQ(found.provenance.engine, expected.provenance.engine);
   EXPECT_EQ(found.provenance.time_step, expected.provenance.time_step);
+  EXPECT_EQ(found.provenance.stiffness, expected.provenance.stiffness);
   EXPECT_EQ(found.scene_source, expected.scene_source);
   EXPECT_EQ(found.scene_text, expected.scene_text);
   EXPECT_EQ(found.overrides, expected.overrides);

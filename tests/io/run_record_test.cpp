@@ -49,6 +49,7 @@ TEST(RunReportOf, IsTheInverseOfTheSummary) {
   RunReport report = report_of(scene_of(2, 2));
   EXPECT_EQ(again(json_of(report)), json_of(report));
   report.time_step = 0.25;
+  report.stiffness = 5000.0;
   report.Z.reset();
   report.Z_error.reset();
   report.overlap_at_start = 0.5;

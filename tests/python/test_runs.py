@@ -207,6 +207,7 @@ def test_runs_side_by_side_have_the_bits_of_one_after_the_other(gas, tmp_path):
     [
         ({"method": "naive", "dt": 0.01, "engine": "fast"}, "a fixed-step method has no engine"),
         ({"dt": 0.01}, "dt is the step of a fixed-step method"),
+        ({"stiffness": 1e4}, 'a stiffness is that of the springs of method="soft"'),
         ({"method": "nave", "dt": 0.01}, 'there is no fixed-step method "nave"'),
         ({"engine": "slow"}, "slow"),
         ({"method": "naive", "dt": 0.01, "observables": ["pressure"]}, "observables measure exact trajectories"),
@@ -248,6 +249,13 @@ def test_a_run_read_back_measures_what_the_run_did(tmp_path, gas):
         for name, table in result.observables["free_flight"].tables.items():
             assert all(np.array_equal(observed.tables[name][column], table[column], equal_nan=True) for column in table)
     assert run.verify() == [] and run.scene == result.scene and run.state_hash == result.state_hash
+
+
+def test_a_run_with_springs_is_verified_with_their_stiffness(tmp_path, gas):
+    specular = gas.set({"collision.rule": "specular"})
+    result = carom.run(specular, out=tmp_path / "run", method="soft", dt=0.002, stiffness=2e3)
+    assert carom.open_run(tmp_path / "run").verify() == []
+    assert carom.run(specular, method="soft", dt=0.002).state_hash != result.state_hash
     sim = carom.Simulation(gas)
     sim.equilibrate()
     assert np.array_equal(run.events, sim.record(20.0))

@@ -79,7 +79,7 @@ def test_fixed_steps_are_those_of_the_program(method: str, tmp_path: Path, progr
     )
     assert told.returncode == 0, told.stderr
     sim = carom.Simulation(carom.Scene.preset("box").set({"collision.rule": "specular"}), method=method, dt=0.01)
-    assert (sim.engine, sim.dt) == (method, 0.01)
+    assert (sim.engine, sim.dt, sim.stiffness) == (method, 0.01, None)
     frames = sim.sample(0.001, until=0.2)
     with h5py.File(tmp_path / "run/trajectory.h5md") as file:
         assert np.array_equal(frames.positions, file["particles/trajectory/position/value"][:, :, :2])

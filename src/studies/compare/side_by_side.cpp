@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_distances = 1000;  ///< a plot shows no more
 
 /// Returns the method that runs for the fixed-step side: guarded and grid have one trajectory to the last bit, and grid is O(N).
-FixedStep as_flown(const FixedStep& step) { return {step.method == "guarded" ? "grid" : step.method, step.dt}; }
+FixedStep as_flown(const FixedStep& step) { return {step.method == "guarded" ? "grid" : step.method, step.dt, step.stiffness}; }
 
 class Flight {
  public:
