@@ -39,33 +39,6 @@ namespace {
 constexpr std::array<std::string_view, 5> compare_products = {"points.jsonl", side_by_side_file, "compare.csv", "report.html",
                                                               "compare.json"};
 
-CompareOptions checked(const CompareCommandOptions& options) {
-  // One step of the user's own is the short study: one start, and no other sizes and densities.
-  const bool is_short = options.dts.size() == 1;
-  const std::int64_t seeds = options.seeds.value_or(is_short ? 1 : 8);
-  if (seeds < 1 || seeds > 10'000) throw UsageError(fmt::format("--seeds {}: it can be 1 to 10000", seeds));
-  if (!(options.longest > 0.0))
-    throw UsageError(fmt::format("--longest {:g}: a run takes some time; give a positive number", options.longest));
-  for (const double dt : options.dts)
-    if (!(dt > 0.0 && std::isfinite(dt))) throw UsageError(fmt::format("--dt {:g}: a time step must be positive and finite", dt));
-  const std::string& engine = checked_engine(options.scene);
-  if (engine != "auto" && engine != "fast" && engine != "textbook")
-    throw UsageError(fmt::format(
-        "--engine {}: every precision is compared anyway; choose auto, fast or textbook for the scene's own run", engine));
-  return {options.dts, static_cast<std::uint64_t>(seeds), options.longest, engine, !options.no_costs && !is_short};
-}
-
-/// The longest step, since what is wrong with a step is that it is too long.
-void check_steps(const Scene& scene, const std::vector<double>& dts) {
-  if (dts.empty()) return;
-  const double longest = *std::max_element(dts.begin(), dts.end());
-  try {
-    (void)make_simulation(scene, FixedStep{"grid", longest});
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--dt {:g}: {}", longest, error.what()));
-  }
-}
-
 std::filesystem::path directory_for(const CompareCommandOptions& options) {
   if (!options.out.empty()) return options.out;
   return std::filesystem::path(options.scene.path).stem().string() + "-compare";
@@ -113,16 +86,13 @@ ExitCode compare_own(const CompareCommandOptions& options) {
 }
 
 ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& invocation) {
-  const CompareOptions study = checked(options);
+  const CompareOptions study = compare_options(options);
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const Scene scene = load(options.scene);
   require_known_effects(scene, "carom compare");
   (void)make_simulation(scene, study.engine);  // whatever is wrong with the scene is said before anything is written
   check_steps(scene, study.dts);
   std::optional<PlayChoice> play;
-  if (options.play && !scene.effects.neutral())
-    throw UsageError(fmt::format("{}: --play draws straight flights, and this scene asks for {}; leave one of the two out",
-                                 scene.source, words_beyond_the_rule(scene.effects)));
   if (options.play) play = checked_play(*options.play, scene);
   const std::string key = study_key(scene, study);
   const StopRequest stop;
@@ -187,6 +157,33 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
 }
 
 }  // namespace
+
+CompareOptions compare_options(const CompareCommandOptions& options) {
+  // One step of the user's own is the short study: one start, and no other sizes and densities.
+  const bool is_short = options.dts.size() == 1;
+  const std::int64_t seeds = options.seeds.value_or(is_short ? 1 : 8);
+  if (seeds < 1 || seeds > 10'000) throw UsageError(fmt::format("--seeds {}: it can be 1 to 10000", seeds));
+  if (!(options.longest > 0.0))
+    throw UsageError(fmt::format("--longest {:g}: a run takes some time; give a positive number", options.longest));
+  for (const double dt : options.dts)
+    if (!(dt > 0.0 && std::isfinite(dt))) throw UsageError(fmt::format("--dt {:g}: a time step must be positive and finite", dt));
+  const std::string& engine = checked_engine(options.scene);
+  if (engine != "auto" && engine != "fast" && engine != "textbook")
+    throw UsageError(fmt::format(
+        "--engine {}: every precision is compared anyway; choose auto, fast or textbook for the scene's own run", engine));
+  return {options.dts, static_cast<std::uint64_t>(seeds), options.longest, engine, !options.no_costs && !is_short};
+}
+
+void check_steps(const Scene& scene, const std::vector<double>& dts) {
+  if (dts.empty()) return;
+  // The longest step, since what is wrong with a step is that it is too long.
+  const double longest = *std::max_element(dts.begin(), dts.end());
+  try {
+    (void)make_simulation(scene, FixedStep{"grid", longest});
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--dt {:g}: {}", longest, error.what()));
+  }
+}
 
 ExitCode compare(const CompareCommandOptions& options, const Invocation& invocation) {
   try {

@@ -1,6 +1,7 @@
 #pragma once
 // carom compare SCENE: what accuracy costs, by exact events and in fixed steps.
 
+#include "studies/compare/compare.hpp"
 #include "terminal/command.hpp"
 #include "terminal/scene_options.hpp"
 
@@ -27,6 +28,13 @@ struct CompareCommandOptions {
   bool quiet = false;
   std::string progress = "auto";
 };
+/// Returns the study that the options ask for: with a single dt the short one. Throws UsageError where one of them is out of
+/// range.
+[[nodiscard]] CompareOptions compare_options(const CompareCommandOptions& options);
+
+/// Throws UsageError where the longest of these steps cannot be taken with this scene.
+void check_steps(const Scene& scene, const std::vector<double>& dts);
+
 ExitCode compare(const CompareCommandOptions& options, const Invocation& invocation);
 
 }  // namespace carom::cli

@@ -29,6 +29,9 @@ double step_in(const std::string& text, const std::string& number) {
 }  // namespace
 
 PlayChoice checked_play(const std::string& text, const Scene& scene) {
+  if (!scene.effects.neutral())
+    throw UsageError(fmt::format("{}: --play draws straight flights, and this scene asks for {}; leave one of the two out",
+                                 scene.source, words_beyond_the_rule(scene.effects)));
   PlayChoice choice;
   const std::size_t colon = text.find(':');
   if (!text.empty()) choice.method = text.substr(0, colon);

@@ -21,7 +21,8 @@ struct PlayChoice {
   std::optional<double> dt;  ///< empty: one of the study's
 };
 
-/// Throws UsageError where the text names no method, or no step that can be taken with this scene, or its disks are too many.
+/// Throws UsageError where the text names no method, or no step that can be taken with this scene, its disks are too many, or
+/// what acts on them bends their flights.
 [[nodiscard]] PlayChoice checked_play(const std::string& text, const Scene& scene);
 
 struct SideBySidePage {

@@ -49,18 +49,6 @@ void require_known(const HardCasesOptions& options) {
         fmt::format("--family {}: there is no such family; choose one of: {}", options.family, fmt::join(families, ", ")));
 }
 
-/// Returns the named cases, however long they take; without names, the corpus.
-std::vector<HardCase> chosen(const HardCasesOptions& options) {
-  std::vector<HardCase> cases;
-  for (const std::string& name : options.cases)
-    cases.push_back(name.ends_with(".toml") ? load_hard_case(name) : case_named(name));
-  if (!options.cases.empty()) return cases;
-  for (const HardCase& one : hard_case_corpus())
-    if ((options.family.empty() || one.family == options.family) && (options.takes_long || options.list || !one.takes_long))
-      cases.push_back(one);
-  return cases;
-}
-
 /// Runs the cases by a fixed-step method, whose errors are no failure of the program.
 ExitCode in_steps(const HardCasesOptions& options, const std::vector<HardCase>& cases) {
   std::vector<StepTrial> trials;
@@ -83,13 +71,25 @@ ExitCode exit_code_of(const std::vector<CaseVerdict>& verdicts) {
 
 }  // namespace
 
-ExitCode hardcases(const HardCasesOptions& options, const Invocation& invocation) {
+std::vector<HardCase> chosen_cases(const HardCasesOptions& options) {
   require_known(options);
+  std::vector<HardCase> cases;
+  for (const std::string& name : options.cases)
+    cases.push_back(name.ends_with(".toml") ? load_hard_case(name) : case_named(name));
+  if (!options.cases.empty()) return cases;
+  for (const HardCase& one : hard_case_corpus())
+    if ((options.family.empty() || one.family == options.family) && (options.takes_long || options.list || !one.takes_long))
+      cases.push_back(one);
+  return cases;
+}
+
+ExitCode hardcases(const HardCasesOptions& options, const Invocation& invocation) {
   if (!options.show.empty()) {
+    require_known(options);
     fmt::print("{}", case_named(options.show).text);
     return exit_done;
   }
-  const std::vector<HardCase> cases = chosen(options);
+  const std::vector<HardCase> cases = chosen_cases(options);
   if (options.list) {
     fmt::print("{}", hardcases_list(cases));
     return exit_done;

@@ -1,6 +1,7 @@
 #pragma once
 // carom hardcases: the corpus of hard cases, in every engine.
 
+#include "studies/hard_cases/hard_case.hpp"
 #include "terminal/command.hpp"
 
 #include <optional>
@@ -22,6 +23,10 @@ struct HardCasesOptions {
   std::string method;        ///< a fixed-step method in the place of the engines
   std::optional<double> dt;  ///< time step of the method; absent: from each case's speeds
 };
+/// Returns the named cases, however long they take; without names, the corpus. Throws UsageError where an option names none that
+/// there is.
+[[nodiscard]] std::vector<HardCase> chosen_cases(const HardCasesOptions& options);
+
 ExitCode hardcases(const HardCasesOptions& options, const Invocation& invocation);
 
 }  // namespace carom::cli

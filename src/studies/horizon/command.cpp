@@ -1,7 +1,6 @@
 // carom horizon SCENE: how far the scene's trajectory can be trusted, in a table and one sentence. Writes no files.
 
 #include "studies/horizon/command.hpp"
-#include "io/json.hpp"
 #include "studies/horizon/json.hpp"
 #include "studies/horizon/method.hpp"
 #include "studies/horizon/sentence.hpp"
@@ -9,7 +8,6 @@
 
 #include <fmt/format.h>
 #include <carom/simulation.hpp>
-#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <new>
@@ -19,19 +17,6 @@
 namespace carom::cli {
 
 namespace {
-
-std::string json_text(const Horizon& horizon, const Scene& scene) {
-  nlohmann::ordered_json json;
-  json["carom"] = detail::build_json();
-  json["scene"] = scene.source;
-  json["seed"] = scene.run.seed;
-  json["disks"] = scene.disk_count();
-  json["packing_fraction"] = scene.packing_fraction();
-  json["horizon"] = horizon_json(horizon);
-  json["sentence"] = sentence_of(horizon);
-  // A path need not be UTF-8, and JSON must be.
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
 
 ExitCode measure(const HorizonCommandOptions& options) {
   if (options.collisions == 0) throw UsageError("--collisions 0: an exponent needs some collisions");
@@ -55,7 +40,7 @@ ExitCode measure(const HorizonCommandOptions& options) {
   const Horizon horizon =
       horizon_with_progress(scene, *start, {.engine = engine, .lyapunov_collisions = options.collisions.value_or(0)}, mode, stop);
   if (options.json) {
-    fmt::print("{}\n", json_text(horizon, scene));
+    fmt::print("{}\n", horizon_study_json(horizon, scene));
   } else {
     fmt::print("{}{}\n", options.quiet ? "" : horizon_table(horizon, scene) + "\n", sentence_of(horizon));
   }

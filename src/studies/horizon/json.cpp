@@ -2,6 +2,7 @@
 
 #include "io/json.hpp"
 #include "io/output_error.hpp"
+#include "studies/horizon/sentence.hpp"
 
 #include <fmt/format.h>
 
@@ -115,6 +116,19 @@ Horizon horizon_of(const Json& json) {
   horizon.timed_until = number_in(json.at("timed_until")).value_or(0.0);
   horizon.ended = end_in(json.at("ended").get<std::string>());
   return horizon;
+}
+
+std::string horizon_study_json(const Horizon& horizon, const Scene& scene) {
+  Json json;
+  json["carom"] = detail::build_json();
+  json["scene"] = scene.source;
+  json["seed"] = scene.run.seed;
+  json["disks"] = scene.disk_count();
+  json["packing_fraction"] = scene.packing_fraction();
+  json["horizon"] = horizon_json(horizon);
+  json["sentence"] = sentence_of(horizon);
+  // A path need not be UTF-8, and JSON must be.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 void append(RunReport& report, const Horizon& horizon) { report.appended["horizon"] = horizon_json(horizon).dump(); }

@@ -27,20 +27,6 @@ namespace {
 /// validation.json comes last: where it is, the validation is complete.
 constexpr std::array<std::string_view, 3> validation_products = {"trials.jsonl", "report.html", "validation.json"};
 
-ValidateOptions checked(const ValidateCommandOptions& options) {
-  if (options.quick && options.full) throw UsageError("--quick and --full: give one of them");
-  // Each run of a trial has a seed of its own, which a scene must be able to hold.
-  constexpr std::int64_t most = 9'000'000'000'000;
-  if (options.seed < 0 || options.seed > most) throw UsageError(fmt::format("--seed {}: it can be 0 to {}", options.seed, most));
-  ValidateOptions chosen{.full = options.full, .seed = static_cast<std::uint64_t>(options.seed), .only = options.only};
-  try {
-    (void)chosen_trials(chosen);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--only {}: there is no such trial; carom validate --list names them all", error.what()));
-  }
-  return chosen;
-}
-
 Validation earlier_trials(const RunDirectory& directory, const std::string& key, const ValidateCommandOptions& options) {
   if (!options.resume) return {};
   try {
@@ -73,8 +59,22 @@ std::string lines_of(const TrialResult& result) {
 
 }  // namespace
 
+ValidateOptions validate_options(const ValidateCommandOptions& options) {
+  if (options.quick && options.full) throw UsageError("--quick and --full: give one of them");
+  // Each run of a trial has a seed of its own, which a scene must be able to hold.
+  constexpr std::int64_t most = 9'000'000'000'000;
+  if (options.seed < 0 || options.seed > most) throw UsageError(fmt::format("--seed {}: it can be 0 to {}", options.seed, most));
+  ValidateOptions chosen{.full = options.full, .seed = static_cast<std::uint64_t>(options.seed), .only = options.only};
+  try {
+    (void)chosen_trials(chosen);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--only {}: there is no such trial; carom validate --list names them all", error.what()));
+  }
+  return chosen;
+}
+
 ExitCode validate(const ValidateCommandOptions& options, const Invocation& invocation) {
-  const ValidateOptions chosen = checked(options);
+  const ValidateOptions chosen = validate_options(options);
   if (options.list) {
     fmt::print("{}", list());
     return exit_done;

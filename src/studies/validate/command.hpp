@@ -1,6 +1,7 @@
 #pragma once
 // carom validate: measurements held against known results.
 
+#include "studies/validate/validation.hpp"
 #include "terminal/command.hpp"
 
 #include <cstdint>
@@ -23,6 +24,9 @@ struct ValidateCommandOptions {
   bool quiet = false;
   std::string progress = "auto";
 };
+/// Returns the validation that the options ask for. Throws UsageError where one of them is out of range.
+[[nodiscard]] ValidateOptions validate_options(const ValidateCommandOptions& options);
+
 ExitCode validate(const ValidateCommandOptions& options, const Invocation& invocation);
 
 }  // namespace carom::cli
