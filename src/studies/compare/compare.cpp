@@ -277,11 +277,12 @@ class Study {
     Simulation simulation = begin(scene_, start, method);
     run.setup_seconds = thread_seconds() - made;
     double speeds = 0.0;
+    const auto proceed = [&] { return going_on(doing_, fraction_); };
     for (std::uint64_t k = 1; k <= samples; ++k) {
-      if (!going_on(doing_, fraction_)) return std::nullopt;
-      const double began = thread_seconds();
-      simulation.run_until_sample(k, plan.sample_step);
-      run.seconds += thread_seconds() - began;
+      if (!proceed()) return std::nullopt;
+      run.seconds +=
+          seconds_of([&](const RunLimits& limits) { simulation.run_until_sample(k, plan.sample_step, limits); }, proceed);
+      if (stopped_) return std::nullopt;
       if (k == plan.early) run.seconds_early = run.seconds;
       const State state = simulation.state();
       run.error.push_back(reference.rms_distance(k, state) / plan.sigma);
@@ -291,7 +292,8 @@ class Study {
     }
     run.time = simulation.time();
     if (run.seconds < least_seconds) {  // too short for a clock: again, undisturbed
-      const RunSeconds least = seconds_of_run(scene_, start, method, {plan.early_time(), run.time});
+      const RunSeconds least = seconds_of_run(scene_, start, method, {plan.early_time(), run.time}, proceed);
+      if (stopped_) return std::nullopt;
       run.setup_seconds = std::min(run.setup_seconds, least.setup);
       run.seconds_early = least.until[0];
       run.seconds = least.until[1];

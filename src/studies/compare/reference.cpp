@@ -14,8 +14,7 @@ Reference::Reference(const Scene& scene, const State& start, double step, std::u
     : box_(scene.box) {
   Simulation exact = make_simulation(scene, start, "textbook-quad");
   for (std::uint64_t k = 1; k <= samples; ++k) {
-    if (!proceed()) return;
-    exact.run_until_sample(k, step);
+    if (!proceed() || exact.run_until_sample(k, step, {.proceed = proceed}) == StopReason::interrupted) return;
     State state = exact.state();
     energies_.push_back(total_energy(scene.box, scene.effects, exact.disks(), state));
     state.velocities.resize(2, 0);  // not asked for, and half of the memory

@@ -12,7 +12,8 @@ namespace carom {
 
 class Reference {
  public:
-  /// Samples at k * step, k = 1 to `samples`. `proceed` is asked at each; false ends it, and complete() is then false.
+  /// Samples at k * step, k = 1 to `samples`. `proceed` is asked at each, and some twenty times a second
+  /// between them; false ends it, and complete() is then false.
   Reference(const Scene& scene, const State& start, double step, std::uint64_t samples, const std::function<bool()>& proceed);
 
   [[nodiscard]] bool complete() const { return complete_; }

@@ -275,9 +275,16 @@ class HorizonSearch {
     for (std::size_t k = 0; k < result_.rows.size() && result_.timed_until > 0.0; ++k) {
       HorizonRow& row = result_.rows[k];
       const double done = static_cast<double>(k) / static_cast<double>(result_.rows.size());
-      if (!proceed("timing " + row.engine, lyapunov_share + lockstep_share + (1.0 - lyapunov_share - lockstep_share) * done))
-        break;
-      row.seconds = seconds_of_run(scene_, start_, {row.engine}, {result_.timed_until}).until.front();
+      bool stopped = false;
+      const auto go_on = [&] {
+        const double share = lyapunov_share + lockstep_share + (1.0 - lyapunov_share - lockstep_share) * done;
+        stopped = stopped || !proceed("timing " + row.engine, share);
+        return !stopped;
+      };
+      if (!go_on()) break;
+      const double seconds = seconds_of_run(scene_, start_, {row.engine}, {result_.timed_until}, go_on).until.front();
+      if (stopped) break;
+      row.seconds = seconds;
       if (row.engine == "textbook") base = row.seconds;
     }
     for (HorizonRow& row : result_.rows) row.price = base > 0.0 ? row.seconds / base : 0.0;

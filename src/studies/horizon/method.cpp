@@ -50,7 +50,23 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-RunSeconds seconds_of_run(const Scene& scene, const State& start, const Method& method, const std::vector<double>& times) {
+double seconds_of(const std::function<void(const RunLimits& limits)>& run, const std::function<bool()>& proceed) {
+  double asking = 0.0;
+  RunLimits limits;
+  if (proceed)
+    limits.proceed = [&] {
+      const double asked = thread_seconds();
+      const bool may_go_on = proceed();
+      asking += thread_seconds() - asked;
+      return may_go_on;
+    };
+  const double began = thread_seconds();
+  run(limits);
+  return thread_seconds() - began - asking;
+}
+
+RunSeconds seconds_of_run(const Scene& scene, const State& start, const Method& method, const std::vector<double>& times,
+                          const std::function<bool()>& proceed) {
   constexpr double never = std::numeric_limits<double>::infinity();
   RunSeconds least{never, std::vector<double>(times.size(), never)};
   double spent = 0.0;
@@ -60,9 +76,7 @@ RunSeconds seconds_of_run(const Scene& scene, const State& start, const Method& 
     least.setup = std::min(least.setup, thread_seconds() - made);
     double seconds = 0.0;
     for (std::size_t k = 0; k < times.size(); ++k) {
-      const double began = thread_seconds();
-      simulation.run_until(times[k]);
-      seconds += thread_seconds() - began;
+      seconds += seconds_of([&](const RunLimits& limits) { simulation.run_until(times[k], limits); }, proceed);
       least.until[k] = std::min(least.until[k], seconds);
     }
     spent += seconds;

@@ -38,6 +38,10 @@ struct Method {
 /// Processor time of this thread, in seconds from some zero.
 [[nodiscard]] double thread_seconds();
 
+/// Returns the processor time of `run` in seconds, without that in which `proceed` was asked whether it may go on. `run` is given
+/// the limits that ask.
+[[nodiscard]] double seconds_of(const std::function<void(const RunLimits& limits)>& run, const std::function<bool()>& proceed);
+
 /// Processor time of one run, in seconds.
 struct RunSeconds {
   double setup = 0.0;         ///< to make the simulation, before its first step or event
@@ -45,8 +49,8 @@ struct RunSeconds {
 };
 
 /// Returns the processor time that `method` takes from `start` to each of `times` (ascending): the least of a few runs, since
-/// what disturbs only adds.
+/// what disturbs only adds. `proceed` is asked some twenty times a second; where it has said stop, the seconds mean nothing.
 [[nodiscard]] RunSeconds seconds_of_run(const Scene& scene, const State& start, const Method& method,
-                                        const std::vector<double>& times);
+                                        const std::vector<double>& times, const std::function<bool()>& proceed = {});
 
 }  // namespace carom

@@ -54,6 +54,7 @@ const std::vector<double>& Found::column(const std::string& observable, const st
 
 Found run(const Scene& scene, const Effort& effort, TrialResult& result, std::vector<std::unique_ptr<Observable>> own,
           const Change& change) {
+  if (effort.proceed && !effort.proceed()) throw Interrupted{};  // short runs are not asked on their way
   result.scenes.push_back(resolved_toml(scene));
   Simulation simulation = make_simulation(scene);
   if (change) {
