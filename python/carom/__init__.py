@@ -20,6 +20,18 @@ from carom.runs import Result, Run, open_run, resume, run
 from carom.scene import Check, Scene, build, presets
 from carom.simulation import CollidingPair, Simulation, Stop, engines, fixed_step_methods
 from carom.starts import Start, read_start
+from carom.studies import (
+    Comparison,
+    Horizon,
+    Validation,
+    beside,
+    compare,
+    hard_case_names,
+    hardcases,
+    horizon,
+    validate,
+    validation_trials,
+)
 
 __version__ = build()["version"]
 
@@ -29,8 +41,10 @@ __all__ = [
     "Blocking",
     "Check",
     "CollidingPair",
+    "Comparison",
     "Event",
     "Frames",
+    "Horizon",
     "Interrupted",
     "Measurement",
     "Number",
@@ -45,16 +59,24 @@ __all__ = [
     "Simulation",
     "Start",
     "State",
-    "StoppedEarly",
     "Stop",
+    "StoppedEarly",
     "Table",
+    "Validation",
+    "beside",
     "build",
+    "compare",
     "engines",
     "fixed_step_methods",
+    "hard_case_names",
+    "hardcases",
+    "horizon",
     "open_run",
     "partner_name",
     "presets",
     "read_start",
     "resume",
     "run",
+    "validate",
+    "validation_trials",
 ]

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from carom.runs import Result
+    from carom.studies import Validation
 
 
 class SceneError(ValueError):
@@ -33,17 +34,18 @@ class OutputError(OSError):
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C has ended `carom.run()`. `result` holds all until then, and its files are complete.
+    """Ctrl-C has ended `carom.run()` or `carom.validate()`. `result` holds all until then, and its files are complete.
 
     Attributes:
-        result: what the run has measured so far.
+        result: what the run has measured so far; of a validation the trials that are finished.
     """
 
-    def __init__(self, result: Result) -> None:
-        super().__init__(f"interrupted at time {result.time:g}")
+    def __init__(self, result: Result | Validation) -> None:
+        time = getattr(result, "time", None)
+        super().__init__("interrupted" if time is None else f"interrupted at time {time:g}")
         self.result = result
 
-    def __reduce__(self) -> tuple[type[Interrupted], tuple[Result]]:
+    def __reduce__(self) -> tuple[type[Interrupted], tuple[Result | Validation]]:
         return type(self), (self.result,)
 
 

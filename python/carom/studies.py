@@ -1,0 +1,455 @@
+"""What accuracy costs, how far a trajectory can be trusted, and whether the engine holds against theory and hard cases.
+
+The studies are the program's, `carom compare`, `horizon`, `validate` and `hardcases`, with the same numbers and sentences.
+"""
+
+from __future__ import annotations
+
+import html
+import math
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from carom import _arguments
+from carom._errors import Interrupted, SceneError
+from carom._progress import Progress, reporting
+from carom.results import Number, Table
+from carom.scene import SceneLike, as_scene
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from carom.pages import Page
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """What accuracy costs: one start moved by exact events and in fixed steps, each held against 113 bits.
+
+    Attributes:
+        summary: everything in numbers, with the keys of compare.json (docs/output.md).
+        runs: a row for each run of a method from one start, with the columns of compare.csv. Errors are in mean diameters, clocks in
+            seconds of processor time.
+        prices: a row for each method and target: processor time over that of the exact engine.
+    """
+
+    summary: dict[str, Any]
+    runs: Table = field(repr=False)
+    prices: Table = field(repr=False)
+    _text: str = field(repr=False)
+    _html: str = field(repr=False)
+
+    @property
+    def sentences(self) -> list[str]:
+        """The answer in sentences, the most important first."""
+        return list(self.summary["sentences"])
+
+    @property
+    def answers(self) -> dict[str, Any]:
+        """The answers in numbers: the exact engine, its time and error, the order of the fixed steps, where they are cheaper."""
+        return dict(self.summary["answers"])
+
+    @property
+    def best_fixed_step(self) -> str | None:
+        """The fixed-step method that is cheapest for an error of 1e-6 diameters; None where none comes so far."""
+        best: str | None = self.summary["best_fixed_step"]
+        return best
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws error against cost, a line for each method: how long it computes for which error. Needs matplotlib.
+
+        Args:
+            ax: where to draw; None: a figure of its own.
+        """
+        import matplotlib.pyplot as plt
+
+        axes = plt.subplots()[1] if ax is None else ax
+        methods: dict[str, list[tuple[float, float]]] = {}
+        for one in self.summary["summary"]:
+            error, seconds = one["error_early"]["median"], one["seconds_early"]
+            if error and seconds:  # an error of 0 has no place on a logarithmic axis
+                methods.setdefault(one["method"], []).append((seconds, error))
+        exact = {one["method"] for one in self.summary["summary"] if one["dt"] == 0}
+        for name, points in methods.items():
+            seconds, errors = zip(*points, strict=True)
+            style: dict[str, Any] = {"linestyle": "none", "marker": "*", "markersize": 11} if name in exact else {"marker": "."}
+            axes.plot(seconds, errors, label=name, **style)
+        axes.set(xscale="log", yscale="log")
+        until = self.summary["plan"]["early_time"]
+        axes.set_xlabel(f"processor time until t = {until:.4g} (s)")
+        axes.set_ylabel("rms error of positions there (mean diameters)")
+        axes.legend(fontsize="small")
+        return axes
+
+    def page(self) -> Page:
+        """Returns the page that `carom compare` writes as report.html."""
+        return _page(self._html, "What accuracy costs")
+
+    def __str__(self) -> str:
+        return self._text.rstrip("\n")
+
+    def _repr_html_(self) -> str:
+        return _paragraphs(self.sentences) + self.prices._repr_html_()
+
+
+@dataclass(frozen=True, eq=False)
+class Horizon:
+    """How far a trajectory can be trusted: the same start in 24, 53, 64 and 113 bits, each held against the next better one.
+
+    Attributes:
+        summary: everything in numbers, as `carom horizon --json` prints it.
+        sentence: until when the trajectory is right, in one sentence.
+        rows: a row for each precision. `time` is the time until which positions are right, nan where they are to the end or that is
+            not known; `estimated` says whether it is extrapolated. `first_difference` is the number of the first collision that
+            differs, counted from 1, nan where none does; `price` is processor time over that of double precision.
+        lyapunov: the largest Lyapunov exponent, 1 / time; None where disks collide too rarely.
+    """
+
+    summary: dict[str, Any]
+    sentence: str
+    rows: Table = field(repr=False)
+    lyapunov: Number | None
+    _text: str = field(repr=False)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws the time until which each precision is right over its bits. Needs matplotlib.
+
+        Args:
+            ax: where to draw; None: a figure of its own.
+        """
+        import matplotlib.pyplot as plt
+
+        axes = plt.subplots()[1] if ax is None else ax
+        for estimated, label in ((False, "measured"), (True, "extrapolated")):
+            chosen = self.rows["estimated"] == estimated
+            face = "none" if estimated else None
+            axes.plot(self.rows["bits"][chosen], self.rows["time"][chosen], "o", markerfacecolor=face, label=label)
+        for bits, time, engine in zip(self.rows["bits"], self.rows["time"], self.rows["engine"], strict=True):
+            if not math.isnan(time):
+                axes.annotate(f" {engine}", (bits, time), fontsize="small", verticalalignment="bottom")
+        axes.set_xlabel("bits of the significand")
+        axes.set_ylabel(f"right until (time), every disk within {self.summary['horizon']['tolerance']:g} diameters")
+        axes.legend()
+        return axes
+
+    def __str__(self) -> str:
+        return self._text + "\n" + self.sentence
+
+    def _repr_html_(self) -> str:
+        return _paragraphs([self.sentence]) + self.rows._repr_html_()
+
+
+@dataclass(frozen=True, eq=False)
+class Validation:
+    """The engine held against kinetic theory and the literature.
+
+    Attributes:
+        summary: everything in numbers, with the keys of validation.json (docs/output.md).
+        checks: a row for each check. `z` is the whole difference in standard errors; the verdict allows for the `allowance`, the bound
+            on the error of the theory itself.
+        sentence: how many checks there are, and whether all hold.
+        complete: whether every trial has run.
+    """
+
+    summary: dict[str, Any]
+    checks: Table = field(repr=False)
+    sentence: str
+    complete: bool
+    _html: str = field(repr=False)
+
+    @property
+    def failed(self) -> int:
+        """The number of checks that do not hold."""
+        return int(self.summary["failed"])
+
+    @property
+    def passed(self) -> bool:
+        """Whether every trial has run and every check holds."""
+        return self.complete and self.failed == 0
+
+    def page(self) -> Page:
+        """Returns the page that `carom validate` writes as report.html."""
+        return _page(self._html, "Validation")
+
+    def __str__(self) -> str:
+        return f"{self.checks}\n\n{self.sentence}"
+
+    def _repr_html_(self) -> str:
+        return _paragraphs([self.sentence]) + self.checks._repr_html_()
+
+
+def compare(
+    scene: SceneLike,
+    *,
+    seeds: int | None = None,
+    dts: float | Sequence[float] | None = None,
+    longest: float = 0.3,
+    engine: str = "auto",
+    costs: bool = True,
+    progress: Progress | None = None,
+) -> Comparison:
+    """Measures what accuracy costs: exact events in four precisions, and all fixed-step methods over a ladder of steps.
+
+    A run of a minute or more for some dozens of disks; `dts=0.001` is the short study.
+
+    Args:
+        scene: a Scene, the path of a scene file, or a mapping.
+        seeds: the number of starts, the scene's seed and those after it; None: 8, or 1 with a single step.
+        dts: time steps; None: three per decade, from two mean free times down. A single one is the short study: one start, and no
+            other sizes and densities.
+        longest: seconds of processor time that one run may take; longer ones are left out.
+        engine: of the scene's own run: "auto", "fast" or "textbook".
+        costs: whether the cost of other sizes and densities is measured too.
+        progress: True for a bar (needs tqdm), or a function of the fraction done.
+
+    Raises:
+        SceneError: where the scene is wrong; ValueError: where an argument is, or something acts that fixed steps do not know.
+    """
+    import csv
+    import io
+    import json
+
+    from carom import _files
+
+    steps = [] if dts is None else _arguments.numbers(np.atleast_1d(dts), "dts").tolist()
+    starts = None if seeds is None else _arguments.whole(seeds, "seeds")
+    limit = _arguments.real(longest, "longest")
+    core = as_scene(scene)._core
+    with _sentences(), reporting(progress, "compare") as tell:
+        parts = _files.compare(core, steps, starts, limit, _arguments.words(engine, "engine"), bool(costs), tell)
+    summary: dict[str, Any] = json.loads(parts[0])
+    header, *rows = csv.reader(io.StringIO(parts[1]))
+    runs = {name: _column([row[k] for row in rows], name) for k, name in enumerate(header)}
+    return Comparison(summary, Table(runs, _UNITS_OF_RUNS, "Runs"), _prices(summary["prices"]), parts[2], parts[3])
+
+
+def horizon(
+    scene: SceneLike, *, engine: str = "auto", collisions: int | None = None, progress: Progress | None = None
+) -> Horizon:
+    """Measures how far a scene's trajectory can be trusted.
+
+    Args:
+        scene: a Scene, the path of a scene file, or a mapping.
+        engine: the one that is to run the scene, whose precision the sentence is about: "auto", or one of `carom.engines()`.
+        collisions: pair collisions over which the Lyapunov exponent is measured; None: half a million, or 100 per disk.
+        progress: True for a bar (needs tqdm), or a function of the fraction done.
+
+    Raises:
+        SceneError: where the scene is wrong; ValueError: where an argument is, or something acts that the study does not know.
+    """
+    import json
+
+    from carom import _files
+
+    core = as_scene(scene)._core
+    count = None if collisions is None else _arguments.whole(collisions, "collisions")
+    with _sentences(), reporting(progress, "horizon") as tell:
+        text, table, sentence = _files.horizon(core, _arguments.words(engine, "engine"), count, tell)
+    summary: dict[str, Any] = json.loads(text)
+    rows = summary["horizon"]["rows"]
+    columns: dict[str, npt.ArrayLike] = {
+        "engine": _words(row["engine"] for row in rows),
+        "bits": [row["bits"] for row in rows],
+        "against": _words(row["against"] or "" for row in rows),
+        "time": _numbers(row["time"] for row in rows),
+        "collisions_per_disk": _numbers(row["collisions_per_disk"] for row in rows),
+        "estimated": [row["estimated"] for row in rows],
+        "first_difference": _numbers(row["first_difference"] and row["first_difference"]["index"] + 1 for row in rows),
+        "first_difference_time": _numbers(row["first_difference"] and row["first_difference"]["time"] for row in rows),
+        "seconds": _numbers(row["seconds"] for row in rows),
+        "price": _numbers(row["price"] for row in rows),
+    }
+    units = {"time": "time", "first_difference_time": "time", "seconds": "s"}
+    exponent = summary["horizon"]["lyapunov"]
+    lyapunov = exponent and Number(exponent["per_time"], exponent["per_time_error"], "1 / time")
+    return Horizon(summary, sentence, Table(columns, units, "Horizons"), lyapunov, table)
+
+
+def beside(scene: SceneLike, method: str = "guarded", *, engine: str = "auto", progress: Progress | None = None) -> Page:
+    """Returns a page on which exact events and a fixed-step method fly side by side from one start, to be watched.
+
+    Args:
+        scene: a Scene, the path of a scene file, or a mapping.
+        method: "naive:0.001": one of `carom.fixed_step_methods()`, and after a colon its step; without, a step that lets errors be seen.
+        engine: of the exact side: "auto", "fast" or "textbook".
+        progress: True for a bar (needs tqdm), or a function of the fraction done.
+
+    Raises:
+        ValueError: where there is no such method or step, disks are too many to be told apart, or their flights are not straight.
+    """
+    from carom import _files
+
+    core = as_scene(scene)._core
+    method, engine = _arguments.words(method, "method"), _arguments.words(engine, "engine")
+    with _sentences(play="method"), reporting(progress, "beside") as tell:
+        return _page(_files.side_by_side(core, method, engine, tell), "Exact events and fixed steps")
+
+
+def validate(*, full: bool = False, only: Sequence[str] = (), seed: int = 1, progress: Progress | None = None) -> Validation:
+    """Holds the engine against kinetic theory and the literature. Takes a minute; a full one takes twenty.
+
+    Args:
+        full: twenty times the collisions, and trials of its own.
+        only: names of trials, of `carom.validation_trials()`; none: all.
+        seed: of the random numbers, 0 to 9e12.
+        progress: True for a bar (needs tqdm), or a function of the fraction done.
+
+    Raises:
+        Interrupted: on Ctrl-C; its `result` is a Validation that holds the finished trials.
+        ValueError: where an argument is wrong.
+    """
+    import json
+
+    from carom import _files
+
+    names = [_arguments.words(name, "only") for name in ([only] if isinstance(only, str) else only)]
+    number = _arguments.whole(seed, "seed")
+    with _sentences(), reporting(progress, "validate") as tell:
+        text, verdicts, sentence, page, complete = _files.validate(bool(full), names, number, tell)
+    summary: dict[str, Any] = json.loads(text)
+    checks = [{"trial": trial["trial"], **check} for trial in summary["trials"] for check in trial["checks"]]
+    columns: dict[str, npt.ArrayLike] = {name: _words(check[name] for check in checks) for name in ("trial", "name")}
+    columns |= {name: _numbers(check[name] for check in checks) for name in ("expected", "measured", "error", "z")}
+    columns["verdict"] = _words(verdicts)
+    columns["holds"] = np.array([check["holds"] for check in checks], dtype=bool)
+    columns["allowance"] = _numbers(check["allowance"] for check in checks)
+    columns |= {name: _words(check[name] for check in checks) for name in ("theory", "source")}
+    validation = Validation(summary, Table(columns, title="Checks"), sentence, complete, page)
+    if not complete:
+        raise Interrupted(validation)
+    return validation
+
+
+def validation_trials(full: bool = False) -> list[str]:
+    """Returns the names of the trials of a quick or a full validation, for `carom.validate(only=...)`."""
+    from carom import _files
+
+    return _files.validation_trials(full)
+
+
+def hardcases(
+    names: str | PathLike[str] | Sequence[str | PathLike[str]] | None = None, *, engine: str = "auto", progress: Progress | None = None
+) -> Table:
+    """Runs hard cases, and says of each whether what must hold does.
+
+    >>> carom.hardcases("all_at_rest")["verdict"].tolist()
+    ['holds']
+
+    Args:
+        names: of `carom.hard_case_names()`, or paths of files of one's own that end in .toml; None: all but those that take long.
+        engine: every case in this one alone; "auto": in each that covers it.
+        progress: True for a bar (needs tqdm), or a function of the fraction done.
+
+    Returns:
+        A row for each case: its name, family and statement, the engines, the number of checks, what was nearest to its bound or beyond,
+        the verdict ("holds", "FAILS" or "not run"), and seconds.
+
+    Raises:
+        ValueError: where there is no such case or engine; SceneError: where a file is none.
+    """
+    from carom import _files
+
+    chosen = [_arguments.words(fspath(name), "names") for name in ([names] if isinstance(names, (str, PathLike)) else names or [])]
+    with _sentences(), reporting(progress, "hardcases") as tell:
+        rows, sentence = _files.hard_cases(chosen, _arguments.words(engine, "engine"), tell)
+    columns: dict[str, npt.ArrayLike] = {
+        name: _words(row[k] for row in rows) for k, name in enumerate(("case", "family", "statement", "engines"))
+    }
+    columns["checks"] = [row[4] for row in rows]
+    columns |= {name: _words(row[k] for row in rows) for k, name in ((5, "nearest_to_its_bound"), (6, "verdict"))}
+    columns["seconds"] = [row[7] for row in rows]
+    return Table(columns, {"seconds": "s"}, sentence)
+
+
+def hard_case_names() -> list[str]:
+    """Returns the names of all hard cases, for `carom.hardcases()`."""
+    from carom import _files
+
+    return _files.hard_case_names()
+
+
+#: Units of the columns of compare.csv; counts, ratios and errors in diameters have none.
+_UNITS_OF_RUNS = {
+    "dt": "time",
+    "time": "time",
+    "setup_seconds": "s",
+    "seconds_early": "s",
+    "seconds": "s",
+    "error_early": "diameters",
+    "error_end": "diameters",
+    "collision_rate": "1 / time",
+    "mean_free_path": "length",
+}
+
+#: Words of the program's sentences, and what stands for them in Python.
+_IN_PYTHON = {
+    "carom validate --list": "carom.validation_trials()",
+    "carom hardcases --list": "carom.hard_case_names()",
+    "--play draws straight flights": "the page draws straight flights",
+    ", or leave --play out": "",
+}
+
+
+@contextmanager
+def _sentences(**names: str) -> Iterator[None]:
+    """Lets sentences of the program name arguments of Python in place of its options: "seeds=0: ..." in place of "--seeds 0: ...".
+    `names` are arguments that are not called as the option is."""
+    try:
+        yield
+    except SceneError:
+        raise
+    except ValueError as error:
+        sentence = str(error)
+        for program, python in _IN_PYTHON.items():
+            sentence = sentence.replace(program, python)
+        names = {"dt": "dts", **names}
+
+        def argument(found: re.Match[str]) -> str:
+            name = names.get(found[1], found[1])
+            return f"{name}={found[2]}:" if found[2] else name
+
+        raise ValueError(re.sub(r"--([a-z]+)(?: ([^ ]*):)?", argument, sentence)) from None
+
+
+def _page(text: str, title: str) -> Page:
+    from carom.pages import Page
+
+    return Page(text, title)
+
+
+def _paragraphs(sentences: Sequence[str]) -> str:
+    return "".join(f"<p>{html.escape(sentence)}</p>" for sentence in sentences)
+
+
+def _words(values: Any) -> npt.NDArray[Any]:
+    return np.array(list(values), dtype=object)
+
+
+def _numbers(values: Any) -> npt.NDArray[np.float64]:
+    return np.array([math.nan if value is None else value for value in values], dtype=np.float64)
+
+
+def _column(cells: list[str], name: str) -> npt.NDArray[Any]:
+    """A column of compare.csv: words, whole numbers, or numbers with nan for an empty cell."""
+    if name == "method":
+        return _words(cells)
+    if name in ("seed", "pair"):
+        return np.array([int(cell) for cell in cells])
+    return _numbers(float(cell) if cell else None for cell in cells)
+
+
+def _prices(prices: list[dict[str, Any]]) -> Table:
+    columns: dict[str, npt.ArrayLike] = {name: _words(price[name] for price in prices) for name in ("method", "target")}
+    columns["ratio"] = _numbers(price["ratio"] for price in prices)
+    for k, name in enumerate(("lowest", "highest")):
+        columns[name] = _numbers(price["spread"] and price["spread"][k] for price in prices)
+    columns |= {name: _numbers(price[name] for price in prices) for name in ("dt", "seconds", "extrapolation")}
+    columns["remark"] = _words(price["remark"] for price in prices)
+    return Table(columns, {"dt": "time", "seconds": "s"}, "Price: processor time over that of the exact engine")
