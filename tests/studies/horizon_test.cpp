@@ -263,7 +263,7 @@ TEST(SlowHorizon, OfDisksWithoutRoomEnds) {
   const Horizon horizon = horizon_of(scene);
   EXPECT_EQ(horizon.ended, HorizonEnd::stuck);
   EXPECT_EQ(horizon.time, 0.0);
-  EXPECT_THAT(sentence_of(horizon), HasSubstr("disks without room"));
+  EXPECT_THAT(sentence_of(horizon), HasSubstr("jammed disks collided without end"));
 }
 
 // ---------------------------------------------------------------------------------------------- how states and logs differ
