@@ -2,10 +2,10 @@
 // cost.
 
 #include "app/commands.hpp"
-#include "runner/expected_cost.hpp"
 #include "app/scene_description.hpp"
 #include "observe/mechanics.hpp"
 #include "pages/scene_words.hpp"
+#include "runner/expected_cost.hpp"
 #include "scene/drawn.hpp"
 #include "text/numbers.hpp"
 

@@ -1,8 +1,8 @@
 // The table of effects against what the engines do: what each effect conserves, and the memory that it takes.
 
-#include "runner/expected_cost.hpp"
 #include "observe/mechanics.hpp"
 #include "pages/scene_words.hpp"
+#include "runner/expected_cost.hpp"
 #include "scene/effect_traits.hpp"
 #include "support/effect_scenes.hpp"
 #include "support/scenes.hpp"
