@@ -5,7 +5,6 @@ The studies are the program's, `carom compare`, `horizon`, `validate` and `hardc
 
 from __future__ import annotations
 
-import html
 import math
 import re
 from collections.abc import Iterator, Sequence
@@ -20,13 +19,12 @@ import numpy.typing as npt
 from carom import _arguments
 from carom._errors import Interrupted, SceneError
 from carom._progress import Progress, reporting
+from carom.pages import Page
 from carom.results import Number, Table
 from carom.scene import SceneLike, as_scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from carom.pages import Page
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +88,7 @@ class Comparison:
 
     def page(self) -> Page:
         """Returns the page that `carom compare` writes as report.html."""
-        return _page(self._html, "What accuracy costs")
+        return Page(self._html)
 
     def __str__(self) -> str:
         return self._text.rstrip("\n")
@@ -176,7 +174,7 @@ class Validation:
 
     def page(self) -> Page:
         """Returns the page that `carom validate` writes as report.html."""
-        return _page(self._html, "Validation")
+        return Page(self._html)
 
     def __str__(self) -> str:
         return f"{self.checks}\n\n{self.sentence}"
@@ -289,7 +287,7 @@ def beside(scene: SceneLike, method: str = "guarded", *, engine: str = "auto", p
     core = as_scene(scene)._core
     method, engine = _arguments.words(method, "method"), _arguments.words(engine, "engine")
     with _sentences(play="method"), reporting(progress, "beside") as tell:
-        return _page(_files.side_by_side(core, method, engine, tell), "Exact events and fixed steps")
+        return Page(_files.side_by_side(core, method, engine, tell))
 
 
 def validate(*, full: bool = False, only: Sequence[str] = (), seed: int = 1, progress: Progress | None = None) -> Validation:
@@ -418,13 +416,9 @@ def _sentences(**names: str) -> Iterator[None]:
         raise ValueError(re.sub(r"--([a-z]+)(?: ([^ ]*):)?", argument, sentence)) from None
 
 
-def _page(text: str, title: str) -> Page:
-    from carom.pages import Page
-
-    return Page(text, title)
-
-
 def _paragraphs(sentences: Sequence[str]) -> str:
+    import html
+
     return "".join(f"<p>{html.escape(sentence)}</p>" for sentence in sentences)
 
 

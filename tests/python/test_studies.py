@@ -110,9 +110,14 @@ def test_a_horizon_has_the_programs_numbers(horizon, scene, program):
 
 
 def test_a_page_of_two_sides(scene):
-    pytest.importorskip("carom.pages")
     page = carom.beside(scene, "naive:0.02")
-    assert isinstance(page, carom.Page) and "naive" in page.html
+    assert isinstance(page, carom.Page) and "naive" in page.html and "<iframe" in page._repr_html_()
+
+
+def test_studies_have_the_programs_pages(comparison):
+    page = comparison.page()
+    assert isinstance(page, carom.Page) and page.html.startswith("<!doctype html>")
+    assert carom.validate(only="grid-0.02").page().html.startswith("<!doctype html>")
 
 
 def test_a_validation_has_the_programs_numbers(program, tmp_path):
