@@ -32,6 +32,7 @@ from carom.studies import (
     validate,
     validation_trials,
 )
+from carom.sweeps import Sweep, sweep
 
 __version__ = build()["version"]
 
@@ -61,6 +62,7 @@ __all__ = [
     "State",
     "Stop",
     "StoppedEarly",
+    "Sweep",
     "Table",
     "Validation",
     "beside",
@@ -77,6 +79,7 @@ __all__ = [
     "read_start",
     "resume",
     "run",
+    "sweep",
     "validate",
     "validation_trials",
 ]

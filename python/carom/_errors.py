@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from carom.runs import Result
     from carom.studies import Validation
+    from carom.sweeps import Sweep
 
 
 class SceneError(ValueError):
@@ -34,18 +35,18 @@ class OutputError(OSError):
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C has ended `carom.run()` or `carom.validate()`. `result` holds all until then, and its files are complete.
+    """Ctrl-C has ended `carom.run()`, `carom.sweep()` or `carom.validate()`. `result` holds all until then, and its files are complete.
 
     Attributes:
-        result: what the run has measured so far; of a validation the trials that are finished.
+        result: what the run has measured so far; of a sweep the runs, of a validation the trials that are finished.
     """
 
-    def __init__(self, result: Result | Validation) -> None:
+    def __init__(self, result: Result | Sweep | Validation) -> None:
         time = getattr(result, "time", None)
         super().__init__("interrupted" if time is None else f"interrupted at time {time:g}")
         self.result = result
 
-    def __reduce__(self) -> tuple[type[Interrupted], tuple[Result | Validation]]:
+    def __reduce__(self) -> tuple[type[Interrupted], tuple[Result | Sweep | Validation]]:
         return type(self), (self.result,)
 
 

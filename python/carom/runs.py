@@ -367,8 +367,7 @@ def _teller(scene: Scene, tell: Any) -> Any:
     end, collisions = scene._core.time, scene.to_dict()["run"].get("collisions")
 
     def told(now: float, done: int, equilibrating: bool) -> None:
-        if not equilibrating:
-            tell(max(now / end if end else 0.0, done / collisions if collisions else 0.0))
+        tell(0.0 if equilibrating else max(now / end if end else 0.0, done / collisions if collisions else 0.0))
 
     return told
 

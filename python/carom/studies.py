@@ -33,8 +33,8 @@ class Comparison:
 
     Attributes:
         summary: everything in numbers, with the keys of compare.json (docs/output.md).
-        runs: a row for each run of a method from one start, with the columns of compare.csv. Errors are in mean diameters, clocks in
-            seconds of processor time.
+        runs: a row for each run of a method from one start, with the columns of compare.csv. Errors are in mean diameters, clocks
+            in seconds of processor time.
         prices: a row for each method and target: processor time over that of the exact engine.
     """
 
@@ -150,8 +150,8 @@ class Validation:
 
     Attributes:
         summary: everything in numbers, with the keys of validation.json (docs/output.md).
-        checks: a row for each check. `z` is the whole difference in standard errors; the verdict allows for the `allowance`, the bound
-            on the error of the theory itself.
+        checks: a row for each check. `z` is the whole difference in standard errors; the verdict allows for the `allowance`, the
+            bound on the error of the theory itself.
         sentence: how many checks there are, and whether all hold.
         complete: whether every trial has run.
     """
@@ -275,7 +275,7 @@ def beside(scene: SceneLike, method: str = "guarded", *, engine: str = "auto", p
 
     Args:
         scene: a Scene, the path of a scene file, or a mapping.
-        method: "naive:0.001": one of `carom.fixed_step_methods()`, and after a colon its step; without, a step that lets errors be seen.
+        method: "naive:0.001": one of `carom.fixed_step_methods()`, and after a colon its step; else one that lets errors be seen.
         engine: of the exact side: "auto", "fast" or "textbook".
         progress: True for a bar (needs tqdm), or a function of the fraction done.
 
@@ -333,7 +333,10 @@ def validation_trials(full: bool = False) -> list[str]:
 
 
 def hardcases(
-    names: str | PathLike[str] | Sequence[str | PathLike[str]] | None = None, *, engine: str = "auto", progress: Progress | None = None
+    names: str | PathLike[str] | Sequence[str | PathLike[str]] | None = None,
+    *,
+    engine: str = "auto",
+    progress: Progress | None = None,
 ) -> Table:
     """Runs hard cases, and says of each whether what must hold does.
 
@@ -346,8 +349,8 @@ def hardcases(
         progress: True for a bar (needs tqdm), or a function of the fraction done.
 
     Returns:
-        A row for each case: its name, family and statement, the engines, the number of checks, what was nearest to its bound or beyond,
-        the verdict ("holds", "FAILS" or "not run"), and seconds.
+        A row for each case: its name, family and statement, the engines, the number of checks, what was nearest to its bound or
+        beyond, the verdict ("holds", "FAILS" or "not run"), and seconds.
 
     Raises:
         ValueError: where there is no such case or engine; SceneError: where a file is none.

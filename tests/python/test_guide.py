@@ -16,7 +16,7 @@ import carom
 
 matplotlib.use("Agg")
 ROOT = pathlib.Path(__file__).parents[2]
-MODULES = ["frames", "observables", "results", "runs", "scene", "simulation", "starts", "studies"]
+MODULES = ["frames", "observables", "results", "runs", "scene", "simulation", "starts", "studies", "sweeps"]
 
 
 def blocks():
