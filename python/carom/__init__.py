@@ -10,29 +10,67 @@ A `Scene` says what is to be simulated, with the keys of the scene format. A `Si
 schedule with its observables, and writes files where it is told to. What the program `carom` does, these do with the same bits.
 """
 
+from importlib import import_module as _import_module
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 from carom._errors import Interrupted, OutputError, SceneError, StoppedEarly
 from carom._events import EVENT, Event, partner_name
 from carom.frames import Frames, State
 from carom.observables import COLLISION, Blocking, Observable
-from carom.pages import Page, Player
 from carom.results import Measurement, Number, Table
 from carom.runs import Result, Run, open_run, resume, run
 from carom.scene import Check, Scene, build, presets
 from carom.simulation import CollidingPair, Simulation, Stop, engines, fixed_step_methods
-from carom.starts import Start, read_start
-from carom.studies import (
-    Comparison,
-    Horizon,
-    Validation,
-    beside,
-    compare,
-    hard_case_names,
-    hardcases,
-    horizon,
-    validate,
-    validation_trials,
-)
-from carom.sweeps import Sweep, sweep
+
+if _TYPE_CHECKING:
+    from carom.pages import Page, Player
+    from carom.starts import Start, read_start
+    from carom.studies import (
+        Comparison,
+        Horizon,
+        Validation,
+        beside,
+        compare,
+        hard_case_names,
+        hardcases,
+        horizon,
+        validate,
+        validation_trials,
+    )
+    from carom.sweeps import Sweep, sweep
+
+#: Names by the module that is imported where one of them is first asked for: a simulation needs none of these.
+_LATER = {
+    "pages": ("Page", "Player"),
+    "starts": ("Start", "read_start"),
+    "studies": (
+        "Comparison",
+        "Horizon",
+        "Validation",
+        "beside",
+        "compare",
+        "hard_case_names",
+        "hardcases",
+        "horizon",
+        "validate",
+        "validation_trials",
+    ),
+    "sweeps": ("Sweep", "sweep"),
+}
+_MODULES = {name: module for module, names in _LATER.items() for name in names}
+
+
+def __getattr__(name: str) -> object:
+    if name not in _MODULES:
+        raise AttributeError(f"module 'carom' has no attribute {name!r}")
+    value: object = getattr(_import_module(f"carom.{_MODULES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_MODULES})
+
 
 __version__ = build()["version"]
 

@@ -16,7 +16,7 @@ def measurement_of(parts: tuple[Any, ...]) -> Measurement:
         for scalar, value, error, unit, time, remark in scalars
     }
     made = {
-        table: Table({c: values for c, _, values in columns}, {c: unit for c, unit, _ in columns if unit}, f"{name}: {table}")
+        table: Table({c: values for c, _, values in columns}, {c: unit for c, unit, _ in columns if unit}, name if table == name else f"{name}: {table}")
         for table, columns in tables
     }
     return Measurement(name, numbers, made, note)

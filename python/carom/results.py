@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
+#: Rows of a table that a notebook shows.
+_SHOWN = 16
+
+
 def with_error(value: float, error: float) -> str:
     """Returns a value with its standard error, both to the error's second digit: "2.0602 ± 0.0010"."""
     if not (math.isfinite(value) and math.isfinite(error) and error > 0):
@@ -182,8 +186,8 @@ class Table(Mapping[str, npt.NDArray[Any]]):
 
         head = "".join(f"<th>{html.escape(self.label(name))}</th>" for name in self)
         cells = self._cells()
-        body = "".join(f"<tr>{''.join(f'<td>{html.escape(c)}</td>' for c in row)}</tr>" for row in cells[:60])
-        more = f"<p>{self.rows - 60:,} more rows</p>" if self.rows > 60 else ""
+        body = "".join(f"<tr>{''.join(f'<td>{html.escape(c)}</td>' for c in row)}</tr>" for row in cells[:_SHOWN])
+        more = f"<p>{self.rows - _SHOWN:,} more rows</p>" if self.rows > _SHOWN else ""
         caption = f"<caption>{html.escape(self.title)}</caption>" if self.title else ""
         return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
 

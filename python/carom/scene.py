@@ -31,7 +31,7 @@ def presets() -> list[str]:
     return _core.preset_names()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Check:
     """What a scene would simulate, by which engine, and at what cost.
 
@@ -52,6 +52,8 @@ class Check:
     def __str__(self) -> str:
         rows = [*self.what, ("engine", f"{self.engine}: {self.reason}"), ("cost", self.cost)]
         return "\n".join(f"{quantity:<11} {value}" for quantity, value in rows)
+
+    __repr__ = __str__
 
 
 class Scene:

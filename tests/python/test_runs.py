@@ -291,10 +291,16 @@ def test_blocking_knows_the_error_of_independent_numbers():
     assert np.isnan(carom.Blocking().estimate().value)
 
 
+def test_every_public_name_is_there_when_it_is_asked_for():
+    assert all(hasattr(carom, name) for name in carom.__all__) and set(carom.__all__) <= set(dir(carom))
+    with pytest.raises(AttributeError, match="no attribute 'sweeep'"):
+        carom.sweeep  # noqa: B018
+
+
 def test_import_starts_nothing():
     code = (
         "import sys, threading; import carom; "
-        "print([m for m in ('h5py', 'matplotlib', 'pandas', 'xarray', 'tqdm') if m in sys.modules], threading.active_count())"
+        "print([m for m in ('h5py', 'matplotlib', 'pandas', 'xarray', 'tqdm', 'carom._files', 'carom.sweeps') if m in sys.modules], threading.active_count())"
     )
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert shown.strip() == "[] 1"
