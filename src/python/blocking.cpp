@@ -18,12 +18,11 @@
 namespace carom::python {
 
 void add_blocking(nb::module_& module) {
-  using Values = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
   nb::class_<Blocking>(module, "Blocking")
       .def(nb::init<>())
       .def(
           "add",
-          [](Blocking& self, const Values& values, const std::optional<Values>& weights) {
+          [](Blocking& self, const Numbers& values, const std::optional<Numbers>& weights) {
             for (std::size_t i = 0; i < values.shape(0); ++i) self.add(values.data()[i], weights ? weights->data()[i] : 1.0);
           },
           nb::arg("values"), nb::arg("weights").none() = nb::none())

@@ -17,6 +17,10 @@ namespace nb = nanobind;
 template <class Value>
 using Array = nb::ndarray<nb::numpy, const Value>;
 
+/// Arrays of numpy's: a row of two numbers for each disk, and a number for each.
+using Pairs = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
+using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
 /// Returns the values as an array that owns them: nothing is copied.
 template <class Value, class Holder>
 [[nodiscard]] Array<Value> array_that_owns(Holder&& values, std::initializer_list<std::size_t> shape) {

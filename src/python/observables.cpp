@@ -102,10 +102,10 @@ class PythonObservable final : public Observable {
 Measurement PythonObservable::finish(double time, const Totals& totals) {
   const nb::gil_scoped_acquire locked;
   hand_over();
-  using Numbers =
+  using Scalars =
       std::vector<std::tuple<std::string, double, std::optional<double>, std::string, std::optional<double>, std::string>>;
   using Columns = std::vector<std::tuple<std::string, std::string, std::vector<double>>>;
-  const auto [scalars, tables] = nb::cast<std::pair<Numbers, std::vector<std::pair<std::string, Columns>>>>(
+  const auto [scalars, tables] = nb::cast<std::pair<Scalars, std::vector<std::pair<std::string, Columns>>>>(
       object_.attr("_finish")(time, totals.pair, totals.virial));
   Measurement measured{.name = name_};
   for (const auto& [scalar, value, error, unit, correlation_time, note] : scalars)

@@ -13,6 +13,9 @@ foreach(module core files)
   target_include_directories(${target} PRIVATE src)
   target_link_libraries(${target} PRIVATE carom carom_build_flags Boost::headers fmt::fmt)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)  # what takes time is in the library
+  if(CAROM_UNITY AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 3)  # nanobind's headers take most of the time
+  endif()
   target_link_options(${target} PRIVATE LINKER:--gc-sections LINKER:--exclude-libs,ALL LINKER:--as-needed)
   install(TARGETS ${target} LIBRARY DESTINATION carom COMPONENT python EXCLUDE_FROM_ALL)
   install(FILES ${laid_out}/_${module}.pyi DESTINATION carom COMPONENT python EXCLUDE_FROM_ALL)

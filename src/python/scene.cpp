@@ -23,9 +23,6 @@ namespace carom::python {
 
 namespace {
 
-using Pairs = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
-using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-
 std::vector<Eigen::Vector2d> pairs_of(const std::optional<Pairs>& array) {
   std::vector<Eigen::Vector2d> pairs;
   if (!array) return pairs;

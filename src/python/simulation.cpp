@@ -30,8 +30,6 @@ namespace carom::python {
 
 namespace {
 
-using Pairs = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
-using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 template <class Value, class... Shape>
 using Room = nb::ndarray<Value, nb::c_contig, nb::device::cpu, Shape...>;
 

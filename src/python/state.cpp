@@ -27,9 +27,7 @@ namespace {
 static_assert(sizeof(Event) == 64 && offsetof(Event, time_remainder) == 8 && offsetof(Event, disk) == 16 &&
               offsetof(Event, partner) == 20 && offsetof(Event, velocity) == 32 && offsetof(Event, partner_velocity) == 48);
 
-using Pairs = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 using Turns = nb::ndarray<const std::int64_t, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
-using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
 template <class Matrix>
 Array<typename Matrix::Scalar> columns_of(nb::handle self, Matrix State::*member) {
