@@ -373,15 +373,15 @@ class Simulation:
         """Iterates over the states that `sample()` returns, in constant memory."""
         dt, until, stride = real(dt, "dt"), real(until, "until"), whole(stride, "stride", least=1)
         first, count = self._sample_range(dt, until, stride)
+        room = _Room(self, 1, True, True)
         for k in range(first, first + count * stride, stride):
-            room = _Room(self, 1, True, True)
+            room.written[0] = 0
             self._moved()
             reason = self._core.run_sampled(until, dt, k, stride, 1, **vars(room), report=None)
-            frames = room.frames(self, interrupted=False)
-            if not len(frames):
+            if not room.written[0]:
                 as_stop(reason, self.time)
                 return
-            yield frames[0]
+            yield room.state()
             as_stop(reason, self.time)
             if Stop(reason).early:
                 return
@@ -588,6 +588,15 @@ class _Room:
         self.images = np.empty((count, disks, 2), np.int64) if positions and periodic else None
         self.spins = np.empty((count, spins)) if spins else None
         self.written = np.zeros(1, np.int64)
+
+    def state(self) -> State:
+        """Returns the first frame, which has memory of its own."""
+
+        def row(array: Any) -> Any:
+            return None if array is None else array[0]
+
+        rows = row(self.positions), row(self.velocities), row(self.images), row(self.spins)
+        return State._of(_core.State(*rows, float(self.time[0]), float(self.scale[0])))
 
     def frames(self, simulation: Simulation, interrupted: bool) -> Frames:
         count = int(self.written[0])
