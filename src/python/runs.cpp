@@ -78,7 +78,8 @@ struct RunWishes {
   std::optional<int> threads;
   bool report = false;
   bool frames = false;
-  nb::object progress;  ///< told time, collisions and whether it equilibrates; False from it stops the run; None
+  std::uint64_t verify_every = 0;  ///< events from one check of the invariants to the next; 0: no checks
+  nb::object progress;             ///< told time, collisions and whether it equilibrates; False from it stops the run; None
 };
 
 class PythonRun {
@@ -89,6 +90,7 @@ class PythonRun {
         wishes_(wishes),
         runner_(simulation, directory, std::move(provenance),
                 {.checkpoint_every = wishes.checkpoint_every,
+                 .verify_every = wishes.verify_every,
                  .threads = wishes.threads,
                  .report = wishes.report,
                  .observe = wishes.observables.size() == 0 ? std::function<void(Observation&)>()
@@ -181,6 +183,7 @@ AnyTuple resume(const std::string& path, std::optional<double> time, std::option
   RunWishes with_its_own = wishes;
   const CheckpointFacts& facts = resumed.from.facts();
   with_its_own.report = wishes.report || facts.report;
+  with_its_own.verify_every = facts.verify;
   if (!wishes.checkpoint_every && !facts.checkpoint_every.empty()) with_its_own.checkpoint_every = facts.checkpoint_every;
   return PythonRun(simulation, &resumed.directory, resumed.provenance(), with_its_own, &resumed.from)();
 }
@@ -195,7 +198,7 @@ void add_runs(nb::module_& module) {
          const std::optional<std::string>& checkpoint_every, std::optional<double> walltime, std::optional<int> threads,
          bool report, bool frames, const nb::object& progress) {
         return run(scene, engine, method, dt, stiffness, directory, overwrite,
-                   {observables, checkpoint_every, walltime, threads, report, frames, progress});
+                   {observables, checkpoint_every, walltime, threads, report, frames, 0, progress});
       },
       nb::arg("scene"), nb::arg("engine"), nb::arg("method").none(), nb::arg("dt"), nb::arg("stiffness").none(),
       nb::arg("directory").none(), nb::arg("overwrite"), nb::arg("observables"), nb::arg("checkpoint_every").none(),
@@ -205,7 +208,8 @@ void add_runs(nb::module_& module) {
       [](const std::string& directory, std::optional<double> time, std::optional<std::uint64_t> collisions,
          const Objects& observables, const std::optional<std::string>& checkpoint_every, std::optional<double> walltime,
          std::optional<int> threads, bool report, const nb::object& progress) {
-        return resume(directory, time, collisions, {observables, checkpoint_every, walltime, threads, report, false, progress});
+        return resume(directory, time, collisions,
+                      {observables, checkpoint_every, walltime, threads, report, false, 0, progress});
       },
       nb::arg("directory"), nb::arg("time").none(), nb::arg("collisions").none(), nb::arg("observables"),
       nb::arg("checkpoint_every").none(), nb::arg("walltime").none(), nb::arg("threads").none(), nb::arg("report"),

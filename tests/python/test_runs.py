@@ -160,6 +160,18 @@ def test_ctrl_c_completes_the_files_and_a_checkpoint_goes_on(tmp_path, gas):
     assert isinstance(pickle.loads(pickle.dumps(caught.value)).result, carom.Result)
 
 
+@needs_program
+def test_a_run_that_checks_its_invariants_still_does_where_python_goes_on(tmp_path, gas):
+    scene = tmp_path / "gas.toml"
+    scene.write_text(gas.set({"run.time": 1e6, "run.sample_every": 1e4}).toml)
+    command = [PROGRAM, "run", scene, "--out", tmp_path / "run", "--verify", "1000", "--walltime", "1s", "--quiet"]
+    assert subprocess.run(command).returncode == 130
+    stopped = json.loads((tmp_path / "run/summary.json").read_text())
+    resumed = carom.resume(tmp_path / "run", time=stopped["time"] + 5.0)
+    assert resumed.summary["verified"]["every"] == 1000
+    assert resumed.summary["verified"]["checks"] > stopped["verified"]["checks"] > 0
+
+
 def test_a_limit_of_real_time_stops_a_run(gas):
     result = carom.run(gas.set({"run.time": 1e9, "run.sample_every": 1e6}), walltime="1s")
     assert result.stopped == "interrupted" and 0 < result.time < 1e9
