@@ -6,4 +6,5 @@
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
 #include <carom/state.hpp>
+#include <carom/threads.hpp>
 #include <carom/version.hpp>

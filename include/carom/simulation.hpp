@@ -9,6 +9,7 @@
 #include <carom/collisions.hpp>
 #include <carom/scene.hpp>
 #include <carom/state.hpp>
+#include <carom/threads.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -169,6 +170,16 @@ class Simulation {
   void set_collision_rule(CollisionFunction rule);
   /// Whether set_collision_rule() has given a rule.
   [[nodiscard]] bool has_collision_rule() const;
+
+  /// Runs on several cores from now on, or on one again. No bit of what follows depends on it. What cannot be shared out, as
+  /// single steps, is done by one core in between; the first run after that shares the disks out again, which takes the time of
+  /// some events per disk. Throws std::invalid_argument where a number is not as carom/threads.hpp says, or several threads are
+  /// asked for and why_not_threads() has a reason against them.
+  void set_threads(const Threads& threads);
+  /// Returns why this simulation runs on one core only, in half a sentence; empty where it can be shared out.
+  [[nodiscard]] std::string why_not_threads() const;
+  /// Returns what sharing it out has taken so far.
+  [[nodiscard]] ThreadCounts thread_counts() const;
 
   /// Makes now the zero of time and forgets all totals. The state stays.
   void reset_clock();

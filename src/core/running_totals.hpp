@@ -5,10 +5,22 @@
 
 #include <carom/state.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
 namespace carom {
+
+/// Adds what another engine has counted of other events, but for its epochs and lists.
+inline void add_counts(Counts& to, const Counts& more) {
+  to.pair += more.pair, to.wall += more.wall, to.other += more.other, to.stale += more.stale;
+  to.obstacle += more.obstacle, to.well += more.well, to.thermostat += more.thermostat;
+  to.numerics.simultaneous += more.numerics.simultaneous;
+  to.numerics.overlapping += more.numerics.overlapping;
+  to.numerics.grazing += more.numerics.grazing;
+  to.numerics.already_receding += more.numerics.already_receding;
+  to.numerics.deepest_overlap = std::max(to.numerics.deepest_overlap, more.numerics.deepest_overlap);
+}
 
 /// Totals as they grow: sums without rounding.
 struct RunningTotals : Counts {
@@ -17,6 +29,16 @@ struct RunningTotals : Counts {
   ExactSum dissipated, thermostat_energy, growth_energy, shear_energy;
   std::array<ExactSum, 2> obstacle_impulse;
 
+  /// Adds what another engine has counted of other events.
+  void add(const RunningTotals& more) {
+    add_counts(*this, more);
+    virial.add(more.virial), virial_yx.add(more.virial_yx);
+    for (std::size_t w = 0; w < wall_impulse.size(); ++w)
+      wall_impulse[w].add(more.wall_impulse[w]), wall_energy[w].add(more.wall_energy[w]);
+    dissipated.add(more.dissipated), thermostat_energy.add(more.thermostat_energy);
+    growth_energy.add(more.growth_energy), shear_energy.add(more.shear_energy);
+    for (std::size_t k = 0; k < obstacle_impulse.size(); ++k) obstacle_impulse[k].add(more.obstacle_impulse[k]);
+  }
   /// Goes on from what another engine has counted. Requires nothing but new epochs and lists to have been counted here.
   void go_on_from(const RunningTotals& before) {
     const Numerics begun = numerics;

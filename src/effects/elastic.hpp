@@ -19,6 +19,9 @@ class Elastic {
 
   static constexpr bool plain = true;
 
+  /// The impact of disks in so many slots of their own.
+  [[nodiscard]] Elastic with_slots(std::size_t /*slots*/) const { return *this; }
+
   struct Body {
     std::int32_t disk;
     double mass;

@@ -27,6 +27,15 @@ class BoundaryPlanner {
     bounded_ = walled_ || everywhere_ || world.sheared();
   }
 
+  /// The planner of another one, for the disks of another frame.
+  BoundaryPlanner(const BoundaryPlanner& other, const FlightFrame<Line, World>& flight, const World& world)
+      : flight_(flight),
+        world_(world),
+        walled_(other.walled_),
+        bounded_(other.bounded_),
+        everywhere_(other.everywhere_),
+        clear_{other.clear_[0], other.clear_[1]} {}
+
   /// Adapts to neighbourhoods of this half-width, of disks whose largest contact distance at scale 1 is given.
   void set_neighbourhoods(double half_width, double largest_contact) {
     // A sixteenth of the neighbourhood is far more than any rounding of the time at which it is left.

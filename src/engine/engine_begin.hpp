@@ -104,6 +104,32 @@ EventLoop<Impact, Layout, World>::EventLoop(const Box& box, const Disks& disks, 
 }
 
 template <class Impact, class Layout, class World>
+EventLoop<Impact, Layout, World>::EventLoop(const EventLoop& whole, std::size_t slots)
+    : layout_(whole.layout_),
+      impact_(whole.impact_.with_slots(slots)),
+      world_(whole.world_),
+      flight_(whole.flight_, slots, world_),
+      boundaries_(whole.boundaries_, flight_, world_),
+      frame_(whole.frame_),
+      kernel_(whole.kernel_),
+      lines_(slots),
+      ids_(slots, -1),
+      plans_(slots, ids_),
+      lists_(whole.lists_, slots),
+      part_(true),
+      epoch_(whole.epoch_),
+      now_(whole.now_),
+      epoch_length_(whole.epoch_length_),
+      stamp_(whole.stamp_),
+      mean_speed_(whole.mean_speed_),
+      limits_(whole.limits_),
+      sizes_(whole.sizes_),
+      pacing_(whole.pacing_),
+      stall_(whole.stall_),
+      common_motion_(whole.common_motion_),
+      recorder_(ids_, world_.g()) {}
+
+template <class Impact, class Layout, class World>
 std::size_t EventLoop<Impact, Layout, World>::bytes() const {
   return lines_.capacity() * sizeof(Line) + plans_.bytes() + ids_.capacity() * sizeof(std::int32_t) + flight_.bytes() +
          lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() + sizes_.radius.capacity() * sizeof(double);

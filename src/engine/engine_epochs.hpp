@@ -14,6 +14,7 @@ namespace carom {
 
 template <class Impact, class Layout, class World>
 void EventLoop<Impact, Layout, World>::begin_epoch(double now) {
+  if (leave_to_whole()) return;
   rebase(now);
   if constexpr (!Impact::plain)
     if (common_motion_.present()) impact_.owe(common_motion_.owed(lines_, [this](const Line& a) { return layout_.momentum(a); }));
@@ -32,6 +33,7 @@ void EventLoop<Impact, Layout, World>::begin_epoch(double now) {
 template <class Impact, class Layout, class World>
 void EventLoop<Impact, Layout, World>::begin_epoch_early(std::int32_t i, const Vec2<double>& va, std::int32_t j,
                                                          const Vec2<double>& vb) {
+  if (leave_to_whole()) return;
   if (!va.allFinite() || !vb.allFinite()) return fail_between(i, j);
   const Vec2<double> fallen = world_.g() * now_;
   rebase(now_);
@@ -80,21 +82,22 @@ void EventLoop<Impact, Layout, World>::rebase(double now) {
 
 template <class Impact, class Layout, class World>
 void EventLoop<Impact, Layout, World>::choose_epoch_length() {
-  double fastest[2] = {0.0, 0.0};
-  ExactSum speeds;
-  for (const Line& a : lines_)
-    for (int k = 0; k < 2; ++k) {
-      fastest[k] = std::max(fastest[k], std::abs(a.v[k]));
-      speeds.add(std::abs(a.v[k]));
-    }
-  stall_.check_speeds(is_too_slow<double>(std::max(fastest[0], fastest[1]), sizes_.mean_diameter));
-  const double sum = speeds.value();
+  SpeedCensus speeds;
+  for (const Line& a : lines_) speeds.add(a.v);
+  suit_epoch(speeds);
+}
+
+/// Chooses the length of the epoch that begins with these speeds of all disks.
+template <class Impact, class Layout, class World>
+void EventLoop<Impact, Layout, World>::suit_epoch(const SpeedCensus& speeds) {
+  stall_.check_speeds(is_too_slow<double>(std::max(speeds.fastest[0], speeds.fastest[1]), sizes_.mean_diameter));
+  const double sum = speeds.sum.value();
   if (!(sum < never)) stall_.fail("a velocity is not finite");
   mean_speed_ = sum / static_cast<double>(std::max(count(), 1));
   // Rounding x + v t moves a disk by 2^-53 of the way since the epoch: some spacings for most, never more than the room
   // that coordinates have, were the fastest to become somewhat faster.
   double longest = 4.0 * sizes_.spacing / mean_speed_;
-  for (int k = 0; k < 2; ++k) longest = std::min(longest, limits_.longest_line[k] / (1.2 * fastest[k]));
+  for (int k = 0; k < 2; ++k) longest = std::min(longest, limits_.longest_line[k] / (1.2 * speeds.fastest[k]));
   if constexpr (!World::plain) longest = std::min(longest, longest_epoch_of_world());
   epoch_length_ = longest < 0x1p1000 ? std::ldexp(1.0, std::ilogb(longest)) : never;
   frame_.edge_step = epoch_length_ < never ? 0x1p-20 * epoch_length_ : 0.0;

@@ -54,16 +54,30 @@ void EventLoop<Impact, Layout, World>::tune_neighbourhoods(double elapsed) {
 /// Makes new neighbourhoods round all disks, and new lists. The plans must be made anew as well.
 template <class Impact, class Layout, class World>
 void EventLoop<Impact, Layout, World>::rebuild(double half_width) {
-  frame_.half_width = half_width;
   ++totals_.numerics.list_rebuilds;
-  std::vector<NeighbourhoodCentre> centres(lines_.size());
-  for (std::int32_t i = 0; i < count(); ++i)  // as far ahead of disks as the neighbourhoods before
-    centres[static_cast<std::size_t>(i)] = flight_.neighbourhood_centre(i, line(i), now_, lists_.half_width());
+  const std::vector<NeighbourhoodCentre> centres = new_centres();
   lists_.rebuild(half_width, centres);
   totals_.numerics.longest_neighbour_list = 0;
   for (std::int32_t i = 0; i < count(); ++i)
     totals_.numerics.longest_neighbour_list = std::max<std::uint64_t>(totals_.numerics.longest_neighbour_list, lists_.count(i));
+  suit_neighbourhoods(half_width);
+  if constexpr (!World::plain)
+    if (world_.sheared()) leave_room_for_shear(centres);
+}
 
+/// The centres of new neighbourhoods, as far ahead of disks as those of the neighbourhoods before.
+template <class Impact, class Layout, class World>
+std::vector<NeighbourhoodCentre> EventLoop<Impact, Layout, World>::new_centres() const {
+  std::vector<NeighbourhoodCentre> centres(lines_.size());
+  for (std::int32_t i = 0; i < count(); ++i)
+    centres[static_cast<std::size_t>(i)] = flight_.neighbourhood_centre(i, line(i), now_, lists_.half_width());
+  return centres;
+}
+
+/// Adapts to neighbourhoods of this half-width what depends on it beside the lists.
+template <class Impact, class Layout, class World>
+void EventLoop<Impact, Layout, World>::suit_neighbourhoods(double half_width) {
+  frame_.half_width = half_width;
   boundaries_.set_neighbourhoods(half_width, sizes_.largest_contact);
   // Nearest images are right as long as a pair that may meet is less than half a box apart, now and along its lines back
   // to the epoch. What the neighbourhoods leave of that belongs to the two lines.
@@ -72,8 +86,6 @@ void EventLoop<Impact, Layout, World>::rebuild(double half_width) {
     limits_.longest_line[k] = flight_.axis(k).periodic ? (length / 2.0 - sizes_.reach - 4.0 * half_width) / 2.0
                                                        : length / 2.0 + free_path * sizes_.spacing;
   }
-  if constexpr (!World::plain)
-    if (world_.sheared()) leave_room_for_shear(centres);
 }
 
 }  // namespace carom

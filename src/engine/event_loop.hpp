@@ -31,6 +31,7 @@
 #include "engine/layout.hpp"
 #include "engine/plans.hpp"
 #include "engine/prefetcher.hpp"
+#include "engine/speed_census.hpp"
 #include "engine/stall_detector.hpp"
 #include "neighbours/neighbour_lists.hpp"
 #include "neighbours/neighbourhood_tuning.hpp"
@@ -49,7 +50,15 @@
 namespace carom {
 
 template <class Impact, class Layout, class World>
+class BoxDomain;
+template <class Impact, class Layout, class World>
+class Domains;
+
+template <class Impact, class Layout, class World>
 class EventLoop {
+  friend class BoxDomain<Impact, Layout, World>;  // parallel/: they take the disks from a whole engine and give them back
+  friend class Domains<Impact, Layout, World>;
+
  public:
   /// Why this engine cannot run these disks, in half a sentence; empty where it can. Periodic boxes must be wide enough for the
   /// nearest image to be the only one that a disk can meet, disks not so small that the resolution of neighbourhoods would show,
@@ -59,6 +68,9 @@ class EventLoop {
   /// Requires an empty why_not(), disks inside the box, radii and masses > 0, everything finite. `seed` is that of the random
   /// numbers that effects draw.
   EventLoop(const Box& box, const Disks& disks, State start, const Effects& effects = {}, std::uint64_t seed = 1);
+  /// The engine of a part of the box, with slots for so many disks, all of them empty: parallel/box_domain.hpp fills them.
+  /// Everything that does not belong to one disk is as in `whole`.
+  EventLoop(const EventLoop& whole, std::size_t slots);
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
 
@@ -110,7 +122,7 @@ class EventLoop {
     } else if (plans_.is_stale(mine)) {
       queue_.pop(plans_);
       prefetcher_.next(data());
-      ++totals_.stale;
+      ++counted_->stale;
       predict(i);
     } else {
       collide(i, mine.partner);
@@ -155,11 +167,11 @@ class EventLoop {
     const Line &a = line(i), &b = line(j);
     const double scale = world_.scale(now_), radius_a = layout_.radius(a), radius_b = layout_.radius(b);
     const double expansion = (radius_a + radius_b) * world_.expansion();
-    count_contact<double>(r, va - vb, (radius_a + radius_b) * scale, expansion, totals_.numerics);
-    last_collision_.count(now_, totals_.numerics);
+    count_contact<double>(r, va - vb, (radius_a + radius_b) * scale, expansion, counted_->numerics);
+    last_collision_.count(now_, counted_->numerics);
     const auto meet = [&] {
       return impact_.meet(r, expansion, {i, layout_.mass(a), radius_a * scale, va}, {j, layout_.mass(b), radius_b * scale, vb},
-                          now_, totals_);
+                          now_, *counted_);
     };
     if constexpr (Impact::plain)
       meet();
@@ -176,9 +188,9 @@ class EventLoop {
     const BoundaryContact contact{flight_.place(a, now_), layout_.mass(a), layout_.radius(a) * world_.scale(now_),
                                   impact_.rests(i, now_)};
     if constexpr (World::plain)
-      world_.meet(what, contact, v, now_, totals_);
+      world_.meet(what, contact, v, now_, *counted_);
     else
-      stall_.record_loss(world_.meet(what, contact, v, now_, totals_), {id(i)});
+      stall_.record_loss(world_.meet(what, contact, v, now_, *counted_), {id(i)});
     impact_.touched(i, now_);
     if (recorder_.logging()) recorder_.log_hit(now_, i, what, v);
     change_velocity(i, v);
@@ -200,7 +212,7 @@ class EventLoop {
   /// Gives a disk that leaves its neighbourhood a new one round where it is, and predicts it against the disks that come within
   /// reach. What it has planned with others stays as it is.
   void leave_neighbourhood(std::int32_t i) {
-    ++totals_.other;
+    ++counted_->other;
     tuning_.count_left();
     const NeighbourhoodCentre centre = flight_.neighbourhood_centre(i, line(i), now_, lists_.half_width());
     const auto fresh = lists_.move_neighbourhood(i, centre);
@@ -261,6 +273,8 @@ class EventLoop {
   /// Velocities are those of lines. i and j may be the same disk.
   [[gnu::noinline, gnu::cold]] void begin_epoch_early(std::int32_t i, const Vec2<double>& va, std::int32_t j,
                                                       const Vec2<double>& vb);
+  /// Returns whether this is the engine of a part of the box, in which no epoch can begin alone, and ends its run then.
+  [[nodiscard]] bool leave_to_whole() { return part_ && (stopped_ = true); }
   /// Ends the run because the velocities of i and j, which may be the same disk, would not be finite: they keep those that they
   /// have.
   void fail_between(std::int32_t i, std::int32_t j);
@@ -269,6 +283,7 @@ class EventLoop {
   /// Makes everything anew that an epoch needs after rebase().
   void replan();
   void choose_epoch_length();
+  void suit_epoch(const SpeedCensus& speeds);
   [[nodiscard]] double longest_epoch_of_world() const;
   void reset_falling_frame();
   void widen_coordinates();
@@ -279,6 +294,8 @@ class EventLoop {
   void list_larger();
   void tune_neighbourhoods(double elapsed);
   void rebuild(double half_width);
+  void suit_neighbourhoods(double half_width);
+  [[nodiscard]] std::vector<NeighbourhoodCentre> new_centres() const;
   void predict_all();
   void find_wells();
 
@@ -326,7 +343,9 @@ class EventLoop {
   NeighbourLists lists_;
   FutureEventList<Plans> queue_;
 
-  Instant epoch_;  ///< the loop's zero of time
+  bool part_ = false;     ///< of the box: there are other engines for the rest
+  bool stopped_ = false;  ///< a part has come to an event that concerns the whole
+  Instant epoch_;         ///< the loop's zero of time
   double now_ = 0.0;
   double epoch_length_ = 0.0;
   std::uint32_t stamp_ = 1;  ///< counts collisions with disks and walls since the epoch began; what was before has 0 or 1
@@ -341,6 +360,7 @@ class EventLoop {
   CommonMotion<double> common_motion_;
   CollisionRecorder recorder_;
   RunningTotals totals_;
+  RunningTotals* counted_ = &totals_;  ///< where events are counted now
   LastInstant last_collision_;
 };
 

@@ -58,6 +58,33 @@ class FlightFrame {
     if (world_.falls()) rests_.resize(disks);
   }
 
+  /// The frame of another one, for so many slots of disks.
+  FlightFrame(const FlightFrame& other, std::size_t disks, const World& world)
+      : axes_{other.axes_[0], other.axes_[1]},
+        half_{other.half_[0], other.half_[1]},
+        middle_{other.middle_[0], other.middle_[1]},
+        depth_{other.depth_[0], other.depth_[1]},
+        depth_rest_{other.depth_rest_[0], other.depth_rest_[1]},
+        rests_(other.rests_.empty() ? 0 : disks),
+        images_(disks),
+        heights_(other.heights_.empty() ? 0 : disks),
+        world_(world) {}
+
+  /// What a frame knows of one disk beside its line.
+  struct DiskRest {
+    std::int64_t images[2];
+    std::array<StepRest, 2> steps;
+  };
+  [[nodiscard]] DiskRest rest_of(std::int32_t i) const {
+    DiskRest rest{{images_.of(i, 0), images_.of(i, 1)}, {}};
+    if (!rests_.empty()) rest.steps = rests_[static_cast<std::size_t>(i)];
+    return rest;
+  }
+  void set_rest(std::int32_t i, const DiskRest& rest) {
+    for (int k = 0; k < 2; ++k) images_.set(i, k, rest.images[k]);
+    if (!rests_.empty()) rests_[static_cast<std::size_t>(i)] = rest.steps;
+  }
+
   [[nodiscard]] const FixedAxis& axis(int k) const { return axes_[k]; }
   [[nodiscard]] double length(int k) const { return axes_[k].upper - axes_[k].lower; }
   /// The distance from the middle of the box to where its upper side was at the start, in steps of a coordinate.

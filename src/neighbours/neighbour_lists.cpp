@@ -49,6 +49,23 @@ NeighbourLists::NeighbourLists(const FixedAxis& x, const FixedAxis& y, const std
   for (const auto& size : sizes) sizes_.push_back({size.second.first, size.second.second});
 }
 
+NeighbourLists::NeighbourLists(const NeighbourLists& whole, std::size_t slots)
+    : axes_{whole.axes_[0], whole.axes_[1]},
+      largest_(whole.largest_),
+      radius_(whole.one_radius_ ? whole.radius_ : std::vector<float>(slots)),
+      one_radius_(whole.one_radius_),
+      half_width_(whole.half_width_),
+      around_(slots),
+      sizes_(whole.sizes_),
+      layer_of_(whole.layer_of_.empty() ? 0 : slots),
+      empty_(slots, 1),
+      kernel_(whole.kernel_),
+      steps_{whole.steps_[0], whole.steps_[1]} {
+  nearness_ = whole.nearness_;
+  const double share = static_cast<double>(slots) / static_cast<double>(std::max<std::size_t>(whole.around_.disks(), 1));
+  for (Size& size : sizes_) size.disks = static_cast<std::size_t>(share * static_cast<double>(size.disks)) + 1;
+}
+
 void NeighbourLists::rebuild(double half_width, std::span<const NeighbourhoodCentre> centres) {
   half_width_ = half_width;
   h_ = half_width / largest_;
@@ -64,14 +81,48 @@ void NeighbourLists::rebuild(double half_width, std::span<const NeighbourhoodCen
   around_.clear();
   const auto disks = static_cast<std::int32_t>(around_.disks());
   for (std::int32_t i = 0; i < disks; ++i) {
+    if (empty(i)) continue;
     const NeighbourhoodCentre centre = centres[static_cast<std::size_t>(i)];
     around_.set_centre(i, centre);
     layers_[layer_of(i)].insert(i, centre, radius(i));
   }
   for (std::int32_t i = 0; i < disks; ++i) {
+    if (empty(i)) continue;
     search(i);
     around_.assign(i, found());
   }
+}
+
+void NeighbourLists::fill(std::int32_t i, DiskSize size) {
+  const auto slot = static_cast<std::size_t>(i);
+  empty_[slot] = 0;
+  if (!one_radius_) radius_[slot] = size.radius;
+  if (!layer_of_.empty()) layer_of_[slot] = static_cast<std::uint8_t>(size.layer);
+}
+
+void NeighbourLists::insert(std::int32_t i, DiskSize size, NeighbourhoodCentre centre) {
+  fill(i, size);
+  layers_[layer_of(i)].insert(i, centre, radius(i));
+  around_.set_centre(i, centre);
+  search(i);
+  for (const std::int32_t j : found()) around_.append(j, i);
+  around_.assign(i, found());
+}
+
+void NeighbourLists::remove(std::int32_t i) {
+  for (std::uint32_t k = 0; k < count(i); ++k) {
+    const std::int32_t j = ids(i)[k];
+    around_.remove_at(j, kernel_->position(ids(j), i));
+  }
+  layers_[layer_of(i)].remove(i, centre(i));
+  if (found_.size() < 16) found_.resize(16);
+  around_.assign(i, {found_.data(), 0});
+  empty_[static_cast<std::size_t>(i)] = 1;
+}
+
+void NeighbourLists::clear() {
+  layers_ = std::vector<NeighbourhoodCells>();
+  around_.release();
 }
 
 std::span<const std::int32_t> NeighbourLists::move_neighbourhood(std::int32_t i, NeighbourhoodCentre to) {

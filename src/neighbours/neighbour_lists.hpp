@@ -30,6 +30,10 @@ class NeighbourLists {
   /// radius[i] (length) belongs to disk i.
   NeighbourLists(const FixedAxis& x, const FixedAxis& y, const std::vector<double>& radius);
 
+  /// Lists for the disks of a part of the box, in so many slots, all of them empty until insert(): rebuild() leaves empty slots
+  /// out.
+  NeighbourLists(const NeighbourLists& whole, std::size_t slots);
+
   /// Sets the half-width h of all neighbourhoods (length) and the centres, and makes all lists anew. O(disks).
   void rebuild(double half_width, std::span<const NeighbourhoodCentre> centres);
 
@@ -44,6 +48,20 @@ class NeighbourLists {
   /// on its list, padded with i in the same way; valid until the next call.
   std::span<const std::int32_t> move_neighbourhood(std::int32_t i, NeighbourhoodCentre centre);
 
+  /// What lists know of the size of a disk.
+  struct DiskSize {
+    float radius;
+    std::uint32_t layer;
+  };
+  [[nodiscard]] DiskSize disk_size(std::int32_t i) const { return {radius(i), static_cast<std::uint32_t>(layer_of(i))}; }
+  /// Fills the empty slot i with a disk of that size; insert() also gives it a neighbourhood, and puts it on the lists of others.
+  void fill(std::int32_t i, DiskSize size);
+  void insert(std::int32_t i, DiskSize size, NeighbourhoodCentre centre);
+  /// Empties slot i.
+  void remove(std::int32_t i);
+  /// Frees the memory of all lists until the next rebuild().
+  void clear();
+
   /// Displaces the images above along x, until the next call, by `displacement` (in steps of a coordinate) and by anything up to
   /// `way` (length) more, and corrects the lists of neighbourhoods near the edges. A disk is in that one of the boxes, one above
   /// the other, in which the centre of its neighbourhood is. Requires y to be periodic, and reach of neighbourhoods and way to be
@@ -54,6 +72,7 @@ class NeighbourLists {
 
   /// Entries that move_neighbourhood() has put on lists of others, or taken from them, so far.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
+  void set_changes(std::uint64_t changes) { changes_ = changes; }
 
   void prefetch_list(std::int32_t i) const { around_.prefetch_list(i); }
   void prefetch_list_early(std::int32_t i) const { around_.prefetch_list_early(i); }
@@ -83,6 +102,7 @@ class NeighbourLists {
 
   [[nodiscard]] CellRange range_around(NeighbourhoodCentre centre, float radius, const NeighbourhoodCells& layer) const;
   [[nodiscard]] double reach(float radius, const NeighbourhoodCells& layer) const;
+  [[nodiscard]] bool empty(std::int32_t i) const { return !empty_.empty() && empty_[static_cast<std::size_t>(i)] != 0; }
   void search(std::int32_t i);
   void search_across(const NeighbourQuery& query);
   [[nodiscard]] bool near(NeighbourhoodCentre a, float radius_a, NeighbourhoodCentre b, float radius_b) const;
@@ -110,6 +130,7 @@ class NeighbourLists {
   std::vector<Size> sizes_;                 ///< of the layers, falling
   std::vector<NeighbourhoodCells> layers_;  ///< one per size
   std::vector<std::uint8_t> layer_of_;
+  std::vector<std::uint8_t> empty_;  ///< whether a slot is; no entries where none ever is
 
   const NeighbourSearchKernel* kernel_;
   double steps_[2];  ///< of a centre, per largest radius

@@ -74,6 +74,8 @@ class NeighbourhoodCells {
     block.radius[k] = radius;
   }
 
+  void remove(std::int32_t i, NeighbourhoodCentre centre) { remove(cell_at(centre), i); }
+
   void move(std::int32_t i, NeighbourhoodCentre from, NeighbourhoodCentre to, float radius) {
     const std::int32_t cell = cell_at(from);
     if (cell == cell_at(to)) {

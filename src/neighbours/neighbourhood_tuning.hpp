@@ -105,6 +105,14 @@ class NeighbourhoodTuning {
     counters_.groups_examined += groups(neighbours_a) + groups(neighbours_b);
   }
 
+  [[nodiscard]] const TuningCounters& counters() const { return counters_; }
+  void set_counters(const TuningCounters& counters) { counters_ = counters; }
+  /// Adds what another engine has counted.
+  void add(const TuningCounters& counters) {
+    counters_.neighbourhoods_left += counters.neighbourhoods_left;
+    counters_.groups_examined += counters.groups_examined;
+  }
+
   /// Begins anew: all neighbourhoods have just been made, and no disk leaves its own for a while.
   void restart() {
     settling_ = true;

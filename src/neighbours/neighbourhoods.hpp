@@ -19,12 +19,16 @@ namespace carom {
 
 class Neighbourhoods {
  public:
-  explicit Neighbourhoods(std::size_t disks) : lines_(disks + 1) {}  // the last may be read beyond its end
+  explicit Neighbourhoods(std::size_t disks) : disks_(disks) { clear(); }
 
-  [[nodiscard]] std::size_t disks() const { return lines_.size() - 1; }
+  [[nodiscard]] std::size_t disks() const { return disks_; }
+
+  /// Frees the memory of the lists, until clear().
+  void release() { lines_ = LargeVector<Line>(), pool_ = LargeVector<std::int32_t>(); }  // {} alone would keep the memory
 
   /// Empties all lists.
   void clear() {
+    lines_.resize(disks_ + 1);  // the last may be read beyond its end
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       lines_[i].count = 0;
       lines_[i].grown = none;
@@ -83,7 +87,7 @@ class Neighbourhoods {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(lines_, pool_, free_);
+    archive(disks_, lines_, pool_, free_);
   }
 
  private:
@@ -147,6 +151,7 @@ class Neighbourhoods {
     std::fill_n(line(i).ids, room, i);
   }
 
+  std::size_t disks_;
   LargeVector<Line> lines_;
   LargeVector<std::int32_t> pool_;
   std::vector<std::vector<std::uint32_t>> free_;  ///< unused lists of each size in the pool

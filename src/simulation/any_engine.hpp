@@ -10,6 +10,7 @@
 #include <carom/collision_rule.hpp>
 #include <carom/simulation.hpp>
 #include <carom/state.hpp>
+#include <carom/threads.hpp>
 
 #include <Eigen/Core>
 
@@ -38,6 +39,15 @@ class AnyEngine {
   virtual ~AnyEngine() = default;
 
   virtual bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) = 0;
+  /// As run_until(), but it may process more events than `event_limit`, up to where it is convenient to stop.
+  virtual bool run_about(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
+    return run_until(target, pair_limit, event_limit);
+  }
+  /// Returns why set_threads() cannot share the disks out to several cores, in half a sentence; empty where it can.
+  [[nodiscard]] virtual std::string why_not_threads() const { return "this engine runs on one core"; }
+  /// Shares the disks out from now on. Requires an empty why_not_threads().
+  virtual void set_threads(const Threads& /*threads*/) {}
+  [[nodiscard]] virtual ThreadCounts thread_counts() const { return {}; }
   [[nodiscard]] virtual bool idle() const = 0;
   [[nodiscard]] virtual bool jammed() const = 0;
   /// The ids of the disks whose vanishing speeds are the reason for jammed(); empty where another reason is.
@@ -198,6 +208,8 @@ class EngineAdapter final : public AnyEngine {
   [[nodiscard]] std::size_t bytes() const override { return sizeof(*this) + engine_.bytes(); }
   void save(SavingArchive& archive) const override { archive(engine_); }
   void load(LoadingArchive& archive) override { archive(engine_); }
+
+  [[nodiscard]] Engine& engine() { return engine_; }
 
  private:
   static constexpr bool has_recorder = requires(Engine & engine) { engine.recorder(); };

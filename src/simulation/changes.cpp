@@ -92,6 +92,7 @@ void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_ru
   continuation.pending.reset();
   engine->leave(continuation);
   another->take_over(continuation);
+  if (another->why_not_threads().empty()) another->set_threads(threads);
   another->record_events(recording);
   engine->take_events(last);
   events.insert(events.end(), last.begin(), last.end());

@@ -6,6 +6,7 @@
 #include "effects/plain_world.hpp"
 #include "engine/engine_impl.hpp"
 #include "simulation/catalogue.hpp"
+#include "simulation/threaded_engine.hpp"
 
 #include <memory>
 #include <utility>
@@ -13,13 +14,13 @@
 namespace carom::detail {
 
 template <class Rule, class Layout>
-using LeanAdapter = EngineAdapter<Engine<Elastic<Rule>, Layout, PlainWorld>>;
+using LeanEngine = ThreadedEngine<Elastic<Rule>, Layout, PlainWorld>;
 
 template <class Rule>
 std::unique_ptr<AnyEngine> make_lean(const Scene& scene, const Disks& disks, State start) {
   if (EqualDisks::covers(disks))
-    return std::make_unique<LeanAdapter<Rule, EqualDisks>>(scene.box, disks, std::move(start), scene.effects, scene.run.seed);
-  return std::make_unique<LeanAdapter<Rule, AnyDisks>>(scene.box, disks, std::move(start), scene.effects, scene.run.seed);
+    return std::make_unique<LeanEngine<Rule, EqualDisks>>(scene.box, disks, std::move(start), scene.effects, scene.run.seed);
+  return std::make_unique<LeanEngine<Rule, AnyDisks>>(scene.box, disks, std::move(start), scene.effects, scene.run.seed);
 }
 
 }  // namespace carom::detail

@@ -25,6 +25,14 @@ namespace detail {
   return std::nullopt;
 }
 
+/// Throws std::invalid_argument where a number is not as carom/threads.hpp says.
+void check_threads(const Threads& threads);
+/// With as many domains as threads where their number is left open.
+[[nodiscard]] inline Threads with_domains(Threads threads) {
+  if (threads.domains == 0) threads.domains = threads.threads;
+  return threads;
+}
+
 /// The text of all that decides how a simulation goes on from a state in this scene: what acts, the sizes of box and disks, the
 /// seed.
 [[nodiscard]] std::string lasting_text(const Scene& scene);
@@ -41,6 +49,7 @@ struct Simulation::Parts {
   std::optional<double> stiffness = {};  ///< that was given to it
   double smallest_radius = smallest_of(disks);
 
+  Threads threads = {};
   bool recording = false;                   ///< events, for the user
   std::vector<Event> events = {};           ///< recorded and not yet taken, before those that the engine has
   std::vector<Event> last = {};             ///< of next_event(), kept for its memory

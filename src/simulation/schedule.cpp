@@ -331,7 +331,9 @@ class Schedule {
                                           : recording_                   ? recorded_events
                                                                          : stretch_events,
                                           until_verified(), moving_as_one_.until_look(engine_.counts())});
-    const bool arrived = engine_.run_until(target, pair_limit, limit);
+    const bool step_by_step = hooks_.stop_when && measuring_;
+    const bool arrived =
+        step_by_step ? engine_.run_until(target, pair_limit, limit) : engine_.run_about(target, pair_limit, limit);
     result_.loop_seconds += seconds_since(started);
     const std::uint64_t events = detail::all_events(engine_.counts()) - before;
     stands_ = events > 0 && !(began < engine_.now());

@@ -36,7 +36,9 @@ StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& lim
       const std::optional<Event> event = next_event(target, limits.collisions, arrived);
       if (event && limits.stop_when(*event)) return StopReason::condition;
     } else {
-      arrived = engine->run_until(target, limits.collisions, std::min(watch.events(), limits.events - happened));
+      arrived = limits.events == RunLimits::none
+                    ? engine->run_about(target, limits.collisions, watch.events())
+                    : engine->run_until(target, limits.collisions, std::min(watch.events(), limits.events - happened));
     }
     if (arrived) return StopReason::time;
     if (const auto reason = detail::why_stopped(*engine, scene.effects)) return *reason;
@@ -131,6 +133,16 @@ std::optional<Event> Simulation::step(double until) {
   bool arrived = false;
   return parts_->next_event(std::isinf(until) && until > 0.0 ? forever : Instant{until, 0.0}, RunLimits::none, arrived);
 }
+
+std::string Simulation::why_not_threads() const { return parts_->engine->why_not_threads(); }
+void Simulation::set_threads(const Threads& threads) {
+  detail::check_threads(threads);
+  if (const std::string reason = why_not_threads(); !reason.empty() && threads.threads > 1)
+    throw std::invalid_argument(fmt::format("this simulation runs on one core: {}", reason));
+  parts_->threads = detail::with_domains(threads);
+  parts_->engine->set_threads(parts_->threads);
+}
+ThreadCounts Simulation::thread_counts() const { return parts_->engine->thread_counts(); }
 
 void Simulation::reset_clock() { parts_->engine->reset_clock(); }
 void Simulation::record_events(bool on) { parts_->engine->record_events(parts_->recording = on); }

@@ -12,6 +12,9 @@ class WrappedEngine : public AnyEngine {
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
     return engine_->run_until(target, pair_limit, event_limit);
   }
+  bool run_about(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
+    return run_until(target, pair_limit, event_limit);
+  }
   [[nodiscard]] bool idle() const override { return engine_->idle(); }
   [[nodiscard]] bool jammed() const override { return engine_->jammed(); }
   [[nodiscard]] std::vector<std::int32_t> slow() const override { return engine_->slow(); }

@@ -1,0 +1,32 @@
+#pragma once
+// A simulation on several cores. Its trajectory, totals and states have the bits that one core computes, for any number of
+// threads.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace carom {
+
+/// How a simulation is shared out to several cores. No bit of it depends on any of these numbers, only its speed does: each
+/// domain computes the disks of a part of the box and, once more, those in a halo round that part (docs/parallel.md).
+struct Threads {
+  std::size_t threads = 1;         ///< that compute at the same time; with 1 the engine runs alone, without domains
+  std::size_t domains = 0;         ///< parts of the box, at most 32; 0 for one for each thread
+  double halo = 10.0;              ///< width of halos, in largest contact distances; > 0
+  double events_per_window = 1.0;  ///< events of each disk in the first window between two exchanges; > 0
+};
+
+/// What sharing a simulation out has taken since Simulation::set_threads().
+struct ThreadCounts {
+  std::size_t threads = 1;
+  std::size_t domains = 1;
+  std::uint64_t windows = 0;
+  std::uint64_t windows_redone = 0;  ///< windows that were void, and were redone by the engine alone up to the next epoch
+  std::uint64_t shared_out = 0;      ///< times that the disks were shared out
+  std::uint64_t events = 0;          ///< of any kind, each counted once
+  std::uint64_t copied_events = 0;   ///< the same events once more, in halos
+  std::uint64_t copies = 0;          ///< disks in halos that were compared with what their own domain says, over all windows
+  std::uint64_t copies_wrong = 0;    ///< of these: those that had to be corrected
+};
+
+}  // namespace carom

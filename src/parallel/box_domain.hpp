@@ -1,0 +1,175 @@
+#pragma once
+// A domain: the engine of one part of the box. It runs the disks of that part, its home, and copies of those within some reach of
+// it, its halo; beyond there is nothing. What is missing spreads inwards from the rim of the halo, so a domain is right at home
+// for a while: for a window of time, after which it takes its halo from those whose home it is (Lubachevsky, J. Comput. Phys. 94,
+// 255 (1991)).
+//
+// A copy is the same to the last bit as long as nothing wrong has reached it: a domain computes with the coordinates of the whole
+// box, and what it takes over of a disk holds all that decides what the disk does next, its plan and the centre of its
+// neighbourhood among them. So a trajectory does not depend on where borders are, how wide halos, and how long windows. That is
+// checked after every window, by comparing each copy with what its home says, and the hash of all events of the disk with it: a
+// difference near home makes the window void (parallel/domains.hpp).
+//
+// The disks have slots in the order in which they came. A disk that has left keeps its slot, empty, as long as plans name it as
+// their partner: such plans are stale, and made anew when their time comes.
+
+#include "engine/event_loop.hpp"
+#include "parallel/box_parts.hpp"
+#include "parallel/disk_message.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+template <class Impact, class Layout, class World>
+class BoxDomain : private EventLoop<Impact, Layout, World> {
+  using Loop = EventLoop<Impact, Layout, World>;
+  using typename Loop::Line;
+  using Frame = FlightFrame<Line, World>;
+
+ public:
+  using Message = DiskMessage<Line, typename Frame::DiskRest>;
+
+  /// What the comparison of copies with the messages of their homes has shown.
+  struct Verdict {
+    double nearest = infinity<double>;  ///< distance (length) from home of the nearest disk that was wrong
+    bool conflict = false;              ///< two domains hold one disk for their own
+    std::uint64_t compared = 0, wrong = 0;
+  };
+
+  /// The domain of part `me`: takes its disks, and those within `reach` (length) of it, from a whole engine. `disks` counts those
+  /// of the whole box.
+  BoxDomain(const Loop& whole, const BoxParts& parts, std::size_t me, double reach);
+
+  /// Processes all events up to and including `end`, a time since the epoch. A domain stops before that at an event that concerns
+  /// the whole box: see stopped().
+  void run(double end) {
+    while (run_next(end)) {
+    }
+    if (!stopped_) now_ = std::max(now_, end);
+  }
+  /// Processes the next event, unless it comes after `end`: then returns false.
+  bool run_next(double end);
+  /// The time of the next event.
+  [[nodiscard]] double next_time() {
+    return queue_.next(plans_, [this](std::int64_t span) { this->prefetch_calendar(span); }).time;
+  }
+  /// Whether the domain has come to an event that it cannot process alone, or can go no further.
+  [[nodiscard]] bool stopped() const { return stopped_ || stall_.jammed() || crowded_; }
+
+  /// The parts of domains that copy disks of this one, or have disks that this one copies.
+  [[nodiscard]] const std::vector<std::size_t>& neighbours() const { return neighbours_; }
+  /// Finds out which disks are at home, and writes the messages to all neighbours.
+  void write_messages();
+  /// The messages to neighbour n of neighbours().
+  [[nodiscard]] std::span<const Message> messages(std::size_t n) const { return outboxes_[n]; }
+  /// The number of a part among neighbours().
+  [[nodiscard]] std::size_t number_of(std::size_t part) const {
+    return static_cast<std::size_t>(std::find(neighbours_.begin(), neighbours_.end(), part) - neighbours_.begin());
+  }
+  /// Takes over what the messages of all neighbours say: first read_lines() of each, then read_plans() of each in the same order,
+  /// then end_reading().
+  void begin_reading();
+  void read_lines(std::span<const Message> messages);
+  void read_plans(std::span<const Message> messages);
+  [[nodiscard]] const Verdict& end_reading();
+
+  // An epoch: see EventLoop::begin_epoch().
+
+  /// Begins an epoch at time `now`, with the speeds of the disks at home in census().
+  void rebase_at(double now);
+  [[nodiscard]] const SpeedCensus& census() const { return census_; }
+  /// Gives all disks neighbourhoods of another half-width and plans them anew. Those near the rim are wrong until messages have
+  /// been read.
+  void rebuild_lists(double half_width);
+  /// The most neighbours of a disk at home. O(disks).
+  [[nodiscard]] std::uint64_t longest_list() const;
+  /// Goes on with the epoch of a whole engine.
+  void begin_epoch_of(const Loop& whole);
+
+  /// Adds what has been counted at home since the last call to the totals of a whole engine and what its neighbourhoods cost.
+  void hand_over_counts(Loop& whole);
+  /// The events counted since then.
+  [[nodiscard]] const Counts& counts() const { return totals_; }
+  [[nodiscard]] const RunningTotals& totals() const { return totals_; }
+  /// Puts the disks at home into the slots of a whole engine, and the centres of their neighbourhoods into `centres`.
+  void store(Loop& whole, std::span<const std::int32_t> slot_of_id, std::span<NeighbourhoodCentre> centres) const;
+
+  /// The largest distance (length) from home at which a copy may be that an event of a disk at home depends on.
+  [[nodiscard]] double read_at_home() const { return sizes_.reach + 2.0 * lists_.half_width(); }
+  /// The number of disks at home.
+  [[nodiscard]] std::size_t homes() const { return homes_; }
+  [[nodiscard]] std::uint64_t events_done() const { return events_; }
+  [[nodiscard]] std::uint64_t copied_events() const { return copied_events_; }
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  using Loop::epoch_, Loop::epoch_length_, Loop::stopped_, Loop::prefetcher_;
+  using Loop::line, Loop::id, Loop::count, Loop::surroundings, Loop::predicted, Loop::set_plan, Loop::schedule, Loop::never;
+  using Loop::plans_, Loop::lists_, Loop::lines_, Loop::ids_, Loop::queue_, Loop::flight_, Loop::frame_, Loop::limits_;
+  using Loop::totals_, Loop::counted_, Loop::tuning_, Loop::pacing_, Loop::sizes_, Loop::stall_, Loop::stamp_, Loop::now_;
+
+  enum class Role : std::uint8_t { empty, home, halo };
+
+  struct Mark {
+    std::uint64_t history = 0;    ///< hash of the events of the disk
+    std::uint32_t copied_by = 0;  ///< bit n: the disk is in the halo of neighbour n
+    std::uint16_t read = 0;       ///< number of the last reading that had a message about it
+    Role role = Role::empty;
+  };
+
+  [[nodiscard]] Mark& mark(std::int32_t i) { return marks_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] const Mark& mark(std::int32_t i) const { return marks_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] bool empty(std::int32_t i) const { return mark(i).role == Role::empty; }
+  void remember(std::int32_t i, double time) {
+    std::uint64_t& history = mark(i).history;
+    history = (history ^ std::bit_cast<std::uint64_t>(time)) * 0x9E3779B97F4A7C15U;
+    history ^= history >> 29;
+  }
+
+  [[gnu::noinline]] void step_copy(std::int32_t i, double time);
+  std::int32_t slot_for(std::int32_t disk);
+  void recycle_slots();
+  void leave(std::int32_t i);
+  void settle(std::int32_t i);
+  [[nodiscard]] Message message_of(std::int32_t i) const;
+  [[nodiscard]] bool same(std::int32_t i, const Message& message) const;
+  /// The bits that say which neighbours copy a disk at home.
+  [[nodiscard]] std::uint32_t copies_of(NeighbourhoodCentre centre) const;
+
+  const BoxParts& parts_;
+  std::size_t me_;
+  double reach_;
+  std::vector<std::size_t> neighbours_;
+
+  LargeVector<Mark> marks_;            ///< by slot
+  std::vector<std::int32_t> slot_of_;  ///< by id, one more than the slot; 0 for none
+  std::vector<std::int32_t> unused_;   ///< slots
+  std::vector<std::int32_t> halo_;     ///< slots
+  std::vector<std::int32_t> moved_;    ///< slots of disks that have left their neighbourhoods in this window
+  std::size_t moves_ = 0;
+  std::vector<std::vector<std::int32_t>> copied_;  ///< slots of the disks that each neighbour copies
+  std::vector<std::vector<Message>> outboxes_;     ///< to each neighbour
+  struct Read {
+    std::int32_t slot;
+    bool changed;  ///< its event is another one
+  };
+  std::vector<Read> reads_;  ///< of all messages, in their order
+  std::size_t planned_ = 0;  ///< of them
+  std::uint16_t reading_ = 0;
+  std::size_t homes_ = 0;
+  bool crowded_ = false;  ///< there is no slot left
+  Verdict verdict_;
+  SpeedCensus census_;
+  RunningTotals ghosts_;  ///< counts of the events of copies
+  std::uint64_t events_ = 0, copied_events_ = 0;
+};
+
+}  // namespace carom

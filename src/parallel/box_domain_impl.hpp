@@ -1,0 +1,360 @@
+#pragma once
+// The functions of a domain.
+
+#include "engine/engine_impl.hpp"
+#include "parallel/box_domain.hpp"
+
+#include <cmath>
+
+namespace carom {
+
+template <class Impact, class Layout, class World>
+BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& parts, std::size_t me, double reach)
+    : Loop(whole,
+           [&] {
+             std::size_t slots = 0;
+             for (std::int32_t i = 0; i < whole.count(); ++i)
+               slots += parts.outside(whole.lists_.centre(i), me) <= reach ? 1U : 0U;
+             return slots + slots / 4 + 256;
+           }()),
+      parts_(parts),
+      me_(me),
+      reach_(reach),
+      marks_(lines_.size()),
+      slot_of_(whole.lines_.size()) {
+  for (std::size_t part = 0; part < parts.count(); ++part)
+    if (part != me && parts.adjacent(me, part, reach)) neighbours_.push_back(part);
+  copied_.resize(neighbours_.size());
+  outboxes_.resize(neighbours_.size());
+  for (auto i = count(); i-- > 0;) unused_.push_back(i);
+
+  stamp_ = 1;
+  std::vector<NeighbourhoodCentre> centres(lines_.size());
+  for (std::int32_t from = 0; from < whole.count(); ++from) {
+    const NeighbourhoodCentre centre = whole.lists_.centre(from);
+    if (parts.outside(centre, me) > reach) continue;
+    const std::int32_t i = slot_for(whole.id(from));
+    line(i) = whole.line(from);
+    flight_.set_rest(i, whole.flight_.rest_of(from));
+    plans_[i] = whole.plans_[from];
+    lists_.fill(i, whole.lists_.disk_size(from));
+    centres[static_cast<std::size_t>(i)] = centre;
+    mark(i).role = Role::halo;
+    halo_.push_back(i);
+  }
+  lists_.rebuild(whole.lists_.half_width(), centres);
+  for (const std::int32_t i : halo_) {
+    Plan& plan = plans_[i];
+    const bool stale = plan.partner >= 0 && whole.plans_.is_stale(plan);
+    if (plan.partner >= 0) plan.partner = slot_for(whole.id(plan.partner));
+    plan.predicted_at = stale || (plan.partner >= 0 && empty(plan.partner)) ? 0 : 1;
+    plan.last_collided = 1;
+  }
+  for (const std::int32_t i : halo_) settle(i);
+  std::erase_if(halo_, [this](std::int32_t i) { return mark(i).role != Role::halo; });
+  moved_.resize(lines_.size() / 4 + 64);
+  prefetcher_.suit(Loop::bytes());
+  begin_epoch_of(whole);
+}
+
+/// The slot of the disk with that id: the one that it has or had, or an unused one.
+template <class Impact, class Layout, class World>
+std::int32_t BoxDomain<Impact, Layout, World>::slot_for(std::int32_t disk) {
+  std::int32_t& slot = slot_of_[static_cast<std::size_t>(disk)];
+  if (slot != 0) return slot - 1;
+  if (unused_.empty()) recycle_slots();
+  if (unused_.empty()) {
+    crowded_ = true;
+    return 0;
+  }
+  const std::int32_t i = unused_.back();
+  unused_.pop_back();
+  slot = i + 1;
+  ids_[static_cast<std::size_t>(i)] = disk;
+  plans_[i] = {never, never, -1, neighbourhood_edge, 0, 1};
+  line(i).v[0] = line(i).v[1] = 0.0;
+  return i;
+}
+
+/// Finds the empty slots that no plan names.
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::recycle_slots() {
+  std::vector<bool> named(lines_.size());
+  for (std::int32_t i = 0; i < count(); ++i)
+    if (!empty(i) && plans_[i].partner >= 0) named[static_cast<std::size_t>(plans_[i].partner)] = true;
+  for (auto i = count(); i-- > 0;) {
+    std::int32_t& of = ids_[static_cast<std::size_t>(i)];
+    if (!empty(i) || named[static_cast<std::size_t>(i)] || of < 0) continue;
+    slot_of_[static_cast<std::size_t>(of)] = 0;
+    of = -1;
+    unused_.push_back(i);
+  }
+}
+
+template <class Impact, class Layout, class World>
+bool BoxDomain<Impact, Layout, World>::run_next(double end) {
+  if (stopped_ || stall_.jammed()) return false;
+  const auto [time, i] = queue_.next(plans_, [this](std::int64_t span) { this->prefetch_calendar(span); });
+  if (!(time <= end && time < epoch_length_)) return false;
+  const Plan& plan = plans_[i];
+  const bool by_edge = plan.edge_first();
+  const std::int32_t partner = plan.partner;
+  if (moves_ == moved_.size()) [[unlikely]]
+    moved_.resize(2 * moved_.size());
+  moved_[moves_] = i;
+  moves_ += static_cast<std::size_t>(by_edge && plan.edge == neighbourhood_edge);
+  const std::uint32_t stamp = stamp_;
+  const bool at_home = mark(i).role == Role::home;
+  ++(at_home ? events_ : copied_events_);
+  if (at_home) [[likely]]
+    this->step(i, time);
+  else
+    step_copy(i, time);
+  remember(i, time);
+  if (!by_edge && stamp_ != stamp) remember(partner, time);
+  return true;
+}
+
+/// Processes an event that is counted elsewhere.
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::step_copy(std::int32_t i, double time) {
+  const TuningCounters before = tuning_.counters();
+  const std::uint64_t changes = lists_.changes();
+  counted_ = &ghosts_;
+  this->step(i, time);
+  counted_ = &totals_;
+  lists_.set_changes(changes);
+  tuning_.set_counters(before);
+}
+
+template <class Impact, class Layout, class World>
+std::uint32_t BoxDomain<Impact, Layout, World>::copies_of(NeighbourhoodCentre centre) const {
+  std::uint32_t bits = 0;
+  for (std::size_t n = 0; n < neighbours_.size(); ++n)
+    if (parts_.outside(centre, neighbours_[n]) <= reach_) bits |= 1U << n;
+  return bits;
+}
+
+/// Decides anew whether a disk is at home, and who copies it.
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::settle(std::int32_t i) {
+  Mark& mine = mark(i);
+  const NeighbourhoodCentre centre = lists_.centre(i);
+  const bool at_home = parts_.owner(centre) == me_;
+  if (mine.role == Role::home && !at_home) --homes_, halo_.push_back(i);
+  if (mine.role == Role::halo && at_home) ++homes_;
+  mine.role = at_home ? Role::home : Role::halo;
+  const std::uint32_t copies = at_home ? copies_of(centre) : 0;
+  for (std::uint32_t fresh = copies & ~mine.copied_by; fresh != 0; fresh &= fresh - 1)
+    copied_[static_cast<std::size_t>(std::countr_zero(fresh))].push_back(i);
+  mine.copied_by = copies;
+}
+
+template <class Impact, class Layout, class World>
+typename BoxDomain<Impact, Layout, World>::Message BoxDomain<Impact, Layout, World>::message_of(std::int32_t i) const {
+  const Plan& plan = plans_[i];
+  Message message;
+  std::memset(static_cast<void*>(&message), 0, sizeof message);
+  message.line = line(i);
+  message.pair_time = plan.pair_time;
+  message.edge_time = plan.edge_time;
+  message.history = mark(i).history;
+  message.id = id(i);
+  message.partner = plan.partner < 0 ? -1 : id(plan.partner);
+  message.edge = plan.edge;
+  message.stale = plan.partner >= 0 && plans_.is_stale(plan);
+  message.centre = lists_.centre(i);
+  message.size = lists_.disk_size(i);
+  message.rest = flight_.rest_of(i);
+  return message;
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::write_messages() {
+  for (std::size_t m = 0; m < moves_; ++m) settle(moved_[m]);
+  moves_ = 0;
+  std::erase_if(halo_, [this](std::int32_t i) { return mark(i).role != Role::halo; });
+  for (std::size_t n = 0; n < neighbours_.size(); ++n) {
+    std::erase_if(copied_[n], [&](std::int32_t i) { return (mark(i).copied_by >> n & 1U) == 0; });
+    outboxes_[n].clear();
+    for (const std::int32_t i : copied_[n]) outboxes_[n].push_back(message_of(i));
+  }
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::begin_reading() {
+  ++reading_;
+  reads_.clear();
+  planned_ = 0;
+  verdict_ = Verdict{};
+}
+
+/// Whether a copy is what its home says.
+template <class Impact, class Layout, class World>
+bool BoxDomain<Impact, Layout, World>::same(std::int32_t i, const Message& message) const {
+  const Plan& plan = plans_[i];
+  const NeighbourhoodCentre centre = lists_.centre(i);
+  const auto rest = flight_.rest_of(i);
+  return std::memcmp(&line(i), &message.line, sizeof(Line)) == 0 && plan.pair_time == message.pair_time &&
+         plan.edge_time == message.edge_time && plan.edge == message.edge &&
+         (plan.partner < 0 ? -1 : id(plan.partner)) == message.partner && centre.x == message.centre.x &&
+         centre.y == message.centre.y && mark(i).history == message.history &&
+         std::memcmp(&rest, &message.rest, sizeof rest) == 0 && (plan.partner >= 0 && plans_.is_stale(plan)) == message.stale;
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::read_lines(std::span<const Message> messages) {
+  for (const Message& message : messages) {
+    const std::int32_t i = slot_for(message.id);
+    if (crowded_) return;
+    Mark& mine = mark(i);
+    if (mine.role == Role::home) verdict_.conflict = true;
+    bool changed = true;
+    if (mine.role == Role::empty) {
+      lists_.insert(i, message.size, message.centre);
+      mine.role = Role::halo;
+      halo_.push_back(i);
+    } else {
+      ++verdict_.compared;
+      const NeighbourhoodCentre centre = lists_.centre(i);
+      changed = !same(i, message);
+      if (changed) {
+        ++verdict_.wrong;
+        verdict_.nearest = std::min({verdict_.nearest, parts_.outside(message.centre, me_), parts_.outside(centre, me_)});
+        if (centre.x != message.centre.x || centre.y != message.centre.y) {
+          const std::uint64_t changes = lists_.changes();
+          (void)lists_.move_neighbourhood(i, message.centre);
+          lists_.set_changes(changes);
+        }
+      }
+    }
+    if (changed) {
+      line(i) = message.line;
+      mine.history = message.history;
+      flight_.set_rest(i, message.rest);
+    }
+    mine.read = reading_;
+    reads_.push_back({i, changed});
+  }
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::read_plans(std::span<const Message> messages) {
+  for (const Message& message : messages) {
+    if (crowded_) return;
+    const auto [i, changed] = reads_[planned_++];
+    const std::int32_t partner = message.partner < 0 ? -1 : slot_for(message.partner);
+    Plan& plan = plans_[i];
+    plan.pair_time = message.pair_time;
+    plan.edge_time = message.edge_time;
+    plan.partner = partner;
+    plan.edge = message.edge;
+    plan.predicted_at = message.stale || (partner >= 0 && empty(partner)) ? 0 : stamp_;
+    if (changed) schedule(i);
+  }
+}
+
+template <class Impact, class Layout, class World>
+const typename BoxDomain<Impact, Layout, World>::Verdict& BoxDomain<Impact, Layout, World>::end_reading() {
+  std::size_t kept = 0;
+  for (const std::int32_t i : halo_) {
+    if (mark(i).read == reading_)
+      halo_[kept++] = i;
+    else
+      leave(i);
+  }
+  halo_.resize(kept);
+  return verdict_;
+}
+
+/// Empties the slot of a disk that is too far away. Plans that name it are stale from now on.
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::leave(std::int32_t i) {
+  lists_.remove(i);
+  mark(i) = Mark{};
+  plans_[i] = {never, never, -1, neighbourhood_edge, 0, ++stamp_};
+  line(i).v[0] = line(i).v[1] = 0.0;
+  queue_.push(plans_, i, never);
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::rebase_at(double now) {
+  pacing_.judge(now, queue_.pushed(), lines_.size());
+  this->rebase(now);
+  census_ = SpeedCensus{};
+  for (std::int32_t i = 0; i < count(); ++i)
+    if (mark(i).role == Role::home) census_.add(line(i).v);
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::rebuild_lists(double half_width) {
+  const std::vector<NeighbourhoodCentre> centres = this->new_centres();
+  lists_.rebuild(half_width, centres);
+  this->suit_neighbourhoods(half_width);
+  for (auto& copied : copied_) copied.clear();
+  for (std::int32_t i = 0; i < count(); ++i) {
+    if (empty(i)) continue;
+    set_plan(i, predicted(i, surroundings(i)));
+    mark(i).copied_by = 0;
+  }
+  for (std::int32_t i = 0; i < count(); ++i)
+    if (!empty(i)) settle(i);
+}
+
+template <class Impact, class Layout, class World>
+std::uint64_t BoxDomain<Impact, Layout, World>::longest_list() const {
+  std::uint64_t longest = 0;
+  for (std::int32_t i = 0; i < count(); ++i)
+    if (mark(i).role == Role::home) longest = std::max<std::uint64_t>(longest, lists_.count(i));
+  return longest;
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::begin_epoch_of(const Loop& whole) {
+  epoch_length_ = whole.epoch_length_;
+  frame_.edge_step = whole.frame_.edge_step;
+  limits_ = whole.limits_;
+  if (pacing_.span() == 0.0) pacing_.choose_span({}, epoch_length_);
+  queue_.start(pacing_.span(), lines_.size(), epoch_length_, prefetcher_.looks_ahead(), pacing_.busy());
+  for (std::int32_t i = 0; i < count(); ++i)
+    if (!empty(i)) schedule(i);
+  pacing_.begin(queue_.pushed());
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::hand_over_counts(Loop& whole) {
+  totals_.numerics.epochs = totals_.numerics.list_rebuilds = 0;  // which the whole counts once
+  whole.totals_.add(totals_);
+  whole.tuning_.add(tuning_.counters());
+  whole.lists_.set_changes(whole.lists_.changes() + lists_.changes());
+  totals_ = RunningTotals{};
+  tuning_.set_counters({});
+  lists_.set_changes(0);
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::store(Loop& whole, std::span<const std::int32_t> slot_of_id,
+                                             std::span<NeighbourhoodCentre> centres) const {
+  for (std::int32_t i = 0; i < count(); ++i) {
+    if (mark(i).role != Role::home) continue;
+    const std::int32_t to = slot_of_id[static_cast<std::size_t>(id(i))];
+    whole.line(to) = line(i);
+    whole.flight_.set_rest(to, flight_.rest_of(i));
+    Plan plan = plans_[i];
+    plan.predicted_at = plan.partner >= 0 && plans_.is_stale(plan) ? 0 : 1;
+    plan.last_collided = 1;
+    if (plan.partner >= 0) plan.partner = slot_of_id[static_cast<std::size_t>(id(plan.partner))];
+    whole.plans_[to] = plan;
+    centres[static_cast<std::size_t>(to)] = lists_.centre(i);
+  }
+}
+
+template <class Impact, class Layout, class World>
+std::size_t BoxDomain<Impact, Layout, World>::bytes() const {
+  std::size_t messages = 0;
+  for (const auto& outbox : outboxes_) messages += outbox.capacity() * sizeof(Message);
+  return Loop::bytes() + marks_.capacity() * sizeof(Mark) + slot_of_.capacity() * sizeof(std::int32_t) + messages +
+         (moved_.capacity() + halo_.capacity() + unused_.capacity()) * sizeof(std::int32_t);
+}
+
+}  // namespace carom

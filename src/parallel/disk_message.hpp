@@ -1,0 +1,27 @@
+#pragma once
+// What one domain tells a neighbouring one of a disk near their border: all that decides what the disk does next.
+
+#include "neighbours/neighbour_lists.hpp"
+#include "neighbours/neighbour_search.hpp"
+
+#include <cstdint>
+
+namespace carom {
+
+/// The state of one disk at the end of a window, as the domain has it to which the disk belongs. Line and Rest are those of the
+/// engine (engine/layout.hpp, engine/flight_frame.hpp).
+template <class Line, class Rest>
+struct DiskMessage {
+  Line line;
+  double pair_time, edge_time;  ///< of its plan
+  std::uint64_t history;        ///< hash of the events of this disk
+  std::int32_t id;
+  std::int32_t partner;  ///< of its plan, by id; -1 for none
+  std::int32_t edge;
+  bool stale;  ///< whether the plan is
+  NeighbourhoodCentre centre;
+  NeighbourLists::DiskSize size;
+  Rest rest;
+};
+
+}  // namespace carom

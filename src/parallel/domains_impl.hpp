@@ -1,0 +1,371 @@
+#pragma once
+// How domains run together.
+
+#include "parallel/domains.hpp"
+
+namespace carom {
+
+template <class Impact, class Layout, class World>
+Domains<Impact, Layout, World>::Domains(Whole& whole, const Threads& threads)
+    : whole_(whole),
+      engine_(whole),
+      threads_(threads),
+      team_(std::min(threads.threads, threads.domains)),
+      slot_of_id_(whole.disk_count()),
+      centres_(whole.disk_count()),
+      half_width_(whole_.lists_.half_width()) {
+  done_.threads = team_.size();
+  done_.domains = threads.domains;
+}
+
+template <class Impact, class Layout, class World>
+bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit,
+                                               bool exact_events) {
+  const auto alone = [&](const Instant& until) {
+    gather();
+    return engine_.run_until(until, pair_limit, event_limit);
+  };
+  for (;;) {
+    const std::uint64_t few = whole_.lines_.size() / 2;
+    const Counts so_far = counts();
+    if (so_far.pair >= pair_limit || (exact_events && event_limit < few) || whole_.idle() || whole_.stall_.jammed() ||
+        whole_.recorder_.active() || whole_.lines_.size() < 2)
+      return alone(target);
+    if (alone_until_) {
+      const Instant until = std::min(target, *alone_until_);
+      if (!alone(until)) return false;
+      if (!(until < target)) return true;
+      alone_until_.reset();
+      continue;
+    }
+    if (!shared_) share_out();
+    target_ = target.since<double>(whole_.epoch_);
+    end_ = target;
+    pair_limit_ = pair_limit;
+    event_limit_ = event_limit;
+    events_before_ = done_.events;
+    begin_window();
+    team_.run([this](std::size_t thread) { work(thread); });
+    switch (next_) {
+      case Next::arrived:
+        return true;
+      case Next::counted:
+        return false;
+      case Next::failed:
+        go_back();
+        failure_.rethrow();
+        break;
+      default:
+        go_back();
+        alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
+    }
+  }
+}
+
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::share_out() {
+  for (std::int32_t i = 0; i < whole_.count(); ++i) slot_of_id_[static_cast<std::size_t>(whole_.id(i))] = i;
+  for (std::int32_t i = 0; i < whole_.count(); ++i) centres_[static_cast<std::size_t>(i)] = whole_.lists_.centre(i);
+  half_width_ = whole_.lists_.half_width();
+  parts_.emplace(threads_.domains, centres_,
+                 std::array{whole_.flight_.axis(0).unit * 0x1p32, whole_.flight_.axis(1).unit * 0x1p32});
+  domains_.clear();
+  domains_.resize(threads_.domains);
+  verdicts_.resize(threads_.domains);
+  const double reach = threads_.halo * whole_.sizes_.largest_contact;
+  team_.run([&](std::size_t thread) {
+    each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach); });
+  });
+  failure_.rethrow();
+  whole_.lists_.clear();
+  shared_ = up_to_date_ = true;
+  ready_ = false;
+  now_ = whole_.now_;
+  SpeedCensus speeds;
+  for (const auto& line : whole_.lines_) speeds.add(line.v);
+  watch_speeds(speeds);
+  const auto disks = static_cast<double>(whole_.lines_.size());
+  if (window_ == 0.0) {
+    window_ = threads_.events_per_window * disks * whole_.pacing_.span() / 6.0;
+    shortest_window_ = window_ / 32.0;
+  }
+  if (pair_rate_ == 0.0) pair_rate_ = disks / window_;  // more than there will be
+  ++done_.shared_out;
+}
+
+/// Puts what has happened since the last time into the whole engine.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::update() {
+  if (up_to_date_) return;
+  for (const auto& domain : domains_) domain->hand_over_counts(whole_);
+  team_.run([&](std::size_t thread) { each(thread, [&](std::size_t d) { domains_[d]->store(whole_, slot_of_id_, centres_); }); });
+  failure_.rethrow();
+  whole_.stamp_ = 1;
+  whole_.now_ = now_;
+  up_to_date_ = true;
+}
+
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::gather() {
+  if (!shared_) return;
+  update();
+  go_back();
+}
+
+/// Lets the whole engine go on from what it has.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::go_back() {
+  domains_.clear();
+  const std::uint64_t changes = whole_.lists_.changes();
+  whole_.lists_.rebuild(half_width_, centres_);
+  whole_.lists_.set_changes(changes);
+  whole_.start_queue();
+  shared_ = false;
+  ready_ = up_to_date_ = true;
+}
+
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::work(std::size_t thread) {
+  for (;;) {
+    if (next_ == Next::window)
+      run_window(thread);
+    else if (next_ == Next::epoch)
+      run_epoch(thread);
+    else
+      return;
+  }
+}
+
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::begin_window() {
+  up_to_date_ = false;
+  pairs_before_ = counts().pair;
+  window_end_ = longest_end_ = std::min({now_ + window_, target_, whole_.epoch_length_});
+  const double expected = pair_rate_ * (window_end_ - now_), left = static_cast<double>(pair_limit_ - pairs_before_);
+  counting_ = expected + 4.0 * std::sqrt(expected) + 64.0 > left;
+  if (counting_) window_end_ = now_;
+  next_ = Next::window;
+}
+
+/// Part of a window in which the limit of collisions may come: goes as far as it most likely does not, again and again, and the
+/// last few events one by one. A domain needs no news in between.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::count_collisions() {
+  const std::uint64_t pairs = counts().pair;
+  if (pairs > pair_limit_ || failure_.any()) return void(counting_ = false);
+  const double left = static_cast<double>(pair_limit_ - pairs), safe = left - 4.0 * std::sqrt(left) - 32.0;
+  if (window_end_ == longest_end_) {
+    counting_ = false;
+  } else if (safe > 0.0) {
+    window_end_ = std::min(longest_end_, window_end_ + safe / pair_rate_);
+  } else {
+    step_to_limit();
+    counting_ = false;
+  }
+}
+
+/// Processes event after event, in the order of time, until the limit of collisions or the end of the window.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::step_to_limit() {
+  std::uint64_t pairs = counts().pair;
+  while (pairs < pair_limit_) {
+    Part* first = nullptr;
+    double time = infinity<double>;
+    for (const auto& domain : domains_)
+      if (const double next = domain->next_time(); next < time) time = next, first = domain.get();
+    if (first == nullptr || time > longest_end_) return void(window_end_ = longest_end_);
+    const std::uint64_t before = first->counts().pair;
+    if (!first->run_next(longest_end_)) return void(window_end_ = longest_end_);
+    pairs += first->counts().pair - before;
+    window_end_ = std::max(window_end_, time);
+  }
+}
+
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::read_messages(std::size_t d) {
+  Part& domain = *domains_[d];
+  const auto from_all = [&](auto&& read) {
+    for (const std::size_t other : domain.neighbours()) read(domains_[other]->messages(domains_[other]->number_of(d)));
+  };
+  domain.begin_reading();
+  from_all([&](auto messages) { domain.read_lines(messages); });
+  from_all([&](auto messages) { domain.read_plans(messages); });
+  verdicts_[d] = domain.end_reading();
+}
+
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::run_window(std::size_t thread) {
+  each(thread, [&](std::size_t d) { domains_[d]->run(window_end_); });
+  while (counting_) {
+    team_.meet(thread, [this] { count_collisions(); });
+    each(thread, [&](std::size_t d) { domains_[d]->run(window_end_); });
+    team_.meet(thread, [] {});
+  }
+  each(thread, [&](std::size_t d) { domains_[d]->write_messages(); });
+  team_.meet(thread, [] {});
+  each(thread, [&](std::size_t d) { read_messages(d); });
+  team_.meet(thread, [this] { decide(); });
+}
+
+/// After a window: is it right, and what comes next?
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::decide() {
+  ++done_.windows;
+  std::size_t homes = 0;
+  double nearest = infinity<double>, allowed = 0.0;
+  bool stopped = false;
+  done_.events = done_.copied_events = 0;
+  for (std::size_t d = 0; d < domains_.size(); ++d) {
+    homes += domains_[d]->homes();
+    stopped = stopped || domains_[d]->stopped() || verdicts_[d].conflict;
+    nearest = std::min(nearest, verdicts_[d].nearest);
+    allowed = domains_[d]->read_at_home();
+    done_.copies += verdicts_[d].compared;
+    done_.copies_wrong += verdicts_[d].wrong;
+  }
+  allowed += fastest_ * (window_end_ - now_);
+  const std::uint64_t pairs = counts().pair;
+  if (failure_.any()) {
+    next_ = Next::failed;
+  } else if (stopped || nearest <= allowed || homes != whole_.lines_.size() || pairs > pair_limit_) {
+    ++done_.windows_redone;
+    if (nearest <= allowed) window_ = std::max(0.5 * window_, shortest_window_);
+    next_ = Next::void_one;
+  } else {
+    if (const double length = window_end_ - now_; length > 0.0 && pairs > pairs_before_ + 1000)
+      pair_rate_ = static_cast<double>(pairs - pairs_before_) / length;
+    now_ = window_end_;
+    adapt_window(nearest - allowed);
+    if (pairs == pair_limit_)
+      next_ = Next::counted;
+    else if (now_ == whole_.epoch_length_)
+      next_ = Next::epoch;
+    else if (now_ == target_)
+      next_ = Next::arrived;
+    else if (events() - events_before_ >= event_limit_)
+      next_ = Next::counted;
+    else
+      begin_window();
+  }
+}
+
+/// Makes windows shorter where something wrong came rather near to home, and longer where it has not for a while.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::adapt_window(double margin) {
+  const double contact = whole_.sizes_.largest_contact;
+  calm_margin_ = calm_ == 0 ? margin : std::min(calm_margin_, margin);
+  ++calm_;
+  if (margin < contact) {
+    window_ = std::max(0.8 * window_, shortest_window_);
+    calm_ = 0;
+  } else if (calm_ >= 20) {
+    if (calm_margin_ > 3.0 * contact) window_ *= 1.05;
+    calm_ = 0;
+  }
+}
+
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::run_epoch(std::size_t thread) {
+  each(thread, [&](std::size_t d) { domains_[d]->rebase_at(now_); });
+  team_.meet(thread, [this] { lead_epoch(); });
+  if (lists_change_) {
+    each(thread, [&](std::size_t d) {
+      domains_[d]->rebuild_lists(half_width_);
+      domains_[d]->write_messages();
+    });
+    team_.meet(thread, [] {});
+    each(thread, [&](std::size_t d) { read_messages(d); });
+  }
+  each(thread, [&](std::size_t d) {
+    domains_[d]->begin_epoch_of(whole_);
+    domains_[d]->store(whole_, slot_of_id_, centres_);
+  });
+  team_.meet(thread, [this] { end_of_epoch(); });
+}
+
+/// Begins an epoch in the whole engine: see EventLoop::begin_epoch().
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::lead_epoch() {
+  SpeedCensus speeds;
+  for (const auto& domain : domains_) {
+    domain->hand_over_counts(whole_);
+    speeds.add(domain->census());
+  }
+  watch_speeds(speeds);
+  ++whole_.totals_.numerics.epochs;
+  whole_.last_collision_.rebase();
+  whole_.recorder_.begin_epoch(whole_.epoch_ = whole_.epoch_.plus(now_));
+  whole_.now_ = 0.0;
+  whole_.stamp_ = 1;
+  const double half_width = whole_.tuning_.next(half_width_, whole_.sizes_.widest_neighbourhood, whole_.mean_speed_ * now_,
+                                                whole_.sizes_.spacing, whole_.lists_.changes());
+  lists_change_ = half_width != half_width_;
+  if (lists_change_) {
+    half_width_ = half_width;
+    ++whole_.totals_.numerics.list_rebuilds;
+    whole_.suit_neighbourhoods(half_width);
+  }
+  whole_.suit_epoch(speeds);
+}
+
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::end_of_epoch() {
+  if (lists_change_) {
+    std::uint64_t longest = 0;
+    for (const auto& domain : domains_) longest = std::max(longest, domain->longest_list());
+    whole_.totals_.numerics.longest_neighbour_list = longest;
+  }
+  now_ = 0.0;
+  target_ = end_.template since<double>(whole_.epoch_);
+  if (failure_.any())
+    next_ = Next::failed;
+  else if (whole_.stall_.jammed() || whole_.idle())
+    next_ = Next::void_one;
+  else
+    begin_window();
+}
+
+template <class Impact, class Layout, class World>
+std::uint64_t Domains<Impact, Layout, World>::events() {
+  done_.events = done_.copied_events = 0;
+  for (const auto& domain : domains_) done_.events += domain->events_done(), done_.copied_events += domain->copied_events();
+  return done_.events;
+}
+
+template <class Impact, class Layout, class World>
+Counts Domains<Impact, Layout, World>::counts() const {
+  Counts sum = whole_.totals_;
+  if (!up_to_date_)
+    for (const auto& domain : domains_) add_counts(sum, domain->counts());
+  return sum;
+}
+
+template <class Impact, class Layout, class World>
+Totals Domains<Impact, Layout, World>::totals() const {
+  if (up_to_date_) return engine_.totals();
+  RunningTotals sum = whole_.totals_;
+  for (const auto& domain : domains_) sum.add(domain->totals());
+  return sum.rounded();
+}
+
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::set_back(const Instant& time) {
+  if (!shared_) return engine_.set_back(time);
+  now_ = time.since<double>(whole_.epoch_);
+  if (up_to_date_) engine_.set_back(time);
+}
+
+template <class Impact, class Layout, class World>
+Instant Domains<Impact, Layout, World>::now() const {
+  return whole_.epoch_.plus(shared_ ? now_ : whole_.now_);
+}
+
+template <class Impact, class Layout, class World>
+std::size_t Domains<Impact, Layout, World>::bytes() const {
+  std::size_t sum =
+      engine_.bytes() + centres_.capacity() * sizeof(NeighbourhoodCentre) + slot_of_id_.capacity() * sizeof(std::int32_t);
+  for (const auto& domain : domains_) sum += domain->bytes();
+  return sum;
+}
+
+}  // namespace carom

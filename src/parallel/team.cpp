@@ -1,0 +1,32 @@
+#include "parallel/team.hpp"
+
+#include <algorithm>
+
+namespace carom {
+
+Team::Team(std::size_t threads) : barrier_(static_cast<std::ptrdiff_t>(std::max<std::size_t>(threads, 1)), CallLead{this}) {
+  for (std::size_t thread = 1; thread < threads; ++thread)
+    threads_.emplace_back([this, thread] {
+      for (;;) {
+        barrier_.arrive_and_wait();
+        if (over_) return;
+        (*work_)(thread);
+        barrier_.arrive_and_wait();
+      }
+    });
+}
+
+Team::~Team() {
+  over_ = true;
+  barrier_.arrive_and_wait();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void Team::run(const std::function<void(std::size_t)>& work) {
+  work_ = &work;
+  barrier_.arrive_and_wait();
+  work(0);
+  barrier_.arrive_and_wait();
+}
+
+}  // namespace carom

@@ -1,0 +1,206 @@
+// A run on several cores has the bits of the run on one: for any number of domains and threads, any halo and window, and wherever
+// one stops.
+
+#include <carom/simulation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+Scene gas(std::int64_t disks, double packing_fraction, Boundary boundary, CollisionRule rule = CollisionRule::specular) {
+  Scene scene;
+  const double side = std::sqrt(static_cast<double>(disks) * 0.7853981633974483 / packing_fraction);
+  scene.box = {{0.0, 0.0}, {1.25 * side, side / 1.25}, {boundary, boundary}};
+  Species species;
+  species.name = "gas";
+  species.count = disks;
+  species.radius = 0.5;
+  species.mass = 1.0;
+  species.positions = HexagonalLattice{};
+  species.velocities = MaxwellVelocities{1.0};
+  scene.species = {species};
+  scene.effects.collision.rule = rule;
+  return scene;
+}
+
+/// Disks of two sizes in a gas, one of them as heavy as it is large.
+Scene mixture(std::int64_t disks) {
+  Scene scene = gas(disks, 0.3, Boundary::walls);
+  scene.box.upper *= 1.5;
+  scene.species[0].positions = RandomPositions{};
+  Species large = scene.species[0];
+  large.name = "large";
+  large.count = disks / 20;
+  large.radius = 1.3;
+  large.mass = 7.0;
+  scene.species.insert(scene.species.begin(), large);
+  return scene;
+}
+
+/// What must be the same: state, clock, and everything that has been counted.
+void expect_same(const Simulation& alone, const Simulation& shared, const std::string& where) {
+  EXPECT_EQ(state_hash(shared.state()), state_hash(alone.state())) << where;
+  const Totals a = alone.totals(), b = shared.totals();
+  EXPECT_EQ(b.pair, a.pair) << where;
+  EXPECT_EQ(b.wall, a.wall) << where;
+  EXPECT_EQ(b.other, a.other) << where;
+  EXPECT_EQ(b.stale, a.stale) << where;
+  EXPECT_EQ(b.virial, a.virial) << where;
+  EXPECT_EQ(b.wall_impulse, a.wall_impulse) << where;
+  EXPECT_EQ(b.numerics.epochs, a.numerics.epochs) << where;
+  EXPECT_EQ(b.numerics.list_rebuilds, a.numerics.list_rebuilds) << where;
+  EXPECT_EQ(b.numerics.longest_neighbour_list, a.numerics.longest_neighbour_list) << where;
+  EXPECT_EQ(b.numerics.deepest_overlap, a.numerics.deepest_overlap) << where;
+  EXPECT_EQ(shared.counts().pair, a.pair) << where;
+  EXPECT_EQ(shared.time(), alone.time()) << where;
+}
+
+void expect_same_runs(const Scene& scene, const Threads& threads, double time, int stops) {
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads(threads);
+  for (int k = 1; k <= stops; ++k) {
+    alone.run_until(time * k / stops);
+    EXPECT_EQ(shared.run_until(time * k / stops), StopReason::time);
+    expect_same(alone, shared, "stop " + std::to_string(k));
+  }
+  EXPECT_TRUE(shared.check_invariants().empty());
+  EXPECT_GT(shared.thread_counts().windows, 0U);
+}
+
+TEST(Threads, GiveTheBitsOfOneForAnyNumberOfDomains) {
+  for (const std::size_t domains : {2U, 3U, 8U, 16U})
+    expect_same_runs(gas(4000, 0.6, Boundary::periodic), {.threads = 1, .domains = domains}, 6.0, 3);
+}
+
+TEST(Threads, GiveTheBitsOfOneForAnyNumberOfThreads) {
+  for (const std::size_t threads : {2U, 3U, 4U}) expect_same_runs(gas(6000, 0.5, Boundary::walls), {.threads = threads}, 4.0, 2);
+}
+
+TEST(Threads, GiveTheBitsOfOneForEveryLeanScene) {
+  expect_same_runs(gas(5000, 0.3, Boundary::walls), {.domains = 4}, 10.0, 3);
+  expect_same_runs(gas(5000, 0.72, Boundary::periodic), {.domains = 4}, 2.0, 3);
+  expect_same_runs(gas(5000, 0.4, Boundary::periodic, CollisionRule::reversal), {.domains = 4}, 6.0, 3);
+  expect_same_runs(mixture(3000), {.domains = 4}, 8.0, 3);
+}
+
+TEST(Threads, FindEveryWindowThatTheirHalosAreTooNarrowFor) {
+  std::uint64_t redone = 0;
+  for (const double halo : {2.5, 3.0, 4.0, 6.0})
+    for (const double events : {0.2, 1.0, 3.0}) {
+      const Scene scene = gas(6000, 0.5, Boundary::periodic);
+      Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+      shared.set_threads({.domains = 4, .halo = halo, .events_per_window = events});
+      alone.run_until(8.0);
+      shared.run_until(8.0);
+      expect_same(alone, shared, "halo " + std::to_string(halo));
+      redone += shared.thread_counts().windows_redone;
+    }
+  EXPECT_GT(redone, 10U);
+}
+
+TEST(Threads, StopAtAnExactNumberOfCollisions) {
+  const Scene scene = gas(6000, 0.6, Boundary::periodic);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.threads = 2, .domains = 4});
+  for (const std::uint64_t collisions : {1U, 3000U, 20001U, 20002U, 50000U}) {
+    EXPECT_EQ(alone.run_until(1e6, {.collisions = collisions}), StopReason::collisions);
+    EXPECT_EQ(shared.run_until(1e6, {.collisions = collisions}), StopReason::collisions);
+    expect_same(alone, shared, std::to_string(collisions) + " collisions");
+  }
+}
+
+TEST(Threads, StopAtAnExactNumberOfEvents) {
+  const Scene scene = gas(4000, 0.5, Boundary::walls);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.domains = 3});
+  for (const std::uint64_t events : {10U, 30000U}) {
+    EXPECT_EQ(alone.run_until(1e6, {.events = events}), StopReason::events);
+    EXPECT_EQ(shared.run_until(1e6, {.events = events}), StopReason::events);
+    expect_same(alone, shared, std::to_string(events) + " events");
+  }
+}
+
+TEST(Threads, GoOnFromWhatOtherNumbersOfThemHaveSaved) {
+  const Scene scene = gas(4000, 0.5, Boundary::periodic);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.domains = 4});
+  alone.run_until(6.0);
+  shared.run_until(2.3);
+  std::stringstream saved;
+  shared.save(saved);
+  Simulation one = restore_simulation(scene, saved);
+  one.run_until(4.1);
+  std::stringstream again;
+  one.save(again);
+  Simulation three = restore_simulation(scene, again);
+  three.set_threads({.domains = 3});
+  three.run_until(6.0);
+  expect_same(alone, three, "resumed");
+}
+
+TEST(Threads, GoOnAfterSingleStepsAndChanges) {
+  const Scene scene = gas(4000, 0.5, Boundary::periodic);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.domains = 4});
+  for (Simulation* simulation : {&alone, &shared}) {
+    simulation->run_until(1.0);
+    simulation->step();
+    simulation->run_until(2.0);
+    simulation->set_velocities(-simulation->state().velocities);
+    simulation->run_until(3.5);
+    simulation->reset_clock();
+    simulation->run_until(1.0);
+  }
+  expect_same(alone, shared, "after changes");
+  shared.set_threads({});
+  alone.run_until(2.0);
+  shared.run_until(2.0);
+  expect_same(alone, shared, "on one core again");
+}
+
+TEST(Threads, RunASchedule) {
+  Scene scene = gas(4000, 0.5, Boundary::periodic);
+  scene.run.equilibrate = Run::Equilibrate{.collisions_per_disk = 4.0};
+  scene.run.time = 3.0;
+  scene.run.sample_every = 0.1;
+  std::vector<std::string> hashes[2];
+  std::vector<double> blocks[2];
+  for (const std::size_t domains : {1U, 4U}) {
+    Simulation simulation = make_simulation(scene);
+    simulation.set_threads({.domains = domains});
+    const std::size_t n = domains > 1 ? 1 : 0;
+    RunHooks hooks;
+    hooks.sample = [&](std::uint64_t, const State& state) { hashes[n].push_back(state_hash(state)); };
+    hooks.block = [&](const Progress& progress) {
+      blocks[n].push_back(progress.time);
+      blocks[n].push_back(progress.totals.virial);
+    };
+    run_schedule(simulation, hooks);
+  }
+  EXPECT_EQ(hashes[0].size(), 31U);
+  EXPECT_EQ(hashes[1], hashes[0]);
+  EXPECT_GT(blocks[0].size(), 4U);
+  EXPECT_EQ(blocks[1], blocks[0]);
+}
+
+TEST(Threads, RefuseWhatTheyCannotDo) {
+  Simulation simulation = make_simulation(gas(100, 0.3, Boundary::walls));
+  EXPECT_THROW(simulation.set_threads({.threads = 0}), std::invalid_argument);
+  EXPECT_THROW(simulation.set_threads({.threads = 33}), std::invalid_argument);
+  EXPECT_THROW(simulation.set_threads({.domains = 33}), std::invalid_argument);
+  EXPECT_THROW(simulation.set_threads({.threads = 2, .halo = 0.0}), std::invalid_argument);
+  EXPECT_THROW(simulation.set_threads({.threads = 2, .events_per_window = -1.0}), std::invalid_argument);
+  Simulation textbook = make_simulation(gas(100, 0.3, Boundary::walls), "textbook");
+  EXPECT_FALSE(textbook.why_not_threads().empty());
+  EXPECT_THROW(textbook.set_threads({.threads = 2}), std::invalid_argument);
+  textbook.set_threads({});
+}
+
+}  // namespace
+}  // namespace carom::test
