@@ -15,6 +15,8 @@ namespace carom {
 /// sum of steps is never off by more than half a step, however many lengths it is made of.
 class StepRest {
  public:
+  bool operator==(const StepRest&) const = default;
+
   /// Returns the length speed * time in steps, and what was left before. All digits count: products that are rounded to a double
   /// may be whole numbers of some fraction of a step every time, and all are rounded to one side then. Requires |speed * time| <
   /// half the range.

@@ -41,6 +41,30 @@ class AnyImpact {
         sheared_(effects.shear_rate() != 0.0),
         drag_(effects.drag_rate()) {}
 
+  /// The impact of disks in so many slots of their own.
+  [[nodiscard]] AnyImpact with_slots(std::size_t slots) const {
+    AnyImpact part = *this;
+    part.spins_.assign(spins_.empty() ? 0 : slots, Real(0));
+    part.last_.assign(last_.empty() ? 0 : slots, -infinity<Real>);
+    return part;
+  }
+  /// What it knows of one disk, but for its wells.
+  struct DiskRest {
+    Real spin = 0;
+    Real last = -infinity<Real>;
+
+    bool operator==(const DiskRest&) const = default;
+  };
+  [[nodiscard]] DiskRest rest_of(std::int32_t i) const {
+    const auto at = static_cast<std::size_t>(i);
+    return {spins_.empty() ? Real(0) : spins_[at], last_.empty() ? -infinity<Real> : last_[at]};
+  }
+  void set_rest(std::int32_t i, const DiskRest& rest) {
+    const auto at = static_cast<std::size_t>(i);
+    if (!spins_.empty()) spins_[at] = rest.spin;
+    if (!last_.empty()) last_[at] = rest.last;
+  }
+
   /// A disk as it takes part in a collision.
   struct Body {
     std::int32_t disk;

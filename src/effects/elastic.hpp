@@ -21,6 +21,12 @@ class Elastic {
 
   /// The impact of disks in so many slots of their own.
   [[nodiscard]] Elastic with_slots(std::size_t /*slots*/) const { return *this; }
+  /// What it knows of one disk.
+  struct DiskRest {
+    bool operator==(const DiskRest&) const = default;
+  };
+  [[nodiscard]] static DiskRest rest_of(std::int32_t /*i*/) { return {}; }
+  static void set_rest(std::int32_t /*i*/, const DiskRest& /*rest*/) {}
 
   struct Body {
     std::int32_t disk;

@@ -71,6 +71,12 @@ void EventLoop<Impact, Layout, World>::rebase(double now) {
   plans_.rebase(now);
   stamp_ = 1;
   impact_.rebase(now);
+  rebase_clock(now);
+}
+
+/// Lets the clock, and all that belongs to no disk, count from `now`.
+template <class Impact, class Layout, class World>
+void EventLoop<Impact, Layout, World>::rebase_clock(double now) {
   last_collision_.rebase();
   ++totals_.numerics.epochs;
   if constexpr (!World::plain) flight_.fall(now);

@@ -280,6 +280,7 @@ class EventLoop {
   void fail_between(std::int32_t i, std::int32_t j);
   /// Lets lines, plans and stamps count from `now`.
   void rebase(double now);
+  void rebase_clock(double now);
   /// Makes everything anew that an epoch needs after rebase().
   void replan();
   void choose_epoch_length();

@@ -74,6 +74,8 @@ class FlightFrame {
   struct DiskRest {
     std::int64_t images[2];
     std::array<StepRest, 2> steps;
+
+    bool operator==(const DiskRest&) const = default;
   };
   [[nodiscard]] DiskRest rest_of(std::int32_t i) const {
     DiskRest rest{{images_.of(i, 0), images_.of(i, 1)}, {}};

@@ -35,7 +35,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   using Frame = FlightFrame<Line, World>;
 
  public:
-  using Message = DiskMessage<Line, typename Frame::DiskRest>;
+  using Message = DiskMessage<Line, typename Frame::DiskRest, typename Impact::DiskRest>;
 
   /// What the comparison of copies with the messages of their homes has shown.
   struct Verdict {
@@ -83,16 +83,22 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
 
   // An epoch: see EventLoop::begin_epoch().
 
-  /// Begins an epoch at time `now`, with the speeds of the disks at home in census().
+  /// Begins an epoch at time `now`.
   void rebase_at(double now);
-  [[nodiscard]] const SpeedCensus& census() const { return census_; }
-  /// Gives all disks neighbourhoods of another half-width and plans them anew. Those near the rim are wrong until messages have
+  /// The speeds of the disks at home.
+  [[nodiscard]] SpeedCensus census() const;
+  /// Puts the frame of disks that fall back to where it began.
+  void reset_fall() { flight_.reset_fall(lines_); }
+  /// Gives all disks neighbourhoods of that half-width, and plans them anew. Those near the rim are wrong until messages have
   /// been read.
   void rebuild_lists(double half_width);
+  void predict_all();
+  /// Takes over length and limits of the epoch of a whole engine.
+  void take_epoch(const Loop& whole);
   /// The most neighbours of a disk at home. O(disks).
   [[nodiscard]] std::uint64_t longest_list() const;
-  /// Goes on with the epoch of a whole engine.
-  void begin_epoch_of(const Loop& whole);
+  /// Starts the queue of the epoch.
+  void begin_epoch();
 
   /// Adds what has been counted at home since the last call to the totals of a whole engine and what its neighbourhoods cost.
   void hand_over_counts(Loop& whole);
@@ -113,7 +119,8 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
  private:
   using Loop::epoch_, Loop::epoch_length_, Loop::stopped_, Loop::prefetcher_;
   using Loop::line, Loop::id, Loop::count, Loop::surroundings, Loop::predicted, Loop::set_plan, Loop::schedule, Loop::never;
-  using Loop::plans_, Loop::lists_, Loop::lines_, Loop::ids_, Loop::queue_, Loop::flight_, Loop::frame_, Loop::limits_;
+  using Loop::plans_, Loop::lists_, Loop::lines_, Loop::ids_, Loop::queue_, Loop::flight_, Loop::frame_, Loop::limits_,
+      Loop::impact_;
   using Loop::totals_, Loop::counted_, Loop::tuning_, Loop::pacing_, Loop::sizes_, Loop::stall_, Loop::stamp_, Loop::now_;
 
   enum class Role : std::uint8_t { empty, home, halo };
@@ -167,7 +174,6 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   std::size_t homes_ = 0;
   bool crowded_ = false;  ///< there is no slot left
   Verdict verdict_;
-  SpeedCensus census_;
   RunningTotals ghosts_;  ///< counts of the events of copies
   std::uint64_t events_ = 0, copied_events_ = 0;
 };

@@ -36,6 +36,7 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
     const std::int32_t i = slot_for(whole.id(from));
     line(i) = whole.line(from);
     flight_.set_rest(i, whole.flight_.rest_of(from));
+    impact_.set_rest(i, whole.impact_.rest_of(from));
     plans_[i] = whole.plans_[from];
     lists_.fill(i, whole.lists_.disk_size(from));
     centres[static_cast<std::size_t>(i)] = centre;
@@ -54,7 +55,7 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
   std::erase_if(halo_, [this](std::int32_t i) { return mark(i).role != Role::halo; });
   moved_.resize(lines_.size() / 4 + 64);
   prefetcher_.suit(Loop::bytes());
-  begin_epoch_of(whole);
+  begin_epoch();
 }
 
 /// The slot of the disk with that id: the one that it has or had, or an unused one.
@@ -165,7 +166,8 @@ typename BoxDomain<Impact, Layout, World>::Message BoxDomain<Impact, Layout, Wor
   message.stale = plan.partner >= 0 && plans_.is_stale(plan);
   message.centre = lists_.centre(i);
   message.size = lists_.disk_size(i);
-  message.rest = flight_.rest_of(i);
+  message.frame = flight_.rest_of(i);
+  message.impact = impact_.rest_of(i);
   return message;
 }
 
@@ -194,12 +196,11 @@ template <class Impact, class Layout, class World>
 bool BoxDomain<Impact, Layout, World>::same(std::int32_t i, const Message& message) const {
   const Plan& plan = plans_[i];
   const NeighbourhoodCentre centre = lists_.centre(i);
-  const auto rest = flight_.rest_of(i);
   return std::memcmp(&line(i), &message.line, sizeof(Line)) == 0 && plan.pair_time == message.pair_time &&
          plan.edge_time == message.edge_time && plan.edge == message.edge &&
          (plan.partner < 0 ? -1 : id(plan.partner)) == message.partner && centre.x == message.centre.x &&
-         centre.y == message.centre.y && mark(i).history == message.history &&
-         std::memcmp(&rest, &message.rest, sizeof rest) == 0 && (plan.partner >= 0 && plans_.is_stale(plan)) == message.stale;
+         centre.y == message.centre.y && mark(i).history == message.history && flight_.rest_of(i) == message.frame &&
+         impact_.rest_of(i) == message.impact && (plan.partner >= 0 && plans_.is_stale(plan)) == message.stale;
 }
 
 template <class Impact, class Layout, class World>
@@ -231,7 +232,8 @@ void BoxDomain<Impact, Layout, World>::read_lines(std::span<const Message> messa
     if (changed) {
       line(i) = message.line;
       mine.history = message.history;
-      flight_.set_rest(i, message.rest);
+      flight_.set_rest(i, message.frame);
+      impact_.set_rest(i, message.impact);
     }
     mine.read = reading_;
     reads_.push_back({i, changed});
@@ -281,9 +283,14 @@ template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::rebase_at(double now) {
   pacing_.judge(now, queue_.pushed(), lines_.size());
   this->rebase(now);
-  census_ = SpeedCensus{};
+}
+
+template <class Impact, class Layout, class World>
+SpeedCensus BoxDomain<Impact, Layout, World>::census() const {
+  SpeedCensus speeds;
   for (std::int32_t i = 0; i < count(); ++i)
-    if (mark(i).role == Role::home) census_.add(line(i).v);
+    if (mark(i).role == Role::home) speeds.add(line(i).v);
+  return speeds;
 }
 
 template <class Impact, class Layout, class World>
@@ -291,14 +298,17 @@ void BoxDomain<Impact, Layout, World>::rebuild_lists(double half_width) {
   const std::vector<NeighbourhoodCentre> centres = this->new_centres();
   lists_.rebuild(half_width, centres);
   this->suit_neighbourhoods(half_width);
+  predict_all();
   for (auto& copied : copied_) copied.clear();
-  for (std::int32_t i = 0; i < count(); ++i) {
-    if (empty(i)) continue;
-    set_plan(i, predicted(i, surroundings(i)));
-    mark(i).copied_by = 0;
-  }
+  for (Mark& each : marks_) each.copied_by = 0;
   for (std::int32_t i = 0; i < count(); ++i)
     if (!empty(i)) settle(i);
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::predict_all() {
+  for (std::int32_t i = 0; i < count(); ++i)
+    if (!empty(i)) set_plan(i, predicted(i, surroundings(i)));
 }
 
 template <class Impact, class Layout, class World>
@@ -310,10 +320,14 @@ std::uint64_t BoxDomain<Impact, Layout, World>::longest_list() const {
 }
 
 template <class Impact, class Layout, class World>
-void BoxDomain<Impact, Layout, World>::begin_epoch_of(const Loop& whole) {
+void BoxDomain<Impact, Layout, World>::take_epoch(const Loop& whole) {
   epoch_length_ = whole.epoch_length_;
   frame_.edge_step = whole.frame_.edge_step;
   limits_ = whole.limits_;
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::begin_epoch() {
   if (pacing_.span() == 0.0) pacing_.choose_span({}, epoch_length_);
   queue_.start(pacing_.span(), lines_.size(), epoch_length_, prefetcher_.looks_ahead(), pacing_.busy());
   for (std::int32_t i = 0; i < count(); ++i)
@@ -340,6 +354,7 @@ void BoxDomain<Impact, Layout, World>::store(Loop& whole, std::span<const std::i
     const std::int32_t to = slot_of_id[static_cast<std::size_t>(id(i))];
     whole.line(to) = line(i);
     whole.flight_.set_rest(to, flight_.rest_of(i));
+    whole.impact_.set_rest(to, impact_.rest_of(i));
     Plan plan = plans_[i];
     plan.predicted_at = plan.partner >= 0 && plans_.is_stale(plan) ? 0 : 1;
     plan.last_collided = 1;

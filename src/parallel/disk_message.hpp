@@ -8,9 +8,9 @@
 
 namespace carom {
 
-/// The state of one disk at the end of a window, as the domain has it to which the disk belongs. Line and Rest are those of the
-/// engine (engine/layout.hpp, engine/flight_frame.hpp).
-template <class Line, class Rest>
+/// The state of one disk at the end of a window, as the domain has it to which the disk belongs. Line, FrameRest and
+/// ImpactRest are those of the engine (engine/layout.hpp, engine/flight_frame.hpp, effects/any_impact.hpp).
+template <class Line, class FrameRest, class ImpactRest>
 struct DiskMessage {
   Line line;
   double pair_time, edge_time;  ///< of its plan
@@ -21,7 +21,8 @@ struct DiskMessage {
   bool stale;  ///< whether the plan is
   NeighbourhoodCentre centre;
   NeighbourLists::DiskSize size;
-  Rest rest;
+  FrameRest frame;
+  ImpactRest impact;
 };
 
 }  // namespace carom

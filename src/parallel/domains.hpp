@@ -103,6 +103,7 @@ class Domains {
   std::vector<std::int32_t> slot_of_id_;          ///< of the whole engine
   std::vector<NeighbourhoodCentre> centres_;      ///< by slot of the whole engine
   std::vector<typename Part::Verdict> verdicts_;  ///< by domain
+  std::vector<SpeedCensus> censuses_;             ///< by domain
   std::optional<Instant> alone_until_;            ///< the whole engine goes on until then
 
   double now_ = 0.0;     ///< since the epoch
@@ -120,8 +121,9 @@ class Domains {
   std::uint64_t events_before_ = 0;                 ///< the run
   Next next_ = Next::window;
   double half_width_ = 0.0;
-  bool lists_change_ = false;
-  int calm_ = 0;  ///< windows in which nothing wrong came near
+  bool lists_change_ = false, plans_change_ = false, has_fallen_ = false;  ///< in the epoch that begins
+  Vec2<double> owed_ = Vec2<double>::Zero();                               ///< momentum: see CommonMotion
+  int calm_ = 0;                                                           ///< windows in which nothing wrong came near
   double calm_margin_ = 0.0;
   ThreadCounts done_;
 };

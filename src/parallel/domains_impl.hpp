@@ -72,6 +72,7 @@ void Domains<Impact, Layout, World>::share_out() {
   domains_.clear();
   domains_.resize(threads_.domains);
   verdicts_.resize(threads_.domains);
+  censuses_.resize(threads_.domains);
   const double reach = threads_.halo * whole_.sizes_.largest_contact;
   team_.run([&](std::size_t thread) {
     each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach); });
@@ -266,18 +267,26 @@ void Domains<Impact, Layout, World>::adapt_window(double margin) {
 
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::run_epoch(std::size_t thread) {
-  each(thread, [&](std::size_t d) { domains_[d]->rebase_at(now_); });
+  each(thread, [&](std::size_t d) {
+    domains_[d]->rebase_at(now_);
+    censuses_[d] = domains_[d]->census();
+    if (whole_.common_motion_.present()) domains_[d]->store(whole_, slot_of_id_, centres_);
+  });
   team_.meet(thread, [this] { lead_epoch(); });
-  if (lists_change_) {
-    each(thread, [&](std::size_t d) {
-      domains_[d]->rebuild_lists(half_width_);
-      domains_[d]->write_messages();
-    });
+  each(thread, [&](std::size_t d) {
+    BoxDomain<Impact, Layout, World>& domain = *domains_[d];
+    if (has_fallen_) domain.reset_fall();
+    if (lists_change_) domain.rebuild_lists(half_width_);
+    domain.take_epoch(whole_);
+    if (whole_.world_.falls()) domain.predict_all();
+    if (plans_change_) domain.write_messages();
+  });
+  if (plans_change_) {
     team_.meet(thread, [] {});
     each(thread, [&](std::size_t d) { read_messages(d); });
   }
   each(thread, [&](std::size_t d) {
-    domains_[d]->begin_epoch_of(whole_);
+    domains_[d]->begin_epoch();
     domains_[d]->store(whole_, slot_of_id_, centres_);
   });
   team_.meet(thread, [this] { end_of_epoch(); });
@@ -287,20 +296,28 @@ void Domains<Impact, Layout, World>::run_epoch(std::size_t thread) {
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::lead_epoch() {
   SpeedCensus speeds;
-  for (const auto& domain : domains_) {
-    domain->hand_over_counts(whole_);
-    speeds.add(domain->census());
+  for (std::size_t d = 0; d < domains_.size(); ++d) {
+    domains_[d]->hand_over_counts(whole_);
+    speeds.add(censuses_[d]);
   }
   watch_speeds(speeds);
-  ++whole_.totals_.numerics.epochs;
-  whole_.last_collision_.rebase();
-  whole_.recorder_.begin_epoch(whole_.epoch_ = whole_.epoch_.plus(now_));
-  whole_.now_ = 0.0;
+  whole_.impact_.rebase(now_);
+  whole_.rebase_clock(now_);
   whole_.stamp_ = 1;
+  owed_.setZero();
+  if constexpr (!Impact::plain)
+    if (whole_.common_motion_.present())
+      owed_ = whole_.common_motion_.owed(whole_.lines_, [this](const auto& line) { return whole_.layout_.momentum(line); });
+  has_fallen_ = whole_.world_.falls() && whole_.flight_.has_fallen(4.0 * whole_.sizes_.spacing);
+  if (has_fallen_) {
+    whole_.flight_.reset_fall(whole_.lines_);
+    ++whole_.totals_.numerics.list_rebuilds;
+  }
   const double half_width = whole_.tuning_.next(half_width_, whole_.sizes_.widest_neighbourhood, whole_.mean_speed_ * now_,
                                                 whole_.sizes_.spacing, whole_.lists_.changes());
-  lists_change_ = half_width != half_width_;
-  if (lists_change_) {
+  lists_change_ = has_fallen_ || half_width != half_width_;
+  plans_change_ = lists_change_ || whole_.world_.falls();
+  if (half_width != half_width_) {
     half_width_ = half_width;
     ++whole_.totals_.numerics.list_rebuilds;
     whole_.suit_neighbourhoods(half_width);
@@ -315,11 +332,12 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
     for (const auto& domain : domains_) longest = std::max(longest, domain->longest_list());
     whole_.totals_.numerics.longest_neighbour_list = longest;
   }
+  if constexpr (!Impact::plain) whole_.impact_.owe(owed_);
   now_ = 0.0;
   target_ = end_.template since<double>(whole_.epoch_);
   if (failure_.any())
     next_ = Next::failed;
-  else if (whole_.stall_.jammed() || whole_.idle())
+  else if (whole_.stall_.jammed() || whole_.idle() || !owed_.isZero(0.0))
     next_ = Next::void_one;
   else
     begin_window();

@@ -4,6 +4,7 @@
 #include "effects/world.hpp"
 #include "engine/engine_impl.hpp"
 #include "simulation/catalogue.hpp"
+#include "simulation/threaded_engine.hpp"
 
 #include <utility>
 
@@ -16,7 +17,8 @@ using General = Engine<AnyImpact<double>, Layout, AnyWorld>;
 
 template <class Layout>
 std::unique_ptr<AnyEngine> make(const Scene& scene, const Disks& disks, State start) {
-  return std::make_unique<EngineAdapter<General<Layout>>>(scene.box, disks, std::move(start), scene.effects, scene.run.seed);
+  return std::make_unique<ThreadedEngine<AnyImpact<double>, Layout, AnyWorld>>(scene.box, disks, std::move(start), scene.effects,
+                                                                               scene.run.seed);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // An engine that several cores run, if it is told to: until then it runs alone, and pays nothing for what it could do.
 
 #include "parallel/domains_impl.hpp"
+#include "simulation/why_not_threads.hpp"
 #include "simulation/wrapped_engine.hpp"
 
 #include <memory>
@@ -14,10 +15,11 @@ class ThreadedEngine final : public WrappedEngine {
   using Adapter = EngineAdapter<Engine<Impact, Layout, World>>;
 
  public:
-  template <class... Args>
-  explicit ThreadedEngine(Args&&... args) : WrappedEngine(std::make_unique<Adapter>(std::forward<Args>(args)...)) {}
+  ThreadedEngine(const Box& box, const Disks& disks, State start, const Effects& effects, std::uint64_t seed)
+      : WrappedEngine(std::make_unique<Adapter>(box, disks, std::move(start), effects, seed)),
+        why_not_threads_(detail::why_not_threads(effects)) {}
 
-  [[nodiscard]] std::string why_not_threads() const override { return {}; }
+  [[nodiscard]] std::string why_not_threads() const override { return why_not_threads_; }
   void set_threads(const Threads& threads) override {
     gather();
     domains_.reset();
@@ -57,6 +59,8 @@ class ThreadedEngine final : public WrappedEngine {
   }
   void set_collision_rule(const CollisionFunction& rule) override {
     alone([&] { engine_->set_collision_rule(rule); });
+    domains_.reset();
+    why_not_threads_ = "a collision rule of the program acts, which is called by one thread only";
   }
   void leave(Continuation& continuation) const override {
     gather();
@@ -117,6 +121,7 @@ class ThreadedEngine final : public WrappedEngine {
 
   std::unique_ptr<Domains<Impact, Layout, World>> domains_;
   Counts counts_;
+  std::string why_not_threads_;
 };
 
 }  // namespace carom::detail

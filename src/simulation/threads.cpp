@@ -1,6 +1,7 @@
 #include <carom/threads.hpp>
 
 #include "simulation/parts.hpp"
+#include "simulation/why_not_threads.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +20,19 @@ void check_threads(const Threads& threads) {
     refuse(fmt::format("the width of a halo is {:g}; it must be positive and finite", threads.halo));
   if (!(threads.events_per_window > 0.0) || !std::isfinite(threads.events_per_window))
     refuse(fmt::format("a window has {:g} events of each disk; that must be positive and finite", threads.events_per_window));
+}
+
+std::string why_not_threads(const Effects& effects) {
+  if (effects.growth_rate() > 0.0) return "disks grow, and are measured all together again and again";
+  if (effects.bath_temperature()) return "the thermostat draws the velocities of all disks in one order";
+  if (effects.shear_rate() != 0.0) return "the box is sheared";
+  if (effects.drag_rate() > 0.0) return "drag slows the clock";
+  if (effects.square_well && effects.square_well->depth != 0.0) return "disks have wells";
+  for (const WallProperties& wall : effects.walls) {
+    if (wall.mass || wall.velocity.value_or(0.0) != 0.0) return "a wall moves";
+    if (wall.temperature) return "a wall with a temperature draws the velocities of all disks in one order";
+  }
+  return {};
 }
 
 }  // namespace carom::detail

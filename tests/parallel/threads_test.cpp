@@ -52,7 +52,11 @@ void expect_same(const Simulation& alone, const Simulation& shared, const std::s
   EXPECT_EQ(b.other, a.other) << where;
   EXPECT_EQ(b.stale, a.stale) << where;
   EXPECT_EQ(b.virial, a.virial) << where;
+  EXPECT_EQ(b.obstacle, a.obstacle) << where;
   EXPECT_EQ(b.wall_impulse, a.wall_impulse) << where;
+  EXPECT_EQ(b.wall_energy, a.wall_energy) << where;
+  EXPECT_EQ(b.obstacle_impulse, a.obstacle_impulse) << where;
+  EXPECT_EQ(b.dissipated, a.dissipated) << where;
   EXPECT_EQ(b.numerics.epochs, a.numerics.epochs) << where;
   EXPECT_EQ(b.numerics.list_rebuilds, a.numerics.list_rebuilds) << where;
   EXPECT_EQ(b.numerics.longest_neighbour_list, a.numerics.longest_neighbour_list) << where;
@@ -70,7 +74,8 @@ void expect_same_runs(const Scene& scene, const Threads& threads, double time, i
     expect_same(alone, shared, "stop " + std::to_string(k));
   }
   EXPECT_TRUE(shared.check_invariants().empty());
-  EXPECT_GT(shared.thread_counts().windows, 0U);
+  EXPECT_GT(shared.thread_counts().windows, 10U);
+  EXPECT_LT(shared.thread_counts().windows_redone, shared.thread_counts().windows / 4);
 }
 
 TEST(Threads, GiveTheBitsOfOneForAnyNumberOfDomains) {
@@ -87,6 +92,42 @@ TEST(Threads, GiveTheBitsOfOneForEveryLeanScene) {
   expect_same_runs(gas(5000, 0.72, Boundary::periodic), {.domains = 4}, 2.0, 3);
   expect_same_runs(gas(5000, 0.4, Boundary::periodic, CollisionRule::reversal), {.domains = 4}, 6.0, 3);
   expect_same_runs(mixture(3000), {.domains = 4}, 8.0, 3);
+}
+
+TEST(Threads, GiveTheBitsOfOneUnderGravity) {
+  for (const Boundary across : {Boundary::walls, Boundary::periodic}) {
+    Scene scene = gas(4000, 0.4, Boundary::walls);
+    scene.box.boundary[0] = across;
+    scene.effects.gravity = Gravity{{0.0, -0.2}};
+    expect_same_runs(scene, {.threads = 2, .domains = 4}, 20.0, 4);
+  }
+}
+
+TEST(Threads, GiveTheBitsOfOneWhereCollisionsLoseEnergy) {
+  Scene scene = gas(4000, 0.4, Boundary::periodic);
+  scene.effects.collision.restitution = 0.9;
+  expect_same_runs(scene, {.domains = 4}, 20.0, 4);
+  scene.effects.collision.elastic_below = 1e-3;
+  expect_same_runs(scene, {.domains = 3}, 20.0, 4);
+  scene.box.boundary = {Boundary::walls, Boundary::walls};
+  scene.effects.walls[2].restitution = 0.7;
+  scene.effects.gravity = Gravity{{0.0, -0.1}};
+  expect_same_runs(scene, {.domains = 4}, 20.0, 4);
+}
+
+TEST(Threads, GiveTheBitsOfOneForRoughDisks) {
+  Scene scene = gas(4000, 0.4, Boundary::periodic);
+  scene.effects.collision.restitution = 0.95;
+  scene.effects.collision.roughness = 0.3;
+  expect_same_runs(scene, {.domains = 4}, 10.0, 4);
+}
+
+TEST(Threads, GiveTheBitsOfOneBetweenObstacles) {
+  Scene scene = gas(3000, 0.3, Boundary::walls);
+  const double x = scene.box.upper[0] / 2.0, y = scene.box.upper[1] / 2.0;
+  scene.species[0].positions = RandomPositions{};
+  scene.effects.obstacles = {DiskObstacle{{x, y}, 5.0}, SegmentObstacle{{x / 3.0, y / 4.0}, {x / 3.0, y}}};
+  expect_same_runs(scene, {.domains = 4}, 10.0, 4);
 }
 
 TEST(Threads, FindEveryWindowThatTheirHalosAreTooNarrowFor) {
