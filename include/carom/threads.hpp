@@ -27,6 +27,9 @@ struct ThreadCounts {
   std::uint64_t copied_events = 0;   ///< the same events once more, in halos
   std::uint64_t copies = 0;          ///< disks in halos that were compared with what their own domain says, over all windows
   std::uint64_t copies_wrong = 0;    ///< of these: those that had to be corrected
+  double processor_seconds = 0.0;    ///< of all domains together, and of what one thread does for all
+  /// What would have passed with a free processor for each domain: between two meetings the domain that takes longest counts.
+  double critical_seconds = 0.0;
 };
 
 }  // namespace carom

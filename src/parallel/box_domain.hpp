@@ -24,6 +24,7 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace carom {
@@ -59,7 +60,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   bool run_next(double end);
   /// The time of the next event.
   [[nodiscard]] double next_time() {
-    return queue_.next(plans_, [this](std::int64_t span) { this->prefetch_calendar(span); }).time;
+    return queue_.next(plans_, [this](std::int64_t span) { prefetch_span(span); }).time;
   }
   /// Whether the domain has come to an event that it cannot process alone, or can go no further.
   [[nodiscard]] bool stopped() const { return stopped_ || stall_.jammed() || crowded_; }
@@ -112,8 +113,10 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   [[nodiscard]] double read_at_home() const { return sizes_.reach + 2.0 * lists_.half_width(); }
   /// The number of disks at home.
   [[nodiscard]] std::size_t homes() const { return homes_; }
-  [[nodiscard]] std::uint64_t events_done() const { return events_; }
-  [[nodiscard]] std::uint64_t copied_events() const { return copied_events_; }
+  /// The events processed since the last call, of disks at home and of copies.
+  [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> take_events_done() {
+    return {std::exchange(events_, 0), std::exchange(copied_events_, 0)};
+  }
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -141,6 +144,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
     history ^= history >> 29;
   }
 
+  [[gnu::noinline]] void prefetch_span(std::int64_t span) const;
   [[gnu::noinline]] void step_copy(std::int32_t i, double time);
   std::int32_t slot_for(std::int32_t disk);
   void recycle_slots();

@@ -15,7 +15,7 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
              std::size_t slots = 0;
              for (std::int32_t i = 0; i < whole.count(); ++i)
                slots += parts.outside(whole.lists_.centre(i), me) <= reach ? 1U : 0U;
-             return slots + slots / 4 + 256;
+             return slots + slots / 16 + 512;
            }()),
       parts_(parts),
       me_(me),
@@ -95,7 +95,7 @@ void BoxDomain<Impact, Layout, World>::recycle_slots() {
 template <class Impact, class Layout, class World>
 bool BoxDomain<Impact, Layout, World>::run_next(double end) {
   if (stopped_ || stall_.jammed()) return false;
-  const auto [time, i] = queue_.next(plans_, [this](std::int64_t span) { this->prefetch_calendar(span); });
+  const auto [time, i] = queue_.next(plans_, [this](std::int64_t span) { prefetch_span(span); });
   if (!(time <= end && time < epoch_length_)) return false;
   const Plan& plan = plans_[i];
   const bool by_edge = plan.edge_first();
@@ -114,6 +114,16 @@ bool BoxDomain<Impact, Layout, World>::run_next(double end) {
   remember(i, time);
   if (!by_edge && stamp_ != stamp) remember(partner, time);
   return true;
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::prefetch_span(std::int64_t span) const {
+  if (!prefetcher_.looks_ahead()) return;
+  for (const std::int32_t i : queue_.calendar().ids_of(span + 3)) {
+    prefetch_early(&mark(i));
+    if (const std::int32_t partner = plans_[i].partner; partner >= 0) prefetch_early(&mark(partner));
+  }
+  this->prefetch_calendar(span);
 }
 
 /// Processes an event that is counted elsewhere.
@@ -173,13 +183,26 @@ typename BoxDomain<Impact, Layout, World>::Message BoxDomain<Impact, Layout, Wor
 
 template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::write_messages() {
-  for (std::size_t m = 0; m < moves_; ++m) settle(moved_[m]);
+  for (std::size_t m = 0; m < moves_; ++m) {
+    const std::int32_t i = moved_[m];
+    const Mark& its = mark(i);
+    if (its.role == Role::home && its.copied_by == 0 && parts_.deep_inside(lists_.centre(i), me_)) continue;
+    settle(i);
+  }
   moves_ = 0;
   std::erase_if(halo_, [this](std::int32_t i) { return mark(i).role != Role::halo; });
   for (std::size_t n = 0; n < neighbours_.size(); ++n) {
     std::erase_if(copied_[n], [&](std::int32_t i) { return (mark(i).copied_by >> n & 1U) == 0; });
     outboxes_[n].clear();
-    for (const std::int32_t i : copied_[n]) outboxes_[n].push_back(message_of(i));
+    constexpr std::size_t ahead = 8;
+    for (std::size_t k = 0; k < copied_[n].size(); ++k) {
+      if (k + ahead < copied_[n].size()) {
+        const std::int32_t next = copied_[n][k + ahead];
+        prefetch_early(&line(next)), prefetch_early(&plans_[next]), prefetch_early(&mark(next));
+        lists_.prefetch_list_early(next);
+      }
+      outboxes_[n].push_back(message_of(copied_[n][k]));
+    }
   }
 }
 
@@ -205,7 +228,14 @@ bool BoxDomain<Impact, Layout, World>::same(std::int32_t i, const Message& messa
 
 template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::read_lines(std::span<const Message> messages) {
-  for (const Message& message : messages) {
+  constexpr std::size_t ahead = 8;
+  for (std::size_t k = 0; k < messages.size(); ++k) {
+    if (k + ahead < messages.size())
+      if (const std::int32_t next = slot_of_[static_cast<std::size_t>(messages[k + ahead].id)] - 1; next >= 0) {
+        prefetch_early(&line(next)), prefetch_early(&plans_[next]), prefetch_early(&mark(next));
+        lists_.prefetch_list_early(next);
+      }
+    const Message& message = messages[k];
     const std::int32_t i = slot_for(message.id);
     if (crowded_) return;
     Mark& mine = mark(i);
@@ -329,7 +359,8 @@ void BoxDomain<Impact, Layout, World>::take_epoch(const Loop& whole) {
 template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::begin_epoch() {
   if (pacing_.span() == 0.0) pacing_.choose_span({}, epoch_length_);
-  queue_.start(pacing_.span(), lines_.size(), epoch_length_, prefetcher_.looks_ahead(), pacing_.busy());
+  queue_.start(pacing_.span(), lines_.size(), epoch_length_, prefetcher_.looks_ahead(), pacing_.busy(),
+               lines_.size() - homes_ - halo_.size());
   for (std::int32_t i = 0; i < count(); ++i)
     if (!empty(i)) schedule(i);
   pacing_.begin(queue_.pushed());

@@ -9,17 +9,27 @@ namespace {
 
 constexpr std::int64_t all = std::int64_t{1} << 32;
 
-/// Where to cut a line so that each piece has its share of the places, which are sorted here. `shares` counts parts per piece.
-std::vector<std::int64_t> cuts(std::vector<std::int64_t>& places, std::span<const std::size_t> shares) {
-  std::sort(places.begin(), places.end());
-  std::size_t total = 0, before = 0;
-  for (const std::size_t share : shares) total += share;
+/// A place along an axis, and what the disk there costs.
+struct Weight {
+  std::int64_t place;
+  double cost;
+};
+
+/// Where to cut a line so that each piece has its share of the costs: `shares` parts of them. Sorts the weights.
+std::vector<std::int64_t> cuts(std::vector<Weight>& weights, std::span<const std::size_t> shares) {
+  std::sort(weights.begin(), weights.end(), [](const Weight& a, const Weight& b) { return a.place < b.place; });
+  double total = 0.0, so_far = 0.0;
+  for (const Weight& weight : weights) total += weight.cost;
+  std::size_t parts = 0, before = 0, next = 0;
+  for (const std::size_t share : shares) parts += share;
   std::vector<std::int64_t> ends;
   for (const std::size_t share : shares) {
     before += share;
-    const std::size_t k = places.size() * before / total;
-    const std::int64_t even = all / static_cast<std::int64_t>(total) * static_cast<std::int64_t>(before);
-    const std::int64_t end = before == total ? all : places.empty() ? even : places[std::min(k, places.size() - 1)];
+    const double fraction = static_cast<double>(before) / static_cast<double>(parts);
+    while (next < weights.size() && so_far < fraction * total) so_far += weights[next++].cost;
+    std::int64_t end =
+        next < weights.size() ? weights[next].place : static_cast<std::int64_t>(fraction * static_cast<double>(all));
+    if (before == parts) end = all;
     ends.push_back(std::max(end, ends.empty() ? 0 : ends.back()));
   }
   return ends;
@@ -27,7 +37,12 @@ std::vector<std::int64_t> cuts(std::vector<std::int64_t>& places, std::span<cons
 
 }  // namespace
 
-BoxParts::BoxParts(std::size_t parts, std::span<const NeighbourhoodCentre> centres, std::array<double, 2> step) : step_(step) {
+BoxParts::BoxParts(std::size_t parts, std::span<const NeighbourhoodCentre> centres, std::array<double, 2> step,
+                   const Costs* costs)
+    : step_(step) {
+  const auto cost = [&](NeighbourhoodCentre centre) {
+    return costs == nullptr ? 1.0 : costs->of_a_disk[costs->before.owner(centre)];
+  };
   // As many columns as make the parts nearly square.
   const double aspect = step[0] / step[1];
   const auto most = static_cast<double>(parts);
@@ -35,17 +50,18 @@ BoxParts::BoxParts(std::size_t parts, std::span<const NeighbourhoodCentre> centr
   std::vector<std::size_t> rows(columns, parts / columns);
   for (std::size_t k = 0; k < parts % columns; ++k) ++rows[k];
 
-  std::vector<std::int64_t> places(centres.size());
-  for (std::size_t i = 0; i < centres.size(); ++i) places[i] = place(centres[i].x);
-  columns_ = cuts(places, rows);
+  std::vector<Weight> weights;
+  weights.reserve(centres.size());
+  for (const NeighbourhoodCentre centre : centres) weights.push_back({place(centre.x), cost(centre)});
+  columns_ = cuts(weights, rows);
   std::int64_t left = 0;
   for (std::size_t c = 0; c < columns; ++c) {
-    places.clear();
+    weights.clear();
     for (const NeighbourhoodCentre centre : centres)
-      if (place(centre.x) >= left && place(centre.x) < columns_[c]) places.push_back(place(centre.y));
+      if (place(centre.x) >= left && place(centre.x) < columns_[c]) weights.push_back({place(centre.y), cost(centre)});
     first_.push_back(parts_.size());
     std::int64_t bottom = 0;
-    for (const std::int64_t top : cuts(places, std::vector<std::size_t>(rows[c], 1))) {
+    for (const std::int64_t top : cuts(weights, std::vector<std::size_t>(rows[c], 1))) {
       parts_.push_back({Range{left, columns_[c]}, Range{bottom, top}});
       bottom = top;
     }
@@ -60,6 +76,17 @@ std::size_t BoxParts::owner(NeighbourhoodCentre centre) const {
   std::size_t part = first_[column];
   while (place(centre.y) >= parts_[part][1].end) ++part;
   return part;
+}
+
+void BoxParts::set_reach(double reach) {
+  cores_ = parts_;
+  for (Part& core : cores_)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto steps = static_cast<std::int64_t>(std::min(reach / step_[k], 0x1p33)) + 2;
+      if (core[k].begin == 0 && core[k].end == all) continue;  // it reaches from one side of the box to the other
+      core[k].begin += steps;
+      core[k].end -= steps;
+    }
 }
 
 std::int64_t BoxParts::outside(std::int64_t at, const Range& range) {

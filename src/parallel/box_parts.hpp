@@ -14,15 +14,30 @@ namespace carom {
 
 class BoxParts {
  public:
-  /// Cuts the box into columns along x, and every column along y, into `parts` rectangles that hold about equally many of these
-  /// centres. `step` is the length of a step of a centre along each axis.
-  BoxParts(std::size_t parts, std::span<const NeighbourhoodCentre> centres, std::array<double, 2> step);
+  /// What the disks of a part cost each, in any unit, by part of `before`.
+  struct Costs {
+    const BoxParts& before;
+    std::span<const double> of_a_disk;
+  };
+  /// Cuts the box into columns along x, and every column along y, into `parts` rectangles whose disks, which have these centres,
+  /// cost about the same: each as much as all others, or what `costs` says. `step` is the length of a step of a centre along each
+  /// axis.
+  BoxParts(std::size_t parts, std::span<const NeighbourhoodCentre> centres, std::array<double, 2> step,
+           const Costs* costs = nullptr);
 
   [[nodiscard]] std::size_t count() const { return parts_.size(); }
   /// The part in which a centre is.
   [[nodiscard]] std::size_t owner(NeighbourhoodCentre centre) const;
   /// The distance (length) of a centre from a part, the larger of those along both axes; 0 inside. Coordinates wrap.
   [[nodiscard]] double outside(NeighbourhoodCentre centre, std::size_t part) const;
+  /// Whether a centre is inside a part, farther from its borders than the reach that set_reach() was given. No more than that: a
+  /// centre that is not may be so all the same.
+  [[nodiscard]] bool deep_inside(NeighbourhoodCentre centre, std::size_t part) const {
+    const Part& core = cores_[part];
+    const std::int64_t x = place(centre.x), y = place(centre.y);
+    return x >= core[0].begin && x < core[0].end && y >= core[1].begin && y < core[1].end;
+  }
+  void set_reach(double reach);
   /// Whether some place of one part is nearer to the other than `reach` (length).
   [[nodiscard]] bool adjacent(std::size_t a, std::size_t b, double reach) const;
 
@@ -38,6 +53,7 @@ class BoxParts {
   static std::int64_t gap(const Range& a, const Range& b);
 
   std::vector<Part> parts_;
+  std::vector<Part> cores_;            ///< the same without what is within reach of their borders
   std::vector<std::int64_t> columns_;  ///< where they end
   std::vector<std::size_t> first_;     ///< part of each column, and behind the last
   std::array<double, 2> step_;

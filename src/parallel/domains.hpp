@@ -12,6 +12,7 @@
 #include "parallel/box_domain_impl.hpp"
 #include "parallel/box_parts.hpp"
 #include "parallel/team.hpp"
+#include "parallel/thread_seconds.hpp"
 
 #include <carom/threads.hpp>
 
@@ -22,7 +23,9 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace carom {
@@ -58,6 +61,7 @@ class Domains {
     window,
     epoch,
     arrived,   ///< at the target
+    balance,   ///< borders are to be moved
     counted,   ///< as many collisions or events as were asked for have happened
     void_one,  ///< the window was void
     failed     ///< something was thrown
@@ -78,12 +82,30 @@ class Domains {
   void watch_speeds(const SpeedCensus& speeds) { fastest_ = 1.5 * std::max(speeds.fastest[0], speeds.fastest[1]); }
   void go_back();
   std::uint64_t events();
+  bool is_unbalanced();
+
+  /// Lets all threads meet; one of them calls lead().
+  template <class Lead>
+  void meet(std::size_t thread, Lead&& lead) {
+    team_.meet(thread, [&] {
+      const double before = thread_seconds();
+      lead();
+      const double led = thread_seconds() - before;
+      done_.critical_seconds += led + *std::max_element(seconds_.begin(), seconds_.end());
+      done_.processor_seconds += std::accumulate(seconds_.begin(), seconds_.end(), led);
+      for (std::size_t d = 0; d < seconds_.size(); ++d) epoch_seconds_[d] += std::exchange(seconds_[d], 0.0);
+    });
+  }
 
   /// Calls f(domain) for every domain of a thread.
   template <class F>
   void each(std::size_t thread, F&& f) {
     try {
-      for (std::size_t d = thread; d < domains_.size(); d += team_.size()) f(d);
+      for (std::size_t d = thread; d < domains_.size(); d += team_.size()) {
+        const double before = thread_seconds();
+        f(d);
+        seconds_[d] += thread_seconds() - before;
+      }
     } catch (...) {
       failure_.keep_current();
     }
@@ -103,8 +125,12 @@ class Domains {
   std::vector<std::int32_t> slot_of_id_;          ///< of the whole engine
   std::vector<NeighbourhoodCentre> centres_;      ///< by slot of the whole engine
   std::vector<typename Part::Verdict> verdicts_;  ///< by domain
-  std::vector<SpeedCensus> censuses_;             ///< by domain
-  std::optional<Instant> alone_until_;            ///< the whole engine goes on until then
+  std::vector<double> seconds_;                   ///< processor time of each domain since all met
+  std::vector<double> epoch_seconds_;             ///< the same in this epoch
+  std::vector<double> cost_of_disk_;    ///< processor time of each disk of a domain in the last epoch; empty where not measured
+  int unbalanced_for_ = 0;              ///< epochs
+  std::vector<SpeedCensus> censuses_;   ///< by domain
+  std::optional<Instant> alone_until_;  ///< the whole engine goes on until then
 
   double now_ = 0.0;     ///< since the epoch
   double window_ = 0.0;  ///< length of the next

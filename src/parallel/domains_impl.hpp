@@ -51,6 +51,9 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
         return true;
       case Next::counted:
         return false;
+      case Next::balance:
+        gather();
+        break;
       case Next::failed:
         go_back();
         failure_.rethrow();
@@ -67,18 +70,27 @@ void Domains<Impact, Layout, World>::share_out() {
   for (std::int32_t i = 0; i < whole_.count(); ++i) slot_of_id_[static_cast<std::size_t>(whole_.id(i))] = i;
   for (std::int32_t i = 0; i < whole_.count(); ++i) centres_[static_cast<std::size_t>(i)] = whole_.lists_.centre(i);
   half_width_ = whole_.lists_.half_width();
-  parts_.emplace(threads_.domains, centres_,
-                 std::array{whole_.flight_.axis(0).unit * 0x1p32, whole_.flight_.axis(1).unit * 0x1p32});
+  const std::array step{whole_.flight_.axis(0).unit * 0x1p32, whole_.flight_.axis(1).unit * 0x1p32};
+  if (parts_) {
+    const BoxParts::Costs costs{*parts_, cost_of_disk_};
+    parts_ = BoxParts(threads_.domains, centres_, step, cost_of_disk_.empty() ? nullptr : &costs);
+  } else {
+    parts_.emplace(threads_.domains, centres_, step);
+  }
+  epoch_seconds_.assign(threads_.domains, 0.0);
   domains_.clear();
   domains_.resize(threads_.domains);
+  seconds_.assign(threads_.domains, 0.0);
   verdicts_.resize(threads_.domains);
   censuses_.resize(threads_.domains);
   const double reach = threads_.halo * whole_.sizes_.largest_contact;
+  parts_->set_reach(reach);
   team_.run([&](std::size_t thread) {
     each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach); });
   });
   failure_.rethrow();
   whole_.lists_.clear();
+  whole_.queue_.clear();
   shared_ = up_to_date_ = true;
   ready_ = false;
   now_ = whole_.now_;
@@ -198,14 +210,14 @@ template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::run_window(std::size_t thread) {
   each(thread, [&](std::size_t d) { domains_[d]->run(window_end_); });
   while (counting_) {
-    team_.meet(thread, [this] { count_collisions(); });
+    meet(thread, [this] { count_collisions(); });
     each(thread, [&](std::size_t d) { domains_[d]->run(window_end_); });
-    team_.meet(thread, [] {});
+    meet(thread, [] {});
   }
   each(thread, [&](std::size_t d) { domains_[d]->write_messages(); });
-  team_.meet(thread, [] {});
+  meet(thread, [] {});
   each(thread, [&](std::size_t d) { read_messages(d); });
-  team_.meet(thread, [this] { decide(); });
+  meet(thread, [this] { decide(); });
 }
 
 /// After a window: is it right, and what comes next?
@@ -215,7 +227,7 @@ void Domains<Impact, Layout, World>::decide() {
   std::size_t homes = 0;
   double nearest = infinity<double>, allowed = 0.0;
   bool stopped = false;
-  done_.events = done_.copied_events = 0;
+  const std::uint64_t happened = events();
   for (std::size_t d = 0; d < domains_.size(); ++d) {
     homes += domains_[d]->homes();
     stopped = stopped || domains_[d]->stopped() || verdicts_[d].conflict;
@@ -243,7 +255,7 @@ void Domains<Impact, Layout, World>::decide() {
       next_ = Next::epoch;
     else if (now_ == target_)
       next_ = Next::arrived;
-    else if (events() - events_before_ >= event_limit_)
+    else if (happened - events_before_ >= event_limit_)
       next_ = Next::counted;
     else
       begin_window();
@@ -272,7 +284,7 @@ void Domains<Impact, Layout, World>::run_epoch(std::size_t thread) {
     censuses_[d] = domains_[d]->census();
     if (whole_.common_motion_.present()) domains_[d]->store(whole_, slot_of_id_, centres_);
   });
-  team_.meet(thread, [this] { lead_epoch(); });
+  meet(thread, [this] { lead_epoch(); });
   each(thread, [&](std::size_t d) {
     BoxDomain<Impact, Layout, World>& domain = *domains_[d];
     if (has_fallen_) domain.reset_fall();
@@ -282,14 +294,14 @@ void Domains<Impact, Layout, World>::run_epoch(std::size_t thread) {
     if (plans_change_) domain.write_messages();
   });
   if (plans_change_) {
-    team_.meet(thread, [] {});
+    meet(thread, [] {});
     each(thread, [&](std::size_t d) { read_messages(d); });
   }
   each(thread, [&](std::size_t d) {
     domains_[d]->begin_epoch();
     domains_[d]->store(whole_, slot_of_id_, centres_);
   });
-  team_.meet(thread, [this] { end_of_epoch(); });
+  meet(thread, [this] { end_of_epoch(); });
 }
 
 /// Begins an epoch in the whole engine: see EventLoop::begin_epoch().
@@ -337,16 +349,39 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
   target_ = end_.template since<double>(whole_.epoch_);
   if (failure_.any())
     next_ = Next::failed;
+  else if (is_unbalanced())
+    next_ = Next::balance;
   else if (whole_.stall_.jammed() || whole_.idle() || !owed_.isZero(0.0))
     next_ = Next::void_one;
   else
     begin_window();
 }
 
+/// Whether one domain has taken much longer than the others in the last epoch, so that borders are to be moved.
+template <class Impact, class Layout, class World>
+bool Domains<Impact, Layout, World>::is_unbalanced() {
+  const double all = std::accumulate(epoch_seconds_.begin(), epoch_seconds_.end(), 0.0);
+  const double longest = *std::max_element(epoch_seconds_.begin(), epoch_seconds_.end());
+  const bool unbalanced = longest * static_cast<double>(domains_.size()) > 1.25 * all;
+  unbalanced_for_ = unbalanced ? unbalanced_for_ + 1 : 0;
+  if (unbalanced_for_ >= 4) {
+    unbalanced_for_ = 0;
+    cost_of_disk_.resize(domains_.size());
+    for (std::size_t d = 0; d < domains_.size(); ++d)
+      cost_of_disk_[d] = (epoch_seconds_[d] + 1e-9) / static_cast<double>(domains_[d]->homes() + 1);
+    return true;
+  }
+  std::fill(epoch_seconds_.begin(), epoch_seconds_.end(), 0.0);
+  return false;
+}
+
 template <class Impact, class Layout, class World>
 std::uint64_t Domains<Impact, Layout, World>::events() {
-  done_.events = done_.copied_events = 0;
-  for (const auto& domain : domains_) done_.events += domain->events_done(), done_.copied_events += domain->copied_events();
+  for (const auto& domain : domains_) {
+    const auto [at_home, copied] = domain->take_events_done();
+    done_.events += at_home;
+    done_.copied_events += copied;
+  }
   return done_.events;
 }
 

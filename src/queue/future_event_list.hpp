@@ -19,16 +19,20 @@ class FutureEventList {
   static constexpr std::size_t fewest = 16, few = 16384;
 
   /// Forgets everything, and starts at time 0. Events at `end` or later need not be kept: they are never asked for. `span` and
-  /// `far` are as for the calendar; `busy` says that new events of many disks are to be expected.
-  void start(double span, std::size_t disks, double end, bool far, bool busy = true) {
+  /// `far` are as for the calendar; `busy` says that new events of many disks are to be expected. `absent` of the disks will have
+  /// no events.
+  void start(double span, std::size_t disks, double end, bool far, bool busy = true, std::size_t absent = 0) {
     span_ = span;
     disks_ = disks;
     end_ = end;
     far_ = far;
     in_tournament_ = disks >= fewest && disks <= few && busy && has_vectors_;
     moved_ = 0;
-    in_tournament_ ? tournament_.start(disks) : calendar_.start(span, disks, end, far);
+    in_tournament_ ? tournament_.start(disks) : calendar_.start(span, disks - absent, end, far);
   }
+
+  /// Frees memory, until start().
+  void clear() { calendar_ = CalendarQueue<Events>(); }
 
   /// Sets the time of the next event of disk i, not before that of the last one taken; infinity for none.
   void push(const Events& events, std::int32_t i, double time) {

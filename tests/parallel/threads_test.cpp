@@ -115,6 +115,17 @@ TEST(Threads, GiveTheBitsOfOneWhereCollisionsLoseEnergy) {
   expect_same_runs(scene, {.domains = 4}, 20.0, 4);
 }
 
+TEST(Threads, GiveTheBitsOfOneForAGasInACorner) {
+  Scene scene = gas(3000, 0.5, Boundary::walls);
+  scene.species[0].positions = ListedPositions{};
+  scene.box.upper *= 4.0;
+  const int columns = 60;
+  for (int i = 0; i < 3000; ++i)
+    std::get<ListedPositions>(scene.species[0].positions)
+        .values.emplace_back(1.0 + 1.2 * (i % columns), 1.0 + 1.2 * (i / columns));
+  expect_same_runs(scene, {.domains = 4}, 60.0, 3);
+}
+
 TEST(Threads, GiveTheBitsOfOneForRoughDisks) {
   Scene scene = gas(4000, 0.4, Boundary::periodic);
   scene.effects.collision.restitution = 0.95;
