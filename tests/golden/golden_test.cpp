@@ -2,6 +2,7 @@
 // hashes.txt holds what this code gave when it was last known to be right; a commit that changes a hash says why.
 
 #include "core/instructions.hpp"
+#include "golden/run_hash.hpp"
 #include "support/instructions.hpp"
 #include "support/scene_files.hpp"
 
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <tuple>
@@ -19,44 +19,6 @@
 
 namespace carom::test {
 namespace {
-
-/// FNV-1a over the bytes of the numbers.
-class Hash {
- public:
-  template <class T>
-  void add(const T& number) {
-    unsigned char bytes[sizeof(T)];
-    std::memcpy(bytes, &number, sizeof(T));
-    for (const unsigned char byte : bytes) value_ = (value_ ^ byte) * 0x100000001b3ull;
-  }
-  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", value_); }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325ull;
-};
-
-std::string hash_of_run(Scene scene, const std::string& engine, bool sampling = true) {
-  if (!sampling) scene.run.sample_every.reset();
-  Simulation simulation = make_simulation(scene, engine);
-  run_schedule(simulation);
-  const State state = simulation.state();
-  Hash hash;
-  for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
-    for (int a = 0; a < 2; ++a) {
-      hash.add(state.positions(a, i));
-      hash.add(state.velocities(a, i));
-      hash.add(state.images(a, i));
-    }
-  }
-  for (const double spin : state.spins) hash.add(spin);
-  for (const WallState& wall : state.walls) {
-    hash.add(wall.position);
-    hash.add(wall.velocity);
-  }
-  hash.add(simulation.totals().pair);
-  hash.add(simulation.totals().wall);
-  return hash.text();
-}
 
 /// By scene and engine.
 std::map<std::pair<std::string, std::string>, std::string> recorded() {
