@@ -24,6 +24,8 @@ SegmentObstacle read_segment(const toml::table& node, const std::string& path) {
   return {read_point(table, "from", segment_example), read_point(table, "to", segment_example)};
 }
 
+}  // namespace
+
 Obstacle read_obstacle(const toml::table& node, const std::string& path) {
   const TableReader table(node, path, {"disk", "segment"});
   const toml::table* disk = table.table("disk", std::string(disk_example));
@@ -36,8 +38,6 @@ Obstacle read_obstacle(const toml::table& node, const std::string& path) {
   if (disk != nullptr) return read_disk(*disk, table.path("disk"));
   return read_segment(*segment, table.path("segment"));
 }
-
-}  // namespace
 
 std::vector<Obstacle> read_obstacles(const toml::node& node) {
   const toml::array* list = node.as_array();

@@ -1,0 +1,259 @@
+#include "live/live_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace carom {
+namespace {
+
+/// The equilibration of Simulation's schedule, without its hooks.
+void equilibrate(Simulation& simulation) {
+  const std::optional<Run::Equilibrate>& asked = simulation.scene().run.equilibrate;
+  if (!asked) return;
+  RunLimits limits;
+  if (asked->collisions_per_disk)
+    limits.collisions = static_cast<std::uint64_t>(
+        std::ceil(*asked->collisions_per_disk * static_cast<double>(simulation.disks().count()) / 2.0));
+  const StopReason stopped = simulation.run_until(asked->time.value_or(std::numeric_limits<double>::max()), limits);
+  if (stopped != StopReason::time && stopped != StopReason::collisions)
+    throw std::runtime_error(
+        fmt::format("the run ended while it was equilibrating ({}); leave out run.equilibrate", to_string(stopped)));
+  simulation.reset_clock();
+}
+
+/// Gives every species lists of its disks as they are in the state, so that single disks can come and go.
+void list_disks(Scene& scene, const State& state) {
+  Eigen::Index i = 0;
+  for (Species& species : scene.species) {
+    ListedPositions positions;
+    ListedVelocities velocities;
+    for (std::int64_t k = 0; k < species.count; ++k, ++i) {
+      positions.values.emplace_back(state.positions.col(i));
+      velocities.values.emplace_back(state.velocities.col(i));
+    }
+    species.positions = std::move(positions);
+    species.velocities = std::move(velocities);
+  }
+}
+
+/// Returns the species of a disk and its place there.
+std::pair<std::size_t, std::int64_t> place_of(const Scene& scene, std::int64_t disk) {
+  std::int64_t rest = disk;
+  for (std::size_t s = 0; s < scene.species.size(); ++s) {
+    if (rest >= 0 && rest < scene.species[s].count) return {s, rest};
+    rest -= scene.species[s].count;
+  }
+  throw SceneError({}, fmt::format("there is no disk {}; ids go from 0 to {}", disk, scene.disk_count() - 1));
+}
+
+template <class Matrix>
+Matrix without_column(const Matrix& matrix, Eigen::Index column) {
+  if (matrix.cols() == 0) return matrix;
+  Matrix result(matrix.rows(), matrix.cols() - 1);
+  result.leftCols(column) = matrix.leftCols(column);
+  result.rightCols(result.cols() - column) = matrix.rightCols(result.cols() - column);
+  return result;
+}
+
+template <class Matrix, class Column>
+Matrix with_column(const Matrix& matrix, Eigen::Index column, const Column& values) {
+  Matrix result(2, matrix.cols() + 1);
+  result.leftCols(column) = matrix.leftCols(column);
+  result.col(column) = values;
+  result.rightCols(matrix.cols() - column) = matrix.rightCols(matrix.cols() - column);
+  return result;
+}
+
+/// Removes entry `at` of a vector of one number per disk, or puts a zero there; leaves one without entries alone.
+Eigen::VectorXd without_entry(const Eigen::VectorXd& numbers, Eigen::Index at) {
+  if (numbers.size() == 0) return numbers;
+  Eigen::VectorXd result(numbers.size() - 1);
+  result << numbers.head(at), numbers.tail(result.size() - at);
+  return result;
+}
+Eigen::VectorXd with_entry(const Eigen::VectorXd& numbers, Eigen::Index at) {
+  if (numbers.size() == 0) return numbers;
+  Eigen::VectorXd result(numbers.size() + 1);
+  result << numbers.head(at), 0.0, numbers.tail(numbers.size() - at);
+  return result;
+}
+
+void remove_disk(Scene& scene, State& state, std::int64_t disk) {
+  const auto [s, k] = place_of(scene, disk);
+  Species& species = scene.species[s];
+  --species.count;
+  if (!species.radii.empty()) species.radii.erase(species.radii.begin() + k);
+  if (!species.masses.empty()) species.masses.erase(species.masses.begin() + k);
+  const auto column = static_cast<Eigen::Index>(disk);
+  state.positions = without_column(state.positions, column);
+  state.velocities = without_column(state.velocities, column);
+  state.images = without_column(state.images, column);
+  state.spins = without_entry(state.spins, column);
+}
+
+void add_disk(Scene& scene, State& state, const AddDisk& add) {
+  const auto s = static_cast<std::size_t>(add.species);
+  if (s >= scene.species.size())
+    throw SceneError({}, fmt::format("there is no species {}; they go from 0 to {}", add.species, scene.species.size() - 1));
+  Eigen::Index column = 0;
+  for (std::size_t k = 0; k <= s; ++k) column += static_cast<Eigen::Index>(scene.species[k].count);
+  Species& species = scene.species[s];
+  ++species.count;
+  if (!species.radii.empty()) species.radii.push_back(species.radii.back());
+  if (!species.masses.empty()) species.masses.push_back(species.masses.back());
+  state.positions = with_column(state.positions, column, add.position);
+  state.velocities = with_column(state.velocities, column, add.velocity);
+  state.images = with_column(state.images, column, Eigen::Matrix<std::int64_t, 2, 1>::Zero());
+  state.spins = with_entry(state.spins, column);
+}
+
+/// Refuses a change of what a run has only at its start.
+void require_changeable(const std::string& override_text) {
+  const std::string key = override_text.substr(0, override_text.find_first_of("= "));
+  for (const char* const table : {"box", "run", "output", "observe", "title"})
+    if (key == table || key.starts_with(std::string(table) + "."))
+      throw SceneError(
+          {}, fmt::format("{} belongs to the start of a run; a change may set effects, and radius and mass of disks", key));
+  if (key.starts_with("disks.") && !key.ends_with(".radius") && !key.ends_with(".mass"))
+    throw SceneError({}, fmt::format("{} belongs to the start of a run; a change may set radius and mass of disks", key));
+}
+
+}  // namespace
+
+LiveRun::LiveRun(const Scene& scene) : first_(scene), simulation_(make_simulation(scene)) { equilibrate(simulation_); }
+
+StopReason LiveRun::run_until(double time, std::uint64_t most_events) {
+  RunLimits limits;
+  const std::uint64_t now = simulation_.counts().events();
+  if (most_events < RunLimits::none - now) limits.events = now + most_events;
+  return simulation_.run_until(time - before_, limits);
+}
+
+void LiveRun::state(State& state) const {
+  simulation_.state(state);
+  state.time += before_;
+}
+
+std::string LiveRun::hash() const {
+  State state;
+  this->state(state);
+  return state_hash(state);
+}
+
+void LiveRun::apply(const Change& change) {
+  if (change.time < time())
+    throw SceneError({}, fmt::format("a change at time {} comes too late at time {}", change.time, time()));
+  run_until(change.time);
+  State state = simulation_.state();
+  Scene scene = simulation_.scene();
+  if (const auto* set = std::get_if<SetKeys>(&change.what)) {
+    set_keys(set->overrides);
+  } else if (const auto* scale = std::get_if<ScaleVelocities>(&change.what)) {
+    simulation_.set_velocities(scale->factor * state.velocities, scale->factor * state.spins);
+  } else if (const auto* obstacle = std::get_if<AddObstacle>(&change.what)) {
+    Effects effects = scene.effects;
+    effects.obstacles.push_back(obstacle->obstacle);
+    simulation_.set_effects(effects);
+  } else if (const auto* gone = std::get_if<RemoveObstacle>(&change.what)) {
+    Effects effects = scene.effects;
+    if (gone->obstacle < 0 || gone->obstacle >= static_cast<std::int64_t>(effects.obstacles.size()))
+      throw SceneError({}, fmt::format("there is no obstacle {}; there are {}", gone->obstacle, effects.obstacles.size()));
+    effects.obstacles.erase(effects.obstacles.begin() + gone->obstacle);
+    simulation_.set_effects(effects);
+  } else if (const auto* add = std::get_if<AddDisk>(&change.what)) {
+    add_disk(scene, state, *add);
+    begin_again(scene, state);
+  } else if (const auto* remove = std::get_if<RemoveDisk>(&change.what)) {
+    remove_disk(scene, state, remove->disk);
+    begin_again(scene, state);
+  } else if (const auto* move = std::get_if<MoveDisk>(&change.what)) {
+    (void)place_of(scene, move->disk);
+    const auto column = static_cast<Eigen::Index>(move->disk);
+    state.positions.col(column) = move->position;
+    state.velocities.col(column) = move->velocity;
+    begin_again(scene, state);
+  }
+  changes_.push_back(change);
+}
+
+/// The keys are read in the scene of the start with all keys set so far, which says what its effects are now; obstacles, disks
+/// and places of walls are those of the run.
+void LiveRun::set_keys(const std::vector<std::string>& overrides) {
+  std::vector<std::string> all = overrides_;
+  for (const std::string& text : overrides) {
+    require_changeable(text);
+    const std::string key = text.substr(0, text.find('='));
+    std::erase_if(all, [&](const std::string& other) { return other.substr(0, other.find('=')) == key; });
+    all.push_back(text);
+  }
+  std::vector<std::string> from_start = first_.overrides;
+  from_start.insert(from_start.end(), all.begin(), all.end());
+  const Scene asked = parse_scene(first_.text, first_.source, from_start);
+  Scene scene = simulation_.scene();
+  bool other_disks = false;
+  for (std::size_t s = 0; s < scene.species.size(); ++s) {
+    const std::string path = fmt::format("disks.{}.", s);
+    for (const std::string& text : overrides) {
+      if (!text.starts_with(path)) continue;
+      other_disks = true;
+      Species& species = scene.species[s];
+      (text.starts_with(path + "radius") ? species.radius : species.mass) =
+          text.starts_with(path + "radius") ? asked.species[s].radius : asked.species[s].mass;
+      (text.starts_with(path + "radius") ? species.radii : species.masses).clear();
+    }
+  }
+  Effects effects = asked.effects;
+  effects.obstacles = scene.effects.obstacles;
+  if (other_disks) {
+    scene.effects = effects;
+    begin_again(scene, simulation_.state());
+  } else {
+    simulation_.set_effects(effects);
+  }
+  overrides_ = std::move(all);
+}
+
+/// Another simulation goes on from the state. Its random numbers are others than those of the one before.
+void LiveRun::begin_again(const Scene& with, const State& state) {
+  Scene scene = with;
+  ++scene.run.seed;
+  for (std::size_t k = 0; k < state.walls.size(); ++k) {
+    const auto axis = static_cast<Eigen::Index>(k / 2);
+    if (!scene.box.periodic(static_cast<int>(axis)))
+      (k % 2 == 0 ? scene.box.lower : scene.box.upper)[axis] = state.walls[k].position;
+  }
+  list_disks(scene, state);
+  check(scene);
+  Simulation another = make_simulation(scene, state);
+  before_ += simulation_.time();
+  const Counts& counts = simulation_.counts();
+  counts_before_.pair += counts.pair;
+  counts_before_.wall += counts.wall;
+  counts_before_.obstacle += counts.obstacle;
+  counts_before_.well += counts.well;
+  counts_before_.thermostat += counts.thermostat;
+  simulation_ = std::move(another);
+}
+
+LiveRun::Moment LiveRun::moment() const {
+  std::ostringstream bytes;
+  simulation_.save(bytes);
+  return {time(), events(), std::move(bytes).str(), simulation_.scene(), before_, counts_before_, changes_.size(), overrides_};
+}
+
+void LiveRun::back_to(const Moment& moment) {
+  std::istringstream bytes(moment.bytes);
+  simulation_ = restore_simulation(moment.scene, bytes);
+  before_ = moment.before;
+  counts_before_ = moment.counts_before;
+  changes_.resize(moment.changes);
+  overrides_ = moment.overrides;
+}
+
+}  // namespace carom

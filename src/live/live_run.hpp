@@ -1,0 +1,80 @@
+#pragma once
+// A run that is changed while it goes on: the simulation of a scene, and all changes so far. The same scene and the same changes
+// at the same times give the same bits, wherever and with whatever pauses it runs.
+
+#include "live/change.hpp"
+
+#include <carom/scene.hpp>
+#include <carom/simulation.hpp>
+#include <carom/state.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+class LiveRun {
+ public:
+  /// Draws the start and equilibrates as the scene says. Throws as make_simulation(), and std::runtime_error where equilibrating
+  /// ends early.
+  explicit LiveRun(const Scene& scene);
+
+  /// Applies a change at its time, which is not before time(): runs on to there first. Throws SceneError where the run cannot be
+  /// changed so, with a sentence; the run then stands at the time of the change, unchanged.
+  void apply(const Change& change);
+  /// Goes on to `time`; ends early after `most_events` events more, or where time cannot pass any more.
+  StopReason run_until(double time, std::uint64_t most_events = RunLimits::none);
+
+  /// Goes to the next event up to `until`, and returns it, its time counted since disks last came or went; otherwise goes to
+  /// `until`.
+  std::optional<Event> step(double until) { return simulation_.step(until - before_); }
+
+  /// Time since the start of the measured run. After disks came or went it is the sum of what runs before and after have taken.
+  [[nodiscard]] double time() const { return before_ + simulation_.time(); }
+  /// State at time().
+  void state(State& state) const;
+  /// Returns state_hash() of the state at time().
+  [[nodiscard]] std::string hash() const;
+  /// Numbers of events since the start of the measured run.
+  [[nodiscard]] std::uint64_t pairs() const { return counts_before_.pair + simulation_.counts().pair; }
+  [[nodiscard]] std::uint64_t walls() const {
+    return counts_before_.wall + counts_before_.obstacle + simulation_.counts().wall + simulation_.counts().obstacle;
+  }
+  [[nodiscard]] std::uint64_t events() const { return counts_before_.events() + simulation_.counts().events(); }
+
+  /// The simulation since disks last came or went, with the scene of now. Its clock began then.
+  [[nodiscard]] const Simulation& simulation() const { return simulation_; }
+  /// The scene at the start.
+  [[nodiscard]] const Scene& first_scene() const { return first_; }
+  [[nodiscard]] const std::vector<Change>& changes() const { return changes_; }
+
+  /// A moment of the run to which back_to() returns.
+  struct Moment {
+    double time = 0.0;
+    std::uint64_t events = 0;
+    std::string bytes;  ///< Simulation::save()
+    Scene scene;
+    double before = 0.0;
+    Counts counts_before;
+    std::size_t changes = 0;
+    std::vector<std::string> overrides;
+  };
+  [[nodiscard]] Moment moment() const;
+  /// Goes back to a moment of this run; changes after it are forgotten.
+  void back_to(const Moment& moment);
+
+ private:
+  void set_keys(const std::vector<std::string>& overrides);
+  void begin_again(const Scene& scene, const State& state);
+
+  Scene first_;
+  Simulation simulation_;
+  double before_ = 0.0;  ///< time that simulations before this one have taken
+  Counts counts_before_;
+  std::vector<std::string> overrides_;  ///< of all SetKeys so far
+  std::vector<Change> changes_;
+};
+
+}  // namespace carom
