@@ -135,6 +135,10 @@ void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
   command->add_flag("--watch", options->watch, "Show the run live (a progress line where stderr is no terminal)");
   command->add_option("--pace", options->pace, "With --watch: simulated time per second (default: as fast as the machine can)")
       ->type_name("TIME");
+  command
+      ->add_option("--changes", options->changes,
+                   "Make the changes of this file at their times, as the playground lists them; writes samples.csv at most")
+      ->type_name("FILE.toml");
   add_threads(*command, *options);
   add_saving(*command, *options);
   add_progress(*command, options->progress);
@@ -343,6 +347,14 @@ void add_play(CLI::App& program, Action& action) {
   command->callback([&action, options] { action = [options] { return play(*options); }; });
 }
 
+void add_playground(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("playground", "Write a page in which scenes run live, and can be changed");
+  const auto options = std::make_shared<PlaygroundOptions>();
+  command->add_option("scenes", options->scenes, "Scene files to put into the page, before its own")->type_name("SCENE");
+  command->add_option("-o,--output", options->output, "The file to write (default: playground.html)")->type_name("FILE.html");
+  command->callback([&action, options] { action = [options] { return playground(*options); }; });
+}
+
 void add_analyze(CLI::App& program, Action& action, const Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("analyze", "Measure observables of a finished run from its stored samples and events");
@@ -470,7 +482,7 @@ void add_groups(CLI::App& program) {
   const auto put = [&](const char* group, std::initializer_list<const char*> names) {
     for (const char* name : names) program.get_subcommand(name)->group(group);
   };
-  put("Scenes and runs", {"run", "resume", "extend", "check", "init", "info", "verify"});
+  put("Scenes and runs", {"run", "resume", "extend", "check", "init", "info", "verify", "playground"});
   put("Results of a run", {"analyze", "diff", "play", "report", "movie"});
   put("Studies", {"horizon", "compare", "sweep", "bench", "hardcases", "validate"});
   program.footer(
@@ -543,6 +555,7 @@ Action parse_arguments(int argc, char** argv) {
   add_diff(program, action);
   add_analyze(program, action, invocation);
   add_play(program, action);
+  add_playground(program, action);
   add_report(program, action);
   add_movie(program, action);
   add_bench(program, action);

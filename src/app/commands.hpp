@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace carom::cli {
 
@@ -29,6 +30,7 @@ struct RunOptions {
   std::optional<double> pace;                   ///< simulated time per second to watch; absent: as fast as the machine
   std::optional<std::string> checkpoint_every;  ///< "10min" or "1e8 collisions"; absent: only where the run is stopped
   std::optional<std::string> walltime;          ///< after which the run is stopped and saved
+  std::string changes;                          ///< file of changes to make on the way; empty: none
 };
 ExitCode run(const RunOptions& options, const Invocation& invocation);
 
@@ -77,6 +79,12 @@ struct PlayOptions {
   std::string output;     ///< empty: player.html in it
 };
 ExitCode play(const PlayOptions& options);
+
+struct PlaygroundOptions {
+  std::vector<std::string> scenes;  ///< scene files to put into the page, before its own
+  std::string output;               ///< empty: playground.html
+};
+ExitCode playground(const PlaygroundOptions& options);
 
 struct ReportOptions {
   std::string directory;  ///< directory of a finished run

@@ -1,6 +1,7 @@
 // carom run SCENE: runs a scene's whole schedule, writes its files, and says what has happened. Whatever is wrong with the
 // scene or with the place for the results is found before the first event, and then nothing is left behind.
 
+#include "app/changed_run.hpp"
 #include "app/commands.hpp"
 #include "app/run_session.hpp"
 #include "app/scene_description.hpp"
@@ -69,6 +70,7 @@ Simulation simulation_for(const RunOptions& options, const Scene& scene, const s
 ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   const Clock::time_point began = Clock::now();
   check_options(options);
+  if (!options.changes.empty()) return run_with_changes(options);
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
   if (options.verify == std::uint64_t{0}) throw UsageError("--verify 0: give the number of events between two checks, 1 or more");
