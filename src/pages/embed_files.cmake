@@ -5,7 +5,7 @@
 set(carom_page_files page/page.css page/errors.js page/theme.js page/numbers.js page/traces.js page/layout.js
     page/export.js page/embedded.js page/page.js plotly/plotly-basic.min.js plotly/LICENSE
     player/player.html player/player.css player/run.html player/recording.js player/flights.js player/samples.js player/measures.js
-    player/hexatic.js player/palettes.js player/settings.js player/view.js player/trails.js player/raster.js player/drawing.js
+    player/hexatic.js player/scales.js player/palettes.js player/settings.js player/view.js player/trails.js player/raster.js player/drawing.js
     player/readings.js player/legend.js player/plots.js player/clock.js player/controls.js player/keyboard.js player/pointer.js
     player/panel.js player/player.js
     side_by_side/side_by_side.html side_by_side/sides.js side_by_side/twins.js side_by_side/overlaps.js side_by_side/curves.js

@@ -22,9 +22,9 @@ constexpr std::array<std::string_view, 1> run_panel = {"player/panel.js"};
 std::vector<std::string_view> scripts_of(const PlayerKind& kind) {
   std::vector<std::string_view> scripts = {"player/recording.js", "player/flights.js", kind.replay};
   for (const std::string_view shared :
-       {"player/measures.js", "player/hexatic.js", "player/palettes.js", "player/settings.js", "player/view.js",
-        "player/trails.js", "player/raster.js", "player/drawing.js", "player/readings.js", "player/legend.js", "player/plots.js",
-        "player/clock.js", "player/controls.js", "player/keyboard.js", "player/pointer.js"})
+       {"player/measures.js", "player/hexatic.js", "player/scales.js", "player/palettes.js", "player/settings.js",
+        "player/view.js", "player/trails.js", "player/raster.js", "player/drawing.js", "player/readings.js", "player/legend.js",
+        "player/plots.js", "player/clock.js", "player/controls.js", "player/keyboard.js", "player/pointer.js"})
     scripts.push_back(shared);
   scripts.insert(scripts.end(), kind.panel.begin(), kind.panel.end());
   scripts.push_back("player/player.js");
