@@ -96,10 +96,15 @@ give("rate", 60, "input");
 check("the slider of speed spans nine decades", near(Math.log10(settings.rate / slowest), 9));
 give("rate", 0, "input");
 const usual = settings.rate;
+const digit = (rate) => Number(rate.toExponential(6).split("e")[0]);
+check("the usual speed is 1, 2 or 5 times a power of ten", [1, 2, 5].includes(digit(usual)));
 press("ArrowUp");
-check("arrow up", near(settings.rate, usual * Math.SQRT2));
+check("arrow up goes to the next such speed", near(settings.rate / usual, { 1: 2, 2: 2.5, 5: 2 }[digit(usual)]));
 press("ArrowDown");
-check("arrow down", near(settings.rate, usual));
+check("arrow down goes back", near(settings.rate, usual));
+press("ArrowDown");
+check("arrow down goes to the one before", near(usual / settings.rate, { 1: 2, 2: 2, 5: 2.5 }[digit(usual)]));
+press("ArrowUp");
 check("the speed is told", byId("rate-text").textContent.includes("per second"));
 
 // Colours.

@@ -48,6 +48,17 @@ function togglePlay() {
   change({ isPlaying: !settings.isPlaying });
 }
 
-// A disk of typical speed crosses the box in some six seconds. The whole run takes at least four.
-const usualRate = Math.min((0.16 * Math.min(extent[1] - extent[0], extent[3] - extent[2])) / speedScale, duration / 4) || 1;
+/// Returns the nearest of the round rates ..., 0.5, 1, 2, 5, 10, ...
+function roundRate(rate) {
+  const power = 10 ** Math.floor(Math.log10(rate));
+  const lead = rate / power;
+  return (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10) * power;
+}
+
+/// Returns the next round rate above or below one.
+const fasterRate = (rate) => roundRate(rate * (roundRate(rate) > 1.01 * rate ? 1 : 2.2));
+const slowerRate = (rate) => roundRate(rate / (roundRate(rate) < 0.99 * rate ? 1 : 2.2));
+
+// A disk of typical speed crosses the box in some six seconds. The whole run takes some four at least.
+const usualRate = roundRate(Math.min((0.16 * Math.min(extent[1] - extent[0], extent[3] - extent[2])) / speedScale, duration / 4) || 1);
 settings.rate = usualRate;

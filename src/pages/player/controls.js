@@ -64,6 +64,12 @@ function showHelp(isOpen) {
   else if (!isOpen && help.open) help.close();
 }
 
+/// The whole page on the whole screen, and back.
+function toggleFull() {
+  if (document.fullscreenElement) document.exitFullscreen();
+  else document.documentElement.requestFullscreen?.().catch(() => {});  // a frame may not be allowed to
+}
+
 function connectControls() {
   const onClick = (name, action) => control(name).addEventListener("click", action);
   onClick("play", togglePlay);
@@ -72,6 +78,7 @@ function connectControls() {
   onClick("zoom-in", () => zoomBy(1.25));
   onClick("zoom-out", () => zoomBy(0.8));
   onClick("fit", fitView);
+  onClick("full", toggleFull);
   onClick("keys", () => showHelp(true));
   onClick("close-help", () => showHelp(false));
   for (const [name, setting] of Object.entries(toggles)) onClick(name, () => change({ [setting]: !settings[setting] }));
@@ -79,7 +86,7 @@ function connectControls() {
   control("scrub").addEventListener("input", (event) => showTime((duration * event.target.value) / scrubSteps));
   control("rate").min = -rateSteps;
   control("rate").max = rateSteps;
-  control("rate").addEventListener("input", (event) => setRate(rateOf(Number(event.target.value))));
+  control("rate").addEventListener("input", (event) => setRate(Number(rateOf(Number(event.target.value)).toPrecision(2))));
   control("colour").addEventListener("change", (event) => change({ colourBy: event.target.value }));
   control("palette").addEventListener("change", (event) => change({ palette: event.target.value }));
   control("theme").addEventListener("change", (event) => change({ theme: event.target.value }));

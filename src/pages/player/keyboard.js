@@ -9,8 +9,8 @@ const keys = {
   ",": () => stepEvent(-1),
   ArrowRight: (event) => showTime(moment.time + (event.shiftKey ? 0.1 : 0.01) * duration),
   ArrowLeft: (event) => showTime(moment.time - (event.shiftKey ? 0.1 : 0.01) * duration),
-  ArrowUp: () => setRate(settings.rate * Math.SQRT2),
-  ArrowDown: () => setRate(settings.rate / Math.SQRT2),
+  ArrowUp: () => setRate(fasterRate(settings.rate)),
+  ArrowDown: () => setRate(slowerRate(settings.rate)),
   Home: () => showTime(0),
   End: () => showTime(duration),
   r: () => change({ isBackwards: !settings.isBackwards }),
@@ -28,6 +28,7 @@ const keys = {
   "=": () => zoomBy(1.25),
   "-": () => zoomBy(0.8),
   0: () => fitView(),
+  m: () => toggleFull(),
   "?": () => showHelp(true),
   Escape: () => follow(-1),
 };
