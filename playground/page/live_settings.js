@@ -1,0 +1,65 @@
+// The settings that change a run while it goes on. Each says where its value stands in the description of the run, and what a change of
+// it sets, in the words of the scene format.
+"use strict";
+
+const setKeys = (...keys) => `set = [${keys.map((key) => JSON.stringify(key)).join(", ")}]`;
+const wallSetting = (side) => ({
+  least: 0, most: 10, step: 0.1, unit: "energy", zero: "insulated",
+  value: (d) => d.walls[side].temperature ?? 0,
+  change: (v) => setKeys(`walls.${["left", "right", "bottom", "top"][side]}=${v > 0 ? `{ temperature = ${v} }` : "{ restitution = 1 }"}`),
+});
+
+const liveSettings = {
+  gravity: { least: 0, most: 2, step: 0.01, unit: "length / time²", value: (d) => -d.gravity[1], change: (v) => setKeys(`gravity.acceleration=[0, ${-v || 0}]`) },
+  gravity0: { least: 0, most: 1, step: 0.01, unit: "length / time²", value: (d) => -d.gravity[1], change: (v) => setKeys(`gravity.acceleration=[0, ${-v || 0}]`) },
+  restitution: { least: 0.3, most: 1, step: 0.01, unit: "", value: (d) => d.restitution ?? 1, change: (v) => setKeys(`collision.restitution=${v}`, "collision.elastic_below={ time = 1e-3 }") },
+  roughness: { least: -1, most: 1, step: 0.05, unit: "", value: (d) => d.roughness ?? -1, change: (v) => setKeys(`collision.roughness=${v}`) },
+  rule: { choices: ["specular", "reversal"], value: (d) => d.rule, change: (v) => setKeys(`collision.rule="${v}"`) },
+  radius: { least: 0.05, most: 0.8, step: 0.01, unit: "length", value: (d) => d.species[0].radius, change: (v) => setKeys(`disks.0.radius=${v}`) },
+  mass0: { least: 0.1, most: 100, step: 0.1, logarithmic: true, unit: "mass", value: (d) => d.species[0].mass, change: (v) => setKeys(`disks.0.mass=${v}`) },
+  mass1: { least: 0.1, most: 100, step: 0.1, logarithmic: true, unit: "mass", value: (d) => d.species[1].mass, change: (v) => setKeys(`disks.1.mass=${v}`) },
+  wallsT: {
+    ...wallSetting(0),
+    change: (v) => setKeys(...["left", "right", "bottom", "top"].map((side) => `walls.${side}=${v > 0 ? `{ temperature = ${v} }` : "{ restitution = 1 }"}`)),
+  },
+  leftT: wallSetting(0),
+  rightT: wallSetting(1),
+  bottomT: wallSetting(2),
+  thermostat: {
+    least: 0, most: 5, step: 0.1, unit: "energy", zero: "off",
+    value: (d) => (d.thermostatRate > 0 ? d.thermostat : 0),
+    change: (v) => setKeys(`thermostat={ temperature = ${v > 0 ? v : 1}, rate = ${v > 0 ? 0.2 : 0} }`),
+  },
+  load: {
+    least: 0, most: 2, step: 0.01, unit: "energy / length²", value: (d) => d.walls[3].load ?? 0,
+    change: (v, d) => setKeys(`walls.top={ mass = ${d.walls[3].mass}, load = ${v} }`),
+  },
+  pistonMass: {
+    least: 1, most: 500, step: 1, logarithmic: true, unit: "mass", value: (d) => d.walls[3].mass ?? 1,
+    change: (v, d) => setKeys(`walls.top={ mass = ${v}, load = ${d.walls[3].load ?? 0} }`),
+  },
+  wallSpeed: {
+    least: -1, most: 1, step: 0.05, unit: "length / time", value: (d) => d.walls[1].velocity ?? 0,
+    change: (v) => setKeys(`walls.right={ velocity = ${v} }`),
+  },
+  wellDepth: { least: 0, most: 3, step: 0.05, unit: "energy", value: (d) => d.wellDepth ?? 0, change: (v, d) => setKeys(`square_well={ width = ${d.wellWidth ?? 1.5}, depth = ${v} }`) },
+  shear: { least: 0, most: 1, step: 0.01, unit: "1 / time", value: (d) => d.shear ?? 0, change: (v) => setKeys(`shear.rate=${v}`) },
+  drag: { least: 0, most: 1, step: 0.01, unit: "1 / time", value: (d) => d.drag ?? 0, change: (v) => setKeys(`drag.rate=${v}`) },
+  growth: { least: 0, most: 0.1, step: 0.001, unit: "1 / time", value: (d) => d.growth ?? 0, change: (v) => setKeys(`growth={ rate = ${v}, until = { packing_fraction = 0.85 } }`) },
+};
+
+/// The settings that a scene from elsewhere has: those of its effects, and those that any scene can take.
+function settingsOf(description) {
+  const found = [];
+  const [acrossX, acrossY] = description.periodic;
+  if (!acrossY) found.push("gravity");
+  found.push("restitution");
+  if (description.species.length > 0 && description.species[0].uniform) found.push("radius", "mass0");
+  if (description.species.length > 1 && description.species[1].uniform) found.push("mass1");
+  if (!acrossX && !acrossY && description.walls.every((wall) => wall.mass === null && !wall.velocity)) found.push("wallsT");
+  for (const [name, isThere] of [["thermostat", true], ["shear", description.shear !== null], ["drag", true], ["growth", description.growth !== null], ["wellDepth", description.wellDepth !== null],
+    ["roughness", description.roughness !== null], ["load", description.walls[3].mass !== null], ["pistonMass", description.walls[3].mass !== null]])
+    if (isThere) found.push(name);
+  found.push("rule");
+  return found;
+}

@@ -1,0 +1,278 @@
+// Drives the built page in a headless Chromium: node page_test.mjs PAGE [CAROM] [--long]. With the program CAROM, states are compared with
+// those that it computes. Prints a line for what fails, and ends with 1 then; ends with 77 where there is no Chromium.
+
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { Browser, chromium, pause } from "./browser.mjs";
+
+const isLong = process.argv.includes("--long");
+const [page, carom] = process.argv.slice(2).filter((word) => !word.startsWith("--")).map((path) => resolve(path));
+if (!chromium()) {
+  console.log("chromium is not installed");
+  process.exit(77);
+}
+
+let checks = 0;
+let failures = 0;
+function check(what, isRight, found = "") {
+  ++checks;
+  if (isRight) return;
+  ++failures;
+  console.log(`FAILED: ${what}${found === "" ? "" : `; found ${typeof found === "string" ? found : JSON.stringify(found)}`}`);
+}
+
+const address = `file://${page}`;
+const browser = await Browser.start();
+const ask = (expression) => browser.evaluate(expression);
+const notice = () => ask("document.getElementById('notice').hidden ? '' : document.getElementById('notice').textContent");
+const errors = async () => [...browser.errors, await ask("document.documentElement.dataset.errors")].filter(Boolean).join(" | ");
+const clear = () => ask("document.getElementById('notice').hidden = true");
+const time = () => ask("carom.run.numbers[0]");
+const inScene = (x, y) =>
+  ask(`(() => { const r = document.getElementById("overlay").getBoundingClientRect(); return [r.left + r.width * ${x}, r.top + r.height * ${y}]; })()`);
+/// The pixel of a place of the scene.
+const pixelOf = (x, y) =>
+  ask(`(() => { const r = document.getElementById("overlay").getBoundingClientRect(), [l, b] = carom.run.description.lower, [u, t] = carom.run.description.upper;
+    const m = r.width < 600 ? 0.95 : 0.9, s = m * Math.min(r.width / (u - l), r.height / (t - b));
+    return [r.left + r.width / 2 + (${x} - (l + u) / 2) * s, r.top + r.height / 2 - (${y} - (b + t) / 2) * s]; })()`);
+
+async function test(name, work) {
+  try {
+    await work();
+  } catch (error) {
+    ++failures;
+    console.log(`FAILED: ${name}: ${error.message}`);
+  }
+  const found = await errors().catch((error) => error.message);
+  check(`${name}: no error in the console`, found === "", found);
+}
+
+const twoDisks = `box = { x = [0, 10], y = [0, 10], boundary = "walls" }
+collision = { rule = "specular" }
+run = { time = 100 }
+[[disks]]
+radius = 0.5
+mass = 1
+positions = [[2, 5], [8, 5]]
+velocities = [[1, 0], [-1, 0]]
+`;
+
+await test("size", async () => check("the page has at most 1.2 MB", statSync(page).size <= 1.2e6, statSync(page).size));
+
+await test("start", async () => {
+  await browser.open(address);
+  check("it plays by itself", await ask("carom.run.isPlaying"));
+  const before = await time();
+  await pause(500);
+  check("time passes", (await time()) > before);
+  check("nothing is loaded from elsewhere", (await ask("performance.getEntriesByType('resource').filter((one) => !/^(blob|data|file):/.test(one.name)).length")) === 0);
+});
+
+await test("scenes", async () => {
+  const ids = await ask("carom.scenes()");
+  check("there are at least 20 scenes", ids.length >= 20, ids.length);
+  for (const id of ids) {
+    await ask(`carom.scene("${id}").then(() => carom.play(true))`);
+    await pause(isLong ? 10000 : 250);
+    check(`${id}: time passes`, (await time()) > 0);
+    check(`${id}: no notice`, (await notice()) === "" || isLong, await notice());
+    // Every slider to its ends and back, while it runs.
+    for (const end of ["max", "min", "value"]) {
+      await ask(`(async () => {
+        for (const input of document.querySelectorAll("#liveSettings input[type=range]")) {
+          const own = input.defaultValue;
+          input.dataset.own ??= input.value;
+          input.value = "${end}" === "value" ? input.dataset.own : input.${end === "value" ? "value" : end};
+          input.dispatchEvent(new Event("input"));
+          await new Promise((resolve) => setTimeout(resolve, 30));
+        }
+      })()`);
+      await clear();
+    }
+    check(`${id}: no error`, (await errors()) === "", await errors());
+    check(`${id}: the engine still answers`, /^[0-9a-f]{16}$/.test(await ask("carom.stateHash()")));
+  }
+});
+
+await test("start settings", async () => {
+  await ask('carom.scene("gas", { n: 50 })');
+  check("a scene begins with the number asked for", (await ask("carom.run.description.disks")) === 50);
+  await ask(`(() => { const input = document.querySelector('[data-start="eta"]'); input.value = 0.1; input.dispatchEvent(new Event("change")); })()`);
+  await pause(300);
+  check("the packing fraction is that of the slider", Math.abs((await ask("carom.run.description.packing")) - 0.1) < 1e-9);
+});
+
+await test("walls", async () => {
+  await ask('carom.scene("box", { n: 50 })');
+  const slide = (value) => ask(`(() => { const input = document.querySelector('[data-setting="wallsT"]'); input.value = ${value}; input.dispatchEvent(new Event("input")); })()`);
+  await slide(3);
+  await pause(200);
+  check("a slider heats the walls", (await ask("carom.run.description.walls.every((wall) => wall.temperature === 3)")));
+  await slide(0);
+  await pause(200);
+  check("and insulates them again", (await ask("carom.run.description.walls.every((wall) => wall.temperature === null)")) && (await notice()) === "", await notice());
+});
+
+await test("bits", async () => {
+  await ask(`carom.scene("box", { n: 100 })`);
+  const toml = await ask("carom.run.toml");
+  await ask("carom.load(carom.run.toml)");
+  await ask("carom.runUntil(1)");
+  await ask('carom.set("gravity.acceleration", [0, -1])');
+  await ask("carom.runUntil(2.5)");
+  await ask('carom.change("scale_velocities = 1.1")');
+  await ask('carom.change("remove_disk = 3")');
+  await ask("carom.runUntil(3)");
+  await ask('carom.set("walls.left", 0).catch(() => 0)');
+  await ask('carom.change("set = [\\"walls.left={ temperature = 2 }\\"]")');
+  await ask("carom.runUntil(6)");
+  const hash = await ask("carom.stateHash()");
+  const changes = await ask("carom.changes()");
+  check("all changes are listed", (changes.match(/^\[\[changes\]\]/gm) ?? []).length === 4, changes);
+  const link = await ask("carom.link()");
+  if (carom) {
+    const directory = mkdtempSync(join(tmpdir(), "carom-page-test-"));
+    writeFileSync(join(directory, "scene.toml"), toml);
+    writeFileSync(join(directory, "changes.toml"), changes);
+    const run = spawnSync(carom, ["run", "scene.toml", "--set", "run.time=6", "--changes", "changes.toml", "--json"], { cwd: directory, encoding: "utf8" });
+    check("carom run --changes ends", run.status === 0, run.stderr);
+    if (run.status === 0) check("the hash is that of carom run", JSON.parse(run.stdout).state_hash === hash, `${JSON.parse(run.stdout).state_hash} and ${hash}`);
+    rmSync(directory, { recursive: true });
+  }
+  await browser.open(`${address}?play=0${link.slice(link.indexOf("#"))}`);
+  await ask("carom.runUntil(6)");
+  check("a link gives the same run to the last bit", (await ask("carom.stateHash()")) === hash);
+  check("and all of its changes", (await ask("carom.changes()")) === changes);
+  // Steps back lead to the same bits.
+  const there = await ask("carom.state().then((state) => state.pairs)");
+  for (let k = 0; k < 3; ++k) await browser.key(",");
+  await pause(300);
+  check("a step back takes an event back", (await ask("carom.run.numbers[2]")) <= there);
+  await ask("carom.runUntil(6)");
+  check("and forward again are the same bits", (await ask("carom.stateHash()")) === hash);
+});
+
+await test("links", async () => {
+  await browser.open(`${address}#run=AAAA.zzz`);
+  check("a damaged link is told", /damaged/.test(await notice()), await notice());
+  check("and the page runs", (await ask("carom.run.description.disks")) > 0);
+  const link = await ask("carom.link()");
+  await browser.open(link.slice(0, -20));
+  check("a link that was cut is told", /damaged/.test(await notice()), await notice());
+});
+
+await test("refusals", async () => {
+  await browser.open(`${address}?play=0`);
+  await ask(`carom.load(${JSON.stringify(twoDisks)})`);
+  const refused = (expression) => ask(`${expression}.then(() => "", (error) => error.message)`);
+  check("a wrong scene is refused with a sentence", /own:1:1/.test(await refused('carom.load("box = 3")')) || /box/.test(await refused('carom.load("box = 3")')), await refused('carom.load("box = 3")'));
+  check("the scene before goes on", (await ask("carom.run.description.disks")) === 2);
+  check("too many disks are refused", /more than this page holds/.test(await refused(`carom.load(${JSON.stringify(twoDisks.replace(/positions.*\nvelocities.*/, "count = 200000\npositions = \"square\"\nvelocities = \"rest\"").replace("radius = 0.5", "radius = 0.001"))})`)));
+  check("a wall through a disk is refused", /obstacle/.test(await refused('carom.change("add_obstacle = { segment = { from = [2, 0], to = [2, 10] } }")')));
+  check("a disk upon a disk is refused", /overlap/.test(await refused('carom.change("add_disk = { position = [2, 5] }")')));
+  check("nonsense is refused", (await refused('carom.change("hello")')) !== "");
+  check("an unknown scene is refused", /no scene/.test(await refused('carom.scene("nothing")')));
+  await ask("carom.runUntil(2)");
+  check("and the run goes on", (await time()) === 2);
+});
+
+await test("tools", async () => {
+  await ask(`carom.load(${JSON.stringify(twoDisks)})`);
+  const tool = (name) => ask(`document.querySelector('[data-tool="${name}"]').click()`);
+  const drag = async (from, to = from) => {
+    await browser.drag(await pixelOf(...from), await pixelOf(...to));
+    await pause(150);
+  };
+  await tool("throw");
+  await drag([5, 8], [6, 8]);
+  check("a disk is thrown in", (await ask("carom.run.description.disks")) === 3);
+  check("with its velocity", (await ask("carom.run.vx[2]")) > 0 && Math.abs(await ask("carom.run.vy[2]")) < 1e-6);
+  await drag([5, 8], [6, 8]);
+  check("not upon another", (await ask("carom.run.description.disks")) === 3 && /no room/.test(await notice()), await notice());
+  await tool("drag");
+  await drag([5, 8], [5, 2]);
+  check("a disk is moved", Math.abs((await ask("carom.run.y[2]")) - 2) < 0.2, await ask("carom.run.y[2]"));
+  await tool("wall");
+  await drag([4, 9], [6, 9]);
+  check("a wall is drawn", (await ask("carom.run.description.obstacles.length")) === 1);
+  await clear();
+  await drag([2, 1], [2, 9]);
+  check("a wall through a disk is not, and is told", (await ask("carom.run.description.obstacles.length")) === 1 && /obstacle/.test(await notice()), await notice());
+  await tool("erase");
+  await drag([5, 9]);
+  check("a wall is taken away", (await ask("carom.run.description.obstacles.length")) === 0);
+  await tool("take");
+  await drag([5, 2]);
+  check("a disk is taken out", (await ask("carom.run.description.disks")) === 2);
+  await tool("hand");
+  await drag([2, 5]);
+  check("a disk is followed", (await ask("carom.settings.followed")) === 0);
+});
+
+await test("keys", async () => {
+  await ask(`carom.load(${JSON.stringify(twoDisks)})`);
+  await browser.key(" ");
+  check("Space plays", await ask("carom.run.isPlaying"));
+  await ask("document.getElementById('arrows').focus()");
+  await browser.key(" ");
+  check("Space pauses whatever has the focus", !(await ask("carom.run.isPlaying")) && !(await ask("carom.settings.arrows")));
+  await browser.key(".");
+  await pause(200);
+  check("a step goes to the next collision", (await ask("carom.run.numbers[2]")) >= 1 || (await time()) > 0);
+  await ask(`carom.load(${JSON.stringify(twoDisks)})`);
+  await browser.key(".");
+  await pause(200);
+  check("the first is at 2.5", Math.abs((await time()) - 2.5) < 1e-9, await time());
+  await browser.key("r");
+  await pause(200);
+  check("reversed, its velocities are turned", (await ask("carom.run.vx[0]")) > 0);
+  await browser.key("h");
+  await pause(200);
+  check("hotter is faster", Math.abs(Math.abs(await ask("carom.run.vx[0]")) - 1.1) < 1e-9, await ask("carom.run.vx[0]"));
+});
+
+await test("twin", async () => {
+  await ask('carom.scene("gas", { n: 200, eta: 0.4 }).then(() => { document.getElementById("twin").click(); carom.play(true); })');
+  await pause(isLong ? 5000 : 1500);
+  check("the twin runs beside", await ask("carom.run.twin !== null && carom.run.twin.length === 800"));
+  check("and its numbers are there", (await ask("carom.run.twinNumbers.collisions")) > 0);
+  await ask('document.getElementById("twin").click()');
+  await pause(300);
+  check("it can be switched off", await ask("carom.run.twin === null"));
+  await ask('carom.scene("shear").then(() => document.getElementById("twin").click())');
+  await pause(300);
+  check("where fixed steps cannot, a sentence says so", /fixed-step methods know/.test(await notice()), await notice());
+});
+
+await test("reset", async () => {
+  await ask('carom.scene("gas", { n: 500 })');
+  const resets = isLong ? 1000 : 30;
+  await ask("(async () => { for (let k = 0; k < 10; ++k) await carom.load(carom.run.toml); })()");
+  const before = await ask("carom.memory()");
+  await ask(`(async () => { for (let k = 0; k < ${resets}; ++k) await carom.load(carom.run.toml); })()`);
+  check(`memory is steady over ${resets} resets`, (await ask("carom.memory()")) === before, `${before} bytes, then ${await ask("carom.memory()")}`);
+});
+
+await test("screens", async () => {
+  await browser.size(360, 740, { touch: true });
+  await browser.open(`${address}?scene=piston&lang=de&draw=canvas`);
+  check("nothing is wider than a phone", await ask("document.documentElement.scrollWidth <= innerWidth"), await ask("[document.documentElement.scrollWidth, innerWidth]"));
+  check("it draws without WebGL", (await ask("carom.drawing()")) === "canvas");
+  check("it speaks German", (await ask("document.documentElement.lang")) === "de" && (await ask("document.getElementById('hotter').textContent")) === "Wärmer");
+  check("every button has a name", await ask("[...document.querySelectorAll('button')].every((one) => one.textContent.trim() !== '' || one.getAttribute('aria-label'))"));
+  check("every field has a name", await ask("[...document.querySelectorAll('input, select')].every((one) => one.closest('label') || one.getAttribute('aria-label') || document.querySelector(`label[for=\"${one.id}\"]`))"));
+  await browser.size(1280, 800);
+  await browser.media({ still: true, scheme: "dark" });
+  await browser.open(`${address}?draw=webgl&embed&scene=heat&n=80`);
+  check("it draws with WebGL", (await ask("carom.drawing()")) === "WebGL");
+  check("with less motion it waits", !(await ask("carom.run.isPlaying")));
+  check("it is dark", (await ask("document.documentElement.dataset.theme")) === "dark");
+  check("embedded, it shows the disks alone", await ask("getComputedStyle(document.querySelector('aside')).display === 'none'"));
+  check("the address gives the start", (await ask("carom.run.description.disks")) === 80);
+});
+
+await browser.close();
+console.log(`${checks - failures} of ${checks} checks hold`);
+process.exit(failures > 0 ? 1 : 0);
