@@ -10,6 +10,7 @@
 #include <carom/collisions.hpp>
 #include <carom/state.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +28,10 @@ class CollisionRecorder {
 
   /// Whether any event is to be recorded.
   [[nodiscard]] bool active() const { return active_; }
+  /// Whether collisions are handed to a listener.
+  [[nodiscard]] bool listening() const { return static_cast<bool>(listener_); }
   /// Whether events are to be written to the log.
-  [[nodiscard]] bool logging() const { return logging_; }
+  [[nodiscard]] bool logging() const { return logging_ && !paused_; }
 
   /// Writes down a collision of the disks in slots i and j at a time since the epoch. Requires active(). Only its numbers
   /// as they are: here every instruction counts.
@@ -50,6 +53,27 @@ class CollisionRecorder {
     const Instant when = epoch_.plus(time);
     log_.push_back({when.high, when.low, id(i), what, v, {0.0, 0.0}});
   }
+
+  /// Records nothing until pause(false).
+  void pause(bool on) {
+    paused_ = on;
+    active_ = !on && (logging_ || listener_);
+  }
+  /// Hands a collision to the listener, beside the log, that another recorder has recorded.
+  void hand_on(const CollisionRecord& record) {
+    if (recorded_ == room_.size()) find_room();
+    room_[recorded_++] = record;
+  }
+  /// Logs nothing by itself from now on, or again: others do, and append() it.
+  void log_elsewhere(bool on) {
+    hand_over();
+    logged_elsewhere_ = on;
+  }
+  /// Appends events to the log that other recorders have logged.
+  void append(std::span<const Event> events) { log_.insert(log_.end(), events.begin(), events.end()); }
+  /// Leaves out the next so many collisions that would be handed to the listener, and the next so many events of the log: they
+  /// have been recorded before, and happen once more.
+  void skip(std::uint64_t collisions, std::uint64_t events) { collisions_to_skip_ = collisions, events_to_skip_ = events; }
 
   /// Takes back the collision that was recorded last: it would have left a velocity that is not finite.
   void withdraw_collision() {
@@ -77,6 +101,9 @@ class CollisionRecorder {
     hand_over();
     events.clear();
     std::swap(events, log_);
+    const auto skipped = static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(events_to_skip_, events.size()));
+    events_to_skip_ -= static_cast<std::uint64_t>(skipped);
+    events.erase(events.begin(), events.begin() + skipped);
   }
 
   /// Hands collisions of pairs to `listener` from now on, as many at a time as it has room for (in the recorder's own memory some
@@ -103,8 +130,16 @@ class CollisionRecorder {
   }
 
   [[gnu::noinline]] void deliver(std::span<const CollisionRecord> records) {
-    if (logging_) log(records);
-    if (listener_) listener_.on_collisions(epoch_, records);  // which owns them from then on
+    if (logging_ && !logged_elsewhere_) log(records);
+    if (!listener_) return;
+    const auto skipped = static_cast<std::size_t>(std::min<std::uint64_t>(collisions_to_skip_, records.size()));
+    collisions_to_skip_ -= skipped;
+    if (skipped > 0) {
+      std::copy(room_.begin() + static_cast<std::ptrdiff_t>(skipped), room_.begin() + static_cast<std::ptrdiff_t>(records.size()),
+                room_.begin());
+      records = records.first(records.size() - skipped);
+    }
+    if (!records.empty()) listener_.on_collisions(epoch_, records);  // which owns them from then on
   }
 
   void log(std::span<const CollisionRecord> records) {
@@ -125,11 +160,14 @@ class CollisionRecorder {
   Instant epoch_;
   bool active_ = false;
   bool logging_ = false;
+  bool paused_ = false;
+  bool logged_elsewhere_ = false;  ///< and appended here
   CollisionListener listener_;
   std::array<CollisionRecord, 64> own_room_;
   std::span<CollisionRecord> room_;  ///< for collisions: own_room_, or what the listener gave
   std::size_t recorded_ = 0;         ///< in it
   std::vector<Event> log_;
+  std::uint64_t collisions_to_skip_ = 0, events_to_skip_ = 0;
 };
 
 }  // namespace carom

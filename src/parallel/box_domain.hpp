@@ -82,6 +82,21 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   void read_plans(std::span<const Message> messages);
   [[nodiscard]] const Verdict& end_reading();
 
+  /// Records the collisions of disks at home from now on for take_collisions(), with slots of the whole engine, and all their
+  /// events for take_events().
+  void record(bool collisions, bool events, std::span<const std::int32_t> slot_of_id);
+  /// Returns the collisions recorded since clear_records(), in order of time.
+  [[nodiscard]] const std::vector<CollisionRecord>& collisions() {
+    recorder_.hand_over();
+    return collisions_;
+  }
+  /// Returns the events logged since clear_records(), in order of time.
+  [[nodiscard]] const std::vector<Event>& logged() {
+    if (logged_.empty() && recorder_.logging()) recorder_.take_events(logged_);
+    return logged_;
+  }
+  void clear_records() { collisions_.clear(), logged_.clear(); }
+
   // An epoch: see EventLoop::begin_epoch().
 
   /// Begins an epoch at time `now`.
@@ -123,7 +138,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   using Loop::epoch_, Loop::epoch_length_, Loop::stopped_, Loop::prefetcher_;
   using Loop::line, Loop::id, Loop::count, Loop::surroundings, Loop::predicted, Loop::set_plan, Loop::schedule, Loop::never;
   using Loop::plans_, Loop::lists_, Loop::lines_, Loop::ids_, Loop::queue_, Loop::flight_, Loop::frame_, Loop::limits_,
-      Loop::impact_;
+      Loop::impact_, Loop::recorder_;
   using Loop::totals_, Loop::counted_, Loop::tuning_, Loop::pacing_, Loop::sizes_, Loop::stall_, Loop::stamp_, Loop::now_;
 
   enum class Role : std::uint8_t { empty, home, halo };
@@ -178,7 +193,9 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   std::size_t homes_ = 0;
   bool crowded_ = false;  ///< there is no slot left
   Verdict verdict_;
-  RunningTotals ghosts_;  ///< counts of the events of copies
+  std::vector<CollisionRecord> collisions_;  ///< recorded in this window
+  std::vector<Event> logged_;                ///< in this window
+  RunningTotals ghosts_;                     ///< counts of the events of copies
   std::uint64_t events_ = 0, copied_events_ = 0;
 };
 

@@ -28,6 +28,7 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
   outboxes_.resize(neighbours_.size());
   for (auto i = count(); i-- > 0;) unused_.push_back(i);
 
+  recorder_.begin_epoch(epoch_);
   stamp_ = 1;
   std::vector<NeighbourhoodCentre> centres(lines_.size());
   for (std::int32_t from = 0; from < whole.count(); ++from) {
@@ -117,6 +118,21 @@ bool BoxDomain<Impact, Layout, World>::run_next(double end) {
 }
 
 template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::record(bool collisions, bool events, std::span<const std::int32_t> slot_of_id) {
+  CollisionListener listener;
+  if (collisions)
+    listener.on_collisions = [this, slot_of_id](const Instant& /*epoch*/, std::span<const CollisionRecord> records) {
+      for (CollisionRecord record : records) {
+        record.slot_i = slot_of_id[static_cast<std::size_t>(id(record.slot_i))];
+        record.slot_j = slot_of_id[static_cast<std::size_t>(id(record.slot_j))];
+        collisions_.push_back(record);
+      }
+    };
+  recorder_.listen(std::move(listener));
+  recorder_.log_events(events);
+}
+
+template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::prefetch_span(std::int64_t span) const {
   if (!prefetcher_.looks_ahead()) return;
   for (const std::int32_t i : queue_.calendar().ids_of(span + 3)) {
@@ -132,7 +148,9 @@ void BoxDomain<Impact, Layout, World>::step_copy(std::int32_t i, double time) {
   const TuningCounters before = tuning_.counters();
   const std::uint64_t changes = lists_.changes();
   counted_ = &ghosts_;
+  recorder_.pause(true);
   this->step(i, time);
+  recorder_.pause(false);
   counted_ = &totals_;
   lists_.set_changes(changes);
   tuning_.set_counters(before);

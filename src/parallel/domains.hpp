@@ -80,6 +80,7 @@ class Domains {
   void lead_epoch();
   void end_of_epoch();
   void watch_speeds(const SpeedCensus& speeds) { fastest_ = 1.5 * std::max(speeds.fastest[0], speeds.fastest[1]); }
+  void hand_over_records();
   void go_back();
   std::uint64_t events();
   bool is_unbalanced();
@@ -151,6 +152,7 @@ class Domains {
   Vec2<double> owed_ = Vec2<double>::Zero();                               ///< momentum: see CommonMotion
   int calm_ = 0;                                                           ///< windows in which nothing wrong came near
   double calm_margin_ = 0.0;
+  std::uint64_t collisions_told_ = 0, events_told_ = 0;  ///< recorded since the whole engine was up to date
   ThreadCounts done_;
 };
 

@@ -29,7 +29,7 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
     const std::uint64_t few = whole_.lines_.size() / 2;
     const Counts so_far = counts();
     if (so_far.pair >= pair_limit || (exact_events && event_limit < few) || whole_.idle() || whole_.stall_.jammed() ||
-        whole_.recorder_.active() || whole_.lines_.size() < 2)
+        whole_.lines_.size() < 2)
       return alone(target);
     if (alone_until_) {
       const Instant until = std::min(target, *alone_until_);
@@ -89,6 +89,9 @@ void Domains<Impact, Layout, World>::share_out() {
     each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach); });
   });
   failure_.rethrow();
+  for (const auto& domain : domains_) domain->record(whole_.recorder_.listening(), whole_.recorder_.logging(), slot_of_id_);
+  whole_.recorder_.log_elsewhere(true);
+  collisions_told_ = events_told_ = 0;
   whole_.lists_.clear();
   whole_.queue_.clear();
   shared_ = up_to_date_ = true;
@@ -115,6 +118,7 @@ void Domains<Impact, Layout, World>::update() {
   failure_.rethrow();
   whole_.stamp_ = 1;
   whole_.now_ = now_;
+  collisions_told_ = events_told_ = 0;
   up_to_date_ = true;
 }
 
@@ -133,6 +137,8 @@ void Domains<Impact, Layout, World>::go_back() {
   whole_.lists_.rebuild(half_width_, centres_);
   whole_.lists_.set_changes(changes);
   whole_.start_queue();
+  whole_.recorder_.log_elsewhere(false);
+  whole_.recorder_.skip(collisions_told_, events_told_);
   shared_ = false;
   ready_ = up_to_date_ = true;
 }
@@ -247,6 +253,7 @@ void Domains<Impact, Layout, World>::decide() {
   } else {
     if (const double length = window_end_ - now_; length > 0.0 && pairs > pairs_before_ + 1000)
       pair_rate_ = static_cast<double>(pairs - pairs_before_) / length;
+    hand_over_records();
     now_ = window_end_;
     adapt_window(nearest - allowed);
     if (pairs == pair_limit_)
@@ -260,6 +267,41 @@ void Domains<Impact, Layout, World>::decide() {
     else
       begin_window();
   }
+}
+
+/// Gives the records of all domains to the recorder of the whole engine, in order of time.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::hand_over_records() {
+  CollisionRecorder& recorder = whole_.recorder_;
+  if (!recorder.active()) return;
+  const auto ids = [&](const CollisionRecord& record) { return std::minmax(whole_.id(record.slot_i), whole_.id(record.slot_j)); };
+  const auto collided_before = [&](const CollisionRecord& a, const CollisionRecord& b) {
+    return a.time < b.time || (a.time == b.time && ids(a) < ids(b));
+  };
+  const auto logged_before = [](const Event& a, const Event& b) {
+    return std::tie(a.time, a.time_remainder, a.disk, a.partner) < std::tie(b.time, b.time_remainder, b.disk, b.partner);
+  };
+  /// Calls take(one) for the entries of all lists in order, each of which is in order by itself.
+  const auto merge = [this](auto&& list_of, auto&& before, auto&& take) {
+    std::vector<std::size_t> next(domains_.size());
+    for (;;) {
+      std::size_t first = domains_.size();
+      for (std::size_t d = 0; d < domains_.size(); ++d)
+        if (next[d] < list_of(d).size() && (first == domains_.size() || before(list_of(d)[next[d]], list_of(first)[next[first]])))
+          first = d;
+      if (first == domains_.size()) return;
+      take(list_of(first)[next[first]++]);
+    }
+  };
+  if (recorder.logging())
+    merge([this](std::size_t d) -> const std::vector<Event>& { return domains_[d]->logged(); }, logged_before,
+          [&](const Event& event) {
+            recorder.append({&event, 1}), ++events_told_;
+          });
+  if (recorder.listening())
+    merge([this](std::size_t d) -> const std::vector<CollisionRecord>& { return domains_[d]->collisions(); }, collided_before,
+          [&](const CollisionRecord& record) { recorder.hand_on(record), ++collisions_told_; });
+  for (const auto& domain : domains_) domain->clear_records();
 }
 
 /// Makes windows shorter where something wrong came rather near to home, and longer where it has not for a while.
@@ -345,6 +387,7 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
     whole_.totals_.numerics.longest_neighbour_list = longest;
   }
   if constexpr (!Impact::plain) whole_.impact_.owe(owed_);
+  collisions_told_ = events_told_ = 0;
   now_ = 0.0;
   target_ = end_.template since<double>(whole_.epoch_);
   if (failure_.any())

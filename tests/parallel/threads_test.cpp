@@ -234,11 +234,66 @@ TEST(Threads, RunASchedule) {
       blocks[n].push_back(progress.totals.virial);
     };
     run_schedule(simulation, hooks);
+    if (domains > 1) EXPECT_GT(simulation.thread_counts().windows, 20U);
   }
   EXPECT_EQ(hashes[0].size(), 31U);
   EXPECT_EQ(hashes[1], hashes[0]);
   EXPECT_GT(blocks[0].size(), 4U);
   EXPECT_EQ(blocks[1], blocks[0]);
+}
+
+/// Every collision, told as run_schedule() tells them: as records with their epochs, and as events.
+struct Told {
+  std::vector<double> records;
+  std::vector<double> events;
+};
+
+Told told(const Scene& scene, const Threads& threads, std::uint64_t& redone) {
+  Told told;
+  Simulation simulation = make_simulation(scene);
+  simulation.set_threads(threads);
+  RunHooks hooks;
+  hooks.collisions = [&](const CollisionRecords& collisions) {
+    for (const CollisionRecord& record : collisions.records) {
+      told.records.push_back(collisions.epoch + record.time);
+      told.records.push_back(record.slot_i);
+      told.records.push_back(record.slot_j);
+      told.records.push_back(record.before_i[0] + record.before_j[1]);
+      told.records.push_back(record.after_i[1] - record.after_j[0]);
+    }
+  };
+  run_schedule(simulation, hooks);
+  hooks.collisions = {};
+  Simulation again = make_simulation(scene);
+  again.set_threads(threads);
+  hooks.events = [&](std::span<const Event> events) {
+    for (const Event& event : events) {
+      told.events.push_back(event.time);
+      told.events.push_back(event.disk);
+      told.events.push_back(event.partner);
+      told.events.push_back(event.velocity[0] - event.partner_velocity[1]);
+    }
+  };
+  run_schedule(again, hooks);
+  redone = simulation.thread_counts().windows_redone;
+  if (threads.domains > 1) EXPECT_GT(simulation.thread_counts().windows + again.thread_counts().windows, 20U);
+  return told;
+}
+
+TEST(Threads, TellTheCollisionsOfOneInTheirOrder) {
+  Scene scene = gas(4000, 0.5, Boundary::walls);
+  scene.run.time = 3.0;
+  scene.run.sample_every = 0.5;
+  std::uint64_t redone = 0;
+  const Told alone = told(scene, {}, redone);
+  EXPECT_GT(alone.records.size(), 100000U);
+  const Told shared = told(scene, {.threads = 2, .domains = 4}, redone);
+  EXPECT_EQ(shared.records, alone.records);
+  EXPECT_EQ(shared.events, alone.events);
+  const Told narrow = told(scene, {.domains = 4, .halo = 5.0, .events_per_window = 1.0}, redone);
+  EXPECT_GT(redone, 0U) << "collisions are to happen twice, and to be told once";
+  EXPECT_EQ(narrow.records, alone.records);
+  EXPECT_EQ(narrow.events, alone.events);
 }
 
 TEST(Threads, RefuseWhatTheyCannotDo) {
