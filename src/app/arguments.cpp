@@ -344,6 +344,7 @@ void add_play(CLI::App& program, Action& action) {
       ->type_name("RUN_DIR");
   command->add_option("-o,--output", options->output, "The file to write (default: player.html in that directory)")
       ->type_name("FILE.html");
+  command->add_flag("--open", options->open, "Open the page in a browser too (xdg-open)");
   command->callback([&action, options] { action = [options] { return play(*options); }; });
 }
 
@@ -352,6 +353,7 @@ void add_playground(CLI::App& program, Action& action) {
   const auto options = std::make_shared<PlaygroundOptions>();
   command->add_option("scenes", options->scenes, "Scene files to put into the page, before its own")->type_name("SCENE");
   command->add_option("-o,--output", options->output, "The file to write (default: playground.html)")->type_name("FILE.html");
+  command->add_flag("--open", options->open, "Open the page in a browser too (xdg-open)");
   command->callback([&action, options] { action = [options] { return playground(*options); }; });
 }
 

@@ -77,12 +77,14 @@ std::string reproduction(const std::string& directory, const Invocation& invocat
 struct PlayOptions {
   std::string directory;  ///< directory of a finished run
   std::string output;     ///< empty: player.html in it
+  bool open = false;      ///< open the page in a browser too
 };
 ExitCode play(const PlayOptions& options);
 
 struct PlaygroundOptions {
   std::vector<std::string> scenes;  ///< scene files to put into the page, before its own
   std::string output;               ///< empty: playground.html
+  bool open = false;                ///< open the page in a browser too
 };
 ExitCode playground(const PlaygroundOptions& options);
 

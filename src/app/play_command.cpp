@@ -2,6 +2,7 @@
 
 #include "app/commands.hpp"
 #include "pages/player_page.hpp"
+#include "terminal/open_page.hpp"
 #include "terminal/output_paths.hpp"
 #include "terminal/reading_process.hpp"
 #include "text/numbers.hpp"
@@ -21,9 +22,11 @@ PlayerData read_player(const std::string& directory) {
   return as_usage_error([&] { return player_data(RunReader(directory)); });
 }
 
+fs::path default_place(const PlayOptions& options) { return fs::path(options.directory) / "player.html"; }
+
 ExitCode write_player(const PlayOptions& options) {
   const PlayerData data = read_player(options.directory);
-  const fs::path path = place_for_page(options.output, fs::path(options.directory) / "player.html", {"player", player_mark});
+  const fs::path path = place_for_page(options.output, default_place(options), {"player", player_mark});
   write_page(path, player_page(data));
   fmt::print("{}  {}, {}\n", path.string(), size(static_cast<double>(fs::file_size(path))),
              data.exact ? "an exact replay, from collision to collision"
@@ -34,7 +37,9 @@ ExitCode write_player(const PlayOptions& options) {
 }  // namespace
 
 ExitCode play(const PlayOptions& options) {
-  return in_reading_process(options.directory, [&] { return write_player(options); });
+  const ExitCode code = in_reading_process(options.directory, [&] { return write_player(options); });
+  if (code == exit_done && options.open) open_page(options.output.empty() ? default_place(options) : fs::path(options.output));
+  return code;
 }
 
 }  // namespace carom::cli

@@ -3,6 +3,7 @@
 
 #include "app/commands.hpp"
 #include "io/json.hpp"
+#include "terminal/open_page.hpp"
 #include "terminal/output_paths.hpp"
 #include "text/numbers.hpp"
 
@@ -74,6 +75,7 @@ ExitCode playground(const PlaygroundOptions& options) {
   fmt::print(
       "{}  {}, {}; open it in a browser, no network is needed\n", output.string(), size(static_cast<double>(page.size())),
       options.scenes.empty() ? "with the scenes of the playground" : counted(options.scenes.size(), "scene") + " of yours first");
+  if (options.open) open_page(output);
   return exit_done;
 }
 

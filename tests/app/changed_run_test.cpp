@@ -110,6 +110,20 @@ TEST_F(PlaygroundCommand, SaysWhatToDoWhereThePageIsNotBuilt) {
   EXPECT_FALSE(fs::exists(file("playground.html")));
 }
 
+TEST_F(PlaygroundCommand, OpensThePageWhereItIsAsked) {
+  install_page();
+  write_text(file("bin/xdg-open"), "#!/bin/sh\necho \"$1\" > opened\n");
+  fs::permissions(file("bin/xdg-open"), fs::perms::owner_all);
+  const std::string program = file("bin/carom").string();
+  const std::string path = "PATH=" + file("bin").string() + ":/bin:/usr/bin";
+  EXPECT_EQ(run_program(directory_.path(), {"env", path, program, "playground", "--open"}).exit_code, 0);
+  EXPECT_EQ(text_of(file("opened")), fs::canonical(file("playground.html")).string() + "\n");
+  write_text(file("bin/xdg-open"), "#!/bin/sh\nexit 3\n");
+  const Outcome outcome = run_program(directory_.path(), {"env", path, program, "playground", "--open"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("no browser could be started by xdg-open; open "));
+}
+
 TEST_F(PlaygroundCommand, RefusesWrongScenesAndPlaces) {
   install_page();
   EXPECT_EQ(playground({"nowhere.toml"}).exit_code, 2);
