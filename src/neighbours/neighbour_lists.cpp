@@ -116,7 +116,7 @@ void NeighbourLists::remove(std::int32_t i) {
   }
   layers_[layer_of(i)].remove(i, centre(i));
   if (found_.size() < 16) found_.resize(16);
-  around_.assign(i, {found_.data(), 0});
+  around_.assign(i, {found_.data(), std::size_t{0}});
   empty_[static_cast<std::size_t>(i)] = 1;
 }
 
