@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from carom._arguments import real, whole
-from carom.frames import Floats, Frames
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
     from matplotlib.animation import FuncAnimation
 
+    from carom.frames import Floats, Frames
     from carom.scene import Scene
     from carom.simulation import Simulation
 
@@ -73,9 +73,7 @@ def animation_of_frames(frames: Frames, *, every: int, color: str, trail: int, i
     """Frames as an animation: see Frames.animate()."""
     from matplotlib.animation import FuncAnimation
 
-    positions, velocities = frames.positions, frames.velocities
-    if positions is None:
-        raise ValueError("these frames have no positions; sample with positions=True")
+    positions, velocities = frames.positions, frames._velocities
     every, trail = whole(every, "every", least=1), whole(trail, "trail")
     if color == "speed" and velocities is None:
         raise ValueError('these frames have no velocities for color="speed"; sample with velocities=True, or take another colour')

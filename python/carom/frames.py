@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from carom import _core
 from carom._arguments import numbers, pairs, real, whole, whole_pairs
@@ -15,10 +13,11 @@ from carom._errors import OutputError
 from carom.scene import Scene
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
     from matplotlib.animation import FuncAnimation
 
-Floats = npt.NDArray[np.float64]
-Integers = npt.NDArray[np.int64]
+    Floats = npt.NDArray[np.float64]
+    Integers = npt.NDArray[np.int64]
 
 
 class State:
@@ -133,16 +132,11 @@ def _unpickled(*arguments: Any) -> State:
     return State._of(_core.State(*arguments))
 
 
-@dataclass(eq=False)
 class Frames:
-    """States at equal distances in time. All arrays begin with the axis of frames, F of them.
+    """States at equal distances in time. All arrays begin with the axis of frames, F of them, and are read-only.
 
     Attributes:
         time: shape (F,).
-        positions: shape (F, N, 2), length; along periodic axes inside the box. None where velocities alone were sampled.
-        velocities: shape (F, N, 2), length / time; None where they were not sampled.
-        images: shape (F, N, 2), box lengths travelled past periodic edges; None where the box has none.
-        spins: shape (F, N), 1 / time; None where disks are smooth.
         scale: shape (F,): radii at frame k are scale[k] * radii.
         collisions: shape (F,), pair collisions since time 0.
         virial: shape (F,), the sum of sigma_ij times the normal impulse over these; mass length^2 / time.
@@ -153,27 +147,75 @@ class Frames:
         interrupted: whether Ctrl-C has ended it.
     """
 
-    time: Floats
-    positions: Floats | None
-    velocities: Floats | None
-    images: Integers | None
-    spins: Floats | None
-    scale: Floats
-    collisions: npt.NDArray[np.uint64]
-    virial: Floats
-    radii: Floats
-    species: npt.NDArray[np.int32]
-    scene: Scene = field(repr=False)
-    state_hash: str = ""
-    interrupted: bool = False
+    def __init__(
+        self,
+        *,
+        time: Floats,
+        positions: Floats | None,
+        velocities: Floats | None,
+        images: Integers | None,
+        spins: Floats | None,
+        scale: Floats,
+        collisions: npt.NDArray[np.uint64],
+        virial: Floats,
+        radii: Floats,
+        species: npt.NDArray[np.int32],
+        scene: Scene,
+        state_hash: str = "",
+        interrupted: bool = False,
+    ) -> None:
+        self.time = time
+        self._positions = positions
+        self._velocities = velocities
+        self._images = images
+        self._spins = spins
+        self.scale = scale
+        self.collisions = collisions
+        self.virial = virial
+        self.radii = radii
+        self.species = species
+        self.scene = scene
+        self.state_hash = state_hash
+        self.interrupted = interrupted
+
+    @property
+    def positions(self) -> Floats:
+        """Positions, shape (F, N, 2), length; along periodic axes inside the box. Raises ValueError where they were not sampled."""
+        if self._positions is None:
+            raise ValueError("these frames have no positions; sample with positions=True")
+        return self._positions
+
+    @property
+    def velocities(self) -> Floats:
+        """Velocities, shape (F, N, 2), length / time. Raises ValueError where they were not sampled."""
+        if self._velocities is None:
+            raise ValueError("these frames have no velocities; sample with velocities=True")
+        return self._velocities
+
+    @property
+    def images(self) -> Integers:
+        """Numbers of box lengths travelled past periodic edges, shape (F, N, 2); 0 along walled axes. Sampled with the positions."""
+        if self._images is None:
+            return np.broadcast_to(np.int64(0), self.positions.shape)
+        return self._images
+
+    @property
+    def spins(self) -> Floats:
+        """Angular velocities, shape (F, N), 1 / time, counter-clockwise; shape (F, 0) where disks are smooth."""
+        return np.empty((len(self), 0)) if self._spins is None else self._spins
+
+    def __repr__(self) -> str:
+        what = [name for name in ("positions", "velocities") if getattr(self, f"_{name}") is not None]
+        return (
+            f"<carom.Frames, {len(self)} of {len(self.radii)} disks, with {' and '.join(what) or 'neither positions nor velocities'}, "
+            f"state_hash {self.state_hash}{', interrupted' if self.interrupted else ''}>"
+        )
 
     def __len__(self) -> int:
         return len(self.time)
 
     def __getitem__(self, k: int) -> State:
         """Returns frame k, counted from the end where k is negative; parts of the arrays have many frames."""
-        if self.positions is None:
-            raise ValueError("these frames have no positions; sample with positions=True")
         k = whole(k, "the number of a frame", least=-(2**63))
         if not -len(self) <= k < len(self):
             raise IndexError(f"there is no frame {k}; there are {len(self)}, numbered from 0")
@@ -183,20 +225,18 @@ class Frames:
 
         return State._of(
             _core.State(
-                row(self.positions), row(self.velocities), row(self.images), row(self.spins), float(self.time[k]), float(self.scale[k])
+                row(self.positions), row(self._velocities), row(self._images), row(self._spins), float(self.time[k]), float(self.scale[k])
             )
         )
 
     @property
     def unwrapped(self) -> Floats:
         """Positions that go on past periodic edges, shape (F, N, 2): for displacements."""
-        if self.positions is None:
-            raise ValueError("these frames have no positions; sample with positions=True")
-        if self.images is None:
+        if self._images is None:
             return self.positions
         (x0, x1), (y0, y1) = self.scene.box
         lengths = np.array([x1 - x0, y1 - y0])
-        return np.asarray(self.positions + self.images * lengths)
+        return np.asarray(self.positions + self._images * lengths)
 
     def animate(self, every: int = 1, color: str = "speed", trail: int = 0, interval: float = 30) -> FuncAnimation:
         """Returns the frames as an animation of matplotlib.
@@ -213,23 +253,25 @@ class Frames:
 
     def save(self, path: str | PathLike[str]) -> None:
         """Writes all arrays and the scene into an .npz file, for `numpy.load()`."""
-        arrays = {
-            name: value
-            for name in ("time", "positions", "velocities", "images", "spins", "scale", "collisions", "virial", "radii", "species")
-            if (value := getattr(self, name)) is not None
-        }
+        arrays = {name: getattr(self, name) for name in ("time", "scale", "collisions", "virial", "radii", "species")} | self._sampled()
         try:
             np.savez(fspath(path), scene=np.array(self.scene.toml), state_hash=np.array(self.state_hash), **arrays)
         except OSError as error:
             raise OutputError(f"{fspath(path)}: cannot write the frames: {error.strerror}") from None
 
+    def _sampled(self) -> dict[str, npt.NDArray[Any]]:
+        """The arrays that were sampled and that the scene has."""
+        arrays = {"positions": self._positions, "velocities": self._velocities, "images": self._images, "spins": self._spins}
+        return {name: array for name, array in arrays.items() if array is not None}
+
     def to_xarray(self) -> Any:
         """Returns an xarray.Dataset with the coordinates time, disk and axis ("x", "y"). Needs xarray (pip install carom[tables])."""
         import xarray
 
-        dims: dict[str, tuple[str, ...]] = {"time": ("time",), "scale": ("time",), "collisions": ("time",), "virial": ("time",), "radii": ("disk",), "species": ("disk",)}
-        dims |= {name: ("time", "disk", "axis") for name in ("positions", "velocities", "images")} | {"spins": ("time", "disk")}
-        variables = {name: (d, getattr(self, name)) for name, d in dims.items() if name != "time" and getattr(self, name) is not None}
+        dims = {"positions": ("time", "disk", "axis"), "velocities": ("time", "disk", "axis"), "images": ("time", "disk", "axis")}
+        variables: dict[str, Any] = {name: (dims.get(name, ("time", "disk")), array) for name, array in self._sampled().items()}
+        variables |= {name: (("time",), getattr(self, name)) for name in ("scale", "collisions", "virial")}
+        variables |= {name: (("disk",), getattr(self, name)) for name in ("radii", "species")}
         coordinates = {"time": self.time, "axis": ["x", "y"]}
         return xarray.Dataset(variables, coords=coordinates, attrs={"scene": self.scene.toml, "state_hash": self.state_hash})
 
@@ -238,8 +280,6 @@ class Frames:
         import MDAnalysis
         from MDAnalysis.coordinates.memory import MemoryReader
 
-        if self.positions is None:
-            raise ValueError("these frames have no positions; sample with positions=True")
         disks = len(self.radii)
 
         def in_space(array: Floats) -> npt.NDArray[np.float32]:
@@ -247,11 +287,11 @@ class Frames:
             spatial[:, :, :2] = array
             return spatial
 
-        universe = MDAnalysis.Universe.empty(disks, trajectory=True, velocities=self.velocities is not None)
+        universe = MDAnalysis.Universe.empty(disks, trajectory=True, velocities=self._velocities is not None)
         universe.add_TopologyAttr("radii", self.radii)
         (x0, x1), (y0, y1) = self.scene.box
         size = np.array([x1 - x0, y1 - y0, 1.0, 90.0, 90.0, 90.0], np.float32)
         dt = float(self.time[1] - self.time[0]) if len(self) > 1 else 1.0
-        velocities = None if self.velocities is None else in_space(self.velocities)
+        velocities = None if self._velocities is None else in_space(self._velocities)
         universe.load_new(in_space(self.positions), format=MemoryReader, dimensions=size, dt=dt, velocities=velocities)
         return universe

@@ -11,7 +11,6 @@ from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from carom import _core
 from carom._arguments import numbers, pairs, real, whole, words
@@ -19,12 +18,14 @@ from carom._errors import OutputError, SceneError, StoppedEarly
 from carom._events import Event, events_in
 from carom._progress import Progress, reporting
 from carom._toml import scene_text
-from carom.frames import Floats, Frames, Integers, State
+from carom.frames import Frames, State
 from carom.scene import Scene, SceneLike, as_scene, scene_of_parts
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
     from matplotlib.animation import FuncAnimation
 
+    from carom.frames import Floats, Integers
     from carom.pages import Player
 
 #: Two disks in contact, which a collision rule of one's own gets: it sets `velocity` and `partner_velocity`, and reads the rest.
@@ -256,8 +257,10 @@ class Simulation:
         return self.state.state_hash
 
     @property
-    def trajectory(self) -> Frames | None:
-        """The frames of the last `sample()`, also where it was interrupted; None before."""
+    def trajectory(self) -> Frames:
+        """The frames of the last `sample()`, also where it was interrupted. Raises ValueError before the first one."""
+        if self._trajectory is None:
+            raise ValueError("this simulation has no trajectory yet; sample(dt, until) makes one")
         return self._trajectory
 
     # Going on.

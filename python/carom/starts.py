@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from os import PathLike, fspath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from carom import _core
 from carom._errors import OutputError
-from carom.frames import Floats
+
+if TYPE_CHECKING:
+    from carom.frames import Floats
 
 
 @dataclass(frozen=True, eq=False)

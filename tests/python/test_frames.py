@@ -24,7 +24,7 @@ def test_a_grid_is_k_dt_with_its_end(gas: carom.Scene) -> None:
     assert frames.time.tolist() == [k * 0.1 for k in range(8)]  # 7 * 0.1 is beyond 0.7 by its rounding
     assert frames.positions.shape == frames.velocities.shape == frames.images.shape == (8, 12, 2)
     assert frames.images.dtype == np.int64 and frames.collisions.dtype == np.uint64
-    assert frames.spins is None
+    assert frames.spins.shape == (8, 0)
     assert frames.scale.tolist() == [1.0] * 8
 
 
@@ -64,7 +64,11 @@ def test_what_is_not_asked_for_is_not_kept(gas: carom.Scene) -> None:
     all_of_it = carom.Simulation(gas).sample(0.25, until=3.0)
     velocities = carom.Simulation(gas).sample(0.25, until=3.0, positions=False)
     positions = carom.Simulation(gas).sample(0.25, until=3.0, velocities=False)
-    assert velocities.positions is None and velocities.images is None and positions.velocities is None
+    for absent in (lambda: velocities.positions, lambda: velocities.images, lambda: velocities.unwrapped, lambda: velocities[0]):
+        with pytest.raises(ValueError, match="these frames have no positions; sample with positions=True"):
+            absent()
+    with pytest.raises(ValueError, match="these frames have no velocities; sample with velocities=True"):
+        positions.velocities
     assert np.array_equal(velocities.velocities, all_of_it.velocities)
     assert np.array_equal(positions.positions, all_of_it.positions)
     assert np.array_equal(velocities.virial, all_of_it.virial)
@@ -185,7 +189,14 @@ def test_frames_that_cannot_fit_are_refused_before_anything_runs(gas: carom.Scen
     assert sim.time == 0.0
 
 
-def test_a_box_without_periodic_axes_has_no_images() -> None:
+def test_a_box_without_periodic_axes_has_images_of_zero() -> None:
     frames = carom.Simulation({**GAS, "box": {**GAS["box"], "boundary": "walls"}}).sample(0.5, until=2.0)
-    assert frames.images is None
+    assert frames.images.shape == frames.positions.shape and not frames.images.any()
     assert frames.unwrapped is frames.positions
+
+
+def test_a_simulation_has_a_trajectory_when_it_was_sampled(gas: carom.Scene) -> None:
+    sim = carom.Simulation(gas)
+    with pytest.raises(ValueError, match="this simulation has no trajectory yet; sample"):
+        sim.trajectory
+    assert sim.sample(0.5, until=1.0) is sim.trajectory

@@ -6,6 +6,8 @@ import pathlib
 import re
 import shutil
 import signal
+import subprocess
+import sys
 import threading
 
 import matplotlib
@@ -19,8 +21,8 @@ ROOT = pathlib.Path(__file__).parents[2]
 MODULES = ["frames", "observables", "results", "runs", "scene", "simulation", "starts", "studies", "sweeps"]
 
 
-def blocks():
-    return re.findall(r"^```python\n(.*?)^```", (ROOT / "docs/python.md").read_text(), re.M | re.S)
+def blocks(page="docs/python.md"):
+    return re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(), re.M | re.S)
 
 
 def test_the_guide_has_all_blocks():
@@ -50,6 +52,18 @@ def test_every_block_of_the_guide_runs(tmp_path, monkeypatch, capsys):
     assert "d547c1cf2a04c753" in shown, "the box ends in the program's bits"
     assert " meets disk 1" in shown and "frames until" in shown
     matplotlib.pyplot.close("all")
+
+
+@pytest.mark.parametrize("page", ["docs/python.md", "README.md"])
+def test_the_types_of_every_block_are_right(page, tmp_path):
+    script = tmp_path / "page.py"
+    script.write_text("".join(blocks(page)))
+    # A reader's functions have no annotations, and names are used again from block to block; all else is strict.
+    options = ["--strict", "--allow-untyped-defs", "--allow-untyped-calls", "--allow-redefinition", "--check-untyped-defs"]
+    configuration = ["--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", os.path.join(os.environ["CAROM_BUILD_DIR"], "mypy")]
+    paths = os.environ | {"MYPYPATH": str(pathlib.Path(carom.__file__).parents[1])}
+    found = subprocess.run([sys.executable, "-m", "mypy", *options, *configuration, str(script)], capture_output=True, text=True, env=paths)
+    assert found.returncode == 0, found.stdout + found.stderr
 
 
 @pytest.mark.parametrize("name", MODULES)
