@@ -16,14 +16,14 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 from carom._errors import Interrupted, OutputError, SceneError, StoppedEarly
 from carom._events import EVENT, Event, partner_name
 from carom.frames import Frames, State
-from carom.observables import COLLISION, Blocking, Observable
-from carom.results import Measurement, Number, Table
-from carom.runs import Result, Run, open_run, resume, run
 from carom.scene import Check, Scene, build, presets
 from carom.simulation import CollidingPair, Simulation, Stop, engines, fixed_step_methods
 
 if _TYPE_CHECKING:
+    from carom.observables import COLLISION, Blocking, Observable
     from carom.pages import Page, Player
+    from carom.results import Measurement, Number, Table
+    from carom.runs import Result, Run, open_run, resume, run
     from carom.starts import Start, read_start
     from carom.studies import (
         Comparison,
@@ -41,7 +41,10 @@ if _TYPE_CHECKING:
 
 #: Names by the module that is imported where one of them is first asked for: a simulation needs none of these.
 _LATER = {
+    "observables": ("COLLISION", "Blocking", "Observable"),
     "pages": ("Page", "Player"),
+    "results": ("Measurement", "Number", "Table"),
+    "runs": ("Result", "Run", "open_run", "resume", "run"),
     "starts": ("Start", "read_start"),
     "studies": (
         "Comparison",

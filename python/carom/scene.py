@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from os import PathLike, fspath
 from os.path import dirname
-from typing import TYPE_CHECKING, Any, TypeGuard, Union, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard, Union, cast
 
 import numpy as np
-import numpy.typing as npt
 
 from carom import _core
 from carom._arguments import numbers, pairs, words
@@ -17,6 +15,8 @@ from carom._errors import SceneError
 from carom._toml import scene_text, value_text
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from carom.starts import Start
 
 #: Whatever stands for a scene: a Scene, the path of a scene file, or a mapping with the keys of the scene format.
@@ -31,8 +31,7 @@ def presets() -> list[str]:
     return _core.preset_names()
 
 
-@dataclass(frozen=True, repr=False)
-class Check:
+class Check(NamedTuple):
     """What a scene would simulate, by which engine, and at what cost.
 
     Attributes:
@@ -53,7 +52,8 @@ class Check:
         rows = [*self.what, ("engine", f"{self.engine}: {self.reason}"), ("cost", self.cost)]
         return "\n".join(f"{quantity:<11} {value}" for quantity, value in rows)
 
-    __repr__ = __str__
+    def __repr__(self) -> str:
+        return str(self)
 
 
 class Scene:

@@ -312,7 +312,7 @@ def test_every_public_name_is_there_when_it_is_asked_for():
 def test_import_starts_nothing():
     code = (
         "import sys, threading; import carom; "
-        "print([m for m in ('h5py', 'matplotlib', 'pandas', 'xarray', 'tqdm', 'carom._files', 'carom.sweeps') if m in sys.modules], threading.active_count())"
+        "print([m for m in ('h5py', 'matplotlib', 'pandas', 'xarray', 'tqdm', 'carom._files', 'carom.runs', 'carom.sweeps') if m in sys.modules], threading.active_count())"
     )
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert shown.strip() == "[] 1"
