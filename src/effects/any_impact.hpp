@@ -46,6 +46,7 @@ class AnyImpact {
     AnyImpact part = *this;
     part.spins_.assign(spins_.empty() ? 0 : slots, Real(0));
     part.last_.assign(last_.empty() ? 0 : slots, -infinity<Real>);
+    part.wells_ = wells_.with_slots(slots);
     return part;
   }
   /// What it knows of one disk, but for its wells.

@@ -32,6 +32,21 @@ class SquareWells {
   }
 
   [[nodiscard]] bool present() const { return !partners_.empty(); }
+  /// The wells of disks in so many slots of their own, none of them inside another's.
+  [[nodiscard]] SquareWells with_slots(std::size_t slots) const {
+    SquareWells part = *this;
+    part.partners_.assign(partners_.empty() ? 0 : slots, {});
+    part.pairs_ = 0;
+    return part;
+  }
+  /// Tells which disks are inside the well of disk i, for engines that exchange disks; the lists of those disks say it too.
+  void set(std::int32_t i, const std::vector<std::int32_t>& inside) { partners(i) = inside; }
+  /// Counts the pairs anew, after set().
+  void count_pairs() {
+    std::uint64_t ends = 0;
+    for (const auto& one : partners_) ends += one.size();
+    pairs_ = ends / 2;
+  }
   /// Returns the ratio of the largest distance at which disks interact to their contact distance.
   [[nodiscard]] Real reach() const { return present() ? width_ : Real(1); }
 

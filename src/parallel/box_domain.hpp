@@ -24,6 +24,7 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,8 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   using Frame = FlightFrame<Line, World>;
 
  public:
-  using Message = DiskMessage<Line, typename Frame::DiskRest, typename Impact::DiskRest>;
+  using Wells = std::conditional_t<Impact::plain, NoDisksInWell, DisksInWell>;
+  using Message = DiskMessage<Line, typename Frame::DiskRest, typename Impact::DiskRest, Wells>;
 
   /// What the comparison of copies with the messages of their homes has shown.
   struct Verdict {
@@ -165,6 +167,10 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   void recycle_slots();
   void leave(std::int32_t i);
   void settle(std::int32_t i);
+  [[nodiscard]] Wells wells_of(std::int32_t i) const;
+  /// Calls slot(id) for the ids of disks.
+  template <class SlotOf>
+  static std::vector<std::int32_t> slots_of(const DisksInWell& wells, SlotOf&& slot);
   [[nodiscard]] Message message_of(std::int32_t i) const;
   [[nodiscard]] bool same(std::int32_t i, const Message& message) const;
   /// The bits that say which neighbours copy a disk at home.

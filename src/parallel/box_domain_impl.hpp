@@ -31,6 +31,7 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
   recorder_.begin_epoch(epoch_);
   stamp_ = 1;
   std::vector<NeighbourhoodCentre> centres(lines_.size());
+  std::vector<std::int32_t> from_slot;  // of the whole engine
   for (std::int32_t from = 0; from < whole.count(); ++from) {
     const NeighbourhoodCentre centre = whole.lists_.centre(from);
     if (parts.outside(centre, me) > reach) continue;
@@ -43,6 +44,7 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
     centres[static_cast<std::size_t>(i)] = centre;
     mark(i).role = Role::halo;
     halo_.push_back(i);
+    from_slot.push_back(from);
   }
   lists_.rebuild(whole.lists_.half_width(), centres);
   for (const std::int32_t i : halo_) {
@@ -52,6 +54,15 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
     plan.predicted_at = stale || (plan.partner >= 0 && empty(plan.partner)) ? 0 : 1;
     plan.last_collided = 1;
   }
+  if constexpr (!Impact::plain)
+    if (impact_.wells().present()) {
+      frame_.inside = impact_.wells().table();
+      for (std::size_t k = 0; k < halo_.size(); ++k) {
+        std::vector<std::int32_t> inside = whole.impact_.wells().of(from_slot[k]);
+        for (std::int32_t& j : inside) j = slot_for(whole.id(j));
+        impact_.wells().set(halo_[k], inside);
+      }
+    }
   for (const std::int32_t i : halo_) settle(i);
   std::erase_if(halo_, [this](std::int32_t i) { return mark(i).role != Role::halo; });
   moved_.resize(lines_.size() / 4 + 64);
@@ -83,7 +94,12 @@ template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::recycle_slots() {
   std::vector<bool> named(lines_.size());
   for (std::int32_t i = 0; i < count(); ++i)
-    if (!empty(i) && plans_[i].partner >= 0) named[static_cast<std::size_t>(plans_[i].partner)] = true;
+    if (!empty(i)) {
+      if (plans_[i].partner >= 0) named[static_cast<std::size_t>(plans_[i].partner)] = true;
+      if constexpr (!Impact::plain)
+        if (impact_.wells().present())
+          for (const std::int32_t j : impact_.wells().of(i)) named[static_cast<std::size_t>(j)] = true;
+    }
   for (auto i = count(); i-- > 0;) {
     std::int32_t& of = ids_[static_cast<std::size_t>(i)];
     if (!empty(i) || named[static_cast<std::size_t>(i)] || of < 0) continue;
@@ -180,6 +196,30 @@ void BoxDomain<Impact, Layout, World>::settle(std::int32_t i) {
 }
 
 template <class Impact, class Layout, class World>
+typename BoxDomain<Impact, Layout, World>::Wells BoxDomain<Impact, Layout, World>::wells_of(
+    [[maybe_unused]] std::int32_t i) const {
+  Wells wells{};
+  if constexpr (!Impact::plain) {
+    wells.ids.fill(-1);
+    if (!impact_.wells().present()) return wells;
+    const std::vector<std::int32_t>& inside = impact_.wells().of(i);
+    const std::size_t most = std::min(inside.size(), wells.ids.size());  // there are no more: why_not_threads() sees to it
+    for (std::size_t k = 0; k < most; ++k) wells.ids[k] = id(inside[k]);
+    std::sort(wells.ids.begin(), wells.ids.begin() + static_cast<std::ptrdiff_t>(most));
+  }
+  return wells;
+}
+
+template <class Impact, class Layout, class World>
+template <class SlotOf>
+std::vector<std::int32_t> BoxDomain<Impact, Layout, World>::slots_of(const DisksInWell& wells, SlotOf&& slot) {
+  std::vector<std::int32_t> slots;
+  for (const std::int32_t disk : wells.ids)
+    if (disk >= 0) slots.push_back(slot(disk));
+  return slots;
+}
+
+template <class Impact, class Layout, class World>
 typename BoxDomain<Impact, Layout, World>::Message BoxDomain<Impact, Layout, World>::message_of(std::int32_t i) const {
   const Plan& plan = plans_[i];
   Message message;
@@ -196,6 +236,7 @@ typename BoxDomain<Impact, Layout, World>::Message BoxDomain<Impact, Layout, Wor
   message.size = lists_.disk_size(i);
   message.frame = flight_.rest_of(i);
   message.impact = impact_.rest_of(i);
+  message.wells = wells_of(i);
   return message;
 }
 
@@ -241,7 +282,8 @@ bool BoxDomain<Impact, Layout, World>::same(std::int32_t i, const Message& messa
          plan.edge_time == message.edge_time && plan.edge == message.edge &&
          (plan.partner < 0 ? -1 : id(plan.partner)) == message.partner && centre.x == message.centre.x &&
          centre.y == message.centre.y && mark(i).history == message.history && flight_.rest_of(i) == message.frame &&
-         impact_.rest_of(i) == message.impact && (plan.partner >= 0 && plans_.is_stale(plan)) == message.stale;
+         impact_.rest_of(i) == message.impact && wells_of(i) == message.wells &&
+         (plan.partner >= 0 && plans_.is_stale(plan)) == message.stale;
 }
 
 template <class Impact, class Layout, class World>
@@ -300,7 +342,11 @@ void BoxDomain<Impact, Layout, World>::read_plans(std::span<const Message> messa
     plan.partner = partner;
     plan.edge = message.edge;
     plan.predicted_at = message.stale || (partner >= 0 && empty(partner)) ? 0 : stamp_;
-    if (changed) schedule(i);
+    if (!changed) continue;
+    if constexpr (!Impact::plain)
+      if (impact_.wells().present())
+        impact_.wells().set(i, slots_of(message.wells, [this](std::int32_t disk) { return slot_for(disk); }));
+    schedule(i);
   }
 }
 
@@ -321,6 +367,8 @@ const typename BoxDomain<Impact, Layout, World>::Verdict& BoxDomain<Impact, Layo
 template <class Impact, class Layout, class World>
 void BoxDomain<Impact, Layout, World>::leave(std::int32_t i) {
   lists_.remove(i);
+  if constexpr (!Impact::plain)
+    if (impact_.wells().present()) impact_.wells().set(i, {});
   mark(i) = Mark{};
   plans_[i] = {never, never, -1, neighbourhood_edge, 0, ++stamp_};
   line(i).v[0] = line(i).v[1] = 0.0;
@@ -404,6 +452,10 @@ void BoxDomain<Impact, Layout, World>::store(Loop& whole, std::span<const std::i
     whole.line(to) = line(i);
     whole.flight_.set_rest(to, flight_.rest_of(i));
     whole.impact_.set_rest(to, impact_.rest_of(i));
+    if constexpr (!Impact::plain)
+      if (impact_.wells().present())
+        whole.impact_.wells().set(
+            to, slots_of(wells_of(i), [&](std::int32_t disk) { return slot_of_id[static_cast<std::size_t>(disk)]; }));
     Plan plan = plans_[i];
     plan.predicted_at = plan.partner >= 0 && plans_.is_stale(plan) ? 0 : 1;
     plan.last_collided = 1;

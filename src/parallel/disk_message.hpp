@@ -4,13 +4,26 @@
 #include "neighbours/neighbour_lists.hpp"
 #include "neighbours/neighbour_search.hpp"
 
+#include <array>
 #include <cstdint>
 
 namespace carom {
 
+/// The ids of the disks inside a disk's well, rising; -1 behind them.
+struct DisksInWell {
+  std::array<std::int32_t, 24> ids;
+
+  bool operator==(const DisksInWell&) const = default;
+};
+/// Where there are no wells.
+struct NoDisksInWell {
+  bool operator==(const NoDisksInWell&) const = default;
+};
+
 /// The state of one disk at the end of a window, as the domain has it to which the disk belongs. Line, FrameRest and
-/// ImpactRest are those of the engine (engine/layout.hpp, engine/flight_frame.hpp, effects/any_impact.hpp).
-template <class Line, class FrameRest, class ImpactRest>
+/// ImpactRest are those of the engine (engine/layout.hpp, engine/flight_frame.hpp, effects/any_impact.hpp);
+/// Wells is one of the above.
+template <class Line, class FrameRest, class ImpactRest, class Wells>
 struct DiskMessage {
   Line line;
   double pair_time, edge_time;  ///< of its plan
@@ -23,6 +36,7 @@ struct DiskMessage {
   NeighbourLists::DiskSize size;
   FrameRest frame;
   ImpactRest impact;
+  Wells wells;
 };
 
 }  // namespace carom

@@ -81,6 +81,10 @@ class Domains {
   void end_of_epoch();
   void watch_speeds(const SpeedCensus& speeds) { fastest_ = 1.5 * std::max(speeds.fastest[0], speeds.fastest[1]); }
   void hand_over_records();
+  void count_wells() {
+    if constexpr (!Impact::plain)
+      if (whole_.impact_.wells().present()) whole_.impact_.wells().count_pairs();
+  }
   void go_back();
   std::uint64_t events();
   bool is_unbalanced();

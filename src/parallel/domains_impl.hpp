@@ -116,6 +116,7 @@ void Domains<Impact, Layout, World>::update() {
   for (const auto& domain : domains_) domain->hand_over_counts(whole_);
   team_.run([&](std::size_t thread) { each(thread, [&](std::size_t d) { domains_[d]->store(whole_, slot_of_id_, centres_); }); });
   failure_.rethrow();
+  count_wells();
   whole_.stamp_ = 1;
   whole_.now_ = now_;
   collisions_told_ = events_told_ = 0;
@@ -386,6 +387,7 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
     for (const auto& domain : domains_) longest = std::max(longest, domain->longest_list());
     whole_.totals_.numerics.longest_neighbour_list = longest;
   }
+  count_wells();
   if constexpr (!Impact::plain) whole_.impact_.owe(owed_);
   collisions_told_ = events_told_ = 0;
   now_ = 0.0;

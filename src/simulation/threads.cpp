@@ -27,7 +27,9 @@ std::string why_not_threads(const Effects& effects) {
   if (effects.bath_temperature()) return "the thermostat draws the velocities of all disks in one order";
   if (effects.shear_rate() != 0.0) return "the box is sheared";
   if (effects.drag_rate() > 0.0) return "drag slows the clock";
-  if (effects.square_well && effects.square_well->depth != 0.0) return "disks have wells";
+  // No more than 18 disks fit within two diameters of one, and a message about a disk has room for 24.
+  if (effects.square_well && effects.square_well->depth != 0.0 && effects.square_well->width > 2.0)
+    return "wells are wider than two diameters";
   for (const WallProperties& wall : effects.walls) {
     if (wall.mass || wall.velocity.value_or(0.0) != 0.0) return "a wall moves";
     if (wall.temperature) return "a wall with a temperature draws the velocities of all disks in one order";

@@ -57,6 +57,8 @@ void expect_same(const Simulation& alone, const Simulation& shared, const std::s
   EXPECT_EQ(b.wall_energy, a.wall_energy) << where;
   EXPECT_EQ(b.obstacle_impulse, a.obstacle_impulse) << where;
   EXPECT_EQ(b.dissipated, a.dissipated) << where;
+  EXPECT_EQ(b.well, a.well) << where;
+  EXPECT_EQ(shared.state().bonds, alone.state().bonds) << where;
   EXPECT_EQ(b.numerics.epochs, a.numerics.epochs) << where;
   EXPECT_EQ(b.numerics.list_rebuilds, a.numerics.list_rebuilds) << where;
   EXPECT_EQ(b.numerics.longest_neighbour_list, a.numerics.longest_neighbour_list) << where;
@@ -131,6 +133,38 @@ TEST(Threads, GiveTheBitsOfOneForRoughDisks) {
   scene.effects.collision.restitution = 0.95;
   scene.effects.collision.roughness = 0.3;
   expect_same_runs(scene, {.domains = 4}, 10.0, 4);
+}
+
+TEST(Threads, GiveTheBitsOfOneForDisksWithWells) {
+  Scene scene = gas(4000, 0.3, Boundary::periodic);
+  scene.effects.square_well = SquareWell{.width = 1.6, .depth = 0.8};
+  expect_same_runs(scene, {.threads = 2, .domains = 4}, 10.0, 4);
+  scene.effects.square_well = SquareWell{.width = 1.9, .depth = -0.3};
+  expect_same_runs(scene, {.domains = 3}, 6.0, 2);
+}
+
+/// Cold disks that a heavy one runs into leave it much faster than any disk was when the epoch began.
+TEST(Threads, GiveTheBitsOfOneWhereADiskOutrunsItsEpoch) {
+  Scene scene = gas(4000, 0.2, Boundary::periodic);
+  scene.species[0].velocities = MaxwellVelocities{1e-3};
+  Species ball = scene.species[0];
+  ball.name = "ball";
+  ball.count = 1;
+  ball.mass = 1e4;
+  ball.positions = ListedPositions{{{1.0, 1.0}}};
+  ball.velocities = ListedVelocities{{{5.0, 2.0}}};
+  scene.species[0].positions = RandomPositions{};
+  scene.species.insert(scene.species.begin(), ball);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.domains = 4});
+  for (const double time : {2.0, 10.0}) {
+    alone.run_until(time);
+    shared.run_until(time);
+    expect_same(alone, shared, "time " + std::to_string(time));
+  }
+  EXPECT_GT(alone.totals().numerics.early_epochs, 0U);
+  EXPECT_EQ(shared.totals().numerics.early_epochs, alone.totals().numerics.early_epochs);
+  EXPECT_GT(shared.thread_counts().windows_redone, 0U);
 }
 
 TEST(Threads, GiveTheBitsOfOneBetweenObstacles) {
