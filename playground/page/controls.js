@@ -148,7 +148,7 @@ const startUnits = { kT: "energy", hole: "length", grain: "length", speed: "leng
 function ownStart() {
   const text = run.toml;
   const list = [{ key: "seed", least: 1, most: 100, step: 1, override: { key: "run.seed", value: () => run.description.seed } }];
-  if (run.description.species.length === 1 && /^\s*count\s*=/m.test(text))
+  if (run.description.species.length === 1 && /^\s*count\s*=/m.test(text) && /^\s*positions\s*=\s*"/m.test(text))
     list.unshift({ key: "n", least: 2, most: Math.max(4000, disks), step: 1, logarithmic: true, override: { key: "disks.0.count", value: () => disks } });
   return list;
 }

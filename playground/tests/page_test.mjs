@@ -166,6 +166,7 @@ await test("links", async () => {
 await test("refusals", async () => {
   await browser.open(`${address}?play=0`);
   await ask(`carom.load(${JSON.stringify(twoDisks)})`);
+  check("disks that are listed cannot become more at the start", await ask(`document.querySelector('[data-start="n"]') === null && document.querySelector('[data-start="seed"]') !== null`));
   const refused = (expression) => ask(`${expression}.then(() => "", (error) => error.message)`);
   check("a wrong scene is refused with a sentence", /own:1:1/.test(await refused('carom.load("box = 3")')) || /box/.test(await refused('carom.load("box = 3")')), await refused('carom.load("box = 3")'));
   check("the scene before goes on", (await ask("carom.run.description.disks")) === 2);
