@@ -86,6 +86,8 @@ class Domains {
       if (whole_.impact_.wells().present()) whole_.impact_.wells().count_pairs();
   }
   void go_back();
+  /// How far halos reach beyond homes; length.
+  [[nodiscard]] double reach() const { return threads_.halo * whole_.sizes_.largest_contact; }
   std::uint64_t events();
   bool is_unbalanced();
 

@@ -83,7 +83,7 @@ void Domains<Impact, Layout, World>::share_out() {
   seconds_.assign(threads_.domains, 0.0);
   verdicts_.resize(threads_.domains);
   censuses_.resize(threads_.domains);
-  const double reach = threads_.halo * whole_.sizes_.largest_contact;
+  const double reach = this->reach();
   parts_->set_reach(reach);
   team_.run([&](std::size_t thread) {
     each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach); });
@@ -232,7 +232,9 @@ template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::decide() {
   ++done_.windows;
   std::size_t homes = 0;
-  double nearest = infinity<double>, allowed = 0.0;
+  // What lay beyond the halos is as good as wrong from there inwards: no copy tells where it has been meanwhile. A disk may be
+  // half the width of its neighbourhood nearer than the centre that says so.
+  double nearest = reach() - half_width_, allowed = 0.0;
   bool stopped = false;
   const std::uint64_t happened = events();
   for (std::size_t d = 0; d < domains_.size(); ++d) {
