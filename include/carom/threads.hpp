@@ -12,7 +12,7 @@ namespace carom {
 struct Threads {
   std::size_t threads = 1;         ///< that compute at the same time; with 1 the engine runs alone, without domains
   std::size_t domains = 0;         ///< parts of the box, at most 32; 0 for one for each thread
-  double halo = 10.0;              ///< width of halos, in largest contact distances; > 0
+  double halo = 0.0;               ///< width of halos, in largest contact distances; 0 for one that suits the density
   double events_per_window = 1.0;  ///< events of each disk in the first window between two exchanges; > 0
 };
 

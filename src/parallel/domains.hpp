@@ -86,8 +86,14 @@ class Domains {
       if (whole_.impact_.wells().present()) whole_.impact_.wells().count_pairs();
   }
   void go_back();
-  /// How far halos reach beyond homes; length.
-  [[nodiscard]] double reach() const { return threads_.halo * whole_.sizes_.largest_contact; }
+  /// How far halos are to reach beyond homes (length): by themselves three times as far as a home looks, where that is more than
+  /// usual, as in a dilute gas with its wide neighbourhoods.
+  [[nodiscard]] double suitable_reach() const {
+    constexpr double usual = 10.0;  // largest contact distances: what takes least time from packing fractions of 0.3 on
+    const double contact = whole_.sizes_.largest_contact;
+    if (threads_.halo > 0.0) return threads_.halo * contact;
+    return std::max(usual * contact, 3.0 * (whole_.sizes_.reach + 2.0 * half_width_));
+  }
   std::uint64_t events();
   bool is_unbalanced();
 
@@ -128,6 +134,7 @@ class Domains {
   bool ready_ = true;       ///< the whole engine has lists and queue
   bool up_to_date_ = true;  ///< the whole engine has the disks as of now
   std::optional<BoxParts> parts_;
+  double reach_ = 0.0;  ///< of halos
   std::vector<std::unique_ptr<Part>> domains_;
   std::vector<std::int32_t> slot_of_id_;          ///< of the whole engine
   std::vector<NeighbourhoodCentre> centres_;      ///< by slot of the whole engine

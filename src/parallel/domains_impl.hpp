@@ -83,10 +83,10 @@ void Domains<Impact, Layout, World>::share_out() {
   seconds_.assign(threads_.domains, 0.0);
   verdicts_.resize(threads_.domains);
   censuses_.resize(threads_.domains);
-  const double reach = this->reach();
-  parts_->set_reach(reach);
+  reach_ = suitable_reach();
+  parts_->set_reach(reach_);
   team_.run([&](std::size_t thread) {
-    each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach); });
+    each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach_); });
   });
   failure_.rethrow();
   for (const auto& domain : domains_) domain->record(whole_.recorder_.listening(), whole_.recorder_.logging(), slot_of_id_);
@@ -234,7 +234,7 @@ void Domains<Impact, Layout, World>::decide() {
   std::size_t homes = 0;
   // What lay beyond the halos is as good as wrong from there inwards: no copy tells where it has been meanwhile. A disk may be
   // half the width of its neighbourhood nearer than the centre that says so.
-  double nearest = reach() - half_width_, allowed = 0.0;
+  double nearest = reach_ - half_width_, allowed = 0.0;
   bool stopped = false;
   const std::uint64_t happened = events();
   for (std::size_t d = 0; d < domains_.size(); ++d) {

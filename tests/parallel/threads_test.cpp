@@ -94,6 +94,7 @@ TEST(Threads, GiveTheBitsOfOneForEveryLeanScene) {
   expect_same_runs(gas(5000, 0.72, Boundary::periodic), {.domains = 4}, 2.0, 3);
   expect_same_runs(gas(5000, 0.4, Boundary::periodic, CollisionRule::reversal), {.domains = 4}, 6.0, 3);
   expect_same_runs(mixture(3000), {.domains = 4}, 8.0, 3);
+  expect_same_runs(gas(4000, 0.02, Boundary::periodic), {.domains = 4}, 200.0, 3);
 }
 
 TEST(Threads, GiveTheBitsOfOneUnderGravity) {
@@ -335,7 +336,7 @@ TEST(Threads, RefuseWhatTheyCannotDo) {
   EXPECT_THROW(simulation.set_threads({.threads = 0}), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.threads = 33}), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.domains = 33}), std::invalid_argument);
-  EXPECT_THROW(simulation.set_threads({.threads = 2, .halo = 0.0}), std::invalid_argument);
+  EXPECT_THROW(simulation.set_threads({.threads = 2, .halo = -1.0}), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.threads = 2, .events_per_window = -1.0}), std::invalid_argument);
   Simulation textbook = make_simulation(gas(100, 0.3, Boundary::walls), "textbook");
   EXPECT_FALSE(textbook.why_not_threads().empty());
