@@ -85,11 +85,10 @@ void add_progress(CLI::App& command, std::string& when) {
 
 void add_threads(CLI::App& command, RunOptions& options) {
   command
-      .add_option(
-          "--threads", options.threads,
-          "Threads for the run: with 2, observables are measured on the second (default: 2 where there is a second processor)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 2));
+      .add_option("--threads", options.threads,
+                  "Number of cores that compute the run, to the same bits, or auto (default): one, and from 50,000 disks on all "
+                  "that are free. With 1, observables have no thread of their own either")
+      ->type_name("N");
 }
 
 void add_saving(CLI::App& command, RunOptions& options) {

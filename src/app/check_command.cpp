@@ -6,6 +6,7 @@
 #include "observe/mechanics.hpp"
 #include "pages/scene_words.hpp"
 #include "runner/expected_cost.hpp"
+#include "runner/run_threads.hpp"
 #include "scene/drawn.hpp"
 #include "text/numbers.hpp"
 
@@ -74,7 +75,11 @@ ExitCode check(const CheckOptions& options) {
                           grouped(most_disks_drawn), expected_bytes_per_disk(scene.effects));
   fmt::print("{} is a valid scene{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
   fmt::print("{}  conserved   {}\n{}", describe(scene), conserved(scene.box, scene.effects), start);
-  if (trial) fmt::print("  cost        {}\n", words(trial->run()));
+  if (trial) {
+    const SuggestedThreads suggested = suggested_threads(trial->simulation());
+    fmt::print("  threads     {}\n  cost        {}{}\n", suggested.words, words(trial->run()),
+               suggested.threads > 1 ? "; the trial had one core" : "");
+  }
   fmt::print("{}", files(scene));
   if (const std::string missing = absent(scene.effects); !missing.empty()) fmt::print("\nNot simulated: {}.\n", missing);
   return exit_done;

@@ -25,7 +25,7 @@ struct RunOptions {
   std::string method = "exact";     ///< or a fixed-step method
   std::optional<double> dt;         ///< time step of a fixed-step method; absent: that of the sampling grid
   std::optional<double> stiffness;  ///< of the springs of the method soft; absent: such that a contact takes 30 steps
-  std::optional<int> threads;       ///< 2: observables on one of their own; absent: where there is a second processor
+  std::string threads = "auto";     ///< as threads_in() reads it
   bool watch = false;
   std::optional<double> pace;                   ///< simulated time per second to watch; absent: as fast as the machine
   std::optional<std::string> checkpoint_every;  ///< "10min" or "1e8 collisions"; absent: only where the run is stopped

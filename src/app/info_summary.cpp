@@ -3,6 +3,7 @@
 #include "app/info_parts.hpp"
 #include "io/output_error.hpp"
 #include "scene/effect_traits.hpp"
+#include "text/numbers.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -69,6 +70,13 @@ std::string events_line(const Json& events) {
   return text;
 }
 
+/// Returns what sharing the run out took: "2, 403 windows of 2 domains, 1 window redone".
+std::string threads_line(const Json& cores) {
+  const auto number = [&](const char* key) { return cores.at(key).get<std::uint64_t>(); };
+  return fmt::format("{}, {} of {}, {} redone", number("threads"), counted(number("windows"), "window"),
+                     counted(number("domains"), "domain"), counted(number("windows_redone"), "window"));
+}
+
 std::string effects_line(const Json& effects) {
   std::string text;
   for (const Json& effect : effects) text += (text.empty() ? "" : ", ") + text_of(effect);
@@ -102,6 +110,7 @@ std::string described(const Json& json) {
     return json.contains(key) ? std::optional(json.at(key).get<double>()) : std::nullopt;
   };
   text += engine_line(text_of(json.at("engine")), number("dt"), number("stiffness"));
+  if (json.contains("cores")) text += info_line("threads", threads_line(json.at("cores")));
   text += info_line("effects", effects_line(json.at("effects")));
   text +=
       info_line("disks", fmt::format("{}, packing fraction {}", text_of(json.at("disks")), text_of(json.at("packing_fraction"))));

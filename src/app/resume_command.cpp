@@ -49,6 +49,7 @@ ExitCode go_on(const ResumeOptions& options, const Invocation& invocation, Requi
   check_end(resumed, options);
   const RunOptions run = options_for(from.facts(), options);
   Simulation simulation = as_usage_error([&] { return resumed.simulation(); });
+  take_threads(simulation, run);
   if (!run.quiet && !run.json)
     fmt::print(stderr, "carom: {}: going on from time {:.6g}\n", resumed.directory.path().string(), simulation.time());
   try {

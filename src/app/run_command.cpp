@@ -81,6 +81,7 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   if (options.method != "exact" && !scene.observe.empty())
     throw UsageError(fmt::format("--method {}: [observe] measures exact trajectories; leave out one of the two", options.method));
   Simulation simulation = simulation_for(options, scene, engine);
+  take_threads(simulation, options);
   const Provenance provenance{.resolved_scene = resolved_toml(scene),
                               .command_line = invocation.command_line,
                               .engine = simulation.engine(),

@@ -4,6 +4,7 @@
 #include "app/terminal_summary.hpp"
 #include "core/seconds_since.hpp"
 #include "io/summary.hpp"
+#include "runner/run_threads.hpp"
 #include "runner/runner.hpp"
 #include "studies/horizon/json.hpp"
 #include "studies/horizon/page.hpp"
@@ -77,7 +78,7 @@ class Session {
         runner_(given.simulation, &given.directory, given.provenance,
                 {.checkpoint_every = options_.checkpoint_every,
                  .verify_every = options_.verify.value_or(0),
-                 .threads = options_.threads,
+                 .threads = threads_in(options_.threads),
                  .report = options_.report,
                  .more_on_accuracy = horizon_blocks,
                  .keep_start = options_.verify_horizon,
@@ -151,6 +152,11 @@ void check_options(const RunOptions& options) {
   (void)progress_mode(options.progress, options.quiet);
   if (options.walltime) (void)read_option("--walltime", *options.walltime, seconds_in);
   if (options.checkpoint_every) (void)read_option("--checkpoint-every", *options.checkpoint_every, saving_plan);
+  (void)read_option("--threads", options.threads, threads_in);
+}
+
+void take_threads(Simulation& simulation, const RunOptions& options) {
+  read_option("--threads", options.threads, [&](const std::string& text) { set_threads_of_run(simulation, threads_in(text)); });
 }
 
 ExitCode carry_out(const RunSession& session) {

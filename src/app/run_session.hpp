@@ -26,6 +26,9 @@ struct RunSession {
 /// Throws UsageError for what carry_out() could not make sense of, before anything is written.
 void check_options(const RunOptions& options);
 
+/// Has the simulation run on as many threads as the options say. Throws UsageError where it cannot be shared out to them.
+void take_threads(Simulation& simulation, const RunOptions& options);
+
 /// Runs the schedule, saves it as the options say, writes all files, prints the summary.
 ExitCode carry_out(const RunSession& session);
 

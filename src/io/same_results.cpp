@@ -23,9 +23,9 @@ namespace {
 constexpr std::size_t most_per_file = 3;  // differences: where one bit goes another way, all that follow do
 
 /// Keys that may differ between two equal runs.
-constexpr std::array<std::string_view, 9> not_compared = {
-    "carom",          "scene",   "wall_seconds", "collisions_per_second", "loop_seconds", "command_line",
-    "resolved_scene", "horizon", "verified"};
+constexpr std::array<std::string_view, 10> not_compared = {"carom",        "scene",   "wall_seconds", "collisions_per_second",
+                                                           "loop_seconds", "cores",   "command_line", "resolved_scene",
+                                                           "horizon",      "verified"};
 
 void collect_datasets(hid_t file, const std::string& group, std::vector<std::string>& paths) {
   for (const std::string& name : detail::members_of(file, group.empty() ? "/" : group)) {

@@ -109,6 +109,12 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
 
   json["title"] = report.title;
   json["loop_seconds"] = number(report.loop_seconds);
+  if (const ThreadCounts& threads = report.threads; threads.domains > 1)
+    json["cores"] = {{"threads", threads.threads},
+                     {"domains", threads.domains},
+                     {"ranks", 1},
+                     {"windows", threads.windows},
+                     {"windows_redone", threads.windows_redone}};
   json["virial"] = number(totals.virial);
   json["wall_impulse"] = {{"left", number(totals.wall_impulse[0])},
                           {"right", number(totals.wall_impulse[1])},

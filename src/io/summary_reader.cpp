@@ -148,6 +148,13 @@ RunReport run_report_of(const Json& json) {
   report.totals = totals_in(json, report.of_effects);
   report.wall_seconds = finite_in(json.at("wall_seconds"));
   report.loop_seconds = finite_in(json.at("loop_seconds"));
+  if (json.contains("cores")) {
+    const Json& cores = json.at("cores");
+    report.threads.threads = count_in(cores, "threads");
+    report.threads.domains = count_in(cores, "domains");
+    report.threads.windows = count_in(cores, "windows");
+    report.threads.windows_redone = count_in(cores, "windows_redone");
+  }
   report.energy_initial = finite_in(json.at("energy").at("initial"));
   report.energy_final = finite_in(json.at("energy").at("final"));
   report.energy_scale = energy_scale_in(report, json.at("energy"));

@@ -97,6 +97,7 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   report_.totals = simulation_.totals();
   report_.wall_seconds = wall_seconds;
   report_.loop_seconds = result.loop_seconds;
+  report_.threads = simulation_.thread_counts();
   report_.energy_final = total_energy(scene.box, scene.effects, disks, state);
   report_.momentum_final = total_momentum(disks, state);
   report_.temperature_mean = samples_ > 0 ? temperature_sum_ / static_cast<double>(samples_) : temperature;

@@ -42,6 +42,7 @@ struct RunReport {
   Totals totals;
   double wall_seconds = 0.0;  ///< elapsed time of the whole run, from scene to files
   double loop_seconds = 0.0;  ///< seconds in the event loop alone
+  ThreadCounts threads;       ///< that computed the events since the program began, or went on from a checkpoint
 
   double energy_initial = 0.0;  ///< energy of disks and pistons together: see observe/energy.hpp
   double energy_final = 0.0;

@@ -148,6 +148,15 @@ bool has_filled_the_box(const RunReport& report, const Scene& scene) {
   return radius > 0.0 && detail::growth_room(scene.box, radius) < 1.0 + 1e-12;
 }
 
+SummaryRow row_of_threads(const ThreadCounts& threads) {
+  if (threads.windows == 0) return {"threads", fmt::format("{}", threads.threads), "one core computed all events by itself"};
+  const std::string redone = threads.windows_redone == 0
+                                 ? "none of them void"
+                                 : fmt::format("{} of them void and computed again by one core", threads.windows_redone);
+  return {"threads", fmt::format("{}", threads.threads),
+          fmt::format("{} of {}, {}", counted(threads.windows, "window"), counted(threads.domains, "domain"), redone)};
+}
+
 std::string samples_remark(const RunReport& report, const Scene* scene) {
   if (scene == nullptr) return "";
   if (scene->run.is_sampled()) return sampling_words(scene->run);
@@ -218,6 +227,7 @@ SummaryRows rows_of_what_happened(const RunReport& report, const Scene* scene) {
   if (!report.state_hash.empty()) rows.push_back({"state hash", report.state_hash, "runs with this hash ended in the same bits"});
   rows.push_back(
       {"elapsed", duration(report.wall_seconds), fmt::format("of which the event loop took {}", duration(report.loop_seconds))});
+  if (report.threads.domains > 1) rows.push_back(row_of_threads(report.threads));
   return rows;
 }
 

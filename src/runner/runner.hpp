@@ -28,7 +28,7 @@ struct RunnerOptions {
   std::optional<std::string> checkpoint_every =
       {};                                ///< as saving_plan() reads it; absent: a run that is stopped is saved, no other
   std::uint64_t verify_every = 0;        ///< events from one check of the invariants to the next; 0: no checks
-  std::optional<int> threads = {};       ///< 2: observables on one of their own; absent: where there is a second processor
+  std::optional<int> threads = {};       ///< 1: observables have no thread of their own; else, where there is a second processor
   bool report = false;                   ///< make the page of the run too
   MoreOnAccuracy more_on_accuracy = {};  ///< for that page
   bool keep_start = false;               ///< keep the start of the measured run for RunnerHooks::complete

@@ -11,6 +11,7 @@
 #include "simulation/standstill.hpp"
 #include "simulation/start.hpp"
 #include "simulation/velocities_determine_contacts.hpp"
+#include "simulation/why_not_threads.hpp"
 
 #include <fmt/format.h>
 
@@ -134,10 +135,16 @@ std::optional<Event> Simulation::step(double until) {
   return parts_->next_event(std::isinf(until) && until > 0.0 ? forever : Instant{until, 0.0}, RunLimits::none, arrived);
 }
 
-std::string Simulation::why_not_threads() const { return parts_->engine->why_not_threads(); }
+std::string Simulation::why_not_threads() const {
+  const std::string reason = parts_->engine->why_not_threads();
+  if (reason.empty()) return reason;
+  if (parts_->time_step) return "a fixed-step method runs on one core";
+  if (std::string of_effects = detail::why_not_threads(parts_->scene.effects); !of_effects.empty()) return of_effects;
+  return reason;
+}
 void Simulation::set_threads(const Threads& threads) {
   detail::check_threads(threads);
-  if (const std::string reason = why_not_threads(); !reason.empty() && threads.threads > 1)
+  if (const std::string reason = why_not_threads(); !reason.empty() && (threads.threads > 1 || threads.domains > 1))
     throw std::invalid_argument(fmt::format("this simulation runs on one core: {}", reason));
   parts_->threads = detail::with_domains(threads);
   parts_->engine->set_threads(parts_->threads);

@@ -6,6 +6,7 @@ set(carom_examples
     quench "clusters have formed"
     own_rule "viscoelastic disks cool more slowly"
     own_loop "pressure.Z = 2.7.*collision_rate"
+    several_cores "[1-9][0-9]* windows.*the same bits"
     stop_at_condition "stopped by condition .*is at x = 19.000000")
 file(GLOB found RELATIVE ${PROJECT_SOURCE_DIR}/docs/examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/examples/*.cpp)
 foreach(file IN LISTS found)

@@ -361,6 +361,15 @@ def threads(trial):
     trial.expect_same(trial.main, other, "--threads 2", but=("verified",))
 
 
+def cores(trial):
+    """The same bits on three cores."""
+    told = trial.carom("check", trial.path).out
+    if " cores: " not in told and "from which on several cores pay" not in told:
+        raise Skipped("one core computes it in any case")
+    out = trial.run("three-cores", "--events", "--threads", 3)
+    trial.expect_same(trial.main, out, "--threads 3", but=("verified",))
+
+
 def verify(trial):
     """carom verify finds the run again."""
     done = trial.carom("verify", trial.main, env={"TMPDIR": str(trial.home)}, codes=(0,))
@@ -688,4 +697,4 @@ def rewritten(scene, trial):
     return other
 
 
-KINDS = {kind.__name__: kind for kind in (sound, engines, instructions, threads, verify, resolved, samples, units, analyze, resume, extend, pages)}
+KINDS = {kind.__name__: kind for kind in (sound, engines, instructions, threads, cores, verify, resolved, samples, units, analyze, resume, extend, pages)}

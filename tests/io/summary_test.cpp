@@ -142,6 +142,19 @@ TEST(Summary, EffectsTellWhatTheyGaveAndTook) {
   EXPECT_EQ(json["square_well"], (Json{{"bonds", 3}}));
 }
 
+TEST(Summary, TellsOfSeveralCoresOnlyWhereTheyShared) {
+  RunReport report = report_of(scene_of(2, 2));
+  EXPECT_FALSE(summary_of(report).contains("cores"));
+  report.threads = {.threads = 2, .domains = 4, .windows = 50, .windows_redone = 3};
+  const Json json = summary_of(report);
+  EXPECT_EQ(json["cores"], (Json{{"threads", 2}, {"domains", 4}, {"ranks", 1}, {"windows", 50}, {"windows_redone", 3}}));
+  const RunReport read = run_report_of(json);
+  EXPECT_EQ(read.threads.threads, 2U);
+  EXPECT_EQ(read.threads.domains, 4U);
+  EXPECT_EQ(read.threads.windows, 50U);
+  EXPECT_EQ(read.threads.windows_redone, 3U);
+}
+
 TEST(Summary, ReasonsToStopHaveNames) {
   RunReport report = report_of(scene_of(2, 2));
   report.stopped = StopReason::collapsed;

@@ -5,7 +5,7 @@ import json
 import h5py
 
 # What the clock on the wall says, and who ran what.
-NOT_COMPARED = ("wall_seconds", "loop_seconds", "collisions_per_second", "command_line")
+NOT_COMPARED = ("wall_seconds", "loop_seconds", "collisions_per_second", "cores", "command_line")
 
 
 def differences(one, other, but=()):

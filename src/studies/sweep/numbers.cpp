@@ -89,9 +89,9 @@ using Json = nlohmann::ordered_json;
 
 /// Which program and what a clock measured, which differ from machine to machine; the seed, which is a parameter; and what is no
 /// result of the scene alone.
-constexpr std::array<std::string_view, 10> no_results = {
-    "carom",         "seed",     "dt",     "stiffness", "wall_seconds", "loop_seconds", "collisions_per_second",
-    "stopped_disks", "verified", "horizon"};
+constexpr std::array<std::string_view, 11> no_results = {
+    "carom", "seed",          "dt",       "stiffness", "wall_seconds", "loop_seconds", "collisions_per_second",
+    "cores", "stopped_disks", "verified", "horizon"};
 
 constexpr std::array<std::string_view, 7> usual = {"packing_fraction", "time",       "events.pair",     "energy.final",
                                                    "temperature.mean", "pressure.Z", "pressure.reduced"};

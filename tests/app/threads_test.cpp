@@ -1,0 +1,177 @@
+// carom run --threads N as a user meets it: the files of one core, whatever happens to the run, and one sentence where a run
+// cannot be shared out.
+
+#include "support/program_test.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string many_disks = R"([box]
+x = [0.0, 60.0]
+y = [0.0, 50.0]
+boundary = "periodic"
+
+[[disks]]
+count = 2000
+radius = 0.5
+mass = 1.0
+positions = "hexagonal"
+velocities = { temperature = 1.0 }
+
+[collision]
+rule = "specular"
+
+[run]
+time = 6.0
+sample_every = 1.0
+
+[output]
+xyz = true
+csv = true
+
+[observe]
+radial_distribution = true
+)";
+
+class ThreadsOfRun : public ProgramTest {
+ protected:
+  ThreadsOfRun() : ProgramTest(many_disks) {}
+
+  /// Runs the scene into a directory of that name.
+  Outcome run(const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"run", "gas.toml", "--out", out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return carom(arguments);
+  }
+  [[nodiscard]] json summary(const std::string& directory) const {
+    return json::parse(text_of(file(directory) / "summary.json"));
+  }
+  void expect_same_results(const std::string& a, const std::string& b) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(file(a)))
+      if (const fs::path name = entry.path().filename(); name.extension() == ".csv" || name.extension() == ".xyz")
+        names.push_back(name.string());
+    EXPECT_GE(names.size(), 3U);
+    for (const std::string& name : names) EXPECT_TRUE(text_of(file(a) / name) == text_of(file(b) / name)) << name;
+    json one = summary(a), other = summary(b);
+    for (const char* key : {"wall_seconds", "loop_seconds", "collisions_per_second", "command_line", "cores"})
+      one.erase(key), other.erase(key);
+    EXPECT_EQ(one, other);
+  }
+};
+
+TEST_F(ThreadsOfRun, GiveTheFilesOfOneCore) {
+  ASSERT_EQ(run("one", {"-q", "--threads", "1"}).exit_code, 0);
+  const Outcome four = run("four", {"--threads", "4"});
+  EXPECT_EQ(four.exit_code, 0) << four.err;
+  EXPECT_THAT(four.out, ::testing::ContainsRegex("threads +4 +[0-9,]+ windows of 4 domains"));
+  expect_same_results("one", "four");
+  EXPECT_GT(summary("four")["cores"]["windows"], 10);
+  const Outcome verified = carom({"verify", "four"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.out;
+  const Outcome diff = carom({"diff", "one", "four"});
+  EXPECT_EQ(diff.exit_code, 0) << diff.out;
+}
+
+TEST_F(ThreadsOfRun, GiveTheSameObservablesOfCollisionsAndTheSameLog) {
+  const std::vector<std::string> more = {"-q", "--events", "--set", "observe.pressure=true", "--set", "observe.viscosity=true"};
+  for (const char* threads : {"1", "2"}) {
+    std::vector<std::string> arguments = more;
+    arguments.insert(arguments.end(), {"--threads", threads});
+    ASSERT_EQ(run(std::string("with") + threads, arguments).exit_code, 0);
+  }
+  expect_same_results("with1", "with2");
+  EXPECT_EQ(carom({"verify", "with2"}).exit_code, 0);
+}
+
+TEST_F(ThreadsOfRun, AreToldWithWhatTheyTook) {
+  ASSERT_EQ(run("three", {"-q", "--threads", "3", "--report"}).exit_code, 0);
+  const json cores = summary("three")["cores"];
+  EXPECT_EQ(cores["threads"], 3);
+  EXPECT_EQ(cores["domains"], 3);
+  EXPECT_EQ(cores["ranks"], 1);
+  EXPECT_GE(cores["windows"], cores["windows_redone"]);
+  EXPECT_THAT(carom({"info", "three/summary.json"}).out, ::testing::ContainsRegex("threads +3, [0-9,]+ windows? of 3 domains, "));
+  EXPECT_THAT(text_of(file("three/report.html")), HasSubstr("windows of 3 domains"));
+}
+
+TEST_F(ThreadsOfRun, AreNotMentionedWhereThereIsOne) {
+  const Outcome outcome = run("one", {"--threads", "auto"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, Not(HasSubstr("threads")));
+  EXPECT_FALSE(summary("one").contains("cores")) << "2,000 disks are too few";
+}
+
+TEST_F(ThreadsOfRun, MayBeOthersWhereARunGoesOn) {
+  ASSERT_EQ(run("whole", {"-q", "--threads", "1"}).exit_code, 0);
+  for (const std::vector<std::string>& numbers : {std::vector<std::string>{"4", "1", "2"}, {"1", "3", "4"}}) {
+    const std::string out = "parts" + numbers.front();
+    int code = run(out, {"-q", "--threads", numbers.front(), "--walltime", "0.05s"}).exit_code;
+    std::size_t part = 0;
+    for (; code == 130 && part < 100; ++part)
+      code = carom({"resume", out, "-q", "--threads", numbers[1 + part % 2], "--walltime", "0.05s"}).exit_code;
+    EXPECT_EQ(code, 0) << out;
+    EXPECT_GT(part, 0U) << "the run was over before it could be stopped";
+    expect_same_results("whole", out);
+  }
+}
+
+TEST_F(ThreadsOfRun, EndWithTheSameFilesAfterSigkill) {
+  const std::vector<std::string> longer = {"-q", "--set", "run.time=20.0"};
+  std::vector<std::string> saving = longer, alone = longer;
+  saving.insert(saving.end(), {"--threads", "2", "--checkpoint-every", "20000 collisions"});
+  alone.insert(alone.end(), {"--threads", "1"});
+  ASSERT_EQ(run("whole", alone).exit_code, 0);
+  saving.insert(saving.begin(), {"run", "gas.toml", "--out", "killed"});
+  const Outcome killed = carom(saving, [&](pid_t child) {
+    (void)wait_until([&] { return fs::exists(file("killed/checkpoint-previous.h5")); });
+    ::kill(child, SIGKILL);
+  });
+  if (killed.exit_code == 0) GTEST_SKIP() << "the run was over before it could be killed";
+  EXPECT_EQ(carom({"resume", "killed", "-q", "--threads", "3"}).exit_code, 0);
+  expect_same_results("whole", "killed");
+}
+
+TEST_F(ThreadsOfRun, StopAtASignalAndSaySo) {
+  const Outcome stopped =
+      carom({"run", "gas.toml", "--out", "stopped", "--threads", "2", "--set", "run.time=1e6"}, [&](pid_t child) {
+        (void)wait_until([&] { return fs::exists(file("stopped/trajectory.h5md.partial")); });
+        ::kill(child, SIGINT);
+      });
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
+  EXPECT_THAT(stopped.err, HasSubstr(" resume stopped goes on from there"));
+  EXPECT_EQ(summary("stopped")["stopped"], "interrupted");
+  EXPECT_TRUE(fs::exists(file("stopped/checkpoint.h5")));
+}
+
+TEST_F(ThreadsOfRun, AreRefusedInOneSentenceWhereARunCannotBeSharedOut) {
+  const std::string range = "give auto, or a number from 1 to 32";
+  for (const char* wrong : {"0", "33", "two", "-1"})
+    refused({"run", "gas.toml", "--threads", wrong}, std::string("--threads ") + wrong + ": " + range);
+  refused({"run", "gas.toml", "--threads", "3", "--set", "thermostat.temperature=1.0", "--set", "thermostat.rate=1.0"},
+          "--threads 3: only one core can compute this run, for the thermostat");
+  refused({"run", "gas.toml", "--threads", "3", "--engine", "textbook"}, "--threads 3: only one core can compute this run, for");
+  EXPECT_FALSE(fs::exists(file("gas")));
+}
+
+TEST_F(ThreadsOfRun, AreToldByCheckWithTheReason) {
+  EXPECT_THAT(carom({"check", "gas.toml"}).out,
+              HasSubstr("threads     one core: 2,000 disks are fewer than the 50,000 from which on several cores pay\n"));
+  EXPECT_THAT(carom({"check", "gas.toml", "--set", "thermostat.temperature=1.0", "--set", "thermostat.rate=1.0"}).out,
+              HasSubstr("threads     one core: the thermostat"));
+}
+
+}  // namespace
+}  // namespace carom::test
