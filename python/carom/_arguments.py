@@ -23,14 +23,14 @@ def real(value: Any, name: str) -> float:
         raise ValueError(f"{name} is {value!r}; no double is as large") from None
 
 
-def whole(value: Any, name: str, least: int = 0) -> int:
+def whole(value: Any, name: str, least: int = 0, most: int = 2**63 - 1) -> int:
     """Returns a whole number, which may be given as 1e6. Raises TypeError for what is none, and ValueError for one out of range."""
     try:
         number = int(value) if isinstance(value, (float, np.floating)) and float(value).is_integer() else operator.index(value)
     except TypeError:
         raise TypeError(f"{name} is {value!r}; give a whole number") from None
-    if not least <= number < 2**63:
-        raise ValueError(f"{name} is {number}; it must be from {least} to 2^63 - 1")
+    if not least <= number <= most:
+        raise ValueError(f"{name} is {number}; it must be from {least} to {'2^63 - 1' if most == 2**63 - 1 else most}")
     return number
 
 

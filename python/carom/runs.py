@@ -196,7 +196,8 @@ def run(
         events: whether all collisions are written too.
         frames: whether the result keeps the samples in memory.
         report: whether the page report.html is made too.
-        threads: 2: observables are measured on a thread of their own; None: where there is a second processor.
+        threads: how many cores compute the events, 1 to 32, to the same bits; None: one below 50,000 disks, and else all that are
+            free. Observables have a thread of their own where there is a second processor; with 1 they have none.
         checkpoint_every: "10min" or "1e8 collisions"; with `out` a run that is stopped is saved in any case.
         walltime: ends the run, saved, after so much real time: seconds, or "1h30min".
         progress: True for a bar (needs tqdm), or a function of the fraction done.
@@ -242,7 +243,7 @@ def run(
             own,
             None if checkpoint_every is None else words(checkpoint_every, "checkpoint_every"),
             _seconds(walltime),
-            None if threads is None else whole(threads, "threads", least=1),
+            None if threads is None else whole(threads, "threads", least=1, most=32),
             report,
             frames,
         )
@@ -294,7 +295,7 @@ def resume(
             own,
             None if checkpoint_every is None else words(checkpoint_every, "checkpoint_every"),
             _seconds(walltime),
-            None if threads is None else whole(threads, "threads", least=1),
+            None if threads is None else whole(threads, "threads", least=1, most=32),
             report,
         )
         parts = _beside(_with_files(call), teller, bool(own))

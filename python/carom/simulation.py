@@ -92,6 +92,7 @@ class Simulation:
         dt: its step, time.
         stiffness: of the springs of the method "soft", force per overlap; None: such that the shortest contact takes 30 steps.
         state: where the disks begin, in place of the scene's own start.
+        threads: how many cores compute it, 1 to 32, to the same bits; see `threads`.
         on_collision: a rule of one's own for collisions of two disks, see `set_collision_rule()`.
 
     Raises:
@@ -110,6 +111,7 @@ class Simulation:
         stiffness: float | None = None,
         state: State | None = None,
         on_collision: CollisionRule | None = None,
+        threads: int = 1,
     ) -> None:
         given = as_scene(scene)
         if seed is not None:
@@ -129,6 +131,8 @@ class Simulation:
         self._begin(given, _core.Simulation(given._core, words(engine, "engine"), name, step, spring, start))
         if on_collision is not None:
             self.set_collision_rule(on_collision)
+        if threads != 1:
+            self.threads = threads
 
     def _begin(self, scene: Scene, core: _core.Simulation) -> None:
         self._core = core
@@ -167,6 +171,27 @@ class Simulation:
     def stiffness(self) -> float | None:
         """The stiffness that was given to the method "soft"; None where none was."""
         return self._core.stiffness
+
+    @property
+    def threads(self) -> int:
+        """How many cores compute this simulation, 1 to 32; no bit depends on it. May be set at any time.
+
+        Several pay from some 50,000 disks on, on a machine that is not busy with other work; `carom.run()` chooses by itself.
+
+        Raises:
+            ValueError: where several are asked for and the simulation cannot be shared out; it goes on with one.
+        """
+        return self._core.thread_counts["threads"]
+
+    @threads.setter
+    def threads(self, threads: int) -> None:
+        self._core.set_threads(whole(threads, "threads", least=1, most=32))
+
+    @property
+    def thread_counts(self) -> dict[str, int]:
+        """What sharing the disks out has taken since `threads` was set: windows, windows_redone, copied_events and others, as
+        docs/parallel.md names them."""
+        return self._core.thread_counts
 
     @property
     def count(self) -> int:
@@ -486,8 +511,11 @@ class Simulation:
     # Keeping it.
 
     def copy(self) -> Simulation:
-        """Returns another simulation that goes on to the same bits."""
-        return _restored(self._made, self._core.save(), self._rule)
+        """Returns another simulation that goes on to the same bits, on as many threads."""
+        other = _restored(self._made, self._core.save(), self._rule)
+        if self.threads > 1:
+            other.threads = self.threads
+        return other
 
     __copy__ = copy
 

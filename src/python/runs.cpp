@@ -8,6 +8,7 @@
 #include "python/observables.hpp"
 #include "python/parts.hpp"
 #include "runner/resumed_run.hpp"
+#include "runner/run_threads.hpp"
 #include "runner/runner.hpp"
 #include "studies/analysis/analysis.hpp"
 
@@ -148,11 +149,22 @@ class PythonRun {
   std::vector<std::string> warnings_;
 };
 
+/// Has a run go on several cores. Throws std::invalid_argument with the name of the argument.
+void take_threads(Simulation& simulation, const std::optional<int>& threads) {
+  try {
+    set_threads_of_run(simulation, threads);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument("threads=" + std::to_string(threads.value_or(1)) + ": " + error.what());
+  }
+}
+
 AnyTuple run(const Scene& scene, const std::string& engine, const std::optional<std::string>& method, double dt,
              std::optional<double> stiffness, const std::optional<std::string>& path, bool overwrite, const RunWishes& wishes) {
   Simulation simulation = [&] {
     const nb::gil_scoped_release released;
-    return method ? make_simulation(scene, FixedStep{*method, dt, stiffness}) : make_simulation(scene, engine);
+    Simulation made = method ? make_simulation(scene, FixedStep{*method, dt, stiffness}) : make_simulation(scene, engine);
+    take_threads(made, wishes.threads);
+    return made;
   }();
   std::optional<RunDirectory> directory;
   if (path) directory.emplace(*path, overwrite);
@@ -178,7 +190,9 @@ AnyTuple resume(const std::string& path, std::optional<double> time, std::option
   resumed.check_end(end);
   Simulation simulation = [&] {
     const nb::gil_scoped_release released;
-    return resumed.simulation();
+    Simulation saved = resumed.simulation();
+    take_threads(saved, wishes.threads);
+    return saved;
   }();
   RunWishes with_its_own = wishes;
   const CheckpointFacts& facts = resumed.from.facts();

@@ -208,6 +208,20 @@ nb::typed<nb::dict, nb::str, nb::any> dict_of(const Totals& totals) {
   return d;
 }
 
+nb::typed<nb::dict, nb::str, int> dict_of(const ThreadCounts& counts) {
+  nb::typed<nb::dict, nb::str, int> d;
+  d["threads"] = counts.threads;
+  d["domains"] = counts.domains;
+  d["windows"] = counts.windows;
+  d["windows_redone"] = counts.windows_redone;
+  d["shared_out"] = counts.shared_out;
+  d["events"] = counts.events;
+  d["copied_events"] = counts.copied_events;
+  d["copies"] = counts.copies;
+  d["copies_wrong"] = counts.copies_wrong;
+  return d;
+}
+
 /// The two disks of a collision, for a rule in Python, which changes the velocities.
 void add_colliding_pair(nb::module_& module) {
   const auto get = [](Eigen::Vector2d CollidingPair::*member) {
@@ -398,6 +412,12 @@ void add_simulation(nb::module_& module) {
           nb::arg("rule").none())
       .def_prop_ro("has_collision_rule",
                    [](Running& self) { return self.use([](Simulation& s) { return s.has_collision_rule(); }); })
+      .def(
+          "set_threads",
+          [](Running& self, std::size_t threads) { self.use_alone([&](Simulation& s) { s.set_threads({.threads = threads}); }); },
+          nb::arg("threads"))
+      .def_prop_ro("thread_counts",
+                   [](Running& self) { return dict_of(self.use([](Simulation& s) { return s.thread_counts(); })); })
       .def("reset_clock", [](Running& self) { self.use([](Simulation& s) { s.reset_clock(); }); })
       .def("check_invariants", [](Running& self) { return self.use_alone([](Simulation& s) { return s.check_invariants(); }); });
 }

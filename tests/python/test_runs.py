@@ -16,7 +16,7 @@ import carom
 
 ROOT = pathlib.Path(__file__).parents[2]
 PROGRAM = os.environ.get("CAROM_PROGRAM")
-CLOCKS = ("wall_seconds", "loop_seconds", "collisions_per_second", "command_line", "carom", "scene")
+CLOCKS = ("wall_seconds", "loop_seconds", "collisions_per_second", "cores", "command_line", "carom", "scene")
 
 
 @pytest.fixture

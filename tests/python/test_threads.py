@@ -27,6 +27,81 @@ def test_eight_threads_give_the_bits_of_one(gas: carom.Scene) -> None:
         assert [future.result() for future in together] == 8 * alone
 
 
+def many_disks() -> carom.Scene:
+    return carom.Scene(
+        box={"x": (0, 60), "y": (0, 50), "boundary": "periodic"},
+        disks={"count": 2000, "radius": 0.5, "mass": 1, "positions": "hexagonal", "velocities": {"temperature": 1.0}},
+        collision={"rule": "specular"},
+        run={"time": 3.0, "sample_every": 0.5},
+    )
+
+
+def test_one_simulation_on_several_threads_has_the_bits_of_one() -> None:
+    alone, shared = carom.Simulation(many_disks()), carom.Simulation(many_disks(), threads=3)
+    assert (alone.threads, shared.threads) == (1, 3)
+    assert (alone.sample(0.25, until=2.0).positions == shared.sample(0.25, until=2.0).positions).all()
+    shared.threads = 2
+    for sim in alone, shared:
+        sim.run_until(4.0)
+    assert shared.state_hash == alone.state_hash and shared.totals == alone.totals
+    counts = shared.thread_counts
+    assert counts["threads"] == counts["domains"] == 2
+    assert counts["windows"] > 0 and counts["copied_events"] > 0
+    assert alone.thread_counts["windows"] == 0
+
+
+def test_threads_are_kept_by_copies_and_forgotten_by_pickles() -> None:
+    sim = carom.Simulation(many_disks(), threads=2)
+    sim.run_until(1.0)
+    copied, pickled = sim.copy(), pickle.loads(pickle.dumps(sim))
+    assert (copied.threads, pickled.threads) == (2, 1)
+    for one in sim, copied, pickled:
+        one.run_until(2.0)
+    assert sim.state_hash == copied.state_hash == pickled.state_hash
+
+
+def test_threads_are_refused_where_one_core_must_do() -> None:
+    sim = carom.Simulation(many_disks().set({"thermostat.temperature": 1.0, "thermostat.rate": 1.0}))
+    with pytest.raises(ValueError, match="this simulation runs on one core: the thermostat"):
+        sim.threads = 2
+    assert sim.threads == 1
+    for wrong, error in ((0, ValueError), (33, ValueError), ("two", TypeError)):
+        with pytest.raises(error, match="^threads is "):
+            carom.Simulation(many_disks(), threads=wrong)  # type: ignore[arg-type]
+
+
+def test_a_run_on_several_threads_has_the_results_of_one() -> None:
+    one, three = (carom.run(many_disks(), observables={"pressure": True}, frames=True, threads=n) for n in (1, 3))
+    assert three.summary.pop("cores")["threads"] == 3
+    assert "cores" not in one.summary
+    assert three.state_hash == one.state_hash
+    assert three.observables["pressure"]["Z"].value == one.observables["pressure"]["Z"].value
+    assert one.frames is not None and three.frames is not None
+    assert (three.frames.positions == one.frames.positions).all()
+
+
+def test_others_run_while_a_simulation_does_on_several_threads() -> None:
+    sim, told = carom.Simulation(many_disks(), threads=2), list[int]()
+    counted, done = 0, threading.Event()
+
+    def run() -> None:
+        with pytest.raises(StopIteration):
+            sim.run_until(1e6, progress=progress)
+
+    def progress(fraction: float) -> None:
+        told.append(counted)
+        if len(told) >= 5:
+            done.set()
+            raise StopIteration
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    while not done.is_set() and counted < 10**9:
+        counted += 1
+    thread.join(30)
+    assert told == sorted(set(told)), "between any two reports the other thread has counted"
+
+
 def long_running() -> carom.Simulation:
     """Returns a simulation whose next unit of time takes a while."""
     return carom.Simulation(carom.Scene.preset("dense"), engine="textbook-quad")
