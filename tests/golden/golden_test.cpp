@@ -65,5 +65,21 @@ INSTANTIATE_TEST_SUITE_P(All, GoldenScene,
                          testing::Combine(testing::ValuesIn(example_scenes()), testing::Values("its_own", "textbook")),
                          [](const auto& param) { return std::get<0>(param.param) + "_" + std::get<1>(param.param); });
 
+/// Each scene on the engine that runs it, shared out.
+class GoldenDomains : public testing::TestWithParam<std::string> {};
+
+TEST_P(GoldenDomains, EndInTheRecordedBits) {
+  if (GetParam() == "granular_column") GTEST_SKIP() << "not yet: disks that lie on each other part on 2 and 8 domains";
+  const Scene scene = load_scene(example_path(GetParam()));
+  const Simulation simulation = make_simulation(scene);
+  if (const std::string reason = simulation.why_not_threads(); !reason.empty()) GTEST_SKIP() << "one core: " << reason;
+  for (const std::size_t domains : {2U, 3U, 8U})
+    EXPECT_EQ(hash_of_run(scene, simulation.engine(), true, {.domains = domains}),
+              recorded().at({GetParam(), simulation.engine()}))
+        << domains << " domains";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GoldenDomains, testing::ValuesIn(example_scenes()), [](const auto& param) { return param.param; });
+
 }  // namespace
 }  // namespace carom::test
