@@ -425,6 +425,11 @@ void add_bench(CLI::App& program, Action& action) {
   const auto options = std::make_shared<BenchOptions>();
   command->add_flag("--json", options->json, "Print JSON instead of the table");
   command->add_flag("--effects", options->effects, "Measure what each effect costs, at its neutral value and where it acts");
+  command
+      ->add_option("--threads", options->threads,
+                   "Measure how much faster one run of 100000 disks is on N cores (default: on all) than on one")
+      ->type_name("[N]")
+      ->expected(0, 1);
   command->add_flag("--large", options->large, "Also measure a million disks, which takes some minutes");
   command->add_option("--disks", options->disks, "Number of disks (default: 1000, 10000 and 100000); may be repeated")
       ->type_name("N")

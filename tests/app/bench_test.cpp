@@ -138,5 +138,26 @@ TEST(BenchCommand, RefusesSizesThatAreNone) {
   }
 }
 
+TEST(BenchCommand, SharesARunOutOnlyToTheSameBits) {
+  const Outcome outcome = bench({"--threads", "2", "--json", "--disks", "400", "--collisions", "2000"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result["threads"], 2);
+  EXPECT_TRUE(result["failed"].empty());
+  ASSERT_EQ(result["rows"].size(), 3U);
+  for (const json& row : result["rows"]) {
+    EXPECT_EQ(row["disks"], 400);
+    EXPECT_EQ(row["domains"], 2);
+    EXPECT_GT(row["ratio"], 0.0);
+    EXPECT_GT(row["memory_ratio"], 1.0);
+  }
+}
+
+TEST(BenchCommand, RefusesToMeasureOneThreadAgainstItself) {
+  const Outcome outcome = bench({"--threads", "1"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--threads 1: several are measured against one; give a number from 2 to 32"));
+}
+
 }  // namespace
 }  // namespace carom::test

@@ -104,6 +104,7 @@ std::vector<std::int64_t> sizes(const BenchOptions& options) {
 }  // namespace
 
 ExitCode bench(const BenchOptions& options) {
+  if (options.threads) return bench_threads(options);
   if (options.effects) return bench_effects(options);
   const std::vector<std::int64_t> all_disks = sizes(options);
   const StatusLine status;
