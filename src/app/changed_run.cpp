@@ -31,6 +31,7 @@ void require_only_what_it_has(const RunOptions& options) {
   refuse(options.watch, "--watch");
   refuse(options.checkpoint_every.has_value(), "--checkpoint-every");
   refuse(options.walltime.has_value(), "--walltime");
+  refuse(options.threads != "auto", "--threads");
   refuse(options.scene.xyz, "--xyz");
   refuse(options.scene.events, "--events");
 }
