@@ -222,6 +222,10 @@ class FlightFrame {
   void fall(double now) {
     for (int k = 0; k < 2; ++k) depth_[k] += depth_rest_[k].steps_of(world_.g()[k] * now, now / 2.0, axes_[k].steps);
   }
+  /// How far the frame has fallen from where it began, in steps of 2^32 of a coordinate.
+  [[nodiscard]] std::array<std::int64_t, 2> fallen() const {
+    return {(depth_[0] + 0x80000000) >> 32, (depth_[1] + 0x80000000) >> 32};
+  }
   /// Whether the frame has fallen as far as that from where it began.
   [[nodiscard]] bool has_fallen(double far) const {
     const auto fallen = [&](int k) { return axes_[k].unit * std::abs(static_cast<double>(depth_[k])) >= far; };

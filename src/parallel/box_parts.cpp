@@ -52,13 +52,13 @@ BoxParts::BoxParts(std::size_t parts, std::span<const NeighbourhoodCentre> centr
 
   std::vector<Weight> weights;
   weights.reserve(centres.size());
-  for (const NeighbourhoodCentre centre : centres) weights.push_back({place(centre.x), cost(centre)});
+  for (const NeighbourhoodCentre centre : centres) weights.push_back({place(0, centre.x), cost(centre)});
   columns_ = cuts(weights, rows);
   std::int64_t left = 0;
   for (std::size_t c = 0; c < columns; ++c) {
     weights.clear();
     for (const NeighbourhoodCentre centre : centres)
-      if (place(centre.x) >= left && place(centre.x) < columns_[c]) weights.push_back({place(centre.y), cost(centre)});
+      if (place(0, centre.x) >= left && place(0, centre.x) < columns_[c]) weights.push_back({place(1, centre.y), cost(centre)});
     first_.push_back(parts_.size());
     std::int64_t bottom = 0;
     for (const std::int64_t top : cuts(weights, std::vector<std::size_t>(rows[c], 1))) {
@@ -72,9 +72,9 @@ BoxParts::BoxParts(std::size_t parts, std::span<const NeighbourhoodCentre> centr
 
 std::size_t BoxParts::owner(NeighbourhoodCentre centre) const {
   std::size_t column = 0;
-  while (place(centre.x) >= columns_[column]) ++column;
+  while (place(0, centre.x) >= columns_[column]) ++column;
   std::size_t part = first_[column];
-  while (place(centre.y) >= parts_[part][1].end) ++part;
+  while (place(1, centre.y) >= parts_[part][1].end) ++part;
   return part;
 }
 
@@ -97,8 +97,8 @@ std::int64_t BoxParts::outside(std::int64_t at, const Range& range) {
 
 double BoxParts::outside(NeighbourhoodCentre centre, std::size_t part) const {
   const Part& of = parts_[part];
-  return std::max(static_cast<double>(outside(place(centre.x), of[0])) * step_[0],
-                  static_cast<double>(outside(place(centre.y), of[1])) * step_[1]);
+  return std::max(static_cast<double>(outside(place(0, centre.x), of[0])) * step_[0],
+                  static_cast<double>(outside(place(1, centre.y), of[1])) * step_[1]);
 }
 
 std::int64_t BoxParts::gap(const Range& a, const Range& b) {

@@ -34,10 +34,14 @@ class BoxParts {
   /// centre that is not may be so all the same.
   [[nodiscard]] bool deep_inside(NeighbourhoodCentre centre, std::size_t part) const {
     const Part& core = cores_[part];
-    const std::int64_t x = place(centre.x), y = place(centre.y);
+    const std::int64_t x = place(0, centre.x), y = place(1, centre.y);
     return x >= core[0].begin && x < core[0].end && y >= core[1].begin && y < core[1].end;
   }
   void set_reach(double reach);
+  /// Lets borders go along where the coordinates of all disks become larger by so many steps.
+  void shift(std::array<std::int64_t, 2> steps) {
+    for (std::size_t k = 0; k < 2; ++k) shift_[k] += static_cast<std::uint32_t>(steps[k]);
+  }
   /// Whether some place of one part is nearer to the other than `reach` (length).
   [[nodiscard]] bool adjacent(std::size_t a, std::size_t b, double reach) const;
 
@@ -48,7 +52,9 @@ class BoxParts {
   };
   using Part = std::array<Range, 2>;
 
-  static std::int64_t place(std::int32_t centre) { return std::int64_t{centre} + (std::int64_t{1} << 31); }
+  [[nodiscard]] std::int64_t place(std::size_t axis, std::int32_t centre) const {
+    return static_cast<std::uint32_t>(centre) - shift_[axis] + 0x80000000U;  // wraps
+  }
   static std::int64_t outside(std::int64_t at, const Range& range);
   static std::int64_t gap(const Range& a, const Range& b);
 
@@ -57,6 +63,7 @@ class BoxParts {
   std::vector<std::int64_t> columns_;  ///< where they end
   std::vector<std::size_t> first_;     ///< part of each column, and behind the last
   std::array<double, 2> step_;
+  std::array<std::uint32_t, 2> shift_{};  ///< since the box was cut
 };
 
 }  // namespace carom

@@ -76,7 +76,7 @@ class Domains {
   void count_collisions();
   void step_to_limit();
   void decide();
-  void adapt_window(double margin);
+  void adapt_window(double margin, bool whole_window);
   void lead_epoch();
   void end_of_epoch();
   void watch_speeds(const SpeedCensus& speeds) { fastest_ = 1.5 * std::max(speeds.fastest[0], speeds.fastest[1]); }
@@ -158,6 +158,7 @@ class Domains {
   double pair_rate_ = 0.0;                          ///< collisions of pairs per time, to be expected
   double longest_end_ = 0.0;                        ///< of the window, if the limit of collisions does not come before
   bool counting_ = false;                           ///< the limit of collisions may come in this window
+  std::uint64_t events_begun_with_ = 0;             ///< the window
   std::uint64_t events_before_ = 0;                 ///< the run
   Next next_ = Next::window;
   double half_width_ = 0.0;

@@ -26,10 +26,9 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
     return engine_.run_until(until, pair_limit, event_limit);
   };
   for (;;) {
-    const std::uint64_t few = whole_.lines_.size() / 2;
     const Counts so_far = counts();
-    if (so_far.pair >= pair_limit || (exact_events && event_limit < few) || whole_.idle() || whole_.stall_.jammed() ||
-        whole_.lines_.size() < 2)
+    if (so_far.pair >= pair_limit || (exact_events && event_limit < std::numeric_limits<std::uint64_t>::max()) || whole_.idle() ||
+        whole_.stall_.jammed() || whole_.lines_.size() < 2)
       return alone(target);
     if (alone_until_) {
       const Instant until = std::min(target, *alone_until_);
@@ -83,7 +82,7 @@ void Domains<Impact, Layout, World>::share_out() {
   seconds_.assign(threads_.domains, 0.0);
   verdicts_.resize(threads_.domains);
   censuses_.resize(threads_.domains);
-  reach_ = suitable_reach();
+  reach_ = std::max(suitable_reach(), 2.5 * half_width_);
   parts_->set_reach(reach_);
   team_.run([&](std::size_t thread) {
     each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach_); });
@@ -101,10 +100,9 @@ void Domains<Impact, Layout, World>::share_out() {
   for (const auto& line : whole_.lines_) speeds.add(line.v);
   watch_speeds(speeds);
   const auto disks = static_cast<double>(whole_.lines_.size());
-  if (window_ == 0.0) {
-    window_ = threads_.events_per_window * disks * whole_.pacing_.span() / 6.0;
-    shortest_window_ = window_ / 32.0;
-  }
+  const double suitable = threads_.events_per_window * disks * whole_.pacing_.span() / 6.0;
+  window_ = window_ == 0.0 ? suitable : std::clamp(window_, suitable / 32.0, 2.0 * suitable);
+  shortest_window_ = suitable / 32.0;
   if (pair_rate_ == 0.0) pair_rate_ = disks / window_;  // more than there will be
   ++done_.shared_out;
 }
@@ -160,6 +158,7 @@ template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::begin_window() {
   up_to_date_ = false;
   pairs_before_ = counts().pair;
+  events_begun_with_ = done_.events;
   window_end_ = longest_end_ = std::min({now_ + window_, target_, whole_.epoch_length_});
   const double expected = pair_rate_ * (window_end_ - now_), left = static_cast<double>(pair_limit_ - pairs_before_);
   counting_ = expected + 4.0 * std::sqrt(expected) + 64.0 > left;
@@ -245,7 +244,7 @@ void Domains<Impact, Layout, World>::decide() {
     done_.copies += verdicts_[d].compared;
     done_.copies_wrong += verdicts_[d].wrong;
   }
-  allowed += fastest_ * (window_end_ - now_);
+  allowed += fastest_ * (window_end_ - now_) + half_width_;
   const std::uint64_t pairs = counts().pair;
   if (failure_.any()) {
     next_ = Next::failed;
@@ -257,8 +256,9 @@ void Domains<Impact, Layout, World>::decide() {
     if (const double length = window_end_ - now_; length > 0.0 && pairs > pairs_before_ + 1000)
       pair_rate_ = static_cast<double>(pairs - pairs_before_) / length;
     hand_over_records();
+    const bool whole_window = window_end_ - now_ >= 0.99 * window_;  // not cut short by a sample or an epoch
     now_ = window_end_;
-    adapt_window(nearest - allowed);
+    adapt_window(nearest - allowed, whole_window);
     if (pairs == pair_limit_)
       next_ = Next::counted;
     else if (now_ == whole_.epoch_length_)
@@ -309,8 +309,15 @@ void Domains<Impact, Layout, World>::hand_over_records() {
 
 /// Makes windows shorter where something wrong came rather near to home, and longer where it has not for a while.
 template <class Impact, class Layout, class World>
-void Domains<Impact, Layout, World>::adapt_window(double margin) {
+void Domains<Impact, Layout, World>::adapt_window(double margin, bool whole_window) {
   const double contact = whole_.sizes_.largest_contact;
+  const bool sparse =
+      whole_window && static_cast<double>(done_.events - events_begun_with_) < 0.25 * static_cast<double>(whole_.lines_.size());
+  if (sparse && margin > 2.0 * contact + 2.0 * fastest_ * window_) {  // disks have become slow
+    window_ *= 2.0;
+    calm_ = 0;
+    return;
+  }
   calm_margin_ = calm_ == 0 ? margin : std::min(calm_margin_, margin);
   ++calm_;
   if (margin < contact) {
@@ -367,6 +374,7 @@ void Domains<Impact, Layout, World>::lead_epoch() {
       owed_ = whole_.common_motion_.owed(whole_.lines_, [this](const auto& line) { return whole_.layout_.momentum(line); });
   has_fallen_ = whole_.world_.falls() && whole_.flight_.has_fallen(4.0 * whole_.sizes_.spacing);
   if (has_fallen_) {
+    parts_->shift(whole_.flight_.fallen());  // with the frame, so that disks stay where they are at home
     whole_.flight_.reset_fall(whole_.lines_);
     ++whole_.totals_.numerics.list_rebuilds;
   }
@@ -396,7 +404,7 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
   target_ = end_.template since<double>(whole_.epoch_);
   if (failure_.any())
     next_ = Next::failed;
-  else if (is_unbalanced())
+  else if (is_unbalanced() || 2.5 * half_width_ > reach_)  // halos hold all disks that new neighbourhoods bring to another home
     next_ = Next::balance;
   else if (whole_.stall_.jammed() || whole_.idle() || !owed_.isZero(0.0))
     next_ = Next::void_one;

@@ -69,7 +69,6 @@ INSTANTIATE_TEST_SUITE_P(All, GoldenScene,
 class GoldenDomains : public testing::TestWithParam<std::string> {};
 
 TEST_P(GoldenDomains, EndInTheRecordedBits) {
-  if (GetParam() == "granular_column") GTEST_SKIP() << "not yet: disks that lie on each other part on 2 and 8 domains";
   const Scene scene = load_scene(example_path(GetParam()));
   const Simulation simulation = make_simulation(scene);
   if (const std::string reason = simulation.why_not_threads(); !reason.empty()) GTEST_SKIP() << "one core: " << reason;
