@@ -253,8 +253,10 @@ void Domains<Impact, Layout, World>::decide() {
     if (nearest <= allowed) window_ = std::max(0.5 * window_, shortest_window_);
     next_ = Next::void_one;
   } else {
-    if (const double length = window_end_ - now_; length > 0.0 && pairs > pairs_before_ + 1000)
-      pair_rate_ = static_cast<double>(pairs - pairs_before_) / length;
+    if (const double length = window_end_ - now_; length > 0.0) {
+      const auto happened_now = static_cast<double>(pairs - pairs_before_);
+      pair_rate_ = (happened_now + 4.0 * std::sqrt(happened_now) + 16.0) / length;  // rather too high than too low
+    }
     hand_over_records();
     const bool whole_window = window_end_ - now_ >= 0.99 * window_;  // not cut short by a sample or an epoch
     now_ = window_end_;
@@ -311,9 +313,11 @@ void Domains<Impact, Layout, World>::hand_over_records() {
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::adapt_window(double margin, bool whole_window) {
   const double contact = whole_.sizes_.largest_contact;
-  const bool sparse =
-      whole_window && static_cast<double>(done_.events - events_begun_with_) < 0.25 * static_cast<double>(whole_.lines_.size());
-  if (sparse && margin > 2.0 * contact + 2.0 * fastest_ * window_) {  // disks have become slow
+  // Disks have become slow, or never were as fast as the first events of all seemed to say.
+  const auto events_of_a_disk =
+      static_cast<double>(done_.events - events_begun_with_) / static_cast<double>(whole_.lines_.size());
+  const bool roomy = margin > 2.0 * contact + 2.0 * fastest_ * window_;
+  if (whole_window && (events_of_a_disk < 1.0 / 32.0 || (events_of_a_disk < 0.25 && roomy))) {
     window_ *= 2.0;
     calm_ = 0;
     return;
