@@ -154,6 +154,8 @@ class Domains {
   double target_ = 0.0;                             ///< the same since the epoch
   double fastest_ = 0.0;                            ///< more than any speed in this epoch, as good as surely
   std::uint64_t pair_limit_ = 0, event_limit_ = 0;  ///< of counts()
+  std::uint64_t counted_ = 0;                       ///< collisions at the end of the last part of a window
+  double part_ = 0.0;                               ///< collisions that this part was to bring
   std::uint64_t pairs_before_ = 0;                  ///< the window
   double pair_rate_ = 0.0;                          ///< collisions of pairs per time, to be expected
   double longest_end_ = 0.0;                        ///< of the window, if the limit of collisions does not come before

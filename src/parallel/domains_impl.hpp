@@ -163,6 +163,8 @@ void Domains<Impact, Layout, World>::begin_window() {
   const double expected = pair_rate_ * (window_end_ - now_), left = static_cast<double>(pair_limit_ - pairs_before_);
   counting_ = expected + 4.0 * std::sqrt(expected) + 64.0 > left;
   if (counting_) window_end_ = now_;
+  counted_ = pairs_before_;
+  part_ = 0.0;
   next_ = Next::window;
 }
 
@@ -173,6 +175,10 @@ void Domains<Impact, Layout, World>::count_collisions() {
   const std::uint64_t pairs = counts().pair;
   if (pairs > pair_limit_ || failure_.any()) return void(counting_ = false);
   const double left = static_cast<double>(pair_limit_ - pairs), safe = left - 4.0 * std::sqrt(left) - 32.0;
+  // A rate that was far too high halves from part to part.
+  if (static_cast<double>(pairs - counted_) < part_ / 4.0) pair_rate_ /= 2.0;
+  counted_ = pairs;
+  part_ = std::max(safe, 0.0);
   if (window_end_ == longest_end_) {
     counting_ = false;
   } else if (safe > 0.0) {
@@ -253,10 +259,8 @@ void Domains<Impact, Layout, World>::decide() {
     if (nearest <= allowed) window_ = std::max(0.5 * window_, shortest_window_);
     next_ = Next::void_one;
   } else {
-    if (const double length = window_end_ - now_; length > 0.0) {
-      const auto happened_now = static_cast<double>(pairs - pairs_before_);
-      pair_rate_ = (happened_now + 4.0 * std::sqrt(happened_now) + 16.0) / length;  // rather too high than too low
-    }
+    if (const double length = window_end_ - now_; length > 0.0 && pairs > pairs_before_ + 1000)
+      pair_rate_ = static_cast<double>(pairs - pairs_before_) / length;
     hand_over_records();
     const bool whole_window = window_end_ - now_ >= 0.99 * window_;  // not cut short by a sample or an epoch
     now_ = window_end_;
