@@ -265,14 +265,13 @@ void Domains<Impact, Layout, World>::decide() {
     const bool whole_window = window_end_ - now_ >= 0.99 * window_;  // not cut short by a sample or an epoch
     now_ = window_end_;
     adapt_window(nearest - allowed, whole_window);
-    if (pairs == pair_limit_)
+    const bool on_the_way = now_ != whole_.epoch_length_ && now_ != target_;
+    if (pairs == pair_limit_ || (on_the_way && happened - events_before_ >= event_limit_))
       next_ = Next::counted;
     else if (now_ == whole_.epoch_length_)
       next_ = Next::epoch;
     else if (now_ == target_)
       next_ = Next::arrived;
-    else if (happened - events_before_ >= event_limit_)
-      next_ = Next::counted;
     else
       begin_window();
   }

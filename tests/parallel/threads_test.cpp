@@ -281,7 +281,9 @@ TEST(Threads, RunASchedule) {
       blocks[n].push_back(progress.totals.virial);
     };
     run_schedule(simulation, hooks);
-    if (domains > 1) EXPECT_GT(simulation.thread_counts().windows, 20U);
+    if (domains > 1) {
+      EXPECT_GT(simulation.thread_counts().windows, 20U);
+    }
   }
   EXPECT_EQ(hashes[0].size(), 31U);
   EXPECT_EQ(hashes[1], hashes[0]);
@@ -323,7 +325,9 @@ Told told(const Scene& scene, const Threads& threads, std::uint64_t& redone) {
   };
   run_schedule(again, hooks);
   redone = simulation.thread_counts().windows_redone;
-  if (threads.domains > 1) EXPECT_GT(simulation.thread_counts().windows + again.thread_counts().windows, 4U);
+  if (threads.domains > 1) {
+    EXPECT_GT(simulation.thread_counts().windows + again.thread_counts().windows, 4U);
+  }
   return told;
 }
 
