@@ -42,10 +42,10 @@ TEST_F(ChangedRun, MakesTheChangesAndSaysHowItEnded) {
   EXPECT_THAT(outcome.out,
               AllOf(HasSubstr("gas.toml with 2 changes of some.toml"), HasSubstr("of 49 disks"), HasSubstr("state hash")));
   EXPECT_FALSE(fs::exists(file("gas")));
-  const auto json = json_of({"run", "gas.toml", "--changes", "some.toml", "--json"});
-  EXPECT_EQ(json["changes_made"], 2);
-  EXPECT_EQ(json["disks"], 49);
-  EXPECT_THAT(outcome.out, HasSubstr(json["state_hash"].get<std::string>()));
+  const auto summary = json_of({"run", "gas.toml", "--changes", "some.toml", "--json"});
+  EXPECT_EQ(summary["changes_made"], 2);
+  EXPECT_EQ(summary["disks"], 49);
+  EXPECT_THAT(outcome.out, HasSubstr(summary["state_hash"].get<std::string>()));
 }
 
 TEST_F(ChangedRun, WritesSamplesOfHoweverManyDisksThereAre) {
