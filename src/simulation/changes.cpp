@@ -3,6 +3,7 @@
 #include <carom/simulation.hpp>
 
 #include "scene/effect_traits.hpp"
+#include "scene/mean_flow.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/start.hpp"
@@ -25,7 +26,8 @@ void scale_radii(Scene& scene, double scale) {
 }
 
 /// The scene that begins where a simulation is now: walls where they stand, disks one by one and as large as they have grown. In
-/// single precision disks may overlap by more than check() takes for rounding.
+/// single precision disks may overlap by more than check() takes for rounding, and where images have slid check() would look for
+/// them in the wrong place.
 Scene begun_now(Scene scene, const State& state, bool single) {
   for (std::size_t k = 0; k < state.walls.size(); ++k) {
     const auto axis = static_cast<Eigen::Index>(k / 2);
@@ -33,6 +35,7 @@ Scene begun_now(Scene scene, const State& state, bool single) {
       (k % 2 == 0 ? scene.box.lower : scene.box.upper)[axis] = state.walls[k].position;
   }
   scale_radii(scene, single ? state.scale * (1.0 - 1e-5) : state.scale);
+  if (detail::MeanFlow(scene.box, scene.effects).present()) scene.run.accept_overlap = true;
   Eigen::Index i = 0;
   for (Species& species : scene.species) {
     ListedPositions positions;

@@ -185,6 +185,21 @@ TEST(Changes, ChooseTheEngineAnew) {
   EXPECT_EQ(named.engine(), "textbook");
 }
 
+TEST(Changes, LookForDisksThroughShearedEdgesWhereTheseHaveSlid) {
+  // Both move with the flow, one below an edge and one above it, and pass each other where no image is.
+  Scene scene = scene_of(
+      box_of(8.0, 8.0, Boundary::periodic, Boundary::periodic),
+      {species_of(2, 0.5, 1.0, ListedPositions{{{2.0, 7.75}, {6.0, 0.25}}}, ListedVelocities{{{1.875, 0.0}, {-1.875, 0.0}}})});
+  scene.effects.shear = Shear{0.5};
+  Simulation simulation = make_simulation(scene);
+  simulation.run_until(1.0);
+  Effects effects = scene.effects;
+  effects.collision.restitution = 0.9;
+  EXPECT_NO_THROW(simulation.set_effects(effects));
+  effects.shear.reset();
+  EXPECT_THROW(simulation.set_effects(effects), SceneError) << "without the shear they do overlap";
+}
+
 /// One disk between two walls that draw its speed, and nothing else to meet.
 Scene between_thermal_walls(double temperature) {
   Scene scene = scene_of(box_of(2.0, 8.0, Boundary::walls, Boundary::periodic),
