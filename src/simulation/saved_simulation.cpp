@@ -7,6 +7,7 @@
 #include "core/state_archive.hpp"
 #include "scene/resolved_effects.hpp"
 #include "simulation/parts.hpp"
+#include "simulation/saved_simulation.hpp"
 #include "simulation/start.hpp"
 
 #include <carom/version.hpp>
@@ -23,10 +24,16 @@ namespace carom {
 
 namespace {
 
-/// The digit is that of what follows: what one has written, another must not read.
-constexpr std::string_view first_line = "carom simulation 3\n";
+constexpr std::string_view first_words = "carom simulation ";
 
-std::string build() { return fmt::format("{} ({}, {})", build_info().version, build_info().commit, build_info().compiler); }
+std::string build() { return fmt::format("carom {} ({}, {})", build_info().version, build_info().commit, build_info().compiler); }
+
+/// The first line. The number is that of the format of what follows: what one has written, another must not read.
+std::string head() { return fmt::format("{}4 of {}", first_words, build()); }
+
+std::runtime_error refusal(const std::string& sentence) {
+  return std::runtime_error("the simulation cannot be restored: " + sentence);
+}
 
 /// The sizes of the disks of one species, which may have grown.
 struct Sizes {
@@ -73,13 +80,19 @@ std::string difference(const std::string& saved, const std::string& given) {
   return fmt::format("it had \"{}\" in place of \"{}\"", line, other);
 }
 
-std::string read_first_line(std::istream& in) {
-  std::string line(first_line.size(), '\0');
-  in.read(line.data(), static_cast<std::streamsize>(line.size()));
-  return line;
-}
-
 }  // namespace
+
+void detail::check_saved_head(std::istream& in) {
+  std::string line;
+  char c = 0;
+  while (line.size() < 200 && in.get(c) && c >= ' ' && c <= '~') line += c;
+  if (!line.starts_with(first_words)) throw refusal("this was not written by Simulation::save()");
+  if (!in || c != '\n') throw refusal("its first line is not whole");
+  if (line == head()) return;
+  const std::size_t by = line.find(" of ");
+  throw refusal(fmt::format("{} has saved it, and only that one can go on to the last bit; this is {}",
+                            by == std::string::npos ? "an earlier carom" : line.substr(by + 4), build()));
+}
 
 std::string detail::lasting_text(const Scene& scene) {
   Scene lasting = {.box = scene.box, .effects = scene.effects, .run = {.seed = scene.run.seed}};
@@ -95,11 +108,11 @@ std::string detail::lasting_text(const Scene& scene) {
 void Simulation::save(std::ostream& out) const {
   const Parts& parts = *parts_;
   const std::string now = detail::lasting_text(parts.scene);
-  out.write(first_line.data(), static_cast<std::streamsize>(first_line.size()));
+  out << head() << '\n';
   CheckedWriting checked(out);
   std::ostream within(&checked);
   SavingArchive archive(within);
-  archive(build(), parts.made_of.value_or(now), now, Changed(parts.scene));
+  archive(parts.made_of.value_or(now), now, Changed(parts.scene));
   archive(parts.engine_name, parts.engine_asked, parts.engine_reason, parts.time_step, parts.stiffness, has_collision_rule());
   archive(parts.continuation.wall_draws, parts.continuation.thermostat_events, state());
   parts.engine->save(archive);
@@ -108,19 +121,12 @@ void Simulation::save(std::ostream& out) const {
 
 /// An engine is made for the state that was saved, and then told what the state does not show.
 Simulation restore_simulation(const Scene& given, std::istream& in) {
-  const auto refusal = [](const std::string& sentence) {
-    return std::runtime_error("the simulation cannot be restored: " + sentence);
-  };
+  detail::check_saved_head(in);
   try {
-    if (read_first_line(in) != first_line) throw std::runtime_error("this was not written by Simulation::save()");
     CheckedReading checked(in);
     std::istream within(&checked);
     LoadingArchive archive(within);
-    std::string by, made_of, saved_with;
-    archive(by);
-    if (by != build())
-      throw std::runtime_error(
-          fmt::format("carom {} has saved it, and only that one can go on to the last bit; this is {}", by, build()));
+    std::string made_of, saved_with;
     Changed changed;
     archive(made_of, saved_with, changed);
     const std::string text = detail::lasting_text(given);

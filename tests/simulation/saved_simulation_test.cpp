@@ -153,6 +153,18 @@ TEST(SavedSimulation, OfAnotherKindIsRefused) {
   EXPECT_THAT(said_of(walled_gas(), "a file of somebody else, and long enough"), HasSubstr("was not written by"));
 }
 
+TEST(SavedSimulation, OfAnotherBuildIsRefusedForThatWhateverFollows) {
+  const Simulation simulation = make_simulation(walled_gas());
+  const std::string bytes = saved(simulation);
+  const std::string version = std::string("carom ") + build_info().version + " (";
+  const auto said = [&](const std::string& other) {
+    return said_of(walled_gas(), std::string(bytes).replace(bytes.find(version), version.size(), other));
+  };
+  EXPECT_THAT(said("carom 99.5 ("),
+              AllOf(HasSubstr("restored: carom 99.5 ("), HasSubstr("has saved it"), HasSubstr("this is " + version)));
+  EXPECT_THAT(said_of(walled_gas(), "carom simulation 3\nwhat was there"), HasSubstr("an earlier carom has saved it"));
+}
+
 TEST(SavedSimulation, IsRefusedWhereverItWasCutShort) {
   for (const char* engine : {"fast", "textbook"}) {
     Simulation simulation = make_simulation(walled_gas(), engine);
