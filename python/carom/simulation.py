@@ -97,7 +97,8 @@ class Simulation:
 
     Raises:
         SceneError: where the scene is wrong, or its disks cannot be placed.
-        ValueError: where there is no such engine or method, or the state does not fit.
+        ValueError: where there is no such engine or method, or the state does not fit: the scene has other disks, or these overlap
+            each other or a wall by more than rounding and the scene does not say accept_overlap in [run].
     """
 
     def __init__(
@@ -142,6 +143,7 @@ class Simulation:
         self._state: State | None = None
         self._disks: tuple[Floats, Floats, npt.NDArray[np.int32]] | None = None
         self._trajectory: Frames | None = None
+        self._recorded: npt.NDArray[Any] | None = None
 
     # What it is.
 
@@ -288,6 +290,13 @@ class Simulation:
             raise ValueError("this simulation has no trajectory yet; sample(dt, until) makes one")
         return self._trajectory
 
+    @property
+    def recorded(self) -> npt.NDArray[Any]:
+        """The collisions of the last `record()`, also where it was interrupted. Raises ValueError before the first one."""
+        if self._recorded is None:
+            raise ValueError("this simulation has recorded no collisions yet; record(until) does")
+        return self._recorded
+
     # Going on.
 
     def _moved(self) -> None:
@@ -351,12 +360,18 @@ class Simulation:
 
         Its fields are time, time_remainder, disk, partner, velocity (2) and partner_velocity (2), as in `Event`. Edges of square
         wells are among them, new velocities by a thermostat are not.
+
+        Raises:
+            KeyboardInterrupt: on Ctrl-C. `recorded` has the collisions until then, and the simulation can go on.
         """
         end = real(until, "until")
         self._moved()
-        memory, reason = self._core.record(end)
+        memory, reason, raised = self._core.record(end)
+        self._recorded = events_in(memory)
+        if isinstance(raised, BaseException):
+            raise raised
         as_stop(reason, self.time)
-        return events_in(memory)
+        return self._recorded
 
     def sample(
         self,
@@ -512,7 +527,7 @@ class Simulation:
 
     def copy(self) -> Simulation:
         """Returns another simulation that goes on to the same bits, on as many threads."""
-        other = _restored(self._made, self._core.save(), self._rule)
+        other = _begun(self._made, self._core.save(), self._rule)
         if self.threads > 1:
             other.threads = self.threads
         return other
@@ -523,7 +538,7 @@ class Simulation:
         return self.copy()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self._made, self._core.save(), self._rule)
+        return _restored, (self._made.parts(), self._core.save(), self._rule)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Writes the simulation into a file from which `Simulation.load()` goes on to the same bits, with this build of carom."""
@@ -553,7 +568,7 @@ class Simulation:
         if content.read(len(_MAGIC)) != _MAGIC:
             raise OutputError(f"{fspath(path)}: this was not written by Simulation.save()")
         try:
-            return _restored(scene_of_parts(*json.loads(content.readline())), content.read(), None)
+            return _restored(json.loads(content.readline()), content.read(), None)
         except (RuntimeError, ValueError, TypeError) as error:
             raise OutputError(f"{fspath(path)}: {error}") from None
 
@@ -585,7 +600,12 @@ def _put(tables: dict[str, Any], path: list[str], value: Any) -> None:
         del holder[key]
 
 
-def _restored(made: Scene, saved: bytes, rule: CollisionRule | None) -> Simulation:
+def _restored(parts: tuple[str, str, list[str], str], saved: bytes, rule: CollisionRule | None) -> Simulation:
+    _core.Simulation.check_saved(saved)  # another build's scene might be none here
+    return _begun(scene_of_parts(*parts), saved, rule)
+
+
+def _begun(made: Scene, saved: bytes, rule: CollisionRule | None) -> Simulation:
     simulation = Simulation.__new__(Simulation)
     simulation._begin(made, _core.Simulation.restore(made._core, saved))
     simulation._now = None

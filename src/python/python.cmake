@@ -1,7 +1,7 @@
 # The Python package: python/carom, and the extensions carom._core and carom._files that it stands on. All are laid out in the build directory, so that
 # PYTHONPATH=build/release/python is all that a test needs; pip installs them as a wheel (pyproject.toml).
 set(laid_out ${PROJECT_BINARY_DIR}/python/carom)
-set(core_sources blocking core scene simulation state)
+set(core_sources blocking core given_state scene simulation state)
 list(TRANSFORM core_sources REPLACE "(.+)" "src/python/\\1.cpp")
 file(GLOB files_sources CONFIGURE_DEPENDS src/python/*.cpp)
 list(TRANSFORM files_sources REPLACE "^${PROJECT_SOURCE_DIR}/" "")

@@ -94,8 +94,9 @@ class PythonRun {
                  .verify_every = wishes.verify_every,
                  .threads = wishes.threads,
                  .report = wishes.report,
-                 .observe = wishes.observables.size() == 0 ? std::function<void(Observation&)>()
-                                                           : [&](Observation& observation) { observe(observation); },
+                 .observe = wishes.observables.begin() == wishes.observables.end()
+                                ? std::function<void(Observation&)>()
+                                : [&](Observation& observation) { observe(observation); },
                  .began = began_},
                 from) {}
 

@@ -2,9 +2,11 @@
 // twenty times a second.
 
 #include "python/buffers.hpp"
+#include "python/given_state.hpp"
 #include "python/parts.hpp"
 #include "scene/resolved_effects.hpp"
 #include "simulation/sampling_times.hpp"
+#include "simulation/saved_simulation.hpp"
 
 #include <carom/simulation.hpp>
 
@@ -16,6 +18,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -105,6 +108,7 @@ class Running {
   static Simulation made(const Scene& scene, const std::string& engine, const std::optional<FixedStep>& step,
                          const State* start) {
     const nb::gil_scoped_release released;
+    if (start != nullptr) require_apart(scene, *start);
     if (step) return start != nullptr ? make_simulation(scene, *start, *step) : make_simulation(scene, *step);
     return start != nullptr ? make_simulation(scene, *start, engine) : make_simulation(scene, engine);
   }
@@ -293,6 +297,13 @@ void add_simulation(nb::module_& module) {
             return new Running(restore_simulation(scene, in));
           },
           nb::arg("scene"), nb::arg("saved"), nb::rv_policy::take_ownership)
+      .def_static(
+          "check_saved",
+          [](const nb::bytes& saved) {
+            std::istringstream in(std::string(saved.c_str(), saved.size()));
+            detail::check_saved_head(in);
+          },
+          nb::arg("saved"), "Raises RuntimeError where it was not saved by this build.")
       .def("save",
            [](Running& self) {
              std::ostringstream out;
@@ -336,11 +347,12 @@ void add_simulation(nb::module_& module) {
       .def(
           "run_sampled",
           [](Running& self, double until, double step, std::uint64_t first, std::uint64_t stride, std::uint64_t most,
-             Room<double, nb::ndim<1>> time, std::optional<Room<double, nb::shape<-1, -1, 2>>> positions,
-             std::optional<Room<double, nb::shape<-1, -1, 2>>> velocities,
-             std::optional<Room<std::int64_t, nb::shape<-1, -1, 2>>> images, std::optional<Room<double, nb::shape<-1, -1>>> spins,
-             Room<double, nb::ndim<1>> scale, Room<double, nb::ndim<1>> virial, Room<std::uint64_t, nb::ndim<1>> collisions,
-             Room<std::int64_t, nb::ndim<1>> written, const nb::object& report) {
+             const Room<double, nb::ndim<1>>& time, const std::optional<Room<double, nb::shape<-1, -1, 2>>>& positions,
+             const std::optional<Room<double, nb::shape<-1, -1, 2>>>& velocities,
+             const std::optional<Room<std::int64_t, nb::shape<-1, -1, 2>>>& images,
+             const std::optional<Room<double, nb::shape<-1, -1>>>& spins, const Room<double, nb::ndim<1>>& scale,
+             const Room<double, nb::ndim<1>>& virial, const Room<std::uint64_t, nb::ndim<1>>& collisions,
+             const Room<std::int64_t, nb::ndim<1>>& written, const nb::object& report) {
             const FrameRoom room{time, positions, velocities, images, spins, scale, virial, collisions, written};
             const bool whole = positions || images || spins;
             const SamplingGrid grid{
@@ -365,14 +377,23 @@ void add_simulation(nb::module_& module) {
           "record",
           [](Running& self, double until, const nb::object& report) {
             std::vector<Event> events;
-            const StopReason reason = self.use_alone([&](Simulation& s) {
-              const EventRecorder recorder(s, events);
-              return s.run_until(until, limits_of({}, report, s));
-            });
+            StopReason reason = StopReason::interrupted;
+            nb::object raised = nb::none();
+            try {
+              reason = self.use_alone([&](Simulation& s) {
+                const EventRecorder recorder(s, events);
+                return s.run_until(until, limits_of({}, report, s));
+              });
+            } catch (const nb::python_error& error) {
+              raised = nb::borrow(error.value());
+            }
+            // So that bytes of equal logs are equal. No member lies there: src/python/state.cpp.
+            for (Event& event : events) std::memset(reinterpret_cast<char*>(&event) + 24, 0, 8);
             const std::size_t bytes = events.size() * sizeof(Event);
-            return std::tuple(array_that_owns<std::uint8_t>(std::move(events), {bytes}), to_string(reason));
+            return std::tuple(array_that_owns<std::uint8_t>(std::move(events), {bytes}), to_string(reason), raised);
           },
-          nb::arg("until"), nb::arg("report").none() = nb::none())
+          nb::arg("until"), nb::arg("report").none() = nb::none(),
+          "Returns all collisions until then, the reason, and what Python has raised meanwhile, or None.")
       .def(
           "record_for_player",
           [](Running& self, double until, double step, std::uint64_t most_events, const nb::object& report) {

@@ -46,6 +46,14 @@ def test_errors_pickle(gas: carom.Scene) -> None:
 
 
 Sim = carom.Simulation
+WALLS = {"box.boundary": "walls"}
+OBSTACLE = {"obstacles": [{"disk": {"centre": (5.2, 2.0), "radius": 0.4}}]}
+
+
+def beginning(x: float, y: float) -> carom.State:
+    """Disk 0 at some place; the eleven others stand apart from each other at x <= 3.5."""
+    return carom.State([[x, y], *[[0.5 + k % 4, 0.5 + k // 4] for k in range(11)]])
+
 
 MISTAKES_OF_SCENES: list[tuple[Callable[[carom.Scene], object], type[Exception], str]] = [
     (lambda s: carom.Scene(5), TypeError, "a scene is 5; give a mapping"),
@@ -99,6 +107,12 @@ MISTAKES_OF_SCENES: list[tuple[Callable[[carom.Scene], object], type[Exception],
     (lambda s: Sim(s, state=carom.State([[1, 1]])), ValueError, "a state of 1 positions and 1 velocities is given for 12 disks"),
     (lambda s: Sim(s, state=carom.State(np.full((12, 2), np.nan))), ValueError, "of the given state is not finite"),
     (lambda s: Sim(s, state=carom.State(np.full((12, 2), 99.0))), ValueError, "has a position outside the box in x"),
+    (lambda s: Sim(s, state=beginning(2.5, 2.8)), ValueError, r"disk 11 overlaps disk 0 by 0\.5 in the given state; put its centre at"),
+    (lambda s: Sim(s.set(WALLS), state=beginning(5, 0.3)), ValueError, r"disk 0 overlaps a wall in y by 0\.1 in the given state; put"),
+    (lambda s: Sim(s.set(WALLS), state=beginning(5, -1)), ValueError, "has a position outside the box in y; put it between the walls"),
+    (lambda s: Sim(s.set(WALLS), state=beginning(5, 0.3), method="naive", dt=0.1), ValueError, "disk 0 overlaps a wall in y"),
+    (lambda s: Sim(s.set(WALLS), state=beginning(5, -1), method="soft", dt=0.01), ValueError, "has a position outside the box in y"),
+    (lambda s: Sim(s.set(OBSTACLE), state=beginning(5, 2)), ValueError, r"disk 0 overlaps obstacles\.0 by 0\.6 in the given state"),
     (lambda s: Sim(s, on_collision=5), TypeError, "the collision rule is 5; give a function"),
     (lambda s: carom.State([[1, 1]], velocities=[[1, 1], [2, 2]]), ValueError, "velocities: there are 2 rows for 1 disks"),
     (lambda s: carom.State([[1, 1]], images=[[0.5, 1]]), TypeError, "images: an array of float64 is given; give whole numbers"),

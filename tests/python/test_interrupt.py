@@ -77,6 +77,17 @@ def test_the_frames_until_then_are_kept(gas: carom.Scene) -> None:
     assert sim.time >= frames.time[-1]
 
 
+def test_the_collisions_until_then_are_kept(gas: carom.Scene) -> None:
+    sim = carom.Simulation(gas)
+    with pytest.raises(ValueError, match="has recorded no collisions yet"):
+        sim.recorded
+    interrupted(lambda: sim.record(until=1e6))
+    until = sim.time
+    assert 0 < len(sim.recorded) and sim.recorded["time"][-1] <= until
+    assert sim.recorded.tobytes() == carom.Simulation(gas).record(until).tobytes()
+    assert (sim.record(until + 5.0)["time"] > until).all()
+
+
 def test_a_callback_ends_the_call_with_its_own_exception(gas: carom.Scene) -> None:
     sim, twin = carom.Simulation(gas), carom.Simulation(gas)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+import re
 import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor
@@ -89,6 +90,23 @@ def test_a_damaged_pickle_is_refused(gas: carom.Scene) -> None:
         with pytest.raises((ValueError, RuntimeError), match="saved|simulation|checkpoint") as raised:
             pickle.loads(other)
         assert "\n" not in str(raised.value)
+
+
+def test_a_pickle_of_another_build_is_refused_for_that(gas: carom.Scene, tmp_path: Path) -> None:
+    """Whatever else of it this build does not understand, such as its scene."""
+    sim = carom.Simulation(gas)
+    other_version = re.sub(r"\d", "9", carom.__version__)
+    foreign = f"carom {carom.__version__} (".encode(), f"carom {other_version} (".encode()
+    content = pickle.dumps(sim)
+    assert content.count(foreign[0]) == 1
+    sentence = rf"carom {re.escape(other_version)} \(.* has saved it, and only that one can go on to the last bit; this is carom "
+    for other in (content, content.replace(b"restitution", b"rustitution").replace(b"boundary", b"boundery")):
+        with pytest.raises(RuntimeError, match=sentence):
+            pickle.loads(other.replace(*foreign))
+    sim.save(tmp_path / "kept")
+    (tmp_path / "kept").write_bytes((tmp_path / "kept").read_bytes().replace(*foreign))
+    with pytest.raises(carom.OutputError, match=sentence):
+        carom.Simulation.load(tmp_path / "kept")
 
 
 def test_a_simulation_of_another_scene_is_refused(gas: carom.Scene) -> None:

@@ -198,6 +198,33 @@ def test_beginning_from_a_state_is_beginning_from_the_disks(gas: carom.Scene) ->
     assert np.array_equal(middle.positions, sim.positions)
 
 
+@pytest.mark.parametrize("engine", carom.engines())
+def test_a_state_that_a_run_left_begins_another(engine: str) -> None:
+    """Disks in it may overlap by the engine's rounding."""
+    scene = carom.Scene.preset("gas").set({"disks.0.count": 1000})
+    sim = carom.Simulation(scene, engine=engine)
+    sim.run_until(0.2)
+    assert carom.Simulation(scene, engine=engine, state=sim.state).state.positions.tolist() == sim.positions.tolist()
+
+
+def test_a_state_in_a_sheared_box_knows_where_its_images_are() -> None:
+    scene = carom.Scene.load(ROOT / "docs/scenes/shear.toml")
+    sim = carom.Simulation(scene)
+    sim.run_until(1.37)
+    assert carom.Simulation(scene, state=sim.state).check_invariants() == []
+    with pytest.raises(ValueError, match="overlaps disk"):
+        carom.Simulation(scene, state=carom.State(sim.positions, sim.velocities))  # without the displacement
+
+
+def test_a_scene_that_accepts_overlaps_takes_any_state_inside(gas: carom.Scene) -> None:
+    state = carom.State(np.linspace([1.0, 1.0], [3.0, 1.0], 12))
+    with pytest.raises(ValueError, match="disk 1 overlaps disk 0"):
+        carom.Simulation(gas, state=state)
+    for choice in ({}, {"method": "guarded", "dt": 0.01}):
+        sim = carom.Simulation(gas.set({"run.accept_overlap": True}), state=state, **choice)
+        assert sim.positions == pytest.approx(state.positions, abs=1e-15)
+
+
 def test_seed_changes_the_start_alone(gas: carom.Scene) -> None:
     assert carom.Simulation(gas, seed=3).state_hash == carom.Simulation(gas).state_hash
     assert carom.Simulation(gas, seed=4).state_hash == carom.Simulation(gas.set({"run.seed": 4})).state_hash
