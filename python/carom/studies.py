@@ -1,6 +1,6 @@
 """What accuracy costs, how far a trajectory can be trusted, and whether the engine holds against theory and hard cases.
 
-The studies are the program's, `carom compare`, `horizon`, `validate` and `hardcases`, with the same numbers and sentences.
+The studies are the program's, `carom compare`, `diff`, `horizon`, `validate` and `hardcases`, with the same numbers and sentences.
 """
 
 from __future__ import annotations
@@ -11,13 +11,14 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from carom import _arguments
 from carom._errors import Interrupted, SceneError
+from carom._hdf5 import hdf5
 from carom._progress import Progress, reporting
 from carom.pages import Page
 from carom.results import Number, Table
@@ -25,6 +26,10 @@ from carom.scene import SceneLike, as_scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from carom.runs import Result, Run
+
+    RunLike: TypeAlias = str | PathLike[str] | Run | Result
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +100,37 @@ class Comparison:
 
     def _repr_html_(self) -> str:
         return _paragraphs(self.sentences) + self.prices._repr_html_()
+
+
+@dataclass(frozen=True, eq=False)
+class Difference:
+    """Two runs of the same disks, side by side.
+
+    Attributes:
+        summary: everything in numbers, as `carom diff --json` prints it (docs/output.md).
+        distances: a row for each sample time that both have: the rms and the largest distance of the disks, and which is farthest
+            apart.
+    """
+
+    summary: dict[str, Any]
+    distances: Table = field(repr=False)
+    _text: str = field(repr=False)
+
+    @property
+    def same(self) -> bool:
+        """Whether the final states and all samples are equal to the last bit."""
+        return bool(self.summary["same"])
+
+    @property
+    def sentence(self) -> str:
+        """Whether they are the same run, and up to where."""
+        return self._text.split("\n", 1)[0]
+
+    def __str__(self) -> str:
+        return self._text.rstrip("\n")
+
+    def _repr_html_(self) -> str:
+        return _paragraphs([self.sentence]) + self.distances._repr_html_()
 
 
 @dataclass(frozen=True, eq=False)
@@ -226,6 +262,37 @@ def compare(
     header, *rows = csv.reader(io.StringIO(parts[1]))
     runs = {name: _column([row[k] for row in rows], name) for k, name in enumerate(header)}
     return Comparison(summary, Table(runs, _UNITS_OF_RUNS, "Runs"), _prices(summary["prices"]), parts[2], parts[3])
+
+
+def diff(a: RunLike, b: RunLike) -> Difference:
+    """Says whether two runs of the same disks are equal to the last bit, and where they part.
+
+    Args:
+        a, b: directories of runs, trajectory files, or what `carom.run(out=...)` and `carom.open_run()` return.
+
+    Raises:
+        OutputError: where there is no such run, or the disks, the boxes or all sample times of the two differ.
+    """
+    import json
+
+    from carom import _files
+
+    paths = _path_of(a), _path_of(b)
+    with hdf5():
+        text, words = _files.difference(*paths)
+    summary: dict[str, Any] = json.loads(text)
+    columns = {name: [row[name] for row in summary["distances"]] for name in ("time", "rms", "largest", "disk")}
+    units = {"time": "time", "rms": "diameters", "largest": "diameters"}
+    return Difference(summary, Table(columns, units, "Distances of the disks"), words)
+
+
+def _path_of(run: RunLike) -> str:
+    path = getattr(run, "directory", run)
+    if path is None:
+        raise ValueError("this run has written no files; give it out=\"directory\"")
+    if not isinstance(path, (str, PathLike)):
+        raise TypeError(f"{run!r} is no run; give the directory of one")
+    return fspath(path)
 
 
 def horizon(

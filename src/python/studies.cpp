@@ -8,6 +8,8 @@
 #include "studies/compare/page.hpp"
 #include "studies/compare/side_by_side_option.hpp"
 #include "studies/compare/text.hpp"
+#include "studies/diff/diff.hpp"
+#include "studies/diff/text.hpp"
 #include "studies/hard_cases/command.hpp"
 #include "studies/hard_cases/table.hpp"
 #include "studies/horizon/command.hpp"
@@ -266,6 +268,14 @@ void add_studies(nb::module_& module) {
       nb::arg("scene"), nb::arg("dts"), nb::arg("seeds").none(), nb::arg("longest"), nb::arg("engine"), nb::arg("costs"),
       nb::arg("report").none());
   module.def("side_by_side", &side_by_side, nb::arg("scene"), nb::arg("method"), nb::arg("engine"), nb::arg("report").none());
+  module.def(
+      "difference",
+      [](const std::string& first, const std::string& second) {
+        const nb::gil_scoped_release released;
+        const RunDifference found = difference_of(open_diff_run(first), open_diff_run(second));
+        return std::tuple(diff_json(found), diff_text(found));
+      },
+      nb::arg("first"), nb::arg("second"), "Returns what carom diff --json prints, and the text of the terminal.");
   module.def("horizon", &horizon, nb::arg("scene"), nb::arg("engine"), nb::arg("collisions").none(), nb::arg("report").none());
   module.def("validate", &validate, nb::arg("full"), nb::arg("only"), nb::arg("seed"), nb::arg("report").none());
   module.def("validation_trials", &validation_trials, nb::arg("full"));

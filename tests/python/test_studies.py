@@ -72,6 +72,54 @@ def test_a_comparison_has_the_programs_numbers(comparison, scene, program, tmp_p
     assert comparison.best_fixed_step == comparison.summary["best_fixed_step"]
 
 
+@pytest.fixture(scope="module")
+def two_runs(scene, tmp_path_factory):
+    """The same disks by exact events and by fixed steps."""
+    place = tmp_path_factory.mktemp("runs")
+    exact = carom.run(scene, out=place / "exact", events=True)
+    return exact, carom.run(scene, out=place / "steps", events=True, method="naive", dt=0.01)
+
+
+def test_a_difference_has_the_programs_numbers(two_runs, program):
+    exact, steps = two_runs
+    found = carom.diff(steps, exact)
+    told = program("diff", steps.directory, exact.directory, "--json")
+    assert told.returncode == 1 and json.loads(told.stdout) == found.summary
+    assert str(found) + "\n" == program("diff", steps.directory, exact.directory).stdout
+    assert not found.same and found.sentence in found._repr_html_()
+    assert found.distances["rms"][0] == 0.0 and (np.diff(found.distances["time"]) > 0).all()
+    again = pickle.loads(pickle.dumps(found))
+    assert again.summary == found.summary and str(again) == str(found)
+
+
+def test_a_run_is_the_same_as_itself_however_it_is_named(two_runs):
+    exact, _ = two_runs
+    for other in (exact.directory, str(exact.directory), carom.open_run(exact.directory), exact.directory / "trajectory.h5md"):
+        found = carom.diff(exact, other)
+        assert found.same and "are the same run" in found.sentence
+        assert not found.distances["largest"].any()
+
+
+@pytest.mark.parametrize(
+    "other, kind, sentence",
+    [
+        ("nowhere", carom.OutputError, "nowhere: "),
+        (5, TypeError, "5 is no run; give the directory of one"),
+        (lambda scene: carom.run(scene), ValueError, 'this run has written no files; give it out="directory"'),
+    ],
+)
+def test_what_is_no_run_is_refused(two_runs, scene, other, kind, sentence):
+    with pytest.raises(kind, match=sentence) as raised:
+        carom.diff(two_runs[0], other(scene) if callable(other) else other)
+    assert "\n" not in str(raised.value)
+
+
+def test_runs_of_other_disks_are_refused(two_runs, tmp_path):
+    carom.run(carom.Scene.preset("box").set({"run.time": 0.01}), out=tmp_path / "box")
+    with pytest.raises(carom.OutputError, match="the first has 12 disks and the second 64"):
+        carom.diff(two_runs[0], tmp_path / "box")
+
+
 def test_prices_of_a_comparison_are_a_table(comparison):
     prices = comparison.prices
     exact = prices["method"] == comparison.answers["exact"]
