@@ -33,6 +33,8 @@ CollidingPair = _core.CollidingPair
 CollisionRule = Callable[[_core.CollidingPair], object]
 
 _NONE = 2**64 - 1
+_FOREVER = math.inf
+_new = tuple.__new__  # without the arguments of a named tuple's own, which cost more than the event
 _LATEST = 1e15  # later than any run gets to
 _MAGIC = b"carom simulation file 1\n"
 
@@ -342,13 +344,13 @@ class Simulation:
             self.reset_clock()
         return stop
 
-    def step(self, until: float = math.inf) -> Event | None:
+    def step(self, until: float = _FOREVER) -> Event | None:
         """Goes to the next event up to `until`, and returns it: a collision with a disk, a wall or an obstacle, the edge of a square
         well, or a new velocity by the thermostat. Returns None where there is none; the simulation then stands at `until`."""
-        end = real(until, "until")
-        self._moved()
+        end = until if until is _FOREVER else real(until, "until")
+        self._state = None
         event = self._core.step(end)
-        return None if event is None else Event(*event)
+        return None if event is None else _new(Event, event)
 
     def events(self, until: float) -> Iterator[Event]:
         """Iterates over all events up to `until`; the simulation stands at the event at hand."""
