@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <istream>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <span>
@@ -60,8 +61,8 @@ class PythonObservable final : public Observable {
     object_.attr("_sample")(State(state), totals.pair, totals.virial);
   }
   void collisions(std::span<const PairCollision> collisions) override {
-    waiting_.insert(waiting_.end(), collisions.begin(), collisions.end());
-    if (waiting_.size() < batch) return;
+    waiting_->insert(waiting_->end(), collisions.begin(), collisions.end());
+    if (waiting_->size() < batch) return;
     const nb::gil_scoped_acquire locked;
     hand_over();
   }
@@ -83,20 +84,25 @@ class PythonObservable final : public Observable {
   /// A call of Python takes as long as some ten collisions.
   static constexpr std::size_t batch = 4096;
 
-  /// Hands on the collisions that wait. Requires the lock.
+  struct Shared {
+    std::shared_ptr<std::vector<PairCollision>> collisions;
+    [[nodiscard]] const PairCollision* data() const { return collisions->data(); }
+  };
+
+  /// Hands on the collisions that wait. Their memory is used again where Python does not keep it. Requires the lock.
   void hand_over() {
-    if (waiting_.empty()) return;
-    const std::size_t bytes = waiting_.size() * sizeof(PairCollision);
-    object_.attr("_collisions")(array_that_owns<std::uint8_t>(std::move(waiting_), {bytes}));
-    waiting_ = {};
-    waiting_.reserve(batch + batch / 4);
+    if (waiting_->empty()) return;
+    const std::size_t bytes = waiting_->size() * sizeof(PairCollision);
+    object_.attr("_collisions")(array_that_owns<std::uint8_t>(Shared{waiting_}, {bytes}));
+    if (waiting_.use_count() > 1) waiting_ = std::make_shared<std::vector<PairCollision>>();
+    waiting_->clear();
   }
 
   nb::object object_;
   std::string name_;
   double step_;
   bool needs_positions_, follows_collisions_;
-  std::vector<PairCollision> waiting_;
+  std::shared_ptr<std::vector<PairCollision>> waiting_ = std::make_shared<std::vector<PairCollision>>();
 };
 
 Measurement PythonObservable::finish(double time, const Totals& totals) {
