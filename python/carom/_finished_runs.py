@@ -16,7 +16,7 @@ from carom._errors import OutputError
 _WORDS = {
     "scene": "another scene",
     "keys": "changes of other keys",
-    "settings": "other arguments (engine, method, dt or observables)",
+    "settings": "other arguments (engine, method, dt, stiffness or observables)",
     "build": "another build of carom",
 }
 

@@ -125,6 +125,7 @@ def sweep(
     engine: str = "auto",
     method: str | None = None,
     dt: float | None = None,
+    stiffness: float | None = None,
     workers: int | None = None,
     executor: Executor | None = None,
     out: str | PathLike[str] | None = None,
@@ -146,7 +147,7 @@ def sweep(
             where no other key of the scene ends so: "packing_fraction" for "disks.0.packing_fraction".
         seeds: of the runs at every point; a number n: the scene's own seed and those after it.
         numbers: names of numbers of summary.json, such as "pressure.Z_error"; None: the usual ones, and all of observables.
-        observables, engine, method, dt: as for `carom.run()`. Each run has its own copy of an observable of one's own.
+        observables, engine, method, dt, stiffness: as for `carom.run()`. Each run has its own copy of an observable of one's own.
         workers: how many threads run side by side; None: one for each processor.
         executor: in place of threads, anything with the interface of `concurrent.futures.Executor`: a ProcessPoolExecutor, an
             MPIPoolExecutor, `get_executor()` of a dask.distributed client.
@@ -164,8 +165,12 @@ def sweep(
     full = _full_keys(base, keys)
     scenes = [_scene_at(base, keys, full, point) for point in values]
     seed_list = _seeds(seeds, base)
-    if not (engine == "auto" and method is None and dt is None):
-        Simulation(scenes[0], engine=engine, method=method, dt=dt)  # whatever is wrong with these is said before anything runs
+    step = None if dt is None else _arguments.real(dt, "dt")
+    spring = None if stiffness is None else _arguments.real(stiffness, "stiffness")
+    if not (engine == "auto" and method is None and step is None and spring is None):
+        first_step = scenes[0]._core.sample_every if step is None and method is not None else step
+        # Whatever is wrong with these is said before anything runs.
+        Simulation(scenes[0], engine=engine, method=method, dt=first_step, stiffness=spring)
     if numbers is not None:
         from carom import _files
 
@@ -176,8 +181,7 @@ def sweep(
     if workers is not None:
         workers = _arguments.whole(workers, "workers", 1)
 
-    step = None if dt is None else _arguments.real(dt, "dt")
-    settings = {"engine": engine, "method": method, "dt": step, "observables": own}
+    settings = {"engine": engine, "method": method, "dt": step, "stiffness": spring, "observables": own}
     orders = [
         _Order(at, seed, tuple(value_text(point.get(key), key) if key in point else "" for key in keys), point_scene, settings)
         for at, (point, point_scene) in enumerate(zip(values, scenes, strict=True))

@@ -158,13 +158,30 @@ def test_a_run_that_fails_is_listed_and_the_others_go_on(gas):
         (lambda gas, **_: carom.sweep(gas, POINTS, workers=0), ValueError, "workers is 0; it must be from 1"),
         (lambda gas, **_: carom.sweep(gas, POINTS, numbers=["presure.Z"]), ValueError, 'did you mean "pressure.Z"'),
         (lambda gas, **_: carom.sweep(gas, POINTS, engine="slow"), ValueError, 'there is no engine "slow"'),
-        (lambda gas, **_: carom.sweep(gas, POINTS, method="naive"), ValueError, "needs both"),
+        (lambda gas, **_: carom.sweep(gas, POINTS, dt=0.1), ValueError, "needs both"),
+        (lambda gas, **_: carom.sweep(gas, POINTS, method="soft", dt="a"), TypeError, "dt is 'a'; give a number"),
+        (lambda gas, **_: carom.sweep(gas, POINTS, stiffness=1e4), ValueError, 'a stiffness is that of the springs of method="soft"'),
+        (lambda gas, **_: carom.sweep(gas, POINTS, method="naive", dt=0.1, stiffness=1e4), ValueError, "naive. has no springs"),
+        (lambda gas, **_: carom.sweep(gas, POINTS, method="soft", dt=0.1, stiffness=1e9), ValueError, "unstable|stable"),
     ],
 )
 def test_mistakes_are_told_before_anything_runs(gas, tmp_path, mistake, kind, sentence):
     with pytest.raises(kind, match=sentence) as caught:
         mistake(gas)
     assert "\n" not in str(caught.value)
+
+
+def test_soft_disks_are_swept(gas, tmp_path):
+    soft = {"method": "soft", "dt": 0.001, "stiffness": 2e4}
+    swept = carom.sweep(gas, {"run.time": [0.5]}, seeds=[3], out=tmp_path / "out", **soft)
+    assert swept.runs["state_hash"].tolist() == [carom.run(gas.set({"run.time": 0.5}), seed=3, **soft).state_hash]
+    with pytest.raises(carom.OutputError, match="these runs are of other arguments"):
+        carom.sweep(gas, {"run.time": [0.5]}, seeds=[3], out=tmp_path / "out", **{**soft, "stiffness": 1e4})
+
+
+def test_a_step_may_be_the_scenes_own(gas):
+    swept = carom.sweep(gas, {"run.time": [0.5]}, seeds=[3], method="swept")
+    assert swept.runs["state_hash"].tolist() == [carom.run(gas.set({"run.time": 0.5}), seed=3, method="swept").state_hash]
 
 
 def test_a_sweep_goes_on_and_takes_more_seeds_and_values(gas, tmp_path, swept):
