@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -43,6 +44,14 @@ def words(value: Any, name: str) -> str:
     except UnicodeEncodeError:
         raise ValueError(f"{name} is {value!r}; half of a pair of surrogates is no character") from None
     return value
+
+
+def path_text(value: Any, name: str) -> str:
+    """Returns a path as a string. Raises TypeError for what is none."""
+    try:
+        return words(os.fsdecode(value), name)
+    except TypeError:
+        raise TypeError(f"{name} is {value!r}; give a path") from None
 
 
 def _array(values: npt.ArrayLike, name: str, kinds: str, wanted: str) -> npt.NDArray[Any]:

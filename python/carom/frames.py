@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from os import PathLike, fspath
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from carom import _core
-from carom._arguments import numbers, pairs, real, whole, whole_pairs
+from carom._arguments import numbers, pairs, path_text, real, whole, whole_pairs
 from carom._errors import OutputError
 from carom.scene import Scene
 
@@ -253,11 +253,12 @@ class Frames:
 
     def save(self, path: str | PathLike[str]) -> None:
         """Writes all arrays and the scene into an .npz file, for `numpy.load()`."""
+        place = path_text(path, "path")
         arrays = {name: getattr(self, name) for name in ("time", "scale", "collisions", "virial", "radii", "species")} | self._sampled()
         try:
-            np.savez(fspath(path), scene=np.array(self.scene.toml), state_hash=np.array(self.state_hash), **arrays)
+            np.savez(place, scene=np.array(self.scene.toml), state_hash=np.array(self.state_hash), **arrays)
         except OSError as error:
-            raise OutputError(f"{fspath(path)}: cannot write the frames: {error.strerror}") from None
+            raise OutputError(f"{place}: cannot write the frames: {error.strerror}") from None
 
     def _sampled(self) -> dict[str, npt.NDArray[Any]]:
         """The arrays that were sampled and that the scene has."""

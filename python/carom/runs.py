@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import threading
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
 from os import PathLike, fspath
@@ -15,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import _core
-from carom._arguments import real, whole, words
+from carom._arguments import path_text, real, whole, words
 from carom._errors import Interrupted, OutputError
 from carom._events import events_in
 from carom._hdf5 import hdf5
@@ -56,7 +57,7 @@ class Result:
         saved: whether there is a checkpoint, from which `carom.resume(directory)` goes on.
     """
 
-    summary: dict[str, Any]
+    summary: dict[str, Any] = field(repr=False)
     observables: dict[str, Measurement]
     stopped: Stop
     state: State
@@ -238,7 +239,7 @@ def run(
             None if method is None else words(method, "method"),
             dt or 0.0,
             None if stiffness is None else real(stiffness, "stiffness"),
-            None if out is None else fspath(out),
+            None if out is None else path_text(out, "out"),
             bool(overwrite),
             own,
             None if checkpoint_every is None else words(checkpoint_every, "checkpoint_every"),
@@ -250,10 +251,8 @@ def run(
         teller = _teller(given, tell)
         if out is None:
             return _result(given, None, _beside(call, teller, bool(own)))
-        try:
+        with _sentences():
             return _result(given, Path(out), _beside(_with_files(call), teller, bool(own)))
-        except OutputError as error:
-            raise OutputError(str(error).replace("with --force", "with overwrite=True").replace("with --out", "with out=")) from None
 
 
 def resume(
@@ -289,7 +288,7 @@ def resume(
         own = list(observables)
         call = partial(
             _files.resume,
-            fspath(directory),
+            path_text(directory, "directory"),
             None if time is None else real(time, "time"),
             None if collisions is None else whole(collisions, "collisions"),
             own,
@@ -298,9 +297,31 @@ def resume(
             None if threads is None else whole(threads, "threads", least=1, most=32),
             report,
         )
-        parts = _beside(_with_files(call), teller, bool(own))
+        with _sentences():
+            parts = _beside(_with_files(call), teller, bool(own))
         scene = Scene.parse(json.loads(parts[0])["resolved_scene"])
         return _result(scene, Path(directory), parts)
+
+
+#: Words of the program's sentences about files, and what stands for them in Python.
+_IN_PYTHON = {
+    "with --force": "with overwrite=True",
+    "with --out": "with out=",
+    "--checkpoint-every has": "checkpoint_every= has",
+    "carom resume ": "carom.resume() of ",
+}
+
+
+@contextmanager
+def _sentences() -> Iterator[None]:
+    """Lets the program's sentences about files name arguments of Python in place of its options."""
+    try:
+        yield
+    except OutputError as error:
+        sentence = str(error)
+        for program, python in _IN_PYTHON.items():
+            sentence = sentence.replace(program, python)
+        raise OutputError(sentence) from None
 
 
 def _with_files(call: Callable[[Any], tuple[Any, ...]]) -> Callable[[Any], tuple[Any, ...]]:
@@ -421,18 +442,18 @@ class Run:
         import json
         from pathlib import Path
 
-        self.directory = Path(directory)
-        path = self.directory / "summary.json"
+        self.directory = Path(path_text(directory, "directory"))
+        file = self.directory / "summary.json"
         try:
-            self.summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+            self.summary: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
         except FileNotFoundError:
             raise OutputError(
                 f"{self.directory}: this is no directory of a finished run (no summary.json); name one that carom run has written"
             ) from None
         except OSError as error:
-            raise OutputError(f"{path}: cannot read this file: {error.strerror}") from None
+            raise OutputError(f"{file}: cannot read this file: {error.strerror}") from None
         except ValueError:
-            raise OutputError(f"{path}: this is not the summary of a run; copy it anew or run again") from None
+            raise OutputError(f"{file}: this is not the summary of a run; copy it anew or run again") from None
         self._reader: _files.RunReader | None = None
 
     def _open(self) -> _files.RunReader:
@@ -569,6 +590,9 @@ class StoredFrames:
 
     def __len__(self) -> int:
         return self.positions.shape[0]
+
+    def __repr__(self) -> str:
+        return f"<carom.StoredFrames in {self._path}>"
 
     def _dataset(self, name: str) -> StoredArray:
         return StoredArray(self._path, name)

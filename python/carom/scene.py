@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from os import PathLike, fspath
+from os import PathLike
 from os.path import dirname
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard, Union, cast
 
 import numpy as np
 
 from carom import _core
-from carom._arguments import numbers, pairs, words
+from carom._arguments import numbers, pairs, path_text, words
 from carom._errors import SceneError
 from carom._toml import scene_text, value_text
 
@@ -93,12 +93,14 @@ class Scene:
     @classmethod
     def load(cls, path: str | PathLike[str], overrides: list[str] | None = None) -> Scene:
         """Reads a scene file. `overrides` are those of the program's --set, such as "run.time=2"."""
-        return cls._of(_core.Scene.load(fspath(path), [words(entry, "an override") for entry in overrides or []]), dirname(fspath(path)) or ".")
+        place = path_text(path, "path")
+        return cls._of(_core.Scene.load(place, [words(entry, "an override") for entry in overrides or []]), dirname(place) or ".")
 
     @classmethod
     def parse(cls, text: str, directory: str | PathLike[str] = ".") -> Scene:
         """Reads a scene from TOML text. Start files that it names are searched in `directory`."""
-        return cls._of(_core.Scene.parse(words(text, "the text"), _MADE, [], fspath(directory)), fspath(directory))
+        place = path_text(directory, "directory")
+        return cls._of(_core.Scene.parse(words(text, "the text"), _MADE, [], place), place)
 
     @classmethod
     def preset(cls, name: str) -> Scene:

@@ -7,13 +7,13 @@ import os
 import warnings
 from collections.abc import Callable, Iterator
 from enum import StrEnum
-from os import PathLike, fspath
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from carom import _core
-from carom._arguments import numbers, pairs, real, whole, words
+from carom._arguments import numbers, pairs, path_text, real, whole, words
 from carom._errors import OutputError, SceneError, StoppedEarly
 from carom._events import Event, events_in
 from carom._progress import Progress, reporting
@@ -546,15 +546,16 @@ class Simulation:
         """Writes the simulation into a file from which `Simulation.load()` goes on to the same bits, with this build of carom."""
         import json
 
+        place = path_text(path, "path")
         if self._rule is not None:
             raise ValueError("a collision rule of one's own cannot be saved; set_collision_rule(None) takes it away")
-        part = f"{fspath(path)}.partial"
+        part = f"{place}.partial"
         try:
             with open(part, "wb") as file:
                 file.write(_MAGIC + json.dumps(self._made.parts()).encode() + b"\n" + self._core.save())
-            os.replace(part, path)
+            os.replace(part, place)
         except OSError as error:
-            raise OutputError(f"{fspath(path)}: cannot write the simulation: {error.strerror}") from None
+            raise OutputError(f"{place}: cannot write the simulation: {error.strerror}") from None
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Simulation:
@@ -562,17 +563,18 @@ class Simulation:
         import io
         import json
 
+        place = path_text(path, "path")
         try:
-            with open(path, "rb") as file:
+            with open(place, "rb") as file:
                 content = io.BytesIO(file.read())
         except OSError as error:
-            raise OutputError(f"{fspath(path)}: cannot read the simulation: {error.strerror}") from None
+            raise OutputError(f"{place}: cannot read the simulation: {error.strerror}") from None
         if content.read(len(_MAGIC)) != _MAGIC:
-            raise OutputError(f"{fspath(path)}: this was not written by Simulation.save()")
+            raise OutputError(f"{place}: this was not written by Simulation.save()")
         try:
             return _restored(json.loads(content.readline()), content.read(), None)
         except (RuntimeError, ValueError, TypeError) as error:
-            raise OutputError(f"{fspath(path)}: {error}") from None
+            raise OutputError(f"{place}: {error}") from None
 
     def __repr__(self) -> str:
         return f"<carom.Simulation of {self.count} disks at time {self.time:g}, {self.collisions} collisions, engine {self.engine}>"

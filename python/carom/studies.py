@@ -43,7 +43,7 @@ class Comparison:
         prices: a row for each method and target: processor time over that of the exact engine.
     """
 
-    summary: dict[str, Any]
+    summary: dict[str, Any] = field(repr=False)
     runs: Table = field(repr=False)
     prices: Table = field(repr=False)
     _text: str = field(repr=False)
@@ -95,6 +95,9 @@ class Comparison:
         """Returns the page that `carom compare` writes as report.html."""
         return Page(self._html)
 
+    def __repr__(self) -> str:
+        return f"<carom.Comparison: {self.sentences[0]}>"
+
     def __str__(self) -> str:
         return self._text.rstrip("\n")
 
@@ -112,7 +115,7 @@ class Difference:
             apart.
     """
 
-    summary: dict[str, Any]
+    summary: dict[str, Any] = field(repr=False)
     distances: Table = field(repr=False)
     _text: str = field(repr=False)
 
@@ -125,6 +128,9 @@ class Difference:
     def sentence(self) -> str:
         """Whether they are the same run, and up to where."""
         return self._text.split("\n", 1)[0]
+
+    def __repr__(self) -> str:
+        return f"<carom.Difference: {self.sentence}>"
 
     def __str__(self) -> str:
         return self._text.rstrip("\n")
@@ -146,7 +152,7 @@ class Horizon:
         lyapunov: the largest Lyapunov exponent, 1 / time; None where disks collide too rarely.
     """
 
-    summary: dict[str, Any]
+    summary: dict[str, Any] = field(repr=False)
     sentence: str
     rows: Table = field(repr=False)
     lyapunov: Number | None
@@ -192,7 +198,7 @@ class Validation:
         complete: whether every trial has run.
     """
 
-    summary: dict[str, Any]
+    summary: dict[str, Any] = field(repr=False)
     checks: Table = field(repr=False)
     sentence: str
     complete: bool
@@ -287,12 +293,10 @@ def diff(a: RunLike, b: RunLike) -> Difference:
 
 
 def _path_of(run: RunLike) -> str:
-    path = getattr(run, "directory", run)
-    if path is None:
+    directory = getattr(run, "directory", run)
+    if directory is None:
         raise ValueError("this run has written no files; give it out=\"directory\"")
-    if not isinstance(path, (str, PathLike)):
-        raise TypeError(f"{run!r} is no run; give the directory of one")
-    return fspath(path)
+    return _arguments.path_text(directory, "a run")
 
 
 def horizon(

@@ -74,6 +74,8 @@ MISTAKES_OF_SCENES: list[tuple[Callable[[carom.Scene], object], type[Exception],
     (lambda s: carom.Scene(GAS, disks={**DISKS, "positions": np.array([None])}), TypeError, "disks.0.positions: an array of obj"),
     (lambda s: carom.Scene.parse(5), TypeError, "the text is 5; give a string"),
     (lambda s: carom.Scene.load("nowhere.toml"), carom.SceneError, "nowhere.toml: there is no such file"),
+    (lambda s: carom.Scene.load(5), TypeError, "path is 5; give a path"),
+    (lambda s: carom.Scene.load("\udcff.toml"), ValueError, r"path is '\\udcff.toml'; half of a pair"),
     (lambda s: carom.Scene.preset("bix"), ValueError, 'there is no preset "bix"; did you mean "box"'),
     (lambda s: s.set({"run.tim": 1}), carom.SceneError, r'\[run\] has no key "tim"; did you mean "time"'),
     (lambda s: s.set({"disks.7.radius": 1}), carom.SceneError, "disks has 1 entry, numbered from 0"),
@@ -152,6 +154,7 @@ MISTAKES_OF_SIMULATIONS: list[tuple[Callable[[carom.Simulation], object], type[E
     (lambda sim: sim.set_velocities(np.full((12, 2), 1e300)), carom.SceneError, "^the heaviest disk .* overflows"),
     (lambda sim: sim.set_velocities(np.zeros((12, 2)), spins=np.zeros(12)), ValueError, "12 spins are given for 0 disks that spin"),
     (lambda sim: sim.set_collision_rule(5), TypeError, "the collision rule is 5; give a function"),
+    (lambda sim: sim.save(5), TypeError, "path is 5; give a path"),
     (lambda sim: sim.save("/nowhere/x"), carom.OutputError, "/nowhere/x: cannot write the simulation: No such file"),
     (lambda sim: sim.animate(0), ValueError, "frames are 0 apart"),
 ]
@@ -188,6 +191,7 @@ MISTAKES_OF_RUNS: list[tuple[dict[str, object], type[Exception], str]] = [
     ({"walltime": -1}, ValueError, "walltime is -1 s; it must be positive"),
     ({"walltime": "soon"}, ValueError, "give a length of time such as 90s"),
     ({"checkpoint_every": "1min"}, ValueError, 'give out="directory" too'),
+    ({"out": 5}, TypeError, "out is 5; give a path"),
     ({"out": "/dev/null"}, carom.OutputError, "/dev/null: this is a file, and the results need a directory"),
     ({"progress": 5}, TypeError, "progress is 5; give True, False, or a function"),
 ]
@@ -198,6 +202,23 @@ def test_a_mistake_about_a_run_is_told(gas: carom.Scene, arguments, kind, senten
     with pytest.raises(kind, match=sentence) as raised:
         carom.run(gas, **arguments)
     one_sentence(raised.value)
+
+
+def test_a_run_that_cannot_go_on_is_told_in_words_of_python(gas: carom.Scene, tmp_path: Path) -> None:
+    carom.run(gas, out=tmp_path / "done")
+    stopped = carom.run(gas.set({"run.time": 1e7, "run.sample_every": 1e5}), out=tmp_path / "stopped", walltime=0.1)
+    assert stopped.saved
+    for mistake, sentence in (
+        (lambda: carom.resume(tmp_path / "done"), "there is no checkpoint from which a run could go on; checkpoint_every= has"),
+        (lambda: carom.run(gas, out=tmp_path / "done"), "replace it with overwrite=True, or name another directory with out="),
+        (lambda: carom.run(gas, out=tmp_path / "stopped"), "overwrite=True, or name another directory with out="),
+        (lambda: carom.resume(tmp_path / "nowhere"), "there is no such directory"),
+        (lambda: carom.open_run(tmp_path / "nowhere"), "this is no directory of a finished run"),
+    ):
+        with pytest.raises(carom.OutputError, match=sentence) as raised:
+            mistake()
+        one_sentence(raised.value)
+        assert "--" not in str(raised.value)
 
 
 def one_sentence(error: BaseException) -> None:

@@ -104,7 +104,7 @@ def test_a_run_is_the_same_as_itself_however_it_is_named(two_runs):
     "other, kind, sentence",
     [
         ("nowhere", carom.OutputError, "nowhere: "),
-        (5, TypeError, "5 is no run; give the directory of one"),
+        (5, TypeError, "a run is 5; give a path"),
         (lambda scene: carom.run(scene), ValueError, 'this run has written no files; give it out="directory"'),
     ],
 )
