@@ -1,5 +1,6 @@
 #include "observe/mechanics.hpp"
 
+#include "core/wide.hpp"
 #include "observe/energy.hpp"
 #include "scene/mean_flow.hpp"
 #include "scene/walls.hpp"
@@ -12,20 +13,21 @@ namespace carom {
 
 // Sums are taken in extended precision: a sum over a million disks is then good to the last digit, and what is left of
 // an energy drift is the engine's.
+using detail::Wide;
 
 double kinetic_energy(const Disks& disks, const State& state) {
-  long double sum = 0.0L;
+  Wide sum = 0.0;
   for (std::size_t i = 0; i < disks.count(); ++i) {
-    const auto v = state.velocities.col(static_cast<Eigen::Index>(i)).cast<long double>();
-    sum += 0.5L * static_cast<long double>(disks.mass[i]) * (v[0] * v[0] + v[1] * v[1]);
+    const auto v = state.velocities.col(static_cast<Eigen::Index>(i)).cast<Wide>();
+    sum += 0.5 * static_cast<Wide>(disks.mass[i]) * (v[0] * v[0] + v[1] * v[1]);
   }
   return static_cast<double>(sum);
 }
 
 Eigen::Vector2d total_momentum(const Disks& disks, const State& state) {
-  Eigen::Matrix<long double, 2, 1> sum(0.0L, 0.0L);
+  Eigen::Matrix<Wide, 2, 1> sum(0.0, 0.0);
   for (std::size_t i = 0; i < disks.count(); ++i) {
-    sum += static_cast<long double>(disks.mass[i]) * state.velocities.col(static_cast<Eigen::Index>(i)).cast<long double>();
+    sum += static_cast<Wide>(disks.mass[i]) * state.velocities.col(static_cast<Eigen::Index>(i)).cast<Wide>();
   }
   return sum.cast<double>();
 }
@@ -79,11 +81,10 @@ Eigen::Matrix2Xd velocities_in_flow(const Box& box, const Effects& effects, cons
 
 double momentum_flow_xy(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
   const Eigen::Matrix2Xd u = velocities_in_flow(box, effects, disks, state);
-  long double sum = 0.0L;
+  Wide sum = 0.0;
   for (std::size_t i = 0; i < disks.count(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    sum +=
-        static_cast<long double>(disks.mass[i]) * static_cast<long double>(u(0, column)) * static_cast<long double>(u(1, column));
+    sum += static_cast<Wide>(disks.mass[i]) * static_cast<Wide>(u(0, column)) * static_cast<Wide>(u(1, column));
   }
   return static_cast<double>(sum);
 }
