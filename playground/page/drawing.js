@@ -2,7 +2,7 @@
 "use strict";
 
 const colourings = {
-  speed: { prepare: () => {}, value: (i) => Math.hypot(run.vx[i], run.vy[i]) / (2.5 * run.speedScale), ends: () => ["0", `≥ ${short(2.5 * run.speedScale)}`], unit: "length / time" },
+  speed: { prepare: () => {}, value: (i) => Math.sqrt(run.vx[i] ** 2 + run.vy[i] ** 2) / (2.5 * run.speedScale), ends: () => ["0", `≥ ${short(2.5 * run.speedScale)}`], unit: "length / time" },
   energy: { prepare: () => {}, value: (i) => (run.mass[i] * (run.vx[i] ** 2 + run.vy[i] ** 2)) / (6 * Math.max(run.numbers[at.kT], 1e-300)), ends: () => ["0", `≥ ${short(3 * run.numbers[at.kT])}`], unit: "energy" },
   species: { isKind: true },
   direction: { prepare: () => {}, isWheel: true, value: (i) => Math.atan2(run.vy[i], run.vx[i]) / (2 * Math.PI) + 0.5 },
@@ -44,7 +44,9 @@ function fill(x, y, pane, marks) {
   const colouring = colourings[settings.colour];
   const scale = run.numbers[at.scale] * view.scale;
   const colours = colourCount();
-  const isOwn = x === run.x;
+  const own = [run.vx, run.vy];
+  // The twin's colours are those of its own speeds.
+  if (x !== run.x) [run.vx, run.vy] = [2, 3].map((k) => run.twin.subarray(k * count, (k + 1) * count));
   let at4 = 0;
   const put = (px, py, r, colour) => {
     if (at4 + 4 > instances.length) {
@@ -66,7 +68,7 @@ function fill(x, y, pane, marks) {
     const px = pixelX(x[i], pane);
     const py = pixelY(y[i], pane);
     const r = Math.max(run.radius[i] * scale, 1.5);
-    const share = colouring.isKind ? run.species[i] % kinds.length : Math.max(0, Math.min(colours - 1, Math.floor((isOwn ? colouring.value(i) : twinValue(i, colouring)) * colours))) || 0;
+    const share = colouring.isKind ? run.species[i] % kinds.length : Math.max(0, Math.min(colours - 1, Math.floor(colouring.value(i) * colours))) || 0;
     const colour = marks?.[i] ? colours : share;
     put(px, py, r, colour);
     // The images of a disk that an edge of a periodic box cuts.
@@ -77,17 +79,8 @@ function fill(x, y, pane, marks) {
     // Images above and below are shifted under shear, and may then be cut by the sides.
     for (const more of across !== 0 || shift !== 0 ? [-1, 0, 1] : [0]) put(px - up * shift + more * width, py + up * height, r, colour);
   }
+  [run.vx, run.vy] = own;
   return at4 / 4;
-}
-/// The twin's colours are those of its own speeds.
-function twinValue(i, colouring) {
-  const [vx, vy] = [run.vx, run.vy];
-  const count = run.x.length;
-  run.vx = run.twin.subarray(2 * count, 3 * count);
-  run.vy = run.twin.subarray(3 * count, 4 * count);
-  const value = colouring.value(i);
-  [run.vx, run.vy] = [vx, vy];
-  return value;
 }
 
 /// The box in a pane's pixels: its edges, or what of it is to be seen.
@@ -112,9 +105,7 @@ function draw() {
     colouring.prepare();
     psiAt = performance.now();
   }
-  let largest = 0;
-  for (const r of run.radius) if (r > largest) largest = r;
-  const isOutlined = largest * run.numbers[at.scale] * view.scale > 3;
+  const isOutlined = run.largest * run.numbers[at.scale] * view.scale > 3;
   drawer.begin();
   panes.forEach((pane, k) => {
     const count = run.x.length;
@@ -126,8 +117,15 @@ function draw() {
 }
 
 const pen = overlay.getContext("2d");
+let overlayShown = "";  // what it was drawn from; empty where it has to be drawn again
+onDescription.push(() => (overlayShown = ""));
 
+/// Draws what is above the disks, where anything of it is other than before.
 function drawOverlay() {
+  const moves = settings.arrows || settings.followed >= 0 || run.lastEvent || trails.points.length > 0 || pointer.isDown;
+  const from = moves ? "" : [...Object.values(view), panes.length, ...run.numbers.subarray(at.left, at.top + 1), theme.isDark, language].join();
+  if (from !== "" && from === overlayShown) return;
+  overlayShown = from;
   pen.setTransform(1, 0, 0, 1, 0, 0);
   pen.clearRect(0, 0, overlay.width, overlay.height);
   pen.setTransform(view.density, 0, 0, view.density, 0, 0);

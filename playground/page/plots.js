@@ -3,6 +3,8 @@
 
 const lineColours = () => [theme.accent, theme.second, theme.muted];
 
+const powerOfTen = (power) => `10${[...String(power)].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻").join("")}`;
+
 /// Returns a number with at most `digits` digits: 1.5, 0.00123, 1.2·10⁵.
 function short(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
@@ -10,8 +12,7 @@ function short(value, digits = 3) {
   const size = Math.abs(value);
   if (size >= 1e6 || size < 1e-4) {
     const [head, power] = value.toExponential(digits - 1).split("e");
-    const raised = [...String(Number(power))].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻").join("");
-    return `${head}·10${raised}`;
+    return `${head}·${powerOfTen(Number(power))}`;
   }
   const rounded = Number(value.toPrecision(digits));
   return size >= 1e4 ? rounded.toLocaleString(language) : String(rounded);
@@ -66,7 +67,7 @@ function axes({ context, width, height }, [x0, x1], [y0, y1], { isLog = false, x
     context.moveTo(left, Math.round(toY(y)) + 0.5);
     context.lineTo(width - 6, Math.round(toY(y)) + 0.5);
     context.stroke();
-    context.fillText(isLog ? `10${[...String(y)].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻").join("")}` : short(y), left - 5, toY(y) + 4);
+    context.fillText(isLog ? powerOfTen(y) : short(y), left - 5, toY(y) + 4);
   }
   context.textAlign = "center";
   const marks = ticks(x0, x1, 4);
@@ -88,7 +89,7 @@ function drawSpeeds() {
   const bins = 30;
   const counts = new Float64Array(bins);
   for (let i = 0; i < disks; ++i) {
-    const bin = Math.floor((Math.hypot(run.vx[i], run.vy[i]) / range) * bins);
+    const bin = Math.floor((Math.sqrt(run.vx[i] ** 2 + run.vy[i] ** 2) / range) * bins);
     if (bin < bins) ++counts[bin];
   }
   const perBin = range / bins;

@@ -1,4 +1,4 @@
-// The stage: disks by WebGL where there is one, by the browser's circles elsewhere; walls, obstacles and tools on a canvas above.
+// The stage: disks by WebGL where there is one, pixel by pixel elsewhere; walls, obstacles and tools on a canvas above.
 "use strict";
 
 const stage = document.getElementById("stage");
@@ -31,8 +31,7 @@ function fitView() {
   if (!run.description) return;
   const { lower, upper } = run.description;
   const [left, right, bottom, top] = run.extent ?? [lower[0], upper[0], lower[1], upper[1]];
-  const margin = view.width < 600 ? 0.95 : 0.9;
-  view.scale = margin * Math.min(panes[0].width / (right - left), panes[0].height / (top - bottom));
+  view.scale = 0.9 * Math.min(panes[0].width / (right - left), panes[0].height / (top - bottom));
   view.x = (left + right) / 2;
   view.y = (bottom + top) / 2;
 }
@@ -137,67 +136,31 @@ class WebGLDisks {
   }
 }
 
-const canvas = stage;  // as raster.js calls it
 const blueGreenRed = (text) => parseInt(text.slice(5, 7) + text.slice(3, 5) + text.slice(1, 3), 16);
 
-/// Draws disks as the browser's circles, one path per colour; more than a thousand pixel by pixel, which is faster.
+/// Draws disks pixel by pixel, on a canvas.
 class CanvasDisks {
   constructor(canvas) {
     this.context = canvas.getContext("2d");
     this.name = "canvas";
-    this.colours = [];
   }
   begin() {
-    this.context.setTransform(1, 0, 0, 1, 0, 0);
     this.context.clearRect(0, 0, stage.width, stage.height);
-    this.context.setTransform(view.density, 0, 0, view.density, 0, 0);
   }
   setPalette(colours) {
     this.colours = colours;
   }
   draw(instances, count, clip, isOutlined, isDark) {
-    const { context } = this;
-    context.save();
-    context.beginPath();
-    context.rect(clip.left, clip.top, clip.width, clip.height);
-    context.clip();
-    if (count > 1000) this.drawPixels(instances, count, clip, isOutlined, isDark);
-    else this.drawPaths(instances, count, clip, isOutlined, isDark);
-    context.restore();
-  }
-  drawPixels(instances, count, clip, isOutlined, isDark) {
-    clearRaster();
+    const d = view.density;
+    const [left, top] = [Math.round(d * clip.left), Math.round(d * clip.top)];
+    const [width, height] = [Math.round(d * (clip.left + clip.width)) - left, Math.round(d * (clip.top + clip.height)) - top];
+    if (!(width > 0 && height > 0)) return;
+    clearRaster(width, height);
     const insides = this.colours.map(blueGreenRed);
     const rims = isOutlined ? this.colours.map((text) => blueGreenRed(mixed(text, isDark ? "#ffffff" : "#000000", 0.35))) : insides;
-    const d = view.density;
-    for (let k = 0; k < 4 * count; k += 4) {
-      const x = instances[k];
-      const y = instances[k + 1];
-      const r = instances[k + 2];
-      if (x + r < clip.left || x - r > clip.left + clip.width || y + r < clip.top || y - r > clip.top + clip.height) continue;
-      rasterCircle(d * x, d * y, d * r, insides[instances[k + 3]], rims[instances[k + 3]], 255);
-    }
-    raster.context.putImageData(raster.image, 0, 0);
-    this.context.setTransform(1, 0, 0, 1, 0, 0);
-    this.context.drawImage(raster.canvas, 0, 0);
-  }
-  drawPaths(instances, count, clip, isOutlined, isDark) {
-    const { context } = this;
-    const paths = this.colours.map(() => new Path2D());
-    for (let i = 0; i < count; ++i) {
-      const [x, y, r, colour] = instances.subarray(4 * i, 4 * i + 4);
-      if (x + r < clip.left || x - r > clip.left + clip.width || y + r < clip.top || y - r > clip.top + clip.height) continue;
-      const path = paths[colour];
-      path.moveTo(x + r, y);
-      path.arc(x, y, r, 0, 2 * Math.PI);
-    }
-    context.lineWidth = 1;
-    context.strokeStyle = isDark ? "#ffffff60" : "#00000060";
-    paths.forEach((path, k) => {
-      context.fillStyle = this.colours[k];
-      context.fill(path);
-      if (isOutlined) context.stroke(path);
-    });
+    for (let k = 0; k < 4 * count; k += 4)
+      rasterCircle(d * instances[k] - left, d * instances[k + 1] - top, d * instances[k + 2], insides[instances[k + 3]], rims[instances[k + 3]], 255);
+    this.context.putImageData(raster.image, left, top);
   }
 }
 
@@ -211,14 +174,14 @@ function hasGraphicsCard() {
   return !/swiftshader|llvmpipe|softpipe|software|basic render/i.test(renderer);
 }
 
-/// WebGL where a graphics card does it: what imitates one is slower than the canvas. `?draw=canvas` and `?draw=webgl` ask for one.
+/// WebGL where a graphics card does it: what imitates one is slower than pixel by pixel. `?draw=canvas` and `?draw=webgl` ask for one.
 function disksDrawer() {
   const asked = parameters.get("draw");
   if (asked === "webgl" || (asked !== "canvas" && hasGraphicsCard())) {
     try {
       return new WebGLDisks(stage);
     } catch (error) {
-      console.info(`drawing by the browser's circles: ${error.message}`);
+      console.info(`drawing on a canvas: ${error.message}`);
     }
   }
   return new CanvasDisks(stage);

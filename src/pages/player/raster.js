@@ -5,16 +5,55 @@
 const raster = { canvas: new OffscreenCanvas(1, 1), image: null, pixels: null };
 raster.context = raster.canvas.getContext("2d");
 
-/// Makes the raster as large as the canvas, and empty.
-function clearRaster() {
-  if (raster.image && raster.image.width === canvas.width && raster.image.height === canvas.height) {
+/// Makes the raster as large as it is told, and empty.
+function clearRaster(width, height) {
+  if (raster.image && raster.image.width === width && raster.image.height === height) {
     raster.pixels.fill(0);
     return;
   }
-  raster.canvas.width = canvas.width;
-  raster.canvas.height = canvas.height;
-  raster.image = raster.context.createImageData(canvas.width, canvas.height);
+  raster.canvas.width = width;
+  raster.canvas.height = height;
+  raster.image = raster.context.createImageData(width, height);
   raster.pixels = new Uint32Array(raster.image.data.buffer);
+  stamps.clear();
+}
+
+const stamps = new Map();  // the pixels of small circles, by radius and place within a pixel, all in eighths of a pixel
+
+/// Returns the pixels of a circle, counted from the one that its middle is in: those inside, and those at the edge with their coverage.
+function stampOf(eighths, across, down) {
+  const key = (eighths * 8 + down) * 8 + across;
+  const known = stamps.get(key);
+  if (known) return known;
+  const r = eighths / 8;
+  const inside = [];
+  const edge = [];
+  const shares = [];
+  for (let row = -eighths; row <= eighths; ++row) {
+    for (let column = -eighths; column <= eighths; ++column) {
+      const square = (column + 0.5 - (across + 0.5) / 8) ** 2 + (row + 0.5 - (down + 0.5) / 8) ** 2;
+      if (square >= (r + 0.5) ** 2) continue;
+      if (r >= 1 && square <= (r - 1) ** 2) inside.push(row * raster.image.width + column);
+      else edge.push(row * raster.image.width + column) && shares.push(Math.round(255 * Math.min(r + 0.5 - Math.sqrt(square), 1)));
+    }
+  }
+  const made = { inside: Int32Array.from(inside), edge: Int32Array.from(edge), shares: Uint8Array.from(shares) };
+  stamps.set(key, made);
+  return made;
+}
+
+/// Fills a small circle that is whole within the raster: within a sixteenth of a pixel as rasterCircle() does, several times as fast.
+function stampCircle(x, y, r, colour, rim) {
+  const { pixels } = raster;
+  const [column, row] = [Math.floor(x), Math.floor(y)];
+  const { inside, edge, shares } = stampOf(Math.round(8 * r), Math.floor(8 * (x - column)), Math.floor(8 * (y - row)));
+  const middle = row * raster.image.width + column;
+  const whole = (0xff000000 | colour) >>> 0;
+  for (let k = 0; k < inside.length; ++k) pixels[middle + inside[k]] = whole;
+  for (let k = 0; k < edge.length; ++k) {
+    const share = shares[k];
+    if (share > pixels[middle + edge[k]] >>> 24) pixels[middle + edge[k]] = ((share << 24) | rim) >>> 0;
+  }
 }
 
 /// Fills a circle, with its outermost pixels in the colour of the rim. The coverage of a pixel follows from the distance of its
@@ -22,6 +61,8 @@ function clearRaster() {
 function rasterCircle(x, y, r, colour, rim, opacity) {
   const { width, height } = raster.image;
   const { pixels } = raster;
+  const reach = r + 2;
+  if (r < 8 && opacity === 255 && x > reach && x < width - reach && y > reach && y < height - reach) return stampCircle(x, y, r, colour, rim);
   const inner = Math.max(r - 1, 0) ** 2;
   const outer = (r + 0.5) ** 2;
   const left = Math.max(Math.floor(x - r - 0.5), 0);
@@ -45,7 +86,7 @@ function rasterCircle(x, y, r, colour, rim, opacity) {
 }
 
 function rasterDisks(moment, shifts, frame) {
-  clearRaster();
+  clearRaster(canvas.width, canvas.height);
   const { density } = view;
   const number = (text) => parseInt(text.slice(5, 7) + text.slice(3, 5) + text.slice(1, 3), 16);  // blue, green, red
   const numbers = colours.map(number);
