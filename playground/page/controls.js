@@ -219,7 +219,6 @@ function fillLists() {
 }
 
 // The speed of time: steps of 1, 2, 5 per decade round the usual rate.
-const rateSteps = 60;
 const rateOf = (position) => usualRate() * 10 ** (position / 20);
 function showRate() {
   byId("rate").value = Math.round(20 * Math.log10(run.rate / usualRate()));

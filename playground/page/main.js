@@ -268,7 +268,7 @@ async function begin() {
   connect();
   connectKeyboard();
   connectPointer();
-  chooseTool(stillScreen.matches ? "hand" : "hand");
+  chooseTool("hand");
   layOut(false);
   requestAnimationFrame(animate);
   const wasm = await inflated(byId("wasm").textContent);

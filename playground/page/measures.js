@@ -117,7 +117,7 @@ function enskogPath() {
 }
 
 // Paths of the disk that is followed, or of all in scenes of a few.
-const trails = { points: [], every: 0 };
+const trails = { points: [] };
 const longestTrail = 240;
 function forgetTrails() {
   trails.points = [];

@@ -37,7 +37,7 @@ function showNumbers() {
   byId("Zrow").hidden = byId("factorRow").hidden = !isZ;
   byId("theoryRow").hidden = byId("theoryOfZ").hidden = !isTheory;
   byId("noZ").hidden = isZ;
-  if (!isZ) byId("noZ").textContent = t("noZ", { why: d.whyNoZ });
+  if (!isZ) byId("noZ").textContent = t("noZ", { why: told(d.whyNoZ) });
   if (m && isZ) {
     put("pressure", withError(m.pressure, m.pressure_error), "energy / length²");
     put("Z", withError(m.Z, m.Z_error));
@@ -56,7 +56,6 @@ function showNumbers() {
   }
   const theoryPath = enskogPath();
   put("path", `${short(n[at.path])}${theoryPath ? ` (${t("enskog")} ${short(theoryPath)})` : ""}`, "length");
-  byId("drop").hidden = true;
 
   put("overlaps", `${grouped(n[at.overlapping])}`);
   put("missed", run.fault ? run.fault : t(run.checks > 0 ? "missedNone" : "missedUnchecked", { count: run.checks }));
@@ -95,8 +94,6 @@ async function showHash() {
   hashTimer = setTimeout(async () => {
     try {
       const { hash } = await run.engine.ask("hash");
-      run.hash = hash;
-      run.hashTime = run.numbers[at.time];
       put("hash", hash);
     } catch (error) {
       notify(error.message);

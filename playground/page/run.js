@@ -11,7 +11,7 @@ const run = {
   toml: "",
   overrides: [],
   description: null,
-  radius: new Float64Array(), mass: new Float64Array(), species: new Float64Array(),
+  radius: new Float64Array(), mass: new Float64Array(), species: new Float64Array(), largest: 0,
   x: new Float64Array(), y: new Float64Array(), vx: new Float64Array(), vy: new Float64Array(),
   numbers: new Float64Array(26),
   measured: null, histogram: null,
@@ -21,9 +21,8 @@ const run = {
   isStale: true,
   rate: 1,            // simulated time per second
   speedScale: 1,      // root mean square speed at the start
-  pairsPerSecond: 0, spent: 0, isLate: false,
+  pairsPerSecond: 0, isLate: false,
   checks: 0, fault: "",
-  hash: "", hashTime: -1,
   lastEvent: null,
 };
 
@@ -33,6 +32,7 @@ function take(told) {
     const d = told.description;
     run.description = d;
     Object.assign(run, { radius: told.radius, mass: told.mass, species: told.species });
+    run.largest = told.radius.reduce((largest, r) => Math.max(largest, r), 0);
     disks = d.disks;
     box = { lower: d.lower, upper: d.upper, periodic: d.periodic, lengths: [d.upper[0] - d.lower[0], d.upper[1] - d.lower[1]] };
     onDescription.forEach((listener) => listener(d));
@@ -69,8 +69,8 @@ const changeRun = (body) => act("apply", { body });
 async function loadText(scene, toml, { overrides = [], changes = "", start = {} } = {}) {
   const told = await run.engine.ask("load", { toml, source: scene.id, overrides });
   Object.assign(run, {
-    scene, toml, overrides, start, measured: null, histogram: null, twin: null, twinNumbers: null, twinMarks: null, extent: null, lastEvent: null, checks: 0, fault: "", hash: "",
-    hashTime: -1, isLate: false, pairsPerSecond: 0,
+    scene, toml, overrides, start, measured: null, histogram: null, twin: null, twinNumbers: null, twinMarks: null, extent: null, lastEvent: null, checks: 0, fault: "",
+    isLate: false, pairsPerSecond: 0,
   });
   take(told);
   if (changes) await run.engine.ask("replay", { changes });
@@ -104,17 +104,18 @@ function play(isPlaying = !run.isPlaying) {
 }
 
 let isAsked = false;  // a frame is on its way
+let isDue = false;    // the screen has asked for another since
+let resting = 0;      // those who wait until none is on its way
 let askedAt = 0;
 let measuredAt = 0;
 
 /// Asks for the next frame where the run goes on and none is on its way.
 async function goOn(now) {
-  if (!run.isPlaying || isAsked) {
-    if (!run.isPlaying) askedAt = now;
-    return;
-  }
+  if (!run.isPlaying) askedAt = now;
+  isDue = isAsked;
+  if (!run.isPlaying || isAsked || resting > 0) return;
   isAsked = true;
-  const seconds = Math.min((now - askedAt) / 1000, 0.1);
+  const seconds = Math.min(Math.max(now - askedAt, 0) / 1000, 0.1);
   askedAt = now;
   const isMeasured = now - measuredAt > 200;
   if (isMeasured) measuredAt = now;
@@ -122,7 +123,6 @@ async function goOn(now) {
     const told = await run.engine.ask("frame", { time: run.rate * seconds, budget: 14, about: { measured: isMeasured, histogram: isMeasured } });
     take(told);
     run.isLate = told.status === 1;
-    run.spent = told.spent;
     const share = 0.1;
     if (seconds > 0) run.pairsPerSecond += share * (told.happened / seconds - run.pairsPerSecond);
     if (told.status === 2) {
@@ -137,11 +137,14 @@ async function goOn(now) {
     notify(error.message);
   }
   isAsked = false;
+  if (isDue) goOn(performance.now());  // it came late: the engine does not wait for the screen too
 }
 
-/// Waits until the frame that is on its way has come.
+/// Waits until the frame that is on its way has come; no other is asked for meanwhile.
 async function rest() {
+  ++resting;
   while (isAsked) await new Promise((resolve) => setTimeout(resolve, 2));
+  --resting;
 }
 
 async function stepOn() {
