@@ -100,6 +100,30 @@ TEST(LiveRun, SetsWhatTheSceneWouldHaveSaid) {
   EXPECT_EQ(twin.state().positions, state_of(run).positions);
 }
 
+TEST(LiveRun, LetsAWallMoveThatWouldMeetTheOtherByTheEndOfTheRun) {
+  Scene scene = walled_gas("", 2);
+  scene.overrides = {"run.time=1000"};
+  LiveRun run(scene);
+  run.apply({1.0, SetKeys{{"walls.right={ velocity = -1 }"}}});
+  run.apply({2.0, SetKeys{{"walls.right={ velocity = 0 }"}}});
+  EXPECT_EQ(state_of(run).walls[1].position, 9.0);
+}
+
+TEST(LiveRun, ChangesWhatIsSheared) {
+  LiveRun run(parse_scene(
+      "box = { x = [0, 10], y = [0, 10], boundary = \"periodic\" }\ncollision = { rule = \"specular\" }\nshear = { rate = 0.3 }\n"
+      "run = { time = 4 }\n[[disks]]\ncount = 60\nradius = 0.4\nmass = 1\npositions = \"random\"\n"
+      "velocities = { temperature = 1 }\n"));
+  for (int k = 1; k <= 8; ++k) {
+    run.apply({0.25 * k, SetKeys{{"shear.rate=0." + std::to_string(k)}}});
+    run.apply({0.25 * k, RemoveDisk{k}});
+  }
+  const State state = state_of(run);
+  EXPECT_GT(state.shear_displacement, 0.0);
+  EXPECT_THROW(run.apply({2.0, AddDisk{0, state.positions.col(7)}}), SceneError);
+  EXPECT_EQ(run.changes().size(), 16U);
+}
+
 TEST(LiveRun, LetsDisksComeAndGo) {
   LiveRun run(walled_gas("", 3));
   run.run_until(0.5);
