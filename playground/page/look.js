@@ -24,7 +24,7 @@ let noticeTimer = 0;
 /// Says a sentence above the disks, for some seconds.
 function notify(sentence, isGood = false) {
   const note = byId("notice");
-  note.textContent = sentence;
+  note.textContent = told(sentence);
   note.classList.toggle("good", isGood);
   note.hidden = false;
   clearTimeout(noticeTimer);

@@ -11,6 +11,13 @@ function t(key, values = {}) {
   return text.replace(/\{(\w+)\}/g, (_, name) => values[name] ?? "");
 }
 
+/// Returns a sentence of the engine in the reader's language where texts/ has it: its key has # for each number, its text {0}, {1} and so on.
+function told(sentence) {
+  const values = [];
+  const key = sentence.replace(/-?\d+(?:\.\d+)?(?:e[-+]?\d+)?/g, (number) => (values.push(short(Number(number), 4)), "#"));
+  return texts[language][key] ?? texts.en[key] ? t(key, values) : sentence;
+}
+
 /// Fills in the texts of the page: data-t is the key of what an element says, data-t-title of its title and its label.
 function translatePage() {
   document.documentElement.lang = language;
