@@ -303,9 +303,15 @@ class Session {
     return 0;
   }
 
-  /// Runs to the next event.
+  /// Runs to the next event; the changes of the list on the way are made.
   std::optional<Event> step() {
-    const std::optional<Event> event = run_.step(run_.time() + 1e4 * crossing_);
+    const double end = run_.time() + 1e4 * crossing_;
+    const auto until = [&] { return pending_.empty() ? end : std::min(std::max(pending_.front().time, run_.time()), end); };
+    std::optional<Event> event = run_.step(until());
+    while (!event && run_.time() < end && !pending_.empty()) {
+      apply_pending();
+      event = run_.step(until());
+    }
     begin_measuring();
     return event;
   }
@@ -712,9 +718,8 @@ EMSCRIPTEN_KEEPALIVE const char* carom_twin_numbers() {
     const State state = twin->state();
     const playground::Overlaps found = playground::overlaps_of(twin->scene().box, twin->disks(), state, overlapping);
     here().deepest() = std::max(here().deepest(), found.deepest);
-    return fmt::format("{{\"overlapping\":{},\"deepest\":{},\"collisions\":{},\"energy\":{},\"late\":{}}}", found.pairs,
-                       json_number(here().deepest()), twin->counts().pair, json_number(kinetic_energy(twin->disks(), state)),
-                       json_number(here().run().time() - twin->time()));
+    return fmt::format("{{\"overlapping\":{},\"deepest\":{},\"collisions\":{},\"energy\":{}}}", found.pairs,
+                       json_number(here().deepest()), twin->counts().pair, json_number(kinetic_energy(twin->disks(), state)));
   });
 }
 EMSCRIPTEN_KEEPALIVE const std::uint8_t* carom_twin_overlapping() { return overlapping.data(); }

@@ -1,7 +1,13 @@
 // What the pointer does on the stage: look, throw a disk in, take one out, move one, draw a wall, take one away.
 "use strict";
 
-const pointer = { isDown: false, x: 0, y: 0, startX: 0, startY: 0, disk: -1, id: null, others: new Map() };
+const pointer = { isDown: false, x: 0, y: 0, startX: 0, startY: 0, disk: -1, others: new Map() };
+
+/// The distance of a place from the middle of a disk, the short way round where the box is periodic.
+function distanceFrom(i, x, y) {
+  const [dx, dy] = [x - run.x[i], y - run.y[i]].map((d, axis) => (box.periodic[axis] ? d - Math.round(d / box.lengths[axis]) * box.lengths[axis] : d));
+  return Math.hypot(dx, dy);
+}
 
 /// The disk under a place, or -1.
 function diskAt(x, y) {
@@ -9,11 +15,7 @@ function diskAt(x, y) {
   let best = -1;
   let nearest = Infinity;
   for (let i = 0; i < disks; ++i) {
-    let dx = x - run.x[i];
-    let dy = y - run.y[i];
-    if (box.periodic[0]) dx -= Math.round(dx / box.lengths[0]) * box.lengths[0];
-    if (box.periodic[1]) dy -= Math.round(dy / box.lengths[1]) * box.lengths[1];
-    const distance = Math.hypot(dx, dy) - run.radius[i] * run.numbers[at.scale];
+    const distance = distanceFrom(i, x, y) - run.radius[i] * run.numbers[at.scale];
     if (distance < Math.min(reach, nearest)) {
       nearest = distance;
       best = i;
@@ -28,13 +30,7 @@ function hasRoom(x, y, radius, but = -1) {
   if (!box.periodic[0] && (x - radius < left || x + radius > right)) return false;
   if (!box.periodic[1] && (y - radius < bottom || y + radius > top)) return false;
   for (let i = 0; i < disks; ++i) {
-    if (i === but) continue;
-    let dx = x - run.x[i];
-    let dy = y - run.y[i];
-    if (box.periodic[0]) dx -= Math.round(dx / box.lengths[0]) * box.lengths[0];
-    if (box.periodic[1]) dy -= Math.round(dy / box.lengths[1]) * box.lengths[1];
-    const contact = radius + run.radius[i] * run.numbers[at.scale];
-    if (dx * dx + dy * dy < contact * contact) return false;
+    if (i !== but && distanceFrom(i, x, y) < radius + run.radius[i] * run.numbers[at.scale]) return false;
   }
   return run.description.obstacles.every((one) => distanceTo(one, x, y) >= radius);
 }

@@ -94,7 +94,7 @@ const does = {
     }
     return { ...properties(asked("describe")), ...moment({ measured: true, histogram: true, twin: true }) };
   },
-  step: () => ({ ...asked("step"), ...moment({ measured: true, histogram: true, twin: true }) }),
+  step: () => ({ ...asked("step"), ...properties(asked("describe")), ...moment({ measured: true, histogram: true, twin: true }) }),
   back({ events }) {
     const done = engine._carom_back(events);
     return { done, ...properties(asked("describe")), ...moment({ measured: true, histogram: true, twin: true }) };

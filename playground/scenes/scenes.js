@@ -97,7 +97,7 @@ const scenes = [
     },
   },
   {
-    id: "effusion", group: "gases", start: [count(200, 1200), { key: "hole", least: 1.5, usual: 3, most: 10, step: 0.5 }],
+    id: "effusion", group: "gases", start: [count(200, 1200, 60), { key: "hole", least: 1.5, usual: 3, most: 10, step: 0.5 }],
     live: ["restitution"], shows: "walls", history: "left",
     make: (p) => {
       const side = sideOf(p.n, 0.2);
@@ -151,7 +151,7 @@ const scenes = [
   },
   {
     id: "heat", group: "walls", start: [count(300, 3000), packing(0.2, 0.5)], shows: "walls", history: "sides",
-    live: ["leftT", "rightT", "gravity", "restitution"],
+    live: ["leftT", "rightT", "restitution"],
     make: (p) => {
       const side = sideOf(p.n, p.eta);
       return titled("Heat between two walls") + boxOf([0, side], [0, side], '{ x = "walls", y = "periodic" }') +
@@ -170,7 +170,7 @@ const scenes = [
   },
   {
     id: "granular", group: "grains", start: [count(1000, 10000), packing(0.25, 0.5), { key: "e", least: 0.5, usual: 0.85, most: 1, step: 0.01 }], history: "energy",
-    live: ["restitution", "thermostat", "gravity"],
+    live: ["restitution", "thermostat"],
     make: (p) => titled("Granular cooling and clusters") + gasOf({ ...p, kT: 1 }, "grains", periodic) +
       collision(`restitution = ${p.e}\nelastic_below = { time = 1e-3 }\n`) + runOf(p, 10000),
   },
@@ -191,7 +191,7 @@ const scenes = [
     make: (p) => titled("Rough disks spin") + gasOf({ ...p, kT: 1 }, "disks", periodic) + collision("roughness = 0.5\nelastic_below = { time = 1e-3 }\n") + runOf(p),
   },
   {
-    id: "hourglass", group: "grains", start: [count(150, 500)], shows: "walls", history: "height",
+    id: "hourglass", group: "grains", start: [count(150, 500, 40)], shows: "walls", history: "height",
     live: ["gravity", "restitution"],
     make: (p) => {
       const width = Math.sqrt(p.n) * 1.5;
@@ -219,7 +219,7 @@ const scenes = [
       `[growth]\nrate = ${p.rate}\nuntil = { packing_fraction = 0.85 }\n\n` + runOf(p),
   },
   {
-    id: "condensation", group: "dense", start: [count(500, 3000), packing(0.2, 0.4), temperature(0.6, 2)], colour: "speed", history: "temperature",
+    id: "condensation", group: "dense", start: [count(500, 3000, 20), packing(0.2, 0.4), temperature(0.6, 2)], colour: "speed", history: "temperature",
     live: ["wellDepth", "thermostat"],
     make: (p) => titled("Drops from square wells") + gasOf(p, "gas", periodic) + collision() +
       `[square_well]\nwidth = 1.5\ndepth = 1\n\n[thermostat]\ntemperature = ${p.kT}\nrate = 0.1\n\n` + runOf(p),

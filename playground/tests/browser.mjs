@@ -91,6 +91,13 @@ export class Browser {
     if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
     return result.value;
   }
+  /// Seconds of processor time that the browser's processes have taken, by their kind.
+  async processorTime() {
+    const { processInfo } = await this.#send("SystemInfo.getProcessInfo");
+    const sums = {};
+    for (const { type, cpuTime } of processInfo) sums[type] = (sums[type] ?? 0) + cpuTime;
+    return sums;
+  }
   async picture() {
     const { data } = await this.send("Page.captureScreenshot", { format: "png" });
     return Buffer.from(data, "base64");

@@ -2,9 +2,10 @@
 // those that it computes. Prints a line for what fails, and ends with 1 then; ends with 77 where there is no Chromium.
 
 import { spawnSync } from "node:child_process";
-import { mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
 import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { basename, dirname, join, resolve } from "node:path";
 import { Browser, chromium, pause } from "./browser.mjs";
 
 const isLong = process.argv.includes("--long");
@@ -35,7 +36,7 @@ const inScene = (x, y) =>
 /// The pixel of a place of the scene.
 const pixelOf = (x, y) =>
   ask(`(() => { const r = document.getElementById("overlay").getBoundingClientRect(), [l, b] = carom.run.description.lower, [u, t] = carom.run.description.upper;
-    const m = r.width < 600 ? 0.95 : 0.9, s = m * Math.min(r.width / (u - l), r.height / (t - b));
+    const s = 0.9 * Math.min(r.width / (u - l), r.height / (t - b));
     return [r.left + r.width / 2 + (${x} - (l + u) / 2) * s, r.top + r.height / 2 - (${y} - (b + t) / 2) * s]; })()`);
 
 async function test(name, work) {
@@ -75,22 +76,29 @@ await test("scenes", async () => {
   check("there are at least 20 scenes", ids.length >= 20, ids.length);
   for (const id of ids) {
     await ask(`carom.scene("${id}").then(() => carom.play(true))`);
+    await clear();  // what the scene before was told last
     await pause(isLong ? 10000 : 250);
     check(`${id}: time passes`, (await time()) > 0);
     check(`${id}: no notice`, (await notice()) === "" || isLong, await notice());
     // Every slider to its ends and back, while it runs.
-    for (const end of ["max", "min", "value"]) {
-      await ask(`(async () => {
-        for (const input of document.querySelectorAll("#liveSettings input[type=range]")) {
-          const own = input.defaultValue;
-          input.dataset.own ??= input.value;
-          input.value = "${end}" === "value" ? input.dataset.own : input.${end === "value" ? "value" : end};
+    const stuck = await ask(`(async () => {
+      const note = document.getElementById("notice");
+      const stuck = [];
+      for (const input of document.querySelectorAll("#liveSettings input[type=range]")) {
+        let moves = 0;
+        for (const value of [input.max, input.min, input.value]) {
+          note.hidden = true;
+          input.value = value;
           input.dispatchEvent(new Event("input"));
-          await new Promise((resolve) => setTimeout(resolve, 30));
+          await carom.stateHash();  // the engine answers in turn
+          if (note.hidden) ++moves;
         }
-      })()`);
-      await clear();
-    }
+        if (moves === 0) stuck.push(input.dataset.setting);
+      }
+      return stuck;
+    })()`);
+    check(`${id}: every slider moves something`, stuck.length === 0, stuck);
+    await clear();
     check(`${id}: no error`, (await errors()) === "", await errors());
     check(`${id}: the engine still answers`, /^[0-9a-f]{16}$/.test(await ask("carom.stateHash()")));
   }
@@ -272,6 +280,41 @@ await test("screens", async () => {
   check("it is dark", (await ask("document.documentElement.dataset.theme")) === "dark");
   check("embedded, it shows the disks alone", await ask("getComputedStyle(document.querySelector('aside')).display === 'none'"));
   check("the address gives the start", (await ask("carom.run.description.disks")) === 80);
+});
+
+await test("component", async () => {
+  // The package as a server gives it to a page: browsers take no modules from files.
+  const own = `<!doctype html><title>boxes</title><script type="module" src="carom-box.js"></script>
+<carom-box id="named" scene="heat" n="60" seed="3" height="12rem" play="0"></carom-box>
+<carom-box id="text" play="0">${twoDisks}</carom-box>
+<carom-box id="wrong" play="0">box = 3</carom-box>
+<carom-box id="lost" page="nowhere.html"></carom-box>
+<script type="module">
+  window.carom = (id) => document.getElementById(id).ready;
+  await Promise.allSettled([...document.querySelectorAll("carom-box")].map((box) => box.ready));
+  document.documentElement.dataset.ready = "";
+</script>`;
+  const server = createServer((request, response) => {
+    const name = basename(new URL(request.url, "http://here").pathname);
+    response.setHeader("content-type", name.endsWith(".js") ? "text/javascript" : "text/html");
+    if (name === "") response.end(own);
+    else if (["carom-box.js", "playground.html"].includes(name)) response.end(readFileSync(join(dirname(page), "npm", name)));
+    else response.end("");
+  });
+  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+  await browser.open(`http://127.0.0.1:${server.address().port}/`);
+  check("a box shows its scene, with the numbers of its attributes", await ask('carom("named").then((carom) => carom.run.scene.id === "heat" && carom.run.description.disks === 60 && carom.run.start.seed === 3)'));
+  check("as high as it is told", (await ask('document.getElementById("named").getBoundingClientRect().height')) === 192);
+  check("a box runs the text inside it", await ask('carom("text").then(async (carom) => (await carom.runUntil(2), carom.run.description.disks === 2 && carom.run.numbers[0] === 2))'));
+  check("wrong text is refused with a sentence", /own:1/.test(await ask('carom("wrong").catch((error) => error.message)')), await ask('carom("wrong").catch((error) => error.message)'));
+  check("a page that is not there is told", /nowhere.html.* is not/.test(await ask('carom("lost").then(() => "", (error) => error.message)')));
+  await ask('document.getElementById("named").setAttribute("scene", "piston")');
+  check("another attribute is another scene", (await ask('carom("named").then((carom) => carom.run.scene.id)')) === "piston");
+  await ask('document.body.prepend(document.getElementById("text"))');
+  check("a box that is moved in its page is ready again", (await ask('carom("text").then((carom) => carom.run.description.disks)')) === 2);
+  const { name, types, files } = JSON.parse(readFileSync(join(dirname(page), "npm", "package.json")));
+  check("the package has the files that it names", name !== "" && [types, ...files].every((file) => statSync(join(dirname(page), "npm", file)).size > 0));
+  server.close();
 });
 
 await browser.close();

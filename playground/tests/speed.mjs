@@ -23,9 +23,13 @@ for (const n of [500, 2000, 10000, 20000]) {
     await ask(`(carom.run.rate = carom.run.description.crossing / 6 * ${faster}, carom.play(true))`);
     await pause(1000);
     const [frames, pairs, began] = await ask("[carom.frames, carom.run.numbers[2], performance.now()]");
+    const before = await browser.processorTime();
     await pause(3000);
+    const after = await browser.processorTime();
     const [framesThen, pairsThen, ended] = await ask("[carom.frames, carom.run.numbers[2], performance.now()]");
-    row.push(((framesThen - frames) / ((ended - began) / 1000)).toFixed(0), ((pairsThen - pairs) / Math.max(1, framesThen - frames)).toFixed(0));
+    const passed = Math.max(1, framesThen - frames);
+    const work = (kind) => ((1000 * (after[kind] - before[kind])) / passed).toFixed(1);
+    row.push((passed / ((ended - began) / 1000)).toFixed(0), ((pairsThen - pairs) / passed).toFixed(0), `${work("renderer")} + ${work("GPU")}`);
   }
   await ask("carom.play(false)");
   await pause(300);
