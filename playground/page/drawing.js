@@ -67,7 +67,7 @@ function fill(x, y, pane, marks) {
   for (let i = 0; i < count; ++i) {
     const px = pixelX(x[i], pane);
     const py = pixelY(y[i], pane);
-    const r = Math.max(run.radius[i] * scale, 1.5);
+    const r = Math.max(run.radius[i] * scale, 0.75);
     const share = colouring.isKind ? run.species[i] % kinds.length : Math.max(0, Math.min(colours - 1, Math.floor(colouring.value(i) * colours))) || 0;
     const colour = marks?.[i] ? colours : share;
     put(px, py, r, colour);

@@ -57,7 +57,9 @@ function showNumbers() {
   const theoryPath = enskogPath();
   put("path", `${short(n[at.path])}${theoryPath ? ` (${t("enskog")} ${short(theoryPath)})` : ""}`, "length");
 
-  put("overlaps", `${grouped(n[at.overlapping])}`);
+  // Where disks meet that stood where a change has put them, the last digit may be missing.
+  const isRounding = n[at.deepest] < 1e-9;
+  put("overlaps", `${isRounding ? 0 : grouped(n[at.overlapping])}${n[at.overlapping] > 0 ? ` (${t("twin.deepest")} ${short(100 * n[at.deepest], 2)} %)` : ""}`);
   put("missed", run.fault ? run.fault : t(run.checks > 0 ? "missedNone" : "missedUnchecked", { count: run.checks }));
   put("engine", `${d.engine}`);
 

@@ -208,7 +208,7 @@ await test("tools", async () => {
   check("a wall is drawn", (await ask("carom.run.description.obstacles.length")) === 1);
   await clear();
   await drag([2, 1], [2, 9]);
-  check("a wall through a disk is not, and is told", (await ask("carom.run.description.obstacles.length")) === 1 && /obstacle/.test(await notice()), await notice());
+  check("a wall through a disk is not, and is told", (await ask("carom.run.description.obstacles.length")) === 1 && /through disk 0/.test(await notice()), await notice());
   await tool("erase");
   await drag([5, 9]);
   check("a wall is taken away", (await ask("carom.run.description.obstacles.length")) === 0);
