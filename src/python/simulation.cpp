@@ -339,8 +339,9 @@ void add_simulation(nb::module_& module) {
           [](Running& self, double until, double step, std::uint64_t first, std::uint64_t stride) {
             const detail::SamplingTimes times(step);
             const double now = self.use([](Simulation& s) { return s.time(); });
+            if (until < 0.0) return std::tuple(first, std::uint64_t{0});
             const std::uint64_t begin = times.next({now, 0.0}, {.first = first, .stride = stride}), last = times.last(until);
-            return std::tuple(begin, last < begin ? 0 : (last - begin) / stride + 1);
+            return std::tuple(begin, last < begin ? std::uint64_t{0} : (last - begin) / stride + 1);
           },
           nb::arg("until"), nb::arg("step"), nb::arg("first"), nb::arg("stride"),
           "Returns the number of the next sample, and how many there are until then.")

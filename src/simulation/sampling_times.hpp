@@ -32,6 +32,7 @@ class SamplingTimes {
   }
 
   /// The largest k with at(k) <= time; a time that is a multiple of the block to rounding counts as one. At most about 2^53.
+  /// Requires time >= 0.
   [[nodiscard]] std::uint64_t last(double time) const;
 
   /// The least k with at(k) >= time that the range has; one that is equal to rounding counts.

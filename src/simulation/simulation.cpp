@@ -104,6 +104,7 @@ StopReason Simulation::run_sampled(double until, const SamplingGrid& grid, const
   const detail::SamplingTimes times(grid.step);
   detail::ProceedWatch watch(limits.proceed);
   const Instant end{until, 0.0};
+  if (until < 0.0) return parts_->run_to(end, limits, watch);  // before the first sample
   const std::uint64_t last = times.last(until);
   State state;
   std::uint64_t taken = 0;

@@ -200,3 +200,9 @@ def test_a_simulation_has_a_trajectory_when_it_was_sampled(gas: carom.Scene) -> 
     with pytest.raises(ValueError, match="this simulation has no trajectory yet; sample"):
         sim.trajectory
     assert sim.sample(0.5, until=1.0) is sim.trajectory
+
+
+def test_a_time_before_the_start_has_no_frames(gas: carom.Scene) -> None:
+    sim = carom.Simulation(gas)
+    assert len(sim.sample(0.1, until=-1.0)) == len(list(sim.frames(0.1, until=-1.0))) == 0
+    assert sim.play(-1.0).exact and sim.time == 0.0

@@ -42,6 +42,14 @@ std::vector<std::uint64_t> numbers(const std::vector<Sample>& samples) {
 }
 
 /// 3 * 0.1 is later than 0.3 by its rounding, and 7 * 0.7 earlier than 4.9.
+TEST(SampledStretch, HasNoSampleBeforeTheFirst) {
+  Simulation simulation = make_simulation(crowd(1.0, 0.1));
+  std::vector<Sample> samples;
+  EXPECT_EQ(simulation.run_sampled(-1.0, grid_into(samples, 0.1)), StopReason::time);
+  EXPECT_TRUE(samples.empty());
+  EXPECT_EQ(simulation.time(), 0.0);
+}
+
 TEST(RunSampled, HasTheSamplesAndTheEndOfTheSchedule) {
   for (const auto& [time, step] : {std::pair{0.3, 0.1}, std::pair{4.9, 0.7}, std::pair{5.0, 0.001}, std::pair{2.05, 0.25}}) {
     const Scene scene = crowd(time, step);
