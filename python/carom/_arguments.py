@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import operator
 import os
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
     import numpy.typing as npt
+
+
+def shown(value: Any) -> str:
+    """Returns what a sentence shows of a value: its repr() in one line, of which no more than the beginning where it is long."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 80 else f"{text[:77]}..."
 
 
 def real(value: Any, name: str) -> float:
@@ -19,9 +26,9 @@ def real(value: Any, name: str) -> float:
             raise TypeError
         return float(value)
     except (TypeError, ValueError):
-        raise TypeError(f"{name} is {value!r}; give a number") from None
+        raise TypeError(f"{name} is {shown(value)}; give a number") from None
     except OverflowError:
-        raise ValueError(f"{name} is {value!r}; no double is as large") from None
+        raise ValueError(f"{name} is {shown(value)}; no double is as large") from None
 
 
 def whole(value: Any, name: str, least: int = 0, most: int = 2**63 - 1) -> int:
@@ -29,7 +36,7 @@ def whole(value: Any, name: str, least: int = 0, most: int = 2**63 - 1) -> int:
     try:
         number = int(value) if isinstance(value, (float, np.floating)) and float(value).is_integer() else operator.index(value)
     except TypeError:
-        raise TypeError(f"{name} is {value!r}; give a whole number") from None
+        raise TypeError(f"{name} is {shown(value)}; give a whole number") from None
     if not least <= number <= most:
         raise ValueError(f"{name} is {number}; it must be from {least} to {'2^63 - 1' if most == 2**63 - 1 else most}")
     return number
@@ -38,11 +45,11 @@ def whole(value: Any, name: str, least: int = 0, most: int = 2**63 - 1) -> int:
 def words(value: Any, name: str) -> str:
     """Returns a string. Raises TypeError for what is none, and ValueError for one that no file can hold."""
     if not isinstance(value, str):
-        raise TypeError(f"{name} is {value!r}; give a string")
+        raise TypeError(f"{name} is {shown(value)}; give a string")
     try:
         value.encode()
     except UnicodeEncodeError:
-        raise ValueError(f"{name} is {value!r}; half of a pair of surrogates is no character") from None
+        raise ValueError(f"{name} is {shown(value)}; half of a pair of surrogates is no character") from None
     return value
 
 
@@ -51,7 +58,15 @@ def path_text(value: Any, name: str) -> str:
     try:
         return words(os.fsdecode(value), name)
     except TypeError:
-        raise TypeError(f"{name} is {value!r}; give a path") from None
+        raise TypeError(f"{name} is {shown(value)}; give a path") from None
+
+
+def list_of_words(values: Any, name: str) -> list[str]:
+    """Returns strings or paths as a list; a single string may stand for itself. Raises TypeError for what are none."""
+    if not isinstance(values, Iterable):
+        raise TypeError(f"{name} is {shown(values)}; give a list of strings")
+    listed = [values] if isinstance(values, (str, bytes)) else values
+    return [words(os.fspath(value) if isinstance(value, os.PathLike) else value, name) for value in listed]
 
 
 def _array(values: npt.ArrayLike, name: str, kinds: str, wanted: str) -> npt.NDArray[Any]:

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from carom._arguments import whole
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -26,6 +28,7 @@ _FIRST_OBSTACLE = -1000
 
 def partner_name(partner: int) -> str:
     """Returns what the number of a partner stands for: "disk 3", "left wall", "obstacle 0", "thermostat"."""
+    partner = whole(partner, "the partner", least=-(2**31))
     if partner >= 0:
         return f"disk {partner}"
     if partner <= _FIRST_OBSTACLE:

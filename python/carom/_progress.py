@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Union
 
+from carom._arguments import shown
+
 #: False: nothing is shown. True: a bar of tqdm, which has to be installed. A function is called with the fraction, 0 to 1.
 Progress = Union[bool, Callable[[float], object]]
 
@@ -16,7 +18,7 @@ def reporting(progress: Progress | None, what: str) -> Iterator[Callable[[float]
     if progress is None or progress is False:
         yield None
     elif progress is not True and not callable(progress):
-        raise TypeError(f"progress is {progress!r}; give True, False, or a function of the fraction done")
+        raise TypeError(f"progress is {shown(progress)}; give True, False, or a function of the fraction done")
     elif progress is True:
         from tqdm.auto import tqdm
 

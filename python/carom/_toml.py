@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from carom._arguments import words
+from carom._arguments import shown, words
 
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 
@@ -23,7 +23,7 @@ def _string(text: str, path: str) -> str:
 
 def _key(key: object, path: str) -> str:
     if not isinstance(key, str):
-        raise TypeError(f"{path or 'a scene'}: the key {key!r} is no string; keys are those of the scene format")
+        raise TypeError(f"{path or 'a scene'}: the key {shown(key)} is no string; keys are those of the scene format")
     return key if _BARE_KEY.fullmatch(key) else _string(key, path)
 
 
@@ -61,7 +61,7 @@ def value_text(value: object, path: str = "") -> str:
     if isinstance(value, Iterable) and not isinstance(value, (bytes, bytearray, Set)):
         entries = (value_text(entry, f"{path}.{k}") for k, entry in enumerate(value))
         return "[" + ", ".join(entries) + "]"
-    raise TypeError(f"{path} is {value!r}; a scene holds numbers, strings, booleans, lists and mappings")
+    raise TypeError(f"{path} is {shown(value)}; a scene holds numbers, strings, booleans, lists and mappings")
 
 
 def scene_text(tables: Mapping[str, Any]) -> str:

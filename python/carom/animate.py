@@ -86,7 +86,7 @@ def animation_of_frames(frames: Frames, *, every: int, color: str, trail: int, i
             float(frames.time[k]), positions[k], None if velocities is None else velocities[k], frames.radii * frames.scale[k]
         )
 
-    return FuncAnimation(picture.figure, show, frames=range(0, len(frames), every), interval=interval, blit=True)
+    return FuncAnimation(picture.figure, show, frames=range(0, len(frames), every), interval=real(interval, "interval"), blit=True)
 
 
 def live_animation(simulation: Simulation, dt: float, frames: int | None, *, color: str, interval: float) -> FuncAnimation:
@@ -96,6 +96,7 @@ def live_animation(simulation: Simulation, dt: float, frames: int | None, *, col
     dt = real(dt, "dt")
     if not dt > 0:
         raise ValueError(f"frames are {dt:g} apart; that must be positive")
+    frames = None if frames is None else whole(frames, "frames", least=1)
     picture = _Picture(simulation.scene, simulation.radii, simulation.species, color)
     begin = simulation.time
 
@@ -104,4 +105,4 @@ def live_animation(simulation: Simulation, dt: float, frames: int | None, *, col
         state = simulation.state
         return picture.show(simulation.time, state.positions, state.velocities, simulation.radii * state.scale)
 
-    return FuncAnimation(picture.figure, show, frames=frames, interval=interval, blit=True, cache_frame_data=False)
+    return FuncAnimation(picture.figure, show, frames=frames, interval=real(interval, "interval"), blit=True, cache_frame_data=False)

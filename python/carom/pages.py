@@ -6,6 +6,8 @@ import html as markup
 from os import PathLike
 from pathlib import Path
 
+from carom._arguments import path_text
+
 
 class Page:
     """A page that holds all it needs: one text of HTML, which asks no network and no server.
@@ -25,7 +27,7 @@ class Page:
 
     def save(self, path: str | PathLike[str]) -> None:
         """Writes the page to a file, in the place of one that is there. Raises OSError where it cannot be written."""
-        Path(path).write_text(self.html, encoding="utf-8")
+        Path(path_text(path, "path")).write_text(self.html, encoding="utf-8")
 
     def open(self) -> None:
         """Shows the page in the web browser, from a temporary file, which stays. Raises RuntimeError where there is no browser."""

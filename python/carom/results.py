@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from carom._arguments import shown
+
 if TYPE_CHECKING:
     import pandas
     import xarray
@@ -83,6 +85,8 @@ class Table(Mapping[str, npt.NDArray[Any]]):
     def __init__(
         self, columns: Mapping[str, npt.ArrayLike], units: Mapping[str, str] | None = None, title: str = ""
     ) -> None:
+        if not isinstance(columns, Mapping):
+            raise TypeError(f"the columns are {shown(columns)}; give a mapping of names to arrays")
         self._columns = {name: np.asarray(column) for name, column in columns.items()}
         lengths = {name: len(column) for name, column in self._columns.items()}
         if len(set(lengths.values())) > 1:

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom import _core
-from carom._arguments import path_text, real, whole, words
+from carom._arguments import list_of_words, path_text, real, shown, whole, words
 from carom._errors import Interrupted, OutputError
 from carom._events import events_in
 from carom._hdf5 import hdf5
@@ -148,13 +148,21 @@ def _with_observables(scene: Scene, observables: Observables | None) -> tuple[Sc
     if isinstance(observables, (str, Observable)):
         observables = [observables]
     if not isinstance(observables, Iterable):
-        raise TypeError(f"observables are {observables!r}; give names such as \"pressure\", a mapping of them, or carom.Observables")
+        raise TypeError(f"observables are {shown(observables)}; give names such as \"pressure\", a mapping of them, or carom.Observables")
     settings = dict(observables) if isinstance(observables, Mapping) else {o: True for o in observables if isinstance(o, str)}
-    own = [] if isinstance(observables, Mapping) else [o for o in observables if not isinstance(o, str)]
+    own = [] if isinstance(observables, Mapping) else _own([o for o in observables if not isinstance(o, str)])
+    changes = {f"observe.{words(name, 'an observable')}": value for name, value in settings.items()}
+    return (scene.set(changes) if changes else scene), own
+
+
+def _own(observables: Iterable[Any]) -> list[Observable]:
+    if not isinstance(observables, Iterable):
+        raise TypeError(f"observables are {shown(observables)}; give a list of carom.Observables")
+    own = list(observables)
     for observable in own:
         if not isinstance(observable, Observable):
-            raise TypeError(f"{observable!r} is no observable; give a name such as \"pressure\", or a carom.Observable")
-    return (scene.set({f"observe.{name}": value for name, value in settings.items()}) if settings else scene), own
+            raise TypeError(f"{shown(observable)} is no observable; give a name such as \"pressure\", or a carom.Observable")
+    return own
 
 
 def run(
@@ -245,8 +253,8 @@ def run(
             None if checkpoint_every is None else words(checkpoint_every, "checkpoint_every"),
             _seconds(walltime),
             None if threads is None else whole(threads, "threads", least=1, most=32),
-            report,
-            frames,
+            bool(report),
+            bool(frames),
         )
         teller = _teller(given, tell)
         if out is None:
@@ -285,7 +293,7 @@ def resume(
 
     with reporting(progress, "run") as tell:
         teller = None if tell is None else lambda now, done, equilibrating: tell(0.0 if time is None else min(1.0, now / time))
-        own = list(observables)
+        own = _own(observables)
         call = partial(
             _files.resume,
             path_text(directory, "directory"),
@@ -295,7 +303,7 @@ def resume(
             None if checkpoint_every is None else words(checkpoint_every, "checkpoint_every"),
             _seconds(walltime),
             None if threads is None else whole(threads, "threads", least=1, most=32),
-            report,
+            bool(report),
         )
         with _sentences():
             parts = _beside(_with_files(call), teller, bool(own))
@@ -377,7 +385,7 @@ _INTERRUPTED = 6
 def _seconds(walltime: float | str | None) -> float | None:
     if walltime is None:
         return None
-    seconds = _core.seconds_in(walltime) if isinstance(walltime, str) else real(walltime, "walltime")
+    seconds = _core.seconds_in(words(walltime, "walltime")) if isinstance(walltime, str) else real(walltime, "walltime")
     if not seconds > 0:
         raise ValueError(f"walltime is {seconds:g} s; it must be positive")
     return seconds
@@ -485,7 +493,8 @@ class Run:
             reader = self._open()
             if reader.samples == 0:
                 raise ValueError(f"{self.directory}: this run kept no samples; run it with run.sample_every and its trajectory")
-            return State._of(reader.sample(range(reader.samples)[k]))
+            at = whole(k, "k", least=-reader.samples, most=reader.samples - 1)
+            return State._of(reader.sample(at % reader.samples))
 
     @property
     def events(self) -> npt.NDArray[Any]:
@@ -515,9 +524,9 @@ class Run:
 
         wanted = []
         if observables is not None:
-            names = [observables] if isinstance(observables, str) else observables
-            settings = names if isinstance(names, Mapping) else dict.fromkeys(names, True)
-            wanted = [name if value is True else f"{name}={value_text(value, str(name))}" for name, value in settings.items()]
+            names = list_of_words(observables, "observables")
+            settings = observables if isinstance(observables, Mapping) else dict.fromkeys(names, True)
+            wanted = [name if value is True else f"{name}={value_text(value, name)}" for name, value in settings.items()]
         with hdf5():
             return measurements_of(_files.analyse(fspath(self.directory), wanted))
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard, Union, cast
 import numpy as np
 
 from carom import _core
-from carom._arguments import numbers, pairs, path_text, words
+from carom._arguments import list_of_words, numbers, pairs, path_text, shown, words
 from carom._errors import SceneError
 from carom._toml import scene_text, value_text
 
@@ -79,7 +79,7 @@ class Scene:
 
     def __init__(self, mapping: Mapping[str, Any] | None = None, /, **tables: Any) -> None:
         if mapping is not None and not isinstance(mapping, Mapping):
-            raise TypeError(f"a scene is {mapping!r}; give a mapping, or the path of a scene file to Scene.load()")
+            raise TypeError(f"a scene is {shown(mapping)}; give a mapping, or the path of a scene file to Scene.load()")
         self._core = _parsed(scene_text({**(mapping or {}), **tables}), _MADE, [], ".")
         self._directory = "."
         self._toml: str | None = None
@@ -94,7 +94,7 @@ class Scene:
     def load(cls, path: str | PathLike[str], overrides: list[str] | None = None) -> Scene:
         """Reads a scene file. `overrides` are those of the program's --set, such as "run.time=2"."""
         place = path_text(path, "path")
-        return cls._of(_core.Scene.load(place, [words(entry, "an override") for entry in overrides or []]), dirname(place) or ".")
+        return cls._of(_core.Scene.load(place, list_of_words(overrides or [], "overrides")), dirname(place) or ".")
 
     @classmethod
     def parse(cls, text: str, directory: str | PathLike[str] = ".") -> Scene:
@@ -117,7 +117,7 @@ class Scene:
             changes: values of Python by dotted key; "disks.0.radius" is the radius of the first species.
         """
         if not isinstance(changes, Mapping):
-            raise TypeError(f"the changes are {changes!r}; give a mapping of keys to values, such as {{'run.time': 2}}")
+            raise TypeError(f"the changes are {shown(changes)}; give a mapping of keys to values, such as {{'run.time': 2}}")
         overrides = [f"{key}={value_text(value, str(key))}" for key, value in changes.items()]
         core = _parsed(self._core.text, self._core.source, [*self._core.overrides, *overrides], self._directory)
         return Scene._of(core, self._directory)
@@ -211,7 +211,7 @@ class Scene:
         """Draws the start and lets it run for a fifth of a second. Returns what would be simulated, by which engine, at what cost."""
         from carom import _files
 
-        name, reason, cost, seconds, collisions = _files.expected_cost(self._core, engine)
+        name, reason, cost, seconds, collisions = _files.expected_cost(self._core, words(engine, "engine"))
         return Check(tuple(_files.describe(self._core)), name, reason, cost, seconds, collisions)
 
     def __eq__(self, other: object) -> bool:
@@ -253,7 +253,7 @@ def as_scene(scene: SceneLike) -> Scene:
         return Scene(scene)
     if isinstance(scene, (str, PathLike)):
         return Scene.load(scene)
-    raise TypeError(f"{scene!r} is no scene; give a carom.Scene, the path of a scene file, or a mapping")
+    raise TypeError(f"{shown(scene)} is no scene; give a carom.Scene, the path of a scene file, or a mapping")
 
 
 def _is_start(positions: npt.ArrayLike | Start) -> TypeGuard[Start]:

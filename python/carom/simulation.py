@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from carom import _core
-from carom._arguments import numbers, pairs, path_text, real, whole, words
+from carom._arguments import numbers, pairs, path_text, real, shown, whole, words
 from carom._errors import OutputError, SceneError, StoppedEarly
 from carom._events import Event, events_in
 from carom._progress import Progress, reporting
@@ -126,7 +126,7 @@ class Simulation:
         if method is None and stiffness is not None:
             raise ValueError("a stiffness is that of the springs of method=\"soft\"; exact events have none")
         if state is not None and not isinstance(state, State):
-            raise TypeError(f"the state is {state!r}; give a carom.State")
+            raise TypeError(f"the state is {shown(state)}; give a carom.State")
         name = None if method is None else words(method, "method")
         step = 0.0 if dt is None else real(dt, "dt")
         spring = None if stiffness is None else real(stiffness, "stiffness")
@@ -401,7 +401,7 @@ class Simulation:
         """
         dt, until, stride = real(dt, "dt"), real(until, "until"), whole(stride, "stride", least=1)
         first, count = self._sample_range(dt, until, stride)
-        room = _Room(self, count, positions, velocities)
+        room = _Room(self, count, bool(positions), bool(velocities))
         begin = self.time
         reason: str | None = None
         with reporting(progress, "sample") as report:
@@ -473,7 +473,7 @@ class Simulation:
             SceneError: where the scene, as it would begin now, is wrong. Then nothing is changed.
             ValueError: for a key that does not say what acts on the disks.
         """
-        changes = key if isinstance(key, dict) else {key: value}
+        changes = key if isinstance(key, dict) else {words(key, "a key"): value}
         acting = {name: table for name, table in self.scene.to_dict().items() if name in _EFFECTS}
         for name, entry in changes.items():
             path = words(name, "a key").split(".")
@@ -506,7 +506,7 @@ class Simulation:
         call: CollisionRule | None = None
         if rule is not None:
             if not callable(rule):
-                raise TypeError(f"the collision rule is {rule!r}; give a function of two disks that meet")
+                raise TypeError(f"the collision rule is {shown(rule)}; give a function of two disks that meet")
             given = rule
 
             # The library refers to this function weakly: a rule that holds the simulation is then collected with it.

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from os import PathLike, fspath
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from carom import _core
+from carom._arguments import path_text
 from carom._errors import OutputError
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def read_start(source: Any, frame: int = -1) -> Start:
         SceneError: for a file that is no start, with the line; OutputError where it cannot be read.
     """
     if isinstance(source, (str, PathLike)):
-        path = fspath(source)
+        path = path_text(source, "the path")
         return _of_gsd(path, frame) if path.endswith(".gsd") else _of_file(path)
     if hasattr(source, "atoms") and hasattr(source, "universe"):
         return _of_universe(source, frame)

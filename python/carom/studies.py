@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from os import PathLike, fspath
+from os import PathLike
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -378,7 +378,7 @@ def validate(*, full: bool = False, only: Sequence[str] = (), seed: int = 1, pro
 
     from carom import _files
 
-    names = [_arguments.words(name, "only") for name in ([only] if isinstance(only, str) else only)]
+    names = _arguments.list_of_words(only, "only")
     number = _arguments.whole(seed, "seed")
     with _sentences(), reporting(progress, "validate") as tell:
         text, verdicts, sentence, page, complete = _files.validate(bool(full), names, number, tell)
@@ -428,7 +428,7 @@ def hardcases(
     """
     from carom import _files
 
-    chosen = [_arguments.words(fspath(name), "names") for name in ([names] if isinstance(names, (str, PathLike)) else names or [])]
+    chosen = _arguments.list_of_words([names] if isinstance(names, PathLike) else names or [], "names")
     with _sentences(), reporting(progress, "hardcases") as tell:
         rows, sentence = _files.hard_cases(chosen, _arguments.words(engine, "engine"), tell)
     columns: dict[str, npt.ArrayLike] = {

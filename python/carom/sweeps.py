@@ -174,7 +174,7 @@ def sweep(
     if numbers is not None:
         from carom import _files
 
-        numbers = [_arguments.words(name, "numbers") for name in ([numbers] if isinstance(numbers, str) else numbers)]
+        numbers = _arguments.list_of_words(numbers, "numbers")
         _files.require_numbers(scenes[0]._core, numbers)
     if executor is not None and workers is not None:
         raise ValueError("an executor has workers of its own; leave out one of the two")
@@ -327,7 +327,7 @@ def _points(points: Points) -> tuple[list[str], list[dict[str, Any]]]:
         return _checked_keys(grid), [dict(zip(grid, combination, strict=True)) for combination in itertools.product(*grid.values())]
     if not isinstance(points, Sequence) or not all(isinstance(point, Mapping) for point in points):
         example = '{"packing_fraction": [0.1, 0.2]}'
-        raise TypeError(f"{points!r} are no points; give values by key, such as {example}, or a list of points")
+        raise TypeError(f"{_arguments.shown(points)} are no points; give values by key, such as {example}, or a list of points")
     keys = list(dict.fromkeys(key for point in points for key in point))
     if not points:
         raise ValueError("there are no points; give one at least")
@@ -347,7 +347,7 @@ def _checked_keys(keys: Iterable[Any]) -> list[str]:
     listed = list(keys)
     for key in listed:
         if not isinstance(key, str):
-            raise TypeError(f"the key {key!r} is no string; keys are those of Scene.set(), such as \"disks.0.radius\"")
+            raise TypeError(f"the key {_arguments.shown(key)} is no string; keys are those of Scene.set(), such as \"disks.0.radius\"")
         if key in ("run.seed", "seed"):
             raise ValueError("run.seed cannot be swept; use seeds")
     return listed
@@ -396,9 +396,9 @@ def _scene_at(base: Scene, keys: Sequence[str], full: Sequence[str], point: Mapp
 def _seeds(seeds: int | Iterable[int], scene: Scene) -> list[int]:
     if isinstance(seeds, (int, np.integer)):
         first = int(scene._core.seed)
-        seeds = range(first, first + int(seeds))
+        seeds = range(first, first + _arguments.whole(seeds, "seeds", 0, 1_000_000))
     if isinstance(seeds, str) or not isinstance(seeds, Iterable):
-        raise TypeError(f"seeds is {seeds!r}; give a list of whole numbers, or how many there are to be")
+        raise TypeError(f"seeds is {_arguments.shown(seeds)}; give a list of whole numbers, or how many there are to be")
     listed = [_arguments.whole(seed, "a seed") for seed in seeds]
     if not listed:
         raise ValueError("there are no seeds; give one at least")
@@ -412,6 +412,7 @@ def _kept(
     out: str | PathLike[str] | None, scene: Scene, keys: Sequence[str], settings: Mapping[str, Any], orders: Sequence[_Order]
 ) -> Iterator[FinishedRuns | None]:
     """Opens the runs that are finished in `out`; None where nothing is kept."""
+    out = None if out is None else _arguments.path_text(out, "out")
     if out is None:
         yield None
         return

@@ -92,6 +92,16 @@ MISTAKES_OF_SCENES: list[tuple[Callable[[carom.Scene], object], type[Exception],
     (lambda s: s.with_disks([[1, 1], [3, 3]], radii=[[0.1, 1]]), ValueError, r"radii: the array has shape \(1, 2\)"),
     (lambda s: s.with_disks([[1, 1], [3, 3]], radii=[0.1, -1]), carom.SceneError, "disks.0.radius.1 is a floating-point number"),
     (lambda s: s.with_disks([[1, 1], [3, 3]], masses=[0.1, np.inf]), carom.SceneError, "disks.0.mass.1 is a floating"),
+    (lambda s: s.check(None), TypeError, "engine is None; give a string"),
+    (lambda s: carom.Scene.load("x.toml", 5), TypeError, "overrides is 5; give a list of strings"),
+    (lambda s: Sim(np.zeros((9, 2))), TypeError, r"^array\(\[\[0., 0.\], .*\.\.\. is no scene"),
+    (lambda s: carom.sweep(s, {"run.time": [1]}, seeds=10**30), ValueError, "seeds is 1000.*; it must be from 0 to 1000000"),
+    (lambda s: carom.sweep(s, {"run.time": [1]}, numbers=5), TypeError, "numbers is 5; give a list of strings"),
+    (lambda s: carom.validate(only=5), TypeError, "only is 5; give a list of strings"),
+    (lambda s: carom.hardcases([5]), TypeError, "names is 5; give a string"),
+    (lambda s: carom.read_start("\udcff.npy"), ValueError, "half of a pair of surrogates"),
+    (lambda s: carom.Table([1, 2]), TypeError, r"the columns are \[1, 2\]; give a mapping"),
+    (lambda s: carom.partner_name("x"), TypeError, "the partner is 'x'; give a whole number"),
     (lambda s: s.check("fst"), ValueError, 'there is no engine "fst"; choose one of auto, fast'),
     (lambda s: Sim(5), TypeError, "5 is no scene; give a carom.Scene"),
     (lambda s: Sim(s, engine="fst"), ValueError, 'there is no engine "fst"'),
@@ -156,6 +166,9 @@ MISTAKES_OF_SIMULATIONS: list[tuple[Callable[[carom.Simulation], object], type[E
     (lambda sim: sim.set_collision_rule(5), TypeError, "the collision rule is 5; give a function"),
     (lambda sim: sim.save(5), TypeError, "path is 5; give a path"),
     (lambda sim: sim.save("/nowhere/x"), carom.OutputError, "/nowhere/x: cannot write the simulation: No such file"),
+    (lambda sim: sim.set([], 1), TypeError, r"a key is \[\]; give a string"),
+    (lambda sim: sim.animate(0.1, frames=0), ValueError, "frames is 0; it must be from 1"),
+    (lambda sim: sim.animate(0.1, interval=[]), TypeError, r"interval is \[\]; give a number"),
     (lambda sim: sim.animate(0), ValueError, "frames are 0 apart"),
 ]
 
@@ -188,6 +201,8 @@ MISTAKES_OF_RUNS: list[tuple[dict[str, object], type[Exception], str]] = [
     ({"threads": 0}, ValueError, "threads is 0; it must be from 1 to 32"),
     ({"threads": 33}, ValueError, "threads is 33; it must be from 1 to 32"),
     ({"threads": 3, "engine": "textbook"}, ValueError, "threads=3: only one core can compute this run, for"),
+    ({"walltime": "\ud800"}, ValueError, "half of a pair of surrogates"),
+    ({"observables": "\ud800"}, ValueError, "half of a pair of surrogates"),
     ({"walltime": -1}, ValueError, "walltime is -1 s; it must be positive"),
     ({"walltime": "soon"}, ValueError, "give a length of time such as 90s"),
     ({"checkpoint_every": "1min"}, ValueError, 'give out="directory" too'),
@@ -208,6 +223,14 @@ def test_a_run_that_cannot_go_on_is_told_in_words_of_python(gas: carom.Scene, tm
     carom.run(gas, out=tmp_path / "done")
     stopped = carom.run(gas.set({"run.time": 1e7, "run.sample_every": 1e5}), out=tmp_path / "stopped", walltime=0.1)
     assert stopped.saved
+    run = carom.open_run(tmp_path / "done")
+    for call, words in (
+        (lambda: run.state(99), "k is 99; it must be from -41 to 40"),
+        (lambda: run.analyze(5), "observables is 5; give a list of strings"),
+        (lambda: carom.resume(tmp_path / "stopped", observables=[5]), "5 is no observable"),
+    ):
+        with pytest.raises((TypeError, ValueError), match=words):
+            call()
     for mistake, sentence in (
         (lambda: carom.resume(tmp_path / "done"), "there is no checkpoint from which a run could go on; checkpoint_every= has"),
         (lambda: carom.run(gas, out=tmp_path / "done"), "replace it with overwrite=True, or name another directory with out="),
