@@ -184,7 +184,7 @@ function drawBox(pane) {
       pen.translate((x0 + x1) / 2, (y0 + y1) / 2);
       if (side < 2) pen.rotate(-Math.PI / 2);
       pen.textAlign = "center";
-      pen.fillText(text, 0, side === 2 || side === 1 ? 18 : -8);
+      pen.fillText(text, 0, side === 2 || side === 1 ? 15 : -8);
       pen.restore();
     }
   });
