@@ -32,15 +32,30 @@ double least_restitution(const Effects& effects) {
   return least;
 }
 
+double stable_step(const Disks& disks, const Effects& effects, double stiffness) {
+  return stable_below(disks.radius, disks.mass, stiffness, SoftStep<ClosePairs>::relative_damping(least_restitution(effects)));
+}
+
 void require_stable_springs(const FixedStep& step, const Disks& disks, const Effects& effects) {
-  if (!step.stiffness) return;
-  if (step.method != "soft")
+  using Springs = SoftStep<ClosePairs>;
+  if (step.method != "soft") {
+    if (!step.stiffness) return;
     throw std::invalid_argument(
         fmt::format("the method \"{}\" has no springs, and so no stiffness; leave it out, or take \"soft\"", step.method));
+  }
+  if (!step.stiffness) {
+    // What dt gives them makes all dt alike.
+    if (1.0 < stable_step(disks, effects, Springs::stiffness(disks.mass, 1.0))) return;
+    const double bound = stable_step(disks, effects, 1.0) / step.dt;
+    throw std::invalid_argument(fmt::format(
+        "every time step with {:g} steps in the shortest contact is unstable where many small disks touch a large one that is "
+        "not heavy enough; give a stiffness of at most {:.3g} with a time step of {:g}, and a hundredth of that to resolve "
+        "contacts",
+        Springs::steps_per_contact, three_digits_below(bound * bound), step.dt));
+  }
   if (!(*step.stiffness > 0.0 && std::isfinite(*step.stiffness)))
     throw std::invalid_argument(fmt::format("the stiffness is {:g}; it must be positive and finite", *step.stiffness));
-  const double damping = SoftStep<ClosePairs>::relative_damping(least_restitution(effects));
-  const double bound = stable_below(disks.radius, disks.mass, *step.stiffness, damping);
+  const double bound = stable_step(disks, effects, *step.stiffness);
   if (!(step.dt < bound))
     throw std::invalid_argument(fmt::format(
         "a time step of {:g} is unstable with a stiffness of {:g} where several disks touch one; take at most {:.3g}, "

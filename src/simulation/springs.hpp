@@ -9,8 +9,12 @@ namespace carom::detail {
 /// Returns the smallest restitution of pairs and walls.
 [[nodiscard]] double least_restitution(const Effects& effects);
 
-/// Does nothing where no stiffness is given. Throws std::invalid_argument where the method has no springs, or the stiffness is
-/// not positive and finite or makes the time step unstable. Requires restitutions above 0.
+/// Returns the time below which every step with springs of this stiffness is stable; infinite without disks. Requires
+/// restitutions above 0.
+[[nodiscard]] double stable_step(const Disks& disks, const Effects& effects, double stiffness);
+
+/// Throws std::invalid_argument where a stiffness is given to a method without springs, or is not positive and finite, or where
+/// springs make the time step unstable. Requires restitutions above 0.
 void require_stable_springs(const FixedStep& step, const Disks& disks, const Effects& effects);
 
 /// Does nothing where no stiffness was given. Throws std::invalid_argument where the disks are fast enough to leave the box

@@ -22,6 +22,8 @@
 //
 //     S_i = n + sin(n alpha_i) / sin(alpha_i),    n = floor(pi / alpha_i).
 //
+// Each of the other disks gives 1 at most, and the walls 2 together.
+//
 // Equal disks have six contacts 60 degrees apart and S = 3: without dashpots dt < sqrt(2 m / (3 k)), which is 0.37 of the time
 // that two of them are in contact, and 0.58 of what the pair alone allows. A hexagonal crystal reaches it: two neighbouring rows
 // that move against each other have omega^2 = 6 k / m. Overlaps bring contacts closer together, by about their share of a
@@ -51,8 +53,10 @@ namespace carom {
   double least = std::numeric_limits<double>::infinity();
   if (radius.empty()) return least;
   const double smallest = *std::min_element(radius.begin(), radius.end());
+  const double others_and_walls = static_cast<double>(radius.size()) + 1.0;
   for (std::size_t i = 0; i < radius.size(); ++i) {
-    const double sum = most_contacts_along(radius[i], smallest), drag = (2.0 * sum - 1.0) * damping;
+    const double sum = std::min(most_contacts_along(radius[i], smallest), others_and_walls);
+    const double drag = (2.0 * sum - 1.0) * damping;
     const double y = 4.0 / (drag + std::sqrt(drag * drag + 8.0 * sum));
     least = std::min(least, y * std::sqrt(mass[i]) / std::sqrt(stiffness));
   }

@@ -156,6 +156,11 @@ TEST(StableStep, IsThatOfTheLightestOfEqualSizesAndShorterWithDashpots) {
   EXPECT_EQ(bound_of({}, 1.0), std::numeric_limits<double>::infinity());
 }
 
+TEST(StableStep, NoDiskTouchesMoreThanThereAre) {
+  const std::vector<Placed> disks = {{{0, 0}, {0, 0}, 1.0, 2.0}, {{1001, 0}, {0, 0}, 1000.0, 2.0}};
+  EXPECT_NEAR(bound_of(disks, 1.0), std::sqrt(2.0 * 2.0 / 3.0), 1e-15);  // the other and two walls
+}
+
 /// A crystal of 16 disks that fills a periodic box and is pressed together by a thousandth. Its rows can move against each other.
 System crystal() {
   constexpr double apart = 0.999, height = apart * std::numbers::sqrt3 / 2.0;
@@ -192,7 +197,7 @@ TEST(StableStep, ACrystalStandsBelowItAndBurstsAbove) {
 
 TEST(StableStep, ACrystalWithDashpotsStandsBelowItsOwnAndBurstsAtThatWithout) {
   constexpr double restitution = 0.5;
-  const double bound = stable_below({0.5}, {1.0}, 1.0, Springs::relative_damping(restitution));
+  const double bound = stable_below(std::vector(16, 0.5), std::vector(16, 1.0), 1.0, Springs::relative_damping(restitution));
   EXPECT_LE(growth(0.99 * bound, 20'000, restitution), 1.0);
   EXPECT_GT(growth(0.99 * std::sqrt(2.0 / 3.0), 1'000, restitution), 1e6);
 }

@@ -9,6 +9,7 @@
 
 #include <carom/simulation.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,6 +24,9 @@
 
 namespace carom::test {
 namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 using Springs = SoftStep<ClosePairs>;
 
@@ -60,7 +64,7 @@ TEST(Stiffness, ThatOfTheStepGivesTheSameBitsAsNone) {
   const Scene scene = mixture_scene(24, 0.4, Boundary::walls);
   constexpr double dt = 0.001;
   const System s = system_of(scene);
-  Simulation given = make_simulation(scene, FixedStep{"soft", dt, Springs::stiffness(Bodies(s.box, s.disks, s.state), dt)});
+  Simulation given = make_simulation(scene, FixedStep{"soft", dt, Springs::stiffness(s.disks.mass, dt)});
   Simulation derived = make_simulation(scene, FixedStep{"soft", dt});
   for (Simulation* one : {&given, &derived}) (void)one->run_until(2.0);
   EXPECT_TRUE(same_bits(given.state(), derived.state()));
@@ -141,6 +145,27 @@ TEST(Stiffness, AnUnstableStepIsRefusedWithTheLongestThatIsNot) {
   scene.species[0].mass = 0.25;  // half as long
   EXPECT_EQ(refusal(scene, {"soft", 0.00408, 1e4}), "");
   EXPECT_NE(refusal(scene, {"soft", 0.00409, 1e4}), "");
+}
+
+TEST(Stiffness, OfDtIsRefusedWhereALargeLightDiskIsUnstableAtAnyStepAndTakenAtAnyRatioOfMasses) {
+  Scene scene = gas_scene(2, 0.02, Boundary::periodic);
+  scene.box = square_box(64.0, Boundary::periodic);
+  // S = pi / alpha = 500 to 1 in 1000: sin(alpha / 2) = 1 / 319. Equal masses bear 2 (30 / pi)^2 2 / 2 = 365.
+  scene.species = {species_of(1, 15.9, 1.0, ListedPositions{{{32.0, 32.0}}}, ListedVelocities{{{0.0, 0.0}}}),
+                   species_of(600, 0.05, 1.0, RandomPositions{}, MaxwellVelocities{1.0})};
+  for (const double dt : {1e-3, 1e-6})
+    EXPECT_THAT(
+        refusal(scene, {"soft", dt}),
+        StartsWith("every time step with 30 steps in the shortest contact is unstable where many small disks touch a large "
+                   "one that is not heavy enough; give a stiffness of at most "));
+  EXPECT_THAT(refusal(scene, {"soft", 1e-3}), HasSubstr("of at most 3.99e+03 with a time step of 0.001, "));  // 2 / (501 dt^2)
+  EXPECT_EQ(refusal(scene, {"soft", 1e-3, 3990.0}), "");
+  scene.species[0].mass = 1.5;  // bears 500 from 1.37 on
+  EXPECT_EQ(refusal(scene, {"soft", 1e-3}), "");
+  scene.species[0].mass = 1e12;
+  EXPECT_EQ(refusal(scene, {"soft", 1e-3}), "");
+  scene.species[0] = species_of(1, 0.5, 1e-12, ListedPositions{{{32.0, 32.0}}}, ListedVelocities{{{0.0, 0.0}}});
+  EXPECT_EQ(refusal(scene, {"soft", 1e-3}), "");
 }
 
 TEST(Stiffness, DisksThatWouldPassThroughEachOtherAreRefusedAndWouldIndeed) {
