@@ -152,6 +152,14 @@ TEST(Compare, ARunThatWouldTakeTooLongIsLeftOutByName) {
   EXPECT_EQ(comparison.runs.size(), 3U + 6U);
 }
 
+TEST(Compare, AStepIsPaidWhole) {
+  EXPECT_EQ(end_of_step({"fast"}, 1.7), 1.7);
+  EXPECT_EQ(end_of_step({"swept", 2.5}, 1.7), 2.5);
+  EXPECT_EQ(end_of_step({"swept", 0.5}, 1.7), 2.0);
+  EXPECT_EQ(end_of_step({"swept", 0.5}, 2.0), 2.0);
+  EXPECT_NEAR(end_of_step({"swept", 0.1}, 0.3), 0.3, 1e-15);  // 3 * 0.1 to rounding: no fourth step
+}
+
 TEST(Compare, WallsAddTheNaiveMethodThatMeetsThemAtTheEdge) {
   const Comparison comparison = compare(dozen_scene(Boundary::walls), dozen_options({0.01}, 1, "textbook"), {});
   std::set<std::string> names;

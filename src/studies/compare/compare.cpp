@@ -283,7 +283,6 @@ class Study {
       run.seconds +=
           seconds_of([&](const RunLimits& limits) { simulation.run_until_sample(k, plan.sample_step, limits); }, proceed);
       if (stopped_) return std::nullopt;
-      if (k == plan.early) run.seconds_early = run.seconds;
       const State state = simulation.state();
       run.error.push_back(reference.rms_distance(k, state) / plan.sigma);
       speeds += state.velocities.colwise().norm().mean();
@@ -291,17 +290,23 @@ class Study {
           std::max(run.worst_overlap, deepest_overlap(scene_.box, disks.radius, state.positions, state.remainders).relative);
     }
     run.time = simulation.time();
-    if (run.seconds < least_seconds) {  // too short for a clock: again, undisturbed
-      const RunSeconds least = seconds_of_run(scene_, start, method, {plan.early_time(), run.time}, proceed);
-      if (stopped_) return std::nullopt;
-      run.setup_seconds = std::min(run.setup_seconds, least.setup);
-      run.seconds_early = least.until[0];
-      run.seconds = least.until[1];
-    }
+    const Totals totals = simulation.totals();
+    const State last = simulation.state();
     // The steady price: exact engines have made lists and predictions before the clock runs, and the step in which a sample lies
     // is completed after it. Both would flatter a short stretch.
-    if (samples == plan.samples) run.seconds_early = run.seconds * plan.early_time() / run.time;
-    const Totals totals = simulation.totals();
+    double timed = run.time;
+    if (samples < plan.samples) {
+      timed = end_of_step(method, run.time);
+      run.seconds += seconds_of([&](const RunLimits& limits) { simulation.run_until(timed, limits); }, proceed);
+    }
+    if (run.seconds < least_seconds) {  // too short for a clock: again, undisturbed
+      const RunSeconds least = seconds_of_run(scene_, start, method, {timed}, proceed);
+      run.setup_seconds = std::min(run.setup_seconds, least.setup);
+      run.seconds = least.until.front();
+    }
+    if (stopped_) return std::nullopt;
+    run.seconds_early = run.seconds * plan.early_time() / timed;
+    run.seconds *= run.time / timed;
     const double count = static_cast<double>(disks.count());
     run.pair = totals.pair;
     const double counted = counted_time(method, run.time);
@@ -310,7 +315,7 @@ class Study {
       run.collision_rate = 2.0 * static_cast<double>(totals.pair) / (count * counted);
     }
     run.mean_free_path = totals.pair == 0 ? 0.0 : speeds / static_cast<double>(samples) / run.collision_rate;
-    run.energy_drift = total_energy(scene_.box, scene_.effects, disks, simulation.state()) / reference.energy(samples) - 1.0;
+    run.energy_drift = total_energy(scene_.box, scene_.effects, disks, last) / reference.energy(samples) - 1.0;
     return run;
   }
 

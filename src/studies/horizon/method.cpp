@@ -24,6 +24,10 @@ double counted_time(const Method& method, double time) {
   return method.dt * std::floor(time / method.dt * (1.0 + 1e-12));  // a step at `time` to rounding is done
 }
 
+double end_of_step(const Method& method, double time) {
+  return method.exact() ? time : std::max(time, method.dt * std::ceil(time / method.dt * (1.0 - 1e-12)));
+}
+
 Simulation begin(const Scene& scene, const State& start, const Method& method) {
   return method.exact() ? make_simulation(scene, start, method.name)
                         : make_simulation(scene, start, FixedStep{method.name, method.dt});

@@ -27,6 +27,9 @@ struct Method {
 /// events.
 [[nodiscard]] double counted_time(const Method& method, double time);
 
+/// Returns the end of the step in which `time` lies; `time` itself by exact events, and where a step ends to rounding.
+[[nodiscard]] double end_of_step(const Method& method, double time);
+
 /// Makes a simulation by this method from a given state. Throws as make_simulation.
 [[nodiscard]] Simulation begin(const Scene& scene, const State& start, const Method& method);
 
