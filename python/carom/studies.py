@@ -231,6 +231,7 @@ def compare(
     seeds: int | None = None,
     dts: float | Sequence[float] | None = None,
     longest: float = 0.3,
+    stiffness: float | None = None,
     engine: str = "auto",
     costs: bool = True,
     progress: Progress | None = None,
@@ -245,6 +246,7 @@ def compare(
         dts: time steps; None: three per decade, from two mean free times down. A single one is the short study: one start, and no
             other sizes and densities.
         longest: seconds of processor time that one run may take; longer ones are left out.
+        stiffness: of the springs of the method "soft", force per overlap; None: such that the shortest contact takes 30 steps.
         engine: of the scene's own run: "auto", "fast" or "textbook".
         costs: whether the cost of other sizes and densities is measured too.
         progress: True for a bar (needs tqdm), or a function of the fraction done.
@@ -261,9 +263,10 @@ def compare(
     steps = [] if dts is None else _arguments.numbers(np.atleast_1d(dts), "dts").tolist()
     starts = None if seeds is None else _arguments.whole(seeds, "seeds")
     limit = _arguments.real(longest, "longest")
+    spring = None if stiffness is None else _arguments.real(stiffness, "stiffness")
     core = as_scene(scene)._core
     with _sentences(), reporting(progress, "compare") as tell:
-        parts = _files.compare(core, steps, starts, limit, _arguments.words(engine, "engine"), bool(costs), tell)
+        parts = _files.compare(core, steps, starts, limit, spring, _arguments.words(engine, "engine"), bool(costs), tell)
     summary: dict[str, Any] = json.loads(parts[0])
     header, *rows = csv.reader(io.StringIO(parts[1]))
     runs = {name: _column([row[k] for row in rows], name) for k, name in enumerate(header)}

@@ -220,6 +220,12 @@ void add_compare(CLI::App& program, Action& action, const Invocation& invocation
           "Seconds that one run of a fixed-step method may take (default: 0.3); a longer one is cut short, or left out and named")
       ->type_name("SECONDS");
   command
+      ->add_option(
+          "--stiffness", options->stiffness,
+          "Stiffness of the springs of the method soft, force per overlap (default: such that the shortest contact takes "
+          "30 steps)")
+      ->type_name("K");
+  command
       ->add_option("--play", options->play,
                    fmt::format("Also write side_by_side.html: a fixed-step method ({}; default guarded) beside exact events, "
                                "to watch. Give it after SCENE; without DT it is one of the study's",
@@ -241,7 +247,8 @@ void add_compare(CLI::App& program, Action& action, const Invocation& invocation
   command->add_flag("--json", options->json, "Print compare.json instead of the table");
   command->add_flag("-q,--quiet", options->quiet, "Print only the conclusions, and no progress");
   add_progress(*command, options->progress);
-  for (const char* of_the_study : {"--out", "--dt", "--seeds", "--longest", "--play", "--no-costs", "--force", "--resume"})
+  for (const char* of_the_study :
+       {"--out", "--dt", "--seeds", "--longest", "--stiffness", "--play", "--no-costs", "--force", "--resume"})
     trajectory->excludes(command->get_option(of_the_study));
   command->callback([&action, options, invocation] { action = [options, invocation] { return compare(*options, invocation); }; });
 }

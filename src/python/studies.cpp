@@ -108,7 +108,7 @@ ComparisonParts compare_methods(const Scene& scene, const cli::CompareCommandOpt
   Watch watch(report);
   const ComparisonParts parts = watched(watch, [&]() -> ComparisonParts {
     (void)make_simulation(scene, options.engine);
-    cli::check_steps(scene, options.dts);
+    cli::check_steps(scene, options);
     CompareHooks hooks;
     hooks.proceed = [&](const std::string&, double fraction) { return watch(fraction); };
     const Comparison comparison = carom::compare(scene, options, hooks);
@@ -256,17 +256,18 @@ void add_studies(nb::module_& module) {
   module.def(
       "compare",
       [](const Scene& scene, const std::vector<double>& dts, std::optional<std::int64_t> seeds, double longest,
-         const std::string& engine, bool costs, const nb::object& report) {
+         std::optional<double> stiffness, const std::string& engine, bool costs, const nb::object& report) {
         cli::CompareCommandOptions wishes;
         wishes.scene.engine = engine;
         wishes.dts = dts;
         wishes.seeds = seeds;
         wishes.longest = longest;
+        wishes.stiffness = stiffness;
         wishes.no_costs = !costs;
         return compare_methods(scene, wishes, report);
       },
-      nb::arg("scene"), nb::arg("dts"), nb::arg("seeds").none(), nb::arg("longest"), nb::arg("engine"), nb::arg("costs"),
-      nb::arg("report").none());
+      nb::arg("scene"), nb::arg("dts"), nb::arg("seeds").none(), nb::arg("longest"), nb::arg("stiffness").none(),
+      nb::arg("engine"), nb::arg("costs"), nb::arg("report").none());
   module.def("side_by_side", &side_by_side, nb::arg("scene"), nb::arg("method"), nb::arg("engine"), nb::arg("report").none());
   module.def(
       "difference",

@@ -4,6 +4,7 @@
 
 #include <carom/simulation.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -259,11 +260,36 @@ TEST_F(CompareCommand, OptionsThatMakeNoSenseAreRefusedBeforeAnythingIsWritten) 
   expect_refused({"--dt", "inf"}, "--dt inf: ");
   expect_refused({"--longest", "0"}, "--longest 0: ");
   expect_refused({"--longest", "nan"}, "--longest nan: ");
+  for (const char* const wrong : {"0", "-1", "inf", "nan"})
+    expect_refused({"--stiffness", wrong}, fmt::format("--stiffness {}: it must be positive and finite", wrong));
   expect_refused({"--force", "--resume"}, "--force ");
   expect_refused({"--engine", "warp"}, "");
   expect_refused({"--engine", "textbook-quad"}, "--engine textbook-quad: ");
   expect_refused({"--progress", "often"}, "");
   expect_refused({"--set", "disks.0.radius=9"}, "");
+}
+
+TEST_F(CompareCommand, SpringsHaveTheStiffnessThatIsGivenAndStepsThatItMakesUnstableAreLeftOut) {
+  const Outcome outcome = compare({"--stiffness", "1e5", "--dt", "0.02,0.002,0.001"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("; stiffness of soft 100000\n"),
+                                 HasSubstr("  left out: soft: a time step of 0.02 is unstable with a stiffness of 100000 where "
+                                           "several disks touch one; take at most 0.00258, ")));
+  const json all = json::parse(text_of(file("gas-compare/compare.json")));
+  EXPECT_EQ(all["plan"]["stiffness"], 1e5);
+  EXPECT_EQ(all["runs"].size(), 4U + 3U * steppers - 1U);
+  std::vector<double> errors;
+  for (const json& run : all["runs"])
+    if (run["method"] == "soft") errors.push_back(run["error"][0]);
+  ASSERT_EQ(errors.size(), 2U);
+  EXPECT_NEAR(errors[0], errors[1], 0.1 * errors[1]) << "the error is that of the springs and not of the step";
+}
+
+TEST_F(CompareCommand, AStiffnessThatNoStepOrNoSpringsCanHaveIsRefused) {
+  expect_refused({"--stiffness", "1e5"}, "--stiffness 100000: a time step of 0.01 is unstable with a stiffness of 100000");
+  expect_refused({"--stiffness", "1e-3", "--dt", "0.01"}, "--stiffness 0.001: with a stiffness of 0.001 the two fastest disks");
+  expect_refused({"--stiffness", "1e3", "--set", "collision.rule=\"reversal\""}, "--stiffness 1000: the method \"soft\" has a");
+  expect_refused({"--play", "soft:0.02", "--stiffness", "1e5", "--dt", "0.001"}, "--play soft:0.02: a time step of 0.02 is");
 }
 
 TEST_F(CompareCommand, WithoutPointsThereIsNothingToResume) { expect_refused({"--resume"}, "gas-compare/points.jsonl"); }

@@ -180,14 +180,16 @@ TEST(StudyKey, ChangesWithWhateverShapesAPoint) {
   denser.box.upper *= 0.99;
   Scene reseeded = scene;
   reseeded.run.seed = 2;
-  CompareOptions other_steps = options, more_seeds = options, longer = options, other_engine = options, with_costs = options;
+  CompareOptions other_steps = options, more_seeds = options, longer = options, other_engine = options, with_costs = options,
+                 stiffer = options;
   other_steps.dts.push_back(1e-3);
   more_seeds.seeds = 3;
   longer.longest = 200.0;
   other_engine.engine = "textbook";
   with_costs.costs = true;
+  stiffer.stiffness = 1e5;
   std::vector<std::string> keys = {key, study_key(denser, options), study_key(reseeded, options)};
-  for (const CompareOptions& one : {other_steps, more_seeds, longer, other_engine, with_costs})
+  for (const CompareOptions& one : {other_steps, more_seeds, longer, other_engine, with_costs, stiffer})
     keys.push_back(study_key(scene, one));
   std::sort(keys.begin(), keys.end());
   EXPECT_EQ(std::unique(keys.begin(), keys.end()), keys.end());

@@ -2,6 +2,8 @@
 // when it is finished, so that an interrupted study goes on where it was.
 
 #include "studies/compare/command.hpp"
+
+#include "simulation/springs.hpp"
 #include "studies/compare/compare.hpp"
 #include "studies/compare/files.hpp"
 #include "studies/compare/own_trajectory.hpp"
@@ -91,9 +93,9 @@ ExitCode compare_scene(const CompareCommandOptions& options, const Invocation& i
   const Scene scene = load(options.scene);
   require_known_effects(scene, "carom compare");
   (void)make_simulation(scene, study.engine);  // whatever is wrong with the scene is said before anything is written
-  check_steps(scene, study.dts);
+  check_steps(scene, study);
   std::optional<PlayChoice> play;
-  if (options.play) play = checked_play(*options.play, scene);
+  if (options.play) play = checked_play(*options.play, scene, study.stiffness);
   const std::string key = study_key(scene, study);
   const StopRequest stop;
   const RunDirectory directory = open_study(directory_for(options), options.force, options.resume, compare_products);
@@ -171,18 +173,35 @@ CompareOptions compare_options(const CompareCommandOptions& options) {
   if (engine != "auto" && engine != "fast" && engine != "textbook")
     throw UsageError(fmt::format(
         "--engine {}: every precision is compared anyway; choose auto, fast or textbook for the scene's own run", engine));
-  return {options.dts, static_cast<std::uint64_t>(seeds), options.longest, engine, !options.no_costs && !is_short};
+  if (options.stiffness && !(*options.stiffness > 0.0 && std::isfinite(*options.stiffness)))
+    throw UsageError(fmt::format("--stiffness {:g}: it must be positive and finite", *options.stiffness));
+  return {.dts = options.dts,
+          .seeds = static_cast<std::uint64_t>(seeds),
+          .longest = options.longest,
+          .engine = engine,
+          .costs = !options.no_costs && !is_short,
+          .stiffness = options.stiffness};
 }
 
-void check_steps(const Scene& scene, const std::vector<double>& dts) {
-  if (dts.empty()) return;
-  // The longest step, since what is wrong with a step is that it is too long.
-  const double longest = *std::max_element(dts.begin(), dts.end());
-  try {
-    (void)make_simulation(scene, FixedStep{"grid", longest});
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--dt {:g}: {}", longest, error.what()));
+void check_steps(const Scene& scene, const CompareOptions& options) {
+  const auto require = [&](const std::string& option, const FixedStep& step) {
+    try {
+      (void)make_simulation(scene, step);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(fmt::format("{}: {}", option, error.what()));
+    }
+  };
+  // The longest step, since what is wrong with a step is that it is too long. Springs need one that is short enough.
+  const std::vector<double>& dts = options.dts;
+  if (!dts.empty()) {
+    const double longest = *std::max_element(dts.begin(), dts.end());
+    require(fmt::format("--dt {:g}", longest), {"grid", longest});
   }
+  if (!options.stiffness) return;
+  const double shortest =
+      dts.empty() ? std::min(1.0, 0.1 * detail::stable_step(make_simulation(scene).disks(), scene.effects, *options.stiffness))
+                  : *std::min_element(dts.begin(), dts.end());
+  require(fmt::format("--stiffness {:g}", *options.stiffness), {"soft", shortest, options.stiffness});
 }
 
 ExitCode compare(const CompareCommandOptions& options, const Invocation& invocation) {

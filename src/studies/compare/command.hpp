@@ -18,6 +18,7 @@ struct CompareCommandOptions {
   std::vector<double> dts;                ///< empty: the usual ladder
   std::optional<std::int64_t> seeds;      ///< empty: 8, or 1 with a single dt
   double longest = 0.3;                   ///< seconds
+  std::optional<double> stiffness;        ///< of the springs of soft; empty: a contact takes 30 steps
   std::optional<std::string> play;        ///< METHOD[:DT], or empty: make the page on which that flies beside exact events
   std::optional<std::string> trajectory;  ///< a file of the user's own, to be compared with exact events in place of all else
   std::optional<double> every;            ///< time between frames of a trajectory without times
@@ -32,8 +33,8 @@ struct CompareCommandOptions {
 /// range.
 [[nodiscard]] CompareOptions compare_options(const CompareCommandOptions& options);
 
-/// Throws UsageError where the longest of these steps cannot be taken with this scene.
-void check_steps(const Scene& scene, const std::vector<double>& dts);
+/// Throws UsageError where the longest of the steps cannot be taken with this scene, or springs of the stiffness with none.
+void check_steps(const Scene& scene, const CompareOptions& options);
 
 ExitCode compare(const CompareCommandOptions& options, const Invocation& invocation);
 

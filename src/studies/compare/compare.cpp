@@ -104,6 +104,7 @@ class Study {
     plan.drawn = start_is_drawn(scene_);
     for (std::uint64_t k = 0; k < (plan.drawn ? options_.seeds : 1); ++k) plan.seeds.push_back(scene_.run.seed + k);
     plan.longest = options_.longest;
+    plan.stiffness = options_.stiffness;
     plan.machine = cli::processor();
     plan.conservative = !scene_.effects.dissipate();
     if (hooks_.planned) hooks_.planned(plan, *start);
@@ -157,7 +158,7 @@ class Study {
     for (const double dt : result_.plan.dts) {
       for (const std::string& name : fixed_step_names()) {
         if (!walls && name == "naive-edge") continue;  // they differ at walls alone
-        all.push_back({name, dt});
+        all.push_back({name, dt, name == "soft" ? options_.stiffness : std::nullopt});
         const bool twice = options_.dts.empty() && finds_contacts(name);
         if (twice && result_.plan.in_free_times(dt * between) > shortest_extra_step) all.push_back({name, dt * between});
       }
@@ -200,7 +201,13 @@ class Study {
                               : fmt::format("seed {}: {}, dt = {:.3g}", seed, method.name, method.dt);
       const std::uint64_t samples = samples_for(method, *start);
       if (samples == 0) continue;
-      std::optional<MethodRun> run = run_method(method, *start, *reference, *disks, samples);
+      std::optional<MethodRun> run;
+      try {
+        run = run_method(method, *start, *reference, *disks, samples);
+      } catch (const std::invalid_argument& error) {  // it could from the first start, whose disks are slower
+        result_.left_out.push_back({method, 0.0, fmt::format("seed {}: {}", seed, error.what())});
+        continue;
+      }
       if (!run) return false;
       run->seed = seed;
       if (first && !method.exact()) {

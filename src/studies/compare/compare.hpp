@@ -21,6 +21,7 @@ struct CompareOptions {
   std::string engine = "auto";
   bool costs = true;                      ///< measure cost against size and density too
   std::uint64_t lyapunov_collisions = 0;  ///< see HorizonOptions
+  std::optional<double> stiffness = {};   ///< of the springs of soft; empty: a contact takes 30 steps
 };
 
 struct CompareHooks {

@@ -28,6 +28,7 @@ struct ComparePlan {
   std::vector<std::uint64_t> seeds;  ///< one per start
   bool drawn = true;                 ///< another seed gives another start; else there is one
   double longest = 0.0;              ///< seconds of processor time that one run of a fixed-step method may be predicted to take
+  std::optional<double> stiffness;   ///< that was given to the springs of soft
   bool conservative = true;          ///< no contact dissipates energy
   std::string machine;               ///< the processor's name
 

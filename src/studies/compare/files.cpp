@@ -103,6 +103,8 @@ CostPoint cost_of(const Json& json) {
           json.at("Z"),     json.at("bias_slope")};
 }
 
+Json or_null(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
 Json json_of(const ComparePlan& plan) {
   return {{"sigma", plan.sigma},
           {"mean_free_time", plan.mean_free_time},
@@ -115,11 +117,10 @@ Json json_of(const ComparePlan& plan) {
           {"seeds", plan.seeds},
           {"drawn", plan.drawn},
           {"longest", plan.longest},
+          {"stiffness", or_null(plan.stiffness)},
           {"conservative", plan.conservative},
           {"machine", plan.machine}};
 }
-
-Json or_null(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
 Json json_of(const Price& price) {
   return {{"method", price.method},
@@ -161,10 +162,15 @@ Json json_of(const MethodSummary& s) {
 }  // namespace
 
 std::string study_key(const Scene& scene, const CompareOptions& options) {
-  const Json key = {{"scene", resolved_toml(scene)},   {"dt", options.dts},
-                    {"seeds", options.seeds},          {"longest", options.longest},
-                    {"engine", options.engine},        {"costs", options.costs},
-                    {"version", build_info().version}, {"commit", build_info().commit}};
+  const Json key = {{"scene", resolved_toml(scene)},
+                    {"dt", options.dts},
+                    {"seeds", options.seeds},
+                    {"longest", options.longest},
+                    {"engine", options.engine},
+                    {"costs", options.costs},
+                    {"stiffness", or_null(options.stiffness)},
+                    {"version", build_info().version},
+                    {"commit", build_info().commit}};
   return key.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -173,20 +173,14 @@ Block mistakes_block(const Comparison& comparison, const std::vector<MethodSumma
 /// Returns one sentence for all that would have taken too long, and one for each reason why a method cannot run the scene.
 std::string left_out(const Comparison& comparison) {
   std::vector<std::string> slow;
-  std::vector<std::pair<std::string, std::string>> reasons;  // method and reason, without repetition
-  for (const LeftOut& one : comparison.left_out) {
-    if (one.reason.empty()) {
+  for (const LeftOut& one : comparison.left_out)
+    if (one.reason.empty())
       slow.push_back(fmt::format("{} with dt = {:.2g} (about {})", one.method.name, one.method.dt, seconds_text(one.seconds)));
-    } else if (const std::pair pair(one.method.name, one.reason);
-               std::find(reasons.begin(), reasons.end(), pair) == reasons.end()) {
-      reasons.push_back(pair);
-    }
-  }
   std::vector<std::string> sentences;
   if (!slow.empty())
     sentences.push_back(
         fmt::format("Not run, because longer than {}: {}.", seconds_text(comparison.plan.longest), fmt::join(slow, ", ")));
-  for (const auto& [method, reason] : reasons) sentences.push_back(fmt::format("Not run: {}: {}.", method, reason));
+  for (const std::string& clause : reasons_left_out(comparison)) sentences.push_back(fmt::format("Not run: {}.", clause));
   return fmt::format("{}", fmt::join(sentences, " "));
 }
 
@@ -237,6 +231,7 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
                 {"Processor", plan.machine + ", one core: every processor time is of one thread"},
                 {"Seeds", plan.seeds.size() == 1 ? fmt::format("{}", plan.seeds.front())
                                                  : fmt::format("{} to {}", plan.seeds.front(), plan.seeds.back())}};
+  if (plan.stiffness) page.facts.push_back({"Stiffness of the springs of soft", fmt::format("{:g}", *plan.stiffness)});
   add_build(page.facts);
   return page;
 }

@@ -21,6 +21,31 @@ std::string starts_words(const ComparePlan& plan) {
   return fmt::format("{} start{}", plan.seeds.size(), plan.seeds.size() == 1 ? "" : "s");
 }
 
+std::vector<std::string> reasons_left_out(const Comparison& comparison) {
+  struct Reasons {
+    std::string method, last;
+    std::size_t steps = 1;
+    bool differ = false;
+  };
+  std::vector<Reasons> all;
+  for (const LeftOut& one : comparison.left_out) {  // by falling dt
+    if (one.reason.empty()) continue;
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Reasons& r) { return r.method == one.method.name; });
+    if (found == all.end()) {
+      all.push_back({one.method.name, one.reason});
+      continue;
+    }
+    ++found->steps;
+    found->differ = found->differ || found->last != one.reason;
+    found->last = one.reason;
+  }
+  std::vector<std::string> clauses;
+  for (const Reasons& r : all)
+    clauses.push_back(r.differ ? fmt::format("{} with {} of the steps: {}", r.method, r.steps, r.last)
+                               : fmt::format("{}: {}", r.method, r.last));
+  return clauses;
+}
+
 namespace {
 
 std::string collisions_per_disk(double number) {

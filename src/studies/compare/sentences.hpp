@@ -16,6 +16,10 @@ namespace carom {
 /// Returns text such as "8 starts", or that there is one, and why.
 [[nodiscard]] std::string starts_words(const ComparePlan& plan);
 
+/// Returns a clause for each method that cannot run the scene, or not with all steps: the method, and the reason at its shortest
+/// step.
+[[nodiscard]] std::vector<std::string> reasons_left_out(const Comparison& comparison);
+
 /// Two digits and no more: "1.3", "420", "23,000", "2.1e+09". Requires a positive value.
 [[nodiscard]] std::string two_digits(double value);
 

@@ -28,7 +28,7 @@ double step_in(const std::string& text, const std::string& number) {
 
 }  // namespace
 
-PlayChoice checked_play(const std::string& text, const Scene& scene) {
+PlayChoice checked_play(const std::string& text, const Scene& scene, std::optional<double> stiffness) {
   if (!scene.effects.neutral())
     throw UsageError(fmt::format("{}: --play draws straight flights, and this scene asks for {}; leave one of the two out",
                                  scene.source, words_beyond_the_rule(scene.effects)));
@@ -40,6 +40,7 @@ PlayChoice checked_play(const std::string& text, const Scene& scene) {
   if (std::find(names.begin(), names.end(), choice.method) == names.end())
     throw UsageError(fmt::format("--play {}: there is no fixed-step method \"{}\"; choose one of {}", text, choice.method,
                                  fmt::join(names, ", ")));
+  if (choice.method == "soft") choice.stiffness = stiffness;
   if (scene.disk_count() > most_disks_side_by_side)
     throw UsageError(
         fmt::format("--play: {} disks are too many to be told apart side by side; {} can be shown, so take fewer, or "
@@ -49,7 +50,7 @@ PlayChoice checked_play(const std::string& text, const Scene& scene) {
     if (scene.run.time && *choice.dt > *scene.run.time)
       throw UsageError(fmt::format("--play {}: the scene's run ends at time {:g}, within the first step", text, *scene.run.time));
     try {
-      (void)make_simulation(scene, FixedStep{choice.method, *choice.dt});
+      (void)make_simulation(scene, FixedStep{choice.method, *choice.dt, choice.stiffness});
     } catch (const std::invalid_argument& error) {
       throw UsageError(fmt::format("--play {}: {}", text, error.what()));
     }
@@ -61,7 +62,7 @@ std::optional<SideBySidePage> make_side_by_side(const PlayChoice& choice, const 
                                                 const ComparePlan& plan, const State& start, const std::string& command_line,
                                                 const std::function<bool(double fraction)>& proceed) {
   SideBySideOptions options;
-  options.step = {choice.method, choice.dt.value_or(visible_step(plan, start))};
+  options.step = {choice.method, choice.dt.value_or(visible_step(plan, start)), choice.stiffness};
   options.engine = engine;
   options.until = scene.run.time && *scene.run.time > 0.0 ? *scene.run.time : plan.until();
   options.free_time = plan.mean_free_time;

@@ -18,12 +18,13 @@ inline constexpr std::string_view side_by_side_file = "side_by_side.html";
 /// METHOD[:DT]; "" for the guarded method.
 struct PlayChoice {
   std::string method = "guarded";
-  std::optional<double> dt;  ///< empty: one of the study's
+  std::optional<double> dt;         ///< empty: one of the study's
+  std::optional<double> stiffness;  ///< of the springs of soft; empty: a contact takes 30 steps
 };
 
 /// Throws UsageError where the text names no method, or no step that can be taken with this scene, its disks are too many, or
 /// what acts on them bends their flights.
-[[nodiscard]] PlayChoice checked_play(const std::string& text, const Scene& scene);
+[[nodiscard]] PlayChoice checked_play(const std::string& text, const Scene& scene, std::optional<double> stiffness = {});
 
 struct SideBySidePage {
   std::string html;

@@ -76,15 +76,10 @@ std::string legend(const ComparePlan& plan) {
 /// Returns a line for all runs that would have taken too long, and a line for each method that cannot run the scene.
 std::string left_out(const Comparison& comparison) {
   std::uint64_t slow = 0;
+  for (const LeftOut& one : comparison.left_out)
+    if (one.reason.empty()) ++slow;
   std::string lines;
-  for (const LeftOut& one : comparison.left_out) {
-    if (one.reason.empty()) {
-      ++slow;
-    } else if (const std::string line = fmt::format("  left out: {}: {}\n", one.method.name, one.reason);
-               lines.find(line) == std::string::npos) {
-      lines += line;
-    }
-  }
+  for (const std::string& clause : reasons_left_out(comparison)) lines += fmt::format("  left out: {}\n", clause);
   if (slow > 0)
     lines += fmt::format("  left out, because longer than {}: {} (--longest raises the limit)\n",
                          duration(comparison.plan.longest), counted(slow, "slow run"));
@@ -128,10 +123,10 @@ std::string compare_text(const Comparison& comparison, const Scene& scene, bool 
   if (!brief) {
     text = fmt::format(
         "{}\n{}, packing fraction {:.4g}; {}; errors at t = {:.4g}, after {:.2g} collisions per disk; mean free time {:.4g} "
-        "(scene units)\n\n",
+        "(scene units){}\n\n",
         scene.title.empty() ? scene.source : scene.title, counted(static_cast<std::uint64_t>(scene.disk_count()), "disk"),
         scene.packing_fraction(), starts_words(plan), plan.early_time(), plan.in_free_times(plan.early_time()),
-        plan.mean_free_time);
+        plan.mean_free_time, plan.stiffness ? fmt::format("; stiffness of soft {:g}", *plan.stiffness) : "");
     text += table_of(comparison) + "\n" + legend(plan);
     text += left_out(comparison);
     text += prices_of(answers, plan) + "\n";

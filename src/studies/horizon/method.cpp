@@ -30,7 +30,7 @@ double end_of_step(const Method& method, double time) {
 
 Simulation begin(const Scene& scene, const State& start, const Method& method) {
   return method.exact() ? make_simulation(scene, start, method.name)
-                        : make_simulation(scene, start, FixedStep{method.name, method.dt});
+                        : make_simulation(scene, start, FixedStep{method.name, method.dt, method.stiffness});
 }
 
 std::optional<State> measured_start(const Scene& scene, const std::string& engine,

@@ -14,7 +14,8 @@ namespace carom {
 
 struct Method {
   std::string name;
-  double dt = 0.0;  ///< 0: exact events
+  double dt = 0.0;                       ///< 0: exact events
+  std::optional<double> stiffness = {};  ///< of the springs of soft; empty: that which dt gives them
 
   [[nodiscard]] bool exact() const { return dt == 0.0; }
 };
