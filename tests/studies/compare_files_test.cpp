@@ -200,6 +200,7 @@ TEST(CompareJson, HoldsThePlanThePointsAndTheAnswers) {
   comparison.runs.push_back(awkward_run());
   comparison.costs = {awkward_cost()};
   comparison.left_out = {{{"guarded", 1e-9}, 1e5, ""}};
+  comparison.plan.stiffness = 2500.0;
   const json all = json::parse(compare_json(comparison, dozen_scene(), "carom compare \xff"));
   EXPECT_EQ(all["carom"]["version"], build_info().version);
   EXPECT_EQ(all["title"], "A dozen disks");
@@ -208,6 +209,8 @@ TEST(CompareJson, HoldsThePlanThePointsAndTheAnswers) {
   EXPECT_EQ(all["command_line"], "carom compare \xEF\xBF\xBD");  // the replacement character: JSON is UTF-8
   EXPECT_FALSE(all["sentences"].empty());
   EXPECT_EQ(all["plan"]["dt"], json(KnownLaws{}.dts));
+  EXPECT_EQ(all["plan"]["stiffness"], 2500.0);
+  EXPECT_TRUE(all["answers"]["backtrack_mistakes"].is_null());
   EXPECT_EQ(all["plan"]["early_time"], KnownLaws::early_time);
   EXPECT_EQ(all["plan"]["until"], KnownLaws::end);
   EXPECT_EQ(all["horizon"]["engine"], "fast");

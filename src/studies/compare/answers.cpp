@@ -88,6 +88,7 @@ Answers answers_of(const Comparison& comparison) {
   }
   answers.order = order_of(summaries, "grid");
   answers.crossover = crossover_of(summaries, answers.exact_seconds);
+  answers.mistakes = mistake_law(comparison.plan, summaries);
   answers.time_to_Z = time_to_Z(comparison, summaries);
   answers.prices = prices_of(comparison, summaries);
   if (const Price* best = best_fixed_step(answers.prices, "error 1e-6"))

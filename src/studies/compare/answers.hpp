@@ -1,6 +1,7 @@
 #pragma once
 // Conclusions from a comparison's points: prices, the law of the error, where methods cross, and the sentences of the answer.
 
+#include "studies/compare/mistake_law.hpp"
 #include "studies/compare/prices.hpp"
 #include "studies/compare/time_to_z.hpp"
 
@@ -32,6 +33,7 @@ struct Answers {
   std::optional<Estimate> order;        ///< order of the grid method: error ~ dt^order
   std::optional<Crossover> crossover;   ///< empty where no fixed step is cheaper, or each is
   std::optional<BreakEven> break_even;  ///< for the best fixed step to 1e-6 diameters
+  std::optional<MistakeLaw> mistakes;   ///< of backtrack
   std::vector<TimeToZ> time_to_Z;
   std::vector<Price> prices;
   std::vector<std::string> sentences;

@@ -45,8 +45,13 @@ constexpr double audited_pairs = 5e7;
 /// run. They have twice as many steps per decade down to this many mean free times.
 constexpr double shortest_extra_step = 0.004;
 
-/// Steps of a method that finds contacts that are compared with exact events.
-constexpr std::uint64_t compared_steps = 200;
+/// Steps of a method that finds contacts that are compared with exact events. Mistakes are as frequent as disks.
+constexpr double most_compared_steps = 200.0, least_compared_steps = 20.0, compared_disks = 4e5;
+
+std::uint64_t compared_steps(const Disks& disks) {
+  const double steps = compared_disks / static_cast<double>(disks.count());
+  return static_cast<std::uint64_t>(std::clamp(steps, least_compared_steps, most_compared_steps));
+}
 
 /// Three per decade, from 2 mean free times down to 4e-7: as far as a method can go in the time that it is given.
 std::vector<double> usual_ladder(double mean_free_time) {
@@ -92,6 +97,7 @@ class Study {
     plan.sigma = plan.horizon.sigma;
     plan.mean_free_time = 1.0 / (plan.horizon.lyapunov ? plan.horizon.lyapunov->collision_rate : pace.collision_rate);
     const Disks disks = make_simulation(scene_, *start).disks();
+    plan.disks = disks.count();
     plan.temperature = kinetic_temperature(scene_.box, disks, *start);
     const auto all_the_same = [](const std::vector<double>& values) {
       return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
@@ -210,20 +216,27 @@ class Study {
       }
       if (!run) return false;
       run->seed = seed;
-      if (first && !method.exact()) {
-        const double time = result_.plan.sample_step * static_cast<double>(samples);
-        const auto proceed = [&] { return going_on(doing_, fraction_); };
-        if (finds_contacts(method.name)) {
-          run->mistakes = mistakes_of(scene_, *start, method, time, compared_steps, proceed);
-        } else if (method.name != "soft") {  // whose springs reverse nothing at one instant
-          run->counts = audit(scene_, *start, {method.name, method.dt}, time, audited_pairs, proceed);
-        }
-        if (stopped_) return false;
+      const double time = result_.plan.sample_step * static_cast<double>(samples);
+      const auto proceed = [&] { return going_on(doing_, fraction_); };
+      if (finds_contacts(method.name)) {
+        if (first || some_were_mistaken(method))
+          run->mistakes = mistakes_of(scene_, *start, method, time, compared_steps(*disks), proceed);
+      } else if (first && !method.exact() && method.name != "soft") {  // whose springs reverse nothing at one instant
+        run->counts = audit(scene_, *start, {method.name, method.dt}, time, audited_pairs, proceed);
       }
+      if (stopped_) return false;
       result_.runs.push_back(*run);
       if (hooks_.run_done) hooks_.run_done(*run);
     }
     return true;
+  }
+
+  /// Returns whether some of a method's steps from the first start had a mistake, but not all.
+  [[nodiscard]] bool some_were_mistaken(const Method& method) const {
+    return std::any_of(result_.runs.begin(), result_.runs.end(), [&](const MethodRun& run) {
+      return run.seed == result_.plan.seeds.front() && run.method.name == method.name && run.method.dt == method.dt &&
+             run.mistakes && run.mistakes->mistaken > 0 && run.mistakes->mistaken < run.mistakes->steps;
+    });
   }
 
   /// Returns which share of a start's processor time each method takes: all the same for the first start, and for the others as

@@ -33,6 +33,8 @@ struct CompareHooks {
   std::function<void(const CostPoint&)> cost_done = {};
 };
 
+/// Steps with a mistake are counted from the first start; from the others too where it had some, but not at every step.
+///
 /// Goes on from what `before` holds (an empty one: from the beginning). A comparison that was stopped is not `complete`.
 /// Throws as make_simulation, and std::invalid_argument where no two disks ever collide.
 [[nodiscard]] Comparison compare(const Scene& scene, const CompareOptions& options, const CompareHooks& hooks,

@@ -16,6 +16,7 @@ namespace carom {
 
 /// The times and steps of a comparison, which are the same for every method.
 struct ComparePlan {
+  std::uint64_t disks = 0;
   double sigma = 0.0;           ///< mean diameter, the unit of every error
   double mean_free_time = 0.0;  ///< mean time between two collisions of one disk, in the exact run
   double temperature = 0.0;     ///< kT of the start with the first seed
@@ -54,7 +55,7 @@ struct MethodRun {
   double energy_drift = 0.0;             ///< of the final energy from that of the 113-bit trajectory, relative
   double worst_overlap = 0.0;            ///< over the samples, in units of the pair's sigma
   std::optional<StepCounts> counts;      ///< of a method that reverses disks where it finds them, over the first steps
-  std::optional<StepMistakes> mistakes;  ///< of a method that finds contacts within a step, over the first steps
+  std::optional<StepMistakes> mistakes;  ///< of a method that finds contacts within a step, over the first steps; see compare()
 };
 
 /// A method that was not run: it would have taken too long, or it cannot run the scene.

@@ -229,7 +229,11 @@ std::string compare_json(const Comparison& comparison, const Scene& scene, const
                                                {"exact_setup_seconds", answers.break_even->exact_setup},
                                                {"method_setup_seconds", answers.break_even->method_setup},
                                                {"collisions_per_disk", answers.break_even->collisions_per_disk}}
-                                        : Json(nullptr)}};
+                                        : Json(nullptr)},
+      {"backtrack_mistakes", answers.mistakes ? Json{{"c", answers.mistakes->c},
+                                                     {"error", answers.mistakes->error},
+                                                     {"dilute_grazes", or_null(answers.mistakes->grazes)}}
+                                              : Json(nullptr)}};
   const Price* best = best_fixed_step(answers.prices, "error 1e-6");
   json["best_fixed_step"] = best != nullptr ? Json(best->method) : Json(nullptr);
   json["prices"] = Json::array();

@@ -158,11 +158,11 @@ Block energy_block(const Comparison& comparison, const std::vector<MethodSummary
   return Paragraph{"Energy does not show these errors: no method changed it at any time step."};
 }
 
-Block mistakes_block(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
+Block mistakes_block(const Comparison& comparison, const std::vector<MethodSummary>& summaries, const Answers& answers) {
   std::uint64_t compared = 0, mistaken = 0;
   for (const MethodSummary& summary : summaries)
     if (summary.mistakes) compared += summary.mistakes->steps, mistaken += summary.mistakes->mistaken;
-  if (mistaken > 0) return mistakes_of_steps(comparison, summaries);
+  if (mistaken > 0) return mistakes_of_steps(comparison, summaries, answers.mistakes);
   if (compared == 0) return Paragraph{"No method that finds contacts within a step was compared."};
   return Paragraph{
       fmt::format("Of {} steps of the methods that find contacts within a step, none had a mistake: exact events from the "
@@ -212,7 +212,8 @@ Page compare_page(const Comparison& comparison, const Scene& scene, const std::s
       {"Error against time",
        {error_in_time(comparison), horizon_table(plan.horizon, "for the first seed"), Paragraph{sentence_of(plan.horizon)}}},
       {"Errors of fixed steps: collisions",
-       {faults_of_steps(comparison, summaries), mistakes_block(comparison, summaries), overlap_of_steps(comparison, summaries)}},
+       {faults_of_steps(comparison, summaries), mistakes_block(comparison, summaries, answers),
+        overlap_of_steps(comparison, summaries)}},
       {"Errors of fixed steps: averages",
        {bias_of(comparison, summaries, "bias-z", "Z", &MethodSummary::Z_bias,
                 is_plain_fluid ? law_of_bias(comparison, scene.packing_fraction()) : Series{}),

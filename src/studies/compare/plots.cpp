@@ -232,7 +232,8 @@ Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSumma
   return plot;
 }
 
-Plot mistakes_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries) {
+Plot mistakes_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries,
+                       const std::optional<MistakeLaw>& law) {
   Plot plot{.id = "mistakes",
             .title = "Steps with a mistake",
             .caption =
@@ -247,6 +248,14 @@ Plot mistakes_of_steps(const Comparison& comparison, const std::vector<MethodSum
     const double p = s.mistakes->fraction();
     return Estimate{p, std::sqrt(p * (1.0 - p) / static_cast<double>(s.mistakes->steps))};
   });
+  if (!law) return plot;
+  plot.caption += fmt::format(
+      " The dashed line is a law fitted to backtrack: in a mean free time it makes c N (dt / mean free time)² mistakes on N "
+      "disks, "
+      "with c = {:.2g} ± {:.1g}.",
+      law->c, law->error);
+  plot.series.push_back(
+      dashed_line(comparison, "fitted to backtrack", [&](double dt) { return law->fraction(comparison.plan, dt); }));
   return plot;
 }
 

@@ -2,6 +2,7 @@
 // The plots of a comparison.
 
 #include "studies/compare/comparison.hpp"
+#include "studies/compare/mistake_law.hpp"
 #include "studies/compare/summaries.hpp"
 #include "studies/horizon/page.hpp"
 
@@ -20,7 +21,8 @@ namespace carom {
 [[nodiscard]] Plot trust_for_price(const Comparison& comparison, const std::vector<MethodSummary>& summaries, double disks);
 
 [[nodiscard]] Plot faults_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries);
-[[nodiscard]] Plot mistakes_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries);
+[[nodiscard]] Plot mistakes_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries,
+                                     const std::optional<MistakeLaw>& law);
 [[nodiscard]] Plot overlap_of_steps(const Comparison& comparison, const std::vector<MethodSummary>& summaries);
 
 /// One of MethodSummary's biases over dt. `law` is a dashed line of theory over the ladder, or has no points.

@@ -159,6 +159,15 @@ std::string what_pressure_costs(const ComparePlan& plan, const Answers& answers)
       two_digits(*thousandth->ratio));
 }
 
+std::string how_often_backtrack_is_wrong(const Answers& answers) {
+  if (!answers.mistakes) return "";
+  const MistakeLaw& law = *answers.mistakes;
+  return fmt::format(
+      "In a mean free time backtrack makes c N (dt / mean free time)^2 mistakes on N disks, with c = {:.2g} ± {:.1g}{}.", law.c,
+      law.error,
+      law.grazes ? fmt::format(" (contacts of a dilute gas that begin and end between two steps: {:.2g})", *law.grazes) : "");
+}
+
 std::string what_cores_would_do(const Answers& answers) {
   const Price* best = best_fixed_step(answers.prices, "error 1e-6");
   if (best == nullptr || !(*best->ratio > 1.0)) return "";
@@ -176,6 +185,7 @@ std::vector<std::string> compare_sentences(const Comparison& comparison, const s
                                         what_not_knowing_when_costs(summaries, answers),
                                         where_it_is_cheaper(comparison.plan, summaries, answers),
                                         what_pressure_costs(comparison.plan, answers),
+                                        how_often_backtrack_is_wrong(answers),
                                         what_cores_would_do(answers),
                                         what_the_naive_does(comparison.plan, summaries, answers)};
   if (!comparison.plan.drawn)

@@ -42,7 +42,12 @@ MethodSummary summary_of(const Comparison& comparison, const Method& method) {
     summary.worst_overlap = std::max(summary.worst_overlap, run.worst_overlap);
     summary.energy_drift = std::max(summary.energy_drift, std::abs(run.energy_drift));
     if (run.counts) summary.counts = run.counts;
-    if (run.mistakes) summary.mistakes = run.mistakes;
+    if (run.mistakes) {
+      StepMistakes all = summary.mistakes.value_or(StepMistakes{});
+      all.steps += run.mistakes->steps;
+      all.mistaken += run.mistakes->mistaken;
+      summary.mistakes = all;
+    }
   }
   summary.error = spread_of(error);
   summary.seconds_early = spread_of(seconds).median;

@@ -48,7 +48,7 @@ struct MethodSummary {
   double worst_overlap = 0.0;     ///< over all
   double energy_drift = 0.0;      ///< the largest, with its sign left off
   std::optional<StepCounts> counts;
-  std::optional<StepMistakes> mistakes;
+  std::optional<StepMistakes> mistakes;  ///< of all runs
 };
 
 /// Returns one summary per method, in the order in which the methods first appear.
