@@ -52,7 +52,7 @@ Scene load(const SceneOptions& options) {
 
 void require_known_effects(const Scene& scene, const std::string& what) {
   if (const std::string why = why_no_fixed_step(scene.effects); !why.empty())
-    throw UsageError(fmt::format("{}: {} compares with fixed steps: {}", scene.source, what, why));
+    throw UsageError(fmt::format("{}: {} takes only scenes that fixed steps can run: {}", scene.source, what, why));
 }
 
 const std::string& checked_engine(const SceneOptions& options) {
