@@ -3,9 +3,10 @@
 
     docs/images/accuracy.py DIRECTORY [--carom build/release/carom]
 
-Runs the comparisons into DIRECTORY (each a minute and a half on an idle machine), or takes those that it holds. Needs
-python3-matplotlib. Writes accuracy_work.svg, accuracy_trust.svg, accuracy_growth.svg, accuracy_steps.svg, and their numbers as
-accuracy_prices.csv and accuracy_points.csv beside this file, and prints the tables of docs/accuracy.md.
+Runs the comparisons into DIRECTORY (four of a minute and a half on an idle machine, and two minutes for 16,384 disks), or takes
+those that it holds. Needs python3-matplotlib. Writes accuracy_work.svg, accuracy_trust.svg, accuracy_growth.svg,
+accuracy_steps.svg, and their numbers as accuracy_prices.csv, accuracy_points.csv and accuracy_mistakes.csv beside this file, and
+prints the tables of docs/accuracy.md.
 """
 import argparse
 import csv
@@ -28,14 +29,22 @@ parser.add_argument("--carom", default="build/release/carom")
 arguments = parser.parse_args()
 
 
-def study_of(name):
+def study_of(scene, name, *options):
     directory = arguments.directory / name
     if not (directory / "compare.json").exists():
-        subprocess.run([arguments.carom, "compare", str(here / f"accuracy_{name}.toml"), "--out", str(directory)], check=True)
+        subprocess.run([arguments.carom, "compare", str(here / f"accuracy_{scene}.toml"), "--out", str(directory), "--no-costs",
+                        *options], check=True)
     return json.loads((directory / "compare.json").read_text())
 
 
-every = {name: study_of(name) for name in ("dilute", "moderate", "dense", "reversal")}
+def large():
+    free_time = every["moderate"]["plan"]["mean_free_time"]
+    steps = [f"--dt={free_time * step:.3g}" for step in (1, 0.3, 0.1, 0.03, 0.01, 0.003)]
+    return study_of("moderate", "moderate_16384", "--set", "disks.0.count=16384", "--seeds", "1", "--longest", "1", *steps)
+
+
+every = {name: study_of(name, name) for name in ("dilute", "moderate", "dense", "reversal")}
+sizes = [("moderate", large())]
 studies = [every[name] for name in ("dilute", "moderate", "dense")]
 
 names = {"fast": "exact, fast engine", "textbook": "exact, double", "textbook-float": "exact, float",
@@ -123,12 +132,12 @@ save(figure, axes, "accuracy_steps.svg")
 
 with open(here / "accuracy_prices.csv", "w", newline="") as file:
     table = csv.writer(file)
-    table.writerow(["scene", "machine", "method", "target", "ratio", "least", "greatest", "extrapolation", "dt", "seconds"])
-    for name, study in every.items():
+    table.writerow(["scene", "disks", "machine", "method", "target", "ratio", "least", "greatest", "extrapolation", "dt", "seconds"])
+    for name, study in [*every.items(), *sizes]:
         for price in study["prices"]:
             if price["ratio"] is not None:
-                table.writerow([name, study["plan"]["machine"], price["method"], price["target"], price["ratio"], *price["spread"],
-                                price["extrapolation"], price["dt"], price["seconds"]])
+                table.writerow([name, study["disks"], study["plan"]["machine"], price["method"], price["target"], price["ratio"],
+                                *price["spread"], price["extrapolation"], price["dt"], price["seconds"]])
 
 with open(here / "accuracy_points.csv", "w", newline="") as file:
     table = csv.writer(file)
@@ -138,6 +147,14 @@ with open(here / "accuracy_points.csv", "w", newline="") as file:
             bias = row["bias"]["Z"] or {"value": None, "error": None}
             table.writerow([name, row["method"], row["dt"], row["error_early"]["median"], row["seconds_early"],
                             row["horizon_in_collisions_per_disk"], bias["value"], bias["error"]])
+
+with open(here / "accuracy_mistakes.csv", "w", newline="") as file:
+    table = csv.writer(file)
+    table.writerow(["scene", "c", "error", "dilute_grazes", "over_x_squared", "error_over_x_squared"])
+    for name, study in every.items():
+        law = study["answers"]["backtrack_mistakes"]
+        c, error = (law[key] / (8 * law["dilute_grazes"]) for key in ("c", "error"))
+        table.writerow([name, law["c"], law["error"], law["dilute_grazes"], c, error])
 
 
 def cell(study, method, target):
@@ -150,8 +167,8 @@ def cell(study, method, target):
     return "–"
 
 
-for name, study in every.items():
-    print(f"\n{name}: {study['plan']['machine']}")
+for name, study in [*every.items(), *sizes]:
+    print(f"\n{name}, {study['disks']} disks: {study['plan']['machine']}")
     for sentence in study["sentences"]:
         print(f"  {sentence}")
     for method in names:
