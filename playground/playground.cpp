@@ -102,7 +102,6 @@ class Measured {
     const double force = heat + (totals.virial - totals_.virial) / (2.0 * step_);
     pressure_.add(force / box.area());
     factor_.add(force, heat);
-    temperature_.add(heat / std::max(count, 1.0));
     integral_ += force / box.area() * step_;
     for (std::size_t k = 0; k < 4; ++k) {
       const double length = box.lengths()[k < 2 ? 1 : 0];
@@ -140,11 +139,9 @@ class Measured {
       return fmt::format("\"{}\":{},\"{}_error\":{}", name, result ? json_number(result->mean) : "null", name,
                          result ? json_number(result->error) : "null");
     };
-    std::string text = fmt::format("{},{},{},\"walls\":[", estimate(pressure_, "pressure"), estimate(factor_, "Z"),
-                                   estimate(temperature_, "kT"));
+    std::string text = fmt::format("{},{},\"walls\":[", estimate(pressure_, "pressure"), estimate(factor_, "Z"));
     for (std::size_t k = 0; k < 4; ++k) text += fmt::format("{}{{{}}}", k > 0 ? "," : "", estimate(walls_[k], "pressure"));
-    return text + fmt::format("],\"samples\":{},\"covered\":{},\"free_path\":{}", samples_, json_number(covered()),
-                              json_number(free_path()));
+    return text + "]";
   }
 
  private:
@@ -157,7 +154,7 @@ class Measured {
   double step_ = 1.0, began_ = 0.0, range_ = 1.0, integral_ = 0.0, path_ = 0.0;
   std::uint64_t samples_ = 0, pairs_ = 0;
   Totals totals_;
-  Blocking pressure_, factor_, temperature_;
+  Blocking pressure_, factor_;
   std::array<Blocking, 4> walls_;
   std::array<double, bins> histogram_{};
 };
@@ -501,16 +498,15 @@ std::string description(Session& session) {
       effects.shear ? json_number(effects.shear->rate) : "null", effects.drag ? json_number(effects.drag->rate) : "null",
       effects.growth ? json_number(effects.growth->rate) : "null");
   json += fmt::format(
-      "\"wellDepth\":{},\"wellWidth\":{},\"engine\":{},\"engineReason\":{},\"whyNoZ\":{},\"theoryZ\":{},\"packing\":{},"
+      "\"wellDepth\":{},\"wellWidth\":{},\"engine\":{},\"whyNoZ\":{},\"theoryZ\":{},\"packing\":{},"
       "\"crossing\":{},",
       effects.square_well ? json_number(effects.square_well->depth) : "null",
       effects.square_well ? json_number(effects.square_well->width) : "null", json_text(simulation.engine()),
-      json_text(simulation.engine_reason()), json_text(why_no_Z(effects)), json_number(theory_Z(simulation)),
-      json_number(scene.packing_fraction()), json_number(session.crossing()));
-  json += fmt::format("\"thermal\":[{},{}],\"seed\":{},\"runTime\":{},\"first\":{{\"disks\":{}}},\"changes\":{}}}",
-                      centre_of_mass_is_thermal(scene.box, effects, 0), centre_of_mass_is_thermal(scene.box, effects, 1),
-                      session.run().first_scene().run.seed, json_number(session.run().first_scene().run.time),
-                      session.run().first_scene().disk_count(), session.run().changes().size());
+      json_text(why_no_Z(effects)), json_number(theory_Z(simulation)), json_number(scene.packing_fraction()),
+      json_number(session.crossing()));
+  json += fmt::format("\"thermal\":[{},{}],\"seed\":{},\"changes\":{}}}", centre_of_mass_is_thermal(scene.box, effects, 0),
+                      centre_of_mass_is_thermal(scene.box, effects, 1), session.run().first_scene().run.seed,
+                      session.run().changes().size());
   return json;
 }
 
@@ -604,7 +600,6 @@ EMSCRIPTEN_KEEPALIVE const char* carom_replay(const char* changes) {
     return fmt::format("{{\"pending\":{}}}", here().pending());
   });
 }
-EMSCRIPTEN_KEEPALIVE double carom_pending() { return session ? static_cast<double>(session->pending()) : 0.0; }
 EMSCRIPTEN_KEEPALIVE const char* carom_changes() {
   return answered([] {
     std::string text;

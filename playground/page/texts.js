@@ -11,10 +11,11 @@ function t(key, values = {}) {
   return text.replace(/\{(\w+)\}/g, (_, name) => values[name] ?? "");
 }
 
-/// Returns a sentence of the engine in the reader's language where texts/ has it: its key has # for each number, its text {0}, {1} and so on.
+/// Returns a sentence of the engine in the reader's language where texts/ has it: its key has # for each number,
+/// its text {0}, {1} and so on; its place in the text of the scene is left out.
 function told(sentence) {
   const values = [];
-  const key = sentence.replace(/-?\d+(?:\.\d+)?(?:e[-+]?\d+)?/g, (number) => (values.push(short(Number(number), 4)), "#"));
+  const key = sentence.replace(/^\w+:\d+:\d+: /, "").replace(/-?\d+(?:\.\d+)?(?:e[-+]?\d+)?/g, (number) => (values.push(short(Number(number), 4)), "#"));
   return texts[language][key] ?? texts.en[key] ? t(key, values) : sentence;
 }
 

@@ -112,6 +112,13 @@ await test("start settings", async () => {
   check("the packing fraction is that of the slider", Math.abs((await ask("carom.run.description.packing")) - 0.1) < 1e-9);
 });
 
+await test("pi", async () => {
+  await ask('carom.scene("galperin", { digits: 2 })');
+  await ask("carom.runUntil(27)");  // the last one comes late, and the heavy disk meets the far wall after it
+  await pause(400);
+  check("all collisions are the digits of pi", (await ask("document.querySelector('[data-number=collisions]').textContent")) === "314", await ask("document.querySelector('[data-number=collisions]').textContent"));
+});
+
 await test("walls", async () => {
   await ask('carom.scene("box", { n: 50 })');
   const slide = (value) => ask(`(() => { const input = document.querySelector('[data-setting="wallsT"]'); input.value = ${value}; input.dispatchEvent(new Event("input")); })()`);
@@ -270,6 +277,10 @@ await test("screens", async () => {
   check("nothing is wider than a phone", await ask("document.documentElement.scrollWidth <= innerWidth"), await ask("[document.documentElement.scrollWidth, innerWidth]"));
   check("it draws without WebGL", (await ask("carom.drawing()")) === "canvas");
   check("it speaks German", (await ask("document.documentElement.lang")) === "de" && (await ask("document.getElementById('hotter').textContent")) === "Wärmer");
+  await ask('carom.scene("gas")');
+  await ask(`(() => { const input = document.querySelector('[data-start="eta"]'); input.max = 7; input.value = 7; input.dispatchEvent(new Event("change")); })()`);
+  await pause(300);
+  check("what is refused too", /gleiche Scheiben erreichen höchstens 0.9069/.test(await notice()), await notice());
   check("every button has a name", await ask("[...document.querySelectorAll('button')].every((one) => one.textContent.trim() !== '' || one.getAttribute('aria-label'))"));
   check("every field has a name", await ask("[...document.querySelectorAll('input, select')].every((one) => one.closest('label') || one.getAttribute('aria-label') || document.querySelector(`label[for=\"${one.id}\"]`))"));
   await browser.size(1280, 800);
