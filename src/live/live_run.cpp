@@ -1,5 +1,8 @@
 #include "live/live_run.hpp"
 
+#include "core/running_totals.hpp"
+#include "scene/listed_disks.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,21 +35,6 @@ void equilibrate(Simulation& simulation, const std::optional<Run::Equilibrate>& 
     throw std::runtime_error(
         fmt::format("the run ended while it was equilibrating ({}); leave out run.equilibrate", to_string(stopped)));
   simulation.reset_clock();
-}
-
-/// Gives every species lists of its disks as they are in the state, so that single disks can come and go.
-void list_disks(Scene& scene, const State& state) {
-  Eigen::Index i = 0;
-  for (Species& species : scene.species) {
-    ListedPositions positions;
-    ListedVelocities velocities;
-    for (std::int64_t k = 0; k < species.count; ++k, ++i) {
-      positions.values.emplace_back(state.positions.col(i));
-      velocities.values.emplace_back(state.velocities.col(i));
-    }
-    species.positions = std::move(positions);
-    species.velocities = std::move(velocities);
-  }
 }
 
 /// Returns the species of a disk and its place there.
@@ -233,11 +221,7 @@ void LiveRun::set_keys(const std::vector<std::string>& overrides) {
 void LiveRun::begin_again(const Scene& with, const State& state) {
   Scene scene = with;
   ++scene.run.seed;
-  for (std::size_t k = 0; k < state.walls.size(); ++k) {
-    const auto axis = static_cast<Eigen::Index>(k / 2);
-    if (!scene.box.periodic(static_cast<int>(axis)))
-      (k % 2 == 0 ? scene.box.lower : scene.box.upper)[axis] = state.walls[k].position;
-  }
+  scene.box = box_of(scene.box, state);
   list_disks(scene, state);
   // How far images have been sheared, check() does not know; what pairs overlap, the new simulation then says.
   Scene checked = scene;
@@ -247,12 +231,7 @@ void LiveRun::begin_again(const Scene& with, const State& state) {
   if (checked.run.accept_overlap && !scene.run.accept_overlap)
     if (const auto faults = another.check_invariants(1e-9); !faults.empty()) throw SceneError({}, faults.front());
   before_ += simulation_.time();
-  const Counts& counts = simulation_.counts();
-  counts_before_.pair += counts.pair;
-  counts_before_.wall += counts.wall;
-  counts_before_.obstacle += counts.obstacle;
-  counts_before_.well += counts.well;
-  counts_before_.thermostat += counts.thermostat;
+  add_counts(counts_before_, simulation_.counts());
   simulation_ = std::move(another);
 }
 

@@ -3,6 +3,7 @@
 #include <carom/simulation.hpp>
 
 #include "scene/effect_traits.hpp"
+#include "scene/listed_disks.hpp"
 #include "scene/mean_flow.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
@@ -29,24 +30,10 @@ void scale_radii(Scene& scene, double scale) {
 /// single precision disks may overlap by more than check() takes for rounding, and where images have slid check() would look for
 /// them in the wrong place.
 Scene begun_now(Scene scene, const State& state, bool single) {
-  for (std::size_t k = 0; k < state.walls.size(); ++k) {
-    const auto axis = static_cast<Eigen::Index>(k / 2);
-    if (!scene.box.periodic(static_cast<int>(axis)))
-      (k % 2 == 0 ? scene.box.lower : scene.box.upper)[axis] = state.walls[k].position;
-  }
+  scene.box = box_of(scene.box, state);
   scale_radii(scene, single ? state.scale * (1.0 - 1e-5) : state.scale);
   if (detail::MeanFlow(scene.box, scene.effects).present()) scene.run.accept_overlap = true;
-  Eigen::Index i = 0;
-  for (Species& species : scene.species) {
-    ListedPositions positions;
-    ListedVelocities velocities;
-    for (std::int64_t k = 0; k < species.count; ++k, ++i) {
-      positions.values.emplace_back(state.positions.col(i));
-      velocities.values.emplace_back(state.velocities.col(i));
-    }
-    species.positions = std::move(positions);
-    species.velocities = std::move(velocities);
-  }
+  list_disks(scene, state);
   return scene;
 }
 
