@@ -18,6 +18,7 @@
 #include "parallel/disk_message.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -64,8 +65,9 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   [[nodiscard]] double next_time() {
     return queue_.next(plans_, [this](std::int64_t span) { prefetch_span(span); }).time;
   }
-  /// Whether the domain has come to an event that it cannot process alone, or can go no further.
-  [[nodiscard]] bool stopped() const { return stopped_ || stall_.jammed() || crowded_; }
+  /// Whether the domain has come to an event that it cannot process alone, or can go no further, or has run far more events than
+  /// any window is to hold: disks that collide without end are found by the whole engine, which also looks at limits between.
+  [[nodiscard]] bool stopped() const { return stopped_ || stall_.jammed() || crowded_ || overrun(); }
 
   /// The parts of domains that copy disks of this one, or have disks that this one copies.
   [[nodiscard]] const std::vector<std::size_t>& neighbours() const { return neighbours_; }
@@ -155,6 +157,8 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   [[nodiscard]] Mark& mark(std::int32_t i) { return marks_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] const Mark& mark(std::int32_t i) const { return marks_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] bool empty(std::int32_t i) const { return mark(i).role == Role::empty; }
+  [[nodiscard]] bool overrun() const { return events_ + copied_events_ > most_events_; }
+  void limit_events() { most_events_ = 64 * (homes_ + halo_.size()) + 4096; }
   void remember(std::int32_t i, double time) {
     std::uint64_t& history = mark(i).history;
     history = (history ^ std::bit_cast<std::uint64_t>(time)) * 0x9E3779B97F4A7C15U;
@@ -199,10 +203,11 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   std::size_t homes_ = 0;
   bool crowded_ = false;  ///< there is no slot left
   Verdict verdict_;
-  std::vector<CollisionRecord> collisions_;  ///< recorded in this window
-  std::vector<Event> logged_;                ///< in this window
-  RunningTotals ghosts_;                     ///< counts of the events of copies
-  std::uint64_t events_ = 0, copied_events_ = 0;
+  std::vector<CollisionRecord> collisions_;       ///< recorded in this window
+  std::vector<Event> logged_;                     ///< in this window
+  RunningTotals ghosts_;                          ///< counts of the events of copies
+  std::uint64_t events_ = 0, copied_events_ = 0;  ///< in this window
+  std::uint64_t most_events_ = 0;                 ///< of a window
 };
 
 }  // namespace carom

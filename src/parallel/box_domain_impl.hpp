@@ -65,6 +65,7 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
     }
   for (const std::int32_t i : halo_) settle(i);
   std::erase_if(halo_, [this](std::int32_t i) { return mark(i).role != Role::halo; });
+  limit_events();
   moved_.resize(lines_.size() / 4 + 64);
   prefetcher_.suit(Loop::bytes());
   begin_epoch();
@@ -111,7 +112,7 @@ void BoxDomain<Impact, Layout, World>::recycle_slots() {
 
 template <class Impact, class Layout, class World>
 bool BoxDomain<Impact, Layout, World>::run_next(double end) {
-  if (stopped_ || stall_.jammed()) return false;
+  if (stopped()) return false;
   const auto [time, i] = queue_.next(plans_, [this](std::int64_t span) { prefetch_span(span); });
   if (!(time <= end && time < epoch_length_)) return false;
   const Plan& plan = plans_[i];
@@ -278,7 +279,8 @@ template <class Impact, class Layout, class World>
 bool BoxDomain<Impact, Layout, World>::same(std::int32_t i, const Message& message) const {
   const Plan& plan = plans_[i];
   const NeighbourhoodCentre centre = lists_.centre(i);
-  return std::memcmp(&line(i), &message.line, sizeof(Line)) == 0 && plan.pair_time == message.pair_time &&
+  using Bits = std::array<std::byte, sizeof(Line)>;
+  return std::bit_cast<Bits>(line(i)) == std::bit_cast<Bits>(message.line) && plan.pair_time == message.pair_time &&
          plan.edge_time == message.edge_time && plan.edge == message.edge &&
          (plan.partner < 0 ? -1 : id(plan.partner)) == message.partner && centre.x == message.centre.x &&
          centre.y == message.centre.y && mark(i).history == message.history && flight_.rest_of(i) == message.frame &&
@@ -360,6 +362,7 @@ const typename BoxDomain<Impact, Layout, World>::Verdict& BoxDomain<Impact, Layo
       leave(i);
   }
   halo_.resize(kept);
+  limit_events();
   return verdict_;
 }
 

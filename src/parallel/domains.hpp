@@ -68,6 +68,8 @@ class Domains {
   };
 
   void share_out();
+  void divide();
+  void leave_to_domains();
   void work(std::size_t thread);
   void run_window(std::size_t thread);
   void run_epoch(std::size_t thread);
@@ -110,6 +112,22 @@ class Domains {
     });
   }
 
+  /// Calls f(), which one thread does while the others wait.
+  template <class F>
+  decltype(auto) serially(F&& f) {
+    struct Stopwatch {
+      ThreadCounts& done;
+      double before = thread_seconds();
+      ~Stopwatch() {
+        const double took = thread_seconds() - before;
+        done.critical_seconds += took;
+        done.processor_seconds += took;
+      }
+    };
+    const Stopwatch stopwatch{done_};
+    return f();
+  }
+
   /// Calls f(domain) for every domain of a thread.
   template <class F>
   void each(std::size_t thread, F&& f) {
@@ -131,7 +149,6 @@ class Domains {
   Team::Failure failure_;
 
   bool shared_ = false;     ///< domains have the disks
-  bool ready_ = true;       ///< the whole engine has lists and queue
   bool up_to_date_ = true;  ///< the whole engine has the disks as of now
   std::optional<BoxParts> parts_;
   double reach_ = 0.0;  ///< of halos
@@ -160,6 +177,7 @@ class Domains {
   double pair_rate_ = 0.0;                          ///< collisions of pairs per time, to be expected
   double longest_end_ = 0.0;                        ///< of the window, if the limit of collisions does not come before
   bool counting_ = false;                           ///< the limit of collisions may come in this window
+  bool at_limit_ = false;                           ///< the last events were processed one by one up to it
   std::uint64_t events_begun_with_ = 0;             ///< the window
   std::uint64_t events_before_ = 0;                 ///< the run
   Next next_ = Next::window;

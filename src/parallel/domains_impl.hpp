@@ -23,7 +23,7 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
                                                bool exact_events) {
   const auto alone = [&](const Instant& until) {
     gather();
-    return engine_.run_until(until, pair_limit, event_limit);
+    return serially([&] { return engine_.run_until(until, pair_limit, event_limit); });
   };
   for (;;) {
     const Counts so_far = counts();
@@ -66,8 +66,21 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
 
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::share_out() {
-  for (std::int32_t i = 0; i < whole_.count(); ++i) slot_of_id_[static_cast<std::size_t>(whole_.id(i))] = i;
-  for (std::int32_t i = 0; i < whole_.count(); ++i) centres_[static_cast<std::size_t>(i)] = whole_.lists_.centre(i);
+  serially([this] { divide(); });
+  team_.run([&](std::size_t thread) {
+    each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach_); });
+  });
+  failure_.rethrow();
+  serially([this] { leave_to_domains(); });
+}
+
+/// Chooses the parts of the box and the reach of halos.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::divide() {
+  for (std::int32_t i = 0; i < whole_.count(); ++i) {
+    slot_of_id_[static_cast<std::size_t>(whole_.id(i))] = i;
+    centres_[static_cast<std::size_t>(i)] = whole_.lists_.centre(i);
+  }
   half_width_ = whole_.lists_.half_width();
   const std::array step{whole_.flight_.axis(0).unit * 0x1p32, whole_.flight_.axis(1).unit * 0x1p32};
   if (parts_) {
@@ -84,17 +97,17 @@ void Domains<Impact, Layout, World>::share_out() {
   censuses_.resize(threads_.domains);
   reach_ = std::max(suitable_reach(), 2.5 * half_width_);
   parts_->set_reach(reach_);
-  team_.run([&](std::size_t thread) {
-    each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach_); });
-  });
-  failure_.rethrow();
+}
+
+/// Frees what the whole engine does not need while domains have its disks, and chooses the length of the first window.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::leave_to_domains() {
   for (const auto& domain : domains_) domain->record(whole_.recorder_.listening(), whole_.recorder_.logging(), slot_of_id_);
   whole_.recorder_.log_elsewhere(true);
   collisions_told_ = events_told_ = 0;
   whole_.lists_.clear();
   whole_.queue_.clear();
   shared_ = up_to_date_ = true;
-  ready_ = false;
   now_ = whole_.now_;
   SpeedCensus speeds;
   for (const auto& line : whole_.lines_) speeds.add(line.v);
@@ -131,15 +144,17 @@ void Domains<Impact, Layout, World>::gather() {
 /// Lets the whole engine go on from what it has.
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::go_back() {
-  domains_.clear();
-  const std::uint64_t changes = whole_.lists_.changes();
-  whole_.lists_.rebuild(half_width_, centres_);
-  whole_.lists_.set_changes(changes);
-  whole_.start_queue();
-  whole_.recorder_.log_elsewhere(false);
-  whole_.recorder_.skip(collisions_told_, events_told_);
-  shared_ = false;
-  ready_ = up_to_date_ = true;
+  serially([this] {
+    domains_.clear();
+    const std::uint64_t changes = whole_.lists_.changes();
+    whole_.lists_.rebuild(half_width_, centres_);
+    whole_.lists_.set_changes(changes);
+    whole_.start_queue();
+    whole_.recorder_.log_elsewhere(false);
+    whole_.recorder_.skip(collisions_told_, events_told_);
+    shared_ = false;
+    up_to_date_ = true;
+  });
 }
 
 template <class Impact, class Layout, class World>
@@ -165,6 +180,7 @@ void Domains<Impact, Layout, World>::begin_window() {
   if (counting_) window_end_ = now_;
   counted_ = pairs_before_;
   part_ = 0.0;
+  at_limit_ = false;
   next_ = Next::window;
 }
 
@@ -175,8 +191,8 @@ void Domains<Impact, Layout, World>::count_collisions() {
   const std::uint64_t pairs = counts().pair;
   if (pairs > pair_limit_ || failure_.any()) return void(counting_ = false);
   const double left = static_cast<double>(pair_limit_ - pairs), safe = left - 4.0 * std::sqrt(left) - 32.0;
-  // A rate that was far too high halves from part to part.
-  if (static_cast<double>(pairs - counted_) < part_ / 4.0) pair_rate_ /= 2.0;
+  // A rate that was far too high halves from part to part; that there are few of a few collisions says nothing.
+  if (part_ > 32.0 && static_cast<double>(pairs - counted_) < part_ / 4.0) pair_rate_ /= 2.0;
   counted_ = pairs;
   part_ = std::max(safe, 0.0);
   if (window_end_ == longest_end_) {
@@ -193,6 +209,7 @@ void Domains<Impact, Layout, World>::count_collisions() {
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::step_to_limit() {
   std::uint64_t pairs = counts().pair;
+  at_limit_ = pairs < pair_limit_;
   while (pairs < pair_limit_) {
     Part* first = nullptr;
     double time = infinity<double>;
@@ -252,14 +269,15 @@ void Domains<Impact, Layout, World>::decide() {
   }
   allowed += fastest_ * (window_end_ - now_) + half_width_;
   const std::uint64_t pairs = counts().pair;
+  const bool missed = pairs > pair_limit_ || (pairs == pair_limit_ && !at_limit_);  // the time of the last collision is not known
   if (failure_.any()) {
     next_ = Next::failed;
-  } else if (stopped || nearest <= allowed || homes != whole_.lines_.size() || pairs > pair_limit_) {
+  } else if (stopped || nearest <= allowed || homes != whole_.lines_.size() || missed) {
     ++done_.windows_redone;
     if (nearest <= allowed) window_ = std::max(0.5 * window_, shortest_window_);
     next_ = Next::void_one;
   } else {
-    if (const double length = window_end_ - now_; length > 0.0 && pairs > pairs_before_ + 1000)
+    if (const double length = window_end_ - now_; length > 0.0 && pairs > pairs_before_ + 200)
       pair_rate_ = static_cast<double>(pairs - pairs_before_) / length;
     hand_over_records();
     const bool whole_window = window_end_ - now_ >= 0.99 * window_;  // not cut short by a sample or an epoch
