@@ -1,6 +1,8 @@
 // A run on several cores has the bits of the run on one: for any number of domains and threads, any halo and window, and wherever
 // one stops.
 
+#include "support/systems.hpp"
+
 #include <carom/simulation.hpp>
 
 #include <gtest/gtest.h>
@@ -14,17 +16,7 @@ namespace carom::test {
 namespace {
 
 Scene gas(std::int64_t disks, double packing_fraction, Boundary boundary, CollisionRule rule = CollisionRule::specular) {
-  Scene scene;
-  const double side = std::sqrt(static_cast<double>(disks) * 0.7853981633974483 / packing_fraction);
-  scene.box = {{0.0, 0.0}, {1.25 * side, side / 1.25}, {boundary, boundary}};
-  Species species;
-  species.name = "gas";
-  species.count = disks;
-  species.radius = 0.5;
-  species.mass = 1.0;
-  species.positions = HexagonalLattice{};
-  species.velocities = MaxwellVelocities{1.0};
-  scene.species = {species};
+  Scene scene = gas_scene(disks, packing_fraction, boundary);
   scene.effects.collision.rule = rule;
   return scene;
 }

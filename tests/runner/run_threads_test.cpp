@@ -3,12 +3,12 @@
 #include "runner/run_threads.hpp"
 
 #include "runner/free_processors.hpp"
+#include "support/systems.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <carom/simulation.hpp>
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -18,20 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-Scene lattice(std::int64_t disks) {
-  Scene scene;
-  const double side = std::sqrt(static_cast<double>(disks) * 2.0);
-  scene.box = {{0.0, 0.0}, {side, side}, {Boundary::periodic, Boundary::periodic}};
-  Species gas;
-  gas.name = "gas";
-  gas.count = disks;
-  gas.radius = 0.5;
-  gas.mass = 1.0;
-  gas.positions = HexagonalLattice{};
-  gas.velocities = MaxwellVelocities{1.0};
-  scene.species = {gas};
-  return scene;
-}
+Scene lattice(std::int64_t disks) { return test::gas_scene(disks, 0.4, Boundary::periodic); }
 
 Scene with_thermostat() {
   Scene scene = lattice(100);
