@@ -215,6 +215,8 @@ def test_a_hard_case_of_ones_own_may_fail(tmp_path):
         (lambda scene: carom.compare(scene, dts=-1.0), "dts=-1: a time step must be positive and finite"),
         (lambda scene: carom.compare(scene, dts=[0.1, float("nan")]), "dts=nan: a time step must be positive and finite"),
         (lambda scene: carom.compare(scene, longest=0), "longest=0: a run takes some time; give a positive number"),
+        (lambda scene: carom.compare(scene, stiffness=0), "stiffness=0: it must be positive and finite"),
+        (lambda scene: carom.compare(scene, dts=0.1, stiffness=1e5), "stiffness=100000: a time step of 0.1 is unstable with a"),
         (lambda scene: carom.compare(scene, engine="slow"), "engine=slow: there is no such engine; choose auto or one of: fast"),
         (lambda scene: carom.compare(scene, engine="textbook-quad"), "engine=textbook-quad: every precision is compared anyway"),
         (lambda scene: carom.horizon(scene, collisions=0), "collisions=0: an exponent needs some collisions"),
@@ -230,6 +232,7 @@ def test_a_hard_case_of_ones_own_may_fail(tmp_path):
         (lambda scene: carom.validate(seed=10**13), "seed=10000000000000: it can be 0 to 9000000000000"),
         (lambda scene: carom.validate(seed=-1), "seed is -1; it must be from 0"),
         (lambda scene: carom.compare(scene, seeds="many"), "seeds is 'many'; give a whole number"),
+        (lambda scene: carom.compare(scene, stiffness="stiff"), "stiffness is 'stiff'; give a number"),
         (lambda scene: carom.compare(scene, dts="long"), "dts: an array of <U4 is given; give real numbers"),
         (lambda scene: carom.horizon(scene, engine=None), "engine is None; give a string"),
         (lambda scene: carom.hardcases("no_case"), "no_case: there is no such case; carom.hard_case_names() names them all"),
@@ -252,6 +255,10 @@ def test_what_a_study_does_not_know_is_refused_as_by_the_program(scene, program,
     with pytest.raises(ValueError, match="shear") as caught:
         getattr(carom, study)(sheared)
     assert refused.stderr.strip() == f"carom: {caught.value}"
+
+
+def test_springs_have_the_stiffness_that_is_given(scene):
+    assert carom.compare(scene, dts=1e-3, stiffness=1e5).summary["plan"]["stiffness"] == 1e5
 
 
 def interrupted_at(call):
