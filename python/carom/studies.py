@@ -344,12 +344,20 @@ def horizon(
     return Horizon(summary, sentence, Table(columns, units, "Horizons"), lyapunov, table)
 
 
-def beside(scene: SceneLike, method: str = "guarded", *, engine: str = "auto", progress: Progress | None = None) -> Page:
+def beside(
+    scene: SceneLike,
+    method: str = "guarded",
+    *,
+    stiffness: float | None = None,
+    engine: str = "auto",
+    progress: Progress | None = None,
+) -> Page:
     """Returns a page on which exact events and a fixed-step method fly side by side from one start, to be watched.
 
     Args:
         scene: a Scene, the path of a scene file, or a mapping.
         method: "naive:0.001": one of `carom.fixed_step_methods()`, and after a colon its step; else one that lets errors be seen.
+        stiffness: of the springs of the method "soft", force per overlap; None: such that the shortest contact takes 30 steps.
         engine: of the exact side: "auto", "fast" or "textbook".
         progress: True for a bar (needs tqdm), or a function of the fraction done.
 
@@ -360,8 +368,11 @@ def beside(scene: SceneLike, method: str = "guarded", *, engine: str = "auto", p
 
     core = as_scene(scene)._core
     method, engine = _arguments.words(method, "method"), _arguments.words(engine, "engine")
+    spring = None if stiffness is None else _arguments.real(stiffness, "stiffness")
+    if spring is not None and method.split(":")[0] != "soft":
+        raise ValueError('a stiffness is that of the springs of method="soft"; leave it out, or give both')
     with _sentences(play="method"), reporting(progress, "beside") as tell:
-        return Page(_files.side_by_side(core, method, engine, tell))
+        return Page(_files.side_by_side(core, method, spring, engine, tell))
 
 
 def validate(*, full: bool = False, only: Sequence[str] = (), seed: int = 1, progress: Progress | None = None) -> Validation:

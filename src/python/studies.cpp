@@ -121,15 +121,17 @@ ComparisonParts compare_methods(const Scene& scene, const cli::CompareCommandOpt
 }
 
 /// The plan of a comparison is all that is needed of it.
-std::string side_by_side(const Scene& scene, const std::string& method, const std::string& engine, const nb::object& report) {
+std::string side_by_side(const Scene& scene, const std::string& method, std::optional<double> stiffness,
+                         const std::string& engine, const nb::object& report) {
   cli::CompareCommandOptions wishes;
   wishes.scene.engine = engine;
+  wishes.stiffness = stiffness;
   const CompareOptions options = cli::compare_options(wishes);
   cli::require_known_effects(scene, "carom compare");
   Watch watch(report);
   const std::string html = watched(watch, [&] {
     (void)make_simulation(scene, options.engine);
-    const cli::PlayChoice choice = cli::checked_play(method, scene);
+    const cli::PlayChoice choice = cli::checked_play(method, scene, options.stiffness);
     std::optional<cli::SideBySidePage> page;
     bool planned = false;
     CompareHooks hooks;
@@ -268,7 +270,8 @@ void add_studies(nb::module_& module) {
       },
       nb::arg("scene"), nb::arg("dts"), nb::arg("seeds").none(), nb::arg("longest"), nb::arg("stiffness").none(),
       nb::arg("engine"), nb::arg("costs"), nb::arg("report").none());
-  module.def("side_by_side", &side_by_side, nb::arg("scene"), nb::arg("method"), nb::arg("engine"), nb::arg("report").none());
+  module.def("side_by_side", &side_by_side, nb::arg("scene"), nb::arg("method"), nb::arg("stiffness").none(), nb::arg("engine"),
+             nb::arg("report").none());
   module.def(
       "difference",
       [](const std::string& first, const std::string& second) {

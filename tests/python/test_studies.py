@@ -164,6 +164,11 @@ def test_a_page_of_two_sides(scene):
     assert isinstance(page, carom.Page) and "naive" in page.html and "<iframe" in page._repr_html_()
 
 
+def test_a_page_of_soft_disks_depends_on_their_stiffness(scene):
+    pages = {carom.beside(scene, "soft:0.001", stiffness=stiffness).html for stiffness in (1e4, 2e4, 2e4)}
+    assert len(pages) == 2
+
+
 def test_studies_have_the_programs_pages(comparison):
     page = comparison.page()
     assert isinstance(page, carom.Page) and page.html.startswith("<!doctype html>")
@@ -219,6 +224,11 @@ def test_a_hard_case_of_ones_own_may_fail(tmp_path):
         (lambda scene: carom.compare(scene, dts=0.1, stiffness=1e5), "stiffness=100000: a time step of 0.1 is unstable with a"),
         (lambda scene: carom.compare(scene, engine="slow"), "engine=slow: there is no such engine; choose auto or one of: fast"),
         (lambda scene: carom.compare(scene, engine="textbook-quad"), "engine=textbook-quad: every precision is compared anyway"),
+        (lambda scene: carom.compare(scene, stiffness=0), "stiffness=0: it must be positive and finite"),
+        (lambda scene: carom.compare(scene, dts=0.1, stiffness=1e9), "stiffness=1e+09: "),
+        (lambda scene: carom.compare(scene, stiffness="a"), "stiffness is 'a'; give a number"),
+        (lambda scene: carom.beside(scene, "naive:0.01", stiffness=1e4), 'a stiffness is that of the springs of method="soft"'),
+        (lambda scene: carom.beside(scene, "soft:0.1", stiffness=1e9), "method=soft:0.1: "),
         (lambda scene: carom.horizon(scene, collisions=0), "collisions=0: an exponent needs some collisions"),
         (lambda scene: carom.horizon(scene, engine="slow"), "engine=slow: there is no such engine"),
         (lambda scene: carom.beside(scene, "nave"), 'method=nave: there is no fixed-step method "nave"; choose one of naive'),
