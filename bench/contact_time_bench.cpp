@@ -13,7 +13,7 @@ namespace {
 using carom::Vec2;
 
 template <class Real>
-void contact_time(benchmark::State& state) {
+void time_contact(benchmark::State& state) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   std::vector<std::pair<Vec2<Real>, Vec2<Real>>> pairs;
@@ -42,9 +42,9 @@ void contact_time(benchmark::State& state) {
   state.counters["hits"] = hits / 1024.0;
 }
 
-BENCHMARK(contact_time<float>);
-BENCHMARK(contact_time<double>);
-BENCHMARK(contact_time<long double>);
-BENCHMARK(contact_time<carom::Quad>);
+BENCHMARK(time_contact<float>);
+BENCHMARK(time_contact<double>);
+BENCHMARK(time_contact<long double>);
+BENCHMARK(time_contact<carom::Quad>);
 
 }  // namespace

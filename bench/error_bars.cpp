@@ -212,4 +212,5 @@ int main(int arguments, char** argument) {
   }
   for (const Case& one : cases())
     if (wanted.empty() || std::ranges::find(wanted, one.name) != wanted.end()) study(one, seeds, all_rows);
+  return 0;
 }

@@ -118,7 +118,7 @@ class Study {
 
   Simulation& simulation_;
   Box box_;
-  Replay replay_;
+  EventReplay replay_;
   std::int64_t disks_;
   std::int64_t events_;
   std::vector<CriticalPath> paths_;  ///< needing the pair, the zone, the wide zone

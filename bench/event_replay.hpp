@@ -51,10 +51,10 @@ struct Domains {
   }
 };
 
-class Replay {
+class EventReplay {
  public:
   /// `reach`: the largest distance that near() will be asked for. Requires a box of at least three times sigma + reach + 1.
-  Replay(const Box& box, const State& start, double sigma, double reach)
+  EventReplay(const Box& box, const State& start, double sigma, double reach)
       : length_(box.lengths()), lower_(box.lower), sigma_(sigma), line_(static_cast<std::size_t>(start.positions.cols())) {
     for (int a = 0; a < 2; ++a) {
       cells_[a] = static_cast<Id>(length_[a] / (reach + 0.5 * sigma + margin()));

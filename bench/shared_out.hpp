@@ -23,7 +23,7 @@ inline constexpr std::int64_t blocks = 20;
 
 class SharedOut {
  public:
-  SharedOut(const Domains& domains, const Replay& replay, std::int64_t events)
+  SharedOut(const Domains& domains, const EventReplay& replay, std::int64_t events)
       : domains_(domains), replay_(replay), events_(events) {
     for (const double meeting : {0.0, 1.0, 4.0}) clocks_.emplace_back(domains.count(), meeting);
     for (const double window : {0.1, 1.0, 4.0}) rollbacks_.push_back({window, {}, Rollback(domains.count(), homes(0.0))});
@@ -143,7 +143,7 @@ class SharedOut {
   }
 
   Domains domains_;
-  const Replay& replay_;
+  const EventReplay& replay_;
   std::int64_t events_;
   std::int64_t done_ = 0;
   std::vector<DomainClocks> clocks_;

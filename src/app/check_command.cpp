@@ -77,7 +77,7 @@ ExitCode check(const CheckOptions& options) {
   fmt::print("{}  conserved   {}\n{}", describe(scene), conserved(scene.box, scene.effects), start);
   if (trial) {
     const SuggestedThreads suggested = suggested_threads(trial->simulation());
-    fmt::print("  threads     {}\n  cost        {}{}\n", suggested.words, words(trial->run()),
+    fmt::print("  threads     {}\n  cost        {}{}\n", suggested.words, cost_words(trial->run()),
                suggested.threads > 1 ? "; the trial had one core" : "");
   }
   fmt::print("{}", files(scene));

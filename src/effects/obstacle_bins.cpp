@@ -6,13 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace carom {
 
 namespace {
-
-constexpr double never = std::numeric_limits<double>::infinity();
 
 /// A margin as a fraction of the box: far above the rounding of bin numbers, far below anything that costs time.
 constexpr double margin = 1e-9;
@@ -71,8 +68,8 @@ void ObstacleBins::set_counts(std::int64_t columns, std::int64_t rows) {
 }
 
 double ObstacleBins::end_of(const SearchPath& path) const {
-  if (path.until < never) return path.until;
-  double until = never;
+  if (path.until < infinity<double>) return path.until;
+  double until = infinity<double>;
   const Eigen::Vector2d lengths = box_.lengths();
   for (int a = 0; a < 2; ++a) {
     if (!box_.periodic(a)) {
@@ -88,7 +85,7 @@ double ObstacleBins::end_of(const SearchPath& path) const {
 
 /// A piece is about a bin long.
 double ObstacleBins::end_of_piece(const SearchPath& path, double from, double until) const {
-  double time = never;
+  double time = infinity<double>;
   const Eigen::Vector2d v = path.v + from * path.g;
   for (int a = 0; a < 2; ++a) {
     if (v[a] != 0.0) time = std::min(time, width_[a] / std::abs(v[a]));

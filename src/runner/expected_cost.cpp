@@ -172,7 +172,7 @@ double expected_bytes_per_disk(const Effects& effects) {
   return bytes;
 }
 
-std::string words(const ExpectedCost& cost) {
+std::string cost_words(const ExpectedCost& cost) {
   const auto number_of = [](double collisions) {
     return collisions < 1e6 ? counted(static_cast<std::uint64_t>(std::llround(collisions)), "collision")
                             : fmt::format("{:.3g} million collisions", collisions / 1e6);

@@ -51,6 +51,6 @@ class Trial {
 
 /// Returns the cost in words: "about 12 s on this machine for 23 million collisions (a trial run of 200 ms: 1.92 million
 /// collisions per second)".
-std::string words(const ExpectedCost& cost);
+std::string cost_words(const ExpectedCost& cost);
 
 }  // namespace carom

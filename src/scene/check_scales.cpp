@@ -21,7 +21,8 @@ namespace carom::detail {
 namespace {
 
 /// Bounds of products of speed and length.
-constexpr double least = 1e-150, most = 1e150;
+constexpr double least = 1e-150;
+constexpr double most = 1e150;
 constexpr double least_mass = 1e-300, most_mass = 1e300;
 /// Places must be known to this share of the smallest radius.
 constexpr double resolution = 1e-3;

@@ -1,5 +1,6 @@
 #include "theory/run_theory.hpp"
 
+#include "core/all_equal.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/observed_run.hpp"
 #include "theory/barometer.hpp"
@@ -24,10 +25,6 @@ constexpr double pi = std::numbers::pi;
 constexpr double densest_fluid = 0.69;
 constexpr double densest_finite = 0.63;
 constexpr int line_points = 200;
-
-bool all_equal(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
-}
 
 /// Even steps over the first column of a table, beginning above zero.
 std::vector<double> steps_over(const Table& table) {

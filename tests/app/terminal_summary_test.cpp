@@ -21,7 +21,7 @@ class TerminalSummary : public ::testing::Test {
   [[nodiscard]] std::string text() const { return cli::terminal_summary(report_, scene_, {"out", {}, "carom"}); }
 
   Scene scene_ = scene_of(2, 2);
-  RunReport report_ = report_of(scene_);
+  RunReport report_ = hand_made_report(scene_);
 };
 
 TEST_F(TerminalSummary, SaysNothingOfEffectsThatASceneDoesNotName) {

@@ -35,13 +35,13 @@ Recorded recorded_gas(std::int64_t disks, std::uint64_t collisions) {
 
 TEST(EventReplay, FindsEveryPairOfARunInContact) {
   const Recorded run = recorded_gas(256, 5000);
-  Replay replay(run.box, run.start, 1.0, 2.0);
+  EventReplay replay(run.box, run.start, 1.0, 2.0);
   for (const Event& event : run.events) ASSERT_TRUE(replay.collide(event)) << event.time;
 }
 
 TEST(EventReplay, SeesThatACollisionComesAMillionthLate) {
   const Recorded run = recorded_gas(256, 1);
-  Replay replay(run.box, run.start, 1.0, 2.0);
+  EventReplay replay(run.box, run.start, 1.0, 2.0);
   Event late = run.events.front();
   late.time += 1e-6;
   EXPECT_FALSE(replay.collide(late));
@@ -49,7 +49,7 @@ TEST(EventReplay, SeesThatACollisionComesAMillionthLate) {
 
 TEST(EventReplay, WhoIsNearIsWhomASearchAmongAllFinds) {
   const Recorded run = recorded_gas(256, 1000);
-  Replay replay(run.box, run.start, 1.0, 3.0);
+  EventReplay replay(run.box, run.start, 1.0, 3.0);
   std::vector<Id> found;
   for (const Event& event : run.events) {
     ASSERT_TRUE(replay.collide(event));
@@ -71,7 +71,7 @@ TEST(EventReplay, WhoIsNearIsWhomASearchAmongAllFinds) {
 
 TEST(EventReplay, BoxTooSmallForItsCellsIsRefused) {
   const Recorded run = recorded_gas(16, 1);
-  EXPECT_THROW(Replay(run.box, run.start, 1.0, 3.0), std::invalid_argument);
+  EXPECT_THROW(EventReplay(run.box, run.start, 1.0, 3.0), std::invalid_argument);
 }
 
 const Domains six{{{-1.0, 0.0}, {2.0, 2.0}, {Boundary::periodic, Boundary::periodic}}, 3, 2};
@@ -111,7 +111,7 @@ TEST(EventReplay, PairsPartedByABorderAreThoseOfAllDirections) {
   }
   State nothing;
   nothing.positions = nothing.velocities = Eigen::Matrix2Xd::Zero(2, 1);
-  const Replay replay(domains.box, nothing, 1.0, 2.0);
+  const EventReplay replay(domains.box, nothing, 1.0, 2.0);
   const double theory = SharedOut(domains, replay, 1).parted_in_theory(1.0);
   // Five standard errors of a count.
   EXPECT_NEAR(parted, needles * theory, 5.0 * std::sqrt(needles * theory));

@@ -23,7 +23,7 @@ constexpr const char* engines_of_doubles[] = {"general", "textbook", "textbook-l
 Scene row(int count, double restitution, double speed = 1.0) {
   std::vector<Placed> disks;
   for (int k = 0; k < count; ++k) disks.push_back({{1.5 + k, 8.0}, {-speed, 0.0}});
-  Scene scene = scene_of(box_of(64.0, 16.0, Boundary::walls), disks);
+  Scene scene = scene_of_placed(box_of(64.0, 16.0, Boundary::walls), disks);
   scene.effects.collision.restitution = restitution;
   scene.run.time = 16.0 / speed;
   return scene;
@@ -64,8 +64,9 @@ TEST(EnginesCollapse, OfARowAtAWallEndsTheRunInEveryEngine) {
 TEST(EnginesCollapse, NamesTheDisksOfTheRow) {
   for (const char* engine : all_engines) {
     // The partner gives half of what it has left to the one at the wall, and the wall half of that: quarters of powers of two.
-    Scene scene = scene_of(box_of(16.0, 16.0, Boundary::walls),
-                           {{{3.5, 8.0}, {-1.0, 0.0}, 0.75}, {{2.0, 8.0}, {-1.0, 0.0}, 0.75}, {{10.0, 10.0}, {0.0, 0.5}, 0.75}});
+    Scene scene =
+        scene_of_placed(box_of(16.0, 16.0, Boundary::walls),
+                        {{{3.5, 8.0}, {-1.0, 0.0}, 0.75}, {{2.0, 8.0}, {-1.0, 0.0}, 0.75}, {{10.0, 10.0}, {0.0, 0.5}, 0.75}});
     scene.effects.collision.restitution = 0.0;
     scene.effects.walls[0].restitution = 0.5;
     scene.run.time = 8.0;
@@ -126,7 +127,7 @@ TEST(EnginesCollapse, IsNotWhatALightDiskDoesToHeavyOnes) {
   // A disk of 1e-300 of the mass gives its neighbours 1e-300 of its speed: that is slow, and no collapse.
   for (const char* engine : engines_with_effects) {
     const Scene scene = [] {
-      Scene heavy = scene_of(
+      Scene heavy = scene_of_placed(
           box_of(64.0, 16.0, Boundary::walls),
           {{{3.0, 8.0}, {0.0, 0.0}, 0.5, 1.0}, {{4.0, 8.0}, {0.0, 0.0}, 0.5, 1.0}, {{6.0, 8.0}, {-1.0, 0.0}, 0.5, 1e-300}});
       heavy.effects.collision.restitution = 0.5;
@@ -213,7 +214,7 @@ TEST(Cooling, OfAGasThatMovesAsAWholeEndsWhereItWaitsForCollisions) {
 TEST(Cooling, LeavesARunItsTimeHoweverDisksMoveTogether) {
   // At e = 0 the two go on side by side, for as long as was asked.
   for (const char* engine : engines_with_effects) {
-    Scene scene = scene_of(box_of(8.0, 8.0, Boundary::periodic), {{{2.0, 4.0}, {1.0, 0.25}}, {{6.0, 4.0}, {0.0, 0.25}}});
+    Scene scene = scene_of_placed(box_of(8.0, 8.0, Boundary::periodic), {{{2.0, 4.0}, {1.0, 0.25}}, {{6.0, 4.0}, {0.0, 0.25}}});
     scene.effects.collision.restitution = 0.0;
     scene.run.time = 4e5;  // past a million events
     Simulation simulation = make_simulation(scene, engine);

@@ -38,7 +38,7 @@ Scene crowd(CollisionRule rule, double restitution) {
 
 /// One disk of radius 1/2 that flies to and fro between walls from x = 1 to the right; its centre has a way of 4.
 Scene shuttle(double speed) {
-  return scene_of({{0.0, 0.0}, {5.0, 5.0}, {Boundary::walls, Boundary::walls}}, {{{1.0, 2.5}, {speed, 0.0}, 0.5, 2.0}});
+  return scene_of_placed({{0.0, 0.0}, {5.0, 5.0}, {Boundary::walls, Boundary::walls}}, {{{1.0, 2.5}, {speed, 0.0}, 0.5, 2.0}});
 }
 
 constexpr double rounding = 16 * 0x1p-53;
@@ -123,8 +123,8 @@ TEST(Drag, CountsWhatWallsTakeAtTheSpeedThatIsLeft) {
 
 TEST(Drag, CountsImpulsesAndLossesOfPairsAtTheSpeedThatIsLeft) {
   const double rate = 0.125;
-  Scene scene = with_drag(scene_of({{-4.0, -4.0}, {4.0, 4.0}, {Boundary::periodic, Boundary::periodic}},
-                                   {{{-1.5, 0.0}, {1.0, 0.0}, 0.5, 1.0}, {{1.5, 0.0}, {-1.0, 0.0}, 0.5, 1.0}}),
+  Scene scene = with_drag(scene_of_placed({{-4.0, -4.0}, {4.0, 4.0}, {Boundary::periodic, Boundary::periodic}},
+                                          {{{-1.5, 0.0}, {1.0, 0.0}, 0.5, 1.0}, {{1.5, 0.0}, {-1.0, 0.0}, 0.5, 1.0}}),
                           rate);
   scene.effects.collision.restitution = 0.5;
   for (const char* name : engines_with_effects) {

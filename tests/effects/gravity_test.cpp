@@ -22,7 +22,7 @@ TEST(Gravity, ADiskBouncesAlongParabolasInClosedForm) {
   // Height 2 above the floor at g = 4: it falls for 1, and is up again every 2. Along x it drifts at 1/16. All are dyadic
   // numbers.
   for (const char* engine : engines_with_effects) {
-    const Scene scene = falling(scene_of(box_of(64.0, 8.0, Boundary::walls), {{{1.0, 2.5}, {0.0625, 0.0}}}), {0.0, -4.0});
+    const Scene scene = falling(scene_of_placed(box_of(64.0, 8.0, Boundary::walls), {{{1.0, 2.5}, {0.0625, 0.0}}}), {0.0, -4.0});
     Simulation simulation = make_simulation(scene, engine);
     for (int k = 0; k <= 4000; ++k) {
       const double t = k / 8.0;
@@ -41,8 +41,8 @@ TEST(Gravity, TwoDisksNeverNoticeItFromEachOther) {
   for (const char* engine : engines_with_effects) {
     const std::vector<Placed> pair = {{{-2.0, 8.0}, {1.0, 2.0}}, {{2.0, 8.6}, {-1.0, 2.0}, 0.5, 3.0}};
     const Box box{{-16.0, 0.0}, {16.0, 32.0}, {Boundary::walls, Boundary::walls}};
-    const Ran free = run(scene_of(box, pair), engine, 2.0);
-    const Ran fall = run(falling(scene_of(box, pair), {0.5, -1.0}), engine, 2.0);
+    const Ran free = run(scene_of_placed(box, pair), engine, 2.0);
+    const Ran fall = run(falling(scene_of_placed(box, pair), {0.5, -1.0}), engine, 2.0);
     ASSERT_EQ(free.events.size(), 1U);
     ASSERT_EQ(fall.events.size(), 1U);
     const double t = free.events[0].time;
@@ -109,7 +109,7 @@ TEST(Gravity, NoDiskLeavesItsNeighbourhoodUnseenWhenTheFallingFrameIsReset) {
 TEST(Gravity, AnApexExactlyAtTheCeilingIsNoCollision) {
   // From the floor with 4 at g = 4: it rises by 2 and turns where it touches. All dyadic.
   for (const char* engine : engines_with_effects) {
-    const Scene scene = falling(scene_of(box_of(4.0, 3.0, Boundary::walls), {{{2.0, 0.5}, {0.0, 4.0}}}), {0.0, -4.0});
+    const Scene scene = falling(scene_of_placed(box_of(4.0, 3.0, Boundary::walls), {{{2.0, 0.5}, {0.0, 4.0}}}), {0.0, -4.0});
     const Ran ran = run(scene, engine, 100.0);
     EXPECT_EQ(ran.stopped, StopReason::time);
     const auto ceiling =
@@ -124,7 +124,7 @@ TEST(Gravity, AHairFasterOrSlowerHitsOrMissesTheCeiling) {
   for (const char* engine : engines_with_effects)
     for (const bool faster : {true, false}) {
       const double v = 4.0 * (faster ? 1 + 0x1p-40 : 1 - 0x1p-40);
-      const Scene scene = falling(scene_of(box_of(4.0, 3.0, Boundary::walls), {{{2.0, 0.5}, {0.0, v}}}), {0.0, -4.0});
+      const Scene scene = falling(scene_of_placed(box_of(4.0, 3.0, Boundary::walls), {{{2.0, 0.5}, {0.0, v}}}), {0.0, -4.0});
       const Ran ran = run(scene, engine, 101.0);
       EXPECT_EQ(ran.simulation.totals().wall_impulse[3] > 0.0, faster) << engine;
       EXPECT_NEAR(energy_of(ran.simulation), v * v / 2 + 4.0 * 0.5, 1e-12);
@@ -137,7 +137,7 @@ constexpr double invisible = 0x1p-41 + 16 * 0x1p-53 * 4.0;
 
 TEST(Gravity, ADiskThatRestsOnTheFloorStaysThere) {
   for (const char* engine : engines_with_effects) {
-    const Scene scene = falling(scene_of(box_of(4.0, 4.0, Boundary::walls), {{{2.0, 0.5}, {0.0, 0.0}}}), {0.0, -1.0});
+    const Scene scene = falling(scene_of_placed(box_of(4.0, 4.0, Boundary::walls), {{{2.0, 0.5}, {0.0, 0.0}}}), {0.0, -1.0});
     const Ran ran = run(scene, engine, 1.0);
     EXPECT_EQ(ran.stopped, StopReason::time) << engine;
     EXPECT_NEAR(ran.simulation.state().positions(1, 0), 0.5, invisible);
@@ -155,7 +155,7 @@ struct Rest {
 
 std::vector<Rest> all_ways_to_rest() {
   const Box box = {{-4.0, 0.0}, {4.0, 8.0}, {Boundary::walls, Boundary::walls}};
-  const auto one = [&](const V& r, const V& g) { return falling(scene_of(box, {{r, {0.0, 0.0}}}), g); };
+  const auto one = [&](const V& r, const V& g) { return falling(scene_of_placed(box, {{r, {0.0, 0.0}}}), g); };
   const auto with = [](Scene scene, const std::vector<Obstacle>& obstacles) {
     scene.effects.obstacles = obstacles;
     return scene;
@@ -196,11 +196,11 @@ TEST(Gravity, DisksThatRestOnEachOtherGainTheEnergyOfSomeHopsAndNoMore) {
   // A stack of three masses, and a pile whose upper disk drives the lower ones apart. Hops of the lower disks are handed on, and
   // come back at any speed: the floor and the walls take more than they give of what is above a few hops.
   const double hop = 0.5 * 2.0 * 0x1p-40;
-  const Scene stack =
-      scene_of(box_of(8.0, 8.0, Boundary::walls),
-               {{{4.0, 0.5}, {0.0, 0.0}, 0.5, 1.0}, {{4.0, 1.5}, {0.0, 0.0}, 0.5, 3.0}, {{4.0, 2.5}, {0.0, 0.0}, 0.5, 0.4}});
-  const Scene pile = scene_of({{0.0, 0.0}, {2.2, 8.0}, {Boundary::walls, Boundary::walls}},
-                              {{{0.5, 0.5}, {0.0, 0.0}}, {{1.7, 0.5}, {0.0, 0.0}}, {{1.1, 1.3}, {0.0, 0.0}}});
+  const Scene stack = scene_of_placed(
+      box_of(8.0, 8.0, Boundary::walls),
+      {{{4.0, 0.5}, {0.0, 0.0}, 0.5, 1.0}, {{4.0, 1.5}, {0.0, 0.0}, 0.5, 3.0}, {{4.0, 2.5}, {0.0, 0.0}, 0.5, 0.4}});
+  const Scene pile = scene_of_placed({{0.0, 0.0}, {2.2, 8.0}, {Boundary::walls, Boundary::walls}},
+                                     {{{0.5, 0.5}, {0.0, 0.0}}, {{1.7, 0.5}, {0.0, 0.0}}, {{1.1, 1.3}, {0.0, 0.0}}});
   for (const char* engine : engines_with_effects)
     for (const Scene& scene : {stack, pile}) {
       Simulation simulation = make_simulation(falling(scene, {0.0, -2.0}), engine);
@@ -232,7 +232,7 @@ TEST(Gravity, BouncesKeepTheirEnergyToRounding) {
       const double contact = b.g < 0.0 ? b.floor + b.radius : b.floor + b.length - b.radius;
       const V start(middle, contact + (b.g < 0.0 ? b.height : -b.height));
       const Box box = {{b.floor, b.floor}, {b.floor + b.length, b.floor + b.length}, {Boundary::walls, Boundary::walls}};
-      Simulation simulation = make_simulation(falling(scene_of(box, {{start, {0.0, 0.0}, b.radius}}), {0.0, b.g}), engine);
+      Simulation simulation = make_simulation(falling(scene_of_placed(box, {{start, {0.0, 0.0}, b.radius}}), {0.0, b.g}), engine);
       const double energy = energy_of(simulation);
       simulation.run_until(static_cast<double>(bounces) * 2.0 * v / g);
       ASSERT_GT(simulation.totals().wall, bounces - 10);
@@ -259,7 +259,7 @@ TEST(Gravity, AGasKeepsItsEnergyAsRoundingThatPrefersNoSideDoes) {
 
 TEST(Gravity, ADiskSlidesAlongTheFloor) {
   for (const char* engine : engines_with_effects) {
-    const Scene scene = falling(scene_of(box_of(64.0, 4.0, Boundary::walls), {{{1.0, 0.5}, {32.0, 0.0}}}), {0.0, -1.0});
+    const Scene scene = falling(scene_of_placed(box_of(64.0, 4.0, Boundary::walls), {{{1.0, 0.5}, {32.0, 0.0}}}), {0.0, -1.0});
     const Ran ran = run(scene, engine, 1.0);
     EXPECT_EQ(ran.stopped, StopReason::time) << engine;
     EXPECT_NEAR(ran.simulation.state().positions(0, 0), 33.0, 1e-9) << "4e5 lines, each rounded at 33";
@@ -271,7 +271,7 @@ TEST(Gravity, ADiskSlidesAlongTheFloor) {
 TEST(Gravity, PullsADiskExactlyIntoACorner) {
   // Along the diagonal, from rest: both walls are met at one instant, for ever.
   for (const char* engine : engines_with_effects) {
-    const Scene scene = falling(scene_of(box_of(4.0, 4.0, Boundary::walls), {{{2.5, 2.5}, {0.0, 0.0}}}), {-4.0, -4.0});
+    const Scene scene = falling(scene_of_placed(box_of(4.0, 4.0, Boundary::walls), {{{2.5, 2.5}, {0.0, 0.0}}}), {-4.0, -4.0});
     const Ran ran = run(scene, engine, 2.0 * 16 + 1.0);
     EXPECT_EQ(ran.stopped, StopReason::time) << engine;
     ASSERT_GE(ran.events.size(), 32U);
@@ -292,7 +292,7 @@ TEST(Gravity, MayPullUpwardsAndToTheSide) {
       std::vector<Placed> disks = {
           {{-1.0, 2.0}, {0.5, -0.25}}, {{1.25, 1.0}, {-0.25, 0.0}, 0.75, 2.0}, {{0.0, -2.0}, {0.0, 1.0}}};
       for (Placed& disk : disks) disk.r = mirror * disk.r, disk.v = mirror * disk.v;
-      const Ran ran = run(falling(scene_of(box, disks), mirror * V(0.25, -1.0)), engine, 8.0);
+      const Ran ran = run(falling(scene_of_placed(box, disks), mirror * V(0.25, -1.0)), engine, 8.0);
       EXPECT_GT(ran.simulation.totals().pair, 2U);
       return Eigen::Matrix2Xd(mirror * ran.simulation.state().positions);
     };
@@ -306,9 +306,9 @@ TEST(Gravity, MayPullUpwardsAndToTheSide) {
 TEST(Gravity, AMassRatioOf1e12StaysInTheBox) {
   // A light disk between the floor and one that is 1e12 times heavier and falls on it: driven faster and faster, it carries.
   for (const char* engine : engines_with_effects) {
-    const Scene scene = falling(
-        scene_of(box_of(2.0, 8.0, Boundary::walls), {{{1.0, 0.5}, {0.0, 0.0}, 0.5, 1e-6}, {{1.0, 4.0}, {0.0, 0.0}, 0.5, 1e6}}),
-        {0.0, -1.0});
+    const Scene scene = falling(scene_of_placed(box_of(2.0, 8.0, Boundary::walls),
+                                                {{{1.0, 0.5}, {0.0, 0.0}, 0.5, 1e-6}, {{1.0, 4.0}, {0.0, 0.0}, 0.5, 1e6}}),
+                                {0.0, -1.0});
     Simulation simulation = make_simulation(scene, engine);
     const double energy = energy_of(simulation);
     const StopReason stopped = simulation.run_until(2.0, {.collisions = 100'000});

@@ -20,8 +20,8 @@ Scene inelastic(Scene scene, double restitution) {
 
 /// Two disks that will meet at t = 1.2 with the line of centres along (0.8, 0.6), the second one at rest.
 Scene off_centre(double mass, double target_mass, double restitution) {
-  return inelastic(scene_of({{-4.0, -4.0}, {4.0, 4.0}, {Boundary::walls, Boundary::walls}},
-                            {{{-1.0, 0.0}, {1.0, 0.0}, 0.5, mass}, {{1.0, 0.6}, {0.0, 0.0}, 0.5, target_mass}}),
+  return inelastic(scene_of_placed({{-4.0, -4.0}, {4.0, 4.0}, {Boundary::walls, Boundary::walls}},
+                                   {{{-1.0, 0.0}, {1.0, 0.0}, 0.5, mass}, {{1.0, 0.6}, {0.0, 0.0}, 0.5, target_mass}}),
                    restitution);
 }
 
@@ -63,8 +63,8 @@ TEST(Restitution, ScalesTheWholeRelativeVelocityUnderReversal) {
 TEST(Restitution, ZeroLeavesAPairThatGoesOnTogether) {
   for (const char* engine : engines_with_effects) {
     // Head on: both go on at half the speed, touching, and never collide again. The wall is 1e3 away.
-    const Scene scene = inelastic(scene_of({{0.0, 0.0}, {1024.0, 4.0}, {Boundary::walls, Boundary::walls}},
-                                           {{{1.0, 2.0}, {1.0, 0.0}}, {{4.0, 2.0}, {0.0, 0.0}}}),
+    const Scene scene = inelastic(scene_of_placed({{0.0, 0.0}, {1024.0, 4.0}, {Boundary::walls, Boundary::walls}},
+                                                  {{{1.0, 2.0}, {1.0, 0.0}}, {{4.0, 2.0}, {0.0, 0.0}}}),
                                   0.0);
     const Ran ran = run(scene, engine, 1000.0);
     EXPECT_EQ(ran.stopped, StopReason::time);
@@ -99,7 +99,7 @@ TEST(Restitution, EnergyLostIsEnergyCountedAndMomentumIsKept) {
 
 /// A ball of radius 0.5 falls from rest for 1 = sqrt(2 h / g), h = 2, onto a floor.
 Scene bouncing_ball(double restitution) {
-  Scene scene = scene_of(box_of(4.0, 4.0, Boundary::walls), {{{2.0, 2.5}, {0.0, 0.0}}});
+  Scene scene = scene_of_placed(box_of(4.0, 4.0, Boundary::walls), {{{2.0, 2.5}, {0.0, 0.0}}});
   scene.effects.gravity = Gravity{{0.0, -4.0}};
   scene.effects.walls[2].restitution = restitution;
   return scene;
@@ -140,8 +140,8 @@ TEST(Restitution, ABallComesToRestAtOneBounceWhateverItsNumbers) {
     const double g = 1.0 + 4.0 * unit(random), e = 0.3 + 0.65 * unit(random);
     const double height = 1.0 + unit(random), radius = 0.2 + 0.4 * unit(random), floor = k % 2 == 0 ? 0.0 : unit(random);
     const double left = 2.0 * std::sqrt(2.0 * 16 * 0x1p-53 * 4.0 / g) / (1 - e);
-    Scene scene = scene_of({{0.0, floor}, {4.0, floor + 4.0}, {Boundary::walls, Boundary::walls}},
-                           {{{2.0, floor + radius + height}, {0.0, 0.0}, radius}});
+    Scene scene = scene_of_placed({{0.0, floor}, {4.0, floor + 4.0}, {Boundary::walls, Boundary::walls}},
+                                  {{{2.0, floor + radius + height}, {0.0, 0.0}, radius}});
     scene.effects.gravity = Gravity{{0.0, -g}};
     scene.effects.walls[2].restitution = e;
     for (const char* engine : engines_with_effects) {
@@ -164,7 +164,7 @@ TEST(Restitution, ABallOnAFloorThatTakesAllCollapsesAtTheFirstBounce) {
 
 TEST(Restitution, WallsScaleTheVelocityAcrossThemAndTellWhatTheyTook) {
   for (const char* engine : engines_with_effects) {
-    Scene scene = scene_of(box_of(4.0, 4.0, Boundary::walls), {{{2.0, 2.0}, {-1.0, 0.25}, 0.5, 2.0}});
+    Scene scene = scene_of_placed(box_of(4.0, 4.0, Boundary::walls), {{{2.0, 2.0}, {-1.0, 0.25}, 0.5, 2.0}});
     scene.effects.walls[0].restitution = 0.5;
     const Ran ran = run(scene, engine, 2.0);
     EXPECT_EQ(ran.simulation.state().velocities.col(0), V(0.5, 0.25));
@@ -177,8 +177,8 @@ TEST(Restitution, WallsScaleTheVelocityAcrossThemAndTellWhatTheyTook) {
 
 /// A disk runs into two that rest and touch nothing, all on one line; the clock stops long before the walls.
 Ran three_in_a_row(const char* engine, double e) {
-  const Scene scene = inelastic(scene_of({{-4.0, -1.0}, {1020.0, 1.0}, {Boundary::walls, Boundary::walls}},
-                                         {{{-2.0, 0.0}, {1.0, 0.0}}, {{0.0, 0.0}, {0.0, 0.0}}, {{1.5, 0.0}, {0.0, 0.0}}}),
+  const Scene scene = inelastic(scene_of_placed({{-4.0, -1.0}, {1020.0, 1.0}, {Boundary::walls, Boundary::walls}},
+                                                {{{-2.0, 0.0}, {1.0, 0.0}}, {{0.0, 0.0}, {0.0, 0.0}}, {{1.5, 0.0}, {0.0, 0.0}}}),
                                 e);
   return run(scene, engine, 1000.0);
 }
@@ -216,8 +216,8 @@ TEST(Restitution, ThreeDisksOnALineCollideAsOftenAsTheMapSays) {
 TEST(Restitution, TwoDisksCoolAwayToTheLastBitUntilNumbersCannotTell) {
   for (const char* engine : engines_with_effects) {
     SCOPED_TRACE(engine);
-    Scene scene = inelastic(scene_of({{0.0, 0.0}, {8.0, 8.0}, {Boundary::periodic, Boundary::periodic}},
-                                     {{{2.0, 4.0}, {0.5, 0.0}, 0.5, 1.0}, {{6.0, 4.0}, {-0.5, 0.0}, 0.5, 1.0}}),
+    Scene scene = inelastic(scene_of_placed({{0.0, 0.0}, {8.0, 8.0}, {Boundary::periodic, Boundary::periodic}},
+                                            {{{2.0, 4.0}, {0.5, 0.0}, 0.5, 1.0}, {{6.0, 4.0}, {-0.5, 0.0}, 0.5, 1.0}}),
                             0.5);
     scene.run.time.reset();
     scene.run.collisions = 1'000'000;
@@ -239,7 +239,7 @@ TEST(Restitution, ADenseColumnCollapsesAndSaysSo) {
   for (const char* engine : engines_with_effects) {
     std::vector<Placed> column;
     for (int k = 0; k < 10; ++k) column.push_back({{1.0, 0.75 + 1.25 * k}, {0.0, 0.0}});
-    Scene scene = inelastic(scene_of(box_of(2.0, 20.0, Boundary::walls), column), 0.3);
+    Scene scene = inelastic(scene_of_placed(box_of(2.0, 20.0, Boundary::walls), column), 0.3);
     scene.effects.gravity = Gravity{{0.0, -1.0}};
     scene.effects.walls[2].restitution = 0.3;
     const Ran ran = run(scene, engine, 100.0);
@@ -254,7 +254,7 @@ TEST(Restitution, TouchingDisksOfWildlyDifferentMassDoNotOverlapOrGainEnergy) {
   for (const char* engine : engines_with_effects)
     for (const double e : {0.0, 0.5, 1.0}) {
       const Scene scene = inelastic(
-          scene_of(
+          scene_of_placed(
               {{-4.0, -1.0}, {60.0, 1.0}, {Boundary::walls, Boundary::walls}},
               {{{-2.0, 0.0}, {1.0, 0.0}, 0.5, 1.0}, {{0.0, 0.0}, {0.0, 0.0}, 0.5, 1e-12}, {{1.0, 0.0}, {0.0, 0.0}, 0.5, 1e-24}}),
           e);

@@ -45,9 +45,9 @@ struct Pair {
 constexpr double approach_speed = 1.0;
 Scene scene_of_pair(const Pair& p) {
   const V contact = -(p.radius + p.other_radius) * V(0.8, 0.6);
-  return scene_of({{-16.0, -16.0}, {16.0, 16.0}, {Boundary::walls, Boundary::walls}},
-                  {{contact - V(approach_speed, 0.0), {approach_speed, 0.0}, p.radius, p.mass},
-                   {{0.0, 0.0}, {0.0, 0.0}, p.other_radius, p.other_mass}});
+  return scene_of_placed({{-16.0, -16.0}, {16.0, 16.0}, {Boundary::walls, Boundary::walls}},
+                         {{contact - V(approach_speed, 0.0), {approach_speed, 0.0}, p.radius, p.mass},
+                          {{0.0, 0.0}, {0.0, 0.0}, p.other_radius, p.other_mass}});
 }
 Simulation met(const Scene& scene, const Pair& p, const char* engine) {
   Simulation simulation =
@@ -173,8 +173,8 @@ TEST(RoughDisks, PerfectlyRoughOnesFindTheirWayBack) {
 TEST(RoughDisks, AFrozenSpinIsSetGoingByAGrazingTouch) {
   // All but tangential: an impact parameter of 1 - 2^-20. The tangential impulse is a third of the momentum nonetheless.
   for (const char* engine : engines_with_effects) {
-    const Scene scene =
-        rough(scene_of(box_of(8.0, 8.0, Boundary::walls), {{{2.0, 4.0}, {1.0, 0.0}}, {{4.0, 5.0 - 0x1p-20}, {0.0, 0.0}}}), 1.0);
+    const Scene scene = rough(
+        scene_of_placed(box_of(8.0, 8.0, Boundary::walls), {{{2.0, 4.0}, {1.0, 0.0}}, {{4.0, 5.0 - 0x1p-20}, {0.0, 0.0}}}), 1.0);
     Simulation simulation = make_simulation(scene, engine);
     simulation.run_until(3.0);
     ASSERT_EQ(simulation.totals().pair, 1U);

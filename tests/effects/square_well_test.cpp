@@ -19,8 +19,8 @@ Scene with_well(Scene scene, double depth, double width = 1.5) {
 
 /// Two disks on a line, centres 3 apart, that approach at relative speed 1; wells of width 2 begin at 2.
 Scene head_on(double depth, double mass = 1.0, double other_mass = 1.0) {
-  return with_well(scene_of({{-32.0, -4.0}, {32.0, 4.0}, {Boundary::walls, Boundary::walls}},
-                            {{{-1.5, 0.0}, {1.0, 0.0}, 0.5, mass}, {{1.5, 0.0}, {0.0, 0.0}, 0.5, other_mass}}),
+  return with_well(scene_of_placed({{-32.0, -4.0}, {32.0, 4.0}, {Boundary::walls, Boundary::walls}},
+                                   {{{-1.5, 0.0}, {1.0, 0.0}, 0.5, mass}, {{1.5, 0.0}, {0.0, 0.0}, 0.5, other_mass}}),
                    depth, 2.0);
 }
 
@@ -80,8 +80,8 @@ TEST(SquareWell, AShoulderLetsThroughWhoeverHasTheEnergyAndTurnsBackTheRest) {
 TEST(SquareWell, APairWithoutTheEnergyToLeaveStaysBoundForEver) {
   // At distance 1.5 inside a well of width 2, with mu u^2 / 2 = 1/64 of depth 1/2: core and edge in turns, 0.5 to 0.5 at u = 1/4.
   for (const char* engine : engines_with_effects) {
-    const Scene scene = with_well(scene_of({{-32.0, -4.0}, {32.0, 4.0}, {Boundary::walls, Boundary::walls}},
-                                           {{{-0.75, 0.0}, {-0.125, 0.0}}, {{0.75, 0.0}, {0.125, 0.0}}}),
+    const Scene scene = with_well(scene_of_placed({{-32.0, -4.0}, {32.0, 4.0}, {Boundary::walls, Boundary::walls}},
+                                                  {{{-0.75, 0.0}, {-0.125, 0.0}}, {{0.75, 0.0}, {0.125, 0.0}}}),
                                   0.5, 2.0);
     const Ran ran = run(scene, engine, 4001.0);
     EXPECT_EQ(ran.simulation.state().bonds, 1U) << engine;
@@ -97,8 +97,8 @@ TEST(SquareWell, AGrazingPairIsBentByTheAngleOfRefraction) {
   // misses the core if 1.2 / |v'| > 1.
   for (const char* engine : engines_with_effects) {
     const double depth = 0.05;
-    const Scene scene = with_well(scene_of({{-32.0, -16.0}, {32.0, 16.0}, {Boundary::walls, Boundary::walls}},
-                                           {{{-3.6, 0.0}, {1.0, 0.0}}, {{0.0, 1.2}, {0.0, 0.0}}}),
+    const Scene scene = with_well(scene_of_placed({{-32.0, -16.0}, {32.0, 16.0}, {Boundary::walls, Boundary::walls}},
+                                                  {{{-3.6, 0.0}, {1.0, 0.0}}, {{0.0, 1.2}, {0.0, 0.0}}}),
                                   depth, 2.0);
     Simulation simulation = make_simulation(scene, engine);
     simulation.run_until(2.5);  // at the edge at t = 2, with r = (-1.6, -1.2)
@@ -168,13 +168,14 @@ TEST(SquareWell, OfNoDepthOrOfNoWidthToSpeakOfIsNone) {
 TEST(SquareWell, PairsThatBeginExactlyAtTheEdgeAreOutsideUntilTheyApproach) {
   for (const char* engine : engines_with_effects) {
     const Box box{{-32.0, -4.0}, {32.0, 4.0}, {Boundary::walls, Boundary::walls}};
-    const Ran rest = run(with_well(scene_of(box, {{{-1.0, 0.0}, {0.0, 0.0}}, {{1.0, 0.0}, {0.0, 0.0}}}), 1.0, 2.0), engine, 5.0);
+    const Ran rest =
+        run(with_well(scene_of_placed(box, {{{-1.0, 0.0}, {0.0, 0.0}}, {{1.0, 0.0}, {0.0, 0.0}}}), 1.0, 2.0), engine, 5.0);
     EXPECT_EQ(rest.events.size(), 0U);
     const Ran apart =
-        run(with_well(scene_of(box, {{{-1.0, 0.0}, {-1.0, 0.0}}, {{1.0, 0.0}, {0.0, 0.0}}}), 1.0, 2.0), engine, 5.0);
+        run(with_well(scene_of_placed(box, {{{-1.0, 0.0}, {-1.0, 0.0}}, {{1.0, 0.0}, {0.0, 0.0}}}), 1.0, 2.0), engine, 5.0);
     EXPECT_EQ(apart.events.size(), 0U);
     const Ran near =
-        run(with_well(scene_of(box, {{{-1.0, 0.0}, {1.0, 0.0}}, {{1.0, 0.0}, {0.0, 0.0}}}), 0.75, 2.0), engine, 0.25);
+        run(with_well(scene_of_placed(box, {{{-1.0, 0.0}, {1.0, 0.0}}, {{1.0, 0.0}, {0.0, 0.0}}}), 0.75, 2.0), engine, 0.25);
     EXPECT_EQ(near.simulation.state().bonds, 1U);
     EXPECT_NEAR(near.simulation.state().velocities(0, 0) - near.simulation.state().velocities(0, 1), 2.0, rounding_of_four);
     EXPECT_EQ(near.events.at(0).time, 0.0);

@@ -20,8 +20,8 @@ Scene with_tc(Scene scene, double restitution, double elastic_below) {
 
 /// Disk 0 hits disk 1 at t = 1 with speed 1; at e = 0.5 disk 1 goes on with 0.75 and hits disk 2 after another 1.
 Scene relay(double elastic_below) {
-  return with_tc(scene_of(box_of(32.0, 4.0, Boundary::walls),
-                          {{{2.0, 2.0}, {1.0, 0.0}}, {{4.0, 2.0}, {0.0, 0.0}}, {{5.75, 2.0}, {0.0, 0.0}}}),
+  return with_tc(scene_of_placed(box_of(32.0, 4.0, Boundary::walls),
+                                 {{{2.0, 2.0}, {1.0, 0.0}}, {{4.0, 2.0}, {0.0, 0.0}}, {{5.75, 2.0}, {0.0, 0.0}}}),
                  0.5, elastic_below);
 }
 
@@ -41,8 +41,8 @@ TEST(TcModel, ACollisionIsElasticOnlyWithinTheTimeOfTheOneBefore) {
 TEST(TcModel, HoldsForWallsToo) {
   for (const char* engine : engines_with_effects) {
     // From the disk that it has left at rest to the wall in 0.5, and back with the speed that it had.
-    Scene scene =
-        with_tc(scene_of(box_of(4.0, 4.0, Boundary::walls), {{{1.0, 2.0}, {1.0, 0.0}}, {{2.5, 2.0}, {0.0, 0.0}}}), 0.5, 2.0);
+    Scene scene = with_tc(
+        scene_of_placed(box_of(4.0, 4.0, Boundary::walls), {{{1.0, 2.0}, {1.0, 0.0}}, {{2.5, 2.0}, {0.0, 0.0}}}), 0.5, 2.0);
     scene.effects.walls[1].restitution = 0.5;
     const Ran ran = run(scene, engine, 2.0);
     ASSERT_EQ(ran.events.size(), 2U);
@@ -75,7 +75,7 @@ TEST(TcModel, WithoutLossItChangesNothing) {
 Scene column(double elastic_below) {
   std::vector<Placed> disks;
   for (int k = 0; k < 10; ++k) disks.push_back({{1.0, 0.75 + 1.25 * k}, {0.0, 0.0}});
-  Scene scene = with_tc(scene_of(box_of(2.0, 20.0, Boundary::walls), disks), 0.3, elastic_below);
+  Scene scene = with_tc(scene_of_placed(box_of(2.0, 20.0, Boundary::walls), disks), 0.3, elastic_below);
   scene.effects.gravity = Gravity{{0.0, -1.0}};
   scene.effects.walls[2].restitution = 0.3;
   return scene;

@@ -64,7 +64,7 @@ Scene cluster(const EffectTraits& effect) {
   }
   Box box{{-100.0, -100.0}, {100.0, 100.0}, {Boundary::walls, Boundary::walls}};
   if (effect.name == "shear") box.boundary = {Boundary::periodic, Boundary::periodic};
-  Scene scene = scene_of(box, disks);
+  Scene scene = scene_of_placed(box, disks);
   set_strong(scene.effects, effect);
   return scene;
 }

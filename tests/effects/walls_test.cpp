@@ -15,7 +15,7 @@ namespace {
 using V = Eigen::Vector2d;
 
 Scene one_disk(const V& r, const V& v, double mass = 1.0) {
-  return scene_of(box_of(8.0, 4.0, Boundary::walls), {{r, v, 0.5, mass}});
+  return scene_of_placed(box_of(8.0, 4.0, Boundary::walls), {{r, v, 0.5, mass}});
 }
 
 double given_by_walls(const Totals& totals) {

@@ -15,7 +15,7 @@ namespace {
 template <class Rule>
 void expect_same_events(const System& system, int events) {
   const auto engine = make_engine("textbook", system, rule_only<Rule>);
-  AllPairs<Rule> twin(system.box, system.disks, system.state);
+  AllPairsTwin<Rule> twin(system.box, system.disks, system.state);
   engine->record_events(true);
   std::vector<Event> log;
   for (int k = 0; k < 20 * events && log.size() < static_cast<std::size_t>(events); ++k) {  // many events are cell crossings

@@ -91,7 +91,7 @@ TEST_P(FullDisk, EndsAnH5mdWriterWithOneSentenceAndKeepsItsFlushedSamples) {
   const fs::path safe = temporary.path() / "safe";
   const int status = in_child(message, [&] {
     limit_file_size(GetParam());
-    H5mdWriter writer(path, scene, disks_of(scene), provenance());
+    H5mdWriter writer(path, scene, hand_made_disks(scene), provenance());
     for (std::uint64_t k = 0; k < 100'000; ++k) {
       writer.sample(k, state_at(k, scene), {});
       writer.events(events_up_to(50));
@@ -121,9 +121,9 @@ TEST(FullDiskOfARun, StopsTheRunAndKeepsWholeSamplesInEveryPartialFile) {
   const int status = in_child(message, [&] {
     limit_file_size(2'000'000);  // the text files reach it first
     const RunDirectory directory(out, false);
-    RunWriter writer(directory, scene, disks_of(scene), provenance());
+    RunWriter writer(directory, scene, hand_made_disks(scene), provenance());
     for (std::uint64_t k = 0; k < 100'000; ++k) writer.sample(k, state_at(k, scene), {});
-    writer.finish(report_of(scene));
+    writer.finish(hand_made_report(scene));
   });
   ASSERT_TRUE(WIFEXITED(status)) << "killed by signal " << WTERMSIG(status);
   EXPECT_EQ(WEXITSTATUS(status), ended_with_output_error);
@@ -147,8 +147,8 @@ TEST(FullDiskOfARun, IsNoticedWhenOnlyTheSummaryIsTooMuch) {
   const fs::path out = temporary.path() / "out";
   const int status = in_child(message, [&] {
     limit_file_size(100);
-    RunWriter writer(RunDirectory(out, false), scene, disks_of(scene), provenance());
-    writer.finish(report_of(scene));
+    RunWriter writer(RunDirectory(out, false), scene, hand_made_disks(scene), provenance());
+    writer.finish(hand_made_report(scene));
   });
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), ended_with_output_error);
@@ -166,7 +166,7 @@ TEST(KilledRun, LeavesWhatWasFlushedReadable) {
     ASSERT_EQ(::pipe(pipe.data()), 0);
     const pid_t child = ::fork();
     if (child == 0) {
-      H5mdWriter writer(path, scene, disks_of(scene), provenance());
+      H5mdWriter writer(path, scene, hand_made_disks(scene), provenance());
       for (std::uint64_t k = 0;; ++k) {
         writer.sample(k, state_at(k, scene), {});
         writer.events(events_up_to(50));
@@ -197,7 +197,7 @@ TEST(KilledRun, IsNotOverwrittenWithoutForce) {
   const Scene scene = scene_of(2, 2);
   const pid_t child = ::fork();
   if (child == 0) {
-    RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
+    RunWriter writer(RunDirectory(temporary.path(), false), scene, hand_made_disks(scene), provenance());
     writer.sample(0, state_at(0, scene), {});
     ::raise(SIGKILL);
   }

@@ -23,7 +23,7 @@ class H5mdObservables : public ::testing::Test {
  protected:
   std::filesystem::path write(const Scene& scene, std::uint64_t frames) {
     const std::filesystem::path path = temporary_.path() / "trajectory.h5md";
-    H5mdWriter writer(path, scene, disks_of(scene), provenance());
+    H5mdWriter writer(path, scene, hand_made_disks(scene), provenance());
     for (std::uint64_t k = 0; k < frames; ++k) writer.sample(k, state_with_effects_at(k, scene), {});
     writer.close();
     return path;
@@ -42,7 +42,7 @@ TEST_F(H5mdObservables, AreEnergyTemperatureAndWhatHasHappenedWhereNoEffectActs)
 TEST_F(H5mdObservables, TellTheTotalsUpToEachSample) {
   const std::filesystem::path path = temporary_.path() / "trajectory.h5md";
   const Scene scene = scene_of(2, 1);
-  H5mdWriter writer(path, scene, disks_of(scene), provenance());
+  H5mdWriter writer(path, scene, hand_made_disks(scene), provenance());
   Totals totals;
   totals.pair = 12'345'678'901;
   totals.virial = 0.1;
@@ -71,7 +71,7 @@ TEST_F(H5mdObservables, AreThereForWhatTheSceneNames) {
 
 TEST_F(H5mdObservables, AreMeasuredOnEverySample) {
   const Scene scene = scene_with_effects(2, 1);
-  const Disks disks = disks_of(scene);
+  const Disks disks = hand_made_disks(scene);
   const H5Reader file(write(scene, 4));
   const auto value = [&](const std::string& name) { return file.doubles("/observables/" + name + "/value"); };
   EXPECT_THAT(file.extents("/observables/spin/value"), ElementsAre(4, 3));
@@ -115,7 +115,7 @@ TEST_F(H5mdObservables, TheBoxFollowsWallsAndDisksWhileItsOriginStays) {
 TEST_F(H5mdObservables, SpinsThatAnEngineDoesNotKeepAreZero) {
   const Scene scene = scene_with_effects(2, 1);
   const std::filesystem::path path = temporary_.path() / "t.h5md";
-  H5mdWriter writer(path, scene, disks_of(scene), provenance());
+  H5mdWriter writer(path, scene, hand_made_disks(scene), provenance());
   writer.sample(0, state_at(0, scene), {});
   writer.close();
   EXPECT_THAT(H5Reader(path).doubles("/observables/spin/value"), ElementsAre(0.0, 0.0, 0.0));
@@ -137,13 +137,13 @@ TEST_F(H5mdObservables, AreThoseOfTheStateWhereUnwrappedPositionsAreWritten) {
   State state = state_at(3, scene);
   state.images.row(1).setConstant(-2);
   {
-    RunWriter writer(RunDirectory(temporary_.path() / "out", false), scene, disks_of(scene), provenance());
+    RunWriter writer(RunDirectory(temporary_.path() / "out", false), scene, hand_made_disks(scene), provenance());
     writer.sample(0, state, {});
-    writer.finish(report_of(scene));
+    writer.finish(hand_made_report(scene));
   }
   const H5Reader file(temporary_.path() / "out/trajectory.h5md");
   EXPECT_EQ(file.doubles("/observables/temperature/value")[0],
-            kinetic_temperature(scene.box, scene.effects, disks_of(scene), state));
+            kinetic_temperature(scene.box, scene.effects, hand_made_disks(scene), state));
   EXPECT_EQ(file.doubles(particles + "/position/value")[1], state.positions(1, 0) - 2 * 2.5);
 }
 

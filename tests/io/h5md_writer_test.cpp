@@ -34,7 +34,7 @@ class H5mdFile : public ::testing::Test {
   /// Writes `frames` samples and `events` events, and closes.
   std::filesystem::path write(const Scene& scene, std::uint64_t frames, std::size_t events = 0) {
     const std::filesystem::path path = temporary_.path() / "trajectory.h5md";
-    H5mdWriter writer(path, scene, disks_of(scene), provenance());
+    H5mdWriter writer(path, scene, hand_made_disks(scene), provenance());
     for (std::uint64_t k = 0; k < frames; ++k) writer.sample(k, state_at(k, scene), {});
     writer.events(events_up_to(events));
     writer.close();
@@ -139,7 +139,7 @@ TEST_F(H5mdFile, ObservablesAreEnergyAndTemperatureOfEachSample) {
   Scene scene = scene_of(2, 0);
   scene.species.pop_back();
   const std::filesystem::path path = temporary_.path() / "trajectory.h5md";
-  H5mdWriter writer(path, scene, disks_of(scene), provenance());
+  H5mdWriter writer(path, scene, hand_made_disks(scene), provenance());
   State state = state_at(0, scene);
   state.velocities << 1.0, 0.0, 2.0, -2.0;  // disk 0: (1, 2), disk 1: (0, -2), both of mass 2
   writer.sample(0, state, {});
@@ -258,7 +258,7 @@ TEST_F(H5mdFile, ChunksHoldManySamplesOfFewDisksAndPartsOfASampleOfMany) {
 
 TEST_F(H5mdFile, MoreImagesThanTheFileCanCountAreAnErrorAndNotANumber) {
   const Scene scene = scene_of(1, 0);
-  H5mdWriter writer(temporary_.path() / "t.h5md", scene, disks_of(scene), provenance());
+  H5mdWriter writer(temporary_.path() / "t.h5md", scene, hand_made_disks(scene), provenance());
   State state = state_at(0, scene);
   state.images(0, 0) = std::int64_t{1} << 31;
   try {
@@ -272,7 +272,7 @@ TEST_F(H5mdFile, MoreImagesThanTheFileCanCountAreAnErrorAndNotANumber) {
 TEST_F(H5mdFile, AFlushMakesEverythingSoFarReadableWhileTheRunGoesOn) {
   const Scene scene = scene_of(3, 2);
   const std::filesystem::path path = temporary_.path() / "t.h5md";
-  H5mdWriter writer(path, scene, disks_of(scene), provenance());
+  H5mdWriter writer(path, scene, hand_made_disks(scene), provenance());
   for (std::uint64_t k = 0; k < 10; ++k) writer.sample(k, state_at(k, scene), {});
   EXPECT_EQ(writer.safe_samples(), 0u);
   writer.flush();
@@ -289,7 +289,7 @@ TEST_F(H5mdFile, AFlushMakesEverythingSoFarReadableWhileTheRunGoesOn) {
 TEST_F(H5mdFile, AFileThatCannotBeCreatedIsNamed) {
   const Scene scene = scene_of(1, 0);
   try {
-    const H5mdWriter writer("/proc/t.h5md", scene, disks_of(scene), provenance());
+    const H5mdWriter writer("/proc/t.h5md", scene, hand_made_disks(scene), provenance());
     FAIL() << "no error";
   } catch (const OutputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("/proc/t.h5md: cannot create it"));
@@ -299,7 +299,7 @@ TEST_F(H5mdFile, AFileThatCannotBeCreatedIsNamed) {
 
 TEST_F(H5mdFile, MemoryDoesNotGrowWithTheNumberOfSamples) {
   const Scene scene = scene_of(60, 40);
-  H5mdWriter writer(temporary_.path() / "t.h5md", scene, disks_of(scene), provenance());
+  H5mdWriter writer(temporary_.path() / "t.h5md", scene, hand_made_disks(scene), provenance());
   const auto resident = [] {
     std::size_t total = 0;
     std::size_t pages = 0;

@@ -42,7 +42,7 @@ inline Scene scene_of(std::int64_t large, std::int64_t small) {
   return scene;
 }
 
-inline Disks disks_of(const Scene& scene) {
+inline Disks hand_made_disks(const Scene& scene) {
   Disks disks;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
     for (std::int64_t i = 0; i < scene.species[s].count; ++i) {
@@ -123,7 +123,7 @@ inline Provenance provenance() {
   return {.resolved_scene = "title = \"resolved\"\n", .command_line = "carom run hand_made.toml", .engine = "by hand"};
 }
 
-inline RunReport report_of(const Scene& scene) {
+inline RunReport hand_made_report(const Scene& scene) {
   RunReport report;
   report.scene = scene.source;
   report.title = scene.title;

@@ -38,10 +38,10 @@ class Info : public ::testing::Test {
  protected:
   void SetUp() override {
     scene_.output = {.trajectory = true, .xyz = true, .csv = true, .events = true};
-    RunWriter writer(RunDirectory(out_, false), scene_, disks_of(scene_), provenance());
+    RunWriter writer(RunDirectory(out_, false), scene_, hand_made_disks(scene_), provenance());
     for (std::uint64_t k = 0; k < 6; ++k) writer.sample(k, state_at(k, scene_), {});
     writer.events(events_up_to(9));
-    writer.finish(report_of(scene_));
+    writer.finish(hand_made_report(scene_));
   }
   /// A copy that ends after `bytes` (or, where negative, so many bytes before the end).
   fs::path cut(const std::string& name, std::ptrdiff_t bytes) {
@@ -69,9 +69,9 @@ TEST_F(Info, TheStateHashOfATrajectoryIsThatOfItsLastSample) {
   EXPECT_THAT(describe_file(out_ / "trajectory.h5md"),
               HasSubstr("state hash  " + state_hash(state_at(5, scene_)) + ", of the last sample\n"));
   const auto described = [&](const std::string& name, const Scene& scene) {
-    RunWriter writer(RunDirectory(temporary_.path() / name, false), scene, disks_of(scene), provenance());
+    RunWriter writer(RunDirectory(temporary_.path() / name, false), scene, hand_made_disks(scene), provenance());
     for (std::uint64_t k = 0; k < 3; ++k) writer.sample(k, state_with_effects_at(k, scene), {});
-    writer.finish(report_of(scene));
+    writer.finish(hand_made_report(scene));
     return describe_file(temporary_.path() / name / "trajectory.h5md");
   };
   Scene rough = scene_with_effects(3, 2);
@@ -119,10 +119,10 @@ TEST_F(Info, DescribesWhatEffectsLeftInAllFiles) {
   Scene scene = scene_with_effects(3, 2);
   scene.output = {.trajectory = true, .xyz = true, .csv = true, .events = false};
   const fs::path out = temporary_.path() / "effects";
-  RunWriter writer(RunDirectory(out, false), scene, disks_of(scene), provenance());
+  RunWriter writer(RunDirectory(out, false), scene, hand_made_disks(scene), provenance());
   for (std::uint64_t k = 0; k < 5; ++k) writer.sample(k, state_with_effects_at(k, scene), {});
-  RunReport report = report_of(scene);
-  report.of_effects = effects_report(scene, disks_of(scene), report.totals, state_with_effects_at(4, scene));
+  RunReport report = hand_made_report(scene);
+  report.of_effects = effects_report(scene, hand_made_disks(scene), report.totals, state_with_effects_at(4, scene));
   report.of_effects.spin_temperature = 1.25;
   writer.finish(report);
   EXPECT_THAT(

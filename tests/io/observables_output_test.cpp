@@ -66,10 +66,10 @@ TEST(ObservablesOutput, RunWritesThemBesideSamplesAndIntoTheFileOfSamples) {
   Scene scene = scene_of(2, 2);
   scene.run.sample_every.reset();
   scene.observe.emplace_back().name = "free_flight";
-  RunReport report = report_of(scene);
+  RunReport report = hand_made_report(scene);
   report.observables = hand_made();
   const std::vector<std::string> files = [&] {
-    RunWriter writer(RunDirectory(directory.path() / "run", false), scene, disks_of(scene), provenance());
+    RunWriter writer(RunDirectory(directory.path() / "run", false), scene, hand_made_disks(scene), provenance());
     return writer.finish(report);
   }();
   EXPECT_THAT(files, ::testing::ElementsAre("trajectory.h5md", "observe_free_times.csv", "summary.json"));

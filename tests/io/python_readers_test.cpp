@@ -30,10 +30,10 @@ TEST(PythonReaders, H5pyAndMdanalysisSeeTheSamplesThatWereWritten) {
   Scene scene = scene_of(7, 4);
   scene.output.csv = true;
   scene.output.events = true;
-  RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
+  RunWriter writer(RunDirectory(temporary.path(), false), scene, hand_made_disks(scene), provenance());
   for (std::uint64_t k = 0; k < 23; ++k) writer.sample(k, state_at(k, scene), {});
   writer.events(events_up_to(100));
-  writer.finish(report_of(scene));
+  writer.finish(hand_made_report(scene));
   const int code = run_script(temporary.path().string() + " 23 11 4 2.5");
   if (code == 77) GTEST_SKIP() << "python3-h5py, python3-numpy or python3-mdanalysis is not installed";
   EXPECT_EQ(code, 0);
@@ -44,10 +44,10 @@ TEST(PythonReaders, H5pyAndMdanalysisFollowABoxThatMovesAndDisksThatSpinAndGrow)
   Scene scene = scene_with_effects(7, 4);
   scene.output.csv = true;
   scene.output.events = true;
-  RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
+  RunWriter writer(RunDirectory(temporary.path(), false), scene, hand_made_disks(scene), provenance());
   for (std::uint64_t k = 0; k < 23; ++k) writer.sample(k, state_with_effects_at(k, scene), {});
   writer.events(events_up_to(100));
-  writer.finish(report_of(scene));
+  writer.finish(hand_made_report(scene));
   const int code = run_script(temporary.path().string() + " 23 11 4 2.5 effects");
   if (code == 77) GTEST_SKIP() << "python3-h5py, python3-numpy or python3-mdanalysis is not installed";
   EXPECT_EQ(code, 0);

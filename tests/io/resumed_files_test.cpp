@@ -59,7 +59,7 @@ class ResumedTrajectory : public ::testing::Test {
   const TemporaryDirectory temporary;
   const fs::path whole = temporary.path() / "whole.h5md", path = temporary.path() / "t.h5md";
   Scene scene = scene_of(3, 3);
-  const Disks all_disks = disks_of(scene);
+  const Disks all_disks = hand_made_disks(scene);
 };
 
 TEST_F(ResumedTrajectory, IsCutBackAndGoesOn) {

@@ -28,7 +28,7 @@ Json json_of(const RunReport& report) { return Json::parse(summary_json(report, 
 Json again(const Json& json) { return json_of(run_report_of(json)); }
 
 RunReport with_effects() {
-  RunReport report = report_of(scene_of(2, 2));
+  RunReport report = hand_made_report(scene_of(2, 2));
   EffectsReport& effects = report.of_effects;
   effects.walls = {{.name = "top", .momentum = 40.0, .energy = 3.0, .force = 8.0, .pressure = {}, .end = WallState{15.0, 0.5}}};
   effects.packing_fraction_end = 0.125;
@@ -46,7 +46,7 @@ RunReport with_effects() {
 }
 
 TEST(RunReportOf, IsTheInverseOfTheSummary) {
-  RunReport report = report_of(scene_of(2, 2));
+  RunReport report = hand_made_report(scene_of(2, 2));
   EXPECT_EQ(again(json_of(report)), json_of(report));
   report.time_step = 0.25;
   report.stiffness = 5000.0;
@@ -76,7 +76,7 @@ TEST(RunReportOf, DriftsAreRelativeToWhatTheyWereRelativeTo) {
 }
 
 TEST(RunReportOf, EveryReasonToStopIsKnown) {
-  RunReport report = report_of(scene_of(2, 2));
+  RunReport report = hand_made_report(scene_of(2, 2));
   for (const StopReason reason :
        {StopReason::time, StopReason::collisions, StopReason::interrupted, StopReason::jammed, StopReason::collapsed,
         StopReason::cooled, StopReason::grown, StopReason::no_collisions, StopReason::invalid_state}) {
@@ -87,7 +87,7 @@ TEST(RunReportOf, EveryReasonToStopIsKnown) {
 
 TEST(RunReportOf, OtherJsonIsRefused) {
   EXPECT_THROW((void)run_report_of(Json::object()), Json::exception);
-  Json json = json_of(report_of(scene_of(2, 2)));
+  Json json = json_of(hand_made_report(scene_of(2, 2)));
   json["stopped"] = "tired";
   EXPECT_THROW((void)run_report_of(json), Json::exception);
   json["stopped"] = 7;

@@ -30,12 +30,13 @@ TEST(RunWriter, WritesEveryProductAskedForAndTheSummaryLast) {
   const TemporaryDirectory temporary;
   Scene scene = scene_of(2, 2);
   scene.output = {.trajectory = true, .xyz = true, .csv = true, .events = true};
-  RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
+  RunWriter writer(RunDirectory(temporary.path(), false), scene, hand_made_disks(scene), provenance());
   EXPECT_THAT(names_in(temporary.path()),
               ElementsAre("samples.csv.partial", "trajectory.h5md.partial", "trajectory.xyz.partial"));
   for (std::uint64_t k = 0; k < 3; ++k) writer.sample(k, state_at(k, scene), {});
   writer.events(events_up_to(5));
-  EXPECT_THAT(writer.finish(report_of(scene)), ElementsAre("trajectory.h5md", "trajectory.xyz", "samples.csv", "summary.json"));
+  EXPECT_THAT(writer.finish(hand_made_report(scene)),
+              ElementsAre("trajectory.h5md", "trajectory.xyz", "samples.csv", "summary.json"));
   EXPECT_THAT(names_in(temporary.path()), ElementsAre("samples.csv", "summary.json", "trajectory.h5md", "trajectory.xyz"));
   EXPECT_EQ(nlohmann::json::parse(text_of(temporary.path() / "summary.json"))["scene"], "hand_made.toml");
 }
@@ -44,10 +45,10 @@ TEST(RunWriter, WritesOnlyTheSummaryWhereNothingElseIsAskedFor) {
   const TemporaryDirectory temporary;
   Scene scene = scene_of(1, 1);
   scene.output = {.trajectory = false};
-  RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
+  RunWriter writer(RunDirectory(temporary.path(), false), scene, hand_made_disks(scene), provenance());
   writer.sample(0, state_at(0, scene), {});
   writer.events(events_up_to(5));
-  EXPECT_THAT(writer.finish(report_of(scene)), ElementsAre("summary.json"));
+  EXPECT_THAT(writer.finish(hand_made_report(scene)), ElementsAre("summary.json"));
   EXPECT_THAT(names_in(temporary.path()), ElementsAre("summary.json"));
 }
 
@@ -56,18 +57,18 @@ TEST(RunWriter, WithoutASamplingGridThereAreNoFilesOfSamples) {
   Scene scene = scene_of(1, 1);
   scene.run.sample_every.reset();
   scene.output = {.trajectory = true, .xyz = true, .csv = true};
-  RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
-  EXPECT_THAT(writer.finish(report_of(scene)), ElementsAre("summary.json"));
+  RunWriter writer(RunDirectory(temporary.path(), false), scene, hand_made_disks(scene), provenance());
+  EXPECT_THAT(writer.finish(hand_made_report(scene)), ElementsAre("summary.json"));
 }
 
 TEST(RunWriter, EventsAloneGoIntoATrajectoryWithoutSamples) {
   const TemporaryDirectory temporary;
   Scene scene = scene_of(1, 1);
   scene.output = {.trajectory = false, .events = true};
-  RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
+  RunWriter writer(RunDirectory(temporary.path(), false), scene, hand_made_disks(scene), provenance());
   writer.sample(0, state_at(0, scene), {});
   writer.events(events_up_to(5));
-  EXPECT_THAT(writer.finish(report_of(scene)), ElementsAre("trajectory.h5md", "summary.json"));
+  EXPECT_THAT(writer.finish(hand_made_report(scene)), ElementsAre("trajectory.h5md", "summary.json"));
   const H5Reader file(temporary.path() / "trajectory.h5md");
   EXPECT_THAT(file.extents("/events/time"), ElementsAre(5));
   EXPECT_THAT(file.extents("/particles/trajectory/position/value"), ElementsAre(0, 2, 3));
@@ -79,12 +80,12 @@ TEST(RunWriter, UnwrappedPositionsContinuePastPeriodicEdgesOnly) {
   scene.species.pop_back();
   scene.output.unwrapped = true;
   scene.output.csv = true;
-  RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
+  RunWriter writer(RunDirectory(temporary.path(), false), scene, hand_made_disks(scene), provenance());
   State state = state_at(0, scene);
   state.positions << 0.5, 2.0, 11.0, 12.0;  // disk 0 at (0.5, 11), disk 1 at (2, 12)
   state.images << 3, -2, 0, 0;
   writer.sample(0, state, {});
-  writer.finish(report_of(scene));
+  writer.finish(hand_made_report(scene));
   const H5Reader file(temporary.path() / "trajectory.h5md");
   EXPECT_THAT(file.doubles("/particles/trajectory/position/value"), ElementsAre(12.5, 11.0, 0.0, -6.0, 12.0, 0.0));
   EXPECT_THAT(file.ints("/particles/trajectory/image/value"), ElementsAre(3, 0, 0, -2, 0, 0));
@@ -97,7 +98,7 @@ TEST(RunWriter, AnExceptionInTheRunKeepsTheDataAsPartialFiles) {
   scene.output.xyz = true;
   scene.output.events = true;
   try {
-    RunWriter writer(RunDirectory(temporary.path(), false), scene, disks_of(scene), provenance());
+    RunWriter writer(RunDirectory(temporary.path(), false), scene, hand_made_disks(scene), provenance());
     for (std::uint64_t k = 0; k < 7; ++k) writer.sample(k, state_at(k, scene), {});
     writer.events(events_up_to(3));
     throw std::runtime_error("the physics failed");
@@ -114,7 +115,7 @@ TEST(RunWriter, ARunThatNeverBeganLeavesNothing) {
   const RunDirectory directory(temporary.path() / "out", false);
   Scene scene = scene_of(2, 2);
   scene.output.csv = true;
-  { const RunWriter writer(directory, scene, disks_of(scene), provenance()); }
+  { const RunWriter writer(directory, scene, hand_made_disks(scene), provenance()); }
   directory.discard_if_empty();
   EXPECT_FALSE(fs::exists(temporary.path() / "out"));
 }
@@ -125,7 +126,7 @@ TEST(RunWriter, AFileThatCannotBeOpenedTakesTheOthersBack) {
   fs::create_directory(temporary.path() / "samples.csv.partial");
   Scene scene = scene_of(2, 2);
   scene.output.csv = true;
-  EXPECT_THROW(RunWriter(directory, scene, disks_of(scene), provenance()), OutputError);
+  EXPECT_THROW(RunWriter(directory, scene, hand_made_disks(scene), provenance()), OutputError);
   EXPECT_FALSE(fs::exists(temporary.path() / "trajectory.h5md.partial"));
 }
 

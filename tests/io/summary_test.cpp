@@ -27,7 +27,7 @@ std::vector<std::string> keys_of(const Json& object) {
 Json summary_of(const RunReport& report) { return Json::parse(summary_json(report, provenance())); }
 
 TEST(Summary, HasTheKeysOfTheSceneFormatInItsOrderAndThenItsOwn) {
-  const Json json = summary_of(report_of(scene_of(2, 2)));
+  const Json json = summary_of(hand_made_report(scene_of(2, 2)));
   EXPECT_THAT(keys_of(json), ElementsAre("carom", "scene", "seed", "engine", "effects", "disks", "packing_fraction", "time",
                                          "state_hash", "samples", "events", "wall_seconds", "collisions_per_second", "energy",
                                          "momentum", "temperature", "pressure", "overlap", "stopped", "title", "loop_seconds",
@@ -42,7 +42,7 @@ TEST(Summary, HasTheKeysOfTheSceneFormatInItsOrderAndThenItsOwn) {
 }
 
 TEST(Summary, CarriesTheNumbersOfTheReport) {
-  const Json json = summary_of(report_of(scene_of(2, 2)));
+  const Json json = summary_of(hand_made_report(scene_of(2, 2)));
   EXPECT_EQ(json["carom"]["version"], build_info().version);
   EXPECT_EQ(json["scene"], "hand_made.toml");
   EXPECT_EQ(json["seed"].get<std::uint64_t>(), std::numeric_limits<std::uint64_t>::max());
@@ -61,7 +61,7 @@ TEST(Summary, CarriesTheNumbersOfTheReport) {
 }
 
 TEST(Summary, WhatHasNoMeaningOrIsNotFiniteIsNull) {
-  RunReport report = report_of(scene_of(2, 2));
+  RunReport report = hand_made_report(scene_of(2, 2));
   report.Z.reset();
   report.Z_error = std::numeric_limits<double>::quiet_NaN();
   report.reduced_pressure = std::numeric_limits<double>::infinity();
@@ -76,7 +76,7 @@ TEST(Summary, WhatHasNoMeaningOrIsNotFiniteIsNull) {
 }
 
 TEST(Summary, EveryDoubleReadsBackExactly) {
-  RunReport report = report_of(scene_of(2, 2));
+  RunReport report = hand_made_report(scene_of(2, 2));
   report.energy_initial = 0.1 + 0.2;
   report.energy_final = 1.0 / 3.0;
   const Json json = summary_of(report);
@@ -86,7 +86,7 @@ TEST(Summary, EveryDoubleReadsBackExactly) {
 
 /// A report whose every part is there, with numbers of its own.
 RunReport report_with_effects() {
-  RunReport report = report_of(scene_of(2, 2));
+  RunReport report = hand_made_report(scene_of(2, 2));
   report.totals.obstacle = 30;
   report.totals.well = 5;
   report.totals.thermostat = 7;
@@ -143,7 +143,7 @@ TEST(Summary, EffectsTellWhatTheyGaveAndTook) {
 }
 
 TEST(Summary, TellsOfSeveralCoresOnlyWhereTheyShared) {
-  RunReport report = report_of(scene_of(2, 2));
+  RunReport report = hand_made_report(scene_of(2, 2));
   EXPECT_FALSE(summary_of(report).contains("cores"));
   report.threads = {.threads = 2, .domains = 4, .windows = 50, .windows_redone = 3};
   const Json json = summary_of(report);
@@ -156,7 +156,7 @@ TEST(Summary, TellsOfSeveralCoresOnlyWhereTheyShared) {
 }
 
 TEST(Summary, ReasonsToStopHaveNames) {
-  RunReport report = report_of(scene_of(2, 2));
+  RunReport report = hand_made_report(scene_of(2, 2));
   report.stopped = StopReason::collapsed;
   EXPECT_EQ(summary_of(report)["stopped"], "collapsed");
   report.stopped = StopReason::grown;
@@ -164,7 +164,7 @@ TEST(Summary, ReasonsToStopHaveNames) {
 }
 
 TEST(Summary, NamesThatAreNotUtf8DoNotBreakIt) {
-  RunReport report = report_of(scene_of(2, 2));
+  RunReport report = hand_made_report(scene_of(2, 2));
   report.scene = "sc\xe8ne.toml";
   EXPECT_EQ(summary_of(report)["scene"], "sc\xef\xbf\xbdne.toml");
 }

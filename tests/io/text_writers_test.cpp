@@ -86,7 +86,7 @@ TEST(CsvWriter, TheLargestAndTheSmallestNumbersReadBack) {
 TEST(XyzWriter, EveryFrameIsExtendedXyzAndReadsBackBitForBit) {
   const TemporaryDirectory temporary;
   const Scene scene = scene_of(2, 3);
-  const Disks disks = disks_of(scene);
+  const Disks disks = hand_made_disks(scene);
   XyzWriter writer(temporary.path() / "trajectory.xyz", scene, disks);
   for (std::uint64_t k = 0; k < 3; ++k) writer.sample(state_at(k, scene));
   writer.close();
@@ -136,7 +136,7 @@ TEST(XyzWriter, DisksOfManySizesKeepTheirOwnRadiusAndMass) {
   scene.species.pop_back();
   scene.species[0].radii = {0.125, 0.25, 0.125};
   scene.species[0].masses = {1.0, 1.0, 3.0};
-  XyzWriter writer(temporary.path() / "t.xyz", scene, disks_of(scene));
+  XyzWriter writer(temporary.path() / "t.xyz", scene, hand_made_disks(scene));
   writer.sample(state_at(0, scene));
   writer.close();
   std::ifstream file(temporary.path() / "t.xyz");
@@ -175,7 +175,7 @@ TEST(CsvWriter, RoughDisksHaveAColumnOfSpins) {
 TEST(XyzWriter, RadiiGrowAndTheLatticeFollowsTheWalls) {
   const TemporaryDirectory temporary;
   const Scene scene = scene_with_effects(1, 1);
-  XyzWriter writer(temporary.path() / "t.xyz", scene, disks_of(scene));
+  XyzWriter writer(temporary.path() / "t.xyz", scene, hand_made_disks(scene));
   writer.sample(state_with_effects_at(0, scene));
   writer.sample(state_with_effects_at(4, scene));  // scale 1.25, from 9 to 14.5
   writer.sample(state_at(5, scene));               // back in the scene's own box

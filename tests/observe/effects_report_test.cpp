@@ -28,7 +28,7 @@ class EffectsOfARun : public ::testing::Test {
     totals_.obstacle = 4;
     totals_.obstacle_impulse = {1.5, -2.0};
   }
-  [[nodiscard]] EffectsReport report() const { return effects_report(scene_, test::disks_of(scene_), totals_, end_); }
+  [[nodiscard]] EffectsReport report() const { return effects_report(scene_, test::hand_made_disks(scene_), totals_, end_); }
 
   Scene scene_ = scene_of(2, 2);
   Totals totals_;
@@ -131,7 +131,7 @@ TEST_F(EffectsOfARun, NeutralValuesTakeNothingFromTheReport) {
 
 TEST_F(EffectsOfARun, AnEnergyChangeThatWasGivenIsExplained) {
   scene_.effects.thermostat = Thermostat{.temperature = 1.0, .rate = 1.0};
-  RunReport r = report_of(scene_);
+  RunReport r = hand_made_report(scene_);
   EXPECT_FALSE(r.unaccounted_energy_drift());
   r.of_effects.energy_supplied = 4.0;
   r.energy_initial = 16.0;
@@ -143,7 +143,7 @@ TEST_F(EffectsOfARun, AnEnergyChangeThatWasGivenIsExplained) {
 }
 
 TEST_F(EffectsOfARun, DriftIsRelativeToWhatMayCancel) {
-  RunReport r = report_of(scene_);
+  RunReport r = hand_made_report(scene_);
   r.energy_initial = 0.0;
   r.energy_final = 0.5;
   r.energy_scale = 8.0;  // such as 4 of kinetic energy and -4 in wells

@@ -40,7 +40,7 @@ TEST(FiniteState, EveryPartOfItIsLookedAt) {
 /// Two disks of radius 4 whose surfaces slide past each other faster than numbers go.
 Simulation spinning_too_fast(const char* engine) {
   Scene scene =
-      scene_of(box_of(64.0, 64.0, Boundary::walls), {{{20.0, 32.0}, {1.0, 0.0}, 4.0}, {{32.0, 32.0}, {-1.0, 0.0}, 4.0}});
+      scene_of_placed(box_of(64.0, 64.0, Boundary::walls), {{{20.0, 32.0}, {1.0, 0.0}, 4.0}, {{32.0, 32.0}, {-1.0, 0.0}, 4.0}});
   scene.effects.collision.roughness = 0.5;
   scene.run.time = 8.0;
   State start = draw_start(scene).state;
@@ -81,7 +81,7 @@ TEST(FiniteState, AProgramThatRunsASimulationItselfIsTold) {
 
 TEST(FiniteState, ASpeedThatIsNoneInSinglePrecisionIsToldAtOnce) {
   const Scene scene = [] {
-    Scene fast = scene_of(box_of(16.0, 16.0, Boundary::walls), {{{5.0, 8.0}, {1e60, 0.0}}});
+    Scene fast = scene_of_placed(box_of(16.0, 16.0, Boundary::walls), {{{5.0, 8.0}, {1e60, 0.0}}});
     fast.run.time = 1.0;
     return fast;
   }();
@@ -91,7 +91,8 @@ TEST(FiniteState, ASpeedThatIsNoneInSinglePrecisionIsToldAtOnce) {
 
 TEST(FiniteState, FixedStepsEndTooWhereANumberIsNone) {
   // Centre all but upon centre: the line between them has no direction that squares could tell.
-  Scene scene = scene_of(box_of(16.0, 16.0, Boundary::periodic), {{{0.0, 8.0}, {1.0, 0.0}}, {{0x1p-600, 8.0}, {-1.0, 0.0}}});
+  Scene scene =
+      scene_of_placed(box_of(16.0, 16.0, Boundary::periodic), {{{0.0, 8.0}, {1.0, 0.0}}, {{0x1p-600, 8.0}, {-1.0, 0.0}}});
   scene.run.accept_overlap = true;
   scene.run.time = 1.0;
   for (const char* method : {"guarded", "grid"}) {

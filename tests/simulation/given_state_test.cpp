@@ -91,7 +91,7 @@ TEST(GivenState, WhatEffectsGoOnFromIsFinite) {
 /// The state of a run with an effect begins a run without: no engine takes more of it along than another.
 TEST(GivenState, OfAnotherSceneBringsNoEffectAlong) {
   const Box box = box_of(8.0, 4.0, Boundary::walls);
-  const Scene plain = scene_of(box, {{{2.0, 2.0}, {1.0, 0.0}}, {{5.0, 2.0}, {-1.0, 0.0}}});
+  const Scene plain = scene_of_placed(box, {{{2.0, 2.0}, {1.0, 0.0}}, {{5.0, 2.0}, {-1.0, 0.0}}});
   State state = make_simulation(plain).state();
   state.scale = 1.5;
   state.spins = Eigen::Vector2d(3.0, 4.0);
@@ -125,7 +125,7 @@ TEST(GivenState, OfAnotherSceneBringsNoEffectAlong) {
 }
 
 TEST(GivenState, AWallOfAVelocityOfItsOwnHasIt) {
-  Scene scene = scene_of(box_of(8.0, 4.0, Boundary::walls), {{{4.0, 2.0}, {1.0, 0.0}}});
+  Scene scene = scene_of_placed(box_of(8.0, 4.0, Boundary::walls), {{{4.0, 2.0}, {1.0, 0.0}}});
   scene.effects.walls[1].velocity = 0.5;
   State state = make_simulation(scene).state();
   state.walls = {{0.0, 0.0}, {8.5, -7.0}, {0.0, 0.0}, {4.0, 0.0}};

@@ -55,7 +55,7 @@ TEST(Verify, ARunWithoutEventsIsCheckedOnce) {
 
 TEST(Verify, ABrokenInvariantEndsTheRunWithItsSentence) {
   // A disk beyond the wall: no engine gets there, but a state given by a program may.
-  Scene scene = scene_of(box_of(4.0, 4.0, Boundary::walls), {{{1.0, 2.0}, {1.0, 0.0}}, {{3.0, 2.0}, {-1.0, 0.0}}});
+  Scene scene = scene_of_placed(box_of(4.0, 4.0, Boundary::walls), {{{1.0, 2.0}, {1.0, 0.0}}, {{3.0, 2.0}, {-1.0, 0.0}}});
   scene.run.time = 10.0;
   State start = draw_start(scene).state;
   start.positions.col(1) = Eigen::Vector2d(2.25, 0.25);
@@ -73,7 +73,7 @@ TEST(Verify, ABrokenInvariantEndsTheRunWithItsSentence) {
 }
 
 TEST(Verify, AnOverlapThatTheStartBroughtAlongIsNoFault) {
-  Scene scene = scene_of(box_of(4.0, 4.0, Boundary::periodic), {{{1.0, 1.0}, {1.0, 0.0}}, {{3.0, 1.0}, {-1.0, 0.0}}});
+  Scene scene = scene_of_placed(box_of(4.0, 4.0, Boundary::periodic), {{{1.0, 1.0}, {1.0, 0.0}}, {{3.0, 1.0}, {-1.0, 0.0}}});
   scene.run.time = 1.0;
   State start = draw_start(scene).state;
   start.positions.col(1) = Eigen::Vector2d(1.5, 1.0);
@@ -87,7 +87,8 @@ TEST(Verify, AnOverlapThatTheStartBroughtAlongIsNoFault) {
 
 TEST(Verify, AStartThatTouchesAWallToRoundingIsNoFault) {
   // The first stays where decimal digits have put it, a tenth of a billionth beyond the wall, until it is hit.
-  Scene scene = scene_of(box_of(4.0, 4.0, Boundary::walls), {{{0.4999999999, 2.0}, {0.0, 0.0}}, {{2.5, 2.0}, {0.25, 1.0}}});
+  Scene scene =
+      scene_of_placed(box_of(4.0, 4.0, Boundary::walls), {{{0.4999999999, 2.0}, {0.0, 0.0}}, {{2.5, 2.0}, {0.25, 1.0}}});
   scene.run.time = 5.0;
   for (const char* engine : {"fast", "general", "textbook"}) {
     Simulation simulation = make_simulation(scene, engine);
@@ -106,7 +107,7 @@ TEST(Verify, DisksThatWillHaveGrownIntoEachOtherAfterManyEpochsArePlannedThen) {
   for (int k = 0; k < 30; ++k) disks.push_back({{1.0 + 1.03125 * k, 2.0}, {0.0, 0.0}});
   disks.push_back({{8.0, 16.0}, {0.0, 0.0}});
   disks.push_back({{24.0, 16.0}, {0.0, 0.0}});
-  Scene scene = scene_of(box_of(32.0, 32.0, Boundary::periodic), disks);
+  Scene scene = scene_of_placed(box_of(32.0, 32.0, Boundary::periodic), disks);
   scene.effects.growth.emplace().rate = 0x1p-10;
   scene.run.time = 1.0;
   const auto faults = make_simulation(scene, "textbook").check_invariants();
@@ -114,7 +115,8 @@ TEST(Verify, DisksThatWillHaveGrownIntoEachOtherAfterManyEpochsArePlannedThen) {
 }
 
 TEST(Verify, OverlapsAreFaultsWhereTheyAreDeeperThanTolerated) {
-  const Scene scene = scene_of(box_of(4.0, 4.0, Boundary::periodic), {{{1.0, 1.0}, {1.0, 0.0}}, {{3.0, 1.0}, {-1.0, 0.0}}});
+  const Scene scene =
+      scene_of_placed(box_of(4.0, 4.0, Boundary::periodic), {{{1.0, 1.0}, {1.0, 0.0}}, {{3.0, 1.0}, {-1.0, 0.0}}});
   State start = draw_start(scene).state;
   start.positions.col(1) = Eigen::Vector2d(1.75, 1.0);
   for (const char* engine : {"fast", "general", "textbook"}) {
@@ -137,14 +139,15 @@ TEST(Numerics, ThreeRowsThatCollideAtOneInstantAreTies) {
     disks.push_back({{2.0, y}, {1.0, 0.0}});
     disks.push_back({{6.0, y}, {-1.0, 0.0}});
   }
-  const Scene scene = scene_of(box_of(8.0, 8.0, Boundary::walls), disks);
+  const Scene scene = scene_of_placed(box_of(8.0, 8.0, Boundary::walls), disks);
   for (const char* engine : {"fast", "general", "textbook"})
     EXPECT_EQ(numerics_of(scene, engine, 2.0).simultaneous, 2U) << engine;
 }
 
 TEST(Numerics, APassAtExactlyOneDiameterGrazes) {
-  const Scene scene = scene_of(box_of(8.0, 8.0, Boundary::walls), {{{2.0, 2.0}, {1.0, 0.0}}, {{5.0, 3.0}, {-1.0, 0.0}}});
-  const Scene closer = scene_of(box_of(8.0, 8.0, Boundary::walls), {{{2.0, 2.0}, {1.0, 0.0}}, {{5.0, 2.875}, {-1.0, 0.0}}});
+  const Scene scene = scene_of_placed(box_of(8.0, 8.0, Boundary::walls), {{{2.0, 2.0}, {1.0, 0.0}}, {{5.0, 3.0}, {-1.0, 0.0}}});
+  const Scene closer =
+      scene_of_placed(box_of(8.0, 8.0, Boundary::walls), {{{2.0, 2.0}, {1.0, 0.0}}, {{5.0, 2.875}, {-1.0, 0.0}}});
   for (const char* engine : {"fast", "general", "textbook"}) {
     EXPECT_EQ(numerics_of(scene, engine, 2.0).grazing, 1U) << engine;
     EXPECT_EQ(numerics_of(closer, engine, 2.0).grazing, 0U) << engine;
@@ -152,7 +155,7 @@ TEST(Numerics, APassAtExactlyOneDiameterGrazes) {
 }
 
 TEST(Numerics, AStartThatOverlapsIsSeenAtItsFirstContact) {
-  Scene scene = scene_of(box_of(8.0, 8.0, Boundary::walls), {{{2.0, 2.0}, {1.0, 0.0}}, {{5.0, 2.0}, {-1.0, 0.0}}});
+  Scene scene = scene_of_placed(box_of(8.0, 8.0, Boundary::walls), {{{2.0, 2.0}, {1.0, 0.0}}, {{5.0, 2.0}, {-1.0, 0.0}}});
   State start = draw_start(scene).state;
   start.positions(0, 1) = 3.0 - 0x1p-30;
   for (const char* engine : {"fast", "general", "textbook"}) {
@@ -166,9 +169,9 @@ TEST(Numerics, AStartThatOverlapsIsSeenAtItsFirstContact) {
 
 TEST(Numerics, ADiskSuddenlyMuchFasterOutrunsItsEpoch) {
   // A light disk between two heavy ones that close in on it.
-  const Scene scene =
-      scene_of(box_of(64.0, 4.0, Boundary::walls),
-               {{{20.0, 2.0}, {1.0, 0.0}, 0.5, 1e8}, {{32.0, 2.0}, {5.0, 0.0}, 0.5, 1e-4}, {{44.0, 2.0}, {-1.0, 0.0}, 0.5, 1e8}});
+  const Scene scene = scene_of_placed(
+      box_of(64.0, 4.0, Boundary::walls),
+      {{{20.0, 2.0}, {1.0, 0.0}, 0.5, 1e8}, {{32.0, 2.0}, {5.0, 0.0}, 0.5, 1e-4}, {{44.0, 2.0}, {-1.0, 0.0}, 0.5, 1e8}});
   for (const char* engine : {"fast", "general", "textbook"})
     EXPECT_GT(numerics_of(scene, engine, 10.99).early_epochs, 0U) << engine;
 }

@@ -42,9 +42,9 @@ template <class Real>
 }
 
 template <class Rule>
-class AllPairs {
+class AllPairsTwin {
  public:
-  AllPairs(const Box& box, const Disks& disks, const State& start) : domain_(box), disks_(disks) {
+  AllPairsTwin(const Box& box, const Disks& disks, const State& start) : domain_(box), disks_(disks) {
     for (std::size_t i = 0; i < disks.count(); ++i) {
       r_.push_back(start.positions.col(static_cast<Eigen::Index>(i)));
       v_.push_back(start.velocities.col(static_cast<Eigen::Index>(i)));

@@ -17,7 +17,7 @@ namespace carom::test {
 inline constexpr std::array<const char*, 2> engines_with_effects = {"general", "textbook"};
 
 /// Disks placed one by one.
-inline Scene scene_of(const Box& box, const std::vector<Placed>& disks) {
+inline Scene scene_of_placed(const Box& box, const std::vector<Placed>& disks) {
   ListedPositions positions;
   ListedVelocities velocities;
   Species species = species_of(static_cast<std::int64_t>(disks.size()), disks.front().radius, disks.front().mass, {}, {});
