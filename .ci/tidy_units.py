@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Has clang-tidy look at many files at once: it spends most of its time on headers, which are then the same for all of them.
+
+    tidy_units.py SOURCE_DIR BUILD_DIR [PATTERN]
+
+Reads BUILD_DIR/compile_commands.json. Writes into BUILD_DIR/together units, each of which includes many files, and a
+compile_commands.json of theirs; of files whose path matches PATTERN alone, where it is given. The files of a folder of
+the product share a unit, unless they give one name to two things. Tests are copied, each into a namespace of its own.
+"""
+import json
+import re
+import shlex
+import shutil
+import sys
+from pathlib import Path
+
+# Made of the same headers as what is looked at, or written by the build.
+LEFT_OUT = re.compile(r"_avx|_texts\.cpp|build_info|lean_reversal|textbook_(float|quad)")
+# These instantiate whole engines.
+ENGINE = re.compile(r"/(fixed_step|lean_\w+|make_\w+|textbook_\w+)\.cpp$")
+# Folders with few files, which go together.
+SMALL = ("core", "effects", "kernels", "live", "neighbours", "parallel", "queue", "runner", "stepper", "terminal", "text", "theory")
+
+# What a file defines in its anonymous namespaces, as its layout tells; and its macros.
+ALIAS = re.compile(r"(?:template\s*<.*>\s*)?using\s+(\w+)\s*=.*")
+TYPE = re.compile(r"(?:template\s*<.*>\s*)?(?:struct|class|enum class|enum|union|concept)\s+(\w+)\b(?!::)")
+TAKEN = re.compile(r"using\s+[\w:]*::(\w+);")
+OTHER = re.compile(r"(?!using|return|namespace|static_assert|struct|class|enum|[A-Z_]+\()[^=({;]*?(?<![:\w])(\w+)\s*[(={;\[]")
+MACRO = re.compile(r"#define\s+(\w+)")
+
+
+def names_of(path):
+    """Returns the names that no other file may give to something else, with what an alias or a using declaration stands for."""
+    names, inside = {}, False
+    for line in path.read_text().splitlines():
+        if line == "namespace {":
+            inside = True
+        elif line == "}  // namespace":
+            inside = False
+        elif match := MACRO.match(line):
+            names[match[1]] = path
+        elif match := TAKEN.match(line):
+            names[match[1]] = line
+        elif inside and line and line[0] not in " }/#":
+            if match := ALIAS.match(line):
+                names[match[1]] = line
+            elif match := TYPE.match(line) or OTHER.match(line):
+                names[match[1]] = path
+    return names
+
+
+def flags_of(entry):
+    """Returns what a file is compiled with, but for its own name and output."""
+    words, flags = shlex.split(entry["command"])[1:], []
+    while words:
+        word = words.pop(0)
+        if word in ("-o", "-c"):
+            words.pop(0)
+        else:
+            flags.append((word, words.pop(0)) if word in ("-isystem", "-I", "-include", "-idirafter") else (word,))
+    return flags
+
+
+class Unit:
+    """Files that are compiled together."""
+
+    def __init__(self):
+        self.files, self.names, self.flags, self.bytes = [], {}, [], 0
+
+    def takes(self, names):
+        return all(self.names.get(name, meaning) == meaning for name, meaning in names.items())
+
+    def add(self, path, names, flags):
+        self.files.append(path)
+        self.names |= names
+        self.flags += [flag for flag in flags if flag not in self.flags]
+        self.bytes += path.stat().st_size
+
+    def write(self, file):
+        """Writes the file that includes them. Programs among them have a main() each."""
+        file.write_text("".join(f'#define main main_{k}\n#include "{path}"\n#undef main\n' for k, path in enumerate(self.files)))
+
+
+def folder_of(path, source):
+    """Returns what the unit of a file of the product is called."""
+    if ENGINE.search(str(path)):
+        return "engines"
+    *_, folder = path.relative_to(source).parts[:-1]
+    if path.is_relative_to(source / "build"):
+        folder = "kernels"
+    return "small_folders" if folder in SMALL else folder
+
+
+def apart(path, source, together):
+    """Returns a copy of a test whose names are its own: all that tests define is in anonymous namespaces."""
+    if not path.name.endswith("_test.cpp"):
+        return path
+    copy = together / path.relative_to(source)
+    copy.parent.mkdir(parents=True, exist_ok=True)
+    name = re.sub(r"\W", "_", str(path.relative_to(source)))
+    text = path.read_text().replace("\nnamespace {\n", f"\nnamespace {name} {{\n")
+    copy.write_text(text.replace('"../../', f'"{source}/'))
+    return copy
+
+
+def main():
+    source, build = Path(sys.argv[1]), Path(sys.argv[2])
+    wanted = re.compile(sys.argv[3] if len(sys.argv) > 3 else "")
+    together = build / "together"
+    shutil.rmtree(together, ignore_errors=True)
+    together.mkdir()
+    units, seen = {f"tests_{k}": [Unit()] for k in range(4)}, set()
+    tests = [unit for alone in units.values() for unit in alone]
+    entries = json.loads((build / "compile_commands.json").read_text())
+    # make_fast.cpp, which says that engines are instantiated elsewhere, has to come before what instantiates them.
+    for entry in sorted(entries, key=lambda entry: "/make_" not in entry["file"]):
+        path = Path(entry["file"])
+        if path in seen or not path.is_relative_to(source) or LEFT_OUT.search(str(path)) or not wanted.search(str(path)):
+            continue
+        seen.add(path)
+        if path.is_relative_to(source / "tests"):
+            min(tests, key=lambda unit: unit.bytes).add(apart(path, source, together), {}, flags_of(entry))
+            continue
+        names = names_of(path)
+        of_folder = units.setdefault(f"product_{folder_of(path, source)}", [])
+        free = next((unit for unit in of_folder if unit.takes(names)), None)
+        if free is None:
+            free = Unit()
+            of_folder.append(free)
+        free.add(path, names, flags_of(entry))
+
+    database = []
+    for name, of_folder in units.items():
+        for k, unit in enumerate(of_folder):
+            if unit.files:
+                file = together / f"{name}_{k}.cpp"
+                unit.write(file)
+                words = [word for flag in unit.flags for word in flag]
+                database.append({"directory": str(build), "file": str(file), "arguments": ["clang++", *words, "-c", str(file)]})
+    database.sort(key=lambda entry: "engines" not in entry["file"])  # what takes longest comes first
+    (together / "compile_commands.json").write_text(json.dumps(database, indent=1))
+
+
+main()
