@@ -35,7 +35,7 @@ void add_descriptions(nb::module_& module) {
         const nb::gil_scoped_release released;
         Trial trial(scene, engine);
         const ExpectedCost cost = trial.run();
-        return std::tuple(trial.simulation().engine(), trial.simulation().engine_reason(), words(cost), cost.seconds,
+        return std::tuple(trial.simulation().engine(), trial.simulation().engine_reason(), cost_words(cost), cost.seconds,
                           cost.collisions);
       },
       nb::arg("scene"), nb::arg("engine"), "Returns engine, reason, cost in words, seconds and collisions after a short trial.");
