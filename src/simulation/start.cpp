@@ -128,7 +128,13 @@ Start draw_start(const Scene& scene) {
   return start;
 }
 
-Start start_from(const Scene& scene, const State& state) { return start_of(scene, all_disks(scene), state); }
+Start start_from(const Scene& scene, const State& state) {
+  if (state.shear_displacement == 0.0 || !detail::MeanFlow(scene.box, scene.effects).present())
+    return start_of(scene, all_disks(scene), state);
+  Scene checked = scene;  // check() does not know how far images have slid, and looks for overlaps in the wrong place
+  checked.run.accept_overlap = true;
+  return start_of(scene, all_disks(checked), state);
+}
 
 Start start_of(const Scene& scene, Disks all, const State& state) {
   Start start;
