@@ -22,7 +22,7 @@ namespace carom {
 
 namespace {
 
-constexpr auto a_moment = std::chrono::milliseconds(10);
+constexpr auto poll_interval = std::chrono::milliseconds(10);
 
 constexpr const char* pixel_format = std::endian::native == std::endian::little ? "bgr0" : "0rgb";
 
@@ -153,7 +153,7 @@ void FilmWriter::close_pipe() {
 void FilmWriter::fail() {
   close_pipe();
   for (int tries = 0; !process_->has_ended() && tries < 100; ++tries)
-    std::this_thread::sleep_for(a_moment);  // it may still be saying why
+    std::this_thread::sleep_for(poll_interval);  // it may still be saying why
   process_.reset();
   const std::string words = first_line(complaints_.get());
   throw OutputError(fmt::format("{}: ffmpeg could not write this film{}{}; check the disk, and that this ffmpeg is complete",
@@ -182,7 +182,7 @@ bool FilmWriter::finish() {
   close_pipe();
   while (!process_->has_ended()) {
     if (!keep_going_()) return false;
-    std::this_thread::sleep_for(a_moment);
+    std::this_thread::sleep_for(poll_interval);
   }
   const int status = process_->wait();
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail();

@@ -2,6 +2,7 @@
 
 #include "studies/compare/compare.hpp"
 
+#include "core/all_equal.hpp"
 #include "neighbours/disks_at_rest.hpp"
 #include "observe/energy.hpp"
 #include "observe/mechanics.hpp"
@@ -99,11 +100,7 @@ class Study {
     const Disks disks = make_simulation(scene_, *start).disks();
     plan.disks = disks.count();
     plan.temperature = kinetic_temperature(scene_.box, disks, *start);
-    const auto all_the_same = [](const std::vector<double>& values) {
-      return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
-    };
-    if (all_the_same(disks.mass) && all_the_same(disks.radius))
-      plan.thermal_speed = std::sqrt(plan.temperature / disks.mass.front());
+    if (all_equal(disks.mass) && all_equal(disks.radius)) plan.thermal_speed = std::sqrt(plan.temperature / disks.mass.front());
     choose_samples(plan);
     plan.dts = options_.dts.empty() ? usual_ladder(plan.mean_free_time) : options_.dts;
     std::sort(plan.dts.rbegin(), plan.dts.rend());
