@@ -4,7 +4,6 @@
 
 #include "scene/effect_traits.hpp"
 #include "scene/listed_disks.hpp"
-#include "scene/mean_flow.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/start.hpp"
@@ -27,12 +26,10 @@ void scale_radii(Scene& scene, double scale) {
 }
 
 /// The scene that begins where a simulation is now: walls where they stand, disks one by one and as large as they have grown. In
-/// single precision disks may overlap by more than check() takes for rounding, and where images have slid check() would look for
-/// them in the wrong place.
+/// single precision disks may overlap by more than check() takes for rounding.
 Scene begun_now(Scene scene, const State& state, bool single) {
   scene.box = box_of(scene.box, state);
   scale_radii(scene, single ? state.scale * (1.0 - 1e-5) : state.scale);
-  if (detail::MeanFlow(scene.box, scene.effects).present()) scene.run.accept_overlap = true;
   list_disks(scene, state);
   return scene;
 }
@@ -102,7 +99,7 @@ void Simulation::set_effects(const Effects& effects) {
   Scene scene = parts_->scene;
   scene.effects = effects;
   State state = parts_->engine->state();
-  check(begun_now(scene, state, parts_->engine_name == "textbook-float"));
+  check_begun(begun_now(scene, state, parts_->engine_name == "textbook-float"), state);
   parts_->go_on(std::move(scene), std::move(state), parts_->rule);
 }
 

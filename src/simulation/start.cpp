@@ -128,12 +128,16 @@ Start draw_start(const Scene& scene) {
   return start;
 }
 
+void check_begun(const Scene& scene, const State& state) {
+  if (state.shear_displacement == 0.0 || !detail::MeanFlow(scene.box, scene.effects).present()) return check(scene);
+  Scene slid = scene;
+  slid.run.accept_overlap = true;
+  check(slid);
+}
+
 Start start_from(const Scene& scene, const State& state) {
-  if (state.shear_displacement == 0.0 || !detail::MeanFlow(scene.box, scene.effects).present())
-    return start_of(scene, all_disks(scene), state);
-  Scene checked = scene;  // check() does not know how far images have slid, and looks for overlaps in the wrong place
-  checked.run.accept_overlap = true;
-  return start_of(scene, all_disks(checked), state);
+  check_begun(scene, state);
+  return start_of(scene, disks_of(scene), state);
 }
 
 Start start_of(const Scene& scene, Disks all, const State& state) {
