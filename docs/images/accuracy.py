@@ -3,10 +3,10 @@
 
     docs/images/accuracy.py DIRECTORY [--carom build/release/carom]
 
-Runs the comparisons into DIRECTORY (four of a minute and a half on an idle machine, and two minutes for 16,384 disks), or takes
-those that it holds. Needs python3-matplotlib. Writes accuracy_work.svg, accuracy_trust.svg, accuracy_growth.svg,
-accuracy_steps.svg, and their numbers as accuracy_prices.csv, accuracy_points.csv and accuracy_mistakes.csv beside this file, and
-prints the tables of docs/accuracy.md.
+Runs the comparisons into DIRECTORY, or takes those that it holds: four of 256 disks, and at three densities 64, 1,024 and 16,384
+disks. Needs python3-matplotlib. Writes accuracy_work.svg, accuracy_trust.svg, accuracy_growth.svg, accuracy_steps.svg, and their
+numbers as accuracy_prices.csv, accuracy_points.csv and accuracy_mistakes.csv beside this file, and prints the tables of
+docs/accuracy.md.
 """
 import argparse
 import csv
@@ -37,14 +37,20 @@ def study_of(scene, name, *options):
     return json.loads((directory / "compare.json").read_text())
 
 
-def large():
-    free_time = every["moderate"]["plan"]["mean_free_time"]
-    steps = [f"--dt={free_time * step:.3g}" for step in (1, 0.3, 0.1, 0.03, 0.01, 0.003)]
-    return study_of("moderate", "moderate_16384", "--set", "disks.0.count=16384", "--seeds", "1", "--longest", "1", *steps)
+def study_of_size(scene, count):
+    """The study of a scene with another number of disks: a large box is compared at chosen steps and from fewer starts."""
+    options = ["--set", f"disks.0.count={count}"]
+    if count > 256:
+        options += ["--seeds", "4"]
+    if count > 2000:
+        free_time = every[scene]["plan"]["mean_free_time"]
+        steps = (2, 1, 0.5, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001)
+        options += ["--longest", "1", *(f"--dt={free_time * step:.3g}" for step in steps)]
+    return study_of(scene, f"{scene}_{count}", *options)
 
 
 every = {name: study_of(name, name) for name in ("dilute", "moderate", "dense", "reversal")}
-sizes = [("moderate", large())]
+sizes = [(name, study_of_size(name, count)) for count in (64, 1024, 16384) for name in ("dilute", "moderate", "dense")]
 studies = [every[name] for name in ("dilute", "moderate", "dense")]
 
 names = {"fast": "exact, fast engine", "textbook": "exact, double", "textbook-float": "exact, float",
@@ -174,3 +180,24 @@ for name, study in [*every.items(), *sizes]:
     for method in names:
         print(f"| {method} | " + " | ".join(cell(study, method, target) for target in
                                             ("error 1e-6", "error 1e-10", "Z 1 %", "Z 0.1 %")) + " |")
+
+
+def with_spread(study, methods, target):
+    """The price of the cheapest of these methods, with its spread over the starts."""
+    prices = [price for price in study["prices"]
+              if price["method"] in methods and price["target"] == target and price["ratio"] is not None]
+    if not prices:
+        return "–"
+    price = min(prices, key=lambda price: price["ratio"])
+    ends = ["–" if end is None else f"{end:.2g}" for end in price["spread"]]
+    name = "" if len(methods) == 1 else f", {price['method']}"
+    return f"{price['ratio']:.2g} ({ends[0]} to {ends[1]}){name}, dt {price['dt'] / study['plan']['mean_free_time']:.2g}"
+
+
+fixed_steps = ("naive", "naive-edge", "guarded", "grid", "soft", "backtrack", "swept")
+print("\n| packing fraction | disks | starts | backtrack, 1e-6 | swept, 1e-6 | best for Z to 1 % | best for Z to 0.1 % |")
+for name in ("dilute", "moderate", "dense"):
+    for study in sorted([study for scene, study in [*every.items(), *sizes] if scene == name], key=lambda study: study["disks"]):
+        cells = [with_spread(study, [method], "error 1e-6") for method in ("backtrack", "swept")]
+        cells += [with_spread(study, fixed_steps, target) for target in ("Z 1 %", "Z 0.1 %")]
+        print(f"| {study['packing_fraction']:.3g} | {study['disks']:,} | {len(study['plan']['seeds'])} | " + " | ".join(cells) + " |")
