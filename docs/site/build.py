@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the site of docs/ in a directory: what ./bootstrap site calls.
 
-    docs/site/build.py --carom build/release/carom --python build/release/python --output build/site [--playground FILE] [--no-players]
+    docs/site/build.py --carom build/release/carom --python build/release/python --output build/site [--playground FILE] [--players NAME,...]
 
 The players of the gallery are made by `carom run` and `carom play` and kept in OUTPUT-work for the next time. A warning of Sphinx is an
 error, and so is a link inside the site that leads nowhere.
@@ -50,8 +50,8 @@ def gallery_runs():
     return {name: (command, directory) for command, directory, name in lines}
 
 
-def make_players(carom, work, output):
-    """A page for each picture of the gallery, and one of exact events beside fixed steps."""
+def make_players(carom, work, output, wanted):
+    """A page for each picture of the gallery, and one of exact events beside fixed steps; or those that are wanted alone."""
     players, version = output / "players", subprocess.run([carom, "--version"], capture_output=True, check=True).stdout
     players.mkdir(parents=True, exist_ok=True)
     kept = work / "players"
@@ -60,6 +60,7 @@ def make_players(carom, work, output):
     commands = {name: f"{command} && carom play {directory} -o {name}.html" for name, (command, directory) in runs.items()}
     beside = "carom compare docs/images/accuracy_moderate.toml --dt 0.02 --no-costs --play guarded:0.02 --out beside -q"
     commands["side_by_side"] = f"{beside} && mv beside/side_by_side.html side_by_side.html"
+    commands = {name: command for name, command in commands.items() if wanted is None or name in wanted}
     for name, command in commands.items():
         scene = (ROOT / re.search(r"docs/\S+\.toml", command).group(0)).read_bytes()
         key = hashlib.sha256(version + command.encode() + scene).hexdigest()[:16]
@@ -112,7 +113,7 @@ def main():
     parser.add_argument("--python", type=pathlib.Path, required=True, help="the directory that holds the Python package carom")
     parser.add_argument("--output", type=pathlib.Path, required=True)
     parser.add_argument("--playground", type=pathlib.Path, help="playground.html, to be put into the site")
-    parser.add_argument("--no-players", action="store_true", help="leave the players of the gallery out; its pictures stay")
+    parser.add_argument("--players", help="make the players of these pictures of the gallery alone: dilute_gas,galperin")
     options = parser.parse_args()
     output, carom = options.output.resolve(), options.carom.resolve()
     work = output.with_name(output.name + "-work")
@@ -122,9 +123,8 @@ def main():
 
     environment = {**os.environ, "CAROM_PROGRAM": str(carom), "PYTHONPATH": str(options.python.resolve()), "PYTHONDONTWRITEBYTECODE": "1",
                    "CAROM_DOXYGEN": str(work / "doxygen/xml")}
-    if not options.no_players:
-        say("making the players of the gallery")
-        environment["CAROM_PLAYERS"] = ",".join(make_players(carom, work, output))
+    say("making the players of the gallery")
+    environment["CAROM_PLAYERS"] = ",".join(make_players(carom, work, output, options.players.split(",") if options.players else None))
     if options.playground:
         (output / "play").mkdir()
         shutil.copy(options.playground, output / "play/playground.html")

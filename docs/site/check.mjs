@@ -60,14 +60,18 @@ await open("index.html");
 const film = await browser.evaluate("(() => { const film = document.querySelector('.film img').getBoundingClientRect(); return film.width > 200 && film.bottom < innerHeight; })()");
 check("the film is on the first screen", film);
 
-if (files.some((name) => name.startsWith("players/"))) {
+const players = files.filter((name) => name.startsWith("players/") && name !== "players/side_by_side.html");
+if (players.length > 0) {
   await open("gallery.html");
   const count = await browser.evaluate("document.querySelectorAll('a.press-to-play').length");
-  check(`the gallery has ${count} players`, count >= 15);
-  await browser.evaluate("document.querySelector('a.press-to-play').click()");
-  await pause(1500);
-  check("a press puts a player in the place of its picture", await browser.evaluate("document.querySelector('iframe.live')?.contentWindow.length === 0"));
+  check(`the gallery has ${count} pictures to press, and the site ${players.length} players`, count === players.length);
+  await browser.evaluate("document.querySelector('a.press-to-play').scrollIntoView(); document.querySelector('a.press-to-play').click()");
+  await pause(2500);
+  check("a press puts a player in the place of its picture", await browser.evaluate("/players\\/\\w+\\.html#play$/.test(document.querySelector('iframe.live')?.src)"));
   errors("gallery");
+  await open(`${players[0]}#play`);
+  await pause(1000);
+  check("#play begins to play", await browser.evaluate("carom.settings.isPlaying && carom.moment.time > 0"));
   for (const name of files.filter((name) => name.startsWith("players/"))) {
     await open(name);
     await pause(300);

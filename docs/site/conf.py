@@ -21,16 +21,16 @@ author = "the authors of Carom"
 version = release = re.search(r"project\(carom VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "breathe"]
-exclude_patterns = ["site/*.py", "site/*.mjs", "README.md"]
 source_suffix = {".md": "markdown"}
 root_doc = "index"
 default_role = "code"
+smartquotes = False  # two hyphens begin an option
 nitpicky = False
 
 myst_heading_anchors = 5
 myst_enable_extensions = ["deflist"]
-# Each header opens the namespace anew.
-suppress_warnings = ["duplicate_declaration.cpp"]
+# A page may leave a level of headings out; each header of the library opens its namespace anew.
+suppress_warnings = ["myst.header", "duplicate_declaration.cpp"]
 
 napoleon_use_ivar = True  # what a class says of an attribute stands once
 autodoc_member_order = "bysource"
@@ -130,7 +130,7 @@ def live(docname):
     if PLAYGROUND:
         buttons.append(f'<a class="button" href="{up}/{PLAYGROUND}">Open the playground</a>')
     if "side_by_side" in PLAYERS:
-        buttons.append(f'<a class="button" href="{up}/players/side_by_side.html">Play the film yourself</a>')
+        buttons.append(f'<a class="button" href="{up}/players/side_by_side.html#play">Play the film yourself</a>')
     return '<p class="buttons">' + " ".join(buttons) + "</p>" if buttons else ""
 
 

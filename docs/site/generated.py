@@ -36,6 +36,7 @@ def command_line():
         elif line.startswith(".SH "):
             text += f"\n## {plain(line[4:]).capitalize()}\n\n"
         elif line == ".TP":
+            text = text.rstrip() + "\n\n"
             text += f"`{plain(lines[k + 1])}`\n: {escaped(plain(lines[k + 2]))}\n\n"
             k += 2
         elif line.startswith(".BR "):

@@ -6,7 +6,7 @@ addEventListener("DOMContentLoaded", () => {
       event.preventDefault();
       const frame = document.createElement("iframe");
       frame.className = "live";
-      frame.src = link.href;
+      frame.src = `${link.href}#play`;
       frame.title = link.querySelector("img")?.alt ?? "player";
       frame.allowFullscreen = true;
       link.replaceWith(frame);

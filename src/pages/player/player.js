@@ -78,4 +78,5 @@ listFacts();
 listeners.push(showSettings);
 showTime(0, description.exact ? 0 : 1);
 showSettings();
+if (location.hash === "#play") change({ isPlaying: true });
 keepShowing();
