@@ -43,6 +43,7 @@ breathe_order_parameters_first = False
 html_theme = "furo"
 html_title = f"Carom {version}"
 html_static_path = ["static"]
+html_favicon = "static/icon.svg"
 html_css_files = ["site.css"]
 html_js_files = ["site.js"]
 html_copy_source = False
@@ -75,7 +76,6 @@ ELSEWHERE = {
     ROOT / "README.md": "index",
     ROOT / "CONTRIBUTING.md": "site/contributing",
     ROOT / "CHANGELOG.md": "site/changes",
-    DOCS / "README.md": "index",
     DOCS / "scenes": "reference/scenes",
     DOCS / "examples": "library",
     DOCS / "effects": "effects/README",
