@@ -134,12 +134,23 @@ def live(docname):
     return '<p class="buttons">' + " ".join(buttons) + "</p>" if buttons else ""
 
 
+def with_playground(text, docname):
+    """Returns a page with the addresses of the playground in it as links to the one of the site."""
+    def link(match):
+        address = match.group(2).replace("&", "&amp;")
+        return f'<a href="{os.path.relpath(PLAYGROUND, os.path.dirname(docname) or ".")}{address}"><code>{match.group(1)}{address}</code></a>'
+
+    return re.sub(r"`((?:playground\.html)?)(\?[\w=&.]+)`", link, text)
+
+
 def on_source_read(app, docname, content):
     stands_in = COPIED[docname].parent if docname in COPIED else (DOCS / docname).parent
     text = COPIED[docname].read_text() if docname in COPIED else content[0]
     text = rewrite_links(text, docname, stands_in)
     if docname == "gallery":
         text = with_players(text)
+    if PLAYGROUND:
+        text = with_playground(text, docname)
     text = text.replace("<!-- live pages -->", live(docname))
     if docname in generated.BELOW:
         text += generated.BELOW[docname]()

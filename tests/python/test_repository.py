@@ -37,3 +37,10 @@ def test_a_workflow_calls_what_is_there(workflow):
             assert command.split()[1] in verbs
         elif command.startswith("."):
             assert (ROOT / command.split()[0]).is_file()
+
+
+def test_addresses_of_the_playground_name_scenes_that_it_has():
+    scenes = set(re.findall(r'^    id: "(\w+)"', (ROOT / "playground/scenes/scenes.js").read_text(), re.M))
+    named = {name for page in (ROOT / "docs").rglob("*.md") for name in re.findall(r"[?&]scene=(\w+)", page.read_text())}
+    assert len(scenes) > 20 and len(named) > 5
+    assert named <= scenes
