@@ -6,6 +6,7 @@
 // the processor time of the run's thread alone, which other programs disturb less. Before a time is taken one run is looked at:
 // energy is kept, and the rate that was observed is that of the totals.
 
+#include "core/seconds.hpp"
 #include "observe/mechanics.hpp"
 #include "support/systems.hpp"
 
@@ -16,7 +17,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -57,13 +57,6 @@ std::string fault(Simulation simulation) {
   // A rounding for each collision, were they all in one direction.
   const double drift = kinetic_energy(simulation.disks(), simulation.state()) / before - 1.0;
   return std::abs(drift) < 1e-16 * static_cast<double>(collisions) ? "" : "the energy has changed";
-}
-
-/// The processor time of this thread so far.
-double thread_seconds() {
-  timespec time;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 void observing(benchmark::State& state, const std::vector<std::string>& observables, bool beside = false) {

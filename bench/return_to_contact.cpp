@@ -8,6 +8,7 @@
 // right to rounding has no price of its trajectory, and one whose Z is off by more than three standard errors none of its
 // pressure.
 
+#include "core/seconds.hpp"
 #include "studies/compare/reference.hpp"
 #include "studies/horizon/method.hpp"
 

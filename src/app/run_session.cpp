@@ -2,7 +2,7 @@
 
 #include "app/live_view.hpp"
 #include "app/terminal_summary.hpp"
-#include "core/seconds_since.hpp"
+#include "core/seconds.hpp"
 #include "io/summary.hpp"
 #include "runner/run_threads.hpp"
 #include "runner/runner.hpp"

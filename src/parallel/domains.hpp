@@ -8,11 +8,11 @@
 // engine keeps, and the whole engine alone goes on from there to the next epoch. So it does with everything that does not fit:
 // an exact number of collisions, and disks that become too fast for an epoch.
 
+#include "core/seconds.hpp"
 #include "engine/engine.hpp"
 #include "parallel/box_domain_impl.hpp"
 #include "parallel/box_parts.hpp"
 #include "parallel/team.hpp"
-#include "parallel/thread_seconds.hpp"
 
 #include <carom/threads.hpp>
 

@@ -1,6 +1,6 @@
 #include "runner/expected_cost.hpp"
 
-#include "core/seconds_since.hpp"
+#include "core/seconds.hpp"
 #include "observe/mechanics.hpp"
 #include "scene/effect_traits.hpp"
 #include "text/numbers.hpp"

@@ -1,6 +1,6 @@
 #include "runner/runner.hpp"
 
-#include "core/seconds_since.hpp"
+#include "core/seconds.hpp"
 #include "core/state_archive.hpp"
 #include "io/partial_file.hpp"
 

@@ -5,7 +5,7 @@
 #include <carom/simulation.hpp>
 
 #include "core/archive.hpp"
-#include "core/seconds_since.hpp"
+#include "core/seconds.hpp"
 #include "scene/checks.hpp"
 #include "simulation/all_events.hpp"
 #include "simulation/disk_table.hpp"

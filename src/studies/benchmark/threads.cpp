@@ -1,7 +1,7 @@
 // carom bench --threads: one run on several cores against the same run on one. They take turns over the same stretches of time,
 // and after each turn they must have the same bits.
 
-#include "core/seconds_since.hpp"
+#include "core/seconds.hpp"
 #include "studies/benchmark/command.hpp"
 #include "studies/benchmark/contender.hpp"
 #include "studies/benchmark/measured_on.hpp"

@@ -3,6 +3,7 @@
 #include "studies/compare/compare.hpp"
 
 #include "core/all_equal.hpp"
+#include "core/seconds.hpp"
 #include "neighbours/disks_at_rest.hpp"
 #include "observe/energy.hpp"
 #include "observe/mechanics.hpp"

@@ -2,7 +2,7 @@
 
 #include "studies/hard_cases/hard_case.hpp"
 
-#include "core/seconds_since.hpp"
+#include "core/seconds.hpp"
 #include "studies/hard_cases/checks.hpp"
 #include "studies/hard_cases/run.hpp"
 

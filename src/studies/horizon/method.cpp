@@ -1,6 +1,6 @@
 #include "studies/horizon/method.hpp"
 
-#include <time.h>  // clock_gettime is POSIX, not C++
+#include "core/seconds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,12 +46,6 @@ std::optional<State> measured_start(const Scene& scene, const std::string& engin
   hooks.proceed = proceed;
   run_schedule(simulation, hooks);
   return start;
-}
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 double seconds_of(const std::function<void(const RunLimits& limits)>& run, const std::function<bool()>& proceed) {

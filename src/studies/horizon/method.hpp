@@ -39,9 +39,6 @@ struct Method {
 [[nodiscard]] std::optional<State> measured_start(const Scene& scene, const std::string& engine,
                                                   const std::function<bool(const Progress&)>& proceed = {});
 
-/// Processor time of this thread, in seconds from some zero.
-[[nodiscard]] double thread_seconds();
-
 /// Returns the processor time of `run` in seconds, without that in which `proceed` was asked whether it may go on. `run` is given
 /// the limits that ask.
 [[nodiscard]] double seconds_of(const std::function<void(const RunLimits& limits)>& run, const std::function<bool()>& proceed);

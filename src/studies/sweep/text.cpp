@@ -1,6 +1,6 @@
 #include "studies/sweep/text.hpp"
 
-#include "core/seconds_since.hpp"
+#include "core/seconds.hpp"
 #include "studies/sweep/results.hpp"
 #include "text/numbers.hpp"
 #include "text/table.hpp"

@@ -1,6 +1,6 @@
 #include "studies/validate/validation.hpp"
 
-#include "core/seconds_since.hpp"
+#include "core/seconds.hpp"
 
 #include <fmt/format.h>
 

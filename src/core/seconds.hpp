@@ -1,9 +1,15 @@
 #pragma once
-// The processor time of a thread.
+// Wall time and processor time that have passed.
 
+#include <chrono>
 #include <ctime>
 
 namespace carom {
+
+/// Returns the wall time since `began`, in seconds.
+inline double seconds_since(std::chrono::steady_clock::time_point began) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
 
 /// Returns the processor time, in seconds, that the calling thread has taken so far; 0 where the system does not tell.
 inline double thread_seconds() {
