@@ -4,20 +4,8 @@
 
 namespace carom {
 
-namespace portable {
-extern const EndedFlightsKernel ended_flights_kernel;
-}  // namespace portable
+CAROM_DECLARE_KERNELS_TO_AVX2(extern const EndedFlightsKernel ended_flights_kernel;)
 
-#if CAROM_HAS_AVX2
-namespace avx2 {
-extern const EndedFlightsKernel ended_flights_kernel;
-}  // namespace avx2
-#else
-namespace avx2 = portable;
-#endif
-
-const EndedFlightsKernel& ended_flights_kernel() {
-  return chosen_kernel(portable::ended_flights_kernel, avx2::ended_flights_kernel, avx2::ended_flights_kernel);
-}
+const EndedFlightsKernel& ended_flights_kernel() { return CAROM_CHOSEN_KERNEL(ended_flights_kernel); }
 
 }  // namespace carom

@@ -4,20 +4,8 @@
 
 namespace carom {
 
-namespace portable {
-extern const LagRowsKernel lag_rows_kernel;
-}  // namespace portable
+CAROM_DECLARE_KERNELS_TO_AVX2(extern const LagRowsKernel lag_rows_kernel;)
 
-#if CAROM_HAS_AVX2
-namespace avx2 {
-extern const LagRowsKernel lag_rows_kernel;
-}  // namespace avx2
-#else
-namespace avx2 = portable;
-#endif
-
-const LagRowsKernel& lag_rows_kernel() {
-  return chosen_kernel(portable::lag_rows_kernel, avx2::lag_rows_kernel, avx2::lag_rows_kernel);
-}
+const LagRowsKernel& lag_rows_kernel() { return CAROM_CHOSEN_KERNEL(lag_rows_kernel); }
 
 }  // namespace carom
