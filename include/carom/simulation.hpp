@@ -142,16 +142,15 @@ class Simulation {
   /// std::logic_error for a fixed-step method, which has no events.
   std::optional<Event> step(double until = std::numeric_limits<double>::infinity());
 
-  /// Changes what acts on the disks, while the simulation runs: from now on scene().effects is what is given. Whatever a scene
-  /// may have can be changed: the collision rule, gravity, what walls do and how they move, obstacles, growth, the thermostat,
-  /// shear, wells. The simulation goes on with the bits of make_simulation(scene(), state(), engine) for the scene as it is then;
-  /// its time, its totals and its random streams go on where they were. Walls that are told to stand still stand where they are,
-  /// and scene().box is moved there; disks that stop growing keep their size, and the radii of scene() are multiplied. When each
-  /// disk last collided (Collision::elastic_below) is forgotten. A kick of the thermostat that was to come comes when it was to
-  /// come, unless the rate is another. Takes the time of some hundred events per disk. Throws SceneError with the sentence of
-  /// check() where the scene, as it would begin now, is wrong: where an obstacle is put upon a disk, for instance;
-  /// std::invalid_argument where the engine that was asked for does not cover it; std::logic_error for a fixed-step method, and
-  /// within a hook of run_schedule(). Then nothing is changed.
+  /// Changes what acts on the disks, while the simulation runs: from now on scene().effects is what is given. All
+  /// effects can be changed, come and go. The simulation goes on with the bits of make_simulation(scene(), state(), engine) for
+  /// the scene as it is then; its time, its totals and its random streams go on where they were. Walls that are told to stand
+  /// still stand where they are, and scene().box is moved there; disks that stop growing keep their size, and the radii of
+  /// scene() are multiplied. When each disk last collided (Collision::elastic_below) is forgotten. A kick of the thermostat that
+  /// was to come comes when it was to come, unless the rate is another. Takes the time of some hundred events per disk. Throws
+  /// SceneError with the sentence of check() where the scene, as it would begin now, is wrong: where an obstacle is put upon a
+  /// disk, for instance; std::invalid_argument where the engine that was asked for does not cover it; std::logic_error for a
+  /// fixed-step method, and within a hook of run_schedule(). Then nothing is changed.
   void set_effects(const Effects& effects);
 
   /// Gives all disks these velocities, one column per disk, and where they spin and `spins` is not empty these spins. All else
@@ -161,9 +160,9 @@ class Simulation {
   void set_velocities(const Eigen::Matrix2Xd& velocities, const Eigen::VectorXd& spins = {});
 
   /// Has two disks that meet do what `rule` says, in the place of all that scene().effects.collision says; an empty one brings
-  /// that back. Walls, obstacles and the edges of wells are what they were. The simulation goes on as under set_effects(). The
-  /// slow path: the function is called at every collision of a pair, from the loop of an engine with every effect. It is not to
-  /// ask the simulation anything. What it throws comes out of the run, which stands before that collision then; so does a
+  /// that back. All else that disks meet is what it was, the edges of wells too. The simulation goes on as under set_effects().
+  /// The slow path: the function is called at every collision of a pair, from the loop of an engine with every effect. It is not
+  /// to ask the simulation anything. What it throws comes out of the run, which stands before that collision then; so does a
   /// std::domain_error where the velocities are not finite, or leave the disks approaching each other. Observables that follow
   /// collisions know the rules of scenes alone. Throws std::invalid_argument where disks grow, or the engine that was asked for
   /// does not call such a rule; std::logic_error as set_effects().

@@ -185,7 +185,7 @@ class TextbookEngine {
     queue_.update(next_of(i));
   }
 
-  /// Disk i against every neighbour, the edges of its cell, walls and obstacles.
+  /// Disk i against every neighbour, the edges of its cell and what bounds its flight.
   [[gnu::flatten]] void make_plan(std::int32_t i) {
     Plan& mine = plan(i);
     mine.pair_time = infinity<Real>;

@@ -138,7 +138,7 @@ template <class Real>
 std::size_t TextbookEngine<Real>::bytes() const {
   return records_.capacity() * sizeof(Record) + plans_.capacity() * sizeof(Plan) +
          static_cast<std::size_t>(images_.size()) * sizeof(std::int64_t) + grid_.bytes() + queue_.bytes() + impact_.bytes() +
-         world_.obstacles.bytes();
+         world_.bytes();
 }
 
 template <class Real>

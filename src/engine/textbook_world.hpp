@@ -136,6 +136,8 @@ struct TextbookWorld {
     scale_at_epoch += expansion * now;
   }
 
+  [[nodiscard]] std::size_t bytes() const { return obstacles.bytes(); }
+
   Edges<Real> edges;
   Falling<Real> falling;
   Walls<Real> walls;

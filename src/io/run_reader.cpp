@@ -6,6 +6,7 @@
 #include "io/finished_run.hpp"
 #include "io/h5md_parts.hpp"
 #include "io/hdf5_handle.hpp"
+#include "scene/fixed_shapes.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -237,12 +238,11 @@ std::vector<Event> RunReader::event_log(std::uint64_t first, std::uint64_t numbe
                               partner = column("partner", 1);
     const std::vector<double> velocity = column("velocity", 2), partner_velocity = column("partner_velocity", 2);
     const auto count = static_cast<double>(disks_.count());
-    const double last_obstacle = first_obstacle + 1.0 - static_cast<double>(scene_.effects.obstacles.size());
+    const double last_shape = first_obstacle + 1.0 - static_cast<double>(fixed_shapes(scene_.effects).size());
     for (std::size_t e = 0; e < events.size(); ++e) {
       const double p = partner[e];
-      const bool known = p >= 0.0
-                             ? p < count && p != disk[e]
-                             : (p >= double{wall_top} && p <= double{wall_left}) || (p <= first_obstacle && p >= last_obstacle);
+      const bool known = p >= 0.0 ? p < count && p != disk[e]
+                                  : (p >= double{wall_top} && p <= double{wall_left}) || (p <= first_obstacle && p >= last_shape);
       if (!known || !(disk[e] >= 0.0 && disk[e] < count)) throw Hdf5Error("an event names a disk or wall that is not there");
       if (!(time[e] >= before)) throw Hdf5Error("the events are not in order of time");
       before = time[e];

@@ -1,7 +1,5 @@
 #include "observe/equilibrium.hpp"
 
-#include "scene/effect_traits.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -39,10 +37,10 @@ Masses masses_of(const Scene& scene) {
 
 }  // namespace
 
-std::string_view why_no_Z(const Effects& effects) {
+std::string_view why_no_Z(const Effects& effects, bool detail::EffectTraits::*passed_over) {
   if (std::abs(effects.collision.roughness.value_or(-1.0)) != 1.0) return "collisions take energy away";
   if (has_walls_of_different_temperature(effects)) return "walls and thermostat have different temperatures";
-  return detail::first_reason(effects, &detail::EffectTraits::why_no_Z);
+  return detail::first_reason(effects, &detail::EffectTraits::why_no_Z, passed_over);
 }
 
 bool temperature_fluctuates(const Effects& effects) {
@@ -50,9 +48,10 @@ bool temperature_fluctuates(const Effects& effects) {
 }
 
 std::string_view why_errors_are_of_one_start(const Scene& scene) {
-  Effects others = scene.effects;
-  others.obstacles.clear();  // they turn velocities, and change no speed
-  if (others.collision.rule != CollisionRule::reversal || temperature_fluctuates(others) || !why_no_Z(others).empty()) return {};
+  const Effects& effects = scene.effects;
+  if (effects.collision.rule != CollisionRule::reversal || temperature_fluctuates(effects) ||
+      !why_no_Z(effects, &detail::EffectTraits::keeps_speeds).empty())
+    return {};
   if (const Masses masses = masses_of(scene); masses.least != masses.most) return {};
   return "under reversal, disks of equal mass only exchange velocities: another start may differ by more than the errors";
 }

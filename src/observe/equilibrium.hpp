@@ -1,6 +1,8 @@
 #pragma once
 // When a compressibility factor Z = P A / (N kT) is one number that a run can measure.
 
+#include "scene/effect_traits.hpp"
+
 #include <carom/box.hpp>
 #include <carom/scene.hpp>
 
@@ -8,8 +10,9 @@
 
 namespace carom {
 
-/// Why there is no such number, as the end of a sentence; empty where there is one. An effect at its neutral value does no harm.
-[[nodiscard]] std::string_view why_no_Z(const Effects& effects);
+/// Returns why there is no such number, as the end of a sentence; empty where there is one. An effect at its neutral value does
+/// no harm, and one with the trait `passed_over`, where that is given, is not asked.
+[[nodiscard]] std::string_view why_no_Z(const Effects& effects, bool detail::EffectTraits::*passed_over = nullptr);
 
 /// Returns whether the kinetic energy fluctuates, because a heat bath, spins or wells take part in it. Z is then computed with
 /// the mean of the temperature, and not with that of one state.

@@ -1,5 +1,7 @@
 #include "pages/drawing.hpp"
 
+#include "scene/fixed_shapes.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -27,7 +29,7 @@ class Drawing {
     cairo_fill_preserve(context_);
     cairo_clip(context_);  // what sticks out of a periodic edge comes in at the other
     draw_trails();
-    draw_obstacles();
+    draw_fixed_shapes();
     draw_disks();
     if (of_.look.velocities) draw_velocities();
     cairo_restore(context_);
@@ -98,14 +100,14 @@ class Drawing {
     return of_.look.colouring == Colouring::species || of_.look.colouring == Colouring::id ? colour_of(disk) : theme_.accent;
   }
 
-  void draw_obstacles() {
+  void draw_fixed_shapes() {
     set_colour(context_, theme_.solid);
-    for (const Obstacle& obstacle : of_.scene.effects.obstacles) {
-      if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
+    for (const Obstacle& shape : fixed_shapes(of_.scene.effects)) {
+      if (const auto* disk = std::get_if<DiskObstacle>(&shape)) {
         for_images(disk->centre, disk->radius,
                    [&](const Eigen::Vector2d& shift) { circle(disk->centre + shift, disk->radius * at_.scale); });
         cairo_fill(context_);
-      } else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle)) {
+      } else if (const auto* segment = std::get_if<SegmentObstacle>(&shape)) {
         for_images(segment->from, (segment->to - segment->from).norm(), [&](const Eigen::Vector2d& shift) {
           move_to(segment->from + shift);
           line_to(segment->to + shift);

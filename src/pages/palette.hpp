@@ -23,7 +23,7 @@ struct Theme {
   Colour ink;     ///< walls and letters
   Colour muted;   ///< smaller letters
   Colour frame;   ///< periodic edges
-  Colour solid;   ///< walls and obstacles
+  Colour solid;   ///< what disks bounce off
   Colour accent;  ///< trails
   Colour plain;   ///< disks whose colour says nothing
   Colour rim;     ///< of disks, half transparent

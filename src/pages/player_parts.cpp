@@ -5,6 +5,7 @@
 #include "io/json.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/mechanics.hpp"
+#include "scene/fixed_shapes.hpp"
 
 #include <fmt/format.h>
 
@@ -16,12 +17,12 @@ namespace carom::detail {
 
 namespace {
 
-Json obstacles_of(const Effects& effects) {
+Json shapes_of(const Effects& effects) {
   Json list = Json::array();
-  for (const Obstacle& obstacle : effects.obstacles) {
-    if (const auto* disk = std::get_if<DiskObstacle>(&obstacle))
+  for (const Obstacle& shape : fixed_shapes(effects)) {
+    if (const auto* disk = std::get_if<DiskObstacle>(&shape))
       list.push_back({{"centre", vector(disk->centre)}, {"radius", disk->radius}});
-    else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle))
+    else if (const auto* segment = std::get_if<SegmentObstacle>(&shape))
       list.push_back({{"from", vector(segment->from)}, {"to", vector(segment->to)}});
   }
   return list;
@@ -120,9 +121,9 @@ Json player_description(const Scene& scene, const std::string& title, const std:
   json["box"] = {
       {"lower", vector(box.lower)}, {"upper", vector(box.upper)}, {"periodic", Json::array({box.periodic(0), box.periodic(1)})}};
   json["species"] = species_names;
-  json["gravity"] = vector(effects.acceleration());
+  json["acceleration"] = vector(effects.acceleration());
   json["growth"] = effects.growth_rate();
-  json["obstacles"] = obstacles_of(effects);
+  json["shapes"] = shapes_of(effects);
   json["centreOfMassIsThermal"] =
       Json::array({centre_of_mass_is_thermal(box, effects, 0), centre_of_mass_is_thermal(box, effects, 1)});
   json["whyNoZ"] = why_no_Z(effects);
@@ -140,7 +141,7 @@ void put_events(const Scene& scene, const Disks& disks, const State& start, cons
   json["scale"] = start.scale;
   columns.add("start", start_column(start));
   const Replay replay(scene, disks, start, digits);
-  const bool short_ids = disks.count() + 5 + scene.effects.obstacles.size() <= std::numeric_limits<std::uint16_t>::max();
+  const bool short_ids = disks.count() + 5 + fixed_shapes(scene.effects).size() <= std::numeric_limits<std::uint16_t>::max();
   short_ids ? put_events_with<std::uint16_t>(replay, disks.count(), events, digits, columns, json)
             : put_events_with<std::uint32_t>(replay, disks.count(), events, digits, columns, json);
 }

@@ -20,7 +20,7 @@ namespace carom::detail {
 void put_disks(const Disks& disks, NumberColumns& columns);
 
 /// Adds the start, every event with the velocities after it, and the motion of the four sides. A partner that is no disk has a
-/// number after theirs: sides of the box, then the rescaling of all velocities, then obstacles.
+/// number after theirs: sides of the box, then the rescaling of all velocities, then fixed shapes.
 void put_events(const Scene& scene, const Disks& disks, const State& start, const std::vector<Event>& events,
                 VelocityDigits digits, NumberColumns& columns, nlohmann::ordered_json& json);
 

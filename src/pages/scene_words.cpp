@@ -39,16 +39,6 @@ std::string words(const WallProperties& wall, int axis) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string words(const std::vector<Obstacle>& obstacles) {
-  const auto is_disk = [](const Obstacle& obstacle) { return std::holds_alternative<DiskObstacle>(obstacle); };
-  const auto disks = static_cast<std::uint64_t>(std::count_if(obstacles.begin(), obstacles.end(), is_disk));
-  const std::uint64_t segments = obstacles.size() - disks;
-  std::vector<std::string> parts;
-  if (disks > 0) parts.push_back(counted(disks, "fixed disk"));
-  if (segments > 0) parts.push_back(counted(segments, "fixed segment"));
-  return fmt::format("{}", fmt::join(parts, " and "));
-}
-
 }  // namespace
 
 SummaryRows words_of(const Effects& effects) {
@@ -59,7 +49,6 @@ SummaryRows words_of(const Effects& effects) {
     if (!effects.walls[w].present()) continue;
     put("wall", fmt::format("{}: {}", wall_names[w], words(effects.walls[w], axis_of_wall(w))));
   }
-  if (!effects.obstacles.empty()) put("obstacles", words(effects.obstacles));
   for (const detail::EffectTraits& effect : detail::all_effects()) {
     if (effect.words == nullptr || !effect.is_present(effects)) continue;
     std::string subject(effect.name);

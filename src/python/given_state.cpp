@@ -1,7 +1,7 @@
 #include "python/given_state.hpp"
 
 #include "observe/geometry.hpp"
-#include "scene/obstacle_overlap.hpp"
+#include "scene/fixed_shapes.hpp"
 #include "simulation/start.hpp"
 
 #include <fmt/format.h>
@@ -51,8 +51,8 @@ void require_apart(const Scene& scene, const State& given) {
       if (box.periodic(axis) || room >= radii[i] * (1.0 - 2.0 * rounding)) continue;
       throw refusal(fmt::format("disk {} overlaps a wall in {}", i, axis == 0 ? "x" : "y"), radii[i] - room, radii[i], "it");
     }
-    if (const auto found = overlapped_obstacle(box, scene.effects.obstacles, centre, radii[i], 2.0 * rounding))
-      throw refusal(fmt::format("disk {} overlaps obstacles.{}", i, found->obstacle), found->depth, found->contact, "it");
+    if (const auto found = overlapped_shape(box, scene.effects, centre, radii[i], 2.0 * rounding))
+      throw refusal(fmt::format("disk {} overlaps {}", i, path_of_shape(found->shape)), found->depth, found->contact, "it");
   }
   // The first search is fast however many disks lie in one place; the second knows where the images of a sheared box are.
   if (state.shear_displacement != 0.0) box.boundary[1] = Boundary::walls;

@@ -46,7 +46,7 @@ class Trial {
   Simulation simulation_;
 };
 
-/// Returns the memory that a run of many disks takes by the table of effects; bytes per disk. Obstacles and bonds add to it.
+/// Returns the memory that a run of many disks takes by the table of effects; bytes per disk. Fixed shapes and bonds add to it.
 [[nodiscard]] double expected_bytes_per_disk(const Effects& effects);
 
 /// Returns the cost in words: "about 12 s on this machine for 23 million collisions (a trial run of 200 ms: 1.92 million

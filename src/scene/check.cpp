@@ -176,7 +176,7 @@ void check_scene(const Scene& scene) {
   }
   check_density(scene);
   check_overlaps(scene);
-  check_obstacles(scene);
+  check_fixed_shapes(scene);
   check_effects(scene);
   check_scales(scene);
   check_run(scene);

@@ -1,6 +1,7 @@
-// Walls with properties stand where the box has walls, and moving ones leave room for the disks and stop short of obstacles.
+// Walls with properties stand where the box has walls, and moving ones leave room for the disks and for what stands in the box.
 
 #include "scene/checks.hpp"
+#include "scene/fixed_shapes.hpp"
 #include "scene/number_keys.hpp"
 #include "scene/walls.hpp"
 
@@ -57,15 +58,6 @@ void check_gap(const Scene& scene, int axis) {
                   time, gap, wall_names[lower], wall_names[lower + 1], diameter, wall_names[wall], room));
 }
 
-/// Returns the lower and upper end of an obstacle along an axis.
-Eigen::Vector2d extent(const Obstacle& obstacle, int axis) {
-  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
-    return {disk->centre[axis] - disk->radius, disk->centre[axis] + disk->radius};
-  }
-  const auto& segment = std::get<SegmentObstacle>(obstacle);
-  return {std::min(segment.from[axis], segment.to[axis]), std::max(segment.from[axis], segment.to[axis])};
-}
-
 void check_sweep(const Scene& scene, std::size_t w) {
   const WallProperties& wall = scene.effects.walls[w];
   const int axis = axis_of_wall(w);
@@ -73,13 +65,13 @@ void check_sweep(const Scene& scene, std::size_t w) {
   const double inward = upper ? -velocity_of(wall) : velocity_of(wall);
   if (!(inward > 0.0)) return;
   const double travel = inward * duration(scene.run);
-  for (std::size_t o = 0; o < scene.effects.obstacles.size(); ++o) {
-    const Eigen::Vector2d ends = extent(scene.effects.obstacles[o], axis);
-    const double room = upper ? scene.box.upper[axis] - ends[1] : ends[0] - scene.box.lower[axis];
+  const std::span<const Obstacle> shapes = fixed_shapes(scene.effects);
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const Rectangle bounds = bounds_of(shapes[k]);
+    const double room = upper ? scene.box.upper[axis] - bounds.upper[axis] : bounds.lower[axis] - scene.box.lower[axis];
     if (travel <= room) continue;
-    throw Refusal(path_of(w),
-                  fmt::format("walls.{} would run into obstacles.{} at time {:.6g}; make it slower, or end before that",
-                              wall_names[w], o, room / inward));
+    throw Refusal(path_of(w), fmt::format("walls.{} would run into {} at time {:.6g}; make it slower, or end before that",
+                                          wall_names[w], path_of_shape(k), room / inward));
   }
 }
 

@@ -52,8 +52,8 @@ void check_count(std::int64_t count, const std::string& path);
 void check_box(const Box& box);
 /// Disks are grown together or not at all, and to what they are.
 void check_grown(const Scene& scene);
-/// Obstacles lie in the box, and given disks clear of them.
-void check_obstacles(const Scene& scene);
+/// Fixed shapes lie in the box, and given disks clear of them.
+void check_fixed_shapes(const Scene& scene);
 /// Effects that cannot act together, or not in this box.
 void check_effects(const Scene& scene);
 void check_walls(const Scene& scene);

@@ -1,5 +1,7 @@
 #include "scene/effect_traits.hpp"
 
+#include "text/numbers.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,6 +59,7 @@ std::vector<EffectTraits> make_table() {
        .is_present = [](const Effects& e) { return e.collision.restitution.has_value(); },
        .acts = [](const Effects& e) { return e.collision.restitution.value_or(1.0) != 1.0; },
        .conserves_energy = false,
+       .runs_by_fixed_steps = true,
        .why_no_Z = "collisions take energy away",
        .why_no_transport = "restitution takes energy; remove it"},
       {.name = "roughness",
@@ -86,6 +89,8 @@ std::vector<EffectTraits> make_table() {
            },
        .conserves_angular_momentum = false,
        .has_potential_energy = true,
+       .only_varies_density = true,
+       .runs_by_fixed_steps = true,
        .bends_paths = true,
        .bytes_per_disk = 16,
        .why_no_Z = "pressure and density change with height",
@@ -96,6 +101,7 @@ std::vector<EffectTraits> make_table() {
        .is_present = has_wall<&WallProperties::restitution>,
        .acts = [](const Effects& e) { return has_wall_other_than<&WallProperties::restitution>(e, 1.0); },
        .conserves_energy = false,
+       .runs_by_fixed_steps = true,
        .why_no_Z = "walls take energy away",
        .why_no_path = "walls change speeds between two collisions"},
       {.name = "thermal_walls",
@@ -132,9 +138,18 @@ std::vector<EffectTraits> make_table() {
        .acts = [](const Effects& e) { return !e.obstacles.empty(); },
        .other_keys = {"disk", "segment"},
        .unit_of_other_keys = "length",
+       .words =
+           [](const Effects& e) {
+             const auto is_disk = [](const Obstacle& shape) { return std::holds_alternative<DiskObstacle>(shape); };
+             const auto disks = static_cast<std::uint64_t>(std::ranges::count_if(e.obstacles, is_disk));
+             const std::uint64_t segments = e.obstacles.size() - disks;
+             return (disks > 0 ? counted(disks, "fixed disk") : "") + (disks > 0 && segments > 0 ? " and " : "") +
+                    (segments > 0 ? counted(segments, "fixed segment") : "");
+           },
        .conserves_momentum = false,
        .thermalises_centre_of_mass = true,
        .conserves_angular_momentum = false,
+       .keeps_speeds = true,
        .why_no_Z = "obstacles carry pressure and take up area",
        .why_no_transport = "obstacles take momentum; remove [[obstacles]]"},
       {.name = "growth",
@@ -270,9 +285,11 @@ void set_numbers(Effects& effects, const EffectTraits& effect, double EffectNumb
   for (const EffectNumber& number : effect.numbers) number.set(effects, number.*value);
 }
 
-std::string_view first_reason(const Effects& effects, std::string_view EffectTraits::*reason) {
-  for (const EffectTraits& effect : all_effects())
+std::string_view first_reason(const Effects& effects, std::string_view EffectTraits::*reason, bool EffectTraits::*passed_over) {
+  for (const EffectTraits& effect : all_effects()) {
+    if (passed_over != nullptr && effect.*passed_over) continue;
     if (!(effect.*reason).empty() && effect.acts(effects)) return effect.*reason;
+  }
   return {};
 }
 

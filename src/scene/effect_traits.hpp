@@ -48,6 +48,9 @@ struct EffectTraits {
   bool thermalises_centre_of_mass = false;  ///< exchanges momentum at random: motion of the centre of mass is heat
   bool conserves_angular_momentum = true;   ///< of orbits and spins together, in collisions of disks
   bool has_potential_energy = false;        ///< energy may be stored otherwise than in motion
+  bool keeps_speeds = false;                ///< changes the directions of velocities alone
+  bool only_varies_density = false;         ///< in equilibrium nothing but the density is other than without it: no velocity is
+  bool runs_by_fixed_steps = false;         ///< src/stepper has it
   bool changes_radii = false;
   bool lets_temperature_fluctuate = false;  ///< kinetic energy is exchanged with a bath, spins or wells
   bool changes_velocities_in_flight =
@@ -55,7 +58,7 @@ struct EffectTraits {
   bool bends_paths = false;           ///< the velocities before and after a collision do not tell where disks touched
   bool draws_random_numbers = false;  ///< while the run goes on
 
-  double bytes_per_disk = 0.0;  ///< memory that it adds in the engine `general`, without obstacles, bonds and longer lists
+  double bytes_per_disk = 0.0;  ///< memory that it adds in the engine `general`, without fixed shapes, bonds and longer lists
 
   // Why something has no meaning where the effect acts; empty where it has one.
   std::string_view why_not_equilibrate = {};  ///< what to do instead: follows "[growth] and run.equilibrate cannot be combined; "
@@ -87,8 +90,10 @@ struct EffectTraits {
 /// numbers.
 void set_numbers(Effects& effects, const EffectTraits& effect, double EffectNumber::*value);
 
-/// The sentence of the first effect that acts and has one; empty where none has.
-[[nodiscard]] std::string_view first_reason(const Effects& effects, std::string_view EffectTraits::*reason);
+/// The sentence of the first effect that acts and has one; empty where none has. Effects with the trait `passed_over`, where one
+/// is given, are not asked.
+[[nodiscard]] std::string_view first_reason(const Effects& effects, std::string_view EffectTraits::*reason,
+                                            bool EffectTraits::*passed_over = nullptr);
 
 /// The titles of the effects whose table has a key, "[growth] or [shear]"; empty where none has.
 [[nodiscard]] std::string tables_with_key(std::string_view key);

@@ -3,6 +3,7 @@
 #include "simulation/fixed_step.hpp"
 #include "effects/reversal.hpp"
 #include "effects/specular.hpp"
+#include "scene/effect_traits.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/springs.hpp"
@@ -86,9 +87,6 @@ void require_sound_step(const FixedStep& step, const Scene& scene, const Start& 
                     *scene.run.time, steps, step.dt));
 }
 
-/// The effects that fixed-step methods have besides the collision rule and hard walls.
-constexpr std::string_view known_effects[] = {"restitution", "gravity", "inelastic_walls"};
-
 /// Springs act along the line of centres, and dashpots let disks part.
 std::string why_not_by_springs(const Effects& effects) {
   if (effects.collision.rule == CollisionRule::reversal)
@@ -124,14 +122,18 @@ std::string why_not(std::string_view method, const Scene& scene) {
 }  // namespace
 
 std::string why_no_fixed_step(const Effects& effects) {
-  std::vector<std::string> unknown = effects.acting();
-  std::erase_if(unknown,
-                [](const std::string& name) { return std::ranges::find(known_effects, name) != std::end(known_effects); });
+  std::vector<std::string_view> known, unknown;
+  for (const detail::EffectTraits& effect : detail::all_effects()) {
+    if (effect.runs_by_fixed_steps)
+      known.push_back(effect.name);
+    else if (effect.acts(effects))
+      unknown.push_back(effect.name);
+  }
   if (unknown.empty()) return "";
   return fmt::format(
-      "fixed-step methods know the collision rule, hard walls, restitution and gravity; this scene asks for {} besides, which "
-      "exact events alone simulate",
-      fmt::join(unknown, ", "));
+      "fixed-step methods know the collision rule, hard walls, {}; this scene asks for {} besides, which exact events alone "
+      "simulate",
+      fmt::join(known, ", "), fmt::join(unknown, ", "));
 }
 
 std::vector<std::string> fixed_step_names() {

@@ -3,7 +3,7 @@
 
 #include "core/random.hpp"
 #include "neighbours/disks_at_rest.hpp"
-#include "scene/obstacle_overlap.hpp"
+#include "scene/fixed_shapes.hpp"
 #include "scene/refusal.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/start.hpp"
@@ -150,7 +150,7 @@ class Growing {
         position[a] = from < to ? boost::random::uniform_real_distribution<double>(from, to)(random) : 0.5 * (from + to);
       }
       if (in_place.deepest(position, radius).disk >= 0) continue;
-      if (!overlapped_obstacle(scene_.box, scene_.effects.obstacles, position, disks_.radius[i], 0.0)) return position;
+      if (!overlapped_shape(scene_.box, scene_.effects, position, disks_.radius[i], 0.0)) return position;
     }
     return std::nullopt;
   }

@@ -2,7 +2,7 @@
 
 #include "core/random.hpp"
 #include "neighbours/disks_at_rest.hpp"
-#include "scene/obstacle_overlap.hpp"
+#include "scene/fixed_shapes.hpp"
 #include "scene/refusal.hpp"
 #include "simulation/start.hpp"
 
@@ -62,10 +62,8 @@ class Placement {
     in_place_.insert(static_cast<std::int32_t>(i), position);
   }
 
-  [[nodiscard]] std::optional<ObstacleOverlap> upon_obstacle(std::int64_t i, const Eigen::Vector2d& position,
-                                                             double tolerance) const {
-    return overlapped_obstacle(scene_.box, scene_.effects.obstacles, position, disks_.radius[static_cast<std::size_t>(i)],
-                               tolerance);
+  [[nodiscard]] std::optional<ShapeOverlap> upon_shape(std::int64_t i, const Eigen::Vector2d& position, double tolerance) const {
+    return overlapped_shape(scene_.box, scene_.effects, position, disks_.radius[static_cast<std::size_t>(i)], tolerance);
   }
 
   void place_listed(std::size_t s, const std::vector<Eigen::Vector2d>& values) {
@@ -98,12 +96,11 @@ class Placement {
     if (species.size() > 1) shuffle(ids);
     for (std::size_t k = 0; k < ids.size(); ++k) {
       const Eigen::Vector2d site = lattice.sites.col(static_cast<Eigen::Index>(k));
-      if (const auto obstacle = upon_obstacle(ids[k], site, accepted_overlap)) {
-        throw detail::scene_error(
-            scene_, where,
-            fmt::format("the {} lattice puts disk {} upon obstacles.{}; give all positions one by one, or ask for "
-                        "\"random\"",
-                        name, ids[k], obstacle->obstacle));
+      if (const auto shape = upon_shape(ids[k], site, accepted_overlap)) {
+        throw detail::scene_error(scene_, where,
+                                  fmt::format("the {} lattice puts disk {} upon {}; give all positions one by one, or ask for "
+                                              "\"random\"",
+                                              name, ids[k], path_of_shape(shape->shape)));
       }
       const auto found =
           in_place_.deepest(site, disks_.radius[static_cast<std::size_t>(ids[k])], static_cast<std::int32_t>(ids[k]));
@@ -155,7 +152,7 @@ class Placement {
         const double to = scene_.box.upper[a] - margin;
         position[a] = from < to ? boost::random::uniform_real_distribution<double>(from, to)(random) : 0.5 * (from + to);
       }
-      if (in_place_.deepest(position, radius).disk < 0 && !upon_obstacle(i, position, 0.0)) return position;
+      if (in_place_.deepest(position, radius).disk < 0 && !upon_shape(i, position, 0.0)) return position;
     }
     throw detail::scene_error(
         scene_, fmt::format("disks.{}.positions", species),

@@ -10,7 +10,7 @@
 // Since gap < 0 there are two roots, one on each side of 0: the earlier is when they came into contact. Where b <= 0 the sum
 // cancels, and t = gap / (sqrt(b^2 - v^2 gap) - b) is the same root.
 //
-// Under gravity r and v are the same two numbers, since the acceleration is common to both disks; a wall is met where the
+// Where disks fall r and v are the same two numbers, since the acceleration is common to both disks; a wall is met where the
 // parabola crosses it.
 //
 // Where t is earlier than the begin of the step, or than the last event of one of the two, they overlapped then already, and

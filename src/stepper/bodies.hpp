@@ -92,7 +92,7 @@ struct Bodies {
     if (!is_inside(r[i])) enter_again(i);
   }
 
-  /// Moves all disks along their flights for a time t, on parabolas under gravity.
+  /// Moves all disks along their flights for a time t: straight ones by v t, or parabolas under gravity.
   void fly(double t) {
     if (!falling.present()) {
       const std::size_t whole = count() - count() % block;

@@ -2,7 +2,7 @@
 // The part of fixed-step methods that find contacts within a step (backtrack.hpp): the order of events in a step, walls, and
 // the close pairs in which they look. In each step:
 //
-//   1. move all disks by v dt, under gravity along the parabola, as if none met another;
+//   1. move all disks along their flights (bodies.hpp) for a time dt, as if none met another;
 //   2. find the pairs and walls that were met on the way, as Search says, each with its time t, -dt <= t <= 0, from the end of
 //      the step;
 //   3. take the earliest: its disks get their new velocities v' at the separation r + v t of that moment, and stand at the end of

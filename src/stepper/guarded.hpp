@@ -3,7 +3,7 @@
 //
 //   1. a disk whose edge is beyond a wall and that moves outward is reflected;
 //   2. each pair (i, j), i < j in order, that is closer than the sum of the radii and approaches collides by the rule;
-//   3. record the positions; move by v dt, or under gravity along the parabola.
+//   3. record the positions; move along the flights of bodies.hpp for a time dt.
 //
 // The method does not determine when in the step disks met: they overlap by up to |v| dt before they are reflected, and a pair
 // that enters and leaves contact within one step is missed. A disk of restitution e that has come to rest on a floor leaves it by

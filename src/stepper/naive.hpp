@@ -4,7 +4,7 @@
 //   1. reverse vx if the disk is beyond a vertical wall, vy if beyond a horizontal one;
 //   2. for every other disk closer than the sum of the radii, give both their new velocities by the collision rule;
 //   3. record the position;
-//   4. move by v dt, or under gravity along the parabola.
+//   4. move along the flight of bodies.hpp for a time dt.
 //
 // Its faults are what the exact engine is measured against, so they are kept. Nobody asks whether a pair approaches: the pair (i,
 // j) is met again as (j, i) in the same step and turned back, and once more in the next step if it still overlaps. A disk that is

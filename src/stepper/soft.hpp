@@ -2,7 +2,7 @@
 // Soft disks by fixed steps, as discrete element codes run them: a repulsive linear spring of stiffness k acts on the overlap of
 // two disks, or of a disk and a wall, and velocity Verlet integrates it. In each step:
 //
-//   1. v += F dt / (2 m); move by v dt, under gravity along the parabola;
+//   1. v += F dt / (2 m); move along the flights of bodies.hpp for a time dt;
 //   2. find the overlaps and their forces F; v += F dt / (2 m); record the positions.
 //
 // Two disks of reduced mass mu = m_i m_j / (m_i + m_j) that meet are half a period of the oscillator (k, mu) in contact, and a

@@ -27,8 +27,8 @@ namespace carom {
 template <class Step>
 class Stepper {
  public:
-  /// Requires disks inside the box along periodic axes, everything finite, dt > 0. Of `effects` it knows
-  /// restitution, of walls too, and gravity. `stiffness` is that of the springs of soft.hpp.
+  /// Requires disks inside the box along periodic axes, everything finite, dt > 0, and no other effects than those that run by
+  /// fixed steps (scene/effect_traits.hpp). `stiffness` is that of the springs of soft.hpp.
   Stepper(const Box& box, const Disks& disks, const State& start, double dt, const Effects& effects = {},
           std::optional<double> stiffness = {})
       : bodies_(box, disks, start, effects, stiffness), step_(bodies_, dt), dt_(dt) {}

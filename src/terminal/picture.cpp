@@ -1,6 +1,7 @@
 #include "terminal/picture.hpp"
 
 #include "observe/geometry.hpp"
+#include "scene/fixed_shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,10 +56,10 @@ Box whole_box(const Scene& scene, const State& state) {
   return whole;
 }
 
-void draw_obstacle(DotCanvas& canvas, const Placement& place, const Obstacle& obstacle) {
-  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
+void draw_shape(DotCanvas& canvas, const Placement& place, const Obstacle& shape) {
+  if (const auto* disk = std::get_if<DiskObstacle>(&shape)) {
     canvas.circle(place(disk->centre), place.length(disk->radius));
-  } else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle)) {
+  } else if (const auto* segment = std::get_if<SegmentObstacle>(&shape)) {
     canvas.line(place(segment->from), place(segment->to));
   }
 }
@@ -89,7 +90,7 @@ std::vector<std::string> terminal_picture(const Scene& scene, const Disks& disks
   for (Eigen::Index i = 0; i < state.positions.cols(); ++i)
     canvas.disk(place(state.positions.col(i)), place.length(state.scale * disks.radius[static_cast<std::size_t>(i)]),
                 shade(state.velocities.col(i)));
-  for (const Obstacle& obstacle : scene.effects.obstacles) draw_obstacle(canvas, place, obstacle);
+  for (const Obstacle& shape : fixed_shapes(scene.effects)) draw_shape(canvas, place, shape);
   draw_walls(canvas, place, whole, box_of(scene.box, state));
 
   const char* side = scene.box.periodic(0) ? "┊" : "│";

@@ -3,6 +3,7 @@
 #include "core/all_equal.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/observed_run.hpp"
+#include "scene/fixed_shapes.hpp"
 #include "theory/barometer.hpp"
 #include "theory/equation_of_state.hpp"
 #include "theory/kinetic.hpp"
@@ -79,9 +80,9 @@ void RunTheory::find_Z() {
 
 void RunTheory::find_velocities() {
   const Effects& effects = source_->scene.effects;
-  Effects level = effects;
-  level.gravity.reset();  // weight changes the density, and no velocity
-  if (effects.collision.rule != CollisionRule::specular || source_->disks.count() < 3 || !why_no_Z(level).empty()) return;
+  if (effects.collision.rule != CollisionRule::specular || source_->disks.count() < 3 ||
+      !why_no_Z(effects, &detail::EffectTraits::only_varies_density).empty())
+    return;
   const ObservedRun run{source_->scene, source_->disks};
   const bool x = run.conserves_momentum(0), y = run.conserves_momentum(1);
   conserves_momentum_ = x && y;
@@ -159,7 +160,7 @@ std::vector<TheoryCurve> RunTheory::density_curves(const Table& table) const {
   const std::vector<double>& x = table.columns.front().values;
   if (x.empty()) return {};
   const bool periodic = scene.box.periodic(axis), falls = scene.effects.acceleration()[axis] != 0.0;
-  if (periodic && scene.effects.obstacles.empty()) {
+  if (periodic && fixed_shapes(scene.effects).empty()) {
     const double density = static_cast<double>(report_.disks) / scene.box.area();
     TheoryCurve uniform{.name = "uniform"};
     uniform.x = {scene.box.lower[axis], scene.box.upper[axis]};

@@ -42,8 +42,8 @@ TEST_F(EffectsRefused, ByFixedStepsThatKnowRestitutionAndGravityAlone) {
   words.emplace_back("shear={rate=0.1}");
   const Outcome refused = carom(words);
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("--method grid: fixed-step methods know the collision rule, hard walls, restitution and "
-                                     "gravity; this scene asks for shear besides"));
+  EXPECT_THAT(refused.err, HasSubstr("--method grid: fixed-step methods know the collision rule, hard walls, restitution, "
+                                     "gravity, inelastic_walls; this scene asks for shear besides"));
   EXPECT_FALSE(std::filesystem::exists(file("out")));
   words.back() = "collision.restitution=0.9";
   EXPECT_EQ(carom(words).exit_code, 0);

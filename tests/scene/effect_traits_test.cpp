@@ -81,6 +81,27 @@ TEST(EffectTraits, TellsTheFirstThatActs) {
   EXPECT_TRUE(detail::any_acting(effects, &EffectTraits::draws_random_numbers));
 }
 
+TEST(EffectTraits, PassesOverEffectsWithATrait) {
+  Effects effects;
+  effects.obstacles = {DiskObstacle{{0.0, 0.0}, 0.5}};
+  effects.gravity = Gravity{{0.0, -1.0}};
+  EXPECT_EQ(detail::first_reason(effects, &EffectTraits::why_no_Z), "pressure and density change with height");
+  EXPECT_EQ(detail::first_reason(effects, &EffectTraits::why_no_Z, &EffectTraits::only_varies_density),
+            "obstacles carry pressure and take up area");
+  effects.gravity.reset();
+  EXPECT_EQ(detail::first_reason(effects, &EffectTraits::why_no_Z, &EffectTraits::keeps_speeds), "");
+}
+
+TEST(EffectTraits, CountsObstaclesInWords) {
+  Effects effects;
+  const auto words = [&] { return detail::effect_named("obstacles").words(effects); };
+  effects.obstacles = {SegmentObstacle{{0.0, 0.0}, {1.0, 0.0}}};
+  EXPECT_EQ(words(), "1 fixed segment");
+  effects.obstacles.emplace_back(DiskObstacle{{0.0, 0.0}, 0.5});
+  effects.obstacles.emplace_back(DiskObstacle{{2.0, 0.0}, 0.5});
+  EXPECT_EQ(words(), "2 fixed disks and 1 fixed segment");
+}
+
 TEST(EffectTraits, TellsWhereSpeedsChangeBetweenCollisions) {
   Effects effects;
   effects.obstacles = {DiskObstacle{{0.0, 0.0}, 0.5}};

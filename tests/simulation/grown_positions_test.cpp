@@ -1,7 +1,7 @@
 // Dense starts: disks grown to their size, without overlap, order or trace of how they came there.
 
 #include "neighbours/disks_at_rest.hpp"
-#include "scene/obstacle_overlap.hpp"
+#include "scene/fixed_shapes.hpp"
 #include "simulation/start.hpp"
 #include "support/scenes.hpp"
 
@@ -45,7 +45,7 @@ void expect_sound(const Scene& scene) {
       ASSERT_GE(r(a, i), scene.box.lower[a] + margin) << i;
       ASSERT_LE(r(a, i), scene.box.upper[a] - margin) << i;
     }
-    ASSERT_FALSE(overlapped_obstacle(scene.box, scene.effects.obstacles, r.col(i), radius, 1e-14)) << i;
+    ASSERT_FALSE(overlapped_shape(scene.box, scene.effects, r.col(i), radius, 1e-14)) << i;
   }
 }
 

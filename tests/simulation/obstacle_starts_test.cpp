@@ -1,6 +1,6 @@
 // Starts among obstacles: random places keep clear of them, lattices and lists that do not are refused.
 
-#include "scene/obstacle_overlap.hpp"
+#include "scene/fixed_shapes.hpp"
 #include "simulation/start.hpp"
 #include "support/scenes.hpp"
 
@@ -27,21 +27,21 @@ Scene among(const Box& box, std::vector<Obstacle> obstacles, Species species, st
 TEST(ObstacleStarts, DistanceIsTakenToTheNearestImage) {
   const Box box = box_of(10.0, 4.0, Boundary::periodic);
   // A segment as long as the box: its far end is 0.1 beyond the edge from the disk, its middle half a box away.
-  const std::vector<Obstacle> obstacles = {segment(0.2, 1.0, 9.9, 3.0), disk(5.0, 3.9, 0.5)};
-  const auto at_end = overlapped_obstacle(box, obstacles, {0.0, 3.0}, 0.25, 0.0);
+  const Effects effects{.obstacles = {segment(0.2, 1.0, 9.9, 3.0), disk(5.0, 3.9, 0.5)}};
+  const auto at_end = overlapped_shape(box, effects, {0.0, 3.0}, 0.25, 0.0);
   ASSERT_TRUE(at_end);
-  EXPECT_EQ(at_end->obstacle, 0U);
+  EXPECT_EQ(at_end->shape, 0U);
   EXPECT_NEAR(at_end->depth, 0.15, 1e-14);
-  const auto below = overlapped_obstacle(box, obstacles, {5.0, 0.3}, 0.25, 0.0);
+  const auto below = overlapped_shape(box, effects, {5.0, 0.3}, 0.25, 0.0);
   ASSERT_TRUE(below);
-  EXPECT_EQ(below->obstacle, 1U);
+  EXPECT_EQ(below->shape, 1U);
   EXPECT_NEAR(below->depth, 0.35, 1e-14);
   EXPECT_NEAR(below->contact, 0.75, 1e-15);
 }
 
 TEST(ObstacleStarts, WallsHaveNoImagesBehindThem) {
   const Box box = box_of(10.0, 4.0, Boundary::walls);
-  EXPECT_FALSE(overlapped_obstacle(box, {disk(9.9, 2.0, 0.5)}, {0.1, 2.0}, 0.1, 0.0));
+  EXPECT_FALSE(overlapped_shape(box, {.obstacles = {disk(9.9, 2.0, 0.5)}}, {0.1, 2.0}, 0.1, 0.0));
 }
 
 RC_GTEST_PROP(PropertyObstacleStarts, RandomDisksKeepClearOfEveryImage, ()) {

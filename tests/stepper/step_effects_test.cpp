@@ -203,8 +203,8 @@ TEST(StepEffects, ThoseThatNoStepKnowsAreRefusedByName) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "fixed-step methods know the collision rule, hard walls, restitution and gravity; this scene asks for shear "
-                 "besides, which exact events alone simulate");
+                 "fixed-step methods know the collision rule, hard walls, restitution, gravity, inelastic_walls; this scene asks "
+                 "for shear besides, which exact events alone simulate");
   }
 }
 

@@ -1,14 +1,14 @@
 #pragma once
 // The slow twin of Obstacles: asks every obstacle, and every image of it up to some box lengths away.
 
-#include "effects/obstacle_shapes.hpp"
+#include "effects/obstacles.hpp"
 
 namespace carom::test {
 
 class AllObstacles {
  public:
   AllObstacles(const Box& box, const std::vector<Obstacle>& obstacles)
-      : domain_(box), shapes_(domain_, ObstacleBins(box, bounds_of(obstacles)), obstacles) {}
+      : domain_(box), shapes_(domain_, RectangleBins(box, bounds_of(obstacles)), obstacles) {}
 
   [[nodiscard]] ObstacleMeeting<double> next(const DiskPath<double>& path, double until, std::int64_t images) const {
     const std::int64_t columns = domain_.periodic[0] ? images : 0;

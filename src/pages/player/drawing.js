@@ -1,4 +1,4 @@
-// Draws one moment: box, obstacles, disks to scale, and the trails, arrows and images that the reader has switched on.
+// Draws one moment: box, fixed shapes, disks to scale, and the trails, arrows and images that the reader has switched on.
 "use strict";
 
 let context = canvas.getContext("2d", { alpha: false });  // context of the canvas that is drawn on
@@ -100,20 +100,20 @@ function drawEdges(moment) {
   context.lineCap = "round";
 }
 
-function drawObstacles(shifts) {
+function drawShapes(shifts) {
   for (const [a, b] of shifts) {
     context.beginPath();
-    for (const obstacle of description.obstacles) {
-      if (obstacle.centre === undefined) continue;
-      const px = pixelX(obstacle.centre[0] + a * box.lengths[0]);
-      const py = pixelY(obstacle.centre[1] + b * box.lengths[1]);
-      context.moveTo(px + obstacle.radius * view.scale, py);
-      context.arc(px, py, obstacle.radius * view.scale, 0, 2 * Math.PI);
+    for (const shape of description.shapes) {
+      if (shape.centre === undefined) continue;
+      const px = pixelX(shape.centre[0] + a * box.lengths[0]);
+      const py = pixelY(shape.centre[1] + b * box.lengths[1]);
+      context.moveTo(px + shape.radius * view.scale, py);
+      context.arc(px, py, shape.radius * view.scale, 0, 2 * Math.PI);
     }
     context.fillStyle = theme.solid;
     context.fill();
     context.beginPath();
-    for (const { from, to } of description.obstacles) {
+    for (const { from, to } of description.shapes) {
       if (from === undefined) continue;
       context.moveTo(pixelX(from[0] + a * box.lengths[0]), pixelY(from[1] + b * box.lengths[1]));
       context.lineTo(pixelX(to[0] + a * box.lengths[0]), pixelY(to[1] + b * box.lengths[1]));
@@ -126,7 +126,7 @@ function drawObstacles(shifts) {
 
 function drawTrails(moment, shifts, frame) {
   const isOne = disks > 5000;  // the trails of more disks would cover the box
-  const fallen = Math.hypot(...description.gravity) * trailTime;
+  const fallen = Math.hypot(...description.acceleration) * trailTime;
   context.strokeStyle = theme.accent;
   context.globalAlpha = 0.45;
   context.lineWidth = 1;  // browsers draw broader lines many times more slowly
@@ -208,7 +208,7 @@ function drawMoment(moment, target = stageContext) {
     boxPath(moment);
     context.clip();  // an image shows on the other side what the edge cuts off
   }
-  drawObstacles(shifts);
+  drawShapes(shifts);
   const [left, right, bottom, top] = moment.walls;
   const boxFrame = { left: pixelX(left), right: pixelX(right), top: pixelY(top), bottom: pixelY(bottom) };
   const frame = showsImages ? { left: 0, right: view.width, top: 0, bottom: view.height } : boxFrame;

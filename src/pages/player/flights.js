@@ -23,7 +23,7 @@ function buildFlights({ start, time, disk, partner, velocity }) {
   const numbers = () => new Float64Array(count);
   const flights = { first, rescaled, event: new Int32Array(count), time: numbers(), x: numbers(), y: numbers(), vx: numbers(), vy: numbers() };
   const last = new Uint32Array(disks);
-  const [gx, gy] = description.gravity;
+  const [gx, gy] = description.acceleration;
   const put = (slot, event, when, x, y, vx, vy) => {
     flights.event[slot] = event;
     flights.time[slot] = when;
@@ -78,7 +78,7 @@ function exactReplay(log = columns) {
   const flights = buildFlights(log);
   const { first, event } = flights;
   const cursor = first.slice(0, disks);  // flight of each disk at the time read last
-  const [gx, gy] = description.gravity;
+  const [gx, gy] = description.acceleration;
   let readBefore = 0;
 
   /// Returns the flight of disk i after `done` events.

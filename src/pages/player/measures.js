@@ -6,8 +6,8 @@ const totalMass = mass.reduce((sum, m) => sum + m, 0);
 
 /// Returns kinetic and potential energy, and kT = 2 K' / f. K' leaves out the motion of the centre of mass where that is no heat.
 function energyOf(moment) {
-  const [gx, gy] = description.gravity;
-  const ground = [0, 1].map((axis) => (description.gravity[axis] < 0 ? box.lower[axis] : box.upper[axis]));
+  const [gx, gy] = description.acceleration;
+  const ground = [0, 1].map((axis) => (description.acceleration[axis] < 0 ? box.lower[axis] : box.upper[axis]));
   let kinetic = 0;
   let potential = 0;
   let px = 0;
@@ -38,7 +38,7 @@ function eventTotals() {
   totals.heat = new Float64Array(count + 1);  // the integral over time of kT
   const { first, x, y, vx, vy, time: begun } = replay.flights;
   const slot = first.slice(0, disks);
-  const [gx, gy] = description.gravity;
+  const [gx, gy] = description.acceleration;
   const moment = emptyMoment();
   replay.read(0, 0, moment);
   const { heat: heatAtStart, freedom } = energyOf(moment);

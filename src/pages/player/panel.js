@@ -41,7 +41,7 @@ function drawSpeeds(moment, temperature) {
 
 function showReadings(moment) {
   const { kinetic, potential, temperature } = energyOf(moment);
-  const hasPotential = description.gravity[0] !== 0 || description.gravity[1] !== 0;
+  const hasPotential = description.acceleration[0] !== 0 || description.acceleration[1] !== 0;
   say("energy", shortNumber(kinetic + (hasPotential ? potential : 0)));
   if (hasPotential) say("energy-label", `energy (${shortNumber(kinetic)} kinetic)`);
   say("temperature", shortNumber(temperature));

@@ -8,7 +8,7 @@ const trailTime = (0.16 * Math.min(extent[1] - extent[0], extent[3] - extent[2])
 /// Adds the path of disk i to `context`; its position in pixels is given.
 function traceFlights(context, i, moment, px, py) {
   const { flights, cursor } = moment;
-  const [gx, gy] = description.gravity;
+  const [gx, gy] = description.acceleration;
   let left = Math.min(trailTime, moment.time);
   let until = moment.time;
   let x = px;

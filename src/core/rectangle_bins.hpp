@@ -1,7 +1,8 @@
 #pragma once
-// Which obstacles a path may meet: a grid over the box, each of whose bins lists the obstacles that reach into it. A path is
-// followed piece by piece, so that a long one costs the bins along it. What is found here is only who is asked, never what is
-// answered: the search is in double precision, with margins above the rounding of any engine, and leaves no trace in the bits.
+// Which of many rectangles a path may meet: a grid over the box, each of whose bins lists the rectangles that reach into it. A
+// path is followed piece by piece, so that a long one costs the bins along it. What is found here is only who is asked, never
+// what is answered: the search is in double precision, with margins above the rounding of any engine, and leaves no trace in the
+// bits.
 
 #include <carom/box.hpp>
 
@@ -15,8 +16,7 @@
 
 namespace carom {
 
-/// The rectangle round an obstacle.
-struct ObstacleBounds {
+struct Rectangle {
   Eigen::Vector2d lower;
   Eigen::Vector2d upper;
 };
@@ -32,14 +32,15 @@ struct SearchPath {
   double rounding;  ///< of the number type that contacts are computed in
 };
 
-class ObstacleBins {
+class RectangleBins {
  public:
-  using Image = std::array<std::int64_t, 2>;  ///< box lengths by which an obstacle is moved
+  using Image = std::array<std::int64_t, 2>;  ///< box lengths by which a rectangle is moved
 
-  ObstacleBins(const Box& box, const std::vector<ObstacleBounds>& bounds);
+  /// The rectangles are known by their places in `rectangles`; they may stick out of the box.
+  RectangleBins(const Box& box, const std::vector<Rectangle>& rectangles);
 
-  /// Calls visit(obstacle, image) for all that the path may meet, the pieces of the path in their order, and met_by(t) after
-  /// each, when every obstacle that may be met until time t has been visited. Ends where that returns true, at `until`, or, if
+  /// Calls visit(rectangle, image) for all that the path may meet, the pieces of the path in their order, and met_by(t) after
+  /// each, when every rectangle that may be met until time t has been visited. Ends where that returns true, at `until`, or, if
   /// that is infinite, where the path leaves the box across a wall or after `far` box lengths. An image may be visited several
   /// times.
   template <class Visit, class MetBy>
@@ -61,7 +62,7 @@ class ObstacleBins {
 
  private:
   struct Item {
-    std::int32_t obstacle;
+    std::int32_t rectangle;
     std::array<std::int32_t, 2> image;  ///< which image of it reaches into the bin, where that is inside the box
     std::array<std::int32_t, 2> first;  ///< the lowest column and row that this image reaches into
   };
@@ -81,7 +82,7 @@ class ObstacleBins {
   [[nodiscard]] Range range_of(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) const;
   [[nodiscard]] Place place(int axis, std::int64_t line) const;
   [[nodiscard]] std::size_t index(std::int64_t column, std::int64_t row) const;
-  void choose_counts(const std::vector<ObstacleBounds>& bounds);
+  void choose_counts(const std::vector<Rectangle>& rectangles);
   void set_counts(std::int64_t columns, std::int64_t rows);
 
   template <class Visit>
@@ -99,7 +100,7 @@ class ObstacleBins {
             lowest = lowest && here[a] == std::max(range.first[a], item.first[a] + places[a].image * count_[a]);
             image[a] = item.image[a] + places[a].image;
           }
-          if (lowest) visit(item.obstacle, image);
+          if (lowest) visit(item.rectangle, image);
         }
       }
   }

@@ -1,6 +1,6 @@
-// Which obstacles a path may meet.
+// Which rectangles a path may meet.
 
-#include "effects/obstacle_bins.hpp"
+#include "core/rectangle_bins.hpp"
 
 #include "core/fall_time.hpp"
 
@@ -16,11 +16,11 @@ constexpr double margin = 1e-9;
 
 }  // namespace
 
-ObstacleBins::ObstacleBins(const Box& box, const std::vector<ObstacleBounds>& bounds) : box_(box) {
-  choose_counts(bounds);
+RectangleBins::RectangleBins(const Box& box, const std::vector<Rectangle>& rectangles) : box_(box) {
+  choose_counts(rectangles);
   const auto for_bins = [&](auto&& act) {
-    for (std::size_t o = 0; o < bounds.size(); ++o) {
-      const Range range = range_of(bounds[o].lower, bounds[o].upper);
+    for (std::size_t o = 0; o < rectangles.size(); ++o) {
+      const Range range = range_of(rectangles[o].lower, rectangles[o].upper);
       for (std::int64_t row = range.first[1]; row <= range.last[1]; ++row)
         for (std::int64_t column = range.first[0]; column <= range.last[0]; ++column) act(o, range, column, row);
     }
@@ -35,7 +35,7 @@ ObstacleBins::ObstacleBins(const Box& box, const std::vector<ObstacleBounds>& bo
   for_bins([&](std::size_t o, const Range& range, std::int64_t column, std::int64_t row) {
     const std::array<Place, 2> places{place(0, column), place(1, row)};
     Item& item = items_[next[index(places[0].bin, places[1].bin)]++];
-    item.obstacle = static_cast<std::int32_t>(o);
+    item.rectangle = static_cast<std::int32_t>(o);
     for (std::size_t a = 0; a < 2; ++a) {
       item.image[a] = static_cast<std::int32_t>(-places[a].image);
       item.first[a] = static_cast<std::int32_t>(range.first[a] - places[a].image * count_[a]);
@@ -43,31 +43,31 @@ ObstacleBins::ObstacleBins(const Box& box, const std::vector<ObstacleBounds>& bo
   });
 }
 
-/// Bins about as many as obstacles; fewer where long segments would fill too many of them.
-void ObstacleBins::choose_counts(const std::vector<ObstacleBounds>& bounds) {
-  const double obstacles = std::max<double>(1.0, static_cast<double>(bounds.size()));
+/// Bins about as many as rectangles; fewer where long ones would fill too many of them.
+void RectangleBins::choose_counts(const std::vector<Rectangle>& rectangles) {
+  const double number = std::max<double>(1.0, static_cast<double>(rectangles.size()));
   const Eigen::Vector2d lengths = box_.lengths();
-  for (double width = std::sqrt(box_.area() / obstacles);; width *= 1.5) {
+  for (double width = std::sqrt(box_.area() / number);; width *= 1.5) {
     const auto count = [&](int a) {
-      return static_cast<std::int64_t>(std::clamp(std::floor(lengths[a] / width), 1.0, 4.0 * obstacles));
+      return static_cast<std::int64_t>(std::clamp(std::floor(lengths[a] / width), 1.0, 4.0 * number));
     };
     set_counts(count(0), count(1));
     if (count_[0] * count_[1] == 1) return;
     double items = 0.0;
-    for (const ObstacleBounds& b : bounds) {
+    for (const Rectangle& b : rectangles) {
       const Range range = range_of(b.lower, b.upper);
       items += static_cast<double>((range.last[0] - range.first[0] + 1) * (range.last[1] - range.first[1] + 1));
     }
-    if (items <= 32.0 * obstacles + 256.0) return;
+    if (items <= 32.0 * number + 256.0) return;
   }
 }
 
-void ObstacleBins::set_counts(std::int64_t columns, std::int64_t rows) {
+void RectangleBins::set_counts(std::int64_t columns, std::int64_t rows) {
   count_ = {columns, rows};
   width_ = box_.lengths().cwiseQuotient(Eigen::Vector2d(static_cast<double>(columns), static_cast<double>(rows)));
 }
 
-double ObstacleBins::end_of(const SearchPath& path) const {
+double RectangleBins::end_of(const SearchPath& path) const {
   if (path.until < infinity<double>) return path.until;
   double until = infinity<double>;
   const Eigen::Vector2d lengths = box_.lengths();
@@ -84,7 +84,7 @@ double ObstacleBins::end_of(const SearchPath& path) const {
 }
 
 /// A piece is about a bin long.
-double ObstacleBins::end_of_piece(const SearchPath& path, double from, double until) const {
+double RectangleBins::end_of_piece(const SearchPath& path, double from, double until) const {
   double time = infinity<double>;
   const Eigen::Vector2d v = path.v + from * path.g;
   for (int a = 0; a < 2; ++a) {
@@ -95,7 +95,7 @@ double ObstacleBins::end_of_piece(const SearchPath& path, double from, double un
   return std::min(until, from + std::max(time, 1e-12 * from));
 }
 
-ObstacleBins::Range ObstacleBins::range_of(const SearchPath& path, double from, double to) const {
+RectangleBins::Range RectangleBins::range_of(const SearchPath& path, double from, double to) const {
   const auto at = [&path](double t) { return Eigen::Vector2d(path.r + t * (path.v + t / 2 * path.g)); };
   const bool rests = path.v.isZero(0.0) && path.g.isZero(0.0);  // and `to` may be infinite
   const Eigen::Vector2d first = rests ? path.r : at(from);
@@ -108,7 +108,7 @@ ObstacleBins::Range ObstacleBins::range_of(const SearchPath& path, double from, 
   return range_of(first.cwiseMin(last) - around, first.cwiseMax(last) + around);
 }
 
-ObstacleBins::Range ObstacleBins::range_of(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) const {
+RectangleBins::Range RectangleBins::range_of(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) const {
   Range range{};
   for (int a = 0; a < 2; ++a) {
     const auto k = static_cast<std::size_t>(a);
@@ -122,13 +122,13 @@ ObstacleBins::Range ObstacleBins::range_of(const Eigen::Vector2d& lower, const E
   return range;
 }
 
-ObstacleBins::Place ObstacleBins::place(int axis, std::int64_t line) const {
+RectangleBins::Place RectangleBins::place(int axis, std::int64_t line) const {
   const std::int64_t count = count_[static_cast<std::size_t>(axis)];
   const std::int64_t image = line >= 0 ? line / count : -((count - 1 - line) / count);
   return {line - image * count, image};
 }
 
-std::size_t ObstacleBins::index(std::int64_t column, std::int64_t row) const {
+std::size_t RectangleBins::index(std::int64_t column, std::int64_t row) const {
   return static_cast<std::size_t>(row * count_[0] + column);
 }
 
