@@ -26,7 +26,7 @@ const PredictionKernel<Line>& kernel_for(const Effects& effects) {
 }  // namespace detail
 
 template <class Impact, class Layout, class World>
-std::string EventLoop<Impact, Layout, World>::why_not(const Box& box, const Disks& disks, const Effects& effects) {
+std::string LoopState<Impact, Layout, World>::why_not(const Box& box, const Disks& disks, const Effects& effects) {
   const std::vector<std::string> acting = effects.acting();
   if ((Impact::plain || World::plain) && !acting.empty()) return fmt::format("the scene asks for {}", fmt::join(acting, ", "));
   if (disks.count() == 0) return "";
@@ -47,7 +47,7 @@ std::string EventLoop<Impact, Layout, World>::why_not(const Box& box, const Disk
 }
 
 template <class Impact, class Layout, class World>
-EventLoop<Impact, Layout, World>::EventLoop(const Box& box, const Disks& disks, State start, const Effects& effects,
+LoopState<Impact, Layout, World>::LoopState(const Box& box, const Disks& disks, State start, const Effects& effects,
                                             std::uint64_t seed)
     : layout_(disks),
       impact_(effects, disks.count()),
@@ -98,13 +98,19 @@ EventLoop<Impact, Layout, World>::EventLoop(const Box& box, const Disks& disks, 
   find_wells();
   if (common_motion_.present()) common_motion_.begin(lines_, [this](const Line& a) { return layout_.momentum(a); });
   choose_epoch_length();
-  predict_all();
-  begin_epoch(0.0);
-  prefetcher_.suit(bytes());
 }
 
 template <class Impact, class Layout, class World>
-EventLoop<Impact, Layout, World>::EventLoop(const EventLoop& whole, std::size_t slots)
+EventLoop<Impact, Layout, World>::EventLoop(const Box& box, const Disks& disks, State start, const Effects& effects,
+                                            std::uint64_t seed)
+    : Parts(box, disks, std::move(start), effects, seed) {
+  predict_all();
+  begin_epoch(0.0);
+  prefetcher_.suit(this->bytes());
+}
+
+template <class Impact, class Layout, class World>
+LoopState<Impact, Layout, World>::LoopState(const LoopState& whole, std::size_t slots)
     : layout_(whole.layout_),
       impact_(whole.impact_.with_slots(slots)),
       world_(whole.world_),
@@ -130,13 +136,13 @@ EventLoop<Impact, Layout, World>::EventLoop(const EventLoop& whole, std::size_t 
       recorder_(ids_, world_.g()) {}
 
 template <class Impact, class Layout, class World>
-std::size_t EventLoop<Impact, Layout, World>::bytes() const {
+std::size_t LoopState<Impact, Layout, World>::bytes() const {
   return lines_.capacity() * sizeof(Line) + plans_.bytes() + ids_.capacity() * sizeof(std::int32_t) + flight_.bytes() +
          lists_.bytes() + queue_.bytes() + impact_.bytes() + world_.bytes() + sizes_.radius.capacity() * sizeof(double);
 }
 
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::find_wells() {
+void LoopState<Impact, Layout, World>::find_wells() {
   if constexpr (!Impact::plain) {
     auto& wells = impact_.wells();
     for (std::int32_t i = 0; i < count() && wells.present(); ++i)

@@ -48,7 +48,7 @@ void EventLoop<Impact, Layout, World>::begin_epoch_early(std::int32_t i, const V
 }
 
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::fail_between(std::int32_t i, std::int32_t j) {
+void LoopState<Impact, Layout, World>::fail_between(std::int32_t i, std::int32_t j) {
   // Its record is that of no event.
   i == j ? recorder_.withdraw_hit() : recorder_.withdraw_collision();
   stall_.fail(i == j ? fmt::format("disk {}: its velocity would not be finite after what it has met", id(i))
@@ -66,7 +66,7 @@ void EventLoop<Impact, Layout, World>::replan() {
 }
 
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::rebase(double now) {
+void LoopState<Impact, Layout, World>::rebase(double now) {
   for (std::int32_t i = 0; i < count(); ++i) flight_.rebase(i, line(i), now);
   plans_.rebase(now);
   stamp_ = 1;
@@ -76,7 +76,7 @@ void EventLoop<Impact, Layout, World>::rebase(double now) {
 
 /// Lets the clock, and all that belongs to no disk, count from `now`.
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::rebase_clock(double now) {
+void LoopState<Impact, Layout, World>::rebase_clock(double now) {
   last_collision_.rebase();
   ++totals_.numerics.epochs;
   if constexpr (!World::plain) flight_.fall(now);
@@ -87,7 +87,7 @@ void EventLoop<Impact, Layout, World>::rebase_clock(double now) {
 }
 
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::choose_epoch_length() {
+void LoopState<Impact, Layout, World>::choose_epoch_length() {
   SpeedCensus speeds;
   for (const Line& a : lines_) speeds.add(a.v);
   suit_epoch(speeds);
@@ -95,7 +95,7 @@ void EventLoop<Impact, Layout, World>::choose_epoch_length() {
 
 /// Chooses the length of the epoch that begins with these speeds of all disks.
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::suit_epoch(const SpeedCensus& speeds) {
+void LoopState<Impact, Layout, World>::suit_epoch(const SpeedCensus& speeds) {
   stall_.check_speeds(is_too_slow<double>(std::max(speeds.fastest[0], speeds.fastest[1]), sizes_.mean_diameter));
   const double sum = speeds.sum.value();
   if (!(sum < never)) stall_.fail("a velocity is not finite");
@@ -112,7 +112,7 @@ void EventLoop<Impact, Layout, World>::suit_epoch(const SpeedCensus& speeds) {
 
 /// The longest epoch that the effects allow.
 template <class Impact, class Layout, class World>
-double EventLoop<Impact, Layout, World>::longest_epoch_of_world() const {
+double LoopState<Impact, Layout, World>::longest_epoch_of_world() const {
   double longest = never;
   const double pull = std::max(world_.g().cwiseAbs().maxCoeff(), world_.walls.strongest());
   if (pull > 0.0) longest = std::sqrt(8.0 * sizes_.spacing / pull);
@@ -125,7 +125,7 @@ double EventLoop<Impact, Layout, World>::longest_epoch_of_world() const {
 /// The frame of the lines falls on from epoch to epoch, with the neighbourhoods in it. Before it leaves the box behind it is
 /// put back to the box. Then all disks must be predicted anew.
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::reset_falling_frame() {
+void LoopState<Impact, Layout, World>::reset_falling_frame() {
   if (!flight_.has_fallen(4.0 * sizes_.spacing)) return;
   flight_.reset_fall(lines_);
   rebuild(frame_.half_width);

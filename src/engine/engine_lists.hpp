@@ -9,7 +9,7 @@ namespace carom {
 
 /// Makes empty lists, for disks as large as they will be at the end of the epoch.
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::make_lists() {
+void LoopState<Impact, Layout, World>::make_lists() {
   sizes_.listed_scale = world_.scale(epoch_length_ < never ? epoch_length_ : 0.0);
   if (world_.expansion() > 0.0)
     sizes_.listed_scale *= 1.0 + 1.0 / 64.0;  // more makes lists longer, less has them made more often
@@ -37,7 +37,7 @@ void EventLoop<Impact, Layout, World>::list_larger() {
 
 /// Whether disks will be larger at the end of the epoch than those that lists are for.
 template <class Impact, class Layout, class World>
-bool EventLoop<Impact, Layout, World>::outgrow_lists() const {
+bool LoopState<Impact, Layout, World>::outgrow_lists() const {
   return world_.expansion() > 0.0 && !(epoch_length_ < never && world_.scale(epoch_length_) <= sizes_.listed_scale);
 }
 
@@ -53,7 +53,7 @@ void EventLoop<Impact, Layout, World>::tune_neighbourhoods(double elapsed) {
 
 /// Makes new neighbourhoods round all disks, and new lists. The plans must be made anew as well.
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::rebuild(double half_width) {
+void LoopState<Impact, Layout, World>::rebuild(double half_width) {
   ++totals_.numerics.list_rebuilds;
   const std::vector<NeighbourhoodCentre> centres = new_centres();
   lists_.rebuild(half_width, centres);
@@ -67,7 +67,7 @@ void EventLoop<Impact, Layout, World>::rebuild(double half_width) {
 
 /// The centres of new neighbourhoods, as far ahead of disks as those of the neighbourhoods before.
 template <class Impact, class Layout, class World>
-std::vector<NeighbourhoodCentre> EventLoop<Impact, Layout, World>::new_centres() const {
+std::vector<NeighbourhoodCentre> LoopState<Impact, Layout, World>::new_centres() const {
   std::vector<NeighbourhoodCentre> centres(lines_.size());
   for (std::int32_t i = 0; i < count(); ++i)
     centres[static_cast<std::size_t>(i)] = flight_.neighbourhood_centre(i, line(i), now_, lists_.half_width());
@@ -76,7 +76,7 @@ std::vector<NeighbourhoodCentre> EventLoop<Impact, Layout, World>::new_centres()
 
 /// Adapts to neighbourhoods of this half-width what depends on it beside the lists.
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::suit_neighbourhoods(double half_width) {
+void LoopState<Impact, Layout, World>::suit_neighbourhoods(double half_width) {
   frame_.half_width = half_width;
   boundaries_.set_neighbourhoods(half_width, sizes_.largest_contact);
   // Nearest images are right as long as a pair that may meet is less than half a box apart, now and along its lines back

@@ -1,5 +1,5 @@
 #pragma once
-// The state of an engine between events, and changes from outside.
+// The state of an engine between events, its archive, and changes from outside.
 
 #include "engine/engine.hpp"
 
@@ -121,6 +121,30 @@ void Engine<Impact, Layout, World>::take_over(const Continuation& continuation) 
         changed = true;
       }
     if (changed) predict_all(), start_queue();
+  }
+}
+
+/// Archives a frame without its pointers, which are those of the engine that reads.
+template <class Archive>
+void serialize(Archive& archive, PredictionFrame& frame) {
+  archive(frame.unit, frame.steps, frame.sigma, frame.half_width, frame.edge_step, frame.scale, frame.expansion, frame.well);
+  archive(frame.sliding.displacement, frame.sliding.speed, frame.sliding.inner);
+}
+
+/// The archive of an engine, for checkpoints (core/archive.hpp), holds all that decides how it goes on. What the scene says by
+/// itself is not part of it: an engine is made for the scene first, with any start, and then read into.
+template <class Impact, class Layout, class World>
+template <class Archive>
+void LoopState<Impact, Layout, World>::serialize(Archive& archive) {
+  archive(flight_, frame_, impact_, world_);
+  archive(lines_, plans_, ids_, sizes_, lists_, queue_);
+  archive(epoch_, now_, epoch_length_, stamp_, stall_, common_motion_, last_collision_, totals_);
+  archive(mean_speed_, limits_, boundaries_, tuning_, pacing_);
+  if constexpr (Archive::is_loading::value) {
+    recorder_.begin_epoch(epoch_);
+    if constexpr (!Impact::plain)
+      if (impact_.wells().present()) frame_.inside = impact_.wells().table();
+    frame_.sliding.heights = flight_.heights();
   }
 }
 

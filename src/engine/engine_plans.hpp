@@ -18,7 +18,7 @@ void EventLoop<Impact, Layout, World>::plan_edges_anew() {
 }
 
 template <class Impact, class Layout, class World>
-std::int32_t EventLoop<Impact, Layout, World>::lowest_of_tied(std::int32_t i, const Prediction& ahead) const {
+std::int32_t LoopState<Impact, Layout, World>::lowest_of_tied(std::int32_t i, const Prediction& ahead) const {
   std::int32_t lowest = ahead.partner;
   const auto consider = [&](std::int32_t j) {
     if (id(j) < id(lowest) && predicted_against(i, j).pair_time == ahead.pair_time) lowest = j;
@@ -28,13 +28,13 @@ std::int32_t EventLoop<Impact, Layout, World>::lowest_of_tied(std::int32_t i, co
 }
 
 template <class Impact, class Layout, class World>
-Prediction EventLoop<Impact, Layout, World>::predicted_against(std::int32_t i, std::int32_t j) const {
+Prediction LoopState<Impact, Layout, World>::predicted_against(std::int32_t i, std::int32_t j) const {
   const std::int32_t alone[8] = {j, i, i, i, i, i, i, i};
   return predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, alone, 1});
 }
 
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::prefetch_calendar(std::int64_t span) const {
+void LoopState<Impact, Layout, World>::prefetch_calendar(std::int64_t span) const {
   if (prefetcher_.looks_ahead())
     prefetcher_.calendar(data(), span, [this](std::int32_t i, double when) {
       return flight_.neighbourhood_centre(i, line(i), when, lists_.half_width());

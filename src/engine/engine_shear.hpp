@@ -17,7 +17,7 @@
 namespace carom {
 
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::update_shear() {
+void LoopState<Impact, Layout, World>::update_shear() {
   const double length = flight_.length(0), displacement = world_.lees_edwards.displacement(0.0);
   frame_.sliding.displacement = flight_.axis(0).steps_of(displacement < length / 2.0 ? displacement : displacement - length);
   frame_.sliding.speed = world_.lees_edwards.speed();
@@ -37,7 +37,7 @@ void EventLoop<Impact, Layout, World>::follow_shear() {
 /// Divides what neighbourhoods leave of the half box, within which nearest images are right, between lines and the slide of
 /// images.
 template <class Impact, class Layout, class World>
-void EventLoop<Impact, Layout, World>::leave_room_for_shear(const std::vector<NeighbourhoodCentre>& centres) {
+void LoopState<Impact, Layout, World>::leave_room_for_shear(const std::vector<NeighbourhoodCentre>& centres) {
   for (std::int32_t i = 0; i < count(); ++i) flight_.height(i) = centres[static_cast<std::size_t>(i)].y;
   limits_.shear_displacement = limits_.longest_line[0];
   limits_.longest_line[0] /= 2.0;

@@ -6,46 +6,21 @@
 // collided since is stale and made anew when its time comes.
 //
 // Disks are known by their slots, indices in the order of memory, which keeps neighbours in the box near each other; ids_ has
-// their ids. Three parameters say what acts: Impact (what two disks do to each other), World (what else there is round them) and
-// Layout (what a disk carries). Uniform gravity costs nothing where disks meet: lines are drawn in a frame that falls with the
-// disks from the epoch on, in which they are straight, and only walls and obstacles are looked for along the parabola
-// (engine/boundary_planner.hpp).
+// their ids. loop_state.hpp has what the loop works on.
 //
-// engine_impl.hpp has the functions that are only declared here, which happen once per epoch or seldom: how a loop begins,
-// epochs, neighbour lists, ties, sheared boxes, checkpoints. engine.hpp has what is asked of an engine between events.
+// engine_impl.hpp has the functions that are only declared here, which happen once per epoch or seldom: epochs, ties, sheared
+// boxes. engine.hpp has what is asked of an engine between events.
 
 #include "core/instant.hpp"
-#include "core/large_memory.hpp"
-#include "core/prediction.hpp"
-#include "core/running_totals.hpp"
 #include "core/sides.hpp"
 #include "core/vec2.hpp"
 #include "effects/plain_world.hpp"
-#include "engine/boundary_planner.hpp"
-#include "engine/collision_recorder.hpp"
-#include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
-#include "engine/disk_sizes.hpp"
-#include "engine/flight_frame.hpp"
-#include "engine/flight_limits.hpp"
-#include "engine/layout.hpp"
-#include "engine/plans.hpp"
-#include "engine/prefetcher.hpp"
-#include "engine/speed_census.hpp"
-#include "engine/stall_detector.hpp"
-#include "neighbours/neighbour_lists.hpp"
-#include "neighbours/neighbourhood_tuning.hpp"
-#include "queue/future_event_list.hpp"
-#include "queue/queue_pacing.hpp"
-
-#include <carom/state.hpp>
+#include "engine/loop_state.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <string>
-#include <vector>
+#include <utility>
 
 namespace carom {
 
@@ -55,24 +30,18 @@ template <class Impact, class Layout, class World>
 class Domains;
 
 template <class Impact, class Layout, class World>
-class EventLoop {
+class EventLoop : public LoopState<Impact, Layout, World> {
   friend class BoxDomain<Impact, Layout, World>;  // parallel/: they take the disks from a whole engine and give them back
   friend class Domains<Impact, Layout, World>;
 
- public:
-  /// Why this engine cannot run these disks, in half a sentence; empty where it can. Periodic boxes must be wide enough for the
-  /// nearest image to be the only one that a disk can meet, disks not so small that the resolution of neighbourhoods would show,
-  /// and the three parameters the right ones.
-  [[nodiscard]] static std::string why_not(const Box& box, const Disks& disks, const Effects& effects = {});
+  using Parts = LoopState<Impact, Layout, World>;
 
+ public:
   /// Requires an empty why_not(), disks inside the box, radii and masses > 0, everything finite. `seed` is that of the random
   /// numbers that effects draw.
   EventLoop(const Box& box, const Disks& disks, State start, const Effects& effects = {}, std::uint64_t seed = 1);
-  /// The engine of a part of the box, with slots for so many disks, all of them empty: parallel/box_domain.hpp fills them.
-  /// Everything that does not belong to one disk is as in `whole`.
-  EventLoop(const EventLoop& whole, std::size_t slots);
-  EventLoop(const EventLoop&) = delete;
-  EventLoop& operator=(const EventLoop&) = delete;
+  /// The engine of a part of the box: see LoopState.
+  EventLoop(const EventLoop& whole, std::size_t slots) : Parts(whole, slots) {}
 
   /// Processes every event with time <= target, then stands at target (at the last event where target is forever and none
   /// is to come) and returns true. Returns false, and stands at the last event, where totals().pair reaches `pair_limit`,
@@ -95,20 +64,17 @@ class EventLoop {
     return false;
   }
 
-  /// Whether nothing will ever happen again: nothing moves, and nothing makes it move.
-  [[nodiscard]] bool idle() const { return epoch_length_ == never; }
-
-  /// Whether the engine can go no further, and why.
-  [[nodiscard]] const StallDetector& stall() const { return stall_; }
-
-  /// The memory of all that has an entry per disk, in bytes.
-  [[nodiscard]] std::size_t bytes() const;
-  /// Writes or reads all that decides how the run goes on, for core/archive.hpp. Requires all events to have been taken.
-  template <class Archive>
-  void serialize(Archive& archive);
-
  protected:
-  using Line = typename Layout::Line;
+  using Parts::epoch_, Parts::now_, Parts::epoch_length_, Parts::stamp_, Parts::mean_speed_, Parts::limits_, Parts::sizes_;
+  using Parts::last_collision_, Parts::count, Parts::line, Parts::id, Parts::data, Parts::surroundings, Parts::predicted;
+  using Parts::layout_, Parts::impact_, Parts::world_, Parts::flight_, Parts::boundaries_, Parts::frame_, Parts::kernel_;
+  using Parts::lines_, Parts::ids_, Parts::plans_, Parts::lists_, Parts::queue_, Parts::tuning_, Parts::pacing_;
+  using Parts::make_lists, Parts::outgrow_lists, Parts::rebuild, Parts::suit_neighbourhoods, Parts::update_shear;
+  using Parts::never, Parts::last_stamp, Parts::part_, Parts::stopped_;
+  using Parts::predicted_against, Parts::lowest_of_tied, Parts::prefetch_calendar, Parts::leave_to_whole, Parts::fail_between;
+  using Parts::prefetcher_, Parts::stall_, Parts::common_motion_, Parts::recorder_, Parts::totals_, Parts::counted_;
+  using Parts::rebase, Parts::rebase_clock, Parts::choose_epoch_length, Parts::suit_epoch, Parts::reset_falling_frame;
+  using typename Parts::Line;
 
   /// Processes the next event of all.
   [[gnu::flatten]] void step(std::int32_t i, double time) {
@@ -179,7 +145,7 @@ class EventLoop {
       stall_.record_loss(meet(), {id(i), id(j)});
   }
 
-  /// Processes the contact of a disk with a wall or an obstacle.
+  /// Processes the contact of a disk with what bounds its flight: a wall or an obstacle.
   void hit(std::int32_t i, std::int32_t what) {
     if constexpr (!World::plain)
       if (world_.sheared()) return cross_sheared_edge(i, is_upper(static_cast<Wall>(what)) ? 1 : -1);
@@ -236,7 +202,7 @@ class EventLoop {
 
   // -------------------------------------------------------------------------------------------------- prediction
 
-  /// Predicts disk i against all its neighbours, walls, obstacles and the edges of its neighbourhood.
+  /// Predicts disk i against all its neighbours, what bounds its flight and the edges of its neighbourhood.
   void predict(std::int32_t i) {
     set_plan(i, predicted(i, surroundings(i)));
     schedule(i);
@@ -259,7 +225,7 @@ class EventLoop {
       boundaries_.plan(i, line(i), layout_.radius(line(i)), now_, epoch_length_, plans_);
   }
 
-  /// Plans walls and obstacles anew for all disks, after a piston has changed its motion.
+  /// Plans contacts with what bounds flights anew for all disks, after a piston has changed its motion.
   void plan_edges_anew();
 
   void schedule(std::int32_t i) { queue_.push(plans_, i, plans_.time(i)); }
@@ -273,96 +239,14 @@ class EventLoop {
   /// Velocities are those of lines. i and j may be the same disk.
   [[gnu::noinline, gnu::cold]] void begin_epoch_early(std::int32_t i, const Vec2<double>& va, std::int32_t j,
                                                       const Vec2<double>& vb);
-  /// Returns whether this is the engine of a part of the box, in which no epoch can begin alone, and ends its run then.
-  [[nodiscard]] bool leave_to_whole() { return part_ && (stopped_ = true); }
-  /// Ends the run because the velocities of i and j, which may be the same disk, would not be finite: they keep those that they
-  /// have.
-  void fail_between(std::int32_t i, std::int32_t j);
-  /// Lets lines, plans and stamps count from `now`.
-  void rebase(double now);
-  void rebase_clock(double now);
   /// Makes everything anew that an epoch needs after rebase().
   void replan();
-  void choose_epoch_length();
-  void suit_epoch(const SpeedCensus& speeds);
-  [[nodiscard]] double longest_epoch_of_world() const;
-  void reset_falling_frame();
   void widen_coordinates();
   void start_queue();
-
-  void make_lists();
-  [[nodiscard]] bool outgrow_lists() const;
+  void predict_all();
   void list_larger();
   void tune_neighbourhoods(double elapsed);
-  void rebuild(double half_width);
-  void suit_neighbourhoods(double half_width);
-  [[nodiscard]] std::vector<NeighbourhoodCentre> new_centres() const;
-  void predict_all();
-  void find_wells();
-
-  void update_shear();
   void follow_shear();
-  void leave_room_for_shear(const std::vector<NeighbourhoodCentre>& centres);
-
-  // ------------------------------------------------------------------------------------------------ small things
-
-  /// The stamp at which an epoch ends, if it has not before.
-  static constexpr std::uint32_t last_stamp = 0xFFFFFFFF;
-  static constexpr double never = infinity<double>;
-
-  [[nodiscard]] Surroundings surroundings(std::int32_t i) const {
-    const NeighbourhoodCentre centre = lists_.centre(i);
-    return {{centre.x, centre.y}, lists_.ids(i), lists_.count(i)};
-  }
-  [[nodiscard]] Prediction predicted(std::int32_t i, const Surroundings& around) const {
-    Prediction ahead;
-    kernel_.predict(lines_.data(), frame_, i, around, now_, ahead);
-    return ahead;
-  }
-  /// The prediction of disk i against disk j alone.
-  [[nodiscard]] Prediction predicted_against(std::int32_t i, std::int32_t j) const;
-  [[nodiscard, gnu::noinline, gnu::cold]] std::int32_t lowest_of_tied(std::int32_t i, const Prediction& ahead) const;
-  [[gnu::noinline]] void prefetch_calendar(std::int64_t span) const;
-  [[nodiscard]] PrefetchedData<Line> data() const { return {lines_, ids_, plans_, lists_, queue_}; }
-
-  [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(lines_.size()); }
-  [[nodiscard]] Line& line(std::int32_t i) { return lines_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] const Line& line(std::int32_t i) const { return lines_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] std::int32_t id(std::int32_t i) const { return ids_[static_cast<std::size_t>(i)]; }
-
-  Layout layout_;
-  Impact impact_;
-  World world_;
-  FlightFrame<Line, World> flight_;
-  BoundaryPlanner<Line, World> boundaries_;
-  PredictionFrame frame_;
-  const PredictionKernel<Line>& kernel_;
-
-  LargeVector<Line> lines_;
-  LargeVector<std::int32_t> ids_;
-  Plans plans_;
-  NeighbourLists lists_;
-  FutureEventList<Plans> queue_;
-
-  bool part_ = false;     ///< of the box: there are other engines for the rest
-  bool stopped_ = false;  ///< a part has come to an event that concerns the whole
-  Instant epoch_;         ///< the loop's zero of time
-  double now_ = 0.0;
-  double epoch_length_ = 0.0;
-  std::uint32_t stamp_ = 1;  ///< counts collisions with disks and walls since the epoch began; what was before has 0 or 1
-  double mean_speed_ = 0.0;  ///< mean of |v_x| + |v_y| when the epoch began
-  FlightLimits limits_;
-  DiskSizes sizes_;
-
-  NeighbourhoodTuning tuning_;
-  QueuePacing pacing_;
-  Prefetcher prefetcher_;
-  StallDetector stall_;
-  CommonMotion<double> common_motion_;
-  CollisionRecorder recorder_;
-  RunningTotals totals_;
-  RunningTotals* counted_ = &totals_;  ///< where events are counted now
-  LastInstant last_collision_;
 };
 
 }  // namespace carom

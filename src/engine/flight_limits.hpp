@@ -1,8 +1,11 @@
 #pragma once
-// The longest flights until an epoch ends: beyond them coordinates would wrap unseen, or nearest images be wrong.
+// The longest flights until an epoch ends: beyond them coordinates would wrap unseen, or nearest images be wrong. And the speeds
+// by which the length of an epoch is chosen.
 
+#include "core/exact_sum.hpp"
 #include "core/vec2.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,6 +29,24 @@ struct FlightLimits {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(longest_line, speed, shear_displacement);
+  }
+};
+
+/// The fastest component of a velocity along each axis, and the sum of |v_x| + |v_y|. Neither depends on the order of disks.
+struct SpeedCensus {
+  double fastest[2] = {0.0, 0.0};  ///< length / time
+  ExactSum sum;                    ///< length / time
+
+  void add(const double (&v)[2]) {
+    for (int k = 0; k < 2; ++k) {
+      fastest[k] = std::max(fastest[k], std::abs(v[k]));
+      sum.add(std::abs(v[k]));
+    }
+  }
+  /// Adds the disks of another census.
+  void add(const SpeedCensus& other) {
+    for (int k = 0; k < 2; ++k) fastest[k] = std::max(fastest[k], other.fastest[k]);
+    sum.add(other.sum);
   }
 };
 
