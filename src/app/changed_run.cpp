@@ -1,5 +1,6 @@
-#include "app/changed_run.hpp"
+// carom run SCENE --changes FILE: a run that was changed while it went on, again.
 
+#include "app/commands.hpp"
 #include "io/csv_writer.hpp"
 #include "io/json.hpp"
 #include "io/run_directory.hpp"

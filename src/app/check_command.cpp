@@ -2,7 +2,7 @@
 // cost.
 
 #include "app/commands.hpp"
-#include "app/scene_description.hpp"
+#include "app/terminal_summary.hpp"
 #include "observe/mechanics.hpp"
 #include "pages/scene_words.hpp"
 #include "runner/expected_cost.hpp"

@@ -34,6 +34,11 @@ struct RunOptions {
 };
 ExitCode run(const RunOptions& options, const Invocation& invocation);
 
+/// Runs the scene with the changes of options.changes at their times, up to run.time, and prints how it ended. Writes samples.csv
+/// where the scene samples and asks for it, and nothing else. Throws UsageError for options that only other runs have; SceneError
+/// where the list or one of its changes is wrong, before or during the run.
+ExitCode run_with_changes(const RunOptions& options);
+
 struct ResumeOptions {
   std::string directory;                    ///< directory of a run
   std::optional<double> time;               ///< another end than the run's own

@@ -1,10 +1,12 @@
-// Determines the kind of a file and has it described.
+// carom info FILE: determines the kind of a file and has it described, or says how to make a run again.
 
 #include "app/info.hpp"
 
+#include "app/commands.hpp"
 #include "app/info_parts.hpp"
 #include "io/checkpoint.hpp"
 #include "io/run_directory.hpp"
+#include "terminal/reading_process.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <system_error>
 #include <vector>
@@ -153,3 +156,19 @@ std::string describe_file(const fs::path& path) {
 }
 
 }  // namespace carom
+
+namespace carom::cli {
+
+ExitCode info(const InfoOptions& options, const Invocation& invocation) {
+  if (options.reproduce) {
+    fmt::print("{}", reproduction(options.file, invocation));
+    return exit_done;
+  }
+  return in_reading_process(options.file, [&] {
+    const ReadingLimit limit(options.file);
+    fmt::print("{}", as_usage_error([&] { return describe_file(options.file); }));
+    return exit_done;
+  });
+}
+
+}  // namespace carom::cli

@@ -1,10 +1,9 @@
 // carom run SCENE: runs a scene's whole schedule, writes its files, and says what has happened. Whatever is wrong with the
 // scene or with the place for the results is found before the first event, and then nothing is left behind.
 
-#include "app/changed_run.hpp"
 #include "app/commands.hpp"
 #include "app/run_session.hpp"
-#include "app/scene_description.hpp"
+#include "app/terminal_summary.hpp"
 #include "io/provenance.hpp"
 #include "io/run_directory.hpp"
 #include "text/numbers.hpp"

@@ -1,18 +1,20 @@
-// The summary of a run on the terminal: what was simulated, what happened, how exact it was, what it measured, where the files
-// are, and what to try next.
+// A scene in words, and the summary of a run on the terminal: what was simulated, what happened, how exact it was, what it
+// measured, where the files are, and what to try next.
 
 #include "app/terminal_summary.hpp"
 
+#include "pages/scene_words.hpp"
 #include "pages/summary_rows.hpp"
 #include "scene/drawn.hpp"
 #include "studies/horizon/json.hpp"
-#include "studies/horizon/sentence.hpp"
+#include "studies/horizon/report.hpp"
 #include "terminal/observed_lines.hpp"
 #include "text/numbers.hpp"
 #include "text/table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <carom/simulation.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -104,6 +106,19 @@ std::string what_to_try_next(const RunReport& report, const Scene& scene, const 
 std::string terminal_summary(const RunReport& report, const Scene& scene, const Results& results) {
   return heading(report, scene) + lines_of(report, scene) + what_was_observed(report) + how_far_to_trust(report, scene) +
          where_the_files_are(results) + what_to_try_next(report, scene, results);
+}
+
+std::string describe(const Scene& scene) {
+  std::string text;
+  for (const SummaryRow& row : words_of(scene)) text += fmt::format("  {:<11} {}\n", row.quantity, row.value);
+  return text;
+}
+
+std::optional<std::uint64_t> expected_samples(const Scene& scene) {
+  const Run& run = scene.run;
+  if (!run.is_sampled()) return 0;
+  if (run.sample_every_collisions ? !run.collisions || run.time : !run.time || run.collisions) return std::nullopt;
+  return last_sample(scene.run) + 1;
 }
 
 }  // namespace carom::cli

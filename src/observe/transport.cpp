@@ -1,19 +1,72 @@
-#include "observe/transport.hpp"
+// Transport coefficients from the fluctuations of a flux that flies along with the disks and jumps over from disk to disk at
+// collisions. Its integral over time, Helfand's moment G, is known exactly: it grows evenly between collisions and jumps at each
+// by r_ij times what disk i got. From G on a grid come
+//   Green-Kubo:        the running integral of <J(0) J(t)>, J the mean flux over a step, the increase of G over its time;
+//   Einstein-Helfand:  <(G(t) - G(0))^2> / 2 t.
+// Both are averages over time, of two components that isotropy makes equal.
+//
+// Velocities are relative to the common motion.
 
 #include "observe/blocking.hpp"
+#include "observe/followers.hpp"
 #include "observe/mechanics.hpp"
+#include "observe/multiple_tau.hpp"
+#include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace carom {
 
 namespace {
+
+/// A coefficient, its flux, and what leads from the integral of <J J> to it.
+struct TransportCoefficient {
+  std::string name, unit, unit_of_flux;
+  Eigen::Vector2d (*flow)(double mass, const Eigen::Vector2d& velocity);  ///< the flux that one disk carries
+  FluxSum* FluxSums::*sum;                                                ///< the sum of what collisions transfer
+  double part;                                                            ///< fraction of this sum that the flux is
+  double (*factor)(double kT, double area);
+};
+
+class Transport final : public SavedObservable<Transport>, public FluxFollower {
+ public:
+  Transport(const ObservableRequest& request, const ObservedRun& run, TransportCoefficient coefficient);
+
+  [[nodiscard]] double step() const override { return 0.0; }  ///< no samples: it takes its own steps, by the clock
+  [[nodiscard]] bool follows_collisions() const override { return true; }
+  void start(const State& state) override;
+  void ask(FluxSums& sums) override { sums.*coefficient_.sum = &sum_; }
+  [[nodiscard]] double until() const override { return next_; }
+  void reach(double time) override { tick(time); }
+  [[nodiscard]] Measurement finish(double time, const Totals& totals) override;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(kT_, next_, ticks_, sum_.change, sum_.moment, sum_.since, flow_, moment_, noted_, products_, moments_, mean_flux_);
+  }
+
+ private:
+  void tick(double time);
+
+  TransportCoefficient coefficient_;
+  double kT_ = 0.0;
+  double next_ = step_;
+  std::uint64_t ticks_ = 0;
+  FluxSum sum_;                                     ///< since the last tick
+  std::array<Blocking, 2> mean_flux_;               ///< over each step
+  Eigen::Vector2d flow_ = Eigen::Vector2d::Zero();  ///< the part of the flux that flies
+  Eigen::Vector2d moment_ = Eigen::Vector2d::Zero(), noted_ = Eigen::Vector2d::Zero();
+  MultipleTau products_{2, MultipleTau::Pairs::products}, moments_{2, MultipleTau::Pairs::squared_differences};
+};
 
 std::string at_lag(double lag) {
   char text[160];
@@ -63,8 +116,6 @@ bool flows_steadily(const Blocking& flux) {
   const std::optional<Blocking::Estimate> found = flux.estimate();
   return found && found->error && found->statistical_inefficiency && std::abs(found->mean) > 5.0 * *found->error;
 }
-
-}  // namespace
 
 Transport::Transport(const ObservableRequest& request, const ObservedRun& run, TransportCoefficient coefficient)
     : SavedObservable(request, run), coefficient_(std::move(coefficient)) {}
@@ -134,6 +185,30 @@ Measurement Transport::finish(double time, const Totals&) {
   table.columns = {lags, flux, flux_error, until, integral, integral_error, helfand, helfand_error};
   found.tables.push_back(std::move(table));
   return found;
+}
+
+}  // namespace
+
+/// Shear viscosity from the fluctuations of the momentum flux: eta = (1 / A kT) times the integral of <J_xy(0) J_xy(t)>, with
+/// J_xy = sum m v_x v_y + the jumps r_x (impulse)_y at collisions. (J_xx - J_yy) / 2 fluctuates alike and counts as well.
+MadeObservable make_viscosity(const ObservableRequest& request, const ObservedRun& run) {
+  const auto flow = [](double mass, const Eigen::Vector2d& v) {
+    return Eigen::Vector2d(mass * v.x() * v.y(), 0.5 * mass * (v.x() * v.x() - v.y() * v.y()));
+  };
+  const auto factor = [](double kT, double area) { return kT > 0.0 ? 1.0 / (area * kT) : 0.0; };
+  return std::make_unique<Transport>(
+      request, run, TransportCoefficient{"viscosity", "mass / time", "energy^2", flow, &FluxSums::momentum, 0.5, factor});
+}
+
+/// Heat conductivity from the fluctuations of the energy flux: lambda = (1 / A kT^2) times the integral of <J(0) J(t)> of one
+/// component, J = sum (m v^2 / 2) v + the jumps r_ij (energy that disk i got from j) at collisions. For disks of one mass,
+/// relative to their common motion.
+MadeObservable make_heat_conductivity(const ObservableRequest& request, const ObservedRun& run) {
+  const auto flow = [](double mass, const Eigen::Vector2d& v) { return Eigen::Vector2d(0.5 * mass * v.squaredNorm() * v); };
+  const auto factor = [](double kT, double area) { return kT > 0.0 ? 1.0 / (area * kT * kT) : 0.0; };
+  return std::make_unique<Transport>(
+      request, run,
+      TransportCoefficient{"heat_conductivity", "1 / time", "energy^2 length^2 / time^2", flow, &FluxSums::energy, 0.25, factor});
 }
 
 }  // namespace carom

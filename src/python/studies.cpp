@@ -15,7 +15,7 @@
 #include "studies/horizon/command.hpp"
 #include "studies/horizon/json.hpp"
 #include "studies/horizon/method.hpp"
-#include "studies/horizon/sentence.hpp"
+#include "studies/horizon/report.hpp"
 #include "studies/horizon/text.hpp"
 #include "studies/sweep/numbers.hpp"
 #include "studies/sweep/results.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// How many threads compute the events of a run.
+// How many threads compute the events of a run, and how many processors there are for it.
 
 #include <carom/simulation.hpp>
 
@@ -30,5 +30,12 @@ struct SuggestedThreads {
 /// events cannot be shared out and the scene has observables, which the second one measures. Throws std::invalid_argument with a
 /// sentence where the simulation cannot be shared out, or the number is out of range.
 void set_threads_of_run(Simulation& simulation, std::optional<int> threads);
+
+/// Returns the number of processors that this program may use, >= 1.
+[[nodiscard]] int processors();
+
+/// Returns how many of these are free as far as the system tells: at least one, which is that of the caller. Takes some
+/// milliseconds, for other programs use a processor on and off.
+[[nodiscard]] int free_processors();
 
 }  // namespace carom

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes that list their disks one by one, as a run has left them.
+// Scenes that list their disks one by one, as a run has left them. with_disks() of carom/scene.hpp takes those of a program.
 
 #include <carom/scene.hpp>
 #include <carom/state.hpp>

@@ -1,8 +1,9 @@
-// The tables of effects.
+// The tables of effects: contact of two disks, the sides of the box, and all others.
 
 #include "scene/checks.hpp"
 #include "scene/effect_traits.hpp"
 #include "scene/read_tables.hpp"
+#include "scene/walls.hpp"
 
 #include <fmt/format.h>
 
@@ -51,6 +52,62 @@ void read_effects(const TableReader& scene, Effects& effects) {
     if (const toml::table* table = scene.table(effect.name, fmt::format("[{}]", effect.name)))
       read_numbers(*table, effect, effects);
   }
+}
+
+namespace {
+
+CollisionRule read_rule(const TableReader& table) {
+  const std::string kinds = R"("reversal" (the whole relative velocity) or "specular" (its part along the line of centres))";
+  const toml::node& rule = table.require("rule", "choose " + kinds);
+  const auto* name = rule.as_string();
+  if (name != nullptr && name->get() == "reversal") return CollisionRule::reversal;
+  if (name != nullptr && name->get() == "specular") return CollisionRule::specular;
+  refuse(rule, "collision.rule", kinds);
+}
+
+}  // namespace
+
+Collision read_collision(const toml::table& node) {
+  const TableReader table(node, "collision", {"rule", "restitution", "roughness", "elastic_below"});
+  Collision collision;
+  collision.rule = read_rule(table);
+  collision.restitution = table.number(keys::restitution);
+  collision.roughness = table.number(keys::roughness);
+  if (const toml::table* below = table.table("elastic_below", "{ time = 1e-6 }")) {
+    collision.elastic_below = TableReader(*below, "collision.elastic_below", {"time"}).required_number(keys::elastic_below);
+  }
+  return collision;
+}
+
+namespace {
+
+WallProperties read_wall(const toml::table& node, const std::string& path) {
+  const TableReader table(node, path, {"restitution", "temperature", "velocity", "mass", "load"});
+  WallProperties wall;
+  wall.restitution = table.number(keys::wall_restitution);
+  wall.temperature = table.number(keys::wall_temperature);
+  wall.velocity = table.number(keys::wall_velocity);
+  wall.mass = table.number(keys::piston_mass);
+  wall.load = table.number(keys::piston_load);
+  if (node.empty()) {
+    throw SceneError(table.where(),
+                     fmt::format("{} has no property; give restitution, temperature, velocity, or mass and load, or remove "
+                                 "it: a wall that is not named is hard and at rest",
+                                 path));
+  }
+  return wall;
+}
+
+}  // namespace
+
+std::array<WallProperties, 4> read_walls(const toml::table& node) {
+  const TableReader table(node, "walls", {wall_names.begin(), wall_names.end()});
+  std::array<WallProperties, 4> walls;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const toml::table* wall = table.table(wall_names[w], "{ restitution = 0.8 }");
+    if (wall != nullptr) walls[w] = read_wall(*wall, table.path(wall_names[w]));
+  }
+  return walls;
 }
 
 }  // namespace carom::detail

@@ -50,4 +50,7 @@ std::unique_ptr<AnyEngine> make_general(const Scene& scene, const Disks& disks, 
 template <class Real>
 std::unique_ptr<AnyEngine> make_textbook(const Scene& scene, const Disks& disks, State start);
 
+/// Returns what keeps disks with these effects on one core, in half a sentence; empty where nothing does.
+[[nodiscard]] std::string why_not_threads(const Effects& effects);
+
 }  // namespace carom::detail

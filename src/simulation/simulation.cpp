@@ -11,7 +11,6 @@
 #include "simulation/standstill.hpp"
 #include "simulation/start.hpp"
 #include "simulation/velocities_determine_contacts.hpp"
-#include "simulation/why_not_threads.hpp"
 
 #include <fmt/format.h>
 

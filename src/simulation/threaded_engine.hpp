@@ -2,7 +2,7 @@
 // An engine that several cores run, if it is told to: until then it runs alone, and pays nothing for what it could do.
 
 #include "parallel/domains_impl.hpp"
-#include "simulation/why_not_threads.hpp"
+#include "simulation/catalogue.hpp"
 #include "simulation/wrapped_engine.hpp"
 
 #include <memory>

@@ -1,7 +1,7 @@
 #include <carom/threads.hpp>
 
+#include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
-#include "simulation/why_not_threads.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 
 #include "runner/run_threads.hpp"
 
-#include "runner/free_processors.hpp"
 #include "support/systems.hpp"
 
 #include <gmock/gmock.h>

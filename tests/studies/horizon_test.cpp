@@ -2,7 +2,7 @@
 
 #include "studies/horizon/horizon.hpp"
 #include "studies/horizon/difference.hpp"
-#include "studies/horizon/sentence.hpp"
+#include "studies/horizon/report.hpp"
 #include "studies/state_distance.hpp"
 #include "support/scene_files.hpp"
 #include "support/systems.hpp"

@@ -1,7 +1,6 @@
 // The tangent map against finite differences in 113 bits, and the exponent against its closed forms and known values.
 
 #include "studies/horizon/lyapunov.hpp"
-#include "studies/horizon/lyapunov_tangent.hpp"
 #include "support/systems.hpp"
 
 #include <gmock/gmock.h>

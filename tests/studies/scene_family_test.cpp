@@ -1,6 +1,6 @@
 // Scenes like another: what is kept, what is asked for, and what cannot be had.
 
-#include "studies/compare/scene_family.hpp"
+#include "studies/compare/costs.hpp"
 
 #include "observe/mechanics.hpp"
 #include "support/scenes.hpp"

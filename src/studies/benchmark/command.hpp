@@ -3,6 +3,8 @@
 
 #include "terminal/command.hpp"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,5 +28,12 @@ ExitCode bench_effects(const BenchOptions& options);
 
 /// Returns how much faster one run is on several cores, once its bits are found to be those of one core.
 ExitCode bench_threads(const BenchOptions& options);
+
+/// Returns text such as "Intel(R) Xeon(R) Processor, 2048 KiB of second-level cache; carom 0.1.0 (commit ...), avx512
+/// instructions."
+std::string measured_on();
+
+/// {"carom": {...}, "machine": {...}, "instructions": "avx512"}
+nlohmann::ordered_json measured_on_json();
 
 }  // namespace carom::cli

@@ -5,7 +5,6 @@
 #include "studies/benchmark/command.hpp"
 
 #include "studies/benchmark/contender.hpp"
-#include "studies/benchmark/measured_on.hpp"
 #include "studies/benchmark/priced_effects.hpp"
 #include "terminal/progress.hpp"
 #include "text/numbers.hpp"

@@ -4,7 +4,6 @@
 #include "core/seconds.hpp"
 #include "studies/benchmark/command.hpp"
 #include "studies/benchmark/contender.hpp"
-#include "studies/benchmark/measured_on.hpp"
 #include "terminal/progress.hpp"
 #include "text/numbers.hpp"
 

@@ -4,7 +4,7 @@
 #include "studies/compare/plots.hpp"
 #include "studies/compare/sentences.hpp"
 #include "studies/horizon/page.hpp"
-#include "studies/horizon/sentence.hpp"
+#include "studies/horizon/report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -3,7 +3,7 @@
 #include "studies/horizon/command.hpp"
 #include "studies/horizon/json.hpp"
 #include "studies/horizon/method.hpp"
-#include "studies/horizon/sentence.hpp"
+#include "studies/horizon/report.hpp"
 #include "studies/horizon/text.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "io/json.hpp"
 #include "io/output_error.hpp"
-#include "studies/horizon/sentence.hpp"
+#include "studies/horizon/report.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "studies/horizon/page.hpp"
 
 #include "studies/horizon/json.hpp"
-#include "studies/horizon/sentence.hpp"
+#include "studies/horizon/report.hpp"
 
 #include <fmt/format.h>
 

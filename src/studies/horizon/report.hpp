@@ -1,5 +1,6 @@
 #pragma once
-// The horizon of a trajectory in numbers: the result of studies/horizon/horizon.hpp, which JSON and terminal show.
+// The horizon of a trajectory in numbers: the result of studies/horizon/horizon.hpp, which JSON and terminal show, and in one
+// honest sentence.
 
 #include <cstddef>
 #include <cstdint>
@@ -78,5 +79,12 @@ struct Horizon {
 
 /// Returns text such as "parted", "run", "limit", "interrupted", "stuck"
 std::string to_string(HorizonEnd end);
+
+/// About the engine that runs the scene: until when its trajectory is right, how far the best precision carries it, and at what
+/// cost; or where the comparison ended before anything parted, and why. Ends with a full stop.
+[[nodiscard]] std::string sentence_of(const Horizon& horizon);
+
+/// Returns text such as "double precision", "113 bits", ... in a row of that many bits.
+[[nodiscard]] std::string precision_name(int bits);
 
 }  // namespace carom
