@@ -71,6 +71,13 @@ CONTENTS = {
 #: Pages whose side bar has the other pages of their folder below them.
 FOLDERS = ["effects/README", "teach/README"]
 
+#: A page that has no place yet comes last.
+_placed = {page for pages in CONTENTS.values() for page in pages} | {root_doc}
+_unplaced = [page for page in sorted(str(file.relative_to(DOCS).with_suffix("")) for file in DOCS.rglob("*.md"))
+             if page not in _placed and f"{os.path.dirname(page)}/README" not in FOLDERS]
+if _unplaced:
+    CONTENTS["More"] = _unplaced
+
 #: Pages that stand outside of docs/, or take the place of a folder.
 ELSEWHERE = {
     ROOT / "README.md": "index",

@@ -97,6 +97,19 @@ TEST_F(Bootstrap, TakesPythonPackagesFromPyPIOnce) {
     EXPECT_THAT(calls(verb), AllOf(Not(HasSubstr("pip")), Not(HasSubstr("--preset"))));
 }
 
+TEST_F(Bootstrap, MakesTheSiteOfProgramAndPackageAndOfThePlaygroundWhereThatIsBuilt) {
+  calls("site", 1);
+  EXPECT_THAT(outcome.err, HasSubstr("pip could not install these packages from PyPI"));
+  write_text(file("PyPI"), "");
+  EXPECT_THAT(calls("site"), AllOf(HasSubstr("tests/python/requirements.txt"), HasSubstr("--target carom_cli carom_python")));
+  EXPECT_THAT(outcome.err, HasSubstr("the playground is not built, and left out"));
+  EXPECT_THAT(text_of(file("packages")), HasSubstr("doxygen"));
+  fs::create_directories(file("checkout/build/playground"));
+  write_text(file("checkout/build/playground/playground.html"), "");
+  EXPECT_THAT(calls("site"), Not(HasSubstr("--preset")));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("left out")));
+}
+
 TEST_F(Bootstrap, TestsWithoutPythonWherePyPIIsNotReached) {
   EXPECT_THAT(calls("test"), HasSubstr("CAROM_PYTHON=OFF"));
   EXPECT_THAT(outcome.err, HasSubstr("going on without: the Python package will not be tested"));
