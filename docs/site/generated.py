@@ -21,30 +21,45 @@ def escaped(text):
 
 
 def command_line():
-    """The commands and their options, from the manual page that the program makes of its own parser."""
+    """The commands and their options, from the manual pages that the program makes of its own command line."""
     def plain(text):
         text = re.sub(r"\\f[BIR]", "", text)
-        return text.replace("\\-", "-").replace("\\(aq", "'").replace("\\&", "").replace("\\e", "\\")
+        return text.replace("\\-", "-").replace("\\(aq", "'").replace("\\(ti", "~").replace("\\&", "").replace("\\e", "\\")
 
-    page, _ = carom("manual")
-    lines = page[page.index(".SH COMMANDS"):].splitlines()[1:]
-    text, k = "", 0
-    while k < len(lines):
-        line = lines[k]
-        if line.startswith(".SS "):
-            text += f"\n## {plain(line[4:])}\n\n"
-        elif line.startswith(".SH "):
-            text += f"\n## {plain(line[4:]).capitalize()}\n\n"
-        elif line == ".TP":
-            text = text.rstrip() + "\n\n"
-            text += f"`{plain(lines[k + 1])}`\n: {escaped(plain(lines[k + 2]))}\n\n"
-            k += 2
-        elif line.startswith(".BR "):
-            text += escaped(re.sub(r"^(\S+) ", r"\1", plain(line[4:]))) + "\n"
-        else:
-            text += escaped(plain(line)) + "\n"
-        k += 1
-    return text
+    def sections(page):
+        """The headings of a page, each with its lines."""
+        parts = re.split(r"^\.SH (.+)$", page, flags=re.MULTILINE)
+        return dict(zip(parts[1::2], (part.strip("\n").splitlines() for part in parts[2::2])))
+
+    def body(lines):
+        text, k = "", 0
+        while k < len(lines):
+            line = lines[k]
+            if line.startswith(".SS "):
+                text += f"\n**{plain(line[4:])}**\n\n"
+            elif line == ".TP":
+                text = text.rstrip() + "\n\n"
+                text += f"`{plain(lines[k + 1])}`\n: {escaped(plain(lines[k + 2]))}\n\n"
+                k += 2
+            elif line == ".nf":  # .RS, a line, .RE, .fi
+                text += f"\n```\n{plain(lines[k + 2])}\n```\n\n"
+                k += 4
+            elif line.startswith(".BR "):
+                text += escaped(re.sub(r"^(\S+) ", r"\1", plain(line[4:]))) + "\n"
+            elif line != ".PP":
+                text += escaped(plain(line)) + "\n"
+            k += 1
+        return text
+
+    page, _ = carom("man")
+    text = ""
+    for command in dict.fromkeys(re.findall(r"^\.BR carom\\-(\w+) \(1\)$", page, flags=re.MULTILINE)):
+        own = sections(carom("man", command)[0])
+        text += f"\n## carom {command}\n\n{escaped(plain(own['NAME'][0]).partition(' - ')[2])}.\n\n"
+        text += f"```\n{plain(own['SYNOPSIS'][0])}\n```\n\n"
+        text += "".join(body(own[title]) for title in ("ARGUMENTS", "OPTIONS", "EXAMPLES") if title in own)
+    whole = sections(page)
+    return text + "".join(f"\n## {title.capitalize()}\n\n{body(whole[title])}" for title in ("EXIT STATUS", "SIGNALS", "FILES"))
 
 
 # Every table is in it, so that each can be asked for its keys.

@@ -1,41 +1,26 @@
-// The command line, read as a whole before anything is done. With manual.cpp the only file that includes the parser, which takes
-// longer to compile than the rest of the program together.
+// The command line, read as a whole before anything is done.
 
 #include "app/arguments.hpp"
 
-#include "studies/analysis/command.hpp"
-#include "studies/benchmark/command.hpp"
-#include "studies/compare/command.hpp"
-#include "studies/diff/command.hpp"
-#include "studies/hard_cases/command.hpp"
-#include "studies/horizon/command.hpp"
-#include "studies/sweep/command.hpp"
-#include "studies/validate/command.hpp"
-
-#include "scene/known_keys.hpp"
-#include "studies/hard_cases/hard_case.hpp"
+#include "app/command_info.hpp"
+#include "app/command_options.hpp"
+#include "app/manual_viewer.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
-#include <carom/simulation.hpp>
 #include <carom/version.hpp>
 
 #include <algorithm>
-#include <cstdint>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
-#include <initializer_list>
-#include <limits>
 #include <memory>
 #include <sstream>
 
 namespace carom::cli {
 
 namespace {
-
-using Action = std::function<ExitCode()>;
 
 std::string version() {
   const BuildInfo& build = build_info();
@@ -57,492 +42,109 @@ Invocation invocation_of(int argc, char** argv) {
   return invocation;
 }
 
-/// Accepts numbers from 0 on: the parser would take -1 for 2^64 - 1.
-CLI::Validator countable() { return CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()).description(""); }
-
-void add_scene_options(CLI::App& command, SceneOptions& scene) {
-  command.add_option("scene", scene.path, "The scene file (TOML)")->required()->type_name("SCENE");
-  command.add_option("--set", scene.overrides, "Override one key of the scene, e.g. --set run.time=2; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  command.add_option("--seed", scene.seed, "Seed of the random numbers: short for --set run.seed=N")->type_name("N");
-  command.add_flag("--accept-overlap", scene.accept_overlap, "Accept overlaps between disks that the scene lists one by one");
-  command.add_option("--engine", scene.engine, fmt::format("Use this engine: {}", fmt::join(engine_names(), ", ")))
-      ->type_name("NAME");
+OptionInfo info_of(const CLI::Option& option) {
+  OptionInfo info{.names = {},
+                  .value = option.get_type_name(),
+                  .description = option.get_description(),
+                  .is_required = option.get_required(),
+                  .is_many = option.get_items_expected_max() > 1,
+                  .is_value_optional = option.get_items_expected_min() == 0 && option.get_items_expected_max() > 0};
+  for (const std::string& name : option.get_snames()) info.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames())
+    if (name != "output") info.names.push_back("--" + name);  // what --out was called in 0.1
+  return info;
 }
 
-void add_output_options(CLI::App& command, SceneOptions& scene) {
-  command.add_flag("--no-trajectory", scene.no_trajectory, "Do not write trajectory.h5md");
-  command.add_flag("--xyz", scene.xyz, "Write trajectory.xyz too");
-  command.add_flag("--csv", scene.csv, "Write samples.csv too");
-  command.add_flag("--events", scene.events, "Store every collision in trajectory.h5md");
-  command.add_flag("--unwrapped", scene.unwrapped, "Let positions continue past periodic edges");
+std::vector<CommandInfo> commands_of(const CLI::App& program) {
+  std::vector<CommandInfo> commands;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    CommandInfo info{.name = command->get_name(),
+                     .description = command->get_description(),
+                     .group = command->get_group(),
+                     .note = command->get_footer(),
+                     .options = {},
+                     .examples = examples_of(command->get_name())};
+    for (const CLI::Option* option : command->get_options())
+      if (option != command->get_help_ptr()) info.options.push_back(info_of(*option));
+    commands.push_back(std::move(info));
+  }
+  return commands;
 }
 
-void add_progress(CLI::App& command, std::string& when) {
-  command.add_option("--progress", when, "A progress line on stderr: auto (on a terminal), always or never")->type_name("WHEN");
+/// Returns an action that prints the text.
+Action printing(std::string text) {
+  return [text = std::move(text)] {
+    fmt::print("{}", text);
+    return exit_done;
+  };
 }
 
-void add_threads(CLI::App& command, RunOptions& options) {
-  command
-      .add_option("--threads", options.threads,
-                  "Number of cores that compute the run, to the same bits, or auto (default): one, and from 50,000 disks on all "
-                  "that are free. With 1, observables have no thread of their own either")
-      ->type_name("N");
+const CommandInfo& command_called(const std::vector<CommandInfo>& commands, const std::string& name) {
+  const CommandInfo* command = find_command(commands, name);
+  if (command == nullptr)
+    throw UsageError(fmt::format("{}: there is no such command; {}", name, meant_command(commands, {name})));
+  return *command;
 }
 
-void add_saving(CLI::App& command, RunOptions& options) {
-  command
-      .add_option("--checkpoint-every", options.checkpoint_every,
-                  "Save a checkpoint for carom resume at this interval, such as 10min or \"1e8 collisions\", and at the end")
-      ->type_name("HOW_OFTEN");
-  command
-      .add_option("--walltime", options.walltime, "Stop and save the run after this duration: 90s, 10min, 1h30min or 01:30:00")
-      ->type_name("DURATION");
-}
+/// Adds the commands that explain the others.
+void add_help(CLI::App& program, Action& action) {
+  const auto commands = [&program] { return commands_of(program); };
+  CLI::App* help = program.add_subcommand("help", "Explain a command, or list all")->group("Help");
+  const auto about = std::make_shared<std::string>();
+  help->add_option("command", *about, "The command to explain")->type_name("COMMAND");
+  help->callback([=, &action] {
+    action = printing(about->empty() ? list_of_commands(commands()) : help_of(command_called(commands(), *about)));
+  });
 
-void add_run(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("run", "Run a scene and write its results");
-  const auto options = std::make_shared<RunOptions>();
-  add_scene_options(*command, options->scene);
-  add_output_options(*command, options->scene);
-  command->add_option("--out", options->out, "Directory for the results (default: the scene's name without its ending)")
-      ->type_name("DIR");
-  command->add_flag("--force", options->force, "Replace the results that the directory holds");
-  command->add_flag("--json", options->json, "Print summary.json instead of the text summary");
-  command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
-  command->add_flag("-v,--verbose", options->verbose, "Describe the simulation on stderr first");
-  command
-      ->add_option("--method", options->method,
-                   fmt::format("exact (from event to event), or a fixed-step method to compare with: {}",
-                               fmt::join(fixed_step_names(), ", ")))
-      ->type_name("NAME");
-  command->add_option("--dt", options->dt, "Time step of a fixed-step method (default: the scene's run.sample_every)")
-      ->type_name("DT");
-  command
-      ->add_option("--stiffness", options->stiffness,
-                   "Stiffness of the springs of --method soft, force per overlap (default: 30 steps in the shortest contact)")
-      ->type_name("K");
-  command
-      ->add_option("--verify", options->verify,
-                   "Check the engine's invariants every K events, and end the run where one is broken")
-      ->type_name("K")
-      ->check(countable());
-  command->add_flag("--verify-horizon", options->verify_horizon,
-                    "Also measure how long the trajectory is right, by repeating its beginning in 24 to 113 bits");
-  command->add_flag("--report", options->report, "Also write report.html, as carom report does");
-  command->add_flag("--watch", options->watch, "Show the run live (a progress line where stderr is no terminal)");
-  command->add_option("--pace", options->pace, "With --watch: simulated time per second (default: as fast as the machine can)")
-      ->type_name("TIME");
-  command
-      ->add_option("--changes", options->changes,
-                   "Make the changes of this file at their times, as the playground lists them; writes samples.csv at most")
-      ->type_name("FILE.toml");
-  add_threads(*command, *options);
-  add_saving(*command, *options);
-  add_progress(*command, options->progress);
-  command->callback([&action, options, invocation] { action = [options, invocation] { return run(*options, invocation); }; });
-}
+  CLI::App* man = program.add_subcommand("man", "Show the manual page of the program, or of a command")->group("Help");
+  const auto page = std::make_shared<std::string>();
+  const auto directory = std::make_shared<std::string>();
+  man->add_option("command", *page, "The command (default: the page of the whole program)")->type_name("COMMAND");
+  man->add_option("-o,--out", *directory, "Write all pages to this directory instead, such as carom-run.1")->type_name("DIR");
+  man->callback([=, &action] {
+    const std::string& version = build_info().version;
+    const auto text = [&](const std::string& name) {
+      return name.empty() ? manual_page(commands(), version) : manual_page(command_called(commands(), name), version);
+    };
+    if (directory->empty()) {
+      action = [words = text(*page)] { return show_manual_page(words); };
+      return;
+    }
+    std::vector<ManualPage> pages = {{"carom.1", text("")}};
+    for (const CommandInfo& command : commands())
+      if (!command.group.empty()) pages.push_back({fmt::format("carom-{}.1", command.name), text(command.name)});
+    action = [pages, directory] { return write_manual_pages(*directory, pages); };
+  });
 
-using Resumption = ExitCode (*)(const ResumeOptions&, const Invocation&);
-void add_resumption(CLI::App& program, Action& action, const Invocation& invocation, const char* name, const char* about,
-                    Resumption resumption) {
-  CLI::App* command = program.add_subcommand(name, about);
-  const auto options = std::make_shared<ResumeOptions>();
-  command->add_option("directory", options->directory, "The directory that carom run has written")
-      ->type_name("RUN_DIR")
-      ->required();
-  CLI::Option* time = command->add_option("--time", options->time, "Simulated time at which the run is to end")->type_name("T");
-  command
-      ->add_option("--collisions", options->collisions,
-                   "Number of pair collisions, from its beginning, at which the run is to end")
-      ->type_name("N")
-      ->check(countable())
-      ->excludes(time);
-  RunOptions& how = options->run;
-  command->add_flag("--json", how.json, "Print summary.json instead of the text summary");
-  command->add_flag("-q,--quiet", how.quiet, "Print no summary and no progress");
-  command->add_flag("--report", how.report, "Also write report.html, as carom report does");
-  command->add_flag("--watch", how.watch, "Show the run live (a progress line where stderr is no terminal)");
-  add_threads(*command, how);
-  add_saving(*command, how);
-  add_progress(*command, how.progress);
-  command->callback([&action, options, invocation, resumption] {
-    action = [options, invocation, resumption] { return resumption(*options, invocation); };
+  CLI::App* completion = program.add_subcommand("completion", "Print what a shell needs to complete words")->group("Help");
+  const auto shell = std::make_shared<std::string>("bash");
+  completion->add_option("shell", *shell, "bash (default), zsh or fish")->type_name("SHELL");
+  completion->callback([=, &action] { action = printing(completion_script(*shell)); });
+
+  program.add_subcommand("version", "Name the build, as --version does")->group("")->callback([&action] {
+    action = printing(version() + "\n");
   });
 }
 
-void add_check(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("check", "Check a scene; print what it simulates and what it costs");
-  const auto options = std::make_shared<CheckOptions>();
-  add_scene_options(*command, options->scene);
-  add_output_options(*command, options->scene);
-  command->add_flag("--resolved", options->resolved, "Print the scene with every default filled in");
-  command->callback([&action, options] { action = [options] { return check(*options); }; });
-}
-
-void add_horizon(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("horizon", "Measure how long a scene's trajectory is right, in 24 to 113 bits");
-  const auto options = std::make_shared<HorizonCommandOptions>();
-  add_scene_options(*command, options->scene);
-  command
-      ->add_option("--collisions", options->collisions,
-                   "Number of collisions for the Lyapunov exponent (default: 500000, or 100 per disk)")
-      ->type_name("N")
-      ->check(countable());
-  command->add_flag("--json", options->json, "Print JSON instead of the table");
-  command->add_flag("-q,--quiet", options->quiet, "Print only the conclusion, and no progress");
-  add_progress(*command, options->progress);
-  command->callback([&action, options] { action = [options] { return horizon(*options); }; });
-}
-
-void add_compare(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("compare", "Compare error and cost of exact events and fixed time steps");
-  const auto options = std::make_shared<CompareCommandOptions>();
-  add_scene_options(*command, options->scene);
-  command->add_option("--out", options->out, "Directory for the results (default: the scene's name and -compare)")
-      ->type_name("DIR");
-  command
-      ->add_option(
-          "--dt", options->dts,
-          "A time step to compare (default: three per decade about the mean free time); may be repeated. A single one is "
-          "the short study of seconds: one start, and no other sizes and packing fractions")
-      ->type_name("DT")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command
-      ->add_option("--seeds", options->seeds,
-                   "Number of starts: the scene's seed and those after it (default: 8; 1 with a single --dt)")
-      ->type_name("N");
-  command
-      ->add_option(
-          "--longest", options->longest,
-          "Seconds that one run of a fixed-step method may take (default: 0.3); a longer one is cut short, or left out and named")
-      ->type_name("SECONDS");
-  command
-      ->add_option(
-          "--stiffness", options->stiffness,
-          "Stiffness of the springs of the method soft, force per overlap (default: such that the shortest contact takes "
-          "30 steps)")
-      ->type_name("K");
-  command
-      ->add_option("--play", options->play,
-                   fmt::format("Also write side_by_side.html: a fixed-step method ({}; default guarded) beside exact events, "
-                               "to watch. Give it after SCENE; without DT it is one of the study's",
-                               fmt::join(fixed_step_names(), ", ")))
-      ->type_name("[METHOD[:DT]]")
-      ->expected(0, 1);
-  CLI::Option* trajectory =
-      command
-          ->add_option("--trajectory", options->trajectory,
-                       "Instead compare this trajectory of your own with exact events: .npy (frames, disks, 2 or 4), .csv (time, "
-                       "disk, x, y) or .h5md")
-          ->type_name("FILE");
-  command->add_option("--every", options->every, "Time between the frames of an .npy trajectory")
-      ->type_name("DT")
-      ->needs(trajectory);
-  command->add_flag("--no-costs", options->no_costs, "Do not measure cost against size and packing fraction");
-  command->add_flag("--force", options->force, "Replace the results that the directory holds");
-  command->add_flag("--resume", options->resume, "Continue an interrupted comparison");
-  command->add_flag("--json", options->json, "Print compare.json instead of the table");
-  command->add_flag("-q,--quiet", options->quiet, "Print only the conclusions, and no progress");
-  add_progress(*command, options->progress);
-  for (const char* of_the_study :
-       {"--out", "--dt", "--seeds", "--longest", "--stiffness", "--play", "--no-costs", "--force", "--resume"})
-    trajectory->excludes(command->get_option(of_the_study));
-  command->callback([&action, options, invocation] { action = [options, invocation] { return compare(*options, invocation); }; });
-}
-
-void add_sweep(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("sweep", "Run a scene with many values and seeds; collect the results in one table");
-  const auto options = std::make_shared<SweepCommandOptions>();
-  command->add_option("sweep", options->path, "The sweep file (TOML)")->required()->type_name("SWEEP");
-  command->add_option("--out", options->out, "Directory for the results (default: the sweep file's name without its ending)")
-      ->type_name("DIR");
-  command
-      ->add_option("--threads", options->threads,
-                   "Number of runs at a time, under mpirun per process (default: one per processor, under mpirun one)")
-      ->type_name("N");
-  command
-      ->add_option("--checkpoint-every", options->checkpoint_every,
-                   "Save checkpoints of the runs at this interval, such as 10min or \"1e8 collisions\". Ctrl-C, SIGTERM, SIGHUP, "
-                   "SIGXCPU and SIGUSR1 always save them")
-      ->type_name("WHEN");
-  command->add_flag("--force", options->force, "Replace runs that were made with another scene");
-  command->add_flag("--list", options->list, "Print the commands of all unfinished runs, and run nothing");
-  command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
-  add_progress(*command, options->progress);
-  command->callback([&action, options, invocation] { action = [options, invocation] { return sweep(*options, invocation); }; });
-}
-
-void add_validate(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("validate", "Compare the engine with kinetic theory and the literature");
-  const auto options = std::make_shared<ValidateCommandOptions>();
-  command->add_flag("--quick", options->quick, "Under three minutes on one core; the default");
-  command->add_flag("--full", options->full,
-                    "Twenty times as many collisions, and the liquid-hexatic transition: up to two hours");
-  command->add_option("--seed", options->seed, "Seed of all random numbers (default: 1)")->type_name("N");
-  command->add_option("--only", options->only, "Run only this trial; may be repeated")
-      ->type_name("TRIAL")
-      ->allow_extra_args(false);
-  command->add_option("--out", options->out, "Directory for the results (default: validation)")->type_name("DIR");
-  command->add_flag("--list", options->list, "List the trials and run none");
-  command->add_flag("--force", options->force, "Replace the results that the directory holds");
-  command->add_flag("--resume", options->resume, "Continue an interrupted validation");
-  command->add_flag("--json", options->json, "Print validation.json instead of the text");
-  command->add_flag("--markdown", options->markdown, "Print the tables of docs/validation.md instead of the text");
-  command->add_flag("-q,--quiet", options->quiet, "Print only the verdict, and no progress");
-  add_progress(*command, options->progress);
-  command->callback(
-      [&action, options, invocation] { action = [options, invocation] { return validate(*options, invocation); }; });
-}
-
-void add_init(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("init", "Write a commented scene to start from");
-  const auto options = std::make_shared<InitOptions>();
-  command->add_option("preset", options->preset, "Name of the preset (default: box)")->type_name("PRESET");
-  command->add_option("-o,--output", options->file, "The file to write (default: PRESET.toml; - for standard output)")
-      ->type_name("FILE");
-  command->add_flag("--force", options->force, "Replace the file if it exists");
-  command->add_flag("--list", options->list, "List the presets");
-  command->callback([&action, options, invocation] { action = [options, invocation] { return init(*options, invocation); }; });
-}
-
-void add_info(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("info", "Describe a file or run directory");
-  const auto options = std::make_shared<InfoOptions>();
-  command->add_option("file", options->file, "A trajectory, table, summary, scene or run directory")
-      ->required()
-      ->type_name("FILE");
-  command->add_flag("--reproduce", options->reproduce, "Print the commands that repeat the run of this directory");
-  command->callback([&action, options, invocation] { action = [options, invocation] { return info(*options, invocation); }; });
-}
-
-void add_verify(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("verify", "Repeat a finished run and compare the results to the last bit");
-  const auto options = std::make_shared<VerifyOptions>();
-  command->add_option("directory", options->directory, "The directory that carom run has written")
-      ->required()
-      ->type_name("RUN_DIR");
-  add_progress(*command, options->progress);
-  command->callback([&action, options, invocation] { action = [options, invocation] { return verify(*options, invocation); }; });
-}
-
-void add_diff(CLI::App& program, Action& action) {
-  CLI::App* command =
-      program.add_subcommand("diff", "Compare two runs of the same disks: are they equal, and where do they part");
-  const auto options = std::make_shared<DiffCommandOptions>();
-  command->add_option("first", options->first, "A directory that carom run has written, or a trajectory.h5md")
-      ->required()
-      ->type_name("RUN_A");
-  command->add_option("second", options->second, "The run to compare it with")->required()->type_name("RUN_B");
-  command->add_flag("--json", options->json, "Print JSON instead of the table");
-  command->footer(
-      "Exit codes: 0 where the runs are equal to the last bit, 1 where they differ, 2 where they cannot be compared.");
-  command->callback([&action, options] { action = [options] { return diff(*options); }; });
-}
-
-void add_play(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("play", "Write a page that replays a run (exactly, if its events are stored)");
-  const auto options = std::make_shared<PlayOptions>();
-  command->add_option("directory", options->directory, "The directory that carom run has written")
-      ->required()
-      ->type_name("RUN_DIR");
-  command->add_option("-o,--output", options->output, "The file to write (default: player.html in that directory)")
-      ->type_name("FILE.html");
-  command->add_flag("--open", options->open, "Open the page in a browser too (xdg-open)");
-  command->callback([&action, options] { action = [options] { return play(*options); }; });
-}
-
-void add_playground(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("playground", "Write a page in which scenes run live, and can be changed");
-  const auto options = std::make_shared<PlaygroundOptions>();
-  command->add_option("scenes", options->scenes, "Scene files to put into the page, before its own")->type_name("SCENE");
-  command->add_option("-o,--output", options->output, "The file to write (default: playground.html)")->type_name("FILE.html");
-  command->add_flag("--open", options->open, "Open the page in a browser too (xdg-open)");
-  command->callback([&action, options] { action = [options] { return playground(*options); }; });
-}
-
-void add_analyze(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command =
-      program.add_subcommand("analyze", "Measure observables of a finished run from its stored samples and events");
-  const auto options = std::make_shared<AnalyzeOptions>();
-  command->add_option("directory", options->directory, "The directory that carom run has written")
-      ->required()
-      ->type_name("RUN_DIR");
-  command
-      ->add_option("observables", options->observables,
-                   "Observables with settings, as in the table [observe] (default: those of the run's scene)")
-      ->type_name("NAME[={ every = 0.1 }]");
-  command->add_option("--out", options->out, "Directory for the results (default: RUN_DIR-analysis)")->type_name("DIR");
-  command->add_flag("--force", options->force, "Replace results that are there");
-  command->add_flag("--json", options->json, "Print JSON instead of the table");
-  command->add_flag("-q,--quiet", options->quiet, "Print no table and no progress");
-  add_progress(*command, options->progress);
-  command->callback([&action, options, invocation] { action = [options, invocation] { return analyze(*options, invocation); }; });
-}
-
-void add_report(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("report", "Write one page about a run: events, accuracy, observables and a replay");
-  const auto options = std::make_shared<ReportOptions>();
-  command->add_option("directory", options->directory, "The directory that carom run has written")
-      ->required()
-      ->type_name("RUN_DIR");
-  command->add_option("-o,--output", options->output, "The file to write (default: report.html in that directory)")
-      ->type_name("FILE.html");
-  command->callback([&action, options] { action = [options] { return report(*options); }; });
-}
-
-void add_movie(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("movie", "Draw a run as a film (mp4, webm, gif) or a picture (png, svg, pdf)");
-  const auto options = std::make_shared<MovieOptions>();
-  command->add_option("directory", options->directory, "The directory that carom run has written")
-      ->required()
-      ->type_name("RUN_DIR");
-  command->add_option("-o,--output", options->output, "The file to write, ending in .mp4, .webm, .gif, .png, .svg or .pdf")
-      ->required()
-      ->type_name("FILE");
-  command->add_flag("--force", options->force, "Replace the file if it exists");
-  command->add_option("--size", options->size, "Pixels: the longer side, or width x height (default: 1080, of a GIF 480)")
-      ->type_name("N|WxH");
-  command->add_option("--fps", options->fps, "Frames per second of the film (default: 30)")->type_name("N");
-  command->add_option("--speed", options->speed, "Simulated time per second of the film (default: such that it lasts 10 s)")
-      ->type_name("TIME");
-  command->add_option("--from", options->from, "Simulated time at which the film begins (default: that of the run)")
-      ->type_name("TIME");
-  command->add_option("--to", options->to, "Simulated time at which the film ends (default: that of the run)")->type_name("TIME");
-  command->add_option("--at", options->at, "Simulated time of a picture (default: the last sample)")->type_name("TIME");
-  command
-      ->add_option(
-          "--colour,--color", options->colour,
-          "Colour disks by speed, species, collisions or id, or plain (default: by species if there are several, else by speed)")
-      ->type_name("WHAT");
-  command->add_option("--trails", options->trails, "Draw the paths of the last TIME of simulated time")->type_name("TIME");
-  command->add_option("--trails-of", options->trails_of, "Draw only the paths of this species")->type_name("SPECIES");
-  command->add_flag("--velocities", options->velocities, "Draw velocities as arrows");
-  command->add_flag("--dark", options->dark, "Dark background");
-  command->add_flag("--bare", options->bare, "No clock and no colour legend");
-  command->add_flag("-q,--quiet", options->quiet, "Print no summary and no progress");
-  add_progress(*command, options->progress);
-  command->callback([&action, options] { action = [options] { return movie(*options); }; });
-}
-
-void add_bench(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand("bench", "Measure the speed of both engines on this machine");
-  const auto options = std::make_shared<BenchOptions>();
-  command->add_flag("--json", options->json, "Print JSON instead of the table");
-  command->add_flag("--effects", options->effects, "Measure what each effect costs, at its neutral value and where it acts");
-  command
-      ->add_option("--threads", options->threads,
-                   "Measure how much faster one run of 100000 disks is on N cores (default: on all) than on one")
-      ->type_name("[N]")
-      ->expected(0, 1);
-  command->add_flag("--large", options->large, "Also measure a million disks, which takes some minutes");
-  command->add_option("--disks", options->disks, "Number of disks (default: 1000, 10000 and 100000); may be repeated")
-      ->type_name("N")
-      ->allow_extra_args(false);
-  command
-      ->add_option(
-          "--collisions", options->collisions,
-          "Collisions per measurement of the textbook engine (default: 200000, or one per disk); the fast engine makes four "
-          "times as many")
-      ->type_name("N")
-      ->check(countable());
-  command->callback([&action, options] { action = [options] { return bench(*options); }; });
-}
-
-void add_hardcases(CLI::App& program, Action& action, const Invocation& invocation) {
-  CLI::App* command = program.add_subcommand("hardcases", "Run the corpus of hard cases and report which hold");
-  const auto options = std::make_shared<HardCasesOptions>();
-  command->add_option("cases", options->cases, "Names of cases, or files of your own (default: all that do not take long)")
-      ->type_name("CASE|FILE.toml");
-  command->add_option("--family", options->family, fmt::format("Run only this family: {}", fmt::join(hard_case_families(), ", ")))
-      ->type_name("FAMILY");
-  command->add_option("--engine", options->engine, "Run only this engine (default: all that cover a case)")->type_name("NAME");
-  command->add_flag("--long", options->takes_long, "Also run cases that take minutes");
-  command->add_flag("--list", options->list, "List the cases");
-  command->add_option("--show", options->show, "Print the text of a case")->type_name("CASE");
-  command->add_flag("--json", options->json, "Print JSON instead of the table");
-  command->add_flag("--markdown", options->markdown, "Print Markdown instead of the table");
-  command->add_option("--page", options->page, "Also write the result as one HTML page")->type_name("FILE.html");
-  command
-      ->add_option("--method", options->method,
-                   fmt::format("Run the cases by a fixed-step method instead: {}", fmt::join(fixed_step_names(), ", ")))
-      ->type_name("NAME");
-  command->add_option("--dt", options->dt, "Its time step (default: the fastest disk goes a twentieth of the smallest diameter)")
-      ->type_name("DT");
-  command->callback(
-      [&action, options, invocation] { action = [options, invocation] { return hardcases(*options, invocation); }; });
-}
-
-/// Adds the commands that print the manual page and the completion, which the installation uses and --help does not list.
-void add_manual(CLI::App& program, Action& action) {
-  const auto print = [&](const std::string& name, const std::string& what, auto text) {
-    CLI::App* command = program.add_subcommand(name, what)->group("");
-    command->callback([&program, &action, text] {
-      action = [answer = text(program)] {
-        fmt::print("{}", answer);
-        return exit_done;
-      };
-    });
-  };
-  print("manual", "Print the manual page", [](const CLI::App& of) { return manual_page(of, build_info().version); });
-  print("completion", "Print what bash needs to complete words", [](const CLI::App& of) { return bash_completion(of); });
-}
-
-/// Sorts the commands of --help by purpose, and adds an example.
-void add_groups(CLI::App& program) {
-  const auto put = [&](const char* group, std::initializer_list<const char*> names) {
-    for (const char* name : names) program.get_subcommand(name)->group(group);
-  };
-  put("Scenes and runs", {"run", "resume", "extend", "check", "init", "info", "verify", "playground"});
-  put("Results of a run", {"analyze", "diff", "play", "report", "movie"});
-  put("Studies", {"horizon", "compare", "sweep", "bench", "hardcases", "validate"});
-  program.footer(
-      "An example:\n  carom init              writes box.toml\n  carom run box.toml      runs it and writes box/\n"
-      "  carom report box        writes box/report.html");
-}
-
-std::string nearest(const std::string& word, const std::vector<std::string>& words) {
-  return std::string(detail::nearest_word(word, std::vector<std::string_view>(words.begin(), words.end())));
-}
-
-/// The parser's own sentence for an unknown command says only that one is missing.
-void require_known_command(const CLI::App& program, const std::string& word) {
-  if (word.starts_with('-')) return;
-  std::vector<std::string> listed;
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
-    if (command->get_name() == word) return;
-    if (!command->get_group().empty()) listed.push_back(command->get_name());
-  }
-  const std::string near = nearest(word, listed);
-  const std::string instead = word.ends_with(".toml")               ? fmt::format("carom run {} runs a scene", word)
-                              : word == "help" || word == "version" ? fmt::format("it is carom --{}", word)
-                              : !near.empty()                       ? fmt::format("did you mean carom {}?", near)
-                                                                    : fmt::format("choose one of: {}", fmt::join(listed, ", "));
-  throw UsageError(fmt::format("{}: there is no such command; {}", word, instead));
-}
-
-/// Throws UsageError for options that a command does not have, with the nearest that it has: the parser names only the unknown
-/// one.
-void require_known_options(const CLI::App& program, int argc, char** argv) {
-  if (program.get_subcommands().empty()) return;
-  const CLI::App* command = program.get_subcommands().front();
-  std::vector<std::string> known;
-  for (const CLI::Option* option : command->get_options())
-    for (const std::string& name : option->get_lnames()) known.push_back(name);
-  const bool changes_scenes = std::find(known.begin(), known.end(), "set") != known.end();
-  for (int k = 2; k < argc; ++k) {
-    const std::string_view argument = argv[k];
-    if (argument == "--") return;
-    const std::string word(argument.substr(std::min<std::size_t>(2, argument.size()), argument.find('=') - 2));
-    if (!argument.starts_with("--") || std::find(known.begin(), known.end(), word) != known.end()) continue;
-    const std::string near = nearest(word, known);
-    const bool is_near = !near.empty() && 3 * detail::edit_distance(word, near) <= word.size();  // --out is not meant by --count
-    throw UsageError(fmt::format("--{}: carom {} has no such option; {}", word, argv[1],
-                                 is_near          ? fmt::format("did you mean --{}?", near)
-                                 : changes_scenes ? "what a scene says is changed with --set, such as --set run.time=5"
-                                                  : fmt::format("carom {} --help lists them", argv[1])));
+/// Throws UsageError for options that a command does not have: the parser would name only the unknown one.
+void require_known_options(const CommandInfo& command, const std::vector<std::string>& words) {
+  std::string letters;
+  for (const OptionInfo& option : command.options)
+    for (const std::string& name : option.names)
+      if (name.size() == 2) letters += name[1];
+  for (std::size_t k = 1; k < words.size(); ++k) {
+    const std::string& word = words[k];
+    if (word == "--") return;
+    if (word.size() < 2 || word[0] != '-' || std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.') continue;
+    const std::string name = word.substr(0, word.find('='));
+    const bool known =
+        name == "--help" || name == "--output" || std::ranges::any_of(command.options, [&](const OptionInfo& option) {
+          return std::ranges::find(option.names, name) != option.names.end();
+        });
+    const bool is_letters = word[1] != '-' && (letters.find(word[1]) != std::string::npos || word[1] == 'h');
+    if (known || is_letters) continue;
+    throw UsageError(fmt::format("{}: carom {} has no such option; {}", name, command.name,
+                                 meant_option(command, name.substr(name[1] == '-' ? 2 : 1))));
   }
 }
 
@@ -551,51 +153,40 @@ void require_known_options(const CLI::App& program, int argc, char** argv) {
 Action parse_arguments(int argc, char** argv) {
   CLI::App program("Carom: event-driven molecular dynamics of hard disks", "carom");
   const Invocation invocation = invocation_of(argc, argv);
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   Action action;
   program.set_version_flag("--version", version());
   program.require_subcommand(1);
-  add_run(program, action, invocation);
-  add_resumption(program, action, invocation, "resume", "Continue a run that was interrupted or killed, to the same bits",
-                 &resume);
-  add_resumption(program, action, invocation, "extend", "Continue a finished run to a later end", &extend);
-  add_check(program, action);
-  add_horizon(program, action);
-  add_compare(program, action, invocation);
-  add_sweep(program, action, invocation);
-  add_init(program, action, invocation);
-  add_info(program, action, invocation);
-  add_verify(program, action, invocation);
-  add_diff(program, action);
-  add_analyze(program, action, invocation);
-  add_play(program, action);
-  add_playground(program, action);
-  add_report(program, action);
-  add_movie(program, action);
-  add_bench(program, action);
-  add_hardcases(program, action, invocation);
-  add_validate(program, action, invocation);
-  add_manual(program, action);
-  add_groups(program);
-  if (argc > 1) require_known_command(program, argv[1]);
+  program.formatter_fn([](const CLI::App* of, const std::string&, CLI::AppFormatMode) {
+    const std::vector<CommandInfo> commands = commands_of(of->get_parent() == nullptr ? *of : *of->get_parent());
+    return of->get_parent() == nullptr ? list_of_commands(commands) : help_of(command_called(commands, of->get_name()));
+  });
+  add_commands(program, action, invocation);
+  add_help(program, action);
+  const std::vector<CommandInfo> commands = commands_of(program);
+  if (words.empty()) {
+    return [text = overview(commands)] {
+      fmt::print(stderr, "{}", text);
+      return exit_usage;
+    };
+  }
+  if (words.front() == "complete")  // what the shells' scripts ask
+    return printing(completions(commands, {words.begin() + 1, words.end()}));
+  const bool is_option = words.front().starts_with('-');
+  if (!is_option && find_command(commands, words.front()) == nullptr)
+    throw UsageError(fmt::format("{}: there is no such command; {}", words.front(), meant_command(commands, words)));
   try {
-    if (argc == 1)
-      throw UsageError(
-          "A subcommand is required: carom run SCENE runs a scene, carom init writes one to start from, carom --help lists all");
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help or --version
     std::ostringstream text;
     program.exit(asked, text, text);
-    return [answer = text.str()] {
-      fmt::print("{}", answer);
-      return exit_done;
-    };
-  } catch (const CLI::ExtrasError& error) {
-    require_known_options(program, argc, argv);
-    throw UsageError(fmt::format("{} (carom {} --help says what is possible)", error.what(), argv[1]));
+    return printing(text.str());
   } catch (const CLI::ParseError& error) {
-    const std::vector<CLI::App*> named = program.get_subcommands();
-    throw UsageError(fmt::format("{} (carom{} --help says what is possible)", error.what(),
-                                 named.empty() ? "" : " " + named.front()->get_name()));
+    if (is_option)
+      throw UsageError(fmt::format("{}: no command begins so; name one first, such as carom run box.toml {}, or see carom help",
+                                   words.front(), words.front()));
+    require_known_options(command_called(commands, words.front()), words);
+    throw UsageError(fmt::format("{} (carom {} --help says what is possible)", error.what(), words.front()));
   }
   return action;
 }

@@ -69,6 +69,7 @@ ExitCode check(const CheckOptions& options) {
     fmt::print("{}", resolved_toml(scene));
     return exit_done;
   }
+  if (options.quiet) return exit_done;
   const std::string start =
       trial ? start_and_engine(scene, trial->simulation())
             : fmt::format("  start       not drawn: more than {} disks; `carom run` draws them, in some {:.0f} bytes per disk\n",

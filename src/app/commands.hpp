@@ -53,6 +53,7 @@ ExitCode extend(const ResumeOptions& options, const Invocation& invocation);
 struct CheckOptions {
   SceneOptions scene;
   bool resolved = false;
+  bool quiet = false;
 };
 ExitCode check(const CheckOptions& options);
 
@@ -61,6 +62,7 @@ struct InitOptions {
   std::string file;  ///< empty: PRESET.toml; "-": standard output
   bool force = false;
   bool list = false;
+  bool quiet = false;
 };
 ExitCode init(const InitOptions& options, const Invocation& invocation);
 
@@ -72,6 +74,8 @@ ExitCode info(const InfoOptions& options, const Invocation& invocation);
 
 struct VerifyOptions {
   std::string directory;  ///< directory of a finished run
+  bool json = false;
+  bool quiet = false;
   std::string progress = "auto";
 };
 ExitCode verify(const VerifyOptions& options, const Invocation& invocation);
@@ -83,6 +87,7 @@ struct PlayOptions {
   std::string directory;  ///< directory of a finished run
   std::string output;     ///< empty: player.html in it
   bool open = false;      ///< open the page in a browser too
+  bool quiet = false;
 };
 ExitCode play(const PlayOptions& options);
 
@@ -90,18 +95,21 @@ struct PlaygroundOptions {
   std::vector<std::string> scenes;  ///< scene files to put into the page, before its own
   std::string output;               ///< empty: playground.html
   bool open = false;                ///< open the page in a browser too
+  bool quiet = false;
 };
 ExitCode playground(const PlaygroundOptions& options);
 
 struct ReportOptions {
   std::string directory;  ///< directory of a finished run
   std::string output;     ///< empty: report.html in it
+  bool open = false;      ///< open the page in a browser too
+  bool quiet = false;
 };
 ExitCode report(const ReportOptions& options);
 
 struct MovieOptions {
   std::string directory;  ///< directory of a finished run
-  std::string output;     ///< a film or a picture, which its ending says
+  std::string output;     ///< a film or a picture, which its ending says; empty: movie.mp4 in it, or picture.png
   bool force = false;
   std::optional<double> fps;    ///< frames per second; absent: 30
   std::optional<double> speed;  ///< simulated time per second; absent: the film lasts 10 s

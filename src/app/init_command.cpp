@@ -55,7 +55,7 @@ ExitCode init(const InitOptions& options, const Invocation& invocation) {
   }
   const std::string path = options.file.empty() ? options.preset + ".toml" : options.file;
   write_file(path, text, options.force);
-  fmt::print("{} is written. Look into it, then: {} run {}\n", path, invocation.program, shell_quoted(path));
+  if (!options.quiet) fmt::print("{} is written. Look into it, then: {} run {}\n", path, invocation.program, shell_quoted(path));
   return exit_done;
 }
 

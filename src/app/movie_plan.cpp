@@ -53,11 +53,8 @@ std::variant<int, PictureSize> size_of(const std::string& text, int usual) {
 }
 
 std::optional<Colouring> colouring_of(const std::string& name) {
-  constexpr std::array all = {std::pair{"speed", Colouring::speed}, std::pair{"species", Colouring::species},
-                              std::pair{"collisions", Colouring::collisions}, std::pair{"id", Colouring::id},
-                              std::pair{"plain", Colouring::plain}};
   if (name.empty()) return {};
-  for (const auto& [word, colouring] : all)
+  for (const auto& [word, colouring] : colourings)
     if (name == word) return colouring;
   throw UsageError(fmt::format("--colour {}: it can be speed, species, collisions, id or plain", name));
 }
@@ -95,10 +92,17 @@ double within(const char* option, const std::optional<double>& time, double usua
   return time.value_or(usual);
 }
 
+/// Returns the file to write: by default one in the run's directory.
+std::string output_of(const MovieOptions& options) {
+  if (!options.output.empty()) return options.output;
+  return (std::filesystem::path(options.directory) / (options.at ? "picture.png" : "movie.mp4")).string();
+}
+
 }  // namespace
 
 MoviePlan movie_plan(const MovieOptions& options) {
-  MoviePlan plan{.path = options.output, .format = format_of(options.output), .size = 0};
+  const std::string output = output_of(options);
+  MoviePlan plan{.path = output, .format = format_of(output), .size = 0};
   const bool is_gif = plan.is_film() && std::get<FilmFormat>(plan.format) == FilmFormat::gif;
   require_fitting(options, plan.is_film());
   plan.fps = options.fps.value_or(plan.fps);
@@ -117,7 +121,7 @@ MoviePlan movie_plan(const MovieOptions& options) {
     throw UsageError(
         fmt::format("-o {}: films are made with the program ffmpeg, which is not on PATH; install the package ffmpeg "
                     "(apt-get install ffmpeg), or draw a picture (.png, .svg, .pdf)",
-                    options.output));
+                    output));
   return plan;
 }
 

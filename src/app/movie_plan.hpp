@@ -5,7 +5,10 @@
 #include "pages/film_writer.hpp"
 #include "pages/painter.hpp"
 
+#include <array>
 #include <filesystem>
+#include <string_view>
+#include <utility>
 #include <variant>
 
 namespace carom::cli {
@@ -19,6 +22,13 @@ struct MoviePlan {
 
   [[nodiscard]] bool is_film() const { return std::holds_alternative<FilmFormat>(format); }
 };
+
+/// What --colour can be.
+inline constexpr std::array<std::pair<std::string_view, Colouring>, 5> colourings = {{{"speed", Colouring::speed},
+                                                                                      {"species", Colouring::species},
+                                                                                      {"collisions", Colouring::collisions},
+                                                                                      {"id", Colouring::id},
+                                                                                      {"plain", Colouring::plain}}};
 
 /// Throws UsageError where the options are wrong by themselves, or a file is in the way.
 [[nodiscard]] MoviePlan movie_plan(const MovieOptions& options);

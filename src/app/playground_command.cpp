@@ -72,9 +72,11 @@ ExitCode playground(const PlaygroundOptions& options) {
     throw UsageError("the built page of the playground is damaged; ./bootstrap playground builds it anew");
   page.replace(place + place_for_scenes.size() - 3, 2, in_script(scenes));
   write_page(output, page);
-  fmt::print(
-      "{}  {}, {}; open it in a browser, no network is needed\n", output.string(), size(static_cast<double>(page.size())),
-      options.scenes.empty() ? "with the scenes of the playground" : counted(options.scenes.size(), "scene") + " of yours first");
+  if (!options.quiet)
+    fmt::print("{}  {}, {}; open it in a browser, no network is needed\n", output.string(),
+               size(static_cast<double>(page.size())),
+               options.scenes.empty() ? "with the scenes of the playground"
+                                      : counted(options.scenes.size(), "scene") + " of yours first");
   if (options.open) open_page(output);
   return exit_done;
 }

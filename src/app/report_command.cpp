@@ -3,6 +3,7 @@
 #include "app/commands.hpp"
 #include "pages/report_page.hpp"
 #include "studies/horizon/page.hpp"
+#include "terminal/open_page.hpp"
 #include "terminal/output_paths.hpp"
 #include "terminal/reading_process.hpp"
 #include "text/numbers.hpp"
@@ -25,13 +26,16 @@ ReportFile read_report(const std::string& directory) {
 }  // namespace
 
 ExitCode report(const ReportOptions& options) {
-  return in_reading_process(options.directory, [&] {
+  const fs::path otherwise = fs::path(options.directory) / "report.html";
+  const ExitCode code = in_reading_process(options.directory, [&] {
     const ReportFile file = read_report(options.directory);
-    const fs::path path = place_for_page(options.output, fs::path(options.directory) / "report.html", {"report", report_mark});
+    const fs::path path = place_for_page(options.output, otherwise, {"report", report_mark});
     write_page(path, file.html);
-    fmt::print("{}  {}, {}\n", path.string(), size(static_cast<double>(fs::file_size(path))), file.player);
+    if (!options.quiet) fmt::print("{}  {}, {}\n", path.string(), size(static_cast<double>(fs::file_size(path))), file.player);
     return exit_done;
   });
+  if (code == exit_done && options.open) open_page(options.output.empty() ? otherwise : fs::path(options.output));
+  return code;
 }
 
 }  // namespace carom::cli

@@ -73,32 +73,49 @@ std::string where_the_files_are(const Results& results) {
   return fmt::format("Files in {}: {}\n", results.directory.string(), fmt::join(names, ", "));
 }
 
-std::string what_to_try_next(const RunReport& report, const Scene& scene, const Results& results) {
-  std::string rerun = fmt::format("{} run {}", results.program, shell_quoted(report.scene));
+/// The command that runs the scene with the changes of this run; with `seed` or without the one that was asked for.
+std::string again(const RunReport& report, const Scene& scene, const Results& results, bool seed) {
+  std::string command = fmt::format("{} run {}", results.program, shell_quoted(report.scene));
   for (const std::string& change : scene.overrides)
-    if (!change.starts_with("run.seed=")) rerun += " --set " + shell_quoted(change);
+    if (seed || !change.starts_with("run.seed=")) command += " --set " + shell_quoted(change);
+  return command;
+}
+
+/// Returns a name beside the directory of the results that nothing has yet.
+std::string free_name(const Results& results, const std::string& ending) {
   const std::filesystem::path here = std::filesystem::absolute(results.directory / "").lexically_normal().parent_path();
-  const std::string elsewhere = std::filesystem::proximate(here).string();
+  const std::string name = std::filesystem::proximate(here).string() + ending;
+  std::error_code error;
+  std::string free = name;
+  for (int k = 2; std::filesystem::exists(free, error); ++k) free = fmt::format("{}-{}", name, k);
+  return shell_quoted(free);
+}
+
+/// Returns commands that work as they stand here.
+std::string what_to_try_next(const RunReport& report, const Scene& scene, const Results& results) {
+  const std::string directory = shell_quoted(results.directory.string());
+  const std::string program = results.program;
+  std::error_code error;
+  const bool has_scene = std::filesystem::exists(report.scene, error);  // not where a run is resumed from another directory
+  const bool has_trajectory = std::ranges::any_of(
+      results.files, [](const std::string& file) { return std::filesystem::path(file).filename() == "trajectory.h5md"; });
   std::string text = "\nTry next\n";
-  if (report.time_step)
-    text += fmt::format("  {} --out {}   # the same scene by exact events\n", rerun, shell_quoted(elsewhere + "-exact"));
-  for (const std::string& file : results.files) {
-    const std::string name = std::filesystem::path(file).filename().string();
-    if (name != "trajectory.h5md") continue;
-    const std::filesystem::path path = results.directory / name;
-    text += fmt::format("  {} info {}\n", results.program, shell_quoted(path.string()));
-    if (report.samples == 0 || !scene.output.trajectory) continue;  // MDAnalysis opens no file without frames
-    text += fmt::format("  python3 -c {}\n",
-                        shell_quoted(fmt::format("import MDAnalysis as m; print(m.Universe(\"{}\").trajectory)", path.string())));
+  if (report.time_step && has_scene)
+    text += fmt::format("  {} --out {}   # the same scene by exact events\n", again(report, scene, results, true),
+                        free_name(results, "-exact"));
+  if (has_trajectory && report.samples > 0 && scene.output.trajectory)
+    text += fmt::format("  {} play {}   # write a page that replays it\n", program, directory);
+  text += fmt::format("  {} report {}   # write a page with numbers and plots\n", program, directory);
+  if (has_trajectory)
+    text += fmt::format("  {} info {}\n", program, shell_quoted((results.directory / "trajectory.h5md").string()));
+  if (has_scene && scene.effects.collision.rule == CollisionRule::reversal) {
+    text += fmt::format("  {} --set collision.rule=specular --out {}   # smooth hard disks\n",
+                        again(report, scene, results, true), free_name(results, "-specular"));
+  } else if (has_scene && run_is_drawn(scene)) {
+    text += fmt::format("  {} --seed {} --out {}   # another seed\n", again(report, scene, results, false),
+                        scene.run.seed == 1 ? 2 : 1, free_name(results, "-again"));
   }
-  if (scene.effects.collision.rule == CollisionRule::reversal) {
-    text += fmt::format("  {} --set collision.rule=specular --out {}   # smooth hard disks\n", rerun,
-                        shell_quoted(elsewhere + "-specular"));
-  } else if (run_is_drawn(scene)) {
-    text += fmt::format("  {} --seed {} --out {}   # another seed\n", rerun, scene.run.seed == 1 ? 2 : 1,
-                        shell_quoted(elsewhere + "-again"));
-  }
-  return text + fmt::format("  {} init --list   # other scenes to start from\n", results.program);
+  return text + fmt::format("  {} init --list   # other scenes to start from\n", program);
 }
 
 }  // namespace

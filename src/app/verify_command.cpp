@@ -101,7 +101,7 @@ ExitCode run_again(const Recorded& run, const fs::path& scratch, const VerifyOpt
   again.scene.path = scene.string();
   again.out = (scratch / "again").string();
   again.quiet = true;
-  again.progress = options.progress;
+  again.progress = options.quiet ? "never" : options.progress;
   if (run.dt) {
     again.method = run.engine;
     again.dt = run.dt;
@@ -136,6 +136,13 @@ ExitCode verify(const VerifyOptions& options, const Invocation& invocation) {
     const std::string commits = run.commit == build_info().commit
                                     ? ""
                                     : fmt::format(" by another commit ({}; this is {})", run.commit, build_info().commit);
+    if (options.json) {
+      const nlohmann::ordered_json json = {{"run", options.directory}, {"same", found.differences.empty()},
+                                           {"files", found.files},     {"differences", found.differences},
+                                           {"commit", run.commit},     {"commit_now", build_info().commit}};
+      fmt::print("{}\n", json.dump(2));
+    }
+    if (options.json || options.quiet) return found.differences.empty() ? exit_done : exit_check_failed;
     if (found.differences.empty()) {
       fmt::print("{}: run again, the same to the last bit{}: {}\n", options.directory, commits, fmt::join(found.files, ", "));
       return exit_done;

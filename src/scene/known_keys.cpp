@@ -117,6 +117,13 @@ std::string home_of(std::string_view key) {
   return find_observable(key) != nullptr ? "[observe]" : "";
 }
 
+/// Returns the path of a table's title, "disks.0" for "[[disks]]"; empty for words that are no title.
+std::string path_of_title(std::string_view title) {
+  for (const std::string_view name : {"box", "collision", "run", "output"})
+    if (title == fmt::format("[{}]", name)) return std::string(name);
+  return title == "[[disks]]" ? "disks.0" : "";
+}
+
 /// Returns whether a user of another program might look here for all that its input file had. A radius in [[obstacles]] is
 /// another one.
 bool takes_foreign_words(std::string_view path) {
@@ -126,6 +133,16 @@ bool takes_foreign_words(std::string_view path) {
 }
 
 }  // namespace
+
+std::string dotted_key_for(std::string_view word) {
+  std::string key(word);
+  std::replace(key.begin(), key.end(), '-', '_');
+  if (key == "temperature") return "disks.0.velocities.temperature";
+  if (key == "gravity") return "gravity.acceleration";
+  if (key == "restitution") return "collision.restitution";
+  const std::string path = path_of_title(home_of(key));
+  return path.empty() ? "" : fmt::format("{}.{}", path, key);
+}
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);

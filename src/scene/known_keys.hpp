@@ -10,6 +10,10 @@ namespace carom::detail {
 /// Returns the clause that names Carom's key for a word such as "dt", "nsteps" or "N"; empty where the word is not known.
 std::string_view meant_by(std::string_view word);
 
+/// Returns the key by which an override changes what `word` names in a scene: "disks.0.count" for "count". Empty where no table
+/// has this key, or several have it.
+std::string dotted_key_for(std::string_view word);
+
 /// The number of single-character edits (a swap of neighbours counts as one) between two words, ignoring case.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 

@@ -41,6 +41,7 @@ std::string checked_seed(const std::string& text) {
 Scene load(const SceneOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   if (options.seed) overrides.push_back("run.seed=" + checked_seed(*options.seed));
+  if (options.time) overrides.push_back(fmt::format("run.time={}", *options.time));
   if (options.accept_overlap) overrides.emplace_back("run.accept_overlap=true");
   if (options.no_trajectory) overrides.emplace_back("output.trajectory=false");
   if (options.xyz) overrides.emplace_back("output.xyz=true");

@@ -139,8 +139,13 @@ TEST_F(MovieCommand, RefusesOptionsThatCannotBe) {
   refused({"movie", "gas", "-o", "film.avi"}, "-o film.avi: the name must end in .mp4, .webm or .gif for a film");
   refused({"movie", "gas", "-o", "a.png", "--fps", "10"}, "--fps: a picture shows one time");
   refused({"movie", "gas", "-o", "a.png", "--at", "3"}, "--at 3: the run goes from time 0 to 2");
-  refused({"movie", "gas"}, "--output is required");
   refused({"movie", "gas", "-o", "no/such/place.png"}, "no/such/place.png: cannot write");
+}
+
+TEST_F(MovieCommand, WritesIntoTheRunByDefault) {
+  run_scene();
+  EXPECT_THAT(carom({"movie", "gas", "--at", "1", "--size", "64"}).out, StartsWith("gas/picture.png  "));
+  refused({"movie", "gas", "--at", "1"}, "gas/picture.png: this file is there already; replace it with --force");
 }
 
 TEST_F(MovieCommand, ReplacesAFileOnlyWhenForced) {

@@ -113,14 +113,15 @@ TEST_F(TerminalSummary, WhatToTryNextIsWhatWorks) {
     const std::string all = cli::terminal_summary(report_, scene_, {"out", {"out/trajectory.h5md"}, "carom"});
     return all.substr(all.find("Try next"));
   };
+  report_.scene = CAROM_SOURCE_DIR "/docs/scenes/box.toml";
   scene_.output.trajectory = true;
   report_.samples = 3;
-  EXPECT_THAT(next(), AllOf(HasSubstr("carom info out/trajectory.h5md"), HasSubstr("MDAnalysis")));
+  EXPECT_THAT(next(), AllOf(HasSubstr("carom info out/trajectory.h5md"), HasSubstr("carom play out ")));
   report_.samples = 0;  // events or observables alone
-  EXPECT_THAT(next(), AllOf(HasSubstr("carom info out/trajectory.h5md"), Not(HasSubstr("MDAnalysis"))));
+  EXPECT_THAT(next(), AllOf(HasSubstr("carom info out/trajectory.h5md"), Not(HasSubstr("carom play"))));
   report_.samples = 3;
   scene_.output.trajectory = false;
-  EXPECT_THAT(next(), Not(HasSubstr("MDAnalysis")));
+  EXPECT_THAT(next(), Not(HasSubstr("carom play")));
   // The same changes, and no other seed where none is asked for.
   scene_.overrides = {"run.time=2", "run.seed=7", "disks.0.velocities={ speed = 1.0 }"};
   scene_.effects.collision.rule = CollisionRule::specular;
@@ -131,7 +132,9 @@ TEST_F(TerminalSummary, WhatToTryNextIsWhatWorks) {
     species.positions = ListedPositions{};
     species.velocities = AtRest{};
   }
-  EXPECT_THAT(next(), Not(HasSubstr("another start")));
+  EXPECT_THAT(next(), Not(HasSubstr("another seed")));
+  report_.scene = "elsewhere/box.toml";
+  EXPECT_THAT(next(), Not(HasSubstr("carom run")));
 }
 
 TEST_F(TerminalSummary, ARunThatTimeStopsNamesTheDisks) {

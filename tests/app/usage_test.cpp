@@ -42,17 +42,41 @@ const std::string box = CAROM_SOURCE_DIR "/docs/scenes/box.toml";
 INSTANTIATE_TEST_SUITE_P(
     Each, WrongCommandLine,
     ::testing::Values(
-        WrongLine{"NoCommand", {}, "subcommand is required"},
         WrongLine{"UnknownCommand", {"rnu", box}, "rnu: there is no such command"},
-        WrongLine{"NoCommandNamesTwo", {}, "carom run SCENE runs a scene"},
         WrongLine{"CommandMisspelt", {"rum", box}, "rum: there is no such command; did you mean carom run?"},
         WrongLine{"SceneForACommand", {"box.toml"}, "box.toml: there is no such command; carom run box.toml runs a scene"},
-        WrongLine{"HelpAsACommand", {"help"}, "it is carom --help"},
-        WrongLine{"CommandLikeNone", {"zzzzzzzz"}, "choose one of: run, "},
+        WrongLine{"SceneForACommandWithOptions",
+                  {"box.toml", "--time", "5"},
+                  "box.toml: there is no such command; carom run box.toml --time 5 runs a scene"},
+        WrongLine{"SweepForACommand",
+                  {CAROM_SOURCE_DIR "/docs/scenes/sweeps/equation_of_state.toml"},
+                  "equation_of_state.toml runs a sweep"},
+        WrongLine{"FileForACommand", {CAROM_SOURCE_DIR "/README.md"}, "README.md describes a file"},
+        WrongLine{"CommandOfOthers", {"simulate", box}, "simulate: there is no such command; did you mean carom run?"},
+        WrongLine{"CommandOfFilms", {"animate", "box"}, "did you mean carom movie?"},
+        WrongLine{"HelpOnACommandMisspelt", {"help", "rum"}, "rum: there is no such command; did you mean carom run?"},
+        WrongLine{"CommandLikeNone", {"zzzzzzzz"}, "choose one of: init, "},
         WrongLine{"OptionMisspelt", {"run", box, "--sede", "1"}, "--sede: carom run has no such option; did you mean --seed?"},
         WrongLine{"OptionOfAScene", {"run", box, "--duration-of-all=5"}, "is changed with --set, such as --set run.time=5"},
+        WrongLine{"OptionCutShort", {"run", box, "--tim", "5"}, "--tim: carom run has no such option; did you mean --time?"},
+        WrongLine{"OptionBeforeTheScene", {"run", "--tim", "5"}, "--tim: carom run has no such option; did you mean --time?"},
+        WrongLine{"OptionWithOneDash", {"run", box, "-seed", "5"}, "-seed: carom run has no such option; did you mean --seed?"},
+        WrongLine{"OptionThatIsAKey",
+                  {"run", box, "--count", "200"},
+                  "--count: carom run has no such option; a key of the scene is changed with --set disks.0.count=..."},
+        WrongLine{"OptionForATemperature", {"run", box, "--temperature=2"}, "--set disks.0.velocities.temperature=..."},
+        WrongLine{"StepsAsAnOption", {"run", box, "--steps", "5000"}, "events need no steps; a run is as long as time"},
+        WrongLine{"NumberAsAnOption", {"run", box, "-N", "100"}, "disks are described in [[disks]], where their number is count"},
+        WrongLine{"TimeStepOfEvents", {"run", box, "--dt", "0.001"}, "exact events need none"},
+        WrongLine{"TimeStepAsAKey", {"run", box, "--set", "run.dt=0.001"}, "events need no time step"},
+        WrongLine{"StepsAsAKey", {"run", box, "--set", "run.steps=5000"}, "events need no steps"},
+        WrongLine{"NumberAsAKey", {"run", box, "--set", "N=100"}, "where their number is count"},
+        WrongLine{"OptionOfOthers", {"run", box, "--jobs", "2"}, "did you mean --threads?"},
         WrongLine{"OptionMisspeltElsewhere", {"play", box, "--outptu", "x"}, "--outptu: carom play has no such option"},
-        WrongLine{"NoScene", {"run"}, "scene is required"}, WrongLine{"UnknownOption", {"run", box, "--sed", "1"}, "--sed"},
+        WrongLine{"OptionOfNoScene", {"play", box, "--count", "2"}, "carom play --help lists them"},
+        WrongLine{"TimeIsNoNumber", {"run", box, "--time", "long"}, "--time"},
+        WrongLine{"TimeIsNegative", {"run", box, "--time", "-1"}, "run.time"}, WrongLine{"NoScene", {"run"}, "scene is required"},
+        WrongLine{"UnknownOption", {"run", box, "--sed", "1"}, "--sed"},
         WrongLine{"SeedIsNoNumber", {"run", box, "--seed", "x"}, "--seed"},
         WrongLine{"UnknownEngine", {"run", box, "--engine", "steam"}, "--engine steam: there is no such engine; choose auto"},
         WrongLine{"UnknownProgress", {"run", box, "--progress", "often"}, "auto, always or never"},
@@ -70,16 +94,6 @@ TEST(Usage, VersionNamesVersionCommitAndCompiler) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out, AllOf(StartsWith("carom " + build_info().version), HasSubstr(build_info().commit),
                                  HasSubstr(build_info().compiler)));
-  EXPECT_THAT(outcome.err, IsEmpty());
-}
-
-TEST(Usage, HelpNamesEveryCommand) {
-  const TemporaryDirectory directory;
-  const Outcome outcome = run_carom(directory.path(), {"--help"});
-  EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* command : {"run", "check", "init", "info", "bench"}) EXPECT_THAT(outcome.out, HasSubstr(command));
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\nScenes and runs:\n"), HasSubstr("\nResults of a run:\n"), HasSubstr("\nStudies:\n"),
-                                 Not(HasSubstr("\nSubcommands:")), HasSubstr("carom run box.toml")));
   EXPECT_THAT(outcome.err, IsEmpty());
 }
 

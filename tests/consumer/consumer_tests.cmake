@@ -38,9 +38,24 @@ add_test(NAME package.refuses_unknown_component
 set_tests_properties(package.refuses_unknown_component PROPERTIES LABELS package FIXTURES_REQUIRED carom_installed
                      PASS_REGULAR_EXPRESSION "has no component films")
 
+find_program(PKG_CONFIG pkg-config)
+if(PKG_CONFIG)
+  add_test(NAME package.pkg_config
+           COMMAND ${CMAKE_COMMAND} -D PREFIX=${consumer_directory}/prefix -D LIBDIR=${CMAKE_INSTALL_LIBDIR} -D CXX=${CMAKE_CXX_COMPILER}
+                   -D SOURCE=${PROJECT_SOURCE_DIR} -D SCRATCH=${consumer_directory}/pkg_config -D SCENE=${consumer_scene} -D RUN=${consumer_run}
+                   -D VERSION=${PROJECT_VERSION} -P ${CMAKE_CURRENT_SOURCE_DIR}/consumer/pkg_config.cmake)
+  set_tests_properties(package.pkg_config PROPERTIES LABELS package FIXTURES_REQUIRED "carom_installed;carom_run" TIMEOUT 900)
+endif()
+
 set(from_sources -DCAROM_SOURCE_DIRECTORY=${PROJECT_SOURCE_DIR} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 ${without_either})
 add_consumer_test(add_subdirectory ${consumer_scene} "${whole_example}" ${from_sources})
 set_tests_properties(package.add_subdirectory PROPERTIES LABELS slow PROCESSORS 2)
+
+# The same by FetchContent, which configures the sources as part of the project; compiled is the example alone.
+add_test(NAME package.fetch_content
+         COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${consumer_directory}/fetch_content
+                 --build-generator ${CMAKE_GENERATOR} --build-target consumer_object --build-options ${consumer_options} -DCAROM_FETCH=ON ${from_sources})
+set_tests_properties(package.fetch_content PROPERTIES LABELS package)
 
 add_test(NAME package.compiles_from_sources
          COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${consumer_directory}/from_sources

@@ -23,6 +23,7 @@ DiffRun opened(const std::string& path) {
 
 ExitCode print_difference(const DiffCommandOptions& options) {
   const RunDifference found = difference_of(opened(options.first), opened(options.second));
+  if (options.quiet) return found.same() ? exit_equal : exit_different;
   if (options.json) {
     fmt::print("{}\n", diff_json(found));
   } else {

@@ -12,6 +12,7 @@ struct DiffCommandOptions {
   std::string first;   ///< a run directory or a trajectory file
   std::string second;  ///< likewise
   bool json = false;
+  bool quiet = false;
 };
 /// Prints the comparison. The exit codes are those of diff(1): 0 where the runs are equal to the last bit, 1 where they differ, 2
 /// where they cannot be compared.

@@ -135,7 +135,7 @@ ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invoc
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const int threads = threads_for(options, server != nullptr);
   if (!options.checkpoint_every.empty()) (void)read_option("--checkpoint-every", options.checkpoint_every, saving_plan);
-  const Sweep sweep = load_sweep(options.path);
+  const Sweep sweep = load_sweep(options.path, options.overrides);
   const fs::path path = directory_for(options);
   if (options.list) {
     fmt::print("{}", commands_of(sweep, runs_to_do(sweep, path, options.force), path, invocation));
@@ -155,7 +155,8 @@ ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invoc
   write_product(directory, "sweep.h5", sweep_hdf5(sweep, results));
   write_product(directory, "report.html", html_page(sweep_page(sweep, results)));
   write_product(directory, "sweep.csv", points_csv(sweep, results));
-  if (!options.quiet) fmt::print("{}", sweep_text(sweep, results, path));
+  if (options.json) fmt::print("{}\n", sweep_json(sweep, results));
+  if (!options.quiet && !options.json) fmt::print("{}", sweep_text(sweep, results, path));
   warn_of_absent_numbers(sweep, results);
   if (results.versions.size() > 1)
     fmt::print(stderr, "carom: {}: these runs were made by {} versions of carom; report.html names them\n", sweep.source,

@@ -15,6 +15,9 @@ namespace carom {
 /// Returns the text of sweep.csv.
 [[nodiscard]] std::string points_csv(const Sweep& sweep, const SweepResults& results);
 
+/// Returns the rows of sweep.csv as JSON: for each point its values, and the mean, error and count of every number.
+[[nodiscard]] std::string sweep_json(const Sweep& sweep, const SweepResults& results);
+
 /// Returns the bytes of sweep.h5. Throws detail::Hdf5Error.
 [[nodiscard]] std::string sweep_hdf5(const Sweep& sweep, const SweepResults& results);
 

@@ -252,6 +252,18 @@ void read_table(const toml::table& document, Sweep& sweep) {
   }
 }
 
+/// A change that the command line asks for, at every point.
+void add_shared(const std::string& text, Sweep& sweep) {
+  const Location where{"--set " + detail::excerpt(text, 80), 0, 0};
+  const std::string key = text.substr(0, text.find('='));
+  if (key == "run.seed")
+    throw SceneError(where, "run.seed cannot be set for a sweep; its file has seeds = 4 or seeds = [1, 2, 3]");
+  if (std::find(sweep.keys.begin(), sweep.keys.end(), key) != sweep.keys.end())
+    throw SceneError(where, fmt::format("the points of the sweep give {} values of their own; set another key", key));
+  sweep.shared.push_back(text);
+  sweep.shared_places.push_back(where);
+}
+
 /// Which numbers the table asks for that none of the points has had yet.
 class MissingNumbers {
  public:
@@ -312,7 +324,7 @@ void check_names(const Sweep& sweep) {
 
 }  // namespace
 
-Sweep load_sweep(const std::string& path) {
+Sweep load_sweep(const std::string& path, const std::vector<std::string>& overrides) {
   Sweep sweep;
   sweep.source = path;
   sweep.text = detail::read_text_file(path);
@@ -321,6 +333,7 @@ Sweep load_sweep(const std::string& path) {
   read_scene(document, sweep);
   read_table(document, sweep);
   read_points(document, most_runs, sweep);
+  for (const std::string& text : overrides) add_shared(text, sweep);
   check_names(sweep);
   const Scene first = checked_scene(sweep, sweep.points.front(), sweep.changes_of(sweep.points.front()));
   sweep.seeds = read_seeds(document, first.run.seed);

@@ -68,6 +68,7 @@ inline constexpr std::array<std::string_view, 4> sweep_products = {"runs.csv", "
 
 /// Reads the file at `path` and the scene that it names; the scene of every point is read and checked. Throws SceneError: one
 /// sentence with the place in the sweep file.
-[[nodiscard]] Sweep load_sweep(const std::string& path);
+/// `overrides` change the scene at every point, "run.time=2", after what the file says for all.
+[[nodiscard]] Sweep load_sweep(const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 
 #include "io/h5md_parts.hpp"
 #include "io/hdf5_handle.hpp"
+#include "io/json.hpp"
 #include "studies/sweep/results.hpp"
 
 #include <fmt/format.h>
@@ -88,6 +89,32 @@ std::string points_csv(const Sweep& sweep, const SweepResults& results) {
     put_line(text, row);
   }
   return text;
+}
+
+std::string sweep_json(const Sweep& sweep, const SweepResults& results) {
+  using detail::Json;
+  Json points = Json::array();
+  for (std::size_t point = 0; point < sweep.points.size(); ++point) {
+    Json values = Json::object(), numbers = Json::object();
+    for (std::size_t k = 0; k < sweep.keys.size(); ++k) {
+      const std::string& value = sweep.points[point].values[k];
+      const std::optional<double> is_number = number_of(value);
+      values[sweep.keys[k]] = value.empty() ? Json(nullptr) : is_number ? Json(*is_number) : Json(plain_value(value));
+    }
+    for (std::size_t k = 0; k < results.numbers.size(); ++k) {
+      const SeedAverage& average = results.averages[point][k];
+      if (average.mean)
+        numbers[results.numbers[k]] = {
+            {"mean", *average.mean}, {"error", average.error ? Json(*average.error) : Json(nullptr)}, {"count", average.count}};
+    }
+    points.push_back({{"point", sweep.points[point].name},
+                      {"values", values},
+                      {"finished", results.count(sweep, point, RunState::finished)},
+                      {"failed", results.count(sweep, point, RunState::failed)},
+                      {"numbers", numbers}});
+  }
+  const Json json = {{"sweep", sweep.source}, {"seeds", sweep.seeds}, {"points", points}};
+  return json.dump(2);
 }
 
 namespace {
