@@ -3,6 +3,7 @@
 
 #include <carom/blocking.hpp>
 #include <carom/observe.hpp>
+#include <carom/ranks.hpp>
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
 #include <carom/state.hpp>

@@ -24,6 +24,8 @@
 
 namespace carom {
 
+class Ranks;
+
 namespace detail {
 class AnyEngine;
 }
@@ -175,6 +177,9 @@ class Simulation {
   /// some events per disk. Throws std::invalid_argument where a number is not as carom/threads.hpp says, or several threads are
   /// asked for and why_not_threads() has a reason against them.
   void set_threads(const Threads& threads);
+  /// Does so on that many threads of each of the ranks, which must outlive the simulation (carom/ranks.hpp). This is rank 0; the
+  /// others are in serve_ranks(). Throws std::runtime_error too where one of them has no memory for it.
+  void set_threads(const Threads& threads, Ranks& ranks);
   /// Returns why this simulation runs on one core only, in half a sentence; empty where it can be shared out.
   [[nodiscard]] std::string why_not_threads() const;
   /// Returns what sharing it out has taken so far.
@@ -209,11 +214,14 @@ class Simulation {
   friend Simulation make_simulation(const Scene& scene, const FixedStep& step);
   friend Simulation make_simulation(const Scene& scene, const State& start, const FixedStep& step);
   friend Simulation restore_simulation(const Scene& scene, std::istream& in);
+  friend void serve_ranks(Ranks& ranks);
   friend struct RunResult run_schedule(Simulation& simulation, const struct RunHooks& hooks);
   struct Parts;
   explicit Simulation(std::unique_ptr<Parts> parts);
   static Simulation begin(const Scene& scene, struct Start start, const std::string& engine);
   static Simulation begin(const Scene& scene, struct Start start, const FixedStep& step);
+  static Simulation begin_elsewhere(const std::string& bytes, Threads& threads);
+  static void serve(Ranks& ranks);
   std::unique_ptr<Parts> parts_;
 };
 

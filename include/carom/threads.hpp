@@ -11,14 +11,15 @@ namespace carom {
 /// domain computes the disks of a part of the box and, once more, those in a halo round that part (docs/parallel.md).
 struct Threads {
   std::size_t threads = 1;         ///< that compute at the same time; with 1 the engine runs alone, without domains
-  std::size_t domains = 0;         ///< parts of the box, at most 32; 0 for one for each thread
+  std::size_t domains = 0;         ///< parts of the box, at most 32, or 1024 on several ranks; 0 for one for each thread
   double halo = 0.0;               ///< width of halos, in largest contact distances; 0 for one that suits the density
   double events_per_window = 1.0;  ///< events of each disk in the first window between two exchanges; > 0
 };
 
 /// What sharing a simulation out has taken since Simulation::set_threads().
 struct ThreadCounts {
-  std::size_t threads = 1;
+  std::size_t threads = 1;  ///< of each rank
+  std::size_t ranks = 1;    ///< processes: carom/ranks.hpp
   std::size_t domains = 1;
   std::uint64_t windows = 0;
   std::uint64_t windows_redone = 0;  ///< windows that were void, and were redone by the engine alone up to the next epoch
@@ -29,6 +30,7 @@ struct ThreadCounts {
   std::uint64_t copies_wrong = 0;    ///< of these: those that had to be corrected
   double processor_seconds = 0.0;    ///< of all domains together, and of what one thread does for all
   /// What would have passed with a free processor for each domain: between two meetings the domain that takes longest counts.
+  /// Both seconds leave out what other ranks take.
   double critical_seconds = 0.0;
 };
 

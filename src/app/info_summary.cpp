@@ -70,10 +70,11 @@ std::string events_line(const Json& events) {
   return text;
 }
 
-/// Returns what sharing the run out took: "2, 403 windows of 2 domains, 1 window redone".
+/// Returns what sharing the run out took: "2, 403 windows of 2 domains, 1 window redone", or "1 in each of 2 processes, ...".
 std::string threads_line(const Json& cores) {
   const auto number = [&](const char* key) { return cores.at(key).get<std::uint64_t>(); };
-  return fmt::format("{}, {} of {}, {} redone", number("threads"), counted(number("windows"), "window"),
+  const std::string processes = number("ranks") > 1 ? fmt::format(" in each of {} processes", number("ranks")) : "";
+  return fmt::format("{}{}, {} of {}, {} redone", number("threads"), processes, counted(number("windows"), "window"),
                      counted(number("domains"), "domain"), counted(number("windows_redone"), "window"));
 }
 

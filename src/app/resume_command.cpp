@@ -1,6 +1,7 @@
 // carom resume RUN_DIR and carom extend RUN_DIR: a run goes on from its newest sound checkpoint as if it had never stopped.
 
 #include "app/commands.hpp"
+#include "app/run_ranks.hpp"
 #include "app/run_session.hpp"
 #include "runner/resumed_run.hpp"
 #include "terminal/command.hpp"
@@ -39,7 +40,7 @@ void check_end(const ResumedRun& resumed, const ResumeOptions& options) {
 }
 
 template <class Require>
-ExitCode go_on(const ResumeOptions& options, const Invocation& invocation, Require require) {
+ExitCode go_on_in(Processes* processes, const ResumeOptions& options, const Invocation& invocation, Require require) {
   const auto began = std::chrono::steady_clock::now();
   check_options(options.run);
   const ResumedRun resumed = as_usage_error([&] { return ResumedRun(options.directory, {options.time, options.collisions}); });
@@ -49,14 +50,19 @@ ExitCode go_on(const ResumeOptions& options, const Invocation& invocation, Requi
   check_end(resumed, options);
   const RunOptions run = options_for(from.facts(), options);
   Simulation simulation = as_usage_error([&] { return resumed.simulation(); });
-  take_threads(simulation, run);
+  take_threads(simulation, run, processes);
   if (!run.quiet && !run.json)
     fmt::print(stderr, "carom: {}: going on from time {:.6g}\n", resumed.directory.path().string(), simulation.time());
   try {
-    return carry_out({run, invocation, simulation, resumed.provenance(), resumed.directory, &from, began});
+    return carry_out({run, invocation, simulation, resumed.provenance(), resumed.directory, &from, began, processes});
   } catch (const std::bad_alloc&) {
     throw std::runtime_error(fmt::format("{}: there is not enough memory for this run", options.directory));
   }
+}
+
+template <class Require>
+ExitCode go_on(const ResumeOptions& options, const Invocation& invocation, Require require) {
+  return in_first_process(invocation, [&](Processes* processes) { return go_on_in(processes, options, invocation, require); });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // scene or with the place for the results is found before the first event, and then nothing is left behind.
 
 #include "app/commands.hpp"
+#include "app/run_ranks.hpp"
 #include "app/run_session.hpp"
 #include "app/terminal_summary.hpp"
 #include "io/provenance.hpp"
@@ -66,9 +67,11 @@ Simulation simulation_for(const RunOptions& options, const Scene& scene, const s
   }
 }
 
-ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
+ExitCode run_scene(const RunOptions& options, const Invocation& invocation, Processes* processes) {
   const Clock::time_point began = Clock::now();
   check_options(options);
+  if (!options.changes.empty() && processes != nullptr)
+    throw UsageError("--changes: one process computes a run that is changed on its way; start it without mpirun");
   if (!options.changes.empty()) return run_with_changes(options);
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
@@ -80,7 +83,7 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
   if (options.method != "exact" && !scene.observe.empty())
     throw UsageError(fmt::format("--method {}: [observe] measures exact trajectories; leave out one of the two", options.method));
   Simulation simulation = simulation_for(options, scene, engine);
-  take_threads(simulation, options);
+  take_threads(simulation, options, processes);
   const Provenance provenance{.resolved_scene = resolved_toml(scene),
                               .command_line = invocation.command_line,
                               .engine = simulation.engine(),
@@ -98,7 +101,7 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
                method_words(simulation.engine(), simulation.time_step(), simulation.stiffness()), directory.path().string());
 
   try {
-    return carry_out({options, invocation, simulation, provenance, directory, nullptr, began});
+    return carry_out({options, invocation, simulation, provenance, directory, nullptr, began, processes});
   } catch (...) {
     directory.discard_if_empty();
     throw;
@@ -109,7 +112,7 @@ ExitCode run_scene(const RunOptions& options, const Invocation& invocation) {
 
 ExitCode run(const RunOptions& options, const Invocation& invocation) {
   try {
-    return run_scene(options, invocation);
+    return in_first_process(invocation, [&](Processes* processes) { return run_scene(options, invocation, processes); });
   } catch (const std::bad_alloc&) {
     throw std::runtime_error(
         fmt::format("{}: there is not enough memory for this scene; fewer disks need less", options.scene.path));

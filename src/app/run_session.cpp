@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -83,7 +84,14 @@ class Session {
                  .more_on_accuracy = horizon_blocks,
                  .keep_start = options_.verify_horizon,
                  .began = given.began},
-                given.from) {}
+                given.from) {
+    if (given_.processes != nullptr) given_.processes->watch_silence([this](double seconds) { tell_of_silence(seconds); });
+  }
+  ~Session() {
+    if (given_.processes != nullptr) given_.processes->watch_silence({});
+  }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
 
   ExitCode operator()() {
     const auto [report, files, report_failed] = run();
@@ -131,6 +139,21 @@ class Session {
     return runner_.run(hooks);
   }
 
+  /// Where another process has died, MPI asks this one to stop, and ends it a moment later. What it waits for will never come
+  /// then.
+  void tell_of_silence(double seconds) {
+    constexpr double patience = 0.15;
+    if (silence_told_ || seconds < patience || !stop_.made()) return;
+    silence_told_ = true;
+    const std::string way = runner_.saved()
+                                ? fmt::format("{} resume {} goes on from where it was saved last", given_.invocation.program,
+                                              shell_quoted(given_.directory.path().string()))
+                                : std::string("it has not been saved; --checkpoint-every saves it as it goes");
+    fmt::print(stderr,
+               "carom: {}: about to stop, and waiting for another process; should that have failed, and MPI end the run, {}\n",
+               given_.simulation.scene().source, way);
+  }
+
   void say_how_to_go_on() const {
     if (options_.json || options_.quiet || !runner_.saved_now()) return;
     fmt::print(stderr, "carom: {}: {} at time {:.6g}, and saved: {} resume {} goes on from there\n",
@@ -143,6 +166,7 @@ class Session {
   const ProgressMode mode_;
   const double walltime_;
   const StopRequest stop_;  // from here on there is something to save
+  bool silence_told_ = false;
   Runner runner_;
 };
 
@@ -155,7 +179,15 @@ void check_options(const RunOptions& options) {
   (void)read_option("--threads", options.threads, threads_in);
 }
 
-void take_threads(Simulation& simulation, const RunOptions& options) {
+void take_threads(Simulation& simulation, const RunOptions& options, Processes* processes) {
+  if (processes != nullptr) {
+    const std::optional<int> threads = read_option("--threads", options.threads, threads_in);
+    try {
+      return set_threads_of_ranks(simulation, threads, *processes);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(fmt::format("{}: {}", simulation.scene().source, error.what()));
+    }
+  }
   read_option("--threads", options.threads, [&](const std::string& text) { set_threads_of_run(simulation, threads_in(text)); });
 }
 

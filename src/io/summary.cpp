@@ -112,7 +112,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   if (const ThreadCounts& threads = report.threads; threads.domains > 1)
     json["cores"] = {{"threads", threads.threads},
                      {"domains", threads.domains},
-                     {"ranks", 1},
+                     {"ranks", threads.ranks},
                      {"windows", threads.windows},
                      {"windows_redone", threads.windows_redone}};
   json["virial"] = number(totals.virial);

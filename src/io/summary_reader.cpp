@@ -151,6 +151,7 @@ RunReport run_report_of(const Json& json) {
   if (json.contains("cores")) {
     const Json& cores = json.at("cores");
     report.threads.threads = count_in(cores, "threads");
+    report.threads.ranks = count_in(cores, "ranks");
     report.threads.domains = count_in(cores, "domains");
     report.threads.windows = count_in(cores, "windows");
     report.threads.windows_redone = count_in(cores, "windows_redone");

@@ -149,11 +149,13 @@ bool has_filled_the_box(const RunReport& report, const Scene& scene) {
 }
 
 SummaryRow row_of_threads(const ThreadCounts& threads) {
-  if (threads.windows == 0) return {"threads", fmt::format("{}", threads.threads), "one core computed all events by itself"};
+  const std::string number = threads.ranks > 1 ? fmt::format("{} in each of {} processes", threads.threads, threads.ranks)
+                                               : fmt::to_string(threads.threads);
+  if (threads.windows == 0) return {"threads", number, "one core computed all events by itself"};
   const std::string redone = threads.windows_redone == 0
                                  ? "none of them void"
                                  : fmt::format("{} of them void and computed again by one core", threads.windows_redone);
-  return {"threads", fmt::format("{}", threads.threads),
+  return {"threads", number,
           fmt::format("{} of {}, {}", counted(threads.windows, "window"), counted(threads.domains, "domain"), redone)};
 }
 

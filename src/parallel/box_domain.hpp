@@ -120,13 +120,29 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   /// Starts the queue of the epoch.
   void begin_epoch();
 
-  /// Adds what has been counted at home since the last call to the totals of a whole engine and what its neighbourhoods cost.
-  void hand_over_counts(Loop& whole);
+  /// What has been counted at home, and what neighbourhoods cost.
+  struct Counted {
+    RunningTotals totals;
+    TuningCounters tuning;
+    std::uint64_t list_changes = 0;
+  };
+  /// Returns what has been counted since the last call.
+  [[nodiscard]] Counted take_counts();
+  /// Adds that to what a whole engine has counted.
+  static void add_counts(Loop& whole, const Counted& counted);
   /// The events counted since then.
   [[nodiscard]] const Counts& counts() const { return totals_; }
   [[nodiscard]] const RunningTotals& totals() const { return totals_; }
   /// Puts the disks at home into the slots of a whole engine, and the centres of their neighbourhoods into `centres`.
   void store(Loop& whole, std::span<const std::int32_t> slot_of_id, std::span<NeighbourhoodCentre> centres) const;
+  /// Appends messages about all disks at home, which store() puts into a whole engine of another process as the one above does.
+  void append_homes(std::vector<Message>& messages) const;
+  static void store(const Message& message, Loop& whole, std::span<const std::int32_t> slot_of_id,
+                    std::span<NeighbourhoodCentre> centres);
+  /// The slots of the disks at home in a whole engine.
+  [[nodiscard]] std::vector<std::int32_t> home_slots(std::span<const std::int32_t> slot_of_id) const;
+  /// The message about the disk in a slot of a whole engine into which it was stored.
+  [[nodiscard]] static Message stored_message(const Loop& whole, std::int32_t slot, NeighbourhoodCentre centre);
 
   /// The largest distance (length) from home at which a copy may be that an event of a disk at home depends on.
   [[nodiscard]] double read_at_home() const { return sizes_.reach + 2.0 * lists_.half_width(); }
@@ -171,7 +187,9 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   void recycle_slots();
   void leave(std::int32_t i);
   void settle(std::int32_t i);
-  [[nodiscard]] Wells wells_of(std::int32_t i) const;
+  [[nodiscard]] Wells wells_of(std::int32_t i) const { return wells_of(*this, i); }
+  /// The disks inside the well of one, in this engine or another.
+  [[nodiscard]] static Wells wells_of(const Loop& engine, std::int32_t i);
   /// Calls slot(id) for the ids of disks.
   template <class SlotOf>
   static std::vector<std::int32_t> slots_of(const DisksInWell& wells, SlotOf&& slot);

@@ -197,15 +197,15 @@ void BoxDomain<Impact, Layout, World>::settle(std::int32_t i) {
 }
 
 template <class Impact, class Layout, class World>
-typename BoxDomain<Impact, Layout, World>::Wells BoxDomain<Impact, Layout, World>::wells_of(
-    [[maybe_unused]] std::int32_t i) const {
+typename BoxDomain<Impact, Layout, World>::Wells BoxDomain<Impact, Layout, World>::wells_of([[maybe_unused]] const Loop& engine,
+                                                                                            [[maybe_unused]] std::int32_t i) {
   Wells wells{};
   if constexpr (!Impact::plain) {
     wells.ids.fill(-1);
-    if (!impact_.wells().present()) return wells;
-    const std::vector<std::int32_t>& inside = impact_.wells().of(i);
+    if (!engine.impact_.wells().present()) return wells;
+    const std::vector<std::int32_t>& inside = engine.impact_.wells().of(i);
     const std::size_t most = std::min(inside.size(), wells.ids.size());  // there are no more: why_not_threads() sees to it
-    for (std::size_t k = 0; k < most; ++k) wells.ids[k] = id(inside[k]);
+    for (std::size_t k = 0; k < most; ++k) wells.ids[k] = engine.id(inside[k]);
     std::sort(wells.ids.begin(), wells.ids.begin() + static_cast<std::ptrdiff_t>(most));
   }
   return wells;
@@ -279,9 +279,10 @@ template <class Impact, class Layout, class World>
 bool BoxDomain<Impact, Layout, World>::same(std::int32_t i, const Message& message) const {
   const Plan& plan = plans_[i];
   const NeighbourhoodCentre centre = lists_.centre(i);
-  using Bits = std::array<std::byte, sizeof(Line)>;
-  return std::bit_cast<Bits>(line(i)) == std::bit_cast<Bits>(message.line) && plan.pair_time == message.pair_time &&
-         plan.edge_time == message.edge_time && plan.edge == message.edge &&
+  const Line &mine = line(i), &there = message.line;
+  const auto equal = [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); };
+  return mine.x[0] == there.x[0] && mine.x[1] == there.x[1] && equal(mine.v[0], there.v[0]) && equal(mine.v[1], there.v[1]) &&
+         plan.pair_time == message.pair_time && plan.edge_time == message.edge_time && plan.edge == message.edge &&
          (plan.partner < 0 ? -1 : id(plan.partner)) == message.partner && centre.x == message.centre.x &&
          centre.y == message.centre.y && mark(i).history == message.history && flight_.rest_of(i) == message.frame &&
          impact_.rest_of(i) == message.impact && wells_of(i) == message.wells &&
@@ -436,14 +437,20 @@ void BoxDomain<Impact, Layout, World>::begin_epoch() {
 }
 
 template <class Impact, class Layout, class World>
-void BoxDomain<Impact, Layout, World>::hand_over_counts(Loop& whole) {
+typename BoxDomain<Impact, Layout, World>::Counted BoxDomain<Impact, Layout, World>::take_counts() {
   totals_.numerics.epochs = totals_.numerics.list_rebuilds = 0;  // which the whole counts once
-  whole.totals_.add(totals_);
-  whole.tuning_.add(tuning_.counters());
-  whole.lists_.set_changes(whole.lists_.changes() + lists_.changes());
+  const Counted counted{totals_, tuning_.counters(), lists_.changes()};
   totals_ = RunningTotals{};
   tuning_.set_counters({});
   lists_.set_changes(0);
+  return counted;
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::add_counts(Loop& whole, const Counted& counted) {
+  whole.totals_.add(counted.totals);
+  whole.tuning_.add(counted.tuning);
+  whole.lists_.set_changes(whole.lists_.changes() + counted.list_changes);
 }
 
 template <class Impact, class Layout, class World>
@@ -466,6 +473,58 @@ void BoxDomain<Impact, Layout, World>::store(Loop& whole, std::span<const std::i
     whole.plans_[to] = plan;
     centres[static_cast<std::size_t>(to)] = lists_.centre(i);
   }
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::append_homes(std::vector<Message>& messages) const {
+  messages.reserve(messages.size() + homes_);
+  for (std::int32_t i = 0; i < count(); ++i)
+    if (mark(i).role == Role::home) messages.push_back(message_of(i));
+}
+
+template <class Impact, class Layout, class World>
+void BoxDomain<Impact, Layout, World>::store(const Message& message, Loop& whole, std::span<const std::int32_t> slot_of_id,
+                                             std::span<NeighbourhoodCentre> centres) {
+  const auto slot = [&](std::int32_t disk) { return slot_of_id[static_cast<std::size_t>(disk)]; };
+  const std::int32_t to = slot(message.id);
+  whole.line(to) = message.line;
+  whole.flight_.set_rest(to, message.frame);
+  whole.impact_.set_rest(to, message.impact);
+  if constexpr (!Impact::plain)
+    if (whole.impact_.wells().present()) whole.impact_.wells().set(to, slots_of(message.wells, slot));
+  whole.plans_[to] = {message.pair_time, message.edge_time,       message.partner < 0 ? -1 : slot(message.partner),
+                      message.edge,      message.stale ? 0U : 1U, 1};
+  centres[static_cast<std::size_t>(to)] = message.centre;
+}
+
+template <class Impact, class Layout, class World>
+std::vector<std::int32_t> BoxDomain<Impact, Layout, World>::home_slots(std::span<const std::int32_t> slot_of_id) const {
+  std::vector<std::int32_t> slots;
+  slots.reserve(homes_);
+  for (std::int32_t i = 0; i < count(); ++i)
+    if (mark(i).role == Role::home) slots.push_back(slot_of_id[static_cast<std::size_t>(id(i))]);
+  return slots;
+}
+
+template <class Impact, class Layout, class World>
+typename BoxDomain<Impact, Layout, World>::Message BoxDomain<Impact, Layout, World>::stored_message(const Loop& whole,
+                                                                                                    std::int32_t slot,
+                                                                                                    NeighbourhoodCentre centre) {
+  const Plan& plan = whole.plans_[slot];
+  Message message;
+  std::memset(static_cast<void*>(&message), 0, sizeof message);
+  message.line = whole.line(slot);
+  message.pair_time = plan.pair_time;
+  message.edge_time = plan.edge_time;
+  message.id = whole.id(slot);
+  message.partner = plan.partner < 0 ? -1 : whole.id(plan.partner);
+  message.edge = plan.edge;
+  message.stale = plan.partner >= 0 && plan.predicted_at == 0;
+  message.centre = centre;
+  message.frame = whole.flight_.rest_of(slot);
+  message.impact = whole.impact_.rest_of(slot);
+  message.wells = wells_of(whole, slot);
+  return message;
 }
 
 template <class Impact, class Layout, class World>

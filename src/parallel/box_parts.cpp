@@ -106,6 +106,16 @@ std::int64_t BoxParts::gap(const Range& a, const Range& b) {
   return std::min((b.begin - a.end + all) % all, (a.begin - b.end + all) % all);
 }
 
+std::size_t BoxParts::most_neighbours(double reach) const {
+  std::size_t most = 0;
+  for (std::size_t a = 0; a < count(); ++a) {
+    std::size_t neighbours = 0;
+    for (std::size_t b = 0; b < count(); ++b) neighbours += static_cast<std::size_t>(b != a && adjacent(a, b, reach));
+    most = std::max(most, neighbours);
+  }
+  return most;
+}
+
 bool BoxParts::adjacent(std::size_t a, std::size_t b, double reach) const {
   for (std::size_t k = 0; k < 2; ++k)
     if (static_cast<double>(gap(parts_[a][k], parts_[b][k])) * step_[k] > reach) return false;

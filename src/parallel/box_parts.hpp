@@ -25,6 +25,9 @@ class BoxParts {
   BoxParts(std::size_t parts, std::span<const NeighbourhoodCentre> centres, std::array<double, 2> step,
            const Costs* costs = nullptr);
 
+  /// Parts that are read from an archive.
+  BoxParts() = default;
+
   [[nodiscard]] std::size_t count() const { return parts_.size(); }
   /// The part in which a centre is.
   [[nodiscard]] std::size_t owner(NeighbourhoodCentre centre) const;
@@ -45,10 +48,19 @@ class BoxParts {
   /// Whether some place of one part is nearer to the other than `reach` (length).
   [[nodiscard]] bool adjacent(std::size_t a, std::size_t b, double reach) const;
 
+  /// The most parts to which one part is adjacent. O(parts^2).
+  [[nodiscard]] std::size_t most_neighbours(double reach) const;
+
+  /// Writes or reads where borders are, for core/archive.hpp: but for what set_reach() has been told.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(parts_, columns_, first_, step_, shift_);
+  }
+
  private:
   /// From `begin` up to, and without, `end`, in steps from the lowest centre.
   struct Range {
-    std::int64_t begin, end;
+    std::int64_t begin = 0, end = 0;
   };
   using Part = std::array<Range, 2>;
 
@@ -62,7 +74,7 @@ class BoxParts {
   std::vector<Part> cores_;            ///< the same without what is within reach of their borders
   std::vector<std::int64_t> columns_;  ///< where they end
   std::vector<std::size_t> first_;     ///< part of each column, and behind the last
-  std::array<double, 2> step_;
+  std::array<double, 2> step_{};
   std::array<std::uint32_t, 2> shift_{};  ///< since the box was cut
 };
 

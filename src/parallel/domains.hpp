@@ -7,13 +7,21 @@
 // in which something wrong came near to home is void: all goes back to the last state that is known to be right, which the whole
 // engine keeps, and the whole engine alone goes on from there to the next epoch. So it does with everything that does not fit:
 // an exact number of collisions, and disks that become too fast for an epoch.
+//
+// Domains may also be spread over processes, the ranks (carom/ranks.hpp). Rank 0 has the whole engine, and each other rank one of
+// its own, made for the same scene, that holds no more than what its domains have stored. Where threads meet, so do ranks: each
+// tells rank 0 the facts about its domains, rank 0 decides, and tells all. No other rank decides anything, so that none can come
+// to another decision. The other ranks serve(): they wait for orders, of which running up to the end of a run is one.
 
+#include "core/archive.hpp"
 #include "core/seconds.hpp"
 #include "engine/engine.hpp"
 #include "parallel/box_domain_impl.hpp"
 #include "parallel/box_parts.hpp"
+#include "parallel/packet.hpp"
 #include "parallel/team.hpp"
 
+#include <carom/ranks.hpp>
 #include <carom/threads.hpp>
 
 #include <algorithm>
@@ -25,6 +33,11 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,8 +50,15 @@ class Domains {
   using Part = BoxDomain<Impact, Layout, World>;
 
  public:
-  /// `whole` must outlive this, and is to be used through this alone.
-  Domains(Whole& whole, const Threads& threads);
+  /// `whole` and `ranks` must outlive this, and `whole` is to be used through this alone. All ranks make equal domains.
+  Domains(Whole& whole, const Threads& threads, Ranks* ranks = nullptr);
+  Domains(const Domains&) = delete;
+  Domains& operator=(const Domains&) = delete;
+  ~Domains();  ///< lets serve() return on the other ranks
+
+  /// Does on a rank other than 0 what rank 0 orders, until the domains of rank 0 are destroyed. Nothing else is to be called
+  /// there.
+  void serve();
 
   /// As Engine::run_until(). With `exact_events` false it may process more events than the limit, up to the end of a window.
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit, bool exact_events);
@@ -56,8 +76,11 @@ class Domains {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  /// A domain has a bit for each of its neighbours.
+  static constexpr std::size_t most_parts_in_any_case = 32;
+
   /// What the threads do next.
-  enum class Next {
+  enum class Next : std::uint8_t {
     window,
     epoch,
     arrived,   ///< at the target
@@ -67,8 +90,86 @@ class Domains {
     failed     ///< something was thrown
   };
 
+  /// What rank 0 has the other ranks do.
+  enum class Order : std::uint8_t {
+    share_out,
+    run,
+    send_disks,   ///< and what was counted
+    send_stored,  ///< the disks as they were when the last epoch began
+    send_totals,
+    end
+  };
+
+  /// What rank 0 needs to know of a domain to decide how to go on.
+  struct Facts {
+    Counts counts;  ///< since they were added to those of the whole engine
+    typename Part::Verdict verdict;
+    std::uint64_t homes = 0;
+    std::uint64_t events = 0, copied_events = 0;  ///< in the last window
+    std::uint64_t longest_list = 0;               ///< when neighbourhoods were last made anew
+    double read_at_home = 0.0;
+    double epoch_seconds = 0.0;
+    bool stopped = false;
+  };
+
+  /// What rank 0 has decided, for the other ranks.
+  struct Decision {
+    double now = 0.0, window_end = 0.0, longest_end = 0.0, half_width = 0.0;
+    double epoch_length = 0.0, edge_step = 0.0;
+    FlightLimits limits;
+    std::array<std::int64_t, 2> fallen{};
+    Next next = Next::window;
+    bool counting = false, stepping = false, lists_change = false, plans_change = false, has_fallen = false;
+  };
+
+  /// The next event of all, where a run goes to an exact number of collisions: what a rank has to offer, and what rank 0 chooses.
+  struct Turn {
+    double time = infinity<double>;
+    std::uint64_t pairs = 0;
+    std::uint64_t domain = none;
+    bool blocked = false;  ///< the event that was chosen last cannot happen in a domain alone
+
+    static constexpr std::uint64_t none = ~std::uint64_t{0};
+  };
+
+  [[nodiscard]] bool first() const { return ranks_ == nullptr || ranks_->rank() == 0; }
+  [[nodiscard]] std::size_t rank_count() const { return ranks_ == nullptr ? 1 : static_cast<std::size_t>(ranks_->size()); }
+  [[nodiscard]] std::size_t count() const { return domains_.size(); }
+  [[nodiscard]] std::size_t rank_of(std::size_t domain) const { return domain * rank_count() / count(); }
+  [[nodiscard]] bool is_here(std::size_t domain) const { return domain >= begin_ && domain < end_of_here_; }
+  /// The domains of this rank.
+  [[nodiscard]] std::span<const std::unique_ptr<Part>> here() const {
+    return std::span(domains_).subspan(begin_, end_of_here_ - begin_);
+  }
+  /// Calls f(domain, reader) on rank 0 for all domains of other ranks: for what those have gathered.
+  template <class F>
+  void from_others(const std::vector<std::string>& gathered, F&& f) const {
+    for (std::size_t rank = 1; rank < gathered.size(); ++rank) {
+      PacketReader reader(gathered[rank]);
+      for (std::size_t d = 0; d < count(); ++d)
+        if (rank_of(d) == rank) f(d, reader);
+    }
+  }
+
+  // What ranks tell each other. All of them do each of these at the same time.
+
+  void order(Order order, std::string_view more = {}) const;
+  void gather_failures();
+  void gather_facts(bool window_over);
+  void gather_counts();
+  void gather_disks(bool stored);
+  void gather_records();
+  void exchange_messages();
+  void tell_decision();
+  [[nodiscard]] Turn choose(const Turn& mine, std::uint64_t before);
+
+  [[nodiscard]] std::string engine_as_bytes();
+  void take_share(std::string_view bytes);
+  void throw_failure();
+
   void share_out();
   void divide();
+  void make_domains();
   void leave_to_domains();
   void work(std::size_t thread);
   void run_window(std::size_t thread);
@@ -96,8 +197,8 @@ class Domains {
     if (threads_.halo > 0.0) return threads_.halo * contact;
     return std::max(usual * contact, 3.0 * (whole_.sizes_.reach + 2.0 * half_width_));
   }
-  std::uint64_t events();
   bool is_unbalanced();
+  [[nodiscard]] bool has_failed() { return failure_.any() || !failure_elsewhere_.empty(); }
 
   /// Lets all threads meet; one of them calls lead().
   template <class Lead>
@@ -109,6 +210,15 @@ class Domains {
       done_.critical_seconds += led + *std::max_element(seconds_.begin(), seconds_.end());
       done_.processor_seconds += std::accumulate(seconds_.begin(), seconds_.end(), led);
       for (std::size_t d = 0; d < seconds_.size(); ++d) epoch_seconds_[d] += std::exchange(seconds_[d], 0.0);
+    });
+  }
+  /// Lets all threads of all ranks meet: each rank calls gather(), rank 0 calls lead(), whose decision all know then.
+  template <class Gather, class Lead>
+  void meet(std::size_t thread, Gather&& gather, Lead&& lead) {
+    meet(thread, [&] {
+      gather();
+      if (first()) lead();
+      tell_decision();
     });
   }
 
@@ -132,7 +242,7 @@ class Domains {
   template <class F>
   void each(std::size_t thread, F&& f) {
     try {
-      for (std::size_t d = thread; d < domains_.size(); d += team_.size()) {
+      for (std::size_t d = begin_ + thread; d < end_of_here_; d += team_.size()) {
         const double before = thread_seconds();
         f(d);
         seconds_[d] += thread_seconds() - before;
@@ -145,22 +255,35 @@ class Domains {
   Loop& whole_;
   Whole& engine_;
   Threads threads_;
+  Ranks* ranks_;                 ///< null: there is no other
+  std::size_t begin_ = 0;        ///< the domains of this rank: from here
+  std::size_t end_of_here_ = 0;  ///< up to and without this one
   Team team_;
   Team::Failure failure_;
+  std::string failure_elsewhere_;         ///< on another rank, in its words
+  std::vector<std::size_t> other_ranks_;  ///< that have domains beside those of this one
 
   bool shared_ = false;     ///< domains have the disks
   bool up_to_date_ = true;  ///< the whole engine has the disks as of now
   std::optional<BoxParts> parts_;
-  double reach_ = 0.0;  ///< of halos
-  std::vector<std::unique_ptr<Part>> domains_;
+  double reach_ = 0.0;                                                     ///< of halos
+  std::vector<std::unique_ptr<Part>> domains_;                             ///< null where another rank has the domain
+  std::vector<Facts> facts_;                                               ///< by domain
+  std::vector<std::vector<std::vector<typename Part::Message>>> inboxes_;  ///< by domain and its neighbour: from other ranks
+  std::vector<std::vector<std::int32_t>> stored_;  ///< by domain: slots of the whole engine into which it has stored disks
+  bool all_stored_here_ = true;                    ///< rank 0 has the last state known to be right; else each rank has a part
+  bool recording_ = false;                         ///< collisions or events
+  std::vector<std::vector<CollisionRecord>> collisions_elsewhere_;  ///< by domain of another rank, in this window
+  std::vector<std::vector<Event>> events_elsewhere_;
   std::vector<std::int32_t> slot_of_id_;          ///< of the whole engine
   std::vector<NeighbourhoodCentre> centres_;      ///< by slot of the whole engine
   std::vector<typename Part::Verdict> verdicts_;  ///< by domain
   std::vector<double> seconds_;                   ///< processor time of each domain since all met
   std::vector<double> epoch_seconds_;             ///< the same in this epoch
-  std::vector<double> cost_of_disk_;    ///< processor time of each disk of a domain in the last epoch; empty where not measured
-  int unbalanced_for_ = 0;              ///< epochs
-  std::vector<SpeedCensus> censuses_;   ///< by domain
+  std::vector<double> cost_of_disk_;   ///< processor time of each disk of a domain in the last epoch; empty where not measured
+  int unbalanced_for_ = 0;             ///< epochs
+  std::vector<SpeedCensus> censuses_;  ///< by domain
+  std::vector<std::uint64_t> longest_lists_;
   std::optional<Instant> alone_until_;  ///< the whole engine goes on until then
 
   double now_ = 0.0;     ///< since the epoch
@@ -177,12 +300,15 @@ class Domains {
   double pair_rate_ = 0.0;                          ///< collisions of pairs per time, to be expected
   double longest_end_ = 0.0;                        ///< of the window, if the limit of collisions does not come before
   bool counting_ = false;                           ///< the limit of collisions may come in this window
-  bool at_limit_ = false;                           ///< the last events were processed one by one up to it
+  bool stepping_ = false;                           ///< the last events before it are processed one by one
+  bool at_limit_ = false;                           ///< they were
+  double stepped_to_ = 0.0;                         ///< time of the last of them
   std::uint64_t events_begun_with_ = 0;             ///< the window
   std::uint64_t events_before_ = 0;                 ///< the run
   Next next_ = Next::window;
   double half_width_ = 0.0;
   bool lists_change_ = false, plans_change_ = false, has_fallen_ = false;  ///< in the epoch that begins
+  std::array<std::int64_t, 2> fallen_{};                                   ///< by so many steps
   Vec2<double> owed_ = Vec2<double>::Zero();                               ///< momentum: see CommonMotion
   int calm_ = 0;                                                           ///< windows in which nothing wrong came near
   double calm_margin_ = 0.0;

@@ -1,21 +1,28 @@
 #pragma once
 // How domains run together.
 
-#include "parallel/domains.hpp"
+#include "parallel/domains_of_ranks.hpp"
 
 namespace carom {
 
 template <class Impact, class Layout, class World>
-Domains<Impact, Layout, World>::Domains(Whole& whole, const Threads& threads)
+Domains<Impact, Layout, World>::Domains(Whole& whole, const Threads& threads, Ranks* ranks)
     : whole_(whole),
       engine_(whole),
       threads_(threads),
-      team_(std::min(threads.threads, threads.domains)),
+      ranks_(ranks != nullptr && ranks->size() > 1 ? ranks : nullptr),
+      team_(std::min(threads.threads, (threads.domains + rank_count() - 1) / rank_count())),
       slot_of_id_(whole.disk_count()),
       centres_(whole.disk_count()),
       half_width_(whole_.lists_.half_width()) {
   done_.threads = team_.size();
+  done_.ranks = rank_count();
   done_.domains = threads.domains;
+}
+
+template <class Impact, class Layout, class World>
+Domains<Impact, Layout, World>::~Domains() {
+  if (ranks_ != nullptr && first()) order(Order::end);
 }
 
 template <class Impact, class Layout, class World>
@@ -44,6 +51,8 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
     event_limit_ = event_limit;
     events_before_ = done_.events;
     begin_window();
+    if (ranks_ != nullptr) order(Order::run);
+    tell_decision();
     team_.run([this](std::size_t thread) { work(thread); });
     switch (next_) {
       case Next::arrived:
@@ -55,7 +64,7 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
         break;
       case Next::failed:
         go_back();
-        failure_.rethrow();
+        throw_failure();
         break;
       default:
         go_back();
@@ -67,10 +76,10 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::share_out() {
   serially([this] { divide(); });
-  team_.run([&](std::size_t thread) {
-    each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach_); });
-  });
-  failure_.rethrow();
+  if (ranks_ != nullptr) order(Order::share_out, engine_as_bytes());
+  make_domains();
+  gather_failures();
+  throw_failure();
   serially([this] { leave_to_domains(); });
 }
 
@@ -83,27 +92,60 @@ void Domains<Impact, Layout, World>::divide() {
   }
   half_width_ = whole_.lists_.half_width();
   const std::array step{whole_.flight_.axis(0).unit * 0x1p32, whole_.flight_.axis(1).unit * 0x1p32};
-  if (parts_) {
-    const BoxParts::Costs costs{*parts_, cost_of_disk_};
-    parts_ = BoxParts(threads_.domains, centres_, step, cost_of_disk_.empty() ? nullptr : &costs);
-  } else {
-    parts_.emplace(threads_.domains, centres_, step);
-  }
-  epoch_seconds_.assign(threads_.domains, 0.0);
-  domains_.clear();
-  domains_.resize(threads_.domains);
-  seconds_.assign(threads_.domains, 0.0);
-  verdicts_.resize(threads_.domains);
-  censuses_.resize(threads_.domains);
   reach_ = std::max(suitable_reach(), 2.5 * half_width_);
+  const std::optional<BoxParts> before = std::move(parts_);
+  for (std::size_t parts = threads_.domains;; parts = std::max(parts / 2, most_parts_in_any_case)) {
+    if (before && !cost_of_disk_.empty()) {
+      const BoxParts::Costs costs{*before, cost_of_disk_};
+      parts_.emplace(parts, centres_, step, &costs);
+    } else {
+      parts_.emplace(parts, centres_, step);
+    }
+    if (parts <= most_parts_in_any_case || parts_->most_neighbours(reach_) < most_parts_in_any_case) break;
+  }
   parts_->set_reach(reach_);
+}
+
+/// Makes the domains of this rank. What is thrown is kept.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::make_domains() {
+  domains_.clear();
+  domains_.resize(parts_->count());
+  const auto me = static_cast<std::size_t>(ranks_ == nullptr ? 0 : ranks_->rank());
+  for (begin_ = 0; begin_ < count() && rank_of(begin_) < me;) ++begin_;
+  for (end_of_here_ = begin_; end_of_here_ < count() && rank_of(end_of_here_) == me;) ++end_of_here_;
+  facts_.assign(count(), {});
+  inboxes_.assign(count(), {});
+  stored_.assign(count(), {});
+  collisions_elsewhere_.assign(count(), {});
+  events_elsewhere_.assign(count(), {});
+  seconds_.assign(count(), 0.0);
+  epoch_seconds_.assign(count(), 0.0);
+  verdicts_.resize(count());
+  censuses_.resize(count());
+  longest_lists_.assign(count(), 0);
+  other_ranks_.clear();
+  team_.run([&](std::size_t thread) {
+    each(thread, [&](std::size_t d) { domains_[d] = std::make_unique<Part>(whole_, *parts_, d, reach_); });
+  });
+  if (failure_.any()) return;
+  for (std::size_t d = begin_; d < end_of_here_; ++d) {
+    inboxes_[d].resize(domains_[d]->neighbours().size());
+    for (const std::size_t other : domains_[d]->neighbours())
+      if (!is_here(other)) other_ranks_.push_back(rank_of(other));
+  }
+  std::sort(other_ranks_.begin(), other_ranks_.end());
+  other_ranks_.erase(std::unique(other_ranks_.begin(), other_ranks_.end()), other_ranks_.end());
 }
 
 /// Frees what the whole engine does not need while domains have its disks, and chooses the length of the first window.
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::leave_to_domains() {
-  for (const auto& domain : domains_) domain->record(whole_.recorder_.listening(), whole_.recorder_.logging(), slot_of_id_);
+  done_.domains = count();
+  recording_ = whole_.recorder_.active();
+  for (const auto& domain : here()) domain->record(whole_.recorder_.listening(), whole_.recorder_.logging(), slot_of_id_);
   whole_.recorder_.log_elsewhere(true);
+  all_stored_here_ = true;
   collisions_told_ = events_told_ = 0;
   whole_.lists_.clear();
   whole_.queue_.clear();
@@ -120,14 +162,23 @@ void Domains<Impact, Layout, World>::leave_to_domains() {
   ++done_.shared_out;
 }
 
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::throw_failure() {
+  failure_.rethrow();
+  if (!failure_elsewhere_.empty()) throw std::runtime_error(std::exchange(failure_elsewhere_, {}));
+}
+
 /// Puts what has happened since the last time into the whole engine.
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::update() {
   if (up_to_date_) return;
-  for (const auto& domain : domains_) domain->hand_over_counts(whole_);
+  if (ranks_ != nullptr) order(Order::send_disks);
+  gather_counts();
   team_.run([&](std::size_t thread) { each(thread, [&](std::size_t d) { domains_[d]->store(whole_, slot_of_id_, centres_); }); });
+  gather_disks(false);
   failure_.rethrow();
   count_wells();
+  all_stored_here_ = true;
   whole_.stamp_ = 1;
   whole_.now_ = now_;
   collisions_told_ = events_told_ = 0;
@@ -144,6 +195,12 @@ void Domains<Impact, Layout, World>::gather() {
 /// Lets the whole engine go on from what it has.
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::go_back() {
+  if (!all_stored_here_) {
+    order(Order::send_stored);
+    gather_disks(true);
+    count_wells();
+    all_stored_here_ = true;
+  }
   serially([this] {
     domains_.clear();
     const std::uint64_t changes = whole_.lists_.changes();
@@ -189,7 +246,7 @@ void Domains<Impact, Layout, World>::begin_window() {
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::count_collisions() {
   const std::uint64_t pairs = counts().pair;
-  if (pairs > pair_limit_ || failure_.any()) return void(counting_ = false);
+  if (pairs > pair_limit_ || has_failed()) return void(counting_ = false);
   const double left = static_cast<double>(pair_limit_ - pairs), safe = left - 4.0 * std::sqrt(left) - 32.0;
   // A rate that was far too high halves from part to part; that there are few of a few collisions says nothing.
   if (part_ > 32.0 && static_cast<double>(pairs - counted_) < part_ / 4.0) pair_rate_ /= 2.0;
@@ -200,34 +257,78 @@ void Domains<Impact, Layout, World>::count_collisions() {
   } else if (safe > 0.0) {
     window_end_ = std::min(longest_end_, window_end_ + safe / pair_rate_);
   } else {
-    step_to_limit();
+    stepping_ = true;
     counting_ = false;
+    at_limit_ = pairs < pair_limit_;
+    stepped_to_ = window_end_;
   }
 }
 
 /// Processes event after event, in the order of time, until the limit of collisions or the end of the window.
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::step_to_limit() {
-  std::uint64_t pairs = counts().pair;
-  at_limit_ = pairs < pair_limit_;
-  while (pairs < pair_limit_) {
-    Part* first = nullptr;
-    double time = infinity<double>;
-    for (const auto& domain : domains_)
-      if (const double next = domain->next_time(); next < time) time = next, first = domain.get();
-    if (first == nullptr || time > longest_end_) return void(window_end_ = longest_end_);
-    const std::uint64_t before = first->counts().pair;
-    if (!first->run_next(longest_end_)) return void(window_end_ = longest_end_);
-    pairs += first->counts().pair - before;
-    window_end_ = std::max(window_end_, time);
+  const std::uint64_t before = whole_.totals_.pair;
+  bool blocked = false;
+  for (;;) {
+    Turn mine;
+    mine.blocked = blocked;
+    for (std::size_t d = begin_; d < end_of_here_; ++d) {
+      mine.pairs += domains_[d]->counts().pair;
+      if (const double next = domains_[d]->next_time(); next < mine.time) mine.time = next, mine.domain = d;
+    }
+    const Turn chosen = choose(mine, before);
+    if (chosen.domain == Turn::none) return;
+    blocked = is_here(chosen.domain) && !domains_[chosen.domain]->run_next(longest_end_);
   }
+}
+
+/// Chooses the next event from what all ranks offer: none at the limit of collisions, and at the end of the window.
+template <class Impact, class Layout, class World>
+typename Domains<Impact, Layout, World>::Turn Domains<Impact, Layout, World>::choose(const Turn& mine, std::uint64_t before) {
+  Turn all = mine;
+  if (ranks_ != nullptr) {
+    Packet packet;
+    packet.put(mine);
+    const std::vector<std::string> gathered = ranks_->gather(packet.bytes());
+    for (std::size_t rank = 1; rank < gathered.size(); ++rank) {
+      const auto other = PacketReader(gathered[rank]).take<Turn>();
+      all.pairs += other.pairs;
+      all.blocked = all.blocked || other.blocked;
+      if (other.time < all.time) all.time = other.time, all.domain = other.domain;
+    }
+  }
+  if (first()) {
+    window_end_ = all.blocked ? longest_end_ : std::max(window_end_, stepped_to_);
+    if (all.blocked || before + all.pairs >= pair_limit_) {
+      all.domain = Turn::none;
+    } else if (all.domain == Turn::none || all.time > longest_end_) {
+      window_end_ = longest_end_;
+      all.domain = Turn::none;
+    }
+    stepped_to_ = all.time;
+    all.time = window_end_;
+  }
+  if (ranks_ != nullptr) {
+    Packet packet;
+    packet.put(all);
+    ranks_->broadcast(packet.bytes());
+    all = PacketReader(packet.bytes()).take<Turn>();
+    window_end_ = all.time;
+  }
+  return all;
 }
 
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::read_messages(std::size_t d) {
   Part& domain = *domains_[d];
   const auto from_all = [&](auto&& read) {
-    for (const std::size_t other : domain.neighbours()) read(domains_[other]->messages(domains_[other]->number_of(d)));
+    for (std::size_t n = 0; n < domain.neighbours().size(); ++n) {
+      const std::size_t other = domain.neighbours()[n];
+      if (is_here(other))
+        read(domains_[other]->messages(domains_[other]->number_of(d)));
+      else
+        read(std::span<const typename Part::Message>(inboxes_[d][n]));
+    }
   };
   domain.begin_reading();
   from_all([&](auto messages) { domain.read_lines(messages); });
@@ -239,14 +340,21 @@ template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::run_window(std::size_t thread) {
   each(thread, [&](std::size_t d) { domains_[d]->run(window_end_); });
   while (counting_) {
-    meet(thread, [this] { count_collisions(); });
+    meet(thread, [this] {
+      gather_facts(false);
+      stepping_ = false;
+      if (first()) count_collisions();
+      tell_decision();
+      if (stepping_) step_to_limit();
+    });
     each(thread, [&](std::size_t d) { domains_[d]->run(window_end_); });
     meet(thread, [] {});
   }
   each(thread, [&](std::size_t d) { domains_[d]->write_messages(); });
-  meet(thread, [] {});
+  meet(thread, [this] { exchange_messages(); });
   each(thread, [&](std::size_t d) { read_messages(d); });
-  meet(thread, [this] { decide(); });
+  meet(
+      thread, [this] { gather_facts(true), gather_records(); }, [this] { decide(); });
 }
 
 /// After a window: is it right, and what comes next?
@@ -258,19 +366,21 @@ void Domains<Impact, Layout, World>::decide() {
   // half the width of its neighbourhood nearer than the centre that says so.
   double nearest = reach_ - half_width_, allowed = 0.0;
   bool stopped = false;
-  const std::uint64_t happened = events();
-  for (std::size_t d = 0; d < domains_.size(); ++d) {
-    homes += domains_[d]->homes();
-    stopped = stopped || domains_[d]->stopped() || verdicts_[d].conflict;
-    nearest = std::min(nearest, verdicts_[d].nearest);
-    allowed = domains_[d]->read_at_home();
-    done_.copies += verdicts_[d].compared;
-    done_.copies_wrong += verdicts_[d].wrong;
+  for (const Facts& facts : facts_) {
+    homes += facts.homes;
+    stopped = stopped || facts.stopped || facts.verdict.conflict;
+    nearest = std::min(nearest, facts.verdict.nearest);
+    allowed = facts.read_at_home;
+    done_.events += facts.events;
+    done_.copied_events += facts.copied_events;
+    done_.copies += facts.verdict.compared;
+    done_.copies_wrong += facts.verdict.wrong;
   }
+  const std::uint64_t happened = done_.events;
   allowed += fastest_ * (window_end_ - now_) + half_width_;
   const std::uint64_t pairs = counts().pair;
   const bool missed = pairs > pair_limit_ || (pairs == pair_limit_ && !at_limit_);  // the time of the last collision is not known
-  if (failure_.any()) {
+  if (has_failed()) {
     next_ = Next::failed;
   } else if (stopped || nearest <= allowed || homes != whole_.lines_.size() || missed) {
     ++done_.windows_redone;
@@ -307,6 +417,12 @@ void Domains<Impact, Layout, World>::hand_over_records() {
   const auto logged_before = [](const Event& a, const Event& b) {
     return std::tie(a.time, a.time_remainder, a.disk, a.partner) < std::tie(b.time, b.time_remainder, b.disk, b.partner);
   };
+  const auto events_of = [this](std::size_t d) -> const std::vector<Event>& {
+    return is_here(d) ? domains_[d]->logged() : events_elsewhere_[d];
+  };
+  const auto collisions_of = [this](std::size_t d) -> const std::vector<CollisionRecord>& {
+    return is_here(d) ? domains_[d]->collisions() : collisions_elsewhere_[d];
+  };
   /// Calls take(one) for the entries of all lists in order, each of which is in order by itself.
   const auto merge = [this](auto&& list_of, auto&& before, auto&& take) {
     std::vector<std::size_t> next(domains_.size());
@@ -320,14 +436,10 @@ void Domains<Impact, Layout, World>::hand_over_records() {
     }
   };
   if (recorder.logging())
-    merge([this](std::size_t d) -> const std::vector<Event>& { return domains_[d]->logged(); }, logged_before,
-          [&](const Event& event) {
-            recorder.append({&event, 1}), ++events_told_;
-          });
+    merge(events_of, logged_before, [&](const Event& event) { recorder.append({&event, 1}), ++events_told_; });
   if (recorder.listening())
-    merge([this](std::size_t d) -> const std::vector<CollisionRecord>& { return domains_[d]->collisions(); }, collided_before,
-          [&](const CollisionRecord& record) { recorder.hand_on(record), ++collisions_told_; });
-  for (const auto& domain : domains_) domain->clear_records();
+    merge(collisions_of, collided_before, [&](const CollisionRecord& record) { recorder.hand_on(record), ++collisions_told_; });
+  for (const auto& domain : here()) domain->clear_records();
 }
 
 /// Makes windows shorter where something wrong came rather near to home, and longer where it has not for a while.
@@ -361,7 +473,14 @@ void Domains<Impact, Layout, World>::run_epoch(std::size_t thread) {
     censuses_[d] = domains_[d]->census();
     if (whole_.common_motion_.present()) domains_[d]->store(whole_, slot_of_id_, centres_);
   });
-  meet(thread, [this] { lead_epoch(); });
+  meet(
+      thread,
+      [this] {
+        gather_counts();
+        if (whole_.common_motion_.present()) gather_disks(false);
+      },
+      [this] { lead_epoch(); });
+  if (has_fallen_ && !first()) meet(thread, [this] { parts_->shift(fallen_); });
   each(thread, [&](std::size_t d) {
     BoxDomain<Impact, Layout, World>& domain = *domains_[d];
     if (has_fallen_) domain.reset_fall();
@@ -371,24 +490,29 @@ void Domains<Impact, Layout, World>::run_epoch(std::size_t thread) {
     if (plans_change_) domain.write_messages();
   });
   if (plans_change_) {
-    meet(thread, [] {});
+    meet(thread, [this] { exchange_messages(); });
     each(thread, [&](std::size_t d) { read_messages(d); });
   }
   each(thread, [&](std::size_t d) {
     domains_[d]->begin_epoch();
     domains_[d]->store(whole_, slot_of_id_, centres_);
+    if (!first()) stored_[d] = domains_[d]->home_slots(slot_of_id_);
+    if (lists_change_) longest_lists_[d] = domains_[d]->longest_list();
   });
-  meet(thread, [this] { end_of_epoch(); });
+  meet(
+      thread,
+      [this] {
+        gather_facts(false);
+        if (!first()) std::fill(epoch_seconds_.begin(), epoch_seconds_.end(), 0.0);
+      },
+      [this] { end_of_epoch(); });
 }
 
 /// Begins an epoch in the whole engine: see EventLoop::begin_epoch().
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::lead_epoch() {
   SpeedCensus speeds;
-  for (std::size_t d = 0; d < domains_.size(); ++d) {
-    domains_[d]->hand_over_counts(whole_);
-    speeds.add(censuses_[d]);
-  }
+  for (const SpeedCensus& census : censuses_) speeds.add(census);
   watch_speeds(speeds);
   whole_.impact_.rebase(now_);
   whole_.rebase_clock(now_);
@@ -399,7 +523,8 @@ void Domains<Impact, Layout, World>::lead_epoch() {
       owed_ = whole_.common_motion_.owed(whole_.lines_, [this](const auto& line) { return whole_.layout_.momentum(line); });
   has_fallen_ = whole_.world_.falls() && whole_.flight_.has_fallen(4.0 * whole_.sizes_.spacing);
   if (has_fallen_) {
-    parts_->shift(whole_.flight_.fallen());  // with the frame, so that disks stay where they are at home
+    fallen_ = whole_.flight_.fallen();
+    parts_->shift(fallen_);  // with the frame, so that disks stay where they are at home
     whole_.flight_.reset_fall(whole_.lines_);
     ++whole_.totals_.numerics.list_rebuilds;
   }
@@ -419,15 +544,16 @@ template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::end_of_epoch() {
   if (lists_change_) {
     std::uint64_t longest = 0;
-    for (const auto& domain : domains_) longest = std::max(longest, domain->longest_list());
+    for (const Facts& facts : facts_) longest = std::max(longest, facts.longest_list);
     whole_.totals_.numerics.longest_neighbour_list = longest;
   }
   count_wells();
   if constexpr (!Impact::plain) whole_.impact_.owe(owed_);
+  all_stored_here_ = ranks_ == nullptr;
   collisions_told_ = events_told_ = 0;
   now_ = 0.0;
   target_ = end_.template since<double>(whole_.epoch_);
-  if (failure_.any())
+  if (has_failed())
     next_ = Next::failed;
   else if (is_unbalanced() || 2.5 * half_width_ > reach_)  // halos hold all disks that new neighbourhoods bring to another home
     next_ = Next::balance;
@@ -440,15 +566,15 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
 /// Whether one domain has taken much longer than the others in the last epoch, so that borders are to be moved.
 template <class Impact, class Layout, class World>
 bool Domains<Impact, Layout, World>::is_unbalanced() {
-  const double all = std::accumulate(epoch_seconds_.begin(), epoch_seconds_.end(), 0.0);
-  const double longest = *std::max_element(epoch_seconds_.begin(), epoch_seconds_.end());
-  const bool unbalanced = longest * static_cast<double>(domains_.size()) > 1.25 * all;
+  double all = 0.0, longest = 0.0;
+  for (const Facts& facts : facts_) all += facts.epoch_seconds, longest = std::max(longest, facts.epoch_seconds);
+  const bool unbalanced = longest * static_cast<double>(facts_.size()) > 1.25 * all;
   unbalanced_for_ = unbalanced ? unbalanced_for_ + 1 : 0;
   if (unbalanced_for_ >= 4) {
     unbalanced_for_ = 0;
-    cost_of_disk_.resize(domains_.size());
-    for (std::size_t d = 0; d < domains_.size(); ++d)
-      cost_of_disk_[d] = (epoch_seconds_[d] + 1e-9) / static_cast<double>(domains_[d]->homes() + 1);
+    cost_of_disk_.clear();
+    for (const Facts& facts : facts_)
+      cost_of_disk_.push_back((facts.epoch_seconds + 1e-9) / static_cast<double>(facts.homes + 1));
     return true;
   }
   std::fill(epoch_seconds_.begin(), epoch_seconds_.end(), 0.0);
@@ -456,20 +582,10 @@ bool Domains<Impact, Layout, World>::is_unbalanced() {
 }
 
 template <class Impact, class Layout, class World>
-std::uint64_t Domains<Impact, Layout, World>::events() {
-  for (const auto& domain : domains_) {
-    const auto [at_home, copied] = domain->take_events_done();
-    done_.events += at_home;
-    done_.copied_events += copied;
-  }
-  return done_.events;
-}
-
-template <class Impact, class Layout, class World>
 Counts Domains<Impact, Layout, World>::counts() const {
   Counts sum = whole_.totals_;
   if (!up_to_date_)
-    for (const auto& domain : domains_) add_counts(sum, domain->counts());
+    for (const Facts& facts : facts_) add_counts(sum, facts.counts);
   return sum;
 }
 
@@ -477,7 +593,11 @@ template <class Impact, class Layout, class World>
 Totals Domains<Impact, Layout, World>::totals() const {
   if (up_to_date_) return engine_.totals();
   RunningTotals sum = whole_.totals_;
-  for (const auto& domain : domains_) sum.add(domain->totals());
+  for (const auto& domain : here()) sum.add(domain->totals());
+  if (ranks_ != nullptr) {
+    order(Order::send_totals);
+    from_others(ranks_->gather({}), [&](std::size_t /*domain*/, PacketReader& reader) { sum.add(reader.take<RunningTotals>()); });
+  }
   return sum.rounded();
 }
 
@@ -497,7 +617,8 @@ template <class Impact, class Layout, class World>
 std::size_t Domains<Impact, Layout, World>::bytes() const {
   std::size_t sum =
       engine_.bytes() + centres_.capacity() * sizeof(NeighbourhoodCentre) + slot_of_id_.capacity() * sizeof(std::int32_t);
-  for (const auto& domain : domains_) sum += domain->bytes();
+  if (shared_)
+    for (const auto& domain : here()) sum += domain->bytes();
   return sum;
 }
 

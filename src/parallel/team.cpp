@@ -1,6 +1,7 @@
 #include "parallel/team.hpp"
 
 #include <algorithm>
+#include <new>
 
 namespace carom {
 
@@ -27,6 +28,18 @@ void Team::run(const std::function<void(std::size_t)>& work) {
   barrier_.arrive_and_wait();
   work(0);
   barrier_.arrive_and_wait();
+}
+
+std::string Team::Failure::words_of(const std::exception_ptr& exception) {
+  try {
+    std::rethrow_exception(exception);
+  } catch (const std::bad_alloc&) {
+    return "there is not enough memory";
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (...) {
+    return "an unknown error";
+  }
 }
 
 }  // namespace carom

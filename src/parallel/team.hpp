@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -47,8 +48,19 @@ class Team {
     void rethrow() {
       if (first_) std::rethrow_exception(std::exchange(first_, nullptr));
     }
+    /// Returns the words of the exception, for another process; empty where there is none.
+    [[nodiscard]] std::string words() {
+      const std::lock_guard lock(mutex_);
+      return first_ ? words_of(first_) : std::string();
+    }
+    void forget() {
+      const std::lock_guard lock(mutex_);
+      first_ = nullptr;
+    }
 
    private:
+    [[nodiscard]] static std::string words_of(const std::exception_ptr& exception);
+
     std::mutex mutex_;
     std::exception_ptr first_;
   };

@@ -215,6 +215,7 @@ nb::typed<nb::dict, nb::str, nb::any> dict_of(const Totals& totals) {
 nb::typed<nb::dict, nb::str, int> dict_of(const ThreadCounts& counts) {
   nb::typed<nb::dict, nb::str, int> d;
   d["threads"] = counts.threads;
+  d["ranks"] = counts.ranks;
   d["domains"] = counts.domains;
   d["windows"] = counts.windows;
   d["windows_redone"] = counts.windows_redone;

@@ -65,6 +65,13 @@ void set_threads_of_run(Simulation& simulation, std::optional<int> threads) {
   throw std::invalid_argument(fmt::format("only one core can compute this run, for {}; give 1, or leave it out", reason));
 }
 
+void set_threads_of_ranks(Simulation& simulation, std::optional<int> threads, Ranks& ranks) {
+  if (const std::string reason = simulation.why_not_threads(); !reason.empty())
+    throw std::invalid_argument(fmt::format(
+        "only one process can compute this run, for {}, and MPI has started {}; start one without it", reason, ranks.size()));
+  simulation.set_threads({.threads = static_cast<std::size_t>(threads.value_or(1))}, ranks);
+}
+
 namespace {
 
 /// Returns how many threads of the whole machine run or want to run at this moment, the caller among them. Linux says so in the

@@ -1,6 +1,7 @@
 #pragma once
 // How many threads compute the events of a run, and how many processors there are for it.
 
+#include <carom/ranks.hpp>
 #include <carom/simulation.hpp>
 
 #include <optional>
@@ -30,6 +31,10 @@ struct SuggestedThreads {
 /// events cannot be shared out and the scene has observables, which the second one measures. Throws std::invalid_argument with a
 /// sentence where the simulation cannot be shared out, or the number is out of range.
 void set_threads_of_run(Simulation& simulation, std::optional<int> threads);
+
+/// Has the simulation compute its events on so many threads of each rank; absent: on one. The other ranks are in serve_ranks().
+/// Throws std::invalid_argument as above.
+void set_threads_of_ranks(Simulation& simulation, std::optional<int> threads, Ranks& ranks);
 
 /// Returns the number of processors that this program may use, >= 1.
 [[nodiscard]] int processors();

@@ -8,6 +8,7 @@
 #include "engine/continuation.hpp"
 
 #include <carom/collision_rule.hpp>
+#include <carom/ranks.hpp>
 #include <carom/simulation.hpp>
 #include <carom/state.hpp>
 #include <carom/threads.hpp>
@@ -115,6 +116,11 @@ class AnyEngine {
   virtual void save(SavingArchive& archive) const = 0;
   /// Requires an engine made for the same scene, by the same program.
   virtual void load(LoadingArchive& archive) = 0;
+  /// Does as set_threads(), with the threads of all ranks; the others serve(). Requires this to be rank 0.
+  virtual void set_ranks(const Threads& /*threads*/, Ranks& /*ranks*/) {}
+  /// Computes on another rank what the engine of rank 0 asks for, from its set_ranks() with the same numbers until that shares
+  /// its disks out in another way, or is destroyed. Requires an engine made for the same scene, with an empty why_not_threads().
+  virtual void serve(const Threads& /*threads*/, Ranks& /*ranks*/) {}
 };
 
 template <class Engine>

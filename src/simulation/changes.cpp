@@ -79,7 +79,7 @@ void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_ru
   continuation.pending.reset();
   engine->leave(continuation);
   another->take_over(continuation);
-  if (another->why_not_threads().empty()) another->set_threads(threads);
+  if (ranks == nullptr && another->why_not_threads().empty()) another->set_threads(threads);
   another->record_events(recording);
   engine->take_events(last);
   events.insert(events.end(), last.begin(), last.end());
@@ -92,6 +92,7 @@ void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_ru
   engine_name = entry.name;
   engine_reason = std::move(reason);
   engine = std::move(another);
+  if (ranks != nullptr && engine->why_not_threads().empty()) share_out();
 }
 
 void Simulation::set_effects(const Effects& effects) {

@@ -1,6 +1,7 @@
 #pragma once
 // What a Simulation is made of; seen by the code of this room alone.
 
+#include <carom/ranks.hpp>
 #include <carom/simulation.hpp>
 
 #include "simulation/any_engine.hpp"
@@ -25,13 +26,9 @@ namespace detail {
   return std::nullopt;
 }
 
-/// Throws std::invalid_argument where a number is not as carom/threads.hpp says.
-void check_threads(const Threads& threads);
-/// With as many domains as threads where their number is left open.
-[[nodiscard]] inline Threads with_domains(Threads threads) {
-  if (threads.domains == 0) threads.domains = threads.threads;
-  return threads;
-}
+/// The same with a number of domains: one for each thread of so many ranks where it is left open. Throws std::invalid_argument
+/// where a number is not as carom/threads.hpp says, or some rank would have no domain.
+[[nodiscard]] Threads with_domains(Threads threads, int ranks);
 
 /// The text of all that decides how a simulation goes on from a state in this scene: what acts, the sizes of box and disks, the
 /// seed.
@@ -59,10 +56,15 @@ struct Simulation::Parts {
   CollisionFunction rule = {};              ///< of the program
   bool rule_missing = false;                ///< it had one when it was saved, and has not been given it again
   bool scheduled = false;                   ///< run_schedule() is at work
+  Ranks* ranks = nullptr;                   ///< that compute it; null: this process alone
 
   /// Goes on with another engine, from this state in this scene, which has been checked. Throws as make_simulation() does from a
   /// state; then all is as it was.
   void go_on(Scene with, State state, CollisionFunction with_rule);
+  /// Has the engine compute on the threads of all ranks. The other ranks are in serve_ranks(), and serve no simulation.
+  void share_out();
+  /// Throws std::invalid_argument where there is a reason against sharing it out.
+  static void require_shareable(const std::string& why_not);
   /// Throws std::logic_error where nothing can be changed now.
   void require_changeable() const;
   /// Throws std::logic_error where nothing can run.

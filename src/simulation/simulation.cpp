@@ -70,6 +70,10 @@ std::optional<Event> Simulation::Parts::next_event(const Instant& target, std::u
   return last.empty() ? std::nullopt : std::optional(last.back());
 }
 
+void Simulation::Parts::require_shareable(const std::string& why_not) {
+  if (!why_not.empty()) throw std::invalid_argument(fmt::format("this simulation runs on one core: {}", why_not));
+}
+
 Simulation::Simulation(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
@@ -143,11 +147,20 @@ std::string Simulation::why_not_threads() const {
   return reason;
 }
 void Simulation::set_threads(const Threads& threads) {
-  detail::check_threads(threads);
-  if (const std::string reason = why_not_threads(); !reason.empty() && (threads.threads > 1 || threads.domains > 1))
-    throw std::invalid_argument(fmt::format("this simulation runs on one core: {}", reason));
-  parts_->threads = detail::with_domains(threads);
-  parts_->engine->set_threads(parts_->threads);
+  const Threads given = detail::with_domains(threads, 1);
+  if (given.threads > 1 || given.domains > 1) parts_->require_shareable(why_not_threads());
+  parts_->threads = given;
+  parts_->ranks = nullptr;
+  parts_->engine->set_threads(given);
+}
+void Simulation::set_threads(const Threads& threads, Ranks& ranks) {
+  if (ranks.size() == 1) return set_threads(threads);
+  const Threads given = detail::with_domains(threads, ranks.size());
+  parts_->require_shareable(why_not_threads());
+  set_threads({});
+  parts_->threads = given;
+  parts_->ranks = &ranks;
+  parts_->share_out();
 }
 ThreadCounts Simulation::thread_counts() const { return parts_->engine->thread_counts(); }
 

@@ -20,12 +20,10 @@ class ThreadedEngine final : public WrappedEngine {
         why_not_threads_(detail::why_not_threads(effects)) {}
 
   [[nodiscard]] std::string why_not_threads() const override { return why_not_threads_; }
-  void set_threads(const Threads& threads) override {
-    gather();
-    domains_.reset();
-    if (threads.threads <= 1 && threads.domains <= 1) return;
-    domains_ = std::make_unique<Domains<Impact, Layout, World>>(static_cast<Adapter&>(*engine_).engine(), threads);
-    count();
+  void set_threads(const Threads& threads) override { share_out(threads, nullptr); }
+  void set_ranks(const Threads& threads, Ranks& ranks) override { share_out(threads, &ranks); }
+  void serve(const Threads& threads, Ranks& ranks) override {
+    Domains<Impact, Layout, World>(static_cast<Adapter&>(*engine_).engine(), threads, &ranks).serve();
   }
   [[nodiscard]] ThreadCounts thread_counts() const override { return domains_ ? domains_->thread_counts() : ThreadCounts{}; }
 
@@ -96,6 +94,13 @@ class ThreadedEngine final : public WrappedEngine {
   }
 
  private:
+  void share_out(const Threads& threads, Ranks* ranks) {
+    gather();
+    domains_.reset();
+    if (threads.threads <= 1 && threads.domains <= 1) return;
+    domains_ = std::make_unique<Domains<Impact, Layout, World>>(static_cast<Adapter&>(*engine_).engine(), threads, ranks);
+    count();
+  }
   bool run(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit, bool exact_events) {
     if (!domains_) return engine_->run_until(target, pair_limit, event_limit);
     const bool arrived = domains_->run_until(target, pair_limit, event_limit, exact_events);

@@ -10,17 +10,24 @@
 
 namespace carom::detail {
 
-void check_threads(const Threads& threads) {
-  constexpr std::size_t most = 32;  // a domain has a bit for each of its neighbours
+Threads with_domains(Threads threads, int ranks) {
+  const auto count = static_cast<std::size_t>(ranks);
+  constexpr std::size_t most = 32;  // threads of one process: more would wait for each other longer than they compute
+  const std::size_t most_domains = count == 1 ? most : 1024;
   const auto refuse = [](const std::string& what) { throw std::invalid_argument(what); };
   if (threads.threads < 1 || threads.threads > most)
     refuse(fmt::format("a simulation runs on 1 to {} threads, not on {}", most, threads.threads));
-  if (threads.domains > most) refuse(fmt::format("a simulation has at most {} domains, not {}", most, threads.domains));
+  if (threads.domains == 0) threads.domains = threads.threads * count;
+  if (threads.domains > most_domains)
+    refuse(fmt::format("a simulation has at most {} domains, not {}{}", most_domains, threads.domains,
+                       count == 1 ? "" : fmt::format(": that is one for each thread of each of {} processes", count)));
+  if (threads.domains < count) refuse(fmt::format("{} processes cannot share {} domains", count, threads.domains));
   if (!(threads.halo >= 0.0) || !std::isfinite(threads.halo))
     refuse(fmt::format("the width of a halo is {:g}; it must be positive and finite, or 0 for one that suits the density",
                        threads.halo));
   if (!(threads.events_per_window > 0.0) || !std::isfinite(threads.events_per_window))
     refuse(fmt::format("a window has {:g} events of each disk; that must be positive and finite", threads.events_per_window));
+  return threads;
 }
 
 std::string why_not_threads(const Effects& effects) {

@@ -1,7 +1,7 @@
 // carom run --threads N as a user meets it: the files of one core, whatever happens to the run, and one sentence where a run
 // cannot be shared out.
 
-#include "support/program_test.hpp"
+#include "support/shared_out_run.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -18,59 +18,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string many_disks = R"([box]
-x = [0.0, 60.0]
-y = [0.0, 50.0]
-boundary = "periodic"
-
-[[disks]]
-count = 2000
-radius = 0.5
-mass = 1.0
-positions = "hexagonal"
-velocities = { temperature = 1.0 }
-
-[collision]
-rule = "specular"
-
-[run]
-time = 6.0
-sample_every = 1.0
-
-[output]
-xyz = true
-csv = true
-
-[observe]
-radial_distribution = true
-)";
-
-class ThreadsOfRun : public ProgramTest {
- protected:
-  ThreadsOfRun() : ProgramTest(many_disks) {}
-
-  /// Runs the scene into a directory of that name.
-  Outcome run(const std::string& out, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"run", "gas.toml", "--out", out};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return carom(arguments);
-  }
-  [[nodiscard]] json summary(const std::string& directory) const {
-    return json::parse(text_of(file(directory) / "summary.json"));
-  }
-  void expect_same_results(const std::string& a, const std::string& b) {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(file(a)))
-      if (const fs::path name = entry.path().filename(); name.extension() == ".csv" || name.extension() == ".xyz")
-        names.push_back(name.string());
-    EXPECT_GE(names.size(), 3U);
-    for (const std::string& name : names) EXPECT_TRUE(text_of(file(a) / name) == text_of(file(b) / name)) << name;
-    json one = summary(a), other = summary(b);
-    for (const char* key : {"wall_seconds", "loop_seconds", "collisions_per_second", "command_line", "cores"})
-      one.erase(key), other.erase(key);
-    EXPECT_EQ(one, other);
-  }
-};
+using ThreadsOfRun = SharedOutRunTest;
 
 TEST_F(ThreadsOfRun, GiveTheFilesOfOneCore) {
   ASSERT_EQ(run("one", {"-q", "--threads", "1"}).exit_code, 0);

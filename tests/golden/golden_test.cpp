@@ -4,6 +4,7 @@
 #include "core/instructions.hpp"
 #include "golden/run_hash.hpp"
 #include "support/instructions.hpp"
+#include "support/memory_ranks.hpp"
 #include "support/scene_files.hpp"
 
 #include <carom/simulation.hpp>
@@ -79,6 +80,18 @@ TEST_P(GoldenDomains, EndInTheRecordedBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GoldenDomains, testing::ValuesIn(example_scenes()), [](const auto& param) { return param.param; });
+
+/// On several ranks. They are threads here, which is slow: tests/parallel has more kinds of scenes.
+TEST(GoldenRanks, EndInTheRecordedBits) {
+  for (const char* name : {"box", "clusters"}) {
+    const Scene scene = load_scene(example_path(name));
+    const std::string engine = make_simulation(scene).engine();
+    for (const int ranks : {1, 2, 3, 4}) {
+      ServingRanks serving(ranks);
+      EXPECT_EQ(hash_of_run(scene, engine, true, {}, &serving.first()), recorded().at({name, engine})) << name << ", " << ranks;
+    }
+  }
+}
 
 }  // namespace
 }  // namespace carom::test

@@ -27,10 +27,11 @@ class Hash {
 };
 
 /// Returns the hash of the final state and the counts of a run of the scene.
-inline std::string hash_of_run(Scene scene, const std::string& engine, bool sampling = true, const Threads& threads = {}) {
+inline std::string hash_of_run(Scene scene, const std::string& engine, bool sampling = true, const Threads& threads = {},
+                               carom::Ranks* ranks = nullptr) {
   if (!sampling) scene.run.sample_every.reset();
   Simulation simulation = make_simulation(scene, engine);
-  simulation.set_threads(threads);
+  ranks == nullptr ? simulation.set_threads(threads) : simulation.set_threads(threads, *ranks);
   run_schedule(simulation);
   const State state = simulation.state();
   Hash hash;

@@ -1,7 +1,7 @@
 // A run on several cores has the bits of the run on one: for any number of domains and threads, any halo and window, and wherever
 // one stops.
 
-#include "support/systems.hpp"
+#include "support/several_cores.hpp"
 
 #include <carom/simulation.hpp>
 
@@ -14,50 +14,6 @@
 
 namespace carom::test {
 namespace {
-
-Scene gas(std::int64_t disks, double packing_fraction, Boundary boundary, CollisionRule rule = CollisionRule::specular) {
-  Scene scene = gas_scene(disks, packing_fraction, boundary);
-  scene.effects.collision.rule = rule;
-  return scene;
-}
-
-/// Disks of two sizes in a gas, one of them as heavy as it is large.
-Scene mixture(std::int64_t disks) {
-  Scene scene = gas(disks, 0.3, Boundary::walls);
-  scene.box.upper *= 1.5;
-  scene.species[0].positions = RandomPositions{};
-  Species large = scene.species[0];
-  large.name = "large";
-  large.count = disks / 20;
-  large.radius = 1.3;
-  large.mass = 7.0;
-  scene.species.insert(scene.species.begin(), large);
-  return scene;
-}
-
-/// What must be the same: state, clock, and everything that has been counted.
-void expect_same(const Simulation& alone, const Simulation& shared, const std::string& where) {
-  EXPECT_EQ(state_hash(shared.state()), state_hash(alone.state())) << where;
-  const Totals a = alone.totals(), b = shared.totals();
-  EXPECT_EQ(b.pair, a.pair) << where;
-  EXPECT_EQ(b.wall, a.wall) << where;
-  EXPECT_EQ(b.other, a.other) << where;
-  EXPECT_EQ(b.stale, a.stale) << where;
-  EXPECT_EQ(b.virial, a.virial) << where;
-  EXPECT_EQ(b.obstacle, a.obstacle) << where;
-  EXPECT_EQ(b.wall_impulse, a.wall_impulse) << where;
-  EXPECT_EQ(b.wall_energy, a.wall_energy) << where;
-  EXPECT_EQ(b.obstacle_impulse, a.obstacle_impulse) << where;
-  EXPECT_EQ(b.dissipated, a.dissipated) << where;
-  EXPECT_EQ(b.well, a.well) << where;
-  EXPECT_EQ(shared.state().bonds, alone.state().bonds) << where;
-  EXPECT_EQ(b.numerics.epochs, a.numerics.epochs) << where;
-  EXPECT_EQ(b.numerics.list_rebuilds, a.numerics.list_rebuilds) << where;
-  EXPECT_EQ(b.numerics.longest_neighbour_list, a.numerics.longest_neighbour_list) << where;
-  EXPECT_EQ(b.numerics.deepest_overlap, a.numerics.deepest_overlap) << where;
-  EXPECT_EQ(shared.counts().pair, a.pair) << where;
-  EXPECT_EQ(shared.time(), alone.time()) << where;
-}
 
 void expect_same_runs(const Scene& scene, const Threads& threads, double time, int stops) {
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
@@ -74,24 +30,25 @@ void expect_same_runs(const Scene& scene, const Threads& threads, double time, i
 
 TEST(Threads, GiveTheBitsOfOneForAnyNumberOfDomains) {
   for (const std::size_t domains : {2U, 3U, 8U, 16U})
-    expect_same_runs(gas(4000, 0.6, Boundary::periodic), {.threads = 1, .domains = domains}, 6.0, 3);
+    expect_same_runs(lean_gas(4000, 0.6, Boundary::periodic), {.threads = 1, .domains = domains}, 6.0, 3);
 }
 
 TEST(Threads, GiveTheBitsOfOneForAnyNumberOfThreads) {
-  for (const std::size_t threads : {2U, 3U, 4U}) expect_same_runs(gas(6000, 0.5, Boundary::walls), {.threads = threads}, 4.0, 2);
+  for (const std::size_t threads : {2U, 3U, 4U})
+    expect_same_runs(lean_gas(6000, 0.5, Boundary::walls), {.threads = threads}, 4.0, 2);
 }
 
 TEST(Threads, GiveTheBitsOfOneForEveryLeanScene) {
-  expect_same_runs(gas(5000, 0.3, Boundary::walls), {.domains = 4}, 10.0, 3);
-  expect_same_runs(gas(5000, 0.72, Boundary::periodic), {.domains = 4}, 2.0, 3);
-  expect_same_runs(gas(5000, 0.4, Boundary::periodic, CollisionRule::reversal), {.domains = 4}, 6.0, 3);
+  expect_same_runs(lean_gas(5000, 0.3, Boundary::walls), {.domains = 4}, 10.0, 3);
+  expect_same_runs(lean_gas(5000, 0.72, Boundary::periodic), {.domains = 4}, 2.0, 3);
+  expect_same_runs(lean_gas(5000, 0.4, Boundary::periodic, CollisionRule::reversal), {.domains = 4}, 6.0, 3);
   expect_same_runs(mixture(3000), {.domains = 4}, 8.0, 3);
-  expect_same_runs(gas(4000, 0.02, Boundary::periodic), {.domains = 4}, 200.0, 3);
+  expect_same_runs(lean_gas(4000, 0.02, Boundary::periodic), {.domains = 4}, 200.0, 3);
 }
 
 TEST(Threads, GiveTheBitsOfOneUnderGravity) {
   for (const Boundary across : {Boundary::walls, Boundary::periodic}) {
-    Scene scene = gas(4000, 0.4, Boundary::walls);
+    Scene scene = lean_gas(4000, 0.4, Boundary::walls);
     scene.box.boundary[0] = across;
     scene.effects.gravity = Gravity{{0.0, -0.2}};
     expect_same_runs(scene, {.threads = 2, .domains = 4}, 20.0, 4);
@@ -99,7 +56,7 @@ TEST(Threads, GiveTheBitsOfOneUnderGravity) {
 }
 
 TEST(Threads, GiveTheBitsOfOneWhereCollisionsLoseEnergy) {
-  Scene scene = gas(4000, 0.4, Boundary::periodic);
+  Scene scene = lean_gas(4000, 0.4, Boundary::periodic);
   scene.effects.collision.restitution = 0.9;
   expect_same_runs(scene, {.domains = 4}, 20.0, 4);
   scene.effects.collision.elastic_below = 1e-3;
@@ -111,7 +68,7 @@ TEST(Threads, GiveTheBitsOfOneWhereCollisionsLoseEnergy) {
 }
 
 TEST(Threads, GiveTheBitsOfOneForAGasInACorner) {
-  Scene scene = gas(3000, 0.5, Boundary::walls);
+  Scene scene = lean_gas(3000, 0.5, Boundary::walls);
   scene.species[0].positions = ListedPositions{};
   scene.box.upper *= 4.0;
   const int columns = 60;
@@ -122,14 +79,14 @@ TEST(Threads, GiveTheBitsOfOneForAGasInACorner) {
 }
 
 TEST(Threads, GiveTheBitsOfOneForRoughDisks) {
-  Scene scene = gas(4000, 0.4, Boundary::periodic);
+  Scene scene = lean_gas(4000, 0.4, Boundary::periodic);
   scene.effects.collision.restitution = 0.95;
   scene.effects.collision.roughness = 0.3;
   expect_same_runs(scene, {.domains = 4}, 10.0, 4);
 }
 
 TEST(Threads, GiveTheBitsOfOneForDisksWithWells) {
-  Scene scene = gas(4000, 0.3, Boundary::periodic);
+  Scene scene = lean_gas(4000, 0.3, Boundary::periodic);
   scene.effects.square_well = SquareWell{.width = 1.6, .depth = 0.8};
   expect_same_runs(scene, {.threads = 2, .domains = 4}, 10.0, 4);
   scene.effects.square_well = SquareWell{.width = 1.9, .depth = -0.3};
@@ -138,7 +95,7 @@ TEST(Threads, GiveTheBitsOfOneForDisksWithWells) {
 
 /// A gas that cools down to a thousandth of its speed has windows a thousand times as long.
 TEST(Threads, AdaptWindowsToDisksThatBecomeSlow) {
-  Scene scene = gas(4000, 0.4, Boundary::periodic);
+  Scene scene = lean_gas(4000, 0.4, Boundary::periodic);
   scene.effects.collision.restitution = 0.7;
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.domains = 4});
@@ -150,7 +107,7 @@ TEST(Threads, AdaptWindowsToDisksThatBecomeSlow) {
 
 /// Cold disks that a heavy one runs into leave it much faster than any disk was when the epoch began.
 TEST(Threads, GiveTheBitsOfOneWhereADiskOutrunsItsEpoch) {
-  Scene scene = gas(4000, 0.2, Boundary::periodic);
+  Scene scene = lean_gas(4000, 0.2, Boundary::periodic);
   scene.species[0].velocities = MaxwellVelocities{1e-3};
   Species ball = scene.species[0];
   ball.name = "ball";
@@ -173,7 +130,7 @@ TEST(Threads, GiveTheBitsOfOneWhereADiskOutrunsItsEpoch) {
 }
 
 TEST(Threads, GiveTheBitsOfOneBetweenObstacles) {
-  Scene scene = gas(3000, 0.3, Boundary::walls);
+  Scene scene = lean_gas(3000, 0.3, Boundary::walls);
   const double x = scene.box.upper[0] / 2.0, y = scene.box.upper[1] / 2.0;
   scene.species[0].positions = RandomPositions{};
   scene.effects.obstacles = {DiskObstacle{{x, y}, 5.0}, SegmentObstacle{{x / 3.0, y / 4.0}, {x / 3.0, y}}};
@@ -184,7 +141,7 @@ TEST(Threads, FindEveryWindowThatTheirHalosAreTooNarrowFor) {
   std::uint64_t redone = 0;
   for (const double halo : {2.5, 3.0, 4.0, 6.0})
     for (const double events : {0.2, 1.0, 3.0}) {
-      const Scene scene = gas(6000, 0.5, Boundary::periodic);
+      const Scene scene = lean_gas(6000, 0.5, Boundary::periodic);
       Simulation alone = make_simulation(scene), shared = make_simulation(scene);
       shared.set_threads({.domains = 4, .halo = halo, .events_per_window = events});
       alone.run_until(8.0);
@@ -196,7 +153,7 @@ TEST(Threads, FindEveryWindowThatTheirHalosAreTooNarrowFor) {
 }
 
 TEST(Threads, StopAtAnExactNumberOfCollisions) {
-  const Scene scene = gas(6000, 0.6, Boundary::periodic);
+  const Scene scene = lean_gas(6000, 0.6, Boundary::periodic);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.threads = 2, .domains = 4});
   for (const std::uint64_t collisions : {1U, 3000U, 20001U, 20002U, 50000U}) {
@@ -207,7 +164,7 @@ TEST(Threads, StopAtAnExactNumberOfCollisions) {
 }
 
 TEST(Threads, StopAtAnExactNumberOfEvents) {
-  const Scene scene = gas(4000, 0.5, Boundary::walls);
+  const Scene scene = lean_gas(4000, 0.5, Boundary::walls);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.domains = 3});
   for (const std::uint64_t events : {10U, 30000U}) {
@@ -218,7 +175,7 @@ TEST(Threads, StopAtAnExactNumberOfEvents) {
 }
 
 TEST(Threads, GoOnFromWhatOtherNumbersOfThemHaveSaved) {
-  const Scene scene = gas(4000, 0.5, Boundary::periodic);
+  const Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.domains = 4});
   alone.run_until(6.0);
@@ -236,7 +193,7 @@ TEST(Threads, GoOnFromWhatOtherNumbersOfThemHaveSaved) {
 }
 
 TEST(Threads, GoOnAfterSingleStepsAndChanges) {
-  const Scene scene = gas(4000, 0.5, Boundary::periodic);
+  const Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
   shared.set_threads({.domains = 4});
   for (Simulation* simulation : {&alone, &shared}) {
@@ -256,7 +213,7 @@ TEST(Threads, GoOnAfterSingleStepsAndChanges) {
 }
 
 TEST(Threads, RunASchedule) {
-  Scene scene = gas(4000, 0.5, Boundary::periodic);
+  Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
   scene.run.equilibrate = Run::Equilibrate{.collisions_per_disk = 4.0};
   scene.run.time = 3.0;
   scene.run.sample_every = 0.1;
@@ -324,7 +281,7 @@ Told told(const Scene& scene, const Threads& threads, std::uint64_t& redone) {
 }
 
 TEST(Threads, TellTheCollisionsOfOneInTheirOrder) {
-  Scene scene = gas(4000, 0.5, Boundary::walls);
+  Scene scene = lean_gas(4000, 0.5, Boundary::walls);
   scene.run.time = 3.0;
   scene.run.sample_every = 0.5;
   std::uint64_t redone = 0;
@@ -340,13 +297,13 @@ TEST(Threads, TellTheCollisionsOfOneInTheirOrder) {
 }
 
 TEST(Threads, RefuseWhatTheyCannotDo) {
-  Simulation simulation = make_simulation(gas(100, 0.3, Boundary::walls));
+  Simulation simulation = make_simulation(lean_gas(100, 0.3, Boundary::walls));
   EXPECT_THROW(simulation.set_threads({.threads = 0}), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.threads = 33}), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.domains = 33}), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.threads = 2, .halo = -1.0}), std::invalid_argument);
   EXPECT_THROW(simulation.set_threads({.threads = 2, .events_per_window = -1.0}), std::invalid_argument);
-  Simulation textbook = make_simulation(gas(100, 0.3, Boundary::walls), "textbook");
+  Simulation textbook = make_simulation(lean_gas(100, 0.3, Boundary::walls), "textbook");
   EXPECT_FALSE(textbook.why_not_threads().empty());
   EXPECT_THROW(textbook.set_threads({.threads = 2}), std::invalid_argument);
   textbook.set_threads({});

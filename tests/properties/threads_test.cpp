@@ -1,7 +1,9 @@
-// A simulation that is shared out has the bits of one that is not: random scenes, numbers of domains and threads, widths of
-// halos, lengths of windows and places where one stops. Most of the halos are too narrow for their windows, which must be found.
+// A simulation that is shared out has the bits of one that is not: random scenes, numbers of domains, threads and ranks, widths
+// of halos, lengths of windows and places where one stops. Most of the halos are too narrow for their windows, which must be
+// found.
 
 #include "support/decoded_scene.hpp"
+#include "support/memory_ranks.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -61,9 +63,11 @@ double flight_time(const Scene& scene, const State& state) {
 }
 
 /// Runs `scene` alone and shared out, through the same stops, and holds all that can be read of the two against each other.
-void expect_same_bits(const Scene& scene, const Threads& threads, const std::vector<std::uint64_t>& stops) {
+void expect_same_bits(const Scene& scene, Threads threads, int ranks, const std::vector<std::uint64_t>& stops) {
+  ServingRanks serving(ranks);
   Simulation alone = make_simulation(scene), shared = make_simulation(scene);
-  shared.set_threads(threads);
+  threads.domains = std::max(threads.domains, static_cast<std::size_t>(ranks));
+  shared.set_threads(threads, serving.first());
   const double longest = 20.0 * flight_time(scene, alone.state());
   double time = 0.0;
   for (const std::uint64_t collisions : stops) {
@@ -115,10 +119,10 @@ Scene any_effects() {
   RC_DISCARD("no scene of a hundred can be shared out");
 }
 
-void tell(const Scene& scene, const Threads& threads) {
-  RC_LOG() << scene.disk_count() << " disks, packing fraction " << scene.packing_fraction() << ", " << threads.threads
-           << " threads, " << threads.domains << " domains, halo " << threads.halo << ", " << threads.events_per_window
-           << " events of each disk in a window\n";
+void tell(const Scene& scene, const Threads& threads, int ranks) {
+  RC_LOG() << ranks << " ranks, " << scene.disk_count() << " disks, packing fraction " << scene.packing_fraction() << ", "
+           << threads.threads << " threads, " << threads.domains << " domains, halo " << threads.halo << ", "
+           << threads.events_per_window << " events of each disk in a window\n";
 }
 
 RC_GTEST_PROP(PropertyThreads, GiveTheBitsOfOneForAnyGas, ()) {
@@ -129,18 +133,20 @@ RC_GTEST_PROP(PropertyThreads, GiveTheBitsOfOneForAnyGas, ()) {
   } catch (const SceneError&) {
     RC_DISCARD("the lattice does not fit");
   }
-  tell(scene, threads);
+  const int ranks = *rc::gen::inRange(1, 5);
+  tell(scene, threads, ranks);
   const auto disks = static_cast<std::uint64_t>(scene.disk_count());
-  expect_same_bits(scene, threads, {*rc::gen::inRange<std::uint64_t>(1, 5 * disks), 1, 4 * disks});
+  expect_same_bits(scene, threads, ranks, {*rc::gen::inRange<std::uint64_t>(1, 5 * disks), 1, 4 * disks});
 }
 
 RC_GTEST_PROP(PropertyThreads, GiveTheBitsOfOneForAnyEffects, ()) {
   const Scene scene = any_effects();
   const Threads threads = any_threads();
   RC_LOG() << scene.text;
-  tell(scene, threads);
+  const int ranks = *rc::gen::inRange(1, 5);
+  tell(scene, threads, ranks);
   const auto disks = static_cast<std::uint64_t>(scene.disk_count());
-  expect_same_bits(scene, threads, {*rc::gen::inRange<std::uint64_t>(1, 20 * disks), 1, 10 * disks});
+  expect_same_bits(scene, threads, ranks, {*rc::gen::inRange<std::uint64_t>(1, 20 * disks), 1, 10 * disks});
 }
 
 }  // namespace

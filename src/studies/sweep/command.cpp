@@ -5,12 +5,12 @@
 #include "studies/sweep/command.hpp"
 #include "studies/study_directory.hpp"
 #include "studies/sweep/child_runs.hpp"
-#include "studies/sweep/mpi.hpp"
 #include "studies/sweep/products.hpp"
 #include "studies/sweep/ranks.hpp"
 #include "studies/sweep/results.hpp"
 #include "studies/sweep/sweep.hpp"
 #include "studies/sweep/text.hpp"
+#include "terminal/processes.hpp"
 #include "text/numbers.hpp"
 
 #include <carom/pages/page.hpp>
@@ -177,9 +177,9 @@ ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invoc
 
 ExitCode sweep(const SweepCommandOptions& options, const Invocation& invocation) {
   const Launch started = launch();
-  std::unique_ptr<Ranks> ranks;
+  std::unique_ptr<Processes> ranks;
   try {
-    ranks = join_ranks(started);
+    ranks = join_processes(started);
   } catch (const UsageError&) {
     if (started.rank > 0) return exit_done;  // the first one says it
     throw;

@@ -89,7 +89,7 @@ SweepServer::~SweepServer() {
   to_all(home);
 }
 
-ExitCode work_for_first_rank(Ranks& ranks, int threads) {
+ExitCode work_for_first_rank(Processes& ranks, int threads) {
   const StopRequest stop;
   std::mutex mutex;  // one thread at a time may use MPI
   std::atomic<bool> told_to_stop = false;

@@ -3,8 +3,8 @@
 // waits for the slowest, and a process that fails loses only the run that it had.
 
 #include "studies/sweep/child_runs.hpp"
-#include "studies/sweep/mpi.hpp"
 #include "terminal/command.hpp"
+#include "terminal/processes.hpp"
 
 #include <functional>
 
@@ -13,7 +13,7 @@ namespace carom::cli {
 /// The first process, which has the list of runs.
 class SweepServer {
  public:
-  explicit SweepServer(Ranks& ranks) : ranks_(ranks), working_(ranks.size() - 1) {}
+  explicit SweepServer(Processes& ranks) : ranks_(ranks), working_(ranks.size() - 1) {}
   ~SweepServer();  ///< has the other processes end
   SweepServer(const SweepServer&) = delete;
   SweepServer& operator=(const SweepServer&) = delete;
@@ -25,12 +25,12 @@ class SweepServer {
   void answer(const Message& message, const RunDesk& desk);
   void to_all(int kind);
 
-  Ranks& ranks_;
+  Processes& ranks_;
   int working_;
   bool stopping_ = false;
 };
 
 /// Carries out `threads` runs at a time in a process other than the first, until there are no more.
-[[nodiscard]] ExitCode work_for_first_rank(Ranks& ranks, int threads);
+[[nodiscard]] ExitCode work_for_first_rank(Processes& ranks, int threads);
 
 }  // namespace carom::cli

@@ -1,6 +1,9 @@
 #pragma once
 // The processes that mpirun or srun has started together, on one machine or on many. Nothing else sees MPI.
 
+#include <carom/ranks.hpp>
+
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,21 +17,18 @@ struct Message {
   std::string text = {};
 };
 
-class Ranks {
+/// One thread at a time may call these.
+class Processes : public Ranks {
  public:
-  virtual ~Ranks() = default;
-  Ranks(const Ranks&) = delete;
-  Ranks& operator=(const Ranks&) = delete;
-
-  [[nodiscard]] virtual int rank() const = 0;  ///< number of this process, from 0
-  [[nodiscard]] virtual int size() const = 0;
-  /// One thread at a time may call these.
   virtual void send(int to, int kind, const std::string& text) = 0;
   /// Returns a message of this kind (absent: of any) if one has come.
   [[nodiscard]] virtual std::optional<Message> receive(std::optional<int> kind) = 0;
+  /// Has `silence` called again and again, by a thread of its own, with the seconds for which a function of Ranks has waited for
+  /// another process. An empty function ends that.
+  virtual void watch_silence(std::function<void(double seconds)> silence) = 0;
 
  protected:
-  Ranks() = default;
+  Processes() = default;
 };
 
 /// The number of processes that were started together, and the number of this one, as their starter says in the environment.
@@ -39,7 +39,8 @@ struct Launch {
 [[nodiscard]] Launch launch();
 
 /// Null where this process was started alone. When the last of these is destroyed, all of its processes have come that far.
+/// Processes that this one starts from now on are none of these.
 /// Throws UsageError where MPI is not built in, or does not connect the processes.
-[[nodiscard]] std::unique_ptr<Ranks> join_ranks(const Launch& launch);
+[[nodiscard]] std::unique_ptr<Processes> join_processes(const Launch& launch);
 
 }  // namespace carom::cli

@@ -1,0 +1,103 @@
+// Simulations that several processes compute together: how they begin on the other ranks.
+
+#include <carom/ranks.hpp>
+
+#include "core/state_archive.hpp"
+#include "parallel/packet.hpp"
+#include "scene/resolved_effects.hpp"
+#include "simulation/parts.hpp"
+#include "simulation/start.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+/// What rank 0 has the others do.
+enum class Task : std::uint8_t { simulate, end };
+
+std::string bytes_of(Task task) {
+  Packet packet;
+  packet.put(task);
+  return std::move(packet.bytes());
+}
+
+/// Has all ranks know whether each of them could begin. Returns the words of the first that could not, on rank 0; on the others
+/// any words.
+std::string failure_of_all(Ranks& ranks, const std::string& here) {
+  const std::vector<std::string> words = ranks.gather(here);
+  std::string failure;
+  for (std::size_t rank = 0; rank < words.size(); ++rank)
+    if (failure.empty() && !words[rank].empty()) failure = fmt::format("process {}: {}", rank, words[rank]);
+  ranks.broadcast(failure);
+  return failure;
+}
+
+}  // namespace
+
+void Simulation::Parts::share_out() {
+  std::string task = bytes_of(Task::simulate);
+  ranks->broadcast(task);
+  std::ostringstream out;
+  SavingArchive archive(out);
+  archive(threads.threads, threads.domains, threads.halo, threads.events_per_window, engine_name,
+          detail::effects_toml(scene.effects), scene.run.seed, scene.box.lower, scene.box.upper, scene.box.periodic(0),
+          scene.box.periodic(1), disks.radius, disks.mass, engine->state());
+  std::string bytes = std::move(out).str();
+  ranks->broadcast(bytes);
+  if (const std::string failure = failure_of_all(*ranks, {}); !failure.empty()) throw std::runtime_error(failure);
+  engine->set_ranks(threads, *ranks);
+}
+
+/// An engine for the disks as they stand; what else decides how they go on comes when they are shared out.
+Simulation Simulation::begin_elsewhere(const std::string& bytes, Threads& threads) {
+  std::istringstream in(bytes);
+  LoadingArchive archive(in);
+  std::string engine, effects;
+  Scene scene;
+  bool periodic[2] = {};
+  Start start;
+  archive(threads.threads, threads.domains, threads.halo, threads.events_per_window, engine, effects, scene.run.seed,
+          scene.box.lower, scene.box.upper, periodic[0], periodic[1], start.disks.radius, start.disks.mass, start.state);
+  scene.effects = detail::parse_effects(effects);
+  for (std::size_t axis = 0; axis < 2; ++axis) scene.box.boundary[axis] = periodic[axis] ? Boundary::periodic : Boundary::walls;
+  start.disks.species.resize(start.disks.count());
+  return begin(scene, std::move(start), engine);
+}
+
+void Simulation::serve(Ranks& ranks) {
+  for (;;) {
+    std::string bytes;
+    ranks.broadcast(bytes);
+    if (PacketReader(bytes).take<Task>() == Task::end) return;
+    ranks.broadcast(bytes);
+    std::optional<Simulation> simulation;
+    Threads threads;
+    std::string failure;
+    try {
+      simulation.emplace(begin_elsewhere(std::exchange(bytes, {}), threads));
+    } catch (const std::bad_alloc&) {
+      failure = "there is not enough memory";
+    } catch (const std::exception& error) {
+      failure = error.what();
+    }
+    if (failure_of_all(ranks, failure).empty()) simulation->parts_->engine->serve(threads, ranks);
+  }
+}
+
+void serve_ranks(Ranks& ranks) { Simulation::serve(ranks); }
+
+void dismiss_ranks(Ranks& ranks) {
+  std::string bytes = bytes_of(Task::end);
+  ranks.broadcast(bytes);
+}
+
+}  // namespace carom

@@ -1,0 +1,169 @@
+// mpirun carom run as a user meets it: one run with the files of one core, whatever happens to it, and one sentence where
+// something is wrong. tests/network has the same on hosts that reach each other by a network alone.
+
+#include "support/shared_out_run.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+/// The process among the children of mpirun that has this rank; 0 where there is none yet.
+pid_t process_of_rank(pid_t mpirun, int rank) {
+  std::ifstream children("/proc/" + std::to_string(mpirun) + "/task/" + std::to_string(mpirun) + "/children");
+  const std::string wanted = "OMPI_COMM_WORLD_RANK=" + std::to_string(rank);
+  for (pid_t child = 0; children >> child;) {
+    std::ifstream file("/proc/" + std::to_string(child) + "/environ");
+    for (std::string variable; std::getline(file, variable, '\0');)
+      if (variable == wanted) return child;
+  }
+  return 0;
+}
+
+class RanksOfRunCommand : public SharedOutRunTest {
+ protected:
+  void SetUp() override {
+    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+    setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+    if (started_alone_of_two("0").err.find("built without MPI") != std::string::npos)
+      GTEST_SKIP() << "carom is built without MPI";
+    if (run_program(directory_.path(), {"mpirun", "--version"}).exit_code == 127) GTEST_SKIP() << "there is no mpirun";
+  }
+  Outcome started_alone_of_two(const std::string& rank) {
+    return run_program(directory_.path(), {"env", "OMPI_COMM_WORLD_SIZE=2", "OMPI_COMM_WORLD_RANK=" + rank, CAROM_PROGRAM, "run",
+                                           "gas.toml", "--out", "apart"});
+  }
+  Outcome mpirun(const std::string& processes, const std::vector<std::string>& arguments,
+                 const std::function<void(pid_t)>& meanwhile = {}) {
+    std::vector<std::string> words = {"mpirun", "-n", processes, CAROM_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return run_program(directory_.path(), words, meanwhile);
+  }
+  /// Exit code 2, and this sentence, which one process says.
+  void refused_once(const Outcome& outcome, const std::string& sentence) {
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(sentence));
+    const std::size_t first = outcome.err.find("carom: ");
+    EXPECT_EQ(outcome.err.find("\ncarom: ", first), std::string::npos) << outcome.err;
+  }
+};
+
+TEST_F(RanksOfRunCommand, GiveTheFilesOfOneCore) {
+  const std::vector<std::string> more = {"-q", "--events", "--set", "observe.pressure=true"};
+  const auto arguments = [&](const std::string& out, const std::string& threads) {
+    std::vector<std::string> all = {"run", "gas.toml", "--out", out, "--threads", threads};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  ASSERT_EQ(carom(arguments("one", "1")).exit_code, 0);
+  for (const std::string processes : {"2", "3"}) {
+    const Outcome outcome = mpirun(processes, arguments("on" + processes, processes == "2" ? "2" : "auto"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    expect_same_results("one", "on" + processes);
+  }
+  const json cores = summary("on2")["cores"];
+  EXPECT_EQ(cores["threads"], 2);
+  EXPECT_EQ(cores["ranks"], 2);
+  EXPECT_EQ(cores["domains"], 4);
+  EXPECT_GT(cores["windows"], 10);
+  EXPECT_EQ(summary("on3")["cores"]["domains"], 3);
+  EXPECT_THAT(carom({"info", "on2/summary.json"}).out, HasSubstr("2 in each of 2 processes"));
+  EXPECT_EQ(carom({"verify", "on3"}).exit_code, 0);
+}
+
+TEST_F(RanksOfRunCommand, SayMistakesOnce) {
+  refused_once(mpirun("3", {"run", "gone.toml"}), "gone.toml: there is no such file");
+  refused_once(mpirun("2", {"run", "gas.toml", "--set", "disks.0.radius=-1.0"}), "radius");
+  refused_once(
+      mpirun("2", {"run", "gas.toml", "--set", "thermostat.temperature=1.0", "--set", "thermostat.rate=1.0"}),
+      "carom: gas.toml: only one process can compute this run, for the thermostat draws the velocities of all disks in one "
+      "order, and MPI has started 2; start one without it");
+  refused_once(mpirun("2", {"run", "gas.toml", "--threads", "33"}), "--threads 33: give auto, or a number from 1 to 32");
+  refused_once(mpirun("1", {"run", "gas.toml", ":", "-n", "1", CAROM_PROGRAM, "run", "gas.toml", "--force"}),
+               "carom: MPI connects 2 processes, which compute one run together, and they were given different commands");
+  EXPECT_FALSE(fs::exists(file("gas")));
+}
+
+TEST_F(RanksOfRunCommand, ThatMpiDoesNotConnectDoNotDoEverythingTwice) {
+  const Outcome first = started_alone_of_two("0"), second = started_alone_of_two("1");
+  EXPECT_EQ(first.exit_code, 2);
+  EXPECT_THAT(first.err, StartsWith("carom: this is one of 2 processes, and "));
+  EXPECT_EQ(second.exit_code, 0);
+  EXPECT_THAT(second.err, IsEmpty());
+  EXPECT_FALSE(fs::exists(file("apart")));
+}
+
+TEST_F(RanksOfRunCommand, MayBeOthersWhereARunGoesOn) {
+  ASSERT_EQ(run("whole", {"-q", "--threads", "1"}).exit_code, 0);
+  int code = mpirun("2", {"run", "gas.toml", "--out", "parts", "-q", "--walltime", "0.05s"}).exit_code;
+  std::size_t part = 0;
+  for (; code == 130 && part < 100; ++part)
+    code = part % 2 == 0 ? carom({"resume", "parts", "-q", "--threads", "2", "--walltime", "0.05s"}).exit_code
+                         : mpirun("3", {"resume", "parts", "-q", "--walltime", "0.05s"}).exit_code;
+  EXPECT_EQ(code, 0);
+  EXPECT_GT(part, 0U) << "the run was over before it could be stopped";
+  expect_same_results("whole", "parts");
+}
+
+TEST_F(RanksOfRunCommand, StopAtASignalAndAreSaved) {
+  const Outcome stopped = mpirun("2", {"run", "gas.toml", "--out", "stopped", "--set", "run.time=1e6"}, [&](pid_t child) {
+    (void)wait_until([&] { return fs::exists(file("stopped/trajectory.h5md.partial")); });
+    ::kill(child, SIGUSR1);  // which mpirun hands on to all
+  });
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
+  EXPECT_THAT(stopped.err, HasSubstr(" resume stopped goes on from there"));
+  EXPECT_EQ(summary("stopped")["stopped"], "interrupted");
+  EXPECT_TRUE(fs::exists(file("stopped/checkpoint.h5")));
+}
+
+TEST_F(RanksOfRunCommand, GoOnInOtherNumbersAfterOneWasKilled) {
+  const std::vector<std::string> longer = {"-q", "--set", "run.time=40.0"};
+  std::vector<std::string> saving = longer, alone = longer;
+  saving.insert(saving.begin(), {"run", "gas.toml", "--out", "killed", "--checkpoint-every", "20000 collisions"});
+  alone.insert(alone.end(), {"--threads", "1"});
+  ASSERT_EQ(run("whole", alone).exit_code, 0);
+  for (const int rank : {1, 0}) {
+    saving[3] = "killed" + std::to_string(rank);
+    const Outcome killed = mpirun("2", saving, [&](pid_t child) {
+      pid_t victim = 0;
+      (void)wait_until([&] {
+        if (victim == 0) victim = process_of_rank(child, rank);
+        return fs::exists(file(saving[3] + "/checkpoint-previous.h5"));
+      });
+      if (victim > 0) ::kill(victim, SIGKILL);
+    });
+    if (killed.exit_code == 0) GTEST_SKIP() << "the run was over before it could be killed";
+    EXPECT_THAT(killed.err, HasSubstr("exited on signal 9"));
+    if (rank == 1) {
+      EXPECT_THAT(killed.err,
+                  HasSubstr("about to stop, and waiting for another process; should that have failed, and MPI end the run, "));
+      EXPECT_THAT(killed.err, HasSubstr(" resume killed1 goes on from where it was saved last"));
+    }
+    fs::copy(file(saving[3]), file(saving[3] + "-copy"), fs::copy_options::recursive);
+    const Outcome on_one = carom({"resume", saving[3], "-q", "--threads", "1"});
+    EXPECT_EQ(on_one.exit_code, 0) << on_one.err;
+    const Outcome on_three = mpirun("3", {"resume", saving[3] + "-copy", "-q"});
+    EXPECT_EQ(on_three.exit_code, 0) << on_three.err;
+    expect_same_results("whole", saving[3]);
+    expect_same_results("whole", saving[3] + "-copy");
+  }
+}
+
+}  // namespace
+}  // namespace carom::test

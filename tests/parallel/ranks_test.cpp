@@ -1,0 +1,238 @@
+// A run on several ranks has the bits of the run on one core: for any number of ranks and of threads of each. The ranks are
+// threads here; tests/app/ranks_test.cpp has processes.
+
+#include "support/memory_ranks.hpp"
+#include "support/several_cores.hpp"
+
+#include <carom/simulation.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace carom::test {
+namespace {
+
+void expect_same_runs_on(int ranks, const Scene& scene, const Threads& threads, double time, int stops,
+                         const std::string& kind = "gas") {
+  SCOPED_TRACE(kind);
+  ServingRanks serving(ranks);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads(threads, serving.first());
+  for (int k = 1; k <= stops; ++k) {
+    alone.run_until(time * k / stops);
+    EXPECT_EQ(shared.run_until(time * k / stops), StopReason::time);
+    EXPECT_EQ(shared.totals().virial, alone.totals().virial) << "before disks are asked for";
+    expect_same(alone, shared, std::to_string(ranks) + " ranks, stop " + std::to_string(k));
+  }
+  EXPECT_TRUE(shared.check_invariants().empty());
+  const ThreadCounts counts = shared.thread_counts();
+  EXPECT_EQ(counts.ranks, static_cast<std::size_t>(ranks));
+  if (counts.domains == 1) return;
+  EXPECT_GT(counts.windows, 10U);
+  EXPECT_LT(counts.windows_redone, counts.windows / 4);
+}
+
+TEST(Ranks, GiveTheBitsOfOneForAnyNumberOfThem) {
+  for (const int ranks : {1, 2, 3, 4})
+    for (const std::size_t threads : {1U, 2U, 3U})
+      expect_same_runs_on(ranks, lean_gas(3000, 0.5, Boundary::periodic), {.threads = threads}, 4.0, 2);
+}
+
+TEST(Ranks, GiveTheBitsOfOneForScenesOfAllKinds) {
+  expect_same_runs_on(3, lean_gas(4000, 0.72, Boundary::walls), {.domains = 5}, 2.0, 2, "dense");
+  expect_same_runs_on(3, lean_gas(4000, 0.4, Boundary::periodic, CollisionRule::reversal), {}, 5.0, 2, "reversal");
+  expect_same_runs_on(4, mixture(3000), {}, 8.0, 3, "mixture");
+  Scene falling = lean_gas(3000, 0.4, Boundary::walls);
+  falling.effects.gravity = Gravity{{0.0, -0.2}};
+  falling.box.boundary[0] = Boundary::periodic;
+  expect_same_runs_on(3, falling, {.threads = 2}, 20.0, 3, "falling");
+  Scene cooling = lean_gas(3000, 0.4, Boundary::periodic);
+  cooling.effects.collision.restitution = 0.9;
+  expect_same_runs_on(3, cooling, {}, 20.0, 3, "cooling");
+  Scene rough = cooling;
+  rough.effects.collision.roughness = 0.3;
+  expect_same_runs_on(2, rough, {}, 10.0, 2, "rough");
+  Scene wells = lean_gas(3000, 0.3, Boundary::periodic);
+  wells.effects.square_well = SquareWell{.width = 1.6, .depth = 0.8};
+  expect_same_runs_on(3, wells, {}, 8.0, 3, "wells");
+}
+
+/// Where domains are so small that one has more neighbours than it can tell apart, there are fewer of them.
+TEST(Ranks, HaveFewerDomainsThanThreadsWhereThoseWouldBeTooSmall) {
+  const Scene scene = lean_gas(1000, 0.5, Boundary::periodic);
+  ServingRanks serving(3);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.threads = 32}, serving.first());
+  for (const double time : {3.0, 6.0}) {
+    alone.run_until(time);
+    shared.run_until(time);
+    expect_same(alone, shared, "time " + std::to_string(time));
+  }
+  EXPECT_GE(shared.thread_counts().domains, 32U);
+  EXPECT_LT(shared.thread_counts().domains, 96U);
+  EXPECT_GT(shared.thread_counts().windows, 5U);
+}
+
+TEST(Ranks, FindEveryWindowThatTheirHalosAreTooNarrowFor) {
+  std::uint64_t redone = 0;
+  for (const double halo : {2.5, 4.0}) {
+    const Scene scene = lean_gas(5000, 0.5, Boundary::periodic);
+    ServingRanks serving(3);
+    Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+    shared.set_threads({.domains = 4, .halo = halo, .events_per_window = 3.0}, serving.first());
+    for (const double time : {3.0, 8.0}) {
+      alone.run_until(time);
+      shared.run_until(time);
+      expect_same(alone, shared, "halo " + std::to_string(halo));
+    }
+    redone += shared.thread_counts().windows_redone;
+  }
+  EXPECT_GT(redone, 5U);
+}
+
+TEST(Ranks, StopAtExactNumbers) {
+  const Scene scene = lean_gas(4000, 0.6, Boundary::periodic);
+  ServingRanks serving(3);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({.threads = 2}, serving.first());
+  for (const std::uint64_t collisions : {1U, 3000U, 20001U, 20002U, 50000U}) {
+    EXPECT_EQ(alone.run_until(1e6, {.collisions = collisions}), StopReason::collisions);
+    EXPECT_EQ(shared.run_until(1e6, {.collisions = collisions}), StopReason::collisions);
+    expect_same(alone, shared, std::to_string(collisions) + " collisions");
+  }
+  EXPECT_EQ(alone.run_until(1e6, {.events = 60000}), StopReason::events);
+  EXPECT_EQ(shared.run_until(1e6, {.events = 60000}), StopReason::events);
+  expect_same(alone, shared, "events");
+  EXPECT_GT(shared.thread_counts().windows, 10U);
+}
+
+TEST(Ranks, GoOnFromWhatOtherNumbersOfThemHaveSaved) {
+  const Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+  Simulation alone = make_simulation(scene);
+  alone.run_until(6.0);
+  std::stringstream saved;
+  {
+    ServingRanks four(4);
+    Simulation shared = make_simulation(scene);
+    shared.set_threads({}, four.first());
+    shared.run_until(2.3);
+    shared.save(saved);
+    shared.run_until(2.4);  // and could go on
+  }
+  std::stringstream again;
+  Simulation one = restore_simulation(scene, saved);
+  one.run_until(4.1);
+  one.save(again);
+  ServingRanks three(3);
+  Simulation shared = restore_simulation(scene, again);
+  shared.set_threads({}, three.first());
+  shared.run_until(6.0);
+  expect_same(alone, shared, "resumed");
+}
+
+TEST(Ranks, GoOnAfterSingleStepsAndChanges) {
+  const Scene scene = lean_gas(4000, 0.5, Boundary::periodic);
+  ServingRanks serving(2);
+  Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+  shared.set_threads({}, serving.first());
+  for (Simulation* simulation : {&alone, &shared}) {
+    simulation->run_until(1.0);
+    simulation->step();
+    simulation->run_until(2.0);
+    simulation->set_velocities(-simulation->state().velocities);
+    simulation->run_until(3.0);
+    Effects effects = scene.effects;
+    effects.collision.restitution = 0.9;
+    simulation->set_effects(effects);
+    simulation->run_until(4.0);
+    simulation->reset_clock();
+    simulation->run_until(1.0);
+  }
+  expect_same(alone, shared, "after changes");
+  EXPECT_GT(shared.thread_counts().windows, 10U);
+  shared.set_threads({});
+  alone.run_until(2.0);
+  shared.run_until(2.0);
+  expect_same(alone, shared, "on one core again");
+}
+
+TEST(Ranks, TellTheCollisionsOfOneInTheirOrder) {
+  Scene scene = lean_gas(3000, 0.5, Boundary::walls);
+  scene.run.time = 3.0;
+  scene.run.sample_every = 0.5;
+  std::vector<double> numbers[2];
+  for (const int ranks : {1, 3})
+    for (const bool events : {false, true}) {
+      std::vector<double>& ours = numbers[ranks == 1 ? 0 : 1];
+      ServingRanks serving(ranks);
+      Simulation simulation = make_simulation(scene);
+      // Narrow halos: collisions are to happen twice, and to be told once.
+      simulation.set_threads({.halo = 5.0, .events_per_window = 2.0}, serving.first());
+      RunHooks hooks;
+      if (events)
+        hooks.events = [&](std::span<const Event> all) {
+          for (const Event& event : all)
+            ours.insert(ours.end(), {event.time, static_cast<double>(event.disk), static_cast<double>(event.partner),
+                                     event.velocity[0] - event.partner_velocity[1]});
+        };
+      else
+        hooks.collisions = [&](const CollisionRecords& collisions) {
+          for (const CollisionRecord& record : collisions.records)
+            ours.insert(ours.end(), {collisions.epoch + record.time, static_cast<double>(record.slot_i),
+                                     static_cast<double>(record.slot_j), record.after_i[1] - record.before_j[0]});
+        };
+      run_schedule(simulation, hooks);
+      if (ranks > 1) {
+        EXPECT_GT(simulation.thread_counts().windows, 1U);
+      }
+    }
+  EXPECT_GT(numbers[0].size(), 100000U);
+  EXPECT_EQ(numbers[1], numbers[0]);
+}
+
+TEST(Ranks, ExchangeOnceInAWindow) {
+  ServingRanks serving(3);
+  Simulation shared = make_simulation(lean_gas(4000, 0.5, Boundary::periodic));
+  shared.set_threads({.threads = 2}, serving.first());
+  shared.run_until(4.0);
+  const std::uint64_t windows = shared.thread_counts().windows;
+  EXPECT_GT(windows, 20U);
+  EXPECT_GE(serving.first().exchanges, windows);
+  EXPECT_LE(serving.first().exchanges, windows + shared.totals().numerics.list_rebuilds);
+}
+
+TEST(Ranks, SayWhichOfThemCouldNotBegin) {
+  ServingRanks serving(3);
+  serving.first().on_the_way = [](int to, const std::string& bytes) {
+    return to == 2 && bytes.size() > 1000 ? bytes.substr(0, bytes.size() - 100) : bytes;
+  };
+  Simulation simulation = make_simulation(lean_gas(1000, 0.3, Boundary::walls));
+  try {
+    simulation.set_threads({}, serving.first());
+    FAIL() << "rank 2 has got less than a simulation";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), ::testing::StartsWith("process 2: "));
+  }
+  serving.first().on_the_way = {};
+  simulation.set_threads({}, serving.first());
+  simulation.run_until(1.0);
+  EXPECT_GT(simulation.thread_counts().windows, 0U);
+}
+
+TEST(Ranks, RefuseWhatTheyCannotDo) {
+  ServingRanks serving(3);
+  Simulation simulation = make_simulation(lean_gas(100, 0.3, Boundary::walls));
+  EXPECT_THROW(simulation.set_threads({.threads = 33}, serving.first()), std::invalid_argument);
+  EXPECT_THROW(simulation.set_threads({.domains = 1025}, serving.first()), std::invalid_argument);
+  EXPECT_THROW(simulation.set_threads({.domains = 2}, serving.first()), std::invalid_argument) << "rank 2 would have none";
+  Simulation textbook = make_simulation(lean_gas(100, 0.3, Boundary::walls), "textbook");
+  EXPECT_THROW(textbook.set_threads({}, serving.first()), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace carom::test
