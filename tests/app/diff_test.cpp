@@ -71,7 +71,7 @@ TEST_F(DiffCommand, RefusesWhatCannotBeCompared) {
   run_into("other", {"--set", "box.x=[0.0, 11.0]"});
   refused({"diff", "a", "other"}, "a and other are no runs of the same disks in the same box: the box is [0, 10] along x");
   refused({"diff", "a", "nowhere"}, "nowhere: there is no such directory");
-  refused({"diff", "gas.toml", "a"}, "gas.toml: HDF5 cannot read this file");
+  refused({"diff", "gas.toml", "a"}, "gas.toml: this is no trajectory.h5md");
   run_into("fewer", {"--set", "disks.0.count=49"});
   refused({"diff", "a", "fewer"}, "the first has 50 disks and the second 49");
 }

@@ -7,10 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
 
 namespace carom {
 
@@ -85,11 +89,25 @@ std::string first_other(const char* what, const std::vector<double>& a, const st
   return fmt::format("disk {} has {} {} in the first and {} in the second", in_a - a.begin(), what, *in_a, *in_b);
 }
 
+/// Whether a file begins as all HDF5 files do, or cannot be read at all, which HDF5 will say.
+bool begins_as_hdf5(const fs::path& path) {
+  std::array<char, 4> first{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return true;
+  file.read(first.data(), first.size());
+  return std::string_view(first.data(), first.size()) == "\x89HDF";
+}
+
 }  // namespace
 
 DiffRun open_diff_run(const fs::path& path) {
   std::error_code error;
   const bool alone = fs::is_regular_file(path, error);
+  if (alone && !begins_as_hdf5(path))
+    throw std::runtime_error(fmt::format(
+        "{}: this is no trajectory.h5md; give the directory of a run or that file of it, and a trajectory of your own "
+        "to carom compare SCENE --trajectory FILE",
+        path.string()));
   DiffRun run{path.string(), alone ? RunReader::of_trajectory(path) : RunReader(path), ""};
   if (!alone)
     if (const auto json = detail::summary_in(path); json.contains("state_hash") && json.at("state_hash").is_string())
