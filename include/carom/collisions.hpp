@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,7 @@ struct PairCollision {
   Eigen::Vector2d velocity_before, velocity;                  ///< of the disk, just before and just after
   Eigen::Vector2d partner_velocity_before, partner_velocity;  ///< of the partner
   bool contact = true;                                        ///< false where they meet the edge of each other's square well
+  Eigen::Vector2d place = {};  ///< of the disk, in the box or up to a diameter outside; only where an observable needs_places()
 };
 
 /// The ids, radii and masses of the disks that collision records name by their slots.
@@ -44,6 +46,8 @@ struct CollisionRecords {
   std::span<const CollisionRecord> records;
   /// One for each record; empty where impulses are along the lines of centres, so that velocities determine where disks touched.
   std::span<const PairContact> contacts = {};
+  /// Where the disk in slot_i was, one for each record; empty where nobody needs it.
+  std::span<const std::array<double, 2>> places = {};
 
   /// Writes them as whole collisions in the place of what `collisions` held.
   void read(std::vector<PairCollision>& collisions) const;

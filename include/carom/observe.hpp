@@ -76,6 +76,9 @@ class Observable {
   [[nodiscard]] virtual bool needs_positions() const { return true; }
   /// Returns whether collisions() is to be called. Observables without it do not slow the event loop down.
   [[nodiscard]] virtual bool follows_collisions() const { return false; }
+  /// Returns whether collisions() reads where disks were. The event log is then followed in place of records, which takes the
+  /// fast engine some ten times as long per collision.
+  [[nodiscard]] virtual bool needs_places() const { return false; }
 
   /// Called with the state at the start of the measured run, when all totals are zero.
   virtual void start(const State& /*state*/) {}

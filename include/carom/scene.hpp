@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -135,12 +136,14 @@ struct Output {
 /// An observable that the scene asks for: one key of the [observe] table. docs/scene-format.md says which settings an observable
 /// has; these are present, except `every`, which follows from the mean free time where it is absent.
 struct ObservableRequest {
-  std::string name = {};                  ///< "radial_distribution"
-  std::optional<double> every = {};       ///< time between samples, > 0
-  std::optional<std::int64_t> bins = {};  ///< number of bins of its histogram, >= 2
-  std::optional<double> range = {};       ///< upper end of the histogram, > 0; in mean diameters for distances
-  std::optional<double> largest = {};     ///< largest wave number, > 0; in inverse mean diameters
-  std::optional<int> axis = {};           ///< 0 or 1
+  std::string name = {};                                  ///< "radial_distribution"
+  std::optional<double> every = {};                       ///< time between samples, > 0
+  std::optional<std::int64_t> bins = {};                  ///< number of bins of its histogram, >= 2
+  std::optional<double> range = {};                       ///< upper end of the histogram, > 0; in mean diameters for distances
+  std::optional<double> largest = {};                     ///< largest wave number, > 0; in inverse mean diameters
+  std::optional<int> axis = {};                           ///< 0 or 1
+  std::optional<std::int64_t> disks = {};                 ///< how many disks of each species it follows, >= 1
+  std::optional<std::array<std::int64_t, 2>> cells = {};  ///< numbers of cells along x and y, >= 1
 };
 
 /// All that is to be simulated.

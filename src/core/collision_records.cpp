@@ -76,6 +76,11 @@ void CollisionRecords::read(std::vector<PairCollision>& collisions) const {
   for (std::size_t begin = 0; begin < records.size(); begin += piece)
     write(*this, records.subspan(begin, std::min(piece, records.size() - begin)), collisions.data() + begin);
   put_contacts(*this, collisions);
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    collisions[n].place = {places[n][0], places[n][1]};
+    if (collisions[n].disk != disks->ids[static_cast<std::size_t>(records[n].slot_i)])
+      collisions[n].place += collisions[n].separation;  // the other disk is named first
+  }
 }
 
 }  // namespace carom

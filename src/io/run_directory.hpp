@@ -17,7 +17,7 @@ namespace carom {
 
 /// The names of all files that a run may write, and of the pages that `carom play` and `carom report` make of one: another run's
 /// must not stay beside them. The summary comes last: where it is, the run is complete.
-inline constexpr std::array<std::string_view, 21> run_products = {"checkpoint.h5",
+inline constexpr std::array<std::string_view, 23> run_products = {"checkpoint.h5",
                                                                   "checkpoint-previous.h5",
                                                                   "trajectory.h5md",
                                                                   "trajectory.xyz",
@@ -30,6 +30,8 @@ inline constexpr std::array<std::string_view, 21> run_products = {"checkpoint.h5
                                                                   "observe_structure_factor.csv",
                                                                   "observe_hexatic_correlation.csv",
                                                                   "observe_density_profile.csv",
+                                                                  "observe_fields.csv",
+                                                                  "observe_fields_in_time.csv",
                                                                   "observe_mean_square_displacement.csv",
                                                                   "observe_velocity_autocorrelation.csv",
                                                                   "observe_viscosity.csv",

@@ -31,6 +31,7 @@ void CollisionStream::start(const State& state) {
 CollisionRecords CollisionStream::follow(std::span<const Event> events) {
   records_.clear();
   contacts_.clear();
+  places_.clear();
   for (const Event& event : events) {
     if (moves_between_) move(event.disk, event.time);
     if (event.partner >= 0) {
@@ -39,7 +40,7 @@ CollisionRecords CollisionStream::follow(std::span<const Event> events) {
     }
     velocity_[static_cast<std::size_t>(event.disk)] = event.velocity;
   }
-  return {table_, 0.0, 0.0, records_, contacts_};
+  return {table_, 0.0, 0.0, records_, contacts_, places_};
 }
 
 /// Moves disk i to its state just before an event.
@@ -59,6 +60,16 @@ PairContact CollisionStream::contact(std::int32_t disk, std::int32_t partner) co
   return {{r[0], r[1]}, edge_ == 0.0 || r.norm() < edge_ * (radius_[i] + radius_[j])};
 }
 
+/// Returns where a disk that has been moved is in the box.
+std::array<double, 2> CollisionStream::place(std::int32_t disk) const {
+  std::array<double, 2> inside{};
+  for (int axis = 0; axis < 2; ++axis) {
+    const double x = position_[static_cast<std::size_t>(disk)][axis], length = box_.upper[axis] - box_.lower[axis];
+    inside[static_cast<std::size_t>(axis)] = box_.periodic(axis) ? x - std::floor((x - box_.lower[axis]) / length) * length : x;
+  }
+  return inside;
+}
+
 /// Records a collision of disks that have been moved to it.
 void CollisionStream::meet(const Event& event) {
   const Eigen::Vector2d& v = velocity_[static_cast<std::size_t>(event.disk)];
@@ -71,6 +82,7 @@ void CollisionStream::meet(const Event& event) {
                       {event.velocity[0], event.velocity[1]},
                       {event.partner_velocity[0], event.partner_velocity[1]}});
   if (!smooth_) contacts_.push_back(contact(event.disk, event.partner));
+  if (places_wanted_) places_.push_back(place(event.disk));
   w = event.partner_velocity;
 }
 

@@ -7,6 +7,7 @@
 
 #include <carom/observe.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,6 +20,9 @@ class CollisionStream {
  public:
   /// Requires that nothing but logged events changes velocities: is_driven() is false.
   CollisionStream(const Scene& scene, const Disks& disks);
+
+  /// Follows where disks are from now on, beside what separations need. Requires that start() has not been called.
+  void follow_places() { places_wanted_ = moves_between_ = true; }
 
   void start(const State& state);
   /// Returns the records of the collisions of pairs among `events`; slots are ids. They are valid until the next call. Requires
@@ -34,6 +38,7 @@ class CollisionStream {
   void meet(const Event& event);
   void move(std::int32_t disk, double time);
   [[nodiscard]] PairContact contact(std::int32_t disk, std::int32_t partner) const;
+  [[nodiscard]] std::array<double, 2> place(std::int32_t disk) const;
 
   std::vector<double> radius_;
   Box box_;
@@ -47,6 +52,8 @@ class CollisionStream {
   std::shared_ptr<const DiskTable> table_;
   std::vector<CollisionRecord> records_;
   std::vector<PairContact> contacts_;
+  bool places_wanted_ = false;
+  std::vector<std::array<double, 2>> places_;
 };
 
 }  // namespace carom

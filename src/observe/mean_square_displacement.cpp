@@ -1,6 +1,6 @@
 // Mean square displacement and what diffusion coefficient it amounts to at each lag: D(t) = <|r(t) - r(0)|^2> / 4 t. In two
-// dimensions D grows with the logarithm of t, so there is no limit to report. Averages over time, of at most a thousand disks of
-// each species.
+// dimensions D grows with the logarithm of t, so there is no limit to report. Averages over time, of some disks of each
+// species.
 
 #include "observe/blocking.hpp"
 #include "observe/multiple_tau.hpp"
@@ -22,7 +22,7 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
  public:
   MeanSquareDisplacement(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run) {
     for (std::size_t s = 0; s < run.species_count(); ++s) {
-      tracked_.emplace_back(run, s);
+      tracked_.emplace_back(request, run, s);
       ladders_.emplace_back(tracked_.back().channels(), MultipleTau::Pairs::squared_differences);
     }
   }

@@ -47,7 +47,8 @@ void ObservableGroup::add(MadeObservable made) {
     record_followers_.push_back(made.records);
   else
     followers_.push_back(&observable);
-  if (!run_.has_collision_records) follow_log();
+  if (!run_.has_collision_records || observable.needs_places()) follow_log();
+  if (observable.needs_places()) stream_->follow_places();
 }
 
 void ObservableGroup::follow_log() {

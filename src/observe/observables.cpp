@@ -22,6 +22,7 @@ constexpr Entry catalogue[] = {
     {"structure_factor", &make_structure_factor},
     {"hexatic", &make_hexatic},
     {"density_profile", &make_density_profile},
+    {"fields", &make_fields},
     {"mean_square_displacement", &make_mean_square_displacement},
     {"velocity_autocorrelation", &make_velocity_autocorrelation},
     {"viscosity", &make_viscosity},

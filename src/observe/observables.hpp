@@ -36,6 +36,7 @@ MadeObservable make_radial_distribution(const ObservableRequest& request, const 
 MadeObservable make_structure_factor(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_hexatic(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_density_profile(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_fields(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_mean_square_displacement(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_velocity_autocorrelation(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_viscosity(const ObservableRequest& request, const ObservedRun& run);

@@ -18,11 +18,17 @@ std::vector<std::int32_t> sampled_disks(std::span<const std::int32_t> ids, std::
   return kept;
 }
 
-TrackedDisks::TrackedDisks(const ObservedRun& run, std::size_t species) {
+namespace {
+
+constexpr std::int64_t usual = 1000;  // where a program has not said how many
+
+}  // namespace
+
+TrackedDisks::TrackedDisks(const ObservableRequest& request, const ObservedRun& run, std::size_t species) {
   std::vector<std::int32_t> all;
   for (std::size_t i = 0; i < run.disks.count(); ++i)
     if (run.disks.species[i] == static_cast<std::int32_t>(species)) all.push_back(static_cast<std::int32_t>(i));
-  ids_ = sampled_disks(all, most, run.scene.run.seed);
+  ids_ = sampled_disks(all, static_cast<std::size_t>(request.disks.value_or(usual)), run.scene.run.seed);
   values_.resize(channels());
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Disks that observables follow one by one: a random choice of at most a thousand of each species, so that memory stays bounded.
+// Disks that observables follow one by one: a random choice of so many of each species, so that memory stays bounded.
 
 #include "observe/observed_run.hpp"
 
@@ -81,10 +81,8 @@ class FollowedDisks {
 /// The disks of one species whose velocities and displacements are followed through time.
 class TrackedDisks {
  public:
-  static constexpr std::size_t most = 1000;
-
-  /// Tracks the disks of one species.
-  TrackedDisks(const ObservedRun& run, std::size_t species);
+  /// Tracks the disks of one species: all, or as many as are asked for.
+  TrackedDisks(const ObservableRequest& request, const ObservedRun& run, std::size_t species);
 
   [[nodiscard]] std::size_t channels() const { return 2 * ids_.size(); }
   /// Returns x and y of each disk, relative to the common motion of all along axes that keep momentum. Valid until the next call.

@@ -1,5 +1,5 @@
 // Velocity autocorrelation <v(0).v(t)> and its running integral, Green and Kubo's diffusion coefficient D(t). Averages over time,
-// of at most a thousand disks of each species.
+// of some disks of each species.
 //
 // Short lags use velocities at instants. Longer ones use mean velocities over a window (column `window`), which displacements
 // give exactly however often disks collide in between; the integral uses these throughout. The initial slope, too, is exact: the
@@ -25,7 +25,7 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
     const bool curved = !effects.acceleration().isZero(0.0);
     follows_ = run.collisions_known && !curved && !is_driven(effects) && run.conserves_momentum(0) && run.conserves_momentum(1);
     for (std::size_t s = 0; s < run.species_count(); ++s) {
-      tracked_.emplace_back(run, s);
+      tracked_.emplace_back(request, run, s);
       instants_.emplace_back(tracked_.back().channels(), MultipleTau::Pairs::products, lags, 1);
       means_.emplace_back(tracked_.back().channels(), MultipleTau::Pairs::products, lags);
     }

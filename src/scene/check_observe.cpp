@@ -62,6 +62,18 @@ void check_settings(const ObservableRequest& request) {
   if (request.bins && !(*request.bins >= 2 && *request.bins <= most_bins))
     throw Refusal(path + ".bins", fmt::format("{}.bins is {}; it must be a whole number from 2 to {}, such as bins = {}", path,
                                               *request.bins, most_bins, known->bins.value_or(2)));
+  constexpr std::int64_t most_cells = 10'000;
+  if (request.cells) {
+    const auto [nx, ny] = *request.cells;
+    if (nx < 1 || ny < 1 || nx > most_cells || ny > most_cells || nx * ny > most_cells)
+      throw Refusal(path + ".cells",
+                    fmt::format("{}.cells is [{}, {}]; it must be two whole numbers from 1 on, of {} cells at most, "
+                                "such as cells = [10, 10]",
+                                path, nx, ny, most_cells));
+  }
+  if (request.disks && *request.disks < 1)
+    throw Refusal(path + ".disks", fmt::format("{}.disks is {}; it follows one disk of each species at least, such as disks = {}",
+                                               path, *request.disks, known->disks.value_or(1)));
   if (request.axis && *request.axis != 0 && *request.axis != 1)
     throw Refusal(path + ".axis", fmt::format("{}.axis is {}; it must be 0 or 1", path, *request.axis));
 }
@@ -78,7 +90,7 @@ void check_disks(const Scene& scene, const ObservableRequest& request) {
 }
 
 void check_collisions(const Scene& scene, const ObservableRequest& request) {
-  if (!one_of(request.name, {"free_flight", "viscosity", "heat_conductivity"})) return;
+  if (!one_of(request.name, {"free_flight", "viscosity", "heat_conductivity", "fields"})) return;
   for (const EffectTraits& effect : all_effects())
     if (effect.changes_velocities_in_flight && effect.acts(scene.effects))
       refuse_observable(request, fmt::format("follows disks from collision to collision, and {} changes their velocities in "

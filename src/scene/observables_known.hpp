@@ -21,10 +21,12 @@ struct KnownObservable {
   std::optional<double> range = {};
   std::optional<double> largest = {};
   std::optional<int> axis = {};
+  std::optional<std::int64_t> disks = {};
+  std::optional<std::array<std::int64_t, 2>> cells = {};
 };
 
 /// All observables, in the order of docs/scene-format.md, which is that of all results.
-inline constexpr std::array<KnownObservable, 16> known_observables = {{
+inline constexpr std::array<KnownObservable, 17> known_observables = {{
     {.name = "temperature", .example = "temperature = true", .step = 4.0},
     {.name = "pressure", .example = "pressure = true", .step = 16.0},
     {.name = "collision_rate", .example = "collision_rate = true", .step = 16.0},
@@ -39,8 +41,9 @@ inline constexpr std::array<KnownObservable, 16> known_observables = {{
     {.name = "structure_factor", .example = "structure_factor = { largest = 20.0 }", .step = 32.0, .largest = 20.0},
     {.name = "hexatic", .example = "hexatic = { range = 10.0, bins = 100 }", .step = 16.0, .bins = 100, .range = 10.0},
     {.name = "density_profile", .example = "density_profile = { axis = \"y\", bins = 100 }", .step = 4.0, .bins = 100, .axis = 1},
-    {.name = "mean_square_displacement", .example = "mean_square_displacement = true", .step = 0.25},
-    {.name = "velocity_autocorrelation", .example = "velocity_autocorrelation = true", .step = 0.25},
+    {.name = "fields", .example = "fields = { cells = [10, 10] }", .step = 1.0, .cells = {{10, 10}}},
+    {.name = "mean_square_displacement", .example = "mean_square_displacement = { disks = 1000 }", .step = 0.25, .disks = 1000},
+    {.name = "velocity_autocorrelation", .example = "velocity_autocorrelation = { disks = 1000 }", .step = 0.25, .disks = 1000},
     {.name = "viscosity", .example = "viscosity = true", .step = 0.25},
     {.name = "heat_conductivity", .example = "heat_conductivity = true", .step = 0.25},
     {.name = "h_function", .example = "h_function = true", .step = 0.25},

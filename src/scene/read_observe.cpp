@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace carom::detail {
@@ -18,18 +19,37 @@ int read_axis(const TableReader& table, int otherwise) {
   throw SceneError(table.where("axis"), fmt::format("{} is \"{}\"; it must be \"x\" or \"y\"", table.path("axis"), axis));
 }
 
+std::array<std::int64_t, 2> read_cells(const TableReader& table, const std::array<std::int64_t, 2>& otherwise) {
+  const std::string example = fmt::format("two whole numbers of cells, such as cells = [{}, {}]", otherwise[0], otherwise[1]);
+  const toml::node* const node = table.find("cells");
+  if (node == nullptr) return otherwise;
+  const toml::array* const list = node->as_array();
+  if (list == nullptr || list->size() != 2) refuse(*node, table.path("cells"), example);
+  std::array<std::int64_t, 2> cells{};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const std::optional<std::int64_t> number = whole_number((*list)[axis]);
+    if (!number) refuse(*node, table.path("cells"), example);
+    cells[axis] = *number;
+  }
+  return cells;
+}
+
 void read_settings(const toml::table& node, const KnownObservable& known, ObservableRequest& request) {
   std::vector<std::string_view> keys = {"every"};
   if (known.bins) keys.emplace_back("bins");
   if (known.range) keys.emplace_back("range");
   if (known.largest) keys.emplace_back("largest");
   if (known.axis) keys.emplace_back("axis");
+  if (known.disks) keys.emplace_back("disks");
+  if (known.cells) keys.emplace_back("cells");
   const TableReader table(node, fmt::format("observe.{}", known.name), keys);
   request.every = table.number(keys::observe_every);
   if (known.bins) request.bins = table.integer("bins", fmt::format("bins = {}", *known.bins)).value_or(*known.bins);
   if (known.range) request.range = table.number({"range", example_of("range", *known.range), Range::above_zero});
   if (known.largest) request.largest = table.number({"largest", example_of("largest", *known.largest), Range::above_zero});
   if (known.axis) request.axis = read_axis(table, *known.axis);
+  if (known.disks) request.disks = table.integer("disks", fmt::format("disks = {}", *known.disks)).value_or(*known.disks);
+  if (known.cells) request.cells = read_cells(table, *known.cells);
 }
 
 }  // namespace
@@ -47,6 +67,8 @@ std::vector<ObservableRequest> read_observe(const toml::table& node) {
     request.bins = known.bins;
     request.largest = known.largest;
     request.axis = known.axis;
+    request.disks = known.disks;
+    request.cells = known.cells;
     if (value->is_table()) read_settings(*value->as_table(), known, request);
     if (known.largest && !request.largest) request.largest = known.largest;
     requests.push_back(std::move(request));

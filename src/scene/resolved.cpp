@@ -120,6 +120,8 @@ void put_observe(Buffer& out, const std::vector<ObservableRequest>& requests) {
     if (request.largest) settings.push_back(fmt::format("largest = {}", number_text(*request.largest)));
     if (request.axis) settings.push_back(fmt::format("axis = \"{}\"", *request.axis == 0 ? "x" : "y"));
     if (request.bins) settings.push_back(fmt::format("bins = {}", *request.bins));
+    if (request.cells) settings.push_back(fmt::format("cells = [{}, {}]", (*request.cells)[0], (*request.cells)[1]));
+    if (request.disks) settings.push_back(fmt::format("disks = {}", *request.disks));
     put(out, "{} = {}\n", request.name, settings.empty() ? "true" : fmt::format("{{ {} }}", fmt::join(settings, ", ")));
   }
 }

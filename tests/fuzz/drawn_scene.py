@@ -19,7 +19,7 @@ FORBIDDEN = {
 }
 OBSERVABLES = (
     "temperature", "pressure", "velocity_moments", "h_function", "collision_rate", "free_flight", "speeds", "radial_distribution", "structure_factor",
-    "hexatic", "density_profile", "mean_square_displacement", "velocity_autocorrelation", "viscosity", "heat_conductivity", "wall_fluxes",
+    "hexatic", "density_profile", "fields", "mean_square_displacement", "velocity_autocorrelation", "viscosity", "heat_conductivity", "wall_fluxes",
 )
 HOSTILE = (
     0, -1, 0.0, -0.0, -1.0, 1, 1.0, 2.0, 0.5, 1e-9, 1e-30, 1e-100, 1e-160, 1e-200, 1e-300, 5e-324, 1e9, 1e30, 1e100, 1e140, 1e160, 1e200, 1e308,
@@ -450,6 +450,8 @@ def draw_observe(r, scene, walled, gas):
             settings["bins"] = r.choice([2, 10, 333])
         if name == "density_profile" and r.random() < 0.5:
             settings["axis"] = r.choice(["x", "y"])
+        if name == "fields" and r.random() < 0.6:
+            settings["cells"] = [r.choice([1, 2, 7, 30]), r.choice([1, 3, 16])]
         observe[name] = settings or True
     if observe:
         scene.tables["observe"] = observe

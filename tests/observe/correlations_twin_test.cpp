@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <map>
+#include <string>
+#include <vector>
 
 namespace carom::test {
 namespace {
@@ -110,6 +112,21 @@ TEST(ObservedCorrelations, FreeDisksGoAsTheSquareOfTime) {
     EXPECT_NEAR(o.column("mean_square_displacement", 0, "msd")[r] / (2.5 * lags[r] * lags[r]), 1.0, 1e-12);
   for (const double correlation : o.column("velocity_autocorrelation", 0, "correlation")) EXPECT_NEAR(correlation, 2.5, 1e-12);
   EXPECT_EQ(o.value("velocity_autocorrelation", "initial_slope"), 0.0);
+}
+
+TEST(ObservedCorrelations, FollowAsManyDisksAsAreAskedFor) {
+  // Free disks, no two with the same speed: the mean square of so many of them, and no other number, is the correlation.
+  for (const int count : {1, 2, 3}) {
+    const Scene scene = parse_scene(
+        "[box]\nx = [0.0, 8.0]\ny = [0.0, 8.0]\nboundary = \"periodic\"\n[[disks]]\nradius = 0.5\nmass = 1.0\n"
+        "positions = [[1.0, 1.0], [2.0, 3.0], [4.0, 5.0]]\nvelocities = [[1.0, 0.0], [-3.0, 0.0], [2.0, 0.0]]\n"
+        "[collision]\nrule = \"specular\"\n[run]\ntime = 50.0\n[observe]\n"
+        "velocity_autocorrelation = { every = 0.25, disks = " +
+        std::to_string(count) + " }\n");
+    const double correlation = observe(scene, 0.25).column("velocity_autocorrelation", 0, "correlation")[0];
+    const std::vector<std::vector<double>> possible = {{1.0, 4.0, 9.0}, {2.5, 5.0, 6.5}, {14.0 / 3.0}};
+    EXPECT_THAT(possible[static_cast<std::size_t>(count - 1)], testing::Contains(testing::DoubleNear(correlation, 1e-12)));
+  }
 }
 
 TEST(ObservedCorrelations, DisplacementsBetweenWallsSayThatTheirErrorsAreTooLarge) {

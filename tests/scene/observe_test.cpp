@@ -39,6 +39,12 @@ TEST(Observe, RequestsComeInTheOrderOfTheFormatWithTheirDefaults) {
   EXPECT_EQ(scene.observe[3].bins, 7);
 }
 
+TEST(Observe, DisksAreFollowedByTheThousandUnlessMoreAreAskedFor) {
+  const Scene scene = observed("mean_square_displacement = true\nvelocity_autocorrelation = { disks = 20_000 }");
+  EXPECT_EQ(scene.observe[0].disks, 1000);
+  EXPECT_EQ(scene.observe[1].disks, 20'000);
+}
+
 TEST(Observe, RangesShrinkToHalfOfASmallBox) {
   // The box is 10 by 8, the diameter 0.5: half of it is 8 diameters, less than the 10 of the hexatic correlation, more than the 5
   // of g(r).
@@ -50,7 +56,8 @@ TEST(Observe, RangesShrinkToHalfOfASmallBox) {
 TEST(Observe, ResolvedSceneAsksForTheSame) {
   for (const char* table :
        {"", "temperature = true", "radial_distribution = { every = 0.1, range = 3.3, bins = 17 }\nhexatic = true",
-        "density_profile = { axis = \"x\" }\nstructure_factor = { largest = 7.0 }\nviscosity = { every = 1e-3 }"}) {
+        "density_profile = { axis = \"x\" }\nstructure_factor = { largest = 7.0 }\nviscosity = { every = 1e-3 }",
+        "velocity_autocorrelation = { disks = 3 }", "fields = { cells = [3, 7] }"}) {
     const Scene scene = observed(table);
     EXPECT_EQ(first_difference(scene, parse_scene(resolved_toml(scene))), "") << table;
   }

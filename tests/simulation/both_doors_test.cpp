@@ -547,6 +547,16 @@ std::vector<Case> cases() {
        periodic,
        {"observe.structure_factor={ largest = -1.0 }"},
        [](Scene& s) { s.observe = {observable("structure_factor")}, s.observe[0].largest = -1.0; }},
+      {"ObservableOfNoDisk",
+       periodic,
+       {"observe.velocity_autocorrelation={ disks = 0 }"},
+       [](Scene& s) { s.observe = {observable("velocity_autocorrelation")}, s.observe[0].disks = 0; }},
+      {"FieldsWithoutCells",
+       periodic,
+       {"observe.fields={ cells = [4, 0] }"},
+       [](Scene& s) {
+         s.observe = {observable("fields")}, s.observe[0].cells = {{4, 0}};
+       }},
       {"ObservableBeyondHalfTheBox",
        periodic,
        {"observe.radial_distribution={ range = 50.0 }"},

@@ -1,0 +1,284 @@
+// Fields on a grid of cells: density, velocity of the flow, temperature, stress and heat flux, averaged over the run and in time.
+//
+// Densities are moments of the disks whose centres are in a cell: of their number, of m, m v, m v v and (m v^2 / 2) v. A
+// collision carries momentum and energy at once along the line between the centres, from the partner to the disk: each cell gets
+// the share of that line which lies in it (Irving & Kirkwood, J. Chem. Phys. 18, 817 (1950)), so that fluxes are the same through
+// every line across a steady flow. The stress is the flux of momentum relative to the flow u, positive under pressure, and the
+// heat flux that of energy:
+//   P = <m v v> - rho u u + <r dp>,    q = <(m v^2 / 2) v> - u (rho u^2 / 2 + n kT) - P u + <r dE>,    per area (and time).
+// Nearer to a wall than a radius a part of the momentum is carried from the wall to centres, which is not counted here.
+//
+// Averages over time: of disks at the steps, of collisions over all the time between. The run is kept as up to thirty-two
+// stretches of equal length, each twice as long as before when there would be more. They are the fields in time, and errors come
+// from them by the jackknife.
+
+#include "observe/blocking.hpp"
+#include "observe/observables.hpp"
+#include "observe/saved_observable.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+/// What is added up in a cell.
+struct CellSums {
+  double disks = 0.0, mass = 0.0;
+  Eigen::Vector2d momentum = Eigen::Vector2d::Zero();        ///< of m v
+  Eigen::Matrix2d momentum_flow = Eigen::Matrix2d::Zero();   ///< of m v v
+  Eigen::Vector2d energy_flow = Eigen::Vector2d::Zero();     ///< of (m v^2 / 2) v
+  Eigen::Matrix2d carried = Eigen::Matrix2d::Zero();         ///< of r dp, row: along r
+  Eigen::Vector2d energy_carried = Eigen::Vector2d::Zero();  ///< of r dE
+  double lost = 0.0;                                         ///< kinetic energy that collisions have taken
+
+  CellSums& operator+=(const CellSums& other) {
+    disks += other.disks, mass += other.mass, lost += other.lost;
+    momentum += other.momentum, momentum_flow += other.momentum_flow, energy_flow += other.energy_flow;
+    carried += other.carried, energy_carried += other.energy_carried;
+    return *this;
+  }
+  CellSums& operator-=(const CellSums& other) {
+    disks -= other.disks, mass -= other.mass, lost -= other.lost;
+    momentum -= other.momentum, momentum_flow -= other.momentum_flow, energy_flow -= other.energy_flow;
+    carried -= other.carried, energy_carried -= other.energy_carried;
+    return *this;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(disks, mass, momentum, momentum_flow, energy_flow, carried, energy_carried, lost);
+  }
+};
+
+/// The columns of a table: what each is called, and its unit.
+struct FieldName {
+  const char* name;
+  const char* unit;
+};
+constexpr std::array<FieldName, 11> field_names = {{{"density", "1 / area"},
+                                                    {"velocity_x", "length / time"},
+                                                    {"velocity_y", "length / time"},
+                                                    {"temperature", "energy"},
+                                                    {"stress_xx", "energy / area"},
+                                                    {"stress_xy", "energy / area"},
+                                                    {"stress_yx", "energy / area"},
+                                                    {"stress_yy", "energy / area"},
+                                                    {"heat_flux_x", "energy / (length time)"},
+                                                    {"heat_flux_y", "energy / (length time)"},
+                                                    {"energy_lost", "energy / (area time)"}}};
+using FieldValues = std::array<double, field_names.size()>;
+
+/// Returns the fields in a cell from the sums of so many steps. Without disks there is a density alone.
+FieldValues fields_of(const CellSums& sums, double steps, double step, double area) {
+  FieldValues found;
+  found.fill(unknown);
+  found[0] = sums.disks / (steps * area);
+  if (sums.disks == 0.0 || sums.mass == 0.0) return found;
+  const Eigen::Vector2d u = sums.momentum / sums.mass;
+  const Eigen::Matrix2d kinetic = (sums.momentum_flow - sums.mass * u * u.transpose()) / (steps * area);
+  const Eigen::Matrix2d carried = sums.carried / (steps * step * area), stress = kinetic + carried;
+  const double heat = 0.5 * kinetic.trace(), flow = 0.5 * sums.mass * u.squaredNorm() / (steps * area);
+  const Eigen::Vector2d energy = sums.energy_flow / (steps * area) + sums.energy_carried / (steps * step * area);
+  const Eigen::Vector2d heat_flux = energy - (heat + flow) * u - stress * u;
+  found[1] = u.x(), found[2] = u.y();
+  found[3] = heat / found[0];
+  found[4] = stress(0, 0), found[5] = stress(0, 1), found[6] = stress(1, 0), found[7] = stress(1, 1);
+  found[8] = heat_flux.x(), found[9] = heat_flux.y();
+  found[10] = sums.lost / (steps * step * area);
+  return found;
+}
+
+class Fields final : public SavedObservable<Fields> {
+ public:
+  Fields(const ObservableRequest& request, const ObservedRun& run)
+      : SavedObservable(request, run),
+        cells_(request.cells.value_or(std::array<std::int64_t, 2>{10, 10})),
+        follows_(run.collisions_known),
+        coming_(static_cast<std::size_t>(cells_[0] * cells_[1])) {
+    for (int axis = 0; axis < 2; ++axis)
+      width_[axis] = run.scene.box.lengths()[axis] / static_cast<double>(cells_[static_cast<std::size_t>(axis)]);
+  }
+
+  [[nodiscard]] bool follows_collisions() const override { return follows_; }
+  [[nodiscard]] bool needs_places() const override { return true; }
+
+  void collisions(std::span<const PairCollision> collisions) override {
+    for (const PairCollision& met : collisions) {
+      const double gained = energy_gained(met.disk, met.velocity_before, met.velocity);
+      const double partner_gained = energy_gained(met.partner, met.partner_velocity_before, met.partner_velocity);
+      const Eigen::Matrix2d carried = met.separation * met.impulse.transpose();
+      const Eigen::Vector2d energy = 0.5 * (gained - partner_gained) * met.separation;
+      const double lost = met.contact ? -(gained + partner_gained) : 0.0;
+      along_line(met.place - met.separation, met.separation, [&](CellSums& cell, double share) {
+        cell.carried += share * carried;
+        cell.energy_carried += share * energy;
+        cell.lost += share * lost;
+      });
+    }
+  }
+
+  void sample(const State& state, const Totals&) override {
+    if (state.time == 0.0) return;  // every step ends a stretch of time, in which disks have collided
+    for (std::size_t i = 0; i < run_.disks.count(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      CellSums* const cell = cell_at(state.positions.col(k));
+      if (cell == nullptr) continue;  // beyond where a wall that moves began
+      const double mass = run_.disks.mass[i];
+      const Eigen::Vector2d v = state.velocities.col(k);
+      cell->disks += 1.0;
+      cell->mass += mass;
+      cell->momentum += mass * v;
+      cell->momentum_flow += mass * v * v.transpose();
+      cell->energy_flow += 0.5 * mass * v.squaredNorm() * v;
+    }
+    if (++steps_ < steps_of_stretch_) return;
+    stretches_.push_back(coming_);
+    std::fill(coming_.begin(), coming_.end(), CellSums{});
+    steps_ = 0;
+    if (stretches_.size() < most_stretches) return;
+    for (std::size_t s = 0; s < most_stretches / 2; ++s) {
+      if (s > 0) stretches_[s] = std::move(stretches_[2 * s]);
+      for (std::size_t c = 0; c < coming_.size(); ++c) stretches_[s][c] += stretches_[2 * s + 1][c];
+    }
+    stretches_.resize(most_stretches / 2);
+    steps_of_stretch_ *= 2;
+  }
+
+  [[nodiscard]] Measurement finish(double, const Totals&) override {
+    Measurement found{.name = name()};
+    if (!follows_) found.note = "collisions were not recorded, so stress and heat flux are those that disks carry in flight";
+    if (stretches_.empty()) {
+      found.note = "the run is too short";
+      return found;
+    }
+    found.tables = {averages(), in_time()};
+    return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(stretches_, coming_, steps_, steps_of_stretch_);
+  }
+
+ private:
+  static constexpr std::size_t most_stretches = 32, least_for_errors = 8;
+
+  [[nodiscard]] double energy_gained(std::int32_t disk, const Eigen::Vector2d& before, const Eigen::Vector2d& after) const {
+    return 0.5 * run_.disks.mass[static_cast<std::size_t>(disk)] * (after.squaredNorm() - before.squaredNorm());
+  }
+
+  /// Returns the cell at a place; along periodic axes the place may be outside the box. Null where there is none.
+  [[nodiscard]] CellSums* cell_at(const Eigen::Vector2d& place) {
+    std::array<std::int64_t, 2> at{};
+    for (int axis = 0; axis < 2; ++axis) {
+      const std::int64_t count = cells_[static_cast<std::size_t>(axis)];
+      const double cell = std::floor((place[axis] - run_.scene.box.lower[axis]) / width_[axis]);
+      auto number = static_cast<std::int64_t>(cell);
+      if (run_.scene.box.periodic(axis))
+        number = ((number % count) + count) % count;
+      else if (number == count && place[axis] <= run_.scene.box.upper[axis])
+        --number;
+      if (number < 0 || number >= count) return nullptr;
+      at[static_cast<std::size_t>(axis)] = number;
+    }
+    return &coming_[static_cast<std::size_t>(at[1] * cells_[0] + at[0])];
+  }
+
+  /// Calls f(cell, share) for each cell that the line from `start` to start + line runs through, with the share of the line in
+  /// it.
+  template <class F>
+  void along_line(const Eigen::Vector2d& start, const Eigen::Vector2d& line, F&& f) {
+    crossings_.clear();
+    for (int axis = 0; axis < 2; ++axis) {
+      const double from = (start[axis] - run_.scene.box.lower[axis]) / width_[axis], to = from + line[axis] / width_[axis];
+      const double low = std::min(from, to), high = std::max(from, to);
+      for (double edge = std::floor(low) + 1.0; edge < high; edge += 1.0) crossings_.push_back((edge - from) / (to - from));
+    }
+    std::sort(crossings_.begin(), crossings_.end());
+    crossings_.push_back(1.0);
+    double begun = 0.0;
+    for (const double end : crossings_) {
+      if (CellSums* const cell = cell_at(start + 0.5 * (begun + end) * line)) f(*cell, end - begun);
+      begun = end;
+    }
+  }
+
+  [[nodiscard]] std::array<Column, 2> middles() const {
+    std::array<Column, 2> places{{{"x", "length", {}}, {"y", "length", {}}}};
+    for (std::int64_t row = 0; row < cells_[1]; ++row)
+      for (std::int64_t column = 0; column < cells_[0]; ++column) {
+        places[0].values.push_back(run_.scene.box.lower[0] + (static_cast<double>(column) + 0.5) * width_[0]);
+        places[1].values.push_back(run_.scene.box.lower[1] + (static_cast<double>(row) + 0.5) * width_[1]);
+      }
+    return places;
+  }
+
+  /// Returns the fields averaged over all whole stretches, with errors by the jackknife over these.
+  [[nodiscard]] Table averages() const {
+    Table table{.name = "fields"};
+    for (Column& column : middles()) table.columns.push_back(std::move(column));
+    const std::size_t first = table.columns.size();
+    for (const FieldName& field : field_names) {
+      table.columns.push_back({field.name, field.unit, {}});
+      table.columns.push_back({std::string(field.name) + "_error", field.unit, {}});
+    }
+    const auto count = static_cast<double>(stretches_.size()), steps = static_cast<double>(steps_of_stretch_);
+    const double area = width_[0] * width_[1];
+    for (std::size_t c = 0; c < coming_.size(); ++c) {
+      CellSums all;
+      for (const std::vector<CellSums>& stretch : stretches_) all += stretch[c];
+      const FieldValues mean = fields_of(all, count * steps, step_, area);
+      FieldValues squares{};
+      for (const std::vector<CellSums>& stretch : stretches_) {
+        CellSums others = all;
+        others -= stretch[c];
+        const FieldValues without = fields_of(others, (count - 1.0) * steps, step_, area);
+        for (std::size_t f = 0; f < mean.size(); ++f) squares[f] += (without[f] - mean[f]) * (without[f] - mean[f]);
+      }
+      for (std::size_t f = 0; f < mean.size(); ++f) {
+        table.columns[first + 2 * f].values.push_back(mean[f]);
+        table.columns[first + 2 * f + 1].values.push_back(
+            stretches_.size() < least_for_errors ? unknown : std::sqrt((count - 1.0) / count * squares[f]));
+      }
+    }
+    return table;
+  }
+
+  /// Returns the fields of each stretch, with the middle of its time.
+  [[nodiscard]] Table in_time() const {
+    Table table{.name = "fields_in_time"};
+    table.columns.push_back({"time", "time", {}});
+    const std::array<Column, 2> places = middles();
+    for (const Column& column : places) table.columns.push_back({column.name, column.unit, {}});
+    for (const FieldName& field : field_names) table.columns.push_back({field.name, field.unit, {}});
+    const auto steps = static_cast<double>(steps_of_stretch_);
+    for (std::size_t s = 0; s < stretches_.size(); ++s)
+      for (std::size_t c = 0; c < coming_.size(); ++c) {
+        table.columns[0].values.push_back((static_cast<double>(s) + 0.5) * steps * step_);
+        for (std::size_t axis = 0; axis < 2; ++axis) table.columns[1 + axis].values.push_back(places[axis].values[c]);
+        const FieldValues values = fields_of(stretches_[s][c], steps, step_, width_[0] * width_[1]);
+        for (std::size_t f = 0; f < values.size(); ++f) table.columns[3 + f].values.push_back(values[f]);
+      }
+    return table;
+  }
+
+  std::array<std::int64_t, 2> cells_;
+  bool follows_;
+  Eigen::Vector2d width_;
+  std::vector<std::vector<CellSums>> stretches_;  ///< that have ended, in order of time; each by cell, row after row
+  std::vector<CellSums> coming_;                  ///< the stretch that has begun
+  std::uint64_t steps_ = 0, steps_of_stretch_ = 1;
+  std::vector<double> crossings_;  ///< scratch
+};
+
+}  // namespace
+
+MadeObservable make_fields(const ObservableRequest& request, const ObservedRun& run) {
+  return std::make_unique<Fields>(request, run);
+}
+
+}  // namespace carom

@@ -1,0 +1,137 @@
+// Fields on a grid: shares of a collision in closed form, sums over cells against the whole box, and the fluxes of a steady flow.
+
+#include "observe/observed_system.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace carom::test {
+namespace {
+
+const std::vector<double>& field(const Observed& o, const std::string& name) { return o.column("fields", 0, name); }
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+/// Two disks that meet head-on at time 1, with their centres at 3.25 and 4.25.
+Observed head_on(const std::string& cells, const std::string& more = "") {
+  return observe(
+      parse_scene("[box]\nx = [0.0, 10.0]\ny = [0.0, 4.0]\nboundary = \"periodic\"\n[[disks]]\nradius = 0.5\nmass = 1.0\n"
+                  "positions = [[2.25, 1.0], [5.25, 1.0]]\nvelocities = [[1.0, 0.0], [-1.0, 0.0]]\n[collision]\nrule = "
+                  "\"specular\"\n[run]\ntime = 2.0\n" +
+                  more + "[observe]\nfields = { every = 0.25, cells = " + cells + " }\n"),
+      0.25);
+}
+
+TEST(Fields, ACollisionIsSharedAmongTheCellsThatTheLineOfCentresRunsThrough) {
+  // r dp = 2 in all; three quarters of the line lie in the cell from 3 to 4, a quarter in the next.
+  const Observed fine = head_on("[10, 1]");
+  ASSERT_EQ(fine.totals.pair, 1U);
+  std::vector<double> carried(10), disks(10);
+  for (std::size_t k = 1; k < fine.record.states.size(); ++k)
+    for (int i = 0; i < 2; ++i) disks[static_cast<std::size_t>(fine.record.states[k].positions(0, i))] += 1.0;
+  const double steps = 8.0, area = 4.0, time = 2.0;
+  for (std::size_t c = 0; c < 10; ++c) {
+    EXPECT_NEAR(field(fine, "density")[c], disks[c] / (steps * area), 1e-15) << c;
+    if (disks[c] == 0.0) {
+      EXPECT_TRUE(std::isnan(field(fine, "stress_xx")[c])) << "no disk, no flow relative to which a stress is one: " << c;
+      continue;
+    }
+    const double u = field(fine, "velocity_x")[c];
+    carried[c] = field(fine, "stress_xx")[c] * area * time - disks[c] * (1.0 - u * u) / steps * time;
+  }
+  EXPECT_NEAR(carried[3], 1.5, 1e-14);
+  EXPECT_NEAR(carried[4], 0.5, 1e-14);
+  for (const std::size_t c : {2U, 5U}) EXPECT_NEAR(carried[c], 0.0, 1e-14) << c;
+}
+
+TEST(Fields, OfOneCellAreThoseOfTheBox) {
+  const Observed o = observe(parse_scene(small_fluid("fields = { every = 0.05, cells = [1, 1] }\npressure = true")), 0.05);
+  const double area = o.scene.box.area(), mass = 1.5, steps = static_cast<double>(o.record.states.size()) - 1.0;
+  // 100 steps are 25 stretches of 4, so nothing is left out. The momentum of all is zero.
+  Eigen::Matrix2d flow = Eigen::Matrix2d::Zero();
+  for (std::size_t k = 1; k < o.record.states.size(); ++k)
+    flow += mass * o.record.states[k].velocities * o.record.states[k].velocities.transpose();
+  EXPECT_NEAR(field(o, "density")[0], 40.0 / area, 1e-13);
+  EXPECT_NEAR(field(o, "velocity_x")[0], 0.0, 1e-13);
+  EXPECT_NEAR(field(o, "temperature")[0], 0.5 * flow.trace() / (40.0 * steps), 1e-12);
+  const double virial =
+      0.5 * (field(o, "stress_xx")[0] + field(o, "stress_yy")[0]) * 2.0 * area * o.time - flow.trace() / steps * o.time;
+  EXPECT_NEAR(virial, o.totals.virial, 1e-10 * o.totals.virial);
+  EXPECT_NEAR(field(o, "stress_xy")[0], field(o, "stress_yx")[0], 1e-12) << "smooth disks keep angular momentum";
+  EXPECT_NEAR(field(o, "energy_lost")[0], 0.0, 1e-13);
+}
+
+TEST(Fields, OfManyCellsSumUpToThoseOfTheBox) {
+  const auto in_cells = [](const std::string& cells) {
+    return observe(parse_scene(small_fluid("fields = { every = 0.05, cells = " + cells + " }")), 5.0);
+  };
+  const Observed whole = in_cells("[1, 1]"), parts = in_cells("[3, 5]");
+  const auto energy = [](const Observed& o) {  // n kT + rho u^2 / 2
+    double sum = 0.0;
+    for (std::size_t c = 0; c < field(o, "density").size(); ++c)
+      sum += field(o, "density")[c] * (field(o, "temperature")[c] +
+                                       0.75 * (std::pow(field(o, "velocity_x")[c], 2) + std::pow(field(o, "velocity_y")[c], 2)));
+    return sum / static_cast<double>(field(o, "density").size());
+  };
+  const auto momentum_flux = [](const Observed& o) {  // P_xx + rho u_x u_x
+    double sum = 0.0;
+    for (std::size_t c = 0; c < field(o, "density").size(); ++c)
+      sum += field(o, "stress_xx")[c] + 1.5 * field(o, "density")[c] * std::pow(field(o, "velocity_x")[c], 2);
+    return sum / static_cast<double>(field(o, "density").size());
+  };
+  EXPECT_NEAR(mean_of(field(parts, "density")), field(whole, "density")[0], 1e-14);
+  EXPECT_NEAR(energy(parts), energy(whole), 1e-13);
+  EXPECT_NEAR(momentum_flux(parts), momentum_flux(whole), 1e-12);
+}
+
+TEST(Fields, InTimeAverageToThoseOfTheRun) {
+  const Observed o = observe(parse_scene(small_fluid("fields = { every = 0.05, cells = [2, 1] }")), 5.0);
+  const std::vector<double>& time = o.column("fields", 1, "time");
+  ASSERT_EQ(time.size() % 2, 0U);
+  EXPECT_LT(time.size() / 2, 32U);
+  EXPECT_GE(time.size() / 2, 16U);
+  EXPECT_DOUBLE_EQ(time[2] - time[0], 2.0 * time[0]) << "the middles of stretches of one length";
+  double density = 0.0;
+  for (std::size_t row = 0; row < time.size(); row += 2) density += o.column("fields", 1, "density")[row];
+  EXPECT_NEAR(2.0 * density / static_cast<double>(time.size()), field(o, "density")[0], 1e-13);
+}
+
+TEST(Fields, OfDisksThatDissipateTellTheEnergyThatCollisionsTake) {
+  const Observed o =
+      observe(parse_scene("[box]\naspect = 1.0\nboundary = \"periodic\"\n[[disks]]\ncount = 64\nradius = 0.5\nmass = "
+                          "1.0\npacking_fraction = 0.3\npositions = \"random\"\nvelocities = { temperature = 1.0 "
+                          "}\n[collision]\nrule = \"specular\"\nrestitution = 0.9\n[run]\ntime = 3.2\n[observe]\n"
+                          "fields = { every = 0.1, cells = [4, 4] }\n"),
+              3.2);
+  EXPECT_NEAR(mean_of(field(o, "energy_lost")) * o.scene.box.area() * o.time, o.totals.dissipated, 1e-10 * o.totals.dissipated);
+}
+
+/// Heat goes from the hot wall to the cold one: as much through every line across, and as much as through the walls.
+TEST(SlowFields, HeatFluxIsTheSameThroughEveryLineBetweenWallsOfTwoTemperatures) {
+  const Observed o = observe(
+      parse_scene(
+          "[box]\nx = [0.0, 20.0]\ny = [0.0, 12.0]\nboundary = { x = \"walls\", y = \"periodic\" }\n[[disks]]\ncount = "
+          "80\nradius = 0.5\n"
+          "mass = 1.0\npositions = \"random\"\nvelocities = { temperature = 1.5 }\n[walls.left]\ntemperature = 1.0\n"
+          "[walls.right]\ntemperature = 2.0\n[collision]\nrule = \"specular\"\n[run]\ntime = 4000.0\nequilibrate = { time = "
+          "200.0 }\n[observe]\nwall_fluxes = true\nfields = { cells = [10, 1] }\n"),
+      4000.0);
+  const double through_wall = o.value("wall_fluxes", "energy_left");
+  const double its_error = o.scalar("wall_fluxes", "energy_left").error.value();
+  EXPECT_GT(through_wall, 5.0 * its_error) << "heat flows to the cold wall";
+  for (std::size_t c = 1; c < 9; ++c) {  // the outer ones hold lines between walls and centres
+    EXPECT_NEAR(field(o, "heat_flux_x")[c], -through_wall, 5.0 * std::hypot(its_error, field(o, "heat_flux_x_error")[c])) << c;
+    EXPECT_NEAR(field(o, "stress_xx")[c], o.value("wall_fluxes", "momentum_right"),
+                5.0 * std::hypot(o.scalar("wall_fluxes", "momentum_right").error.value(), field(o, "stress_xx_error")[c]))
+        << c;
+    EXPECT_GT(field(o, "temperature")[c + 1], field(o, "temperature")[c - 1]);
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
