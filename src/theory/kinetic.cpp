@@ -154,28 +154,59 @@ double instantaneous_conductivity(double eta, std::int64_t disks) {
   return density(eta) * disk_collision_rate(Z) / 4.0 * (1.0 - 2.0 / N) * Microcanonical(disks, true).moment_factor(5.0);
 }
 
+namespace {
+
+/// The shear and sound waves of a square periodic box, with Enskog's coefficients.
+class SlowModes {
+ public:
+  SlowModes(double eta, std::int64_t disks) : disks_(static_cast<double>(disks)) {
+    const double Z = kolafa_rottner(eta), rho = density(eta);
+    const double D = enskog_diffusion(eta), viscosity = enskog_viscosity(eta), conductivity = enskog_conductivity(eta);
+    const double stiffness = 1.0 / structure_factor_at_zero(eta);  // d P / d rho at constant temperature
+    const double bulk_viscosity = rho * (Z - 1.0) / sqrt_pi;
+    // A disk's heat capacity is 1 at constant volume and 1 + Z^2 / stiffness at constant pressure.
+    const double excess = Z * Z / stiffness;
+    const double damping = 0.5 * ((viscosity + bulk_viscosity) / rho + excess * conductivity / (rho * (1.0 + excess)));
+    sound_ = std::sqrt(stiffness + Z * Z);
+    shear_ = D + viscosity / rho;
+    wave_ = D + damping;
+    unit_ = 2.0 * pi / std::sqrt(disks_ / rho);
+  }
+
+  /// Returns the sum of f(rate of shear waves, rate of sound waves, frequency of sound) over all wave vectors but 0, over twice
+  /// the number of disks. Waves that have died out by `earliest` are left out.
+  template <class F>
+  [[nodiscard]] double sum(double earliest, F&& f) const {
+    // exp(-40) is left out.
+    const auto reach = static_cast<std::int64_t>(6.5 / (unit_ * std::sqrt(std::min(shear_, wave_) * earliest))) + 2;
+    double sum = 0.0;
+    for (std::int64_t i = -reach; i <= reach; ++i)
+      for (std::int64_t j = -reach; j <= reach; ++j) {
+        const double k2 = unit_ * unit_ * static_cast<double>(i * i + j * j);
+        if (k2 > 0.0) sum += f(shear_ * k2, wave_ * k2, sound_ * std::sqrt(k2));
+      }
+    return sum / (2.0 * disks_);
+  }
+
+ private:
+  double disks_, sound_, shear_, wave_, unit_;
+};
+
+}  // namespace
+
+double velocity_correlation_of_modes(double eta, std::int64_t disks, double t) {
+  return SlowModes(eta, disks).sum(t, [t](double a, double b, double w) {
+    return std::exp(-a * t) + std::cos(w * t) * std::exp(-b * t);
+  });
+}
+
 double diffusion_growth(double eta, std::int64_t disks, double from, double to) {
-  const double Z = kolafa_rottner(eta), rho = density(eta), N = static_cast<double>(disks);
-  const double D = enskog_diffusion(eta), viscosity = enskog_viscosity(eta), conductivity = enskog_conductivity(eta);
-  const double stiffness = 1.0 / structure_factor_at_zero(eta);  // d P / d rho at constant temperature
-  const double bulk_viscosity = rho * (Z - 1.0) / sqrt_pi;
-  // A disk's heat capacity is 1 at constant volume and 1 + Z^2 / stiffness at constant pressure.
-  const double excess = Z * Z / stiffness, sound = std::sqrt(stiffness + Z * Z);
-  const double damping = 0.5 * ((viscosity + bulk_viscosity) / rho + excess * conductivity / (rho * (1.0 + excess)));
-  const double shear = D + viscosity / rho, wave = D + damping, unit = 2.0 * pi / std::sqrt(N / rho);
-  const int reach = static_cast<int>(6.5 / (unit * std::sqrt(std::min(shear, wave) * from))) + 2;  // exp(-40) is left out
-  double sum = 0.0;
-  for (int i = -reach; i <= reach; ++i)
-    for (int j = -reach; j <= reach; ++j) {
-      const double k2 = unit * unit * static_cast<double>(i * i + j * j);
-      if (k2 == 0.0) continue;
-      const double a = shear * k2, b = wave * k2, w = sound * std::sqrt(k2);
-      const auto to_and_fro = [&](double t) {
-        return std::exp(-b * t) * (w * std::sin(w * t) - b * std::cos(w * t)) / (b * b + w * w);
-      };
-      sum += (std::exp(-a * from) - std::exp(-a * to)) / a + to_and_fro(to) - to_and_fro(from);
-    }
-  return sum / (2.0 * N);
+  return SlowModes(eta, disks).sum(from, [from, to](double a, double b, double w) {
+    const auto to_and_fro = [&](double t) {
+      return std::exp(-b * t) * (w * std::sin(w * t) - b * std::cos(w * t)) / (b * b + w * w);
+    };
+    return (std::exp(-a * from) - std::exp(-a * to)) / a + to_and_fro(to) - to_and_fro(from);
+  });
 }
 
 double cooling_sonine(double e) { return 16.0 * (1.0 - e) * (1.0 - 2.0 * e * e) / (57.0 - 25.0 * e + 30.0 * e * e * (1.0 - e)); }

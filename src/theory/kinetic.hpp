@@ -78,13 +78,15 @@ struct Component {
 [[nodiscard]] double instantaneous_viscosity(double eta, std::int64_t disks);
 [[nodiscard]] double instantaneous_conductivity(double eta, std::int64_t disks);
 
-/// Returns the increase of the diffusion coefficient D(t) of disks in a square periodic box between two times by the slow modes
-/// of the fluid: shear waves and sound carry the velocity of a disk. It is the integral of the sum over the wave vectors k of the
-/// box,
+/// Returns <v_x(0) v_x(t)> of disks in a square periodic box at late times t > 0, when the slow modes of the fluid carry the
+/// velocity of a disk: the sum over the wave vectors k of the box, but 0,
 ///   C(t) = kT / (2 m N) sum of exp(-(D + nu) k^2 t) + cos(c k t) exp(-(D + Gamma) k^2 t),
-/// with Enskog's D, viscosity and conductivity. For a large box and late times C(t) approaches the tail kT / (8 pi rho m (D + nu)
+/// with Enskog's D, viscosity and conductivity. For a large box and late times it approaches the tail kT / (8 pi rho m (D + nu)
 /// t) of Ernst, Hauge & van Leeuwen, Phys. Rev. Lett. 25, 1254 (1970). It holds beyond some 20 mean free times (Erpenbeck & Wood,
 /// Phys. Rev. A 26, 1648 (1982), with the same sum).
+[[nodiscard]] double velocity_correlation_of_modes(double eta, std::int64_t disks, double t);
+
+/// Returns the integral of velocity_correlation_of_modes() between two times, by which the diffusion coefficient D(t) increases.
 [[nodiscard]] double diffusion_growth(double eta, std::int64_t disks, double from, double to);
 
 /// Returns the coefficient a2 of the second Sonine polynomial in the velocities of a gas of restitution e that cools evenly (van

@@ -137,6 +137,13 @@ TEST(DiffusionGrowth, InALargeBoxIsTheTailAndEndsInASmallOne) {
   EXPECT_NEAR(theory::diffusion_growth(eta, 100, 500.0, 1000.0), 0.0, 1e-3 * tail) << "the box is 16 wide: all modes are gone";
 }
 
+TEST(VelocityCorrelationOfModes, IsWhatTheDiffusionGrowsBy) {
+  constexpr double eta = 0.3, from = 5.0, to = 12.0;
+  constexpr std::int64_t disks = 2500;
+  const double grown = integral([](double t) { return theory::velocity_correlation_of_modes(eta, disks, t); }, from, to);
+  EXPECT_NEAR(theory::diffusion_growth(eta, disks, from, to), grown, 1e-8 * grown);
+}
+
 TEST(HaffRate, OfManyDisksHasTheSonineTermAlone) {
   constexpr double e = 0.95, eta = 0.1;
   const double bare = (1.0 - e * e) / 4.0 * theory::disk_collision_rate(theory::kolafa_rottner(eta));

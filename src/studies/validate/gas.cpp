@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <thread>
 
 namespace carom::validation {
 
@@ -52,11 +53,23 @@ const std::vector<double>& Found::column(const std::string& observable, const st
   throw std::logic_error(fmt::format("{} has no column {}", observable, name));
 }
 
+namespace {
+
+/// Has all processors compute a system that is large enough for several; its bits are the same.
+void share_out_large(Simulation& simulation) {
+  constexpr std::int64_t large = 50'000;
+  if (simulation.scene().disk_count() < large || !simulation.why_not_threads().empty()) return;
+  simulation.set_threads({.threads = std::clamp(std::thread::hardware_concurrency(), 1U, 16U)});
+}
+
+}  // namespace
+
 Found run(const Scene& scene, const Effort& effort, TrialResult& result, std::vector<std::unique_ptr<Observable>> own,
           const Change& change) {
   if (effort.proceed && !effort.proceed()) throw Interrupted{};  // short runs are not asked on their way
   result.scenes.push_back(resolved_toml(scene));
   Simulation simulation = make_simulation(scene);
+  share_out_large(simulation);
   if (change) {
     State start = simulation.state();
     change(start);
