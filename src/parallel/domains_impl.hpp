@@ -555,10 +555,10 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
   target_ = end_.template since<double>(whole_.epoch_);
   if (has_failed())
     next_ = Next::failed;
+  else if (whole_.stall_.jammed() || whole_.idle() || !owed_.isZero(0.0))  // which one engine alone is to give the disks
+    next_ = Next::void_one;
   else if (is_unbalanced() || 2.5 * half_width_ > reach_)  // halos hold all disks that new neighbourhoods bring to another home
     next_ = Next::balance;
-  else if (whole_.stall_.jammed() || whole_.idle() || !owed_.isZero(0.0))
-    next_ = Next::void_one;
   else
     begin_window();
 }
