@@ -24,7 +24,8 @@ struct PairCollision {
   Eigen::Vector2d velocity_before, velocity;                  ///< of the disk, just before and just after
   Eigen::Vector2d partner_velocity_before, partner_velocity;  ///< of the partner
   bool contact = true;                                        ///< false where they meet the edge of each other's square well
-  Eigen::Vector2d place = {};  ///< of the disk, in the box or up to a diameter outside; only where an observable needs_places()
+  Eigen::Vector2d place =
+      Eigen::Vector2d::Zero();  ///< of the disk, in the box or up to a diameter outside; only where an observable needs_places()
 };
 
 /// The ids, radii and masses of the disks that collision records name by their slots.

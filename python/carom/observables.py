@@ -32,7 +32,7 @@ COLLISION = np.dtype(
         ],
         "formats": ["f8", "i4", "i4", *[("f8", 2)] * 6, "?"],
         "offsets": [0, 8, 12, 16, 32, 48, 64, 80, 96, 112],
-        "itemsize": 128,
+        "itemsize": 144,
     }
 )
 

@@ -26,7 +26,7 @@ namespace carom::python {
 namespace {
 
 // numpy reads collisions where they are: carom.observables.COLLISION has these places.
-static_assert(sizeof(PairCollision) == 128 && offsetof(PairCollision, disk) == 8 && offsetof(PairCollision, separation) == 16 &&
+static_assert(sizeof(PairCollision) == 144 && offsetof(PairCollision, disk) == 8 && offsetof(PairCollision, separation) == 16 &&
               offsetof(PairCollision, impulse) == 32 && offsetof(PairCollision, velocity_before) == 48 &&
               offsetof(PairCollision, velocity) == 64 && offsetof(PairCollision, partner_velocity_before) == 80 &&
               offsetof(PairCollision, partner_velocity) == 96 && offsetof(PairCollision, contact) == 112);

@@ -140,7 +140,7 @@ std::vector<EffectTraits> make_table() {
        .unit_of_other_keys = "length",
        .words =
            [](const Effects& e) {
-             const auto is_disk = [](const Obstacle& shape) { return std::holds_alternative<DiskObstacle>(shape); };
+             const auto is_disk = [](const Obstacle& one) { return std::holds_alternative<DiskObstacle>(one); };
              const auto disks = static_cast<std::uint64_t>(std::ranges::count_if(e.obstacles, is_disk));
              const std::uint64_t segments = e.obstacles.size() - disks;
              return (disks > 0 ? counted(disks, "fixed disk") : "") + (disks > 0 && segments > 0 ? " and " : "") +

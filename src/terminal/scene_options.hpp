@@ -13,7 +13,7 @@ struct SceneOptions {
   std::string path;
   std::vector<std::string> overrides;  ///< "run.time=2", in the order given
   std::optional<std::string> seed;     ///< the seed as typed
-  std::optional<double> time;          ///< simulated time at which the run ends; absent: the scene's
+  std::optional<double> time = {};     ///< simulated time at which the run ends; absent: the scene's
   std::string engine = "auto";
   bool accept_overlap = false;
   bool no_trajectory = false;
