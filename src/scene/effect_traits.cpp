@@ -141,7 +141,7 @@ std::vector<EffectTraits> make_table() {
        .words =
            [](const Effects& e) {
              const auto is_disk = [](const Obstacle& one) { return std::holds_alternative<DiskObstacle>(one); };
-             const auto disks = static_cast<std::uint64_t>(std::ranges::count_if(e.obstacles, is_disk));
+             const auto disks = static_cast<std::uint64_t>(std::count_if(e.obstacles.begin(), e.obstacles.end(), is_disk));
              const std::uint64_t segments = e.obstacles.size() - disks;
              return (disks > 0 ? counted(disks, "fixed disk") : "") + (disks > 0 && segments > 0 ? " and " : "") +
                     (segments > 0 ? counted(segments, "fixed segment") : "");
