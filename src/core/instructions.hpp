@@ -23,8 +23,8 @@ const Kernel& chosen_kernel(const Kernel& portable, const Kernel& avx2, const Ke
 }  // namespace carom
 
 // For the files that choose among kernels, which alone know what sets the build has. CAROM_DECLARE_KERNELS(declarations;) puts
-// declarations into the namespace of each set, CAROM_DECLARE_KERNELS_TO_AVX2 where AVX-512 has no kernel of its own. The name of
-// a set without kernels stands for the next lower one. CAROM_CHOSEN_KERNEL(name) is the one to run.
+// declarations into the namespace of each set, and CAROM_CHOSEN_KERNEL(name) is the one to run. With ..._TO_AVX2 AVX-512 has no
+// kernel of its own. The name of a set that the build does not have stands for the next lower one.
 #if CAROM_HAS_AVX2
 #define CAROM_IN_AVX2(...) \
   namespace avx2 {         \
@@ -45,8 +45,7 @@ const Kernel& chosen_kernel(const Kernel& portable, const Kernel& avx2, const Ke
   namespace portable {                     \
   __VA_ARGS__                              \
   }                                        \
-  CAROM_IN_AVX2(__VA_ARGS__)               \
-  namespace avx512 = avx2;
+  CAROM_IN_AVX2(__VA_ARGS__)
 #define CAROM_DECLARE_KERNELS(...) \
   namespace portable {             \
   __VA_ARGS__                      \
@@ -54,3 +53,4 @@ const Kernel& chosen_kernel(const Kernel& portable, const Kernel& avx2, const Ke
   CAROM_IN_AVX2(__VA_ARGS__)       \
   CAROM_IN_AVX512(__VA_ARGS__)
 #define CAROM_CHOSEN_KERNEL(name) chosen_kernel(portable::name, avx2::name, avx512::name)
+#define CAROM_CHOSEN_KERNEL_TO_AVX2(name) chosen_kernel(portable::name, avx2::name, avx2::name)
