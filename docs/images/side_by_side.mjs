@@ -1,5 +1,6 @@
 #!/usr/bin/env node
-// Films the page on which exact events and fixed steps fly side by side: docs/images/side_by_side.gif.
+// Films the page on which exact events and fixed steps fly side by side: docs/images/side_by_side.gif, and side_by_side_dark.gif for
+// readers with a dark screen.
 //
 //   node docs/images/side_by_side.mjs path/to/carom
 //
@@ -15,7 +16,7 @@ import { fileURLToPath } from "node:url";
 import { Browser, pause } from "../../playground/tests/browser.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const film = join(here, "side_by_side.gif");
+const films = { light: join(here, "side_by_side.gif"), dark: join(here, "side_by_side_dark.gif") };
 const frames = 48;
 const framesPerSecond = 8;
 
@@ -26,27 +27,28 @@ if (made.status !== 0) process.exit(1);
 
 const browser = await Browser.start({ width: 900, height: 640 });
 await browser.size(900, 640, { scale: 1 });
-await browser.media({ scheme: "light" });
-await browser.send("Page.navigate", { url: `file://${join(directory, "side_by_side.html")}` });
-await pause(2000);
-const clip = await browser.evaluate(`(() => {
-  for (const button of document.querySelectorAll("button")) if (/zoom|box|screen/i.test(button.title + button.id) && button.closest("section, .stage")) button.style.visibility = "hidden";
-  const sides = [...document.querySelectorAll("canvas#stage, canvas#steps")].map((canvas) => canvas.closest("section").getBoundingClientRect());
-  const left = Math.min(...sides.map((side) => side.left)), top = Math.min(...sides.map((side) => side.top));
-  return { x: left, y: top, width: Math.max(...sides.map((side) => side.right)) - left, height: Math.max(...sides.map((side) => side.bottom)) - top, scale: 1 };
-})()`);
-console.log(clip);
-const duration = await browser.evaluate("carom.duration");
-const encoder = spawn("ffmpeg", ["-y", "-loglevel", "error", "-f", "image2pipe", "-framerate", `${framesPerSecond}`, "-i", "-",
-  "-vf", "scale=600:-2:flags=area,split[a][b];[a]palettegen=max_colors=40:stats_mode=diff[p];[b][p]paletteuse=dither=none:diff_mode=rectangle", "-loop", "0", film],
-{ stdio: ["pipe", "inherit", "inherit"] });
-for (let k = 0; k < frames; ++k) {
-  await browser.evaluate(`carom.seek(${(duration * k) / (frames - 1)})`);
-  const { data } = await browser.send("Page.captureScreenshot", { format: "png", clip });
-  encoder.stdin.write(Buffer.from(data, "base64"));
+for (const [scheme, film] of Object.entries(films)) {
+  await browser.media({ scheme });
+  await browser.send("Page.navigate", { url: `file://${join(directory, "side_by_side.html")}` });
+  await pause(2000);
+  const clip = await browser.evaluate(`(() => {
+    for (const button of document.querySelectorAll("button")) if (/zoom|box|screen/i.test(button.title + button.id) && button.closest("section, .stage")) button.style.visibility = "hidden";
+    const sides = [...document.querySelectorAll("canvas#stage, canvas#steps")].map((canvas) => canvas.closest("section").getBoundingClientRect());
+    const left = Math.min(...sides.map((side) => side.left)), top = Math.min(...sides.map((side) => side.top));
+    return { x: left, y: top, width: Math.max(...sides.map((side) => side.right)) - left, height: Math.max(...sides.map((side) => side.bottom)) - top, scale: 1 };
+  })()`);
+  const duration = await browser.evaluate("carom.duration");
+  const encoder = spawn("ffmpeg", ["-y", "-loglevel", "error", "-f", "image2pipe", "-framerate", `${framesPerSecond}`, "-i", "-",
+    "-vf", "scale=600:-2:flags=area,split[a][b];[a]palettegen=max_colors=40:stats_mode=diff[p];[b][p]paletteuse=dither=none:diff_mode=rectangle", "-loop", "0", film],
+  { stdio: ["pipe", "inherit", "inherit"] });
+  for (let k = 0; k < frames; ++k) {
+    await browser.evaluate(`carom.seek(${(duration * k) / (frames - 1)})`);
+    const { data } = await browser.send("Page.captureScreenshot", { format: "png", clip });
+    encoder.stdin.write(Buffer.from(data, "base64"));
+  }
+  encoder.stdin.end();
+  await new Promise((done) => encoder.on("exit", done));
+  console.log(`${film}: ${(statSync(film).size / 1e3).toFixed(0)} kB, ${frames} pictures of ${duration} time units`);
 }
-encoder.stdin.end();
-await new Promise((done) => encoder.on("exit", done));
 await browser.close();
 rmSync(directory, { recursive: true });
-console.log(`${film}: ${(statSync(film).size / 1e3).toFixed(0)} kB, ${frames} pictures of ${duration} time units`);
