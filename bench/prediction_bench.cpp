@@ -69,7 +69,7 @@ class Surrounded {
       places.emplace_back(x, y);
       add(places.back());
     }
-    const std::size_t padded = (static_cast<std::size_t>(neighbours) + 7) / 8 * 8;
+    const std::size_t padded = std::max<std::size_t>((static_cast<std::size_t>(neighbours) + 3) / 4 * 4, 12);
     for (std::int32_t i = 0; i < centres; ++i) {
       std::vector<std::int32_t> list(padded, i);
       for (std::size_t k = 0; k < static_cast<std::size_t>(neighbours);) {

@@ -43,7 +43,8 @@ struct PredictionFrame {
 enum class Contact { hard, falling, growing, wells, falling_wells, sheared };
 
 /// The neighbourhood of a disk: a square round `centre` (in steps of 2^32 of a coordinate), and the ids of the disks that it may
-/// meet there, padded with its own id, with which it never collides, to eight at least and to a multiple of four.
+/// meet there, padded with its own id, with which it never collides, to eight at least and to a multiple of four; after a
+/// collision to twelve at least.
 struct Surroundings {
   std::int32_t centre[2];
   const std::int32_t* ids;

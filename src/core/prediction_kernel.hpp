@@ -159,11 +159,24 @@ CAROM_INLINE void earliest(Doubles t0, Doubles t1, const std::int32_t* ids, Pred
   first.tied = static_cast<std::int32_t>(which & (which - 1)) & ~no_partner;
 }
 
-/// Predicts with all neighbours beyond the first eight, four at a time.
+/// The earliest of twelve times, into `first`.
+CAROM_INLINE void earliest(Doubles t0, Doubles t1, Doubles t2, const std::int32_t* ids, Prediction& first) {
+  const Doubles t = lesser(lesser(t0, t1), t2);
+  const Doubles u = lesser(t, __builtin_shufflevector(t, t, 2, 3, 0, 1));
+  const Doubles least = lesser(u, __builtin_shufflevector(u, u, 1, 0, 3, 2));
+  const unsigned which = bits_of(t0 == least) | (bits_of(t1 == least) << 4) | (bits_of(t2 == least) << 8);
+  const double time = least[0];
+  const std::int32_t no_partner = -static_cast<std::int32_t>(time == never);  // all bits or none
+  first.pair_time = time;
+  first.partner = ids[__builtin_ctz(which)] | no_partner;
+  first.tied = static_cast<std::int32_t>(which & (which - 1)) & ~no_partner;
+}
+
+/// Predicts with all neighbours beyond the first twelve, four at a time.
 template <bool growing, class Line>
 void search_on(const Line* lines, const PredictionFrame& frame, const Mine& mine, const Surroundings& around, double now,
                Prediction& first) {
-  for (std::uint32_t k = 8; k < around.count; k += 4) {
+  for (std::uint32_t k = 12; k < around.count; k += 4) {
     Prediction next;
     earliest(meeting_times<growing>(lines, frame, mine, around.ids + k, now), all(never), around.ids + k, next);
     if (next.pair_time < first.pair_time) {
@@ -206,8 +219,10 @@ void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, co
   const Doubles leaving = leaving_times(frame, Longs{line.x[0], line.x[1], 0, 0}, Doubles{line.v[0], line.v[1], 1.0, 1.0},
                                         Longs{around.centre[0], around.centre[1], 0, 0}, now);
   ahead.edge_time = leaving[0] < leaving[1] ? leaving[0] : leaving[1];
-  earliest(t0, t1, around.ids, ahead);
-  if (around.count > 8) search_on<growing>(lines, frame, mine, around, now, ahead);
+  if (around.count <= 8) return earliest(t0, t1, around.ids, ahead);
+  const Doubles t2 = meeting_times<growing>(lines, frame, mine, around.ids + 8, now);
+  earliest(t0, t1, t2, around.ids, ahead);
+  if (around.count > 12) search_on<growing>(lines, frame, mine, around, now, ahead);
 }
 
 template <class Line>
@@ -275,10 +290,19 @@ void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& p
   const Doubles edge = lesser(leaving, __builtin_shufflevector(leaving, leaving, 1, 0, 3, 2));
   pair.ahead[0].edge_time = edge[0];
   pair.ahead[1].edge_time = edge[2];
-  earliest(a0, a1, near_a.ids, pair.ahead[0]);
-  earliest(b0, b1, near_b.ids, pair.ahead[1]);
-  if (near_a.count > 8) search_on<growing>(lines, frame, mine_a, near_a, now, pair.ahead[0]);
-  if (near_b.count > 8) search_on<growing>(lines, frame, mine_b, near_b, now, pair.ahead[1]);
+  const std::uint32_t most = near_a.count > near_b.count ? near_a.count : near_b.count;
+  if (most <= 8) {
+    earliest(a0, a1, near_a.ids, pair.ahead[0]);
+    earliest(b0, b1, near_b.ids, pair.ahead[1]);
+    return;
+  }
+  const Doubles a2 = meeting_times<growing>(lines, frame, mine_a, near_a.ids + 8, now);
+  const Doubles b2 = meeting_times<growing>(lines, frame, mine_b, near_b.ids + 8, now);
+  earliest(a0, a1, a2, near_a.ids, pair.ahead[0]);
+  earliest(b0, b1, b2, near_b.ids, pair.ahead[1]);
+  if (most <= 12) return;
+  if (near_a.count > 12) search_on<growing>(lines, frame, mine_a, near_a, now, pair.ahead[0]);
+  if (near_b.count > 12) search_on<growing>(lines, frame, mine_b, near_b, now, pair.ahead[1]);
 }
 
 }  // namespace

@@ -40,12 +40,12 @@ class NeighbourLists {
   [[nodiscard]] double half_width() const { return half_width_; }
   [[nodiscard]] NeighbourhoodCentre centre(std::int32_t i) const { return around_.centre(i); }
 
-  /// The ids of the disks that disk i may meet, padded with i itself to eight at least and to a multiple of four.
+  /// The ids of the disks that disk i may meet, padded with i itself to twelve at least and to a multiple of four.
   [[nodiscard]] const std::int32_t* ids(std::int32_t i) const { return around_.ids(i); }
   [[nodiscard]] std::uint32_t count(std::int32_t i) const { return around_.count(i); }
 
   /// Gives disk i a new neighbourhood and corrects its list and those of its old and new neighbours. Returns the ids that are new
-  /// on its list, padded with i in the same way; valid until the next call.
+  /// on its list, padded with i to eight at least and to a multiple of four; valid until the next call.
   std::span<const std::int32_t> move_neighbourhood(std::int32_t i, NeighbourhoodCentre centre);
 
   /// What lists know of the size of a disk.

@@ -41,7 +41,7 @@ class Neighbourhoods {
   [[nodiscard]] NeighbourhoodCentre centre(std::int32_t i) const { return line(i).centre; }
   void set_centre(std::int32_t i, NeighbourhoodCentre centre) { line(i).centre = centre; }
 
-  /// The list of disk i; unused places hold i itself, at least up to the eighth and to the next multiple of four. Sixteen more
+  /// The list of disk i; unused places hold i itself, at least up to the twelfth and to the next multiple of four. Sixteen more
   /// bytes may be read.
   [[nodiscard]] const std::int32_t* ids(std::int32_t i) const {
     const Line& mine = line(i);

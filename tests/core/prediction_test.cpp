@@ -92,7 +92,7 @@ struct List {
 
   List(std::int32_t self, std::vector<std::int32_t> others)
       : ids(std::move(others)), count(static_cast<std::uint32_t>(ids.size())) {
-    ids.resize(std::max<std::size_t>((ids.size() + 7) / 8 * 8, 8), self);
+    ids.resize(std::max<std::size_t>((ids.size() + 3) / 4 * 4, 12), self);
   }
   [[nodiscard]] Surroundings around() const { return {{centre[0], centre[1]}, ids.data(), count}; }
 };
