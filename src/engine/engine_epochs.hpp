@@ -86,6 +86,15 @@ void LoopState<Impact, Layout, World>::rebase_clock(double now) {
   now_ = 0.0;
 }
 
+/// Makes all velocities and spins `factor` times what they are, from the epoch on. The plans must be made anew.
+template <class Impact, class Layout, class World>
+void LoopState<Impact, Layout, World>::multiply_velocities(double factor) {
+  for (Line& a : lines_)
+    for (int k = 0; k < 2; ++k) a.v[k] *= factor;
+  if constexpr (!Impact::plain)
+    for (std::int32_t i = 0; i < count() && impact_.spinning(); ++i) impact_.spin(i) *= factor;
+}
+
 template <class Impact, class Layout, class World>
 void LoopState<Impact, Layout, World>::choose_epoch_length() {
   SpeedCensus speeds;

@@ -81,10 +81,7 @@ double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eige
 template <class Impact, class Layout, class World>
 void Engine<Impact, Layout, World>::scale_velocities(double factor) {
   rebase(now_);
-  for (Line& a : lines_)
-    for (int k = 0; k < 2; ++k) a.v[k] *= factor;
-  if constexpr (!Impact::plain)
-    for (std::int32_t i = 0; i < count() && impact_.spinning(); ++i) impact_.spin(i) *= factor;
+  this->multiply_velocities(factor);
   replan();
 }
 

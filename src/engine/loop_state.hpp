@@ -107,6 +107,7 @@ class LoopState {
   /// Lets lines, plans and stamps count from `now`.
   void rebase(double now);
   void rebase_clock(double now);
+  void multiply_velocities(double factor);
   void choose_epoch_length();
   void suit_epoch(const SpeedCensus& speeds);
   [[nodiscard]] double longest_epoch_of_world() const;

@@ -105,6 +105,7 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
 
   /// Begins an epoch at time `now`.
   void rebase_at(double now);
+  using Loop::multiply_velocities;
   /// The speeds of the disks at home.
   [[nodiscard]] SpeedCensus census() const;
   /// Puts the frame of disks that fall back to where it began.

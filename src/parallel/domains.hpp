@@ -63,6 +63,9 @@ class Domains {
   /// As Engine::run_until(). With `exact_events` false it may process more events than the limit, up to the end of a window.
   bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit, bool exact_events);
 
+  /// As Engine::scale_velocities().
+  void scale_velocities(double factor);
+
   /// Counts and clock of the whole engine as of now; its disks as well. Its lists and queue may be missing: gather().
   void update();
   /// Has the whole engine take all disks back, ready to run.
@@ -86,6 +89,7 @@ class Domains {
     arrived,   ///< at the target
     balance,   ///< borders are to be moved
     counted,   ///< as many collisions or events as were asked for have happened
+    outgrown,  ///< disks have become too large for their lists
     void_one,  ///< the window was void
     failed     ///< something was thrown
   };
@@ -118,6 +122,7 @@ class Domains {
     double epoch_length = 0.0, edge_step = 0.0;
     FlightLimits limits;
     std::array<std::int64_t, 2> fallen{};
+    std::optional<double> factor;
     Next next = Next::window;
     bool counting = false, stepping = false, lists_change = false, plans_change = false, has_fallen = false;
   };
@@ -188,14 +193,20 @@ class Domains {
     if constexpr (!Impact::plain)
       if (whole_.impact_.wells().present()) whole_.impact_.wells().count_pairs();
   }
+  /// Whether the epoch that begins gives disks back what they have lost of their common motion.
+  [[nodiscard]] bool gives_momentum_back() const { return whole_.common_motion_.present() && !factor_; }
+  void end_run();
   void go_back();
+  template <class MakeLists>
+  void take_back(MakeLists&& make_lists);
+  /// The largest contact distance, of disks as large as lists are for.
+  [[nodiscard]] double contact() const { return whole_.sizes_.largest_contact * whole_.sizes_.listed_scale; }
   /// How far halos are to reach beyond homes (length): by themselves three times as far as a home looks, where that is more than
   /// usual, as in a dilute gas with its wide neighbourhoods.
   [[nodiscard]] double suitable_reach() const {
     constexpr double usual = 10.0;  // largest contact distances: what takes least time from packing fractions of 0.3 on
-    const double contact = whole_.sizes_.largest_contact;
-    if (threads_.halo > 0.0) return threads_.halo * contact;
-    return std::max(usual * contact, 3.0 * (whole_.sizes_.reach + 2.0 * half_width_));
+    if (threads_.halo > 0.0) return threads_.halo * contact();
+    return std::max(usual * contact(), 3.0 * (whole_.sizes_.reach + 2.0 * half_width_));
   }
   bool is_unbalanced();
   [[nodiscard]] bool has_failed() { return failure_.any() || !failure_elsewhere_.empty(); }
@@ -309,8 +320,10 @@ class Domains {
   double half_width_ = 0.0;
   bool lists_change_ = false, plans_change_ = false, has_fallen_ = false;  ///< in the epoch that begins
   std::array<std::int64_t, 2> fallen_{};                                   ///< by so many steps
-  Vec2<double> owed_ = Vec2<double>::Zero();                               ///< momentum: see CommonMotion
-  int calm_ = 0;                                                           ///< windows in which nothing wrong came near
+  std::optional<double>
+      factor_;  ///< by which velocities change as the epoch begins; else it begins since the one before has ended
+  Vec2<double> owed_ = Vec2<double>::Zero();  ///< momentum: see CommonMotion
+  int calm_ = 0;                              ///< windows in which nothing wrong came near
   double calm_margin_ = 0.0;
   std::uint64_t collisions_told_ = 0, events_told_ = 0;  ///< recorded since the whole engine was up to date
   ThreadCounts done_;

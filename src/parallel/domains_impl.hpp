@@ -54,22 +54,49 @@ bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint6
     if (ranks_ != nullptr) order(Order::run);
     tell_decision();
     team_.run([this](std::size_t thread) { work(thread); });
-    switch (next_) {
-      case Next::arrived:
-        return true;
-      case Next::counted:
-        return false;
-      case Next::balance:
-        gather();
-        break;
-      case Next::failed:
-        go_back();
-        throw_failure();
-        break;
-      default:
-        go_back();
-        alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
-    }
+    end_run();
+    if (next_ == Next::arrived) return true;
+    if (next_ == Next::counted) return false;
+  }
+}
+
+/// Begins an epoch as Engine::scale_velocities() does: all at the same time, each domain its disks.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::scale_velocities(double factor) {
+  if (!shared_) return engine_.scale_velocities(factor);
+  factor_ = factor;
+  end_ = now();
+  up_to_date_ = false;
+  next_ = Next::epoch;
+  if (ranks_ != nullptr) order(Order::run);
+  tell_decision();
+  team_.run([this](std::size_t thread) { work(thread); });
+  factor_.reset();
+  end_run();
+}
+
+/// After the threads have ended: has the whole engine take the disks back where domains cannot go on.
+template <class Impact, class Layout, class World>
+void Domains<Impact, Layout, World>::end_run() {
+  switch (next_) {
+    case Next::balance:
+      gather();
+      break;
+    case Next::outgrown:
+      update();
+      take_back([this] { whole_.list_larger(); });
+      if (!owed_.isZero(0.0)) alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
+      break;
+    case Next::failed:
+      go_back();
+      throw_failure();
+      break;
+    case Next::void_one:
+      go_back();
+      alone_until_ = whole_.epoch_.plus(whole_.epoch_length_);
+      break;
+    default:
+      break;
   }
 }
 
@@ -201,11 +228,19 @@ void Domains<Impact, Layout, World>::go_back() {
     count_wells();
     all_stored_here_ = true;
   }
-  serially([this] {
-    domains_.clear();
+  take_back([this] {
     const std::uint64_t changes = whole_.lists_.changes();
     whole_.lists_.rebuild(half_width_, centres_);
     whole_.lists_.set_changes(changes);
+  });
+}
+
+template <class Impact, class Layout, class World>
+template <class MakeLists>
+void Domains<Impact, Layout, World>::take_back(MakeLists&& make_lists) {
+  serially([&] {
+    domains_.clear();
+    make_lists();
     whole_.start_queue();
     whole_.recorder_.log_elsewhere(false);
     whole_.recorder_.skip(collisions_told_, events_told_);
@@ -445,7 +480,7 @@ void Domains<Impact, Layout, World>::hand_over_records() {
 /// Makes windows shorter where something wrong came rather near to home, and longer where it has not for a while.
 template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::adapt_window(double margin, bool whole_window) {
-  const double contact = whole_.sizes_.largest_contact;
+  const double contact = this->contact();
   // Disks have become slow, or never were as fast as the first events of all seemed to say.
   const auto events_of_a_disk =
       static_cast<double>(done_.events - events_begun_with_) / static_cast<double>(whole_.lines_.size());
@@ -470,25 +505,28 @@ template <class Impact, class Layout, class World>
 void Domains<Impact, Layout, World>::run_epoch(std::size_t thread) {
   each(thread, [&](std::size_t d) {
     domains_[d]->rebase_at(now_);
+    if (factor_) domains_[d]->multiply_velocities(*factor_);
     censuses_[d] = domains_[d]->census();
-    if (whole_.common_motion_.present()) domains_[d]->store(whole_, slot_of_id_, centres_);
+    if (gives_momentum_back()) domains_[d]->store(whole_, slot_of_id_, centres_);
   });
   meet(
       thread,
       [this] {
         gather_counts();
-        if (whole_.common_motion_.present()) gather_disks(false);
+        if (gives_momentum_back()) gather_disks(false);
       },
       [this] { lead_epoch(); });
   if (has_fallen_ && !first()) meet(thread, [this] { parts_->shift(fallen_); });
   each(thread, [&](std::size_t d) {
     BoxDomain<Impact, Layout, World>& domain = *domains_[d];
     if (has_fallen_) domain.reset_fall();
+    if (next_ == Next::outgrown) return;
     if (lists_change_) domain.rebuild_lists(half_width_);
     domain.take_epoch(whole_);
-    if (whole_.world_.falls()) domain.predict_all();
+    if (whole_.world_.falls() || factor_) domain.predict_all();
     if (plans_change_) domain.write_messages();
   });
+  if (next_ == Next::outgrown) return;
   if (plans_change_) {
     meet(thread, [this] { exchange_messages(); });
     each(thread, [&](std::size_t d) { read_messages(d); });
@@ -519,8 +557,10 @@ void Domains<Impact, Layout, World>::lead_epoch() {
   whole_.stamp_ = 1;
   owed_.setZero();
   if constexpr (!Impact::plain)
-    if (whole_.common_motion_.present())
+    if (gives_momentum_back()) {
       owed_ = whole_.common_motion_.owed(whole_.lines_, [this](const auto& line) { return whole_.layout_.momentum(line); });
+      whole_.impact_.owe(owed_);
+    }
   has_fallen_ = whole_.world_.falls() && whole_.flight_.has_fallen(4.0 * whole_.sizes_.spacing);
   if (has_fallen_) {
     fallen_ = whole_.flight_.fallen();
@@ -528,16 +568,22 @@ void Domains<Impact, Layout, World>::lead_epoch() {
     whole_.flight_.reset_fall(whole_.lines_);
     ++whole_.totals_.numerics.list_rebuilds;
   }
-  const double half_width = whole_.tuning_.next(half_width_, whole_.sizes_.widest_neighbourhood, whole_.mean_speed_ * now_,
-                                                whole_.sizes_.spacing, whole_.lists_.changes());
+  const double half_width = factor_
+                                ? half_width_
+                                : whole_.tuning_.next(half_width_, whole_.sizes_.widest_neighbourhood, whole_.mean_speed_ * now_,
+                                                      whole_.sizes_.spacing, whole_.lists_.changes());
   lists_change_ = has_fallen_ || half_width != half_width_;
-  plans_change_ = lists_change_ || whole_.world_.falls();
+  plans_change_ = lists_change_ || whole_.world_.falls() || factor_;
   if (half_width != half_width_) {
     half_width_ = half_width;
     ++whole_.totals_.numerics.list_rebuilds;
     whole_.suit_neighbourhoods(half_width);
   }
   whole_.suit_epoch(speeds);
+  if (whole_.outgrow_lists()) {
+    now_ = 0.0;
+    next_ = Next::outgrown;
+  }
 }
 
 template <class Impact, class Layout, class World>
@@ -548,7 +594,6 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
     whole_.totals_.numerics.longest_neighbour_list = longest;
   }
   count_wells();
-  if constexpr (!Impact::plain) whole_.impact_.owe(owed_);
   all_stored_here_ = ranks_ == nullptr;
   collisions_told_ = events_told_ = 0;
   now_ = 0.0;
@@ -559,6 +604,8 @@ void Domains<Impact, Layout, World>::end_of_epoch() {
     next_ = Next::void_one;
   else if (is_unbalanced() || 2.5 * half_width_ > reach_)  // halos hold all disks that new neighbourhoods bring to another home
     next_ = Next::balance;
+  else if (factor_)
+    next_ = Next::arrived;
   else
     begin_window();
 }

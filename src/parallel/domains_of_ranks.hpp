@@ -219,6 +219,7 @@ void Domains<Impact, Layout, World>::tell_decision() {
                         .edge_step = whole_.frame_.edge_step,
                         .limits = whole_.limits_,
                         .fallen = fallen_,
+                        .factor = factor_,
                         .next = next_,
                         .counting = counting_,
                         .stepping = stepping_,
@@ -236,6 +237,7 @@ void Domains<Impact, Layout, World>::tell_decision() {
   whole_.frame_.edge_step = told.edge_step;
   whole_.limits_ = told.limits;
   fallen_ = told.fallen;
+  factor_ = told.factor;
   next_ = told.next;
   counting_ = told.counting;
   stepping_ = told.stepping;

@@ -64,12 +64,13 @@ DrivenEngine::DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene
   begin();
 }
 
-bool DrivenEngine::run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) {
+/// Calls run_engine, a way to run the engine, again and again, and drives it in between.
+bool DrivenEngine::run(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit, RunFunction run_engine) {
   bool arrived = false;
   while (!grown_ && !filled_ && event_limit > 0) {
     const Instant stop = std::min({target, thermostat_time_, end_, full_});
     const std::uint64_t before = detail::all_events(engine_->counts());
-    arrived = engine_->run_until(stop, std::min(pair_limit, measure_at_), event_limit);
+    arrived = ((*engine_).*run_engine)(stop, std::min(pair_limit, measure_at_), event_limit);
     event_limit -= std::min(event_limit, detail::all_events(engine_->counts()) - before);
     if (engine_->counts().pair >= measure_at_) {
       arrived = false;
@@ -195,7 +196,8 @@ double DrivenEngine::moment_of_inertia(std::size_t i) const {
 }
 
 DrivenEngine::Energy DrivenEngine::energy() const {
-  const State state = engine_->state();
+  State state;
+  spinning_ ? engine_->state(state) : engine_->store_velocities(state);
   Energy energy;
   for (std::size_t i = 0; i < disks_.count(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);

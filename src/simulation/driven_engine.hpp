@@ -29,7 +29,12 @@ class DrivenEngine final : public WrappedEngine {
   /// `engine` runs the scene with these disks and knows by itself how they grow.
   DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene, Disks disks);
 
-  bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override;
+  bool run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
+    return run(target, pair_limit, event_limit, &AnyEngine::run_until);
+  }
+  bool run_about(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
+    return run(target, pair_limit, event_limit, &AnyEngine::run_about);
+  }
   [[nodiscard]] bool idle() const override;
   /// Or one of them fills the box.
   [[nodiscard]] bool jammed() const override { return filled_ || engine_->jammed(); }
@@ -66,6 +71,8 @@ class DrivenEngine final : public WrappedEngine {
   [[nodiscard]] double scale() const;
   [[nodiscard]] double moment_of_inertia(std::size_t i) const;
 
+  using RunFunction = bool (AnyEngine::*)(const Instant&, std::uint64_t, std::uint64_t);
+  bool run(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit, RunFunction run_engine);
   void begin();
   void apply_thermostat_event();
   void measure_and_rescale();

@@ -49,7 +49,8 @@ class ThreadedEngine final : public WrappedEngine {
     return alone([&] { return engine_->set_velocity(i, v, spin); });
   }
   void scale_velocities(double factor) override {
-    alone([&] { engine_->scale_velocities(factor); });
+    domains_ ? domains_->scale_velocities(factor) : engine_->scale_velocities(factor);
+    count();
   }
   void set_back(const Instant& time) override { domains_ ? domains_->set_back(time) : engine_->set_back(time); }
   void reset_clock() override {

@@ -31,8 +31,6 @@ Threads with_domains(Threads threads, int ranks) {
 }
 
 std::string why_not_threads(const Effects& effects) {
-  if (effects.growth_rate() > 0.0)
-    return "disks grow, and the velocities of all are scaled each time that a disk has collided once on average";
   if (effects.bath_temperature()) return "the thermostat draws the velocities of all disks in one order";
   if (effects.shear_rate() != 0.0) return "the box is sheared";
   if (effects.drag_rate() > 0.0) return "drag slows the clock";

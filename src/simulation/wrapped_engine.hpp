@@ -15,6 +15,11 @@ class WrappedEngine : public AnyEngine {
   bool run_about(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit) override {
     return run_until(target, pair_limit, event_limit);
   }
+  [[nodiscard]] std::string why_not_threads() const override { return engine_->why_not_threads(); }
+  void set_threads(const Threads& threads) override { engine_->set_threads(threads); }
+  void set_ranks(const Threads& threads, Ranks& ranks) override { engine_->set_ranks(threads, ranks); }
+  void serve(const Threads& threads, Ranks& ranks) override { engine_->serve(threads, ranks); }
+  [[nodiscard]] ThreadCounts thread_counts() const override { return engine_->thread_counts(); }
   [[nodiscard]] bool idle() const override { return engine_->idle(); }
   [[nodiscard]] bool jammed() const override { return engine_->jammed(); }
   [[nodiscard]] std::vector<std::int32_t> slow() const override { return engine_->slow(); }

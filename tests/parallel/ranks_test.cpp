@@ -57,6 +57,9 @@ TEST(Ranks, GiveTheBitsOfOneForScenesOfAllKinds) {
   Scene rough = cooling;
   rough.effects.collision.roughness = 0.3;
   expect_same_runs_on(2, rough, {}, 10.0, 2, "rough");
+  Scene growing = lean_gas(3000, 0.3, Boundary::periodic);
+  growing.effects.growth = Growth{.rate = 0.05};
+  expect_same_runs_on(3, growing, {.threads = 2}, 6.0, 3, "growing");
   Scene wells = lean_gas(3000, 0.3, Boundary::periodic);
   wells.effects.square_well = SquareWell{.width = 1.6, .depth = 0.8};
   expect_same_runs_on(3, wells, {}, 8.0, 3, "wells");

@@ -93,6 +93,38 @@ TEST(Threads, GiveTheBitsOfOneForDisksWithWells) {
   expect_same_runs(scene, {.domains = 3}, 6.0, 2);
 }
 
+/// Velocities are scaled each time that a disk has collided once on average, and lists are made for larger disks now and then.
+TEST(Threads, GiveTheBitsOfOneWhereDisksGrow) {
+  Scene scene = lean_gas(4000, 0.3, Boundary::periodic);
+  for (const double rate : {0.003, 0.05}) {
+    scene.effects.growth = Growth{.rate = rate};
+    expect_same_runs(scene, {.threads = 2, .domains = 4}, 8.0, 4);
+  }
+  scene.effects.collision.restitution = 0.95;
+  scene.effects.collision.roughness = 0.3;
+  expect_same_runs(scene, {.domains = 3}, 8.0, 3);
+  scene = lean_gas(3000, 0.3, Boundary::walls);
+  scene.effects.gravity = Gravity{{0.0, -0.1}};
+  scene.effects.growth = Growth{.rate = 0.02};
+  expect_same_runs(scene, {.domains = 4}, 8.0, 3);
+  scene = mixture(2000);
+  scene.effects.growth = Growth{.rate = 0.02};
+  expect_same_runs(scene, {.domains = 4}, 8.0, 3);
+}
+
+TEST(Threads, StopWhereDisksHaveGrownAsMuchAsOnOne) {
+  Scene scene = lean_gas(4000, 0.3, Boundary::periodic);
+  for (const Growth& growth : {Growth{.rate = 0.1, .packing_fraction = 0.6}, Growth{.rate = 0.02, .reduced_pressure = 4.0}}) {
+    scene.effects.growth = growth;
+    Simulation alone = make_simulation(scene), shared = make_simulation(scene);
+    shared.set_threads({.domains = 4});
+    EXPECT_EQ(alone.run_until(1000.0), StopReason::grown);
+    EXPECT_EQ(shared.run_until(1000.0), StopReason::grown);
+    expect_same(alone, shared, "grown");
+    EXPECT_GT(shared.thread_counts().windows, 10U);
+  }
+}
+
 /// A gas that cools down to a thousandth of its speed has windows a thousand times as long.
 TEST(Threads, AdaptWindowsToDisksThatBecomeSlow) {
   Scene scene = lean_gas(4000, 0.4, Boundary::periodic);
