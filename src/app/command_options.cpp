@@ -406,7 +406,8 @@ void add_movie(CLI::App& program, Action& action) {
   command
       ->add_option(
           "--colour,--color", options->colour,
-          "Colour disks by speed, species, collisions or id, or plain (default: by species if there are several, else by speed)")
+          "Colour disks by speed, species, collisions, id, psi6 (sixfold order), psi6_angle or neighbours (defects), or plain "
+          "(default: by species if there are several, else by speed)")
       ->type_name("COLOUR");
   command->add_option("--trails", options->trails, "Draw the paths of the last TIME of simulated time")->type_name("TIME");
   command->add_option("--trails-of", options->trails_of, "Draw only the paths of this species")->type_name("SPECIES");

@@ -56,7 +56,8 @@ std::optional<Colouring> colouring_of(const std::string& name) {
   if (name.empty()) return {};
   for (const auto& [word, colouring] : colourings)
     if (name == word) return colouring;
-  throw UsageError(fmt::format("--colour {}: it can be speed, species, collisions, id or plain", name));
+  throw UsageError(
+      fmt::format("--colour {}: it can be speed, species, collisions, id, psi6, psi6_angle, neighbours or plain", name));
 }
 
 void require_positive(const char* option, const std::optional<double>& value, const char* what) {

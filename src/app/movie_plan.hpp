@@ -24,10 +24,13 @@ struct MoviePlan {
 };
 
 /// What --colour can be.
-inline constexpr std::array<std::pair<std::string_view, Colouring>, 5> colourings = {{{"speed", Colouring::speed},
+inline constexpr std::array<std::pair<std::string_view, Colouring>, 8> colourings = {{{"speed", Colouring::speed},
                                                                                       {"species", Colouring::species},
                                                                                       {"collisions", Colouring::collisions},
                                                                                       {"id", Colouring::id},
+                                                                                      {"psi6", Colouring::psi6},
+                                                                                      {"psi6_angle", Colouring::psi6_angle},
+                                                                                      {"neighbours", Colouring::neighbours},
                                                                                       {"plain", Colouring::plain}}};
 
 /// Throws UsageError where the options are wrong by themselves, or a file is in the way.

@@ -17,7 +17,7 @@ namespace carom {
 
 /// The names of all files that a run may write, and of the pages that `carom play` and `carom report` make of one: another run's
 /// must not stay beside them. The summary comes last: where it is, the run is complete.
-inline constexpr std::array<std::string_view, 23> run_products = {"checkpoint.h5",
+inline constexpr std::array<std::string_view, 30> run_products = {"checkpoint.h5",
                                                                   "checkpoint-previous.h5",
                                                                   "trajectory.h5md",
                                                                   "trajectory.xyz",
@@ -29,10 +29,17 @@ inline constexpr std::array<std::string_view, 23> run_products = {"checkpoint.h5
                                                                   "observe_radial_distribution.csv",
                                                                   "observe_structure_factor.csv",
                                                                   "observe_hexatic_correlation.csv",
+                                                                  "observe_voronoi_neighbours.csv",
+                                                                  "observe_voronoi_areas.csv",
+                                                                  "observe_clusters.csv",
                                                                   "observe_density_profile.csv",
                                                                   "observe_fields.csv",
                                                                   "observe_fields_in_time.csv",
                                                                   "observe_mean_square_displacement.csv",
+                                                                  "observe_intermediate_scattering.csv",
+                                                                  "observe_overlap.csv",
+                                                                  "observe_non_gaussian.csv",
+                                                                  "observe_van_hove.csv",
                                                                   "observe_velocity_autocorrelation.csv",
                                                                   "observe_viscosity.csv",
                                                                   "observe_heat_conductivity.csv",

@@ -20,6 +20,7 @@ class BlockedColumn {
   explicit BlockedColumn(std::size_t rows) : rows_(rows) {}
   void add(std::size_t row, double x, double weight = 1.0) { rows_[row].add(x, weight); }
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] const Blocking& row(std::size_t at) const { return rows_[at]; }
   /// The columns `name` and `name`_error; NaN where nothing is known.
   void put(Table& table, const std::string& name, const std::string& unit, double factor = 1.0) const;
 

@@ -35,9 +35,15 @@ MadeObservable make_velocity_moments(const ObservableRequest& request, const Obs
 MadeObservable make_radial_distribution(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_structure_factor(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_hexatic(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_voronoi(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_clusters(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_density_profile(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_fields(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_mean_square_displacement(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_intermediate_scattering(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_overlap(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_non_gaussian(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_van_hove(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_velocity_autocorrelation(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_viscosity(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_heat_conductivity(const ObservableRequest& request, const ObservedRun& run);

@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace carom::detail {
 
@@ -35,6 +38,10 @@ Scale scale_of(const Subject& subject) {
       return {"collisions", "0", fmt::format("{:.0f}", subject.ranges.most_collisions)};
     case Colouring::id:
       return {"id", "0", fmt::format("{}", std::max<std::size_t>(1, subject.disks.count()) - 1)};
+    case Colouring::psi6:
+      return {"sixfold order |ψ6|", "0", "1"};
+    case Colouring::psi6_angle:
+      return {"axes of the sixfold order", "−30°", "30°"};
     default:
       return {};
   }
@@ -54,7 +61,7 @@ void draw_scale(cairo_t* context, const Subject& subject, double from, double ri
   cairo_pattern_t* shades = cairo_pattern_create_linear(begin, 0.0, begin + bar, 0.0);
   for (int k = 0; k <= steps; ++k) {
     const double share = static_cast<double>(k) / steps;
-    const Colour colour = scale_colour(share);
+    const Colour colour = subject.look.colouring == Colouring::psi6_angle ? circle_colour(share - 0.5) : scale_colour(share);
     cairo_pattern_add_color_stop_rgb(shades, share, colour.red, colour.green, colour.blue);
   }
   cairo_rectangle(context, begin, baseline - 0.7 * letters, bar, 0.7 * letters);
@@ -63,18 +70,42 @@ void draw_scale(cairo_t* context, const Subject& subject, double from, double ri
   cairo_pattern_destroy(shades);
 }
 
+/// A colour and what it stands for.
+struct Kind {
+  std::string name;
+  Colour colour;
+};
+
+std::vector<Kind> kinds_of(const Subject& subject) {
+  std::vector<Kind> kinds;
+  if (subject.look.colouring == Colouring::species) {
+    for (std::size_t k = 0; k < subject.species_names.size(); ++k) kinds.push_back({subject.species_names[k], kind_colour(k)});
+    return kinds;
+  }
+  for (std::size_t neighbours = 4; neighbours <= 8; ++neighbours)
+    kinds.push_back({fmt::format("{}{}",
+                                 neighbours == 4   ? "≤ "
+                                 : neighbours == 8 ? "≥ "
+                                                   : "",
+                                 neighbours),
+                     neighbours_colour(neighbours, subject.look.dark)});
+  kinds.back().name += " neighbours";
+  return kinds;
+}
+
 void draw_kinds(cairo_t* context, const Subject& subject, double from, double right, double baseline) {
   const double letters = subject.layout.letters, gap = 0.4 * letters, spot = 0.35 * letters;
   double x = right;
-  for (std::size_t k = subject.species_names.size(); k-- > 0;) {
-    x -= width_of(context, subject.species_names[k]);
+  const std::vector<Kind> kinds = kinds_of(subject);
+  for (std::size_t k = kinds.size(); k-- > 0;) {
+    x -= width_of(context, kinds[k].name);
     if (x - gap - 2.0 * spot < from) return;  // no room
     set_colour(context, theme(subject.look.dark).muted);
-    write(context, subject.species_names[k], x, baseline);
+    write(context, kinds[k].name, x, baseline);
     x -= gap + spot;
     cairo_new_path(context);
     cairo_arc(context, x, baseline - spot, spot, 0.0, 2.0 * std::numbers::pi);
-    set_colour(context, kind_colour(k));
+    set_colour(context, kinds[k].colour);
     cairo_fill(context);
     x -= spot + 2.0 * gap;
   }
@@ -91,7 +122,7 @@ void draw_caption(cairo_t* context, const Subject& subject, const Moment& moment
   set_colour(context, theme(subject.look.dark).ink);
   write(context, clock, left, baseline);
   const double from = left + width_of(context, clock) + at.letters;
-  if (subject.look.colouring == Colouring::species) {
+  if (subject.look.colouring == Colouring::species || subject.look.colouring == Colouring::neighbours) {
     draw_kinds(context, subject, from, at.caption_right, baseline);
   } else if (subject.look.colouring != Colouring::plain) {
     draw_scale(context, subject, from, at.caption_right, baseline);

@@ -1,11 +1,15 @@
 #include "pages/drawing.hpp"
 
+#include "observe/voronoi_cells.hpp"
 #include "scene/fixed_shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <numbers>
 #include <variant>
+#include <vector>
 
 namespace carom::detail {
 
@@ -14,10 +18,35 @@ namespace {
 constexpr double rimmed_from = 5.0;  // pixels: the radius below which a disk would be all rim
 constexpr double tolerance = 0.02;   // pixels: how far from a circle what Cairo draws in its place may be
 
+/// What the cells of the disks say.
+struct LocalOrder {
+  std::vector<std::complex<double>> psi6;
+  std::vector<std::size_t> neighbours;  ///< 0 where a wall cuts the cell off
+};
+
+LocalOrder order_of(const Subject& subject, const Moment& moment) {
+  LocalOrder found;
+  if (!needs_cells(subject.look.colouring)) return found;
+  Box box = subject.scene.box;
+  box.lower = {moment.sides[0], moment.sides[2]};
+  box.upper = {moment.sides[1], moment.sides[3]};
+  const VoronoiCells cells(box, moment.positions);
+  for (std::size_t i = 0; i < cells.count(); ++i) {
+    found.psi6.push_back(sixfold_order(cells.sides(i)));
+    found.neighbours.push_back(cells.at_wall(i) ? 0 : cells.sides(i).size());
+  }
+  return found;
+}
+
 class Drawing {
  public:
   Drawing(cairo_t* context, const Subject& subject, const Moment& moment)
-      : context_(context), of_(subject), at_(subject.layout), moment_(moment), theme_(theme(subject.look.dark)) {}
+      : context_(context),
+        of_(subject),
+        at_(subject.layout),
+        moment_(moment),
+        theme_(theme(subject.look.dark)),
+        order_(order_of(subject, moment)) {}
 
   void draw() {
     cairo_set_tolerance(context_, tolerance);
@@ -120,6 +149,7 @@ class Drawing {
   }
 
   [[nodiscard]] Colour colour_of(std::size_t disk) const {
+    if (needs_cells(of_.look.colouring) && order_.neighbours[disk] == 0) return theme_.frame;
     switch (of_.look.colouring) {
       case Colouring::speed:
         return scale_colour(moment_.velocities.col(static_cast<Eigen::Index>(disk)).norm() / of_.ranges.fastest);
@@ -131,6 +161,12 @@ class Drawing {
                    : scale_colour(static_cast<double>(moment_.collisions[disk]) / of_.ranges.most_collisions);
       case Colouring::id:
         return scale_colour(static_cast<double>(disk) / std::max(1.0, static_cast<double>(of_.disks.count()) - 1.0));
+      case Colouring::psi6:
+        return scale_colour(std::abs(order_.psi6[disk]));
+      case Colouring::psi6_angle:
+        return circle_colour(std::arg(order_.psi6[disk]) / (2.0 * std::numbers::pi));
+      case Colouring::neighbours:
+        return neighbours_colour(order_.neighbours[disk], of_.look.dark);
       case Colouring::plain:
         break;
     }
@@ -219,6 +255,7 @@ class Drawing {
   const Layout& at_;
   const Moment& moment_;
   const Theme& theme_;
+  LocalOrder order_;
 };
 
 }  // namespace

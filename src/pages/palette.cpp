@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace carom {
 
@@ -47,6 +48,18 @@ Colour scale_colour(double share) {
   const Colour &a = viridis[low], &b = viridis[low + 1];
   const double part = at - static_cast<double>(low);
   return {std::lerp(a.red, b.red, part), std::lerp(a.green, b.green, part), std::lerp(a.blue, b.blue, part)};
+}
+
+Colour circle_colour(double share) {
+  const auto part = [&](double begin) { return 0.55 + 0.4 * std::cos(2.0 * std::numbers::pi * (share - begin)); };
+  return {part(0.0), part(1.0 / 3.0), part(2.0 / 3.0)};
+}
+
+Colour neighbours_colour(std::size_t neighbours, bool dark) {
+  if (neighbours == 6) return dark ? of(0x39424e) : of(0xd5dae0);
+  if (neighbours == 5) return kinds[5];
+  if (neighbours == 7) return kinds[0];
+  return neighbours < 5 ? kinds[1] : kinds[2];
 }
 
 Colour kind_colour(std::size_t kind) { return kinds[kind % kinds.size()]; }

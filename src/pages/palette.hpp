@@ -14,6 +14,12 @@ struct Colour {
 /// Viridis, of van der Walt and Smith. What is outside [0, 1] has the colour of its end.
 [[nodiscard]] Colour scale_colour(double share);
 
+/// A circle of colours of about equal lightness: 0 and 1 are the same.
+[[nodiscard]] Colour circle_colour(double share);
+
+/// The colour of a disk with so many neighbours: none stands out but those that are not six.
+[[nodiscard]] Colour neighbours_colour(std::size_t neighbours, bool dark);
+
 /// Eight that differ, and then again from the first.
 [[nodiscard]] Colour kind_colour(std::size_t kind);
 

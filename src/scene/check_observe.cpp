@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <string_view>
 
 namespace carom::detail {
@@ -52,13 +53,13 @@ void check_settings(const ObservableRequest& request) {
   if (known == nullptr) throw Refusal(path, unknown_key_sentence(request.name, "observe", names_of_observables()));
   if (request.every && !keys::observe_every.holds(*request.every))
     refuse_number(path + ".every", *request.every, keys::observe_every);
-  const auto require = [&](const char* setting, const std::optional<double>& value, double otherwise) {
+  const auto require = [&](std::string_view setting, const std::optional<double>& value, double otherwise) {
     const std::string example = example_of(setting, otherwise);
     const NumberKey key{setting, example, Range::above_zero};
     if (value && !key.holds(*value)) refuse_number(fmt::format("{}.{}", path, setting), *value, key);
   };
-  require("range", request.range, known->range.value_or(1.0));
-  require("largest", request.largest, known->largest.value_or(1.0));
+  require(known->range_key, request.range, known->range.value_or(1.0));
+  require(known->largest_key, request.largest, known->largest.value_or(1.0));
   if (request.bins && !(*request.bins >= 2 && *request.bins <= most_bins))
     throw Refusal(path + ".bins", fmt::format("{}.bins is {}; it must be a whole number from 2 to {}, such as bins = {}", path,
                                               *request.bins, most_bins, known->bins.value_or(2)));
@@ -98,8 +99,26 @@ void check_collisions(const Scene& scene, const ObservableRequest& request) {
                                              effect.title));
 }
 
+/// Cells and clusters have a meaning between walls and for disks that grow, but not where images slide past each other.
+void check_geometry(const Scene& scene, const ObservableRequest& request) {
+  if (!one_of(request.name, {"voronoi", "clusters"})) return;
+  if (const std::string_view why = first_reason(scene.effects, &EffectTraits::why_no_structure, &EffectTraits::changes_radii);
+      !why.empty())
+    refuse_observable(request, std::string(why));
+}
+
+/// Wave vectors are whole numbers of waves in the box.
+void check_wave_number(const Scene& scene, const ObservableRequest& request) {
+  if (request.name != "intermediate_scattering" || !request.largest) return;
+  constexpr double most_waves = 1e6;
+  const double largest = 2.0 * std::numbers::pi * most_waves * mean_diameter(scene) / scene.box.lengths().maxCoeff();
+  if (*request.largest > largest)
+    refuse_observable(request, fmt::format("has k = {:.6g}, more than a million waves in the box; take k up to {:.6g}",
+                                           *request.largest, largest));
+}
+
 void check_structure(const Scene& scene, const ObservableRequest& request) {
-  if (!one_of(request.name, {"radial_distribution", "structure_factor", "hexatic"})) return;
+  if (!one_of(request.name, {"radial_distribution", "structure_factor", "hexatic", "intermediate_scattering"})) return;
   if (!scene.box.periodic(0) || !scene.box.periodic(1))
     refuse_observable(request,
                       "is that of a uniform system, and walls disturb it; take boundary = \"periodic\", or observe "
@@ -123,11 +142,14 @@ void check_observe(const Scene& scene) {
     check_disks(scene, request);
     check_collisions(scene, request);
     check_structure(scene, request);
+    check_geometry(scene, request);
+    check_wave_number(scene, request);
     if (request.every) check_step(scene, fmt::format("observe.{}.every", request.name), *request.every);
     if (request.name == "wall_fluxes" && scene.box.periodic(0) && scene.box.periodic(1))
       refuse_observable(request, "measures fluxes through walls, and this box is periodic; remove it, or give an axis walls");
     if (const std::string_view why = first_reason(scene.effects, &EffectTraits::why_no_displacements);
-        !why.empty() && one_of(request.name, {"mean_square_displacement", "velocity_autocorrelation"}))
+        !why.empty() && one_of(request.name, {"mean_square_displacement", "intermediate_scattering", "overlap", "non_gaussian",
+                                              "van_hove", "velocity_autocorrelation"}))
       refuse_observable(request, std::string(why));
     if (!one_of(request.name, {"viscosity", "heat_conductivity"})) continue;
     if (const std::string_view why = what_spoils_transport(scene); !why.empty())

@@ -20,13 +20,15 @@ struct KnownObservable {
   std::optional<std::int64_t> bins = {};
   std::optional<double> range = {};
   std::optional<double> largest = {};
+  std::string_view range_key = "range";      ///< what a scene calls ObservableRequest::range
+  std::string_view largest_key = "largest";  ///< and ObservableRequest::largest
   std::optional<int> axis = {};
   std::optional<std::int64_t> disks = {};
   std::optional<std::array<std::int64_t, 2>> cells = {};
 };
 
 /// All observables, in the order of docs/scene-format.md, which is that of all results.
-inline constexpr std::array<KnownObservable, 17> known_observables = {{
+inline constexpr std::array<KnownObservable, 23> known_observables = {{
     {.name = "temperature", .example = "temperature = true", .step = 4.0},
     {.name = "pressure", .example = "pressure = true", .step = 16.0},
     {.name = "collision_rate", .example = "collision_rate = true", .step = 16.0},
@@ -40,9 +42,25 @@ inline constexpr std::array<KnownObservable, 17> known_observables = {{
      .range = 5.0},
     {.name = "structure_factor", .example = "structure_factor = { largest = 20.0 }", .step = 32.0, .largest = 20.0},
     {.name = "hexatic", .example = "hexatic = { range = 10.0, bins = 100 }", .step = 16.0, .bins = 100, .range = 10.0},
+    {.name = "voronoi", .example = "voronoi = { bins = 100 }", .step = 16.0, .bins = 100},
+    {.name = "clusters", .example = "clusters = { gap = 0.1 }", .step = 16.0, .range = 0.1, .range_key = "gap"},
     {.name = "density_profile", .example = "density_profile = { axis = \"y\", bins = 100 }", .step = 4.0, .bins = 100, .axis = 1},
     {.name = "fields", .example = "fields = { cells = [10, 10] }", .step = 1.0, .cells = {{10, 10}}},
     {.name = "mean_square_displacement", .example = "mean_square_displacement = { disks = 1000 }", .step = 0.25, .disks = 1000},
+    {.name = "intermediate_scattering",
+     .example = "intermediate_scattering = { k = 6.3, disks = 1000 }",
+     .step = 0.5,
+     .largest = 6.3,
+     .largest_key = "k",
+     .disks = 1000},
+    {.name = "overlap", .example = "overlap = { range = 0.3, disks = 1000 }", .step = 0.5, .range = 0.3, .disks = 1000},
+    {.name = "non_gaussian", .example = "non_gaussian = { disks = 1000 }", .step = 0.5, .disks = 1000},
+    {.name = "van_hove",
+     .example = "van_hove = { range = 5.0, bins = 100, disks = 1000 }",
+     .step = 0.5,
+     .bins = 100,
+     .range = 5.0,
+     .disks = 1000},
     {.name = "velocity_autocorrelation", .example = "velocity_autocorrelation = { disks = 1000 }", .step = 0.25, .disks = 1000},
     {.name = "viscosity", .example = "viscosity = true", .step = 0.25},
     {.name = "heat_conductivity", .example = "heat_conductivity = true", .step = 0.25},
@@ -64,6 +82,8 @@ inline std::vector<std::string_view> names_of_observables() {
 }
 
 /// Returns an example of a setting: "range = 5.0".
-inline std::string example_of(const char* setting, double otherwise) { return fmt::format("{} = {:.1f}", setting, otherwise); }
+inline std::string example_of(std::string_view setting, double otherwise) {
+  return fmt::format("{} = {:.1f}", setting, otherwise);
+}
 
 }  // namespace carom::detail

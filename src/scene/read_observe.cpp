@@ -37,16 +37,17 @@ std::array<std::int64_t, 2> read_cells(const TableReader& table, const std::arra
 void read_settings(const toml::table& node, const KnownObservable& known, ObservableRequest& request) {
   std::vector<std::string_view> keys = {"every"};
   if (known.bins) keys.emplace_back("bins");
-  if (known.range) keys.emplace_back("range");
-  if (known.largest) keys.emplace_back("largest");
+  if (known.range) keys.emplace_back(known.range_key);
+  if (known.largest) keys.emplace_back(known.largest_key);
   if (known.axis) keys.emplace_back("axis");
   if (known.disks) keys.emplace_back("disks");
   if (known.cells) keys.emplace_back("cells");
   const TableReader table(node, fmt::format("observe.{}", known.name), keys);
   request.every = table.number(keys::observe_every);
   if (known.bins) request.bins = table.integer("bins", fmt::format("bins = {}", *known.bins)).value_or(*known.bins);
-  if (known.range) request.range = table.number({"range", example_of("range", *known.range), Range::above_zero});
-  if (known.largest) request.largest = table.number({"largest", example_of("largest", *known.largest), Range::above_zero});
+  if (known.range) request.range = table.number({known.range_key, example_of(known.range_key, *known.range), Range::above_zero});
+  if (known.largest)
+    request.largest = table.number({known.largest_key, example_of(known.largest_key, *known.largest), Range::above_zero});
   if (known.axis) request.axis = read_axis(table, *known.axis);
   if (known.disks) request.disks = table.integer("disks", fmt::format("disks = {}", *known.disks)).value_or(*known.disks);
   if (known.cells) request.cells = read_cells(table, *known.cells);
@@ -79,7 +80,10 @@ std::vector<ObservableRequest> read_observe(const toml::table& node) {
 void complete_request(const Scene& scene, ObservableRequest& request) {
   const KnownObservable* known = find_observable(request.name);
   if (known == nullptr || !known->range || request.range || scene.disk_count() == 0) return;
-  request.range = std::min(*known->range, 0.5 * scene.box.lengths().minCoeff() / mean_diameter(scene));
+  // Displacements are those of unwrapped paths, which a small box does not end.
+  const bool of_pairs = known->name == "radial_distribution" || known->name == "hexatic";
+  request.range =
+      !of_pairs ? *known->range : std::min(*known->range, 0.5 * scene.box.lengths().minCoeff() / mean_diameter(scene));
 }
 
 void complete_observe(Scene& scene) {

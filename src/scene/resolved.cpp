@@ -2,6 +2,7 @@
 
 #include <carom/scene.hpp>
 
+#include "scene/observables_known.hpp"
 #include "scene/resolved_effects.hpp"
 #include "scene/value_text.hpp"
 
@@ -114,10 +115,13 @@ void put_run(Buffer& out, const Run& run) {
 void put_observe(Buffer& out, const std::vector<ObservableRequest>& requests) {
   if (!requests.empty()) put(out, "\n[observe]\n");
   for (const ObservableRequest& request : requests) {
+    const detail::KnownObservable* const known = detail::find_observable(request.name);
+    const std::string_view range = known == nullptr ? "range" : known->range_key;
+    const std::string_view largest = known == nullptr ? "largest" : known->largest_key;
     std::vector<std::string> settings;
     if (request.every) settings.push_back(fmt::format("every = {}", number_text(*request.every)));
-    if (request.range) settings.push_back(fmt::format("range = {}", number_text(*request.range)));
-    if (request.largest) settings.push_back(fmt::format("largest = {}", number_text(*request.largest)));
+    if (request.range) settings.push_back(fmt::format("{} = {}", range, number_text(*request.range)));
+    if (request.largest) settings.push_back(fmt::format("{} = {}", largest, number_text(*request.largest)));
     if (request.axis) settings.push_back(fmt::format("axis = \"{}\"", *request.axis == 0 ? "x" : "y"));
     if (request.bins) settings.push_back(fmt::format("bins = {}", *request.bins));
     if (request.cells) settings.push_back(fmt::format("cells = [{}, {}]", (*request.cells)[0], (*request.cells)[1]));

@@ -131,7 +131,7 @@ TEST_F(MovieCommand, RefusesOptionsThatCannotBe) {
   film({"--at", "1"}, "--at: this is the time of a picture");
   for (const char* const size : {"0", "15", "8193", "64x", "x64", "64x0", "-64", "big", "64 x 64", "99999999999"})
     film({"--size", size}, std::string("--size ") + size + ": it can be the longer side or WIDTHxHEIGHT");
-  film({"--colour", "red"}, "--colour red: it can be speed, species, collisions, id or plain");
+  film({"--colour", "red"}, "--colour red: it can be speed, species, collisions, id, psi6, psi6_angle, neighbours or plain");
   film({"--trails", "0"}, "--trails 0: it must be a simulated time above zero");
   film({"--trails-of", "disks0"}, "--trails-of: give --trails TIME too");
   film({"--trails", "1", "--trails-of", "pollen"}, "--trails-of pollen: this run has no such species; it has disks0");

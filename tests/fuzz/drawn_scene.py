@@ -19,7 +19,7 @@ FORBIDDEN = {
 }
 OBSERVABLES = (
     "temperature", "pressure", "velocity_moments", "h_function", "collision_rate", "free_flight", "speeds", "radial_distribution", "structure_factor",
-    "hexatic", "density_profile", "fields", "mean_square_displacement", "velocity_autocorrelation", "viscosity", "heat_conductivity", "wall_fluxes",
+    "hexatic", "voronoi", "clusters", "density_profile", "fields", "mean_square_displacement", "intermediate_scattering", "overlap", "non_gaussian", "van_hove", "velocity_autocorrelation", "viscosity", "heat_conductivity", "wall_fluxes",
 )
 HOSTILE = (
     0, -1, 0.0, -0.0, -1.0, 1, 1.0, 2.0, 0.5, 1e-9, 1e-30, 1e-100, 1e-160, 1e-200, 1e-300, 5e-324, 1e9, 1e30, 1e100, 1e140, 1e160, 1e200, 1e308,
@@ -424,9 +424,9 @@ def can_be_observed(name, scene, walled, gas):
         return False
     if name == "free_flight":
         return not {"thermostat", "growth", "shear", "drag"} & set(tables)
-    if name in ("radial_distribution", "structure_factor", "hexatic"):
+    if name in ("radial_distribution", "structure_factor", "hexatic", "intermediate_scattering"):
         return not any(walled) and not {"shear", "growth"} & set(tables)
-    if name in ("mean_square_displacement", "velocity_autocorrelation"):
+    if name in ("mean_square_displacement", "velocity_autocorrelation", "overlap", "non_gaussian", "van_hove", "voronoi", "clusters"):
         return "shear" not in tables
     if name in ("viscosity", "heat_conductivity"):
         spoiled = any(walled) or {"obstacles", "thermostat", "growth", "shear", "square_well", "drag"} & set(tables) or set(collision) & {"restitution", "roughness"}
@@ -446,7 +446,7 @@ def draw_observe(r, scene, walled, gas):
         settings = {}
         if r.random() < 0.6:
             settings["every"] = time(r.choice([dt * r.choice([1, 2, 3]) if isinstance(dt, float) else gas.time / 20, gas.time / r.uniform(1.0, 300.0)]))
-        if name in ("free_flight", "speeds", "radial_distribution", "hexatic", "density_profile") and r.random() < 0.4:
+        if name in ("free_flight", "speeds", "radial_distribution", "hexatic", "voronoi", "van_hove", "density_profile") and r.random() < 0.4:
             settings["bins"] = r.choice([2, 10, 333])
         if name == "density_profile" and r.random() < 0.5:
             settings["axis"] = r.choice(["x", "y"])

@@ -174,6 +174,37 @@ TEST_F(PainterTest, ColoursOfSpeciesAreThoseOfOkabeAndIto) {
   EXPECT_EQ(at(7.0, 5.0), 0xe69f00U);
 }
 
+/// A triangular lattice along x, of 5 x 6 disks in a box of 10 x 10 stretched along x: all have six neighbours, but nearest to a
+/// disk that is missing there are fives.
+TEST_F(PeriodicPainterTest, ColoursOfNeighboursShowDefects) {
+  look_.colouring = Colouring::neighbours;
+  const auto place = [](int row, int column) { return Eigen::Vector2d(1.0 + 2.0 * column + (row % 2), 0.8 + 10.0 / 6.0 * row); };
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column < 5; ++column)
+      if (row != 2 || column != 2) add(place(row, column), 0.7);
+  draw();
+  const auto colour = [&](int row, int column) { return at(place(row, column).x(), place(row, column).y()); };
+  EXPECT_EQ(colour(5, 0), 0xd5dae0U) << "six";
+  int fives = 0;
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column < 5; ++column) fives += colour(row, column) == 0xd55e00U ? 1 : 0;
+  EXPECT_GE(fives, 2) << "six disks around a vacancy are joined by three diagonals, which two of them at least have no end of";
+  EXPECT_EQ(at(place(2, 2).x(), place(2, 2).y()), 0xfbfcfdU);
+}
+
+TEST_F(PeriodicPainterTest, ColoursOfSixfoldOrderAreTheEndsOfTheirScales) {
+  // With the height of an equilateral lattice psi6 is 1 and its axis along x.
+  scene_.box.upper.y() = ranges_.extent[3] = moment_.sides[3] = 6.0 * std::sqrt(3.0);
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column < 5; ++column) add({1.0 + 2.0 * column + (row % 2), 0.8 + std::sqrt(3.0) * row}, 0.7);
+  look_.colouring = Colouring::psi6;
+  draw();
+  EXPECT_EQ(at(5.0, 0.8), 0xfde725U);
+  look_.colouring = Colouring::psi6_angle;
+  draw();
+  EXPECT_NEAR(at(5.0, 0.8) >> 16U, 0.95 * 0xff, 1.0) << "all red of the circle's beginning";
+}
+
 TEST_F(PainterTest, ColoursOfSpeedGoFromRestToTheFastest) {
   look_.colouring = Colouring::speed;
   ranges_.fastest = 5.0;

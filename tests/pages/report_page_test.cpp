@@ -56,8 +56,14 @@ velocity_moments = true
 radial_distribution = { range = 3.0, bins = 20 }
 structure_factor = { largest = 10.0 }
 hexatic = { range = 3.0 }
+voronoi = true
+clusters = true
 density_profile = { axis = "x" }
 mean_square_displacement = true
+intermediate_scattering = true
+overlap = true
+non_gaussian = true
+van_hove = true
 velocity_autocorrelation = true
 viscosity = true
 heat_conductivity = true
@@ -124,11 +130,31 @@ TEST_F(ReportPage, HasASectionForEachPartOfTheRun) {
 
 TEST_F(ReportPage, HasAPlotForEveryTableThatWasAskedFor) {
   const Page page = report_page(recorded(fluid + all_that_can_be), std::nullopt);
-  EXPECT_THAT(ids_of(page),
-              IsSupersetOf({"speeds", "energies", "free-times", "free-paths", "radial-distribution", "structure-factor",
-                            "hexatic-correlation", "density-profile", "mean-square-displacement", "diffusion-from-displacement",
-                            "velocity-autocorrelation", "diffusion-from-velocity", "viscosity", "viscosity-correlation",
-                            "heat-conductivity", "heat-correlation", "h-function"}));
+  EXPECT_THAT(ids_of(page), IsSupersetOf({"speeds",
+                                          "energies",
+                                          "free-times",
+                                          "free-paths",
+                                          "radial-distribution",
+                                          "structure-factor",
+                                          "hexatic-correlation",
+                                          "voronoi-areas",
+                                          "voronoi-neighbours",
+                                          "clusters",
+                                          "density-profile",
+                                          "intermediate-scattering",
+                                          "overlap",
+                                          "overlap-fluctuations",
+                                          "non-gaussian",
+                                          "van-hove",
+                                          "mean-square-displacement",
+                                          "diffusion-from-displacement",
+                                          "velocity-autocorrelation",
+                                          "diffusion-from-velocity",
+                                          "viscosity",
+                                          "viscosity-correlation",
+                                          "heat-conductivity",
+                                          "heat-correlation",
+                                          "h-function"}));
   const std::string numbers = words_of(page, "Observables");
   EXPECT_THAT(numbers, AllOf(HasSubstr("temperature | kT | "), HasSubstr("pressure | Z_rate | "),
                              HasSubstr("velocity_moments | kurtosis | "), HasSubstr("heat_conductivity | green_kubo | ")));

@@ -57,7 +57,9 @@ TEST(Observe, ResolvedSceneAsksForTheSame) {
   for (const char* table :
        {"", "temperature = true", "radial_distribution = { every = 0.1, range = 3.3, bins = 17 }\nhexatic = true",
         "density_profile = { axis = \"x\" }\nstructure_factor = { largest = 7.0 }\nviscosity = { every = 1e-3 }",
-        "velocity_autocorrelation = { disks = 3 }", "fields = { cells = [3, 7] }"}) {
+        "velocity_autocorrelation = { disks = 3 }", "voronoi = { bins = 7 }\nclusters = { gap = 0.25 }",
+        "intermediate_scattering = { k = 3.5 }\nvan_hove = { range = 70.0 }\noverlap = { range = 0.2 }",
+        "fields = { cells = [3, 7] }"}) {
     const Scene scene = observed(table);
     EXPECT_EQ(first_difference(scene, parse_scene(resolved_toml(scene))), "") << table;
   }

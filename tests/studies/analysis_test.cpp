@@ -64,10 +64,13 @@ const std::string of_states =
     "}\n"
     "h_function = { every = 0.3 }\npressure = { every = 0.3 }\ncollision_rate = { every = 0.6 }\n";
 const std::string of_structure =
-    "radial_distribution = { every = 0.3, range = 2.0 }\nstructure_factor = { every = 1.0 }\nhexatic = { every = 0.5, range = "
+    "radial_distribution = { every = 0.3, range = 2.0 }\nstructure_factor = { every = 1.0 }\nvoronoi = { every = 1.0 }\nclusters "
+    "= { every = 0.5 }\nintermediate_scattering = { every = 0.1 }\nhexatic = { every = 0.5, range = "
     "2.0 "
     "}\n";
-const std::string of_motion = "mean_square_displacement = { every = 0.1 }\nvelocity_autocorrelation = { every = 0.3 }\n";
+const std::string of_motion =
+    "mean_square_displacement = { every = 0.1 }\noverlap = { every = 0.1 }\nnon_gaussian = { every = 0.2 }\nvan_hove = { every = "
+    "0.2 }\nvelocity_autocorrelation = { every = 0.3 }\n";
 const std::string of_collisions = "free_flight = true\nviscosity = { every = 0.07 }\nheat_conductivity = true\n";
 
 struct Kept {

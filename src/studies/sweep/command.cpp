@@ -3,11 +3,13 @@
 // only state is the files that are there.
 
 #include "studies/sweep/command.hpp"
+#include "io/observable_output.hpp"
 #include "studies/study_directory.hpp"
 #include "studies/sweep/child_runs.hpp"
 #include "studies/sweep/products.hpp"
 #include "studies/sweep/ranks.hpp"
 #include "studies/sweep/results.hpp"
+#include "studies/sweep/seed_tables.hpp"
 #include "studies/sweep/sweep.hpp"
 #include "studies/sweep/text.hpp"
 #include "terminal/processes.hpp"
@@ -24,8 +26,11 @@
 #include <future>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace carom::cli {
 
@@ -131,6 +136,15 @@ void warn_of_absent_numbers(const Sweep& sweep, const SweepResults& results) {
   }
 }
 
+/// Says which tables have no mean over the seeds: of each, once.
+void warn_of_tables(const Sweep& sweep, const std::vector<SeedTable>& tables) {
+  std::set<std::string> told;
+  for (const SeedTable& one : tables)
+    if (!one.fault.empty() && told.insert(one.table.name).second)
+      fmt::print(stderr, "carom: {}: the table {} of {} has no mean over seeds: {}\n", sweep.source, one.table.name,
+                 sweep.points[one.point].name, one.fault);
+}
+
 ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invocation, SweepServer* server) {
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const int threads = threads_for(options, server != nullptr);
@@ -153,11 +167,16 @@ ExitCode sweep_scene(const SweepCommandOptions& options, const Invocation& invoc
   const SweepResults results = collect(sweep, path);
   write_product(directory, "runs.csv", runs_csv(sweep, results));
   write_product(directory, "sweep.h5", sweep_hdf5(sweep, results));
-  write_product(directory, "report.html", html_page(sweep_page(sweep, results)));
+  const std::vector<SeedTable> tables = seed_tables_of(sweep, results, path);
+  for (const SeedTable& one : tables)
+    if (one.fault.empty())
+      write_product(directory, (fs::path(sweep.points[one.point].name) / table_file(one.table)).string(), seed_table_csv(one));
+  write_product(directory, "report.html", html_page(sweep_page(sweep, results, tables)));
   write_product(directory, "sweep.csv", points_csv(sweep, results));
   if (options.json) fmt::print("{}\n", sweep_json(sweep, results));
   if (!options.quiet && !options.json) fmt::print("{}", sweep_text(sweep, results, path));
   warn_of_absent_numbers(sweep, results);
+  warn_of_tables(sweep, tables);
   if (results.versions.size() > 1)
     fmt::print(stderr, "carom: {}: these runs were made by {} versions of carom; report.html names them\n", sweep.source,
                results.versions.size());

@@ -2,6 +2,7 @@
 
 #include "studies/sweep/numbers.hpp"
 #include "studies/sweep/results.hpp"
+#include "studies/sweep/seed_tables.hpp"
 #include "studies/sweep/sweep.hpp"
 #include "text/numbers.hpp"
 
@@ -11,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -136,6 +138,51 @@ std::vector<Block> tables_of(const Sweep& sweep, const SweepResults& results) {
   return tables;
 }
 
+/// Returns whether the rows of a table are points of a curve: cells of a grid are not.
+bool is_curve(const Table& table) {
+  const std::vector<double>& x = table.columns.front().values;
+  return x.size() > 1 && std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) == x.end();
+}
+
+/// Returns plots of the columns with errors of every table, with a curve for each point.
+Section section_of_tables(const Sweep& sweep, const std::vector<SeedTable>& tables) {
+  constexpr std::size_t most_plots = 40;
+  std::vector<std::pair<std::string, Plot>> plots;  // by table and column
+  for (const SeedTable& one : tables) {
+    if (!one.fault.empty() || !is_curve(one.table)) continue;
+    const std::vector<Column>& columns = one.table.columns;
+    for (std::size_t c = 1; c + 1 < columns.size(); ++c) {
+      if (columns[c + 1].name != columns[c].name + "_error") continue;
+      const std::string key = one.table.name + " " + columns[c].name;
+      auto plot = std::find_if(plots.begin(), plots.end(), [&](const auto& other) { return other.first == key; });
+      if (plot == plots.end()) {
+        if (plots.size() == most_plots) continue;
+        plots.push_back({key,
+                         {.id = fmt::format("table-{}", plots.size()),
+                          .title = fmt::format("{}: {}", one.table.name, columns[c].name),
+                          .caption = "Means over seeds; bars are their standard errors.",
+                          .x = {.title = with_unit(columns[0].name, columns[0].unit),
+                                .log = columns[0].name == "lag" && columns[0].values[0] > 0.0},
+                          .y = {.title = with_unit(columns[c].name, columns[c].unit)}}});
+        plot = plots.end() - 1;
+      }
+      const auto place = plot->second.series.size();
+      Series series{.name = sweep.points[one.point].name, .x = columns[0].values, .y = columns[c].values};
+      series.style = Style::band;
+      series.group = static_cast<int>(place);
+      series.visible = place < most_visible;
+      for (std::size_t r = 0; r < series.y.size(); ++r) {
+        series.y_low.push_back(series.y[r] - columns[c + 1].values[r]);
+        series.y_high.push_back(series.y[r] + columns[c + 1].values[r]);
+      }
+      plot->second.series.push_back(std::move(series));
+    }
+  }
+  Section section{.heading = "Tables of observables", .blocks = {}};
+  for (auto& [key, plot] : plots) section.blocks.emplace_back(std::move(plot));
+  return section;
+}
+
 TextTable failures_of(const Sweep& sweep, const SweepResults& results) {
   TextTable table{.columns = {"run", "what happened"}};
   for (std::size_t run = 0; run < results.runs.size() && table.rows.size() < most_rows; ++run)
@@ -155,7 +202,7 @@ std::string lead_of(const Sweep& sweep, const SweepResults& results) {
 
 }  // namespace
 
-Page sweep_page(const Sweep& sweep, const SweepResults& results) {
+Page sweep_page(const Sweep& sweep, const SweepResults& results, const std::vector<SeedTable>& tables) {
   Page page{
       .generator = "carom sweep",
       .title = fmt::format("Sweep: {}", sweep.source),
@@ -173,6 +220,7 @@ Page sweep_page(const Sweep& sweep, const SweepResults& results) {
     page.sections.push_back(std::move(section));
     ++plotted;
   }
+  if (Section section = section_of_tables(sweep, tables); !section.blocks.empty()) page.sections.push_back(std::move(section));
   page.sections.push_back({"All numbers", tables_of(sweep, results)});
   if (results.count(RunState::failed) > 0) page.sections.push_back({"Failed runs", {failures_of(sweep, results)}});
   page.sections.push_back({"Sweep and scene", {Listing{"The sweep", sweep.text}, Listing{"The scene", sweep.scene_text}}});

@@ -3,10 +3,12 @@
 // and their standard errors), both as sweep.h5, and report.html.
 
 #include "studies/sweep/results.hpp"
+#include "studies/sweep/seed_tables.hpp"
 
 #include <carom/pages/page.hpp>
 
 #include <string>
+#include <vector>
 
 namespace carom {
 
@@ -21,7 +23,7 @@ namespace carom {
 /// Returns the bytes of sweep.h5. Throws detail::Hdf5Error.
 [[nodiscard]] std::string sweep_hdf5(const Sweep& sweep, const SweepResults& results);
 
-/// Returns the page of a sweep.
-[[nodiscard]] Page sweep_page(const Sweep& sweep, const SweepResults& results);
+/// Returns the page of a sweep, with the means of tables over seeds.
+[[nodiscard]] Page sweep_page(const Sweep& sweep, const SweepResults& results, const std::vector<SeedTable>& tables = {});
 
 }  // namespace carom

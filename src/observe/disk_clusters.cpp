@@ -1,0 +1,116 @@
+#include "observe/disk_clusters.hpp"
+
+#include "observe/close_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+/// Calls visit(i, j, shift) for every pair of disk i with the image of disk j, shifted by so many box lengths, whose centres are
+/// nearer than `reach`. Of the two ways to see a pair it takes one.
+template <class Visit>
+void for_each_near(const Box& box, const Eigen::Matrix2Xd& positions, double reach, Visit&& visit) {
+  const Eigen::Vector2d lengths = box.lengths();
+  Box torus = box;  // with room beside walls, so that no pair is near through them
+  std::array<std::int64_t, 2> images = {0, 0};
+  bool small = false;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!box.periodic(axis)) {
+      torus.upper[axis] += std::max(reach, lengths[axis]);
+      continue;
+    }
+    images[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(std::ceil(reach / lengths[axis])) + 1;
+    small = small || 2.0 * reach > lengths[axis];
+  }
+  if (!small && 2.0 * reach <= torus.lengths().minCoeff()) {
+    for_each_close_pair(torus, positions, reach, [&](Eigen::Index i, Eigen::Index j, const Eigen::Vector2d& r) {
+      const Eigen::Vector2d way = (positions.col(i) - positions.col(j) - r).array() / lengths.array();
+      visit(static_cast<std::size_t>(i), static_cast<std::size_t>(j),
+            std::array<std::int64_t, 2>{std::llround(way.x()), std::llround(way.y())}, r);
+    });
+    return;
+  }
+  for (Eigen::Index i = 0; i < positions.cols(); ++i)
+    for (Eigen::Index j = i; j < positions.cols(); ++j)
+      for (std::int64_t x = -images[0]; x <= images[0]; ++x)
+        for (std::int64_t y = -images[1]; y <= images[1]; ++y) {
+          if (i == j && (x < 0 || (x == 0 && y <= 0))) continue;
+          const Eigen::Vector2d shift(static_cast<double>(x) * lengths.x(), static_cast<double>(y) * lengths.y());
+          const Eigen::Vector2d r = positions.col(i) - positions.col(j) - shift;
+          if (r.squaredNorm() < reach * reach)
+            visit(static_cast<std::size_t>(i), static_cast<std::size_t>(j), std::array<std::int64_t, 2>{x, y}, r);
+        }
+}
+
+}  // namespace
+
+DiskClusters::DiskClusters(const Box& box, const Eigen::Matrix2Xd& positions, std::span<const double> radii, double gap)
+    : nodes_(radii.size()) {
+  if (nodes_.empty()) return;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    nodes_[i].root = i;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const auto a = static_cast<Eigen::Index>(axis);
+      if (box.periodic(static_cast<int>(axis))) continue;
+      const double place = positions(a, static_cast<Eigen::Index>(i));
+      nodes_[i].touches[2 * axis] = place - radii[i] - box.lower[a] < gap;
+      nodes_[i].touches[2 * axis + 1] = box.upper[a] - place - radii[i] < gap;
+    }
+  }
+  const double largest = *std::max_element(radii.begin(), radii.end());
+  for_each_near(box, positions, 2.0 * largest + gap,
+                [&](std::size_t i, std::size_t j, const Shift& shift, const Eigen::Vector2d& r) {
+                  if (!(r.norm() - radii[i] - radii[j] < gap)) return;
+                  ++pairs_;
+                  join(i, j, shift);
+                });
+  for (std::size_t i = 0; i < nodes_.size(); ++i) find(i);
+  for (Node& node : nodes_)
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      if (node.touches[2 * axis] && node.touches[2 * axis + 1]) node.percolates[axis] = true;
+}
+
+std::size_t DiskClusters::find(std::size_t disk) {
+  std::size_t root = disk;
+  Shift shift = {};
+  while (nodes_[root].root != root) {
+    for (std::size_t axis = 0; axis < 2; ++axis) shift[axis] += nodes_[root].shift[axis];
+    root = nodes_[root].root;
+  }
+  while (nodes_[disk].root != disk) {
+    Node& node = nodes_[disk];
+    const Shift own = node.shift;
+    disk = std::exchange(node.root, root);
+    node.shift = shift;
+    for (std::size_t axis = 0; axis < 2; ++axis) shift[axis] -= own[axis];
+  }
+  return root;
+}
+
+void DiskClusters::join(std::size_t i, std::size_t j, const Shift& shift) {
+  std::size_t first = find(i), second = find(j);
+  Shift between;  // of the root of j as the root of i has it
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    between[axis] = (first == i ? 0 : nodes_[i].shift[axis]) + shift[axis] - (second == j ? 0 : nodes_[j].shift[axis]);
+  if (first == second) {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      if (between[axis] != 0) nodes_[first].percolates[axis] = true;
+    return;
+  }
+  if (nodes_[first].size < nodes_[second].size) {
+    std::swap(first, second);
+    for (std::int64_t& one : between) one = -one;
+  }
+  Node &kept = nodes_[first], &lost = nodes_[second];
+  lost.root = first;
+  lost.shift = between;
+  kept.size += lost.size;
+  for (std::size_t axis = 0; axis < 2; ++axis) kept.percolates[axis] = kept.percolates[axis] || lost.percolates[axis];
+  for (std::size_t wall = 0; wall < 4; ++wall) kept.touches[wall] = kept.touches[wall] || lost.touches[wall];
+}
+
+}  // namespace carom

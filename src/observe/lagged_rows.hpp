@@ -1,0 +1,80 @@
+#pragma once
+// Means at all lags of a run, and what observables of the motion of disks share.
+
+#include "observe/blocking.hpp"
+#include "observe/lagged_states.hpp"
+#include "observe/tracked_disks.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// A Blocking for each lag, as far as there are pairs.
+class LaggedRows {
+ public:
+  void add(std::size_t row, double x, double weight = 1.0) {
+    if (row >= rows_.size()) rows_.resize(row + 1);
+    rows_[row].add(x, weight);
+  }
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] std::optional<Blocking::Estimate> estimate(std::size_t row, int power = 1) const {
+    return rows_[row].estimate(power);
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(rows_);
+  }
+
+ private:
+  std::vector<Blocking> rows_;
+};
+
+/// A column and that of its errors.
+struct LaggedColumn {
+  Column values, errors;
+
+  LaggedColumn(const std::string& name, const std::string& unit) : values{name, unit, {}}, errors{name + "_error", unit, {}} {}
+  void add(const std::optional<Blocking::Estimate>& found, double factor = 1.0, double offset = 0.0) {
+    values.values.push_back(found ? offset + factor * found->mean : unknown);
+    errors.values.push_back(found && found->error ? factor * *found->error : unknown);
+  }
+  void put(Table& table) {
+    table.columns.push_back(std::move(values));
+    table.columns.push_back(std::move(errors));
+  }
+};
+
+/// Returns the column of lags of the rows from `first` on, below `end`.
+[[nodiscard]] inline Column lag_column(std::size_t first, std::size_t end, double step) {
+  Column lags{"lag", "time", {}};
+  for (std::size_t row = first; row < end; ++row) lags.values.push_back(step * LaggedStates::lag(row));
+  return lags;
+}
+
+/// The disks of one species and where they were.
+struct FollowedSpecies {
+  TrackedDisks disks;
+  LaggedStates states;
+  FollowedSpecies(const ObservableRequest& request, const ObservedRun& run, std::size_t species)
+      : disks(request, run, species), states(disks.channels()) {}
+
+  /// Takes the state of the next step, and calls visit(row, displacements) for each lag, with x and y for each disk in turn.
+  /// `drift` is the displacement of the centre of mass.
+  template <class Visit>
+  void add(const ObservedRun& run, const State& state, const Eigen::Vector2d& drift, Visit&& visit) {
+    if (disks.channels() == 0) return;
+    const std::span<const double> now = disks.unwrapped(run, state, drift);
+    std::vector<double> moved(now.size());
+    states.add(now, [&](std::size_t row, std::span<const double> earlier) {
+      for (std::size_t c = 0; c < moved.size(); ++c) moved[c] = now[c] - earlier[c];
+      visit(row, std::span<const double>(moved));
+    });
+  }
+};
+
+}  // namespace carom

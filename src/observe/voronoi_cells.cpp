@@ -1,0 +1,275 @@
+// The topology of the cells is found by Boost.Polygon, whose predicates are exact for integers: centres are rounded to a grid of
+// some 2^-30 of the box, on which a shift by a box length and a reflection at a wall are exact too. Lengths and areas are
+// computed from the centres themselves.
+//
+// Boost knows no periodic boxes. Images within a reach of the box are added. A corner of a cell is right if the circle around it
+// through the centre lies within that reach; where one does not, the reach is doubled.
+
+#include "observe/voronoi_cells.hpp"
+
+#include <boost/polygon/voronoi.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace carom {
+
+namespace {
+
+using GridPoint = boost::polygon::point_data<std::int32_t>;
+
+/// An image of a disk: in the box that is so many boxes to the right and above; of walls, every second one is reflected.
+struct Image {
+  std::int32_t disk = 0;
+  std::array<std::int32_t, 2> shift = {};
+  friend bool operator==(const Image&, const Image&) = default;
+};
+
+/// The neighbours of each disk, in no order.
+using Neighbours = std::vector<std::vector<Image>>;
+
+class Grid {
+ public:
+  /// Requires a box whose walls enclose all centres.
+  Grid(const Box& box, const Eigen::Matrix2Xd& positions, double reach) : box_(box) {
+    constexpr double largest = 2.0e9;  // of an int32
+    const double unit = largest / (box.lengths().maxCoeff() + reach);
+    for (int axis = 0; axis < 2; ++axis) {
+      length_[static_cast<std::size_t>(axis)] = std::max<std::int64_t>(4, std::llround(unit * box.lengths()[axis]));
+      reach_[static_cast<std::size_t>(axis)] = std::floor(unit * reach);
+    }
+    for (Eigen::Index i = 0; i < positions.cols(); ++i) add(i, positions.col(i));
+    const std::size_t count = images_.size();
+    std::array<std::int32_t, 2> boxes;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      boxes[axis] = static_cast<std::int32_t>(std::ceil(reach_[axis] / static_cast<double>(length_[axis])));
+    for (std::int32_t x = -boxes[0]; x <= boxes[0]; ++x)
+      for (std::int32_t y = -boxes[1]; y <= boxes[1]; ++y)
+        if (x != 0 || y != 0)
+          for (std::size_t i = 0; i < count; ++i) add_image(i, {x, y});
+  }
+
+  /// Returns the neighbours of all disks, with -1 for walls; nothing where the images do not reach far enough.
+  [[nodiscard]] std::optional<Neighbours> neighbours() const {
+    boost::polygon::voronoi_diagram<double> diagram;
+    boost::polygon::construct_voronoi(points_.begin(), points_.end(), &diagram);
+    Neighbours found(count_);
+    std::size_t cells = 0;
+    for (const auto& cell : diagram.cells()) {
+      const std::size_t i = cell.source_index();
+      if (i >= count_) continue;
+      ++cells;
+      const auto* const first = cell.incident_edge();
+      if (first == nullptr) return std::nullopt;
+      const auto* edge = first;
+      do {
+        if (!edge->is_finite() || !is_covered(points_[i], *edge->vertex0())) return std::nullopt;
+        keep(i, images_[edge->twin()->cell()->source_index()], found[i]);
+        edge = edge->next();
+      } while (edge != first);
+    }
+    if (cells < count_) throw std::invalid_argument("two disks have the same centre, which has no Voronoi cell");
+    return found;
+  }
+
+ private:
+  /// Requires a centre in the box.
+  void add(Eigen::Index i, const Eigen::Vector2d& centre) {
+    std::array<std::int64_t, 2> at{};
+    for (int axis = 0; axis < 2; ++axis) {
+      const std::int64_t length = length_[static_cast<std::size_t>(axis)];
+      const double share = (centre[axis] - box_.lower[axis]) / box_.lengths()[axis];
+      // The image of a centre that is on a wall to rounding must not be at the same place.
+      const std::int64_t least = box_.periodic(axis) ? 0 : 1;
+      at[static_cast<std::size_t>(axis)] =
+          std::clamp(static_cast<std::int64_t>(share * static_cast<double>(length)), least, length - 1);
+    }
+    images_.push_back({static_cast<std::int32_t>(i), {}});
+    points_.emplace_back(static_cast<std::int32_t>(at[0]), static_cast<std::int32_t>(at[1]));
+    count_ = images_.size();
+  }
+
+  void add_image(std::size_t i, const std::array<std::int32_t, 2>& shift) {
+    std::array<std::int64_t, 2> at = {points_[i].x(), points_[i].y()};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const bool reflected = !box_.periodic(static_cast<int>(axis)) && shift[axis] % 2 != 0;
+      at[axis] = shift[axis] * length_[axis] + (reflected ? length_[axis] - at[axis] : at[axis]);
+      const auto place = static_cast<double>(at[axis]);
+      if (place < -reach_[axis] || place > static_cast<double>(length_[axis]) + reach_[axis]) return;
+    }
+    images_.push_back({static_cast<std::int32_t>(i), shift});
+    points_.emplace_back(static_cast<std::int32_t>(at[0]), static_cast<std::int32_t>(at[1]));
+  }
+
+  /// Returns whether all centres in the circle around a corner through a centre are among the points.
+  template <class Vertex>
+  [[nodiscard]] bool is_covered(const GridPoint& centre, const Vertex& corner) const {
+    const std::array<double, 2> at = {corner.x(), corner.y()};
+    const double radius = std::hypot(at[0] - centre.x(), at[1] - centre.y());
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      if (at[axis] - radius < -reach_[axis] || at[axis] + radius > static_cast<double>(length_[axis]) + reach_[axis])
+        return false;
+    return true;
+  }
+
+  /// Keeps a neighbour. Behind a wall there is the image of the disk itself; those of others touch the cell in a point at most.
+  void keep(std::size_t i, const Image& image, std::vector<Image>& found) const {
+    int walls = 0;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      if (!box_.periodic(static_cast<int>(axis)) && image.shift[axis] != 0) ++walls;
+    if (walls == 0) {
+      found.push_back(image);
+      return;
+    }
+    const bool beside = (image.shift[0] == 0) != (image.shift[1] == 0);
+    if (beside && image.disk == static_cast<std::int32_t>(i)) found.push_back({-1, image.shift});
+  }
+
+  Box box_;
+  std::array<std::int64_t, 2> length_{};  ///< of the box
+  std::array<double, 2> reach_{};
+  std::size_t count_ = 0;      ///< of disks
+  std::vector<Image> images_;  ///< the disks themselves come first
+  std::vector<GridPoint> points_;
+};
+
+/// Returns the image of the disk `from` as its neighbour `to` has it. Requires that it is not a wall.
+Image seen_back(std::size_t from, const Image& to) { return {static_cast<std::int32_t>(from), {-to.shift[0], -to.shift[1]}}; }
+
+Eigen::Vector2d way_to(const Box& box, const Eigen::Matrix2Xd& positions, std::size_t i, const Image& image) {
+  const auto self = static_cast<Eigen::Index>(i);
+  Eigen::Vector2d to =
+      image.disk < 0 ? Eigen::Vector2d(0.0, 0.0) : Eigen::Vector2d(positions.col(image.disk) - positions.col(self));
+  for (int axis = 0; axis < 2; ++axis) {
+    const std::int32_t shift = image.shift[static_cast<std::size_t>(axis)];
+    if (shift == 0) continue;
+    if (image.disk < 0)
+      to[axis] = 2.0 * ((shift < 0 ? box.lower[axis] : box.upper[axis]) - positions(axis, self));
+    else
+      to[axis] += shift * box.lengths()[axis];
+  }
+  return to;
+}
+
+/// A neighbour, and the way there.
+struct Direction {
+  Image image;
+  Eigen::Vector2d to;
+};
+using Directions = std::vector<std::vector<Direction>>;
+
+void sort_by_angle(std::vector<Direction>& around) {
+  std::sort(around.begin(), around.end(), [](const Direction& a, const Direction& b) {
+    return std::atan2(a.to.y(), a.to.x()) < std::atan2(b.to.y(), b.to.x());
+  });
+}
+
+/// Two of three centres of a corner may be told that they are neighbours where the third cell lost a side of no length.
+void make_mutual(Neighbours& neighbours) {
+  for (std::size_t i = 0; i < neighbours.size(); ++i)
+    for (std::size_t k = 0; k < neighbours[i].size(); ++k) {
+      const Image to = neighbours[i][k];
+      if (to.disk < 0) continue;
+      std::vector<Image>& theirs = neighbours[static_cast<std::size_t>(to.disk)];
+      const Image back = seen_back(i, to);
+      if (std::find(theirs.begin(), theirs.end(), back) == theirs.end()) theirs.push_back(back);
+    }
+}
+
+/// Divides polygons of four and more centres, which are on one circle, into triangles. Requires that there are no walls.
+void triangulate(const Box& box, const Eigen::Matrix2Xd& positions, Directions& around) {
+  std::vector<std::vector<bool>> visited(around.size());
+  for (std::size_t i = 0; i < around.size(); ++i) visited[i].resize(around[i].size());
+  std::vector<std::array<Image, 2>> diagonals;  // from one to the other
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    for (std::size_t k = 0; k < around[i].size(); ++k) {
+      if (visited[i][k]) continue;
+      std::vector<Image> corners;
+      Image at{static_cast<std::int32_t>(i), {}};
+      for (std::size_t here = k; !visited[static_cast<std::size_t>(at.disk)][here];) {
+        const auto from = static_cast<std::size_t>(at.disk);
+        visited[from][here] = true;
+        corners.push_back(at);
+        const Image to = around[from][here].image;
+        at = {to.disk, {at.shift[0] + to.shift[0], at.shift[1] + to.shift[1]}};
+        const std::vector<Direction>& theirs = around[static_cast<std::size_t>(to.disk)];
+        const auto back =
+            std::find_if(theirs.begin(), theirs.end(), [&](const Direction& one) { return one.image == seen_back(from, to); });
+        if (back == theirs.end()) throw std::logic_error("a Voronoi cell has a neighbour that does not have it");
+        here = (static_cast<std::size_t>(back - theirs.begin()) + theirs.size() - 1) % theirs.size();
+      }
+      for (std::size_t c = 2; c + 1 < corners.size(); ++c) diagonals.push_back({corners[0], corners[c]});
+    }
+  }
+  const auto join = [&](const Image& from, const Image& to) {
+    const Image image{to.disk, {to.shift[0] - from.shift[0], to.shift[1] - from.shift[1]}};
+    const auto i = static_cast<std::size_t>(from.disk);
+    around[i].push_back({image, way_to(box, positions, i, image)});
+  };
+  for (const auto& [a, b] : diagonals) join(a, b), join(b, a);
+  for (std::vector<Direction>& one : around) sort_by_angle(one);
+}
+
+/// The centre of the circle through 0, a and b.
+Eigen::Vector2d circumcentre(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const double twice = 2.0 * (a.x() * b.y() - a.y() * b.x()), aa = a.squaredNorm(), bb = b.squaredNorm();
+  return {(b.y() * aa - a.y() * bb) / twice, (a.x() * bb - b.x() * aa) / twice};
+}
+
+Neighbours neighbours_of(const Box& box, const Eigen::Matrix2Xd& positions) {
+  const double spacing = std::sqrt(box.area() / static_cast<double>(positions.cols()));
+  for (double reach = 4.0 * spacing;; reach *= 2.0)
+    if (std::optional<Neighbours> found = Grid(box, positions, reach).neighbours()) return std::move(*found);
+}
+
+}  // namespace
+
+std::complex<double> sixfold_order(std::span<const VoronoiSide> sides) {
+  std::complex<double> sum = 0.0;
+  double perimeter = 0.0;
+  for (const VoronoiSide& side : sides) {
+    const std::complex<double> u = std::complex<double>(side.to.x(), side.to.y()) / side.to.norm(), cube = u * u * u;
+    sum += side.length * cube * cube;
+    perimeter += side.length;
+  }
+  return sum / perimeter;
+}
+
+VoronoiCells::VoronoiCells(const Box& box, const Eigen::Matrix2Xd& positions) : first_{0} {
+  const auto count = static_cast<std::size_t>(positions.cols());
+  if (count == 0) return;
+  Neighbours neighbours = neighbours_of(box, positions);
+  make_mutual(neighbours);
+  Directions around(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const Image& image : neighbours[i]) around[i].push_back({image, way_to(box, positions, i, image)});
+    sort_by_angle(around[i]);
+  }
+  const bool is_torus = box.periodic(0) && box.periodic(1);
+  if (is_torus) triangulate(box, positions, around);
+  std::vector<Eigen::Vector2d> corners;
+  for (const std::vector<Direction>& all : around) {
+    corners.clear();
+    for (std::size_t k = 0; k < all.size(); ++k) corners.push_back(circumcentre(all[k].to, all[(k + 1) % all.size()].to));
+    double area = 0.0;
+    bool at_wall = false;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Eigen::Vector2d& to = all[k].to;
+      const Eigen::Vector2d side = corners[k] - corners[(k + all.size() - 1) % all.size()];
+      const double distance = to.norm(), length = (to.x() * side.y() - to.y() * side.x()) / distance;
+      area += 0.25 * distance * length;
+      at_wall = at_wall || all[k].image.disk < 0;
+      sides_.push_back({all[k].image.disk, to, std::max(0.0, length)});
+    }
+    first_.push_back(sides_.size());
+    areas_.push_back(area);
+    at_wall_.push_back(at_wall);
+  }
+  // Euler's formula for a torus: without it the neighbours are not those of a triangulation.
+  if (is_torus && sides_.size() != 6 * count) throw std::logic_error("Voronoi cells on a torus do not have six sides on average");
+}
+
+}  // namespace carom

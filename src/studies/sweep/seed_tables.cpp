@@ -1,0 +1,164 @@
+#include "studies/sweep/seed_tables.hpp"
+
+#include "io/observable_output.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view error_ending = "_error";
+
+std::vector<std::string> split_at_commas(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream words(line);
+  for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+const Column* column_named(const Table& table, const std::string& name) {
+  const auto found =
+      std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& column) { return column.name == name; });
+  return found == table.columns.end() ? nullptr : &*found;
+}
+
+bool is_error_column(const Table& table, const Column& column) {
+  return column.name.ends_with(error_ending) &&
+         column_named(table, column.name.substr(0, column.name.size() - error_ending.size())) != nullptr;
+}
+
+bool same_number(double a, double b) { return std::isnan(a) ? std::isnan(b) : a == b || !differ(a, b); }
+
+}  // namespace
+
+Table read_observed_table(const fs::path& path) {
+  std::ifstream file(path);
+  const auto fault = [&] { return std::runtime_error(path.string() + " is no table of an observable"); };
+  std::string units, names;
+  if (!std::getline(file, units) || !std::getline(file, names)) throw fault();
+  constexpr std::string_view before_units = "units: ";
+  const std::size_t begin = units.find(before_units);
+  if (!units.starts_with("# averages over ") || begin == std::string::npos) throw fault();
+  Table table{.name = path.stem().string().substr(std::string_view("observe_").size()),
+              .average = units.find("over collisions") != std::string::npos ? Average::collisions : Average::time};
+  const std::vector<std::string> unit_words = split_at_commas(units.substr(begin + before_units.size()));
+  for (const std::string& name : split_at_commas(names)) {
+    const std::size_t k = table.columns.size();
+    if (k >= unit_words.size()) throw fault();
+    const std::string& word = unit_words[k];
+    const std::string unit = word.starts_with(" ") ? word.substr(1) : word;
+    table.columns.push_back({name, unit == "1" ? "" : unit, {}});
+  }
+  for (std::string line; std::getline(file, line);) {
+    const std::vector<std::string> cells = split_at_commas(line);
+    if (cells.size() != table.columns.size()) throw fault();
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      table.columns[c].values.push_back(number_of(cells[c]).value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  return table;
+}
+
+Table mean_of_tables(const std::vector<Table>& tables) {
+  const Table& first = tables.front();
+  Table mean{.name = first.name, .average = first.average};
+  std::size_t rows = first.columns.front().values.size();
+  for (const Table& table : tables) {
+    const auto same_name = [](const Column& a, const Column& b) { return a.name == b.name; };
+    if (!std::equal(first.columns.begin(), first.columns.end(), table.columns.begin(), table.columns.end(), same_name))
+      throw std::runtime_error(
+          "its columns differ from seed to seed; give the observable a step, every = ..., that is the same for all");
+    rows = std::min(rows, table.columns.front().values.size());
+  }
+  for (std::size_t c = 0; c < first.columns.size(); ++c) {
+    const Column& column = first.columns[c];
+    if (is_error_column(first, column)) continue;
+    bool equal = true;
+    for (const Table& table : tables)
+      for (std::size_t r = 0; r < rows; ++r) equal = equal && same_number(table.columns[c].values[r], column.values[r]);
+    if (c == 0 && !equal)
+      throw std::runtime_error(
+          fmt::format("its {} differs from seed to seed; give the observable a step, every = ..., that is the "
+                      "same for all",
+                      column.name));
+    const bool is_key = c == 0 || (equal && column_named(first, column.name + std::string(error_ending)) == nullptr);
+    Column values{column.name, column.unit, {}}, errors{column.name + std::string(error_ending), column.unit, {}};
+    for (std::size_t r = 0; r < rows; ++r) {
+      std::vector<std::optional<double>> found;
+      for (const Table& table : tables)
+        if (std::isfinite(table.columns[c].values[r])) found.emplace_back(table.columns[c].values[r]);
+      const SeedAverage average = average_of(found);
+      const double none = std::numeric_limits<double>::quiet_NaN();
+      values.values.push_back(is_key ? column.values[r] : average.mean.value_or(none));
+      errors.values.push_back(average.error.value_or(none));
+    }
+    mean.columns.push_back(std::move(values));
+    if (!is_key) mean.columns.push_back(std::move(errors));
+  }
+  return mean;
+}
+
+std::vector<SeedTable> seed_tables_of(const Sweep& sweep, const SweepResults& results, const fs::path& directory) {
+  std::vector<SeedTable> found;
+  for (std::size_t point = 0; point < sweep.points.size(); ++point) {
+    std::vector<fs::path> finished;
+    for (std::size_t seed = 0; seed < sweep.seeds.size(); ++seed)
+      if (const std::size_t run = point * sweep.seeds.size() + seed; results.runs[run].state == RunState::finished)
+        finished.push_back(directory / sweep.directory_of(run));
+    if (finished.size() < 2) continue;
+    std::set<std::string> names;  // in the order of the alphabet
+    for (const auto& entry : fs::directory_iterator(finished.front())) {
+      const std::string name = entry.path().filename().string();
+      if (name.starts_with("observe_") && name.ends_with(".csv")) names.insert(name);
+    }
+    for (const std::string& name : names) {
+      SeedTable one{.point = point};
+      try {
+        std::vector<Table> tables;
+        for (const fs::path& run : finished)
+          if (fs::is_regular_file(run / name)) tables.push_back(read_observed_table(run / name));
+        if (tables.size() < 2) continue;
+        one.table.name = tables.front().name;
+        one.seeds = tables.size();
+        one.table = mean_of_tables(tables);
+      } catch (const std::runtime_error& error) {
+        one.fault = error.what();
+      }
+      found.push_back(std::move(one));
+    }
+  }
+  return found;
+}
+
+std::string seed_table_csv(const SeedTable& mean) {
+  std::string text = fmt::format("# means over {} seeds; errors are those of independent seeds; units:", mean.seeds);
+  for (std::size_t c = 0; c < mean.table.columns.size(); ++c)
+    text += fmt::format("{} {}", c == 0 ? "" : ",", mean.table.columns[c].unit.empty() ? "1" : mean.table.columns[c].unit);
+  text += "\n";
+  for (std::size_t c = 0; c < mean.table.columns.size(); ++c)
+    text += fmt::format("{}{}", c == 0 ? "" : ",", mean.table.columns[c].name);
+  text += "\n";
+  for (std::size_t r = 0; r < mean.table.columns.front().values.size(); ++r) {
+    for (std::size_t c = 0; c < mean.table.columns.size(); ++c) {
+      const double value = mean.table.columns[c].values[r];
+      text += std::isfinite(value) ? fmt::format("{}{}", c == 0 ? "" : ",", value) : (c == 0 ? "nan" : ",nan");
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace carom

@@ -1,0 +1,39 @@
+#pragma once
+// Tables of observables, averaged over the seeds of a point.
+
+#include "studies/sweep/results.hpp"
+#include "studies/sweep/sweep.hpp"
+
+#include <carom/observe.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// Returns the table in a file observe_NAME.csv of a run. Throws std::runtime_error where it is none.
+[[nodiscard]] Table read_observed_table(const std::filesystem::path& path);
+
+/// Returns the table of means over tables of the same columns, row by row. Columns that come with errors, and others that differ,
+/// have the standard error of independent seeds in `NAME_error`; NaN is left out. Rows are those that all have. Throws
+/// std::runtime_error, with a sentence without its stop, where columns differ, or the values of the first one.
+[[nodiscard]] Table mean_of_tables(const std::vector<Table>& tables);
+
+/// A table of one point, over its finished seeds.
+struct SeedTable {
+  std::size_t point = 0;
+  std::size_t seeds = 0;   ///< number of tables that it is the mean of
+  Table table = {};        ///< empty where there is a `fault`
+  std::string fault = {};  ///< why it has no mean
+};
+
+/// Returns the means of all tables of observables, point by point, of points with two finished seeds at least.
+[[nodiscard]] std::vector<SeedTable> seed_tables_of(const Sweep& sweep, const SweepResults& results,
+                                                    const std::filesystem::path& directory);
+
+/// Returns the text of the file of a mean.
+[[nodiscard]] std::string seed_table_csv(const SeedTable& mean);
+
+}  // namespace carom

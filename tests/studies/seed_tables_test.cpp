@@ -1,0 +1,84 @@
+// Tables averaged over seeds.
+
+#include "studies/sweep/seed_tables.hpp"
+#include "studies/sweep/products.hpp"
+
+#include "support/sweep_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <variant>
+
+namespace carom::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Table seed_table(const std::vector<double>& lag, const std::vector<double>& x) {
+  return {.name = "t",
+          .columns = {
+              {"lag", "time", lag}, {"window", "time", lag}, {"x", "", x}, {"x_error", "", std::vector<double>(x.size(), 9.0)}}};
+}
+
+TEST(MeanOfTables, HasTheScatterOfSeedsInPlaceOfTheirErrors) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const Table mean = mean_of_tables(
+      {seed_table({1, 2, 3}, {1, 5, none}), seed_table({1, 2, 3, 4}, {3, 5, 2, 7}), seed_table({1, 2, 3}, {8, 5, 4})});
+  ASSERT_EQ(mean.columns.size(), 4U);
+  EXPECT_THAT(mean.columns[0].values, ElementsAre(1, 2, 3));
+  EXPECT_EQ(mean.columns[1].name, "window") << "the same in all, and without an error";
+  EXPECT_THAT(mean.columns[2].values, ElementsAre(4, 5, 3));
+  EXPECT_EQ(mean.columns[3].name, "x_error");
+  EXPECT_DOUBLE_EQ(mean.columns[3].values[0], std::sqrt((9.0 + 1.0 + 16.0) / 2.0 / 3.0));
+  EXPECT_EQ(mean.columns[3].values[1], 0.0);
+  EXPECT_DOUBLE_EQ(mean.columns[3].values[2], 1.0) << "of two numbers half their distance";
+}
+
+TEST(MeanOfTables, OfOtherLagsIsRefused) {
+  try {
+    (void)mean_of_tables({seed_table({1, 2}, {1, 5}), seed_table({1, 2.5}, {1, 5})});
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("its lag differs from seed to seed"));
+  }
+}
+
+TEST(SeedTables, OfAPointAreThoseOfItsRuns) {
+  const SweepFiles files;
+  const Sweep sweep = files.load("scene = \"gas.toml\"\nseeds = 3\n[grid]\nrun.time = [1.0, 2.0]\n");
+  const fs::path out = files.directory().path() / "out";
+  SweepResults results;
+  for (std::size_t run = 0; run < sweep.run_count(); ++run) {
+    results.runs.push_back({.state = run < 3 || run == 4 ? RunState::finished : RunState::missing});
+    if (results.runs[run].state != RunState::finished) continue;
+    fs::create_directories(out / sweep.directory_of(run));
+    write_text(out / sweep.directory_of(run) / "observe_msd.csv",
+               "# averages over time; units: time, length^2, length^2\nlag,msd,msd_error\n0.5," + std::to_string(run + 1) +
+                   ",0.1\n1,nan,nan\n");
+  }
+  const std::vector<SeedTable> tables = seed_tables_of(sweep, results, out);
+  ASSERT_EQ(tables.size(), 1U) << "the second point has one finished seed";
+  EXPECT_EQ(tables[0].seeds, 3U);
+  EXPECT_THAT(tables[0].fault, IsEmpty());
+  EXPECT_EQ(
+      seed_table_csv(tables[0]),
+      "# means over 3 seeds; errors are those of independent seeds; units: time, length^2, length^2\nlag,msd,msd_error\n0.5,2," +
+          fmt::format("{}", std::sqrt(1.0 / 3.0)) + "\n1,nan,nan\n");
+  const Page page = sweep_page(sweep, results, tables);
+  bool drawn = false;
+  for (const Section& section : page.sections)
+    for (const Block& block : section.blocks)
+      if (const Plot* plot = std::get_if<Plot>(&block); plot != nullptr && plot->title == "msd: msd")
+        drawn = plot->series.size() == 1;
+  EXPECT_TRUE(drawn);
+}
+
+}  // namespace
+}  // namespace carom::test
