@@ -1,5 +1,5 @@
-# What `cmake --install` puts below the prefix. The components are the packages of packages.cmake: program, library, and python3, which
-# only a package installs.
+# What `cmake --install` puts below the prefix. The components are the packages of packages.cmake: program, mpi, library, and python3,
+# which only a package installs.
 set(carom_package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
 # A static library does not carry what it links to, so its user's linker needs that too; for nothing else are HDF5 and Cairo looked
 # for, and only where their components are asked for.
@@ -73,6 +73,9 @@ install(FILES ${PROJECT_SOURCE_DIR}/build/playground/playground.html DESTINATION
 install(DIRECTORY docs/scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/carom/scenes COMPONENT program)
 if(CAROM_BUILD_PROGRAM)
   install(TARGETS carom_cli RUNTIME COMPONENT program)
+  if(TARGET carom_mpi)
+    install(TARGETS carom_mpi RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/carom COMPONENT mpi)
+  endif()
   # The program knows its own command line.
   if(NOT CMAKE_CROSSCOMPILING)
     add_custom_command(TARGET carom_cli POST_BUILD VERBATIM
@@ -90,7 +93,7 @@ endif()
 
 # A program that brings what it loads, down to the C library: all libraries but those that every system has in the version of its kernel.
 if(CAROM_BUILD_PROGRAM AND CAROM_SELF_CONTAINED)
-  if(TARGET MPI::MPI_C)
+  if(TARGET carom_mpi)
     message(FATAL_ERROR "CAROM_SELF_CONTAINED needs CAROM_MPI=OFF: the MPI of a cluster is that of the cluster")
   endif()
   install(CODE [=[

@@ -1,14 +1,15 @@
-# Packages by cpack: for Debian carom, libcarom-dev and, where the Python package is built, python3-carom; and a tarball. A build with
-# MPI makes carom-mpi in the place of carom, so that nobody has to install MPI who does not compute on many machines.
+# Packages by cpack: for Debian carom, libcarom-dev, carom-mpi where MPI is found, and python3-carom where the Python package is built;
+# and a tarball. Nobody has to install MPI who does not compute on many machines.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The authors of Carom <carom@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_COMPONENTS_ALL program library)
-set(carom_packs_python FALSE)
-if(carom_python_found AND NOT TARGET MPI::MPI_C)
-  set(carom_packs_python TRUE)
+if(TARGET carom_mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+endif()
+if(carom_python_found)
   list(APPEND CPACK_COMPONENTS_ALL python3)
 endif()
 
@@ -19,15 +20,13 @@ set(carom_about "A scene, which is a TOML file, says what is simulated: disks of
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME carom)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, xdg-utils")
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "event-driven molecular dynamics of hard disks\n${carom_about}\n.\nThis program computes on the cores of one machine; that of carom-mpi does so\non many, under mpirun.")
-if(TARGET MPI::MPI_C)
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME carom-mpi)
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_PROVIDES carom)
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONFLICTS carom)
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_REPLACES carom)
-  set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "event-driven molecular dynamics of hard disks, with MPI\n${carom_about}\n.\nThis program takes the place of that of the package carom, and runs under\nmpirun too.")
-endif()
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "carom-mpi, ffmpeg, xdg-utils")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "event-driven molecular dynamics of hard disks\n${carom_about}\n.\nThis program computes on the cores of one machine, and on many, under mpirun,\nwhere carom-mpi is installed.")
+set(CPACK_DEBIAN_MPI_PACKAGE_NAME carom-mpi)
+set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "carom (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS openmpi-bin)
+set(CPACK_DEBIAN_MPI_DESCRIPTION "event-driven molecular dynamics of hard disks, with MPI\nLets the program of the package carom compute one run, or a sweep, on many\nmachines, where mpirun or srun starts it.")
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libcarom-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
@@ -36,7 +35,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libfmt-dev, li
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "libhdf5-dev, libcairo2-dev")
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "event-driven molecular dynamics of hard disks: library\nHeaders, static libraries, and files for CMake and pkg-config. The components\nthat read runs and make pages need HDF5 and Cairo.")
 
-if(carom_packs_python)
+if(carom_python_found)
   set(CPACK_DEBIAN_PYTHON3_PACKAGE_NAME python3-carom)
   set(CPACK_DEBIAN_PYTHON3_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON3_PACKAGE_SHLIBDEPS ON)

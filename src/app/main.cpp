@@ -1,7 +1,11 @@
 // The program carom: does what the command line asks, and turns what went wrong into one sentence on stderr and an exit
-// code. Nothing escapes.
+// code. Nothing escapes. The same with MPI is the program carom-mpi, to which carom hands over under mpirun and srun.
 
 #include "app/arguments.hpp"
+#if CAROM_HAS_MPI
+#include "app/mpi_processes.hpp"
+#endif
+#include "terminal/processes.hpp"
 
 #include <fmt/format.h>
 #include <carom/scene.hpp>
@@ -62,6 +66,11 @@ void open_standard_streams() {
 
 int main(int argc, char** argv) {
   open_standard_streams();
+#if CAROM_HAS_MPI
+  set_process_joiner(join_by_mpi);
+#else
+  continue_as_carom_mpi(argv);
+#endif
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error like a full disk, with a sentence
   const ExitCode code = run_program(argc, argv);
   // A full disk behind a redirection shows itself only here.

@@ -38,9 +38,17 @@ struct Launch {
 };
 [[nodiscard]] Launch launch();
 
+/// Connects the processes of this launch. The program carom-mpi sets it before it does anything else; carom has none.
+using ProcessJoiner = std::unique_ptr<Processes>();
+void set_process_joiner(ProcessJoiner* join);
+
+/// Where this process is one of several, replaces the program carom by carom-mpi, with the same arguments; carom itself does not
+/// load MPI. Returns where this process was started alone, and where there is no carom-mpi beside it or installed with it.
+void continue_as_carom_mpi(char** arguments);
+
 /// Null where this process was started alone. When the last of these is destroyed, all of its processes have come that far.
 /// Processes that this one starts from now on are none of these.
-/// Throws UsageError where MPI is not built in, or does not connect the processes.
+/// Throws UsageError where this program is not carom-mpi, or MPI does not connect the processes.
 [[nodiscard]] std::unique_ptr<Processes> join_processes(const Launch& launch);
 
 }  // namespace carom::cli

@@ -165,5 +165,37 @@ TEST_F(RanksOfRunCommand, GoOnInOtherNumbersAfterOneWasKilled) {
   }
 }
 
+/// carom started as one of two processes, installed below a prefix of its own.
+class OneOfTwoRunCommand : public SharedOutRunTest {
+ protected:
+  void SetUp() override {
+    for (const char* folder : {"prefix/bin", "prefix/libexec/carom"}) fs::create_directories(file(folder));
+    fs::copy_file(CAROM_PROGRAM, file("prefix/bin/carom"));
+  }
+  Outcome started(const std::string& processes) {
+    return run_program(directory_.path(), {"env", "OMPI_COMM_WORLD_SIZE=" + processes, "OMPI_COMM_WORLD_RANK=0",
+                                           file("prefix/bin/carom"), "run", "gas.toml", "--out", "a place", "-q"});
+  }
+};
+
+TEST_F(OneOfTwoRunCommand, IsRefusedWithoutCaromMpi) {
+  const Outcome outcome = started("2");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, StartsWith("carom: this is one of 2 processes, and this carom is built without MPI"));
+  EXPECT_THAT(outcome.err, HasSubstr("install the package carom-mpi"));
+  EXPECT_FALSE(fs::exists(file("a place")));
+}
+
+TEST_F(OneOfTwoRunCommand, IsCaromMpiWithTheSameArgumentsAndOneAloneIsNot) {
+  const fs::path mpi = file("prefix/libexec/carom/carom-mpi");
+  write_text(mpi, "#!/bin/sh\nprintf '%s|' with MPI: \"$@\"\nexit 7\n");
+  fs::permissions(mpi, fs::perms::owner_all);
+  const Outcome one_of_two = started("2");
+  EXPECT_EQ(one_of_two.exit_code, 7);
+  EXPECT_EQ(one_of_two.out, "with|MPI:|run|gas.toml|--out|a place|-q|");
+  EXPECT_EQ(started("1").exit_code, 0);
+  EXPECT_TRUE(fs::exists(file("a place/summary.json")));
+}
+
 }  // namespace
 }  // namespace carom::test

@@ -72,7 +72,7 @@ set_tests_properties(package.names_what_is_missing PROPERTIES LABELS package PAS
 find_program(DPKG_DEB dpkg-deb)
 get_target_property(carom_type carom TYPE)
 if(DPKG_DEB AND NOT CMAKE_CROSSCOMPILING AND carom_type STREQUAL "STATIC_LIBRARY")
-  add_test(NAME package.debian COMMAND ${CMAKE_COMMAND} -D BUILD=${PROJECT_BINARY_DIR} -D SCRATCH=${consumer_directory}/debian
+  add_test(NAME package.debian COMMAND ${CMAKE_COMMAND} -D BUILD=${PROJECT_BINARY_DIR} -D SCRATCH=${consumer_directory}/debian -D MPI=$<TARGET_EXISTS:carom_mpi>
                                        -P ${CMAKE_CURRENT_SOURCE_DIR}/consumer/debian_package.cmake)
   set_tests_properties(package.debian PROPERTIES LABELS package)
 endif()
