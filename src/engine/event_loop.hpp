@@ -181,10 +181,11 @@ class EventLoop : public LoopState<Impact, Layout, World> {
     ++counted_->other;
     tuning_.count_left();
     const NeighbourhoodCentre centre = flight_.neighbourhood_centre(i, line(i), now_, lists_.half_width());
-    const auto fresh = lists_.move_neighbourhood(i, centre);
+    const auto fresh = lists_.begin_move(i, centre);
     if (world_.sheared()) flight_.height(i) = centre.y;
     const Prediction ahead =
         predicted(i, {{lists_.centre(i).x, lists_.centre(i).y}, fresh.data(), static_cast<std::uint32_t>(fresh.size())});
+    lists_.end_move(i);  // after the prediction: lists that are not in the cache arrive meanwhile
     if (plans_.precedes_planned(i, ahead.pair_time, ahead.partner)) {
       set_plan(i, ahead);
     } else {

@@ -35,9 +35,7 @@ class Prefetcher {
   /// the data fit the second-level cache and gains 20 to 60 where they are many times larger. It pays from about three times the
   /// cache's size on: much of the data is rarely used.
   void suit(std::size_t bytes) {
-    const double caches = static_cast<double>(bytes) / static_cast<double>(second_level_cache());
-    ahead_of_calendar_ = caches > 3.0;
-    neighbours_ = caches > 0.5;
+    ahead_of_calendar_ = static_cast<double>(bytes) > 3.0 * static_cast<double>(second_level_cache());
   }
   /// Whether calendar() is worth its time.
   [[nodiscard]] bool looks_ahead() const { return ahead_of_calendar_; }
@@ -55,7 +53,6 @@ class Prefetcher {
     if (!of.queue.predicts_next()) return;
     const std::int32_t i = of.queue.predicted_next(), j = of.plans[i].partner < 0 ? i : of.plans[i].partner;
     prefetch(&of.plans[j]), disk(of, j);
-    for (int n = 0; n < 8 && neighbours_; ++n) prefetch(&of.line(of.lists.ids(i)[n]));
   }
 
   /// Asks for what the events of the spans after `span` of the calendar need, in three stages: plans; lines and lists; what the
@@ -108,7 +105,6 @@ class Prefetcher {
   }
 
   bool ahead_of_calendar_ = false;  ///< the data do not fit the second-level cache
-  bool neighbours_ = false;         ///< they do not fit half of it
 };
 
 }  // namespace carom

@@ -125,19 +125,26 @@ void NeighbourLists::clear() {
   around_.release();
 }
 
-std::span<const std::int32_t> NeighbourLists::move_neighbourhood(std::int32_t i, NeighbourhoodCentre to) {
+std::span<const std::int32_t> NeighbourLists::begin_move(std::int32_t i, NeighbourhoodCentre to) {
   layers_[layer_of(i)].move(i, centre(i), to, radius(i));
   around_.set_centre(i, to);
   search(i);
   if (gone_.size() < count(i) + 16) gone_.resize(2 * std::size_t{count(i)} + 16);
   const auto [fresh, gone] = kernel_->compare(ids(i), count(i), found_.data(), found_count_, fresh_.data(), gone_.data());
   for (std::size_t k = fresh; k < fresh + 8; ++k) fresh_[k] = i;
-  for (std::size_t k = 0; k < 4; ++k) around_.prefetch_list(fresh_[k]);  // those left behind were fetched with the cells
+  for (std::size_t k = gone; k < gone + 4; ++k) gone_[k] = i;
+  for (std::size_t k = 0; k < 4; ++k) around_.prefetch_list(fresh_[k]), around_.prefetch_list(gone_[k]);
+  around_.assign(i, found());
+  change_ = {fresh, gone};
+  return {fresh_.data(), fresh};
+}
+
+void NeighbourLists::end_move(std::int32_t i) {
+  const auto [fresh, gone] = change_;
   for (std::size_t k = 0; k < gone; ++k) around_.remove_at(gone_[k], kernel_->position(ids(gone_[k]), i));
   for (std::size_t k = 0; k < fresh; ++k) around_.append(fresh_[k], i);
   changes_ += gone + fresh;
-  around_.assign(i, found());
-  return {fresh_.data(), fresh};
+  change_ = {0, 0};
 }
 
 /// The largest distance, in largest radii, at which the neighbourhood of a disk of the given radius is near one of a layer.

@@ -46,7 +46,15 @@ class NeighbourLists {
 
   /// Gives disk i a new neighbourhood and corrects its list and those of its old and new neighbours. Returns the ids that are new
   /// on its list, padded with i to eight at least and to a multiple of four; valid until the next call.
-  std::span<const std::int32_t> move_neighbourhood(std::int32_t i, NeighbourhoodCentre centre);
+  std::span<const std::int32_t> move_neighbourhood(std::int32_t i, NeighbourhoodCentre to) {
+    const std::span<const std::int32_t> fresh = begin_move(i, to);
+    end_move(i);
+    return fresh;
+  }
+  /// The same in two parts: begin_move() asks for the lists of the old and new neighbours, end_move() corrects them. In between
+  /// there is time to predict the disk against its new neighbours; nothing else may be asked of their lists.
+  std::span<const std::int32_t> begin_move(std::int32_t i, NeighbourhoodCentre to);
+  void end_move(std::int32_t i);
 
   /// What lists know of the size of a disk.
   struct DiskSize {
@@ -135,10 +143,11 @@ class NeighbourLists {
   const NeighbourSearchKernel* kernel_;
   double steps_[2];  ///< of a centre, per largest radius
   std::uint64_t changes_ = 0;
-  std::vector<std::int32_t> gone_;   ///< by move_neighbourhood(): no longer near
+  std::vector<std::int32_t> gone_;   ///< by begin_move(): no longer near
   std::vector<std::int32_t> cells_;  ///< by search(): searched
   std::vector<std::int32_t> found_;  ///< by search(): all near disks
-  std::vector<std::int32_t> fresh_;  ///< by move_neighbourhood(): not near before
+  std::vector<std::int32_t> fresh_;  ///< by begin_move(): not near before
+  ListChange change_ = {0, 0};       ///< by begin_move(): how many of them
   std::size_t found_count_ = 0;
 };
 
