@@ -1,6 +1,8 @@
 #pragma once
 // The data of the reader before the short forms are completed: the tables as they were written, and their places.
 
+#include "scene/radius_law.hpp"
+
 #include <carom/scene.hpp>
 
 #include <array>
@@ -33,8 +35,10 @@ struct DisksDraft {
   Rows rows;         ///< empty unless the positions are in a start file
   std::optional<std::int64_t> count;
   std::optional<double> radius;
-  bool has_radii = false;   ///< one radius per disk, in a list or a start file; true also where there is no disk
-  bool has_masses = false;  ///< the same of masses
+  std::optional<RadiusLaw> radius_law;  ///< by which one radius per disk is drawn
+  std::optional<double> mass_per_area;  ///< mass over pi r^2 of every disk
+  bool has_radii = false;               ///< one radius per disk, in a list or a start file; true also where there is no disk
+  bool has_masses = false;              ///< the same of masses
   bool velocities_from_file = false;
   std::optional<double> packing_fraction;  ///< this species' share of the box: sum of pi r^2 / area
 };

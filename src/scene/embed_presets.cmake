@@ -2,7 +2,7 @@
 # The classic scene first.
 set(carom_presets box barometer bouncing_ball brownian channel clusters compression dense dense_mixture diffusion dilute_gas
                   drag free_expansion galperin galton gas granular_column granular_gas growth heated_walls hourglass lorentz
-                  lorentz_wide maxwells_door mixture newtons_cradle observe piston rough shear sinai square_well thermostat
+                  lorentz_wide maxwells_door mixture newtons_cradle observe piston polydisperse rough shear sinai square_well thermostat
                   two_disks)
 
 list(TRANSFORM carom_presets REPLACE "(.+)" "docs/scenes/\\1.toml" OUTPUT_VARIABLE carom_preset_files)

@@ -108,7 +108,9 @@ std::string home_of(std::string_view key) {
                                    {"events", "[output]"},
                                    {"unwrapped", "[output]"},
                                    {"uniform", "velocities = { ... }"},
-                                   {"speed", "velocities = { ... }"}};
+                                   {"speed", "velocities = { ... }"},
+                                   {"lognormal", "radius = { ... }"},
+                                   {"per_area", "mass = { ... }"}};
   const auto* home = std::ranges::find(homes, key, &Home::first);
   if (home != std::end(homes)) return std::string(home->second);
   const std::string tables = tables_with_key(key);

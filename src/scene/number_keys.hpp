@@ -40,7 +40,13 @@ inline constexpr std::string_view count_example = "count = 64";
 inline constexpr NumberKey aspect{"aspect", "aspect = 1.0", Range::above_zero};
 
 inline constexpr NumberKey radius{"radius", "radius = 0.03", Range::above_zero};
+inline constexpr std::string_view lognormal_example = "radius = { lognormal = { mean = 0.5, deviation = 0.05 } }";
+inline constexpr NumberKey radius_mean{"mean", lognormal_example, Range::above_zero};
+inline constexpr NumberKey radius_deviation{"deviation", lognormal_example, Range::zero_or_more};
+inline constexpr std::string_view uniform_radii_example = "radius = { uniform = [0.4, 0.6] }";
+inline constexpr NumberKey radius_limit{"uniform", uniform_radii_example, Range::above_zero};
 inline constexpr NumberKey mass{"mass", "mass = 1.0", Range::above_zero};
+inline constexpr NumberKey mass_per_area{"per_area", "mass = { per_area = 1.0 }", Range::above_zero};
 inline constexpr NumberKey packing_fraction{"packing_fraction", "packing_fraction = 0.5", Range::above_zero};
 inline constexpr NumberKey grown_fraction{"packing_fraction", "{ packing_fraction = 0.7 }", Range::above_zero};
 inline constexpr std::string_view position_example = "[0.5, 0.5]", velocity_example = "[1.0, 0.0]";

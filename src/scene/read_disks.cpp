@@ -23,18 +23,22 @@ void refuse_twice(const TableReader& table, const char* key, bool in_file, const
                    fmt::format("{} is given here and in the file {}; remove one of the two", table.path(key), disks.rows.source));
 }
 
+/// Refuses numbers that differ from disk to disk where the disks are in a start file, which has columns for them.
+void refuse_beside_file(const toml::node& node, const std::string& path, const char* is, std::string_view column,
+                        const DisksDraft& disks) {
+  if (!std::holds_alternative<FilePositions>(disks.species.positions)) return;
+  throw SceneError(location_of(node), fmt::format("{} {}, but the disks are in the file {}; give that a column {}, or one number "
+                                                  "for all",
+                                                  path, is, disks.rows.source, column));
+}
+
 /// Reads a key that may be a list, [0.5, 0.25], of one number per disk. The list gives the count where nothing else does. Returns
 /// whether it is a list.
-bool read_one_per_disk(const TableReader& table, const NumberKey& key, DisksDraft& disks, std::vector<double>& numbers) {
-  const toml::node* node = table.find(key.name);
+bool read_one_per_disk(const toml::node* node, const std::string& path, const NumberKey& key, DisksDraft& disks,
+                       std::vector<double>& numbers) {
   const toml::array* list = node == nullptr ? nullptr : node->as_array();
   if (list == nullptr) return false;
-  const std::string path = table.path(key.name);
-  if (std::holds_alternative<FilePositions>(disks.species.positions)) {
-    throw SceneError(location_of(*node), fmt::format("{} is a list, but the disks are in the file {}; give that a column {}, or "
-                                                     "one number for all",
-                                                     path, disks.rows.source, key.name));
-  }
+  refuse_beside_file(*node, path, "is a list", key.name, disks);
   numbers = read_numbers(*list, path, key);
   if (!disks.count) disks.count = static_cast<std::int64_t>(numbers.size());
   if (static_cast<std::int64_t>(numbers.size()) != *disks.count)
@@ -42,19 +46,67 @@ bool read_one_per_disk(const TableReader& table, const NumberKey& key, DisksDraf
   return true;
 }
 
+constexpr const char* radius_laws =
+    "{ lognormal = { mean = 0.5, deviation = 0.05 } }, { uniform = [0.4, 0.6] } or { list = [0.5, 0.25, ...] }";
+
+LognormalRadii read_lognormal(const toml::table& node, const std::string& path) {
+  constexpr double widest = 10.0;  // of the mean: half of the disks are then smaller than a tenth of it
+  const TableReader table(node, path, {"mean", "deviation"});
+  const LognormalRadii law = {table.required_number(keys::radius_mean), table.required_number(keys::radius_deviation)};
+  if (law.deviation <= widest * law.mean) return law;
+  throw SceneError(table.where("deviation"),
+                   fmt::format("{} is {}; it must be at most {} times the mean {}, such as {}", table.path("deviation"),
+                               law.deviation, widest, law.mean, keys::lognormal_example));
+}
+
+UniformRadii read_uniform(const toml::node& node, const std::string& path) {
+  const toml::array* pair = node.as_array();
+  if (pair == nullptr || pair->size() != 2)
+    refuse(node, path, fmt::format("the least and the largest radius, such as {}", keys::uniform_radii_example));
+  const std::vector<double> limits = read_numbers(*pair, path, keys::radius_limit);
+  if (limits[0] <= limits[1]) return {limits[0], limits[1]};
+  throw SceneError(location_of(node), fmt::format("{} runs from {} to {}; the smaller radius must come first, such as {}", path,
+                                                  limits[0], limits[1], keys::uniform_radii_example));
+}
+
+/// Reads a law, { lognormal = ... } or { uniform = ... }, or the list of all radii in a table.
+void read_radius_law(const toml::table& node, const std::string& path, DisksDraft& disks) {
+  const TableReader table(node, path, {"lognormal", "uniform", "list"});
+  if (node.size() != 1)
+    throw SceneError(table.where(), fmt::format("{} has {} keys; it must be one of {}", path, node.size(), radius_laws));
+  if (const toml::node* list = table.find("list")) {
+    disks.has_radii = read_one_per_disk(list, table.path("list"), keys::radius, disks, disks.species.radii);
+    if (!disks.has_radii) refuse(*list, table.path("list"), "a list of one radius per disk, such as { list = [0.5, 0.25] }");
+    return;
+  }
+  refuse_beside_file(node, path, "is drawn by a law", "radius", disks);
+  if (const toml::table* lognormal = table.table("lognormal", std::string(keys::lognormal_example)))
+    disks.radius_law = read_lognormal(*lognormal, table.path("lognormal"));
+  if (const toml::node* uniform = table.find("uniform")) disks.radius_law = read_uniform(*uniform, table.path("uniform"));
+}
+
 void read_radii(const TableReader& table, DisksDraft& disks) {
   refuse_twice(table, "radius", disks.has_radii, disks);
   if (disks.has_radii) return;
-  disks.has_radii = read_one_per_disk(table, keys::radius, disks, disks.species.radii);
+  const toml::node* node = table.find("radius");
+  if (const toml::table* law = node == nullptr ? nullptr : node->as_table())
+    return read_radius_law(*law, table.path("radius"), disks);
+  disks.has_radii = read_one_per_disk(node, table.path("radius"), keys::radius, disks, disks.species.radii);
   if (!disks.has_radii) disks.radius = table.number(keys::radius);
 }
 
 void read_masses(const TableReader& table, DisksDraft& disks) {
   refuse_twice(table, "mass", disks.has_masses, disks);
   if (disks.has_masses) return;
-  disks.has_masses = read_one_per_disk(table, keys::mass, disks, disks.species.masses);
+  disks.has_masses = read_one_per_disk(table.find("mass"), table.path("mass"), keys::mass, disks, disks.species.masses);
   if (disks.has_masses) return;
   const toml::node& mass = table.require("mass", fmt::format("every disk has one, such as {}", keys::mass.example));
+  if (const toml::table* law = mass.as_table()) {
+    const TableReader by_area(*law, table.path("mass"), {"per_area"});
+    disks.mass_per_area = by_area.required_number(keys::mass_per_area);
+    if (disks.has_radii) refuse_beside_file(mass, table.path("mass"), "differs from disk to disk", "mass", disks);
+    return;
+  }
   disks.species.mass = read_number(mass, table.path("mass"), keys::mass);
 }
 
@@ -77,7 +129,7 @@ DisksDraft read_disks(const toml::table& node, const std::string& path, const st
   read_radii(table, disks);
   read_masses(table, disks);
   const bool grown = std::holds_alternative<GrownPositions>(disks.species.positions);
-  if (!disks.radius && !disks.has_radii && !disks.packing_fraction && !grown) {
+  if (!disks.radius && !disks.has_radii && !disks.radius_law && !disks.packing_fraction && !grown) {
     throw SceneError(table.where(), "[[disks]] lacks radius; give one, such as radius = 0.03, or a packing_fraction");
   }
   if (!disks.velocities_from_file) read_velocities(table, disks);

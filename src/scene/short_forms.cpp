@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -68,6 +69,44 @@ void radius_from_share(DisksDraft& disks, double area) {
   disks.radius = std::sqrt(*disks.packing_fraction * area / (std::numbers::pi * static_cast<double>(*disks.count)));
 }
 
+/// Draws the radii of a species with a law. Disk number i of all has a stream of its own, so its radius depends on nothing else.
+void draw_radii(DisksDraft& disks, std::uint64_t seed, std::int64_t first) {
+  for (std::int64_t i = 0; i < *disks.count; ++i) {
+    RandomStream random(seed, radii_stream, static_cast<std::uint64_t>(first + i));
+    disks.species.radii.push_back(draw_radius(*disks.radius_law, random));
+  }
+  disks.has_radii = true;
+}
+
+/// Radii must be known before the packing fractions are: a law therefore needs every count up to its own.
+void draw_all_radii(std::vector<DisksDraft>& species, std::uint64_t seed) {
+  std::int64_t first = 0;
+  for (std::size_t s = 0; s < species.size(); ++s) {
+    if (!species[s].radius_law) continue;
+    first = 0;
+    for (std::size_t k = 0; k <= s; ++k) {
+      if (!species[k].count)
+        throw Refusal(species[k].path,
+                      fmt::format("[[disks]] lacks count, and the radii of {} are drawn by a law, which needs it; "
+                                  "give it, such as {}",
+                                  species[s].path, keys::count_example));
+      if (k < s) first += *species[k].count;
+    }
+    draw_radii(species[s], seed, first);
+  }
+}
+
+/// Gives disks the mass of their area.
+void set_masses(DisksDraft& disks) {
+  const auto mass = [&](double radius) { return *disks.mass_per_area * (std::numbers::pi * radius * radius); };
+  if (!disks.has_radii) {
+    disks.species.mass = mass(disks.radius.value_or(0.0));
+    return;
+  }
+  for (const double radius : disks.species.radii) disks.species.masses.push_back(mass(radius));
+  disks.has_masses = true;
+}
+
 void complete(DisksDraft& disks, double area) {
   const bool has_radius = disks.radius || disks.has_radii;
   if (!disks.count && !(disks.packing_fraction && has_radius)) {
@@ -94,6 +133,7 @@ void complete_short_forms(SceneDraft& draft) {
   for (const DisksDraft& disks : draft.disks) {
     if (disks.packing_fraction) require_fraction(share_of(disks));
   }
+  draw_all_radii(draft.disks, scene.run.seed);
   std::vector<const Positions*> positions;
   for (const DisksDraft& disks : draft.disks) positions.push_back(disks.count == 0 ? nullptr : &disks.species.positions);
   const std::optional<Share> grown = grown_share(positions);
@@ -103,6 +143,7 @@ void complete_short_forms(SceneDraft& draft) {
   for (DisksDraft& disks : draft.disks) complete(disks, area);
   if (grown) radius_from_grown(draft.disks, *grown, area);
   for (DisksDraft& disks : draft.disks) {
+    if (disks.mass_per_area) set_masses(disks);
     disks.species.count = *disks.count;
     disks.species.radius = disks.radius.value_or(0.0);
     scene.species.push_back(std::move(disks.species));
