@@ -27,7 +27,8 @@ struct Collision {
   std::optional<double> elastic_below = {};  ///< contact time of the TC model, >= 0; neutral: 0
 };
 
-/// Gravity, a uniform acceleration of all disks: the [gravity] table. It is zero along periodic axes.
+/// Gravity, a uniform acceleration of all disks: the [gravity] table. It is zero along periodic axes, unless a thermal wall or a
+/// thermostat takes the momentum and the heat that the disks gain.
 struct Gravity {
   Eigen::Vector2d acceleration = Eigen::Vector2d::Zero();  ///< length / time^2; neutral: zero
 };
@@ -39,9 +40,16 @@ struct WallProperties {
   std::optional<double> velocity = {};     ///< constant velocity along +x or +y, whichever side it is; neutral: 0
   std::optional<double> mass = {};         ///< mass > 0 of a piston, a wall that moves freely along its normal
   std::optional<double> load = {};         ///< inward force per unit length on the piston, >= 0; present if `mass` is
+  /// Velocity of the surface of a thermal wall along itself, towards +x or +y; present only if `temperature` is; neutral: 0
+  std::optional<double> tangential_velocity = {};
+  /// Speed >= 0 of a wall that vibrates infinitely fast with no amplitude: disks are hit as if it moved inward at this speed, and
+  /// it stays where it is. Excludes `temperature`, `velocity` and `mass`; neutral: 0
+  std::optional<double> vibration = {};
 
   /// Returns whether the scene names any property of this wall.
-  [[nodiscard]] bool present() const { return restitution || temperature || velocity || mass; }
+  [[nodiscard]] bool present() const {
+    return restitution || temperature || velocity || tangential_velocity || vibration || mass;
+  }
 };
 
 /// A fixed disk.
@@ -121,7 +129,7 @@ struct Effects {
 };
 
 /// Returns whether the total momentum along `axis` is conserved: the axis is periodic, and no effect acts that changes the
-/// momentum of the disks (a thermostat, obstacles, thermal walls, drag, shear or growth).
+/// momentum of the disks (a thermostat, obstacles, thermal walls, drag, shear, growth, or gravity along this axis).
 [[nodiscard]] bool conserves_momentum(const Box& box, const Effects& effects, int axis);
 
 /// Returns whether motion of the centre of mass along `axis` is heat, a part of the temperature: the axis has walls, or

@@ -77,10 +77,11 @@ struct Species {
   std::int64_t count = 0;           ///< number of disks
   double radius = 0.0;              ///< length, > 0; of every disk, where `radii` is empty
   double mass = 0.0;                ///< > 0; of every disk, where `masses` is empty
-  std::vector<double> radii = {};   ///< one per disk, from a file; else empty
-  std::vector<double> masses = {};  ///< one per disk, from a file; else empty
+  std::vector<double> radii = {};   ///< one per disk where they differ; else empty
+  std::vector<double> masses = {};  ///< one per disk where they differ; else empty
   Positions positions = {};
   Velocities velocities = {};
+  bool radii_are_drawn = false;  ///< whether the reader drew `radii` by a law, so that another seed gives others
 
   /// Returns radius and mass of disk i of this species, 0 <= i < count.
   [[nodiscard]] double radius_of(std::int64_t i) const { return radii.empty() ? radius : radii[static_cast<std::size_t>(i)]; }

@@ -119,6 +119,9 @@ struct Totals : Counts {
   double virial = 0.0;
   /// Impulse that disks gave to the walls left, right, bottom, top, outward positive; mass length / time.
   std::array<double, 4> wall_impulse{};
+  /// Momentum along the wall, towards +x or +y, that disks gave to the walls left, right, bottom, top: thermal walls alone take
+  /// any.
+  std::array<double, 4> wall_shear{};
   /// Energy, as heat and work, that disks gave to the walls left, right, bottom, top. All energies are in mass length^2 / time^2.
   std::array<double, 4> wall_energy{};
   double dissipated = 0.0;         ///< energy lost in pair collisions; for growing disks in the frame of their surfaces

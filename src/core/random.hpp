@@ -18,7 +18,8 @@ enum class Stream : std::uint32_t {
   perturbations = 4,
   thermal_walls = 5,
   thermostat = 6,
-  sampled_disks = 7
+  sampled_disks = 7,
+  radii = 8
 };
 
 /// A uniform random bit generator (32 bits a draw, 2^32 blocks of four) for Boost.Random's distributions.

@@ -1,7 +1,7 @@
 #pragma once
-// The four sides of the box, each by itself: hard, inelastic, diffuse at a temperature, moving at constant speed, or a free
-// piston under a load. Where nothing is asked of a side, the component of the velocity across it is reversed when the disk's edge
-// reaches it.
+// The four sides of the box, each by itself: hard, inelastic, diffuse at a temperature (and perhaps sliding along itself), moving
+// at constant speed, vibrating without amplitude, or a free piston under a load. Where nothing is asked of a side, the component
+// of the velocity across it is reversed when the disk's edge reaches it.
 //
 // A side is like a disk of infinite width: a displacement, a velocity and an acceleration since a time of its own. Speeds
 // here are outward ones, positive towards the left at the left wall, so that all four sides are treated alike.
@@ -36,6 +36,8 @@ class Walls {
       Side& side = sides_[k];
       side.restitution = Real(asked.restitution.value_or(1.0));
       side.temperature = asked.temperature.value_or(0.0);
+      side.sliding = Real(asked.tangential_velocity.value_or(0.0));
+      side.vibration = Real(asked.vibration.value_or(0.0));
       side.velocity = Real(asked.velocity.value_or(0.0)) * (is_upper(wall) ? 1 : -1);
       side.mass = Real(asked.mass.value_or(0.0));
       if (asked.mass) side.acceleration = -Real(asked.load.value_or(0.0) * box.lengths()[1 - axis_of(wall)] / *asked.mass);
@@ -64,6 +66,7 @@ class Walls {
   /// The result of a contact.
   struct Hit {
     Real impulse = 0;  ///< that the side took, outward
+    Real shear = 0;    ///< momentum that the side took along itself, towards +x or +y
     Real energy = 0;   ///< that the side took from the disk
     /// The speed of which it took its share (effects/vanishing.hpp); infinite where it took none, and where the disk is pressed
     /// against it, so that contacts never end.
@@ -77,17 +80,20 @@ class Walls {
     const int axis = axis_of(wall);
     const Real sign = is_upper(wall) ? 1 : -1;
     const Real outward = sign * v[axis];
-    const Real surface = s.velocity_at(t);
+    // A wall that vibrates hits a disk on its way in, wherever it stands.
+    const Real surface = s.velocity_at(t) - s.vibration;
     const Real before = v.squaredNorm();
     using std::max;
     const Real closing = max<Real>((outward + expansion) - surface, 0);
     Real after;
-    Real small = infinity<Real>;
+    Real small = infinity<Real>, shear = 0;
     if (s.temperature > 0) {
       RandomStream random(seed_, Stream::thermal_walls, 4 * draws_++ + index_of(wall));
       const DiffuseVelocity drawn = diffuse_velocity(random, s.temperature, static_cast<double>(mass));
       after = (surface - expansion) - Real(drawn.inward);
-      v[1 - axis] = Real(drawn.along);
+      const Real along = v[1 - axis];
+      v[1 - axis] = Real(drawn.along) + s.sliding;
+      shear = mass * (along - v[1 - axis]);
     } else {
       const Real restitution = elastic ? Real(1) : s.restitution, pressing = sign * g[axis] - s.acceleration;
       const Real parting = rebound<Real>(closing, restitution, pressing, radius);
@@ -103,7 +109,7 @@ class Walls {
       }
     }
     v[axis] = sign * after;
-    return {mass * (outward - after), mass * (before - v.squaredNorm()) / 2, small};
+    return {mass * (outward - after), shear, mass * (before - v.squaredNorm()) / 2, small};
   }
 
   /// Returns whether the side moves by itself after a contact, which makes all predictions with it void.
@@ -186,6 +192,8 @@ class Walls {
     Real t = 0;
     Real restitution = 1;
     Real mass = 0;             ///< of a piston; 0: no contact moves the side
+    Real sliding = 0;          ///< velocity along itself, towards +x or +y
+    Real vibration = 0;        ///< inward speed with which it hits disks, beside its velocity
     double temperature = 0.0;  ///< 0: not diffuse
 
     [[nodiscard]] Real displacement_at(Real when) const {

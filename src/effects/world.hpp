@@ -65,6 +65,7 @@ struct AnyWorld {
     ++totals.wall;
     const auto hit = walls.meet(wall, v, falling.g, contact.mass, contact.radius, expansion, contact.elastic, now);
     totals.wall_impulse[index_of(wall)].add(slowed * hit.impulse);
+    if (hit.shear != 0.0) totals.wall_shear[index_of(wall)].add(slowed * hit.shear);
     totals.wall_energy[index_of(wall)].add(slowed * slowed * hit.energy);
     return hit.smallness;
   }

@@ -125,6 +125,10 @@ double LoopState<Impact, Layout, World>::longest_epoch_of_world() const {
   double longest = never;
   const double pull = std::max(world_.g().cwiseAbs().maxCoeff(), world_.walls.strongest());
   if (pull > 0.0) longest = std::sqrt(8.0 * sizes_.spacing / pull);
+  // Along a periodic axis the frame falls by an eighth of the box, at most: coordinates have no more room.
+  for (int k = 0; k < 2; ++k)
+    if (const double fall = std::abs(world_.g()[k]); fall > 0.0 && flight_.axis(k).periodic)
+      longest = std::min(longest, std::sqrt(flight_.length(k) / (4.0 * fall)));
   if (world_.walls.fastest(0.0) > 0.0) longest = std::min(longest, 4.0 * sizes_.spacing / world_.walls.fastest(0.0));
   if (world_.expansion() > 0.0) longest = std::min(longest, world_.scale(0.0) / (64.0 * world_.expansion()));
   if (world_.sheared()) longest = std::min(longest, limits_.shear_displacement / std::abs(world_.lees_edwards.speed()));

@@ -108,7 +108,7 @@ class FlightFrame {
   [[nodiscard]] Vec2<double> place(const Line& a, double now) const {
     Vec2<double> r;
     for (int k = 0; k < 2; ++k)
-      r[k] = middle_[k] + (axes_[k].unit * static_cast<double>(coordinate(a, k)) + (a.v[k] * now + world_.fallen(k, now)));
+      r[k] = middle_[k] + (axes_[k].unit * static_cast<double>(coordinate(a, k).x) + (a.v[k] * now + world_.fallen(k, now)));
     return r;
   }
 
@@ -126,7 +126,7 @@ class FlightFrame {
   /// (sign 1) or the lower (-1).
   [[nodiscard]] double room(const Line& a, int axis, int sign, double radius, double now) const {
     const std::int64_t limit = half_[axis] - axes_[axis].steps_of(radius);
-    const std::int64_t x = coordinate(a, axis);
+    const std::int64_t x = coordinate(a, axis).x;
     const double start = axes_[axis].unit * static_cast<double>(sign > 0 ? limit - x : x + limit);
     if constexpr (World::plain) return start - sign * a.v[axis] * now;
     return (start - sign * a.v[axis] * now) - sign * world_.fallen(axis, now);
@@ -158,9 +158,10 @@ class FlightFrame {
   };
   [[nodiscard]] Coordinate coordinate_in_box(std::int32_t i, const Line& a, int k, double now) const {
     std::int64_t x;
-    std::int64_t image = images_.of(i, k);
+    const AtEpoch begun = coordinate(a, k);
+    std::int64_t image = images_.of(i, k) + begun.edges;
     const std::int64_t way = axes_[k].steps_of(a.v[k] * now + world_.fallen(k, now));
-    if (__builtin_add_overflow(coordinate(a, k), way, &x)) image += way < 0 ? -1 : 1;
+    if (__builtin_add_overflow(begun.x, way, &x)) image += way < 0 ? -1 : 1;
     const bool keeps_box = k == 1 && world_.sheared();
     if (keeps_box) keep_in_box(i, x, image);
     double position = axes_[k].position(x);
@@ -226,9 +227,12 @@ class FlightFrame {
   [[nodiscard]] std::array<std::int64_t, 2> fallen() const {
     return {(depth_[0] + 0x80000000) >> 32, (depth_[1] + 0x80000000) >> 32};
   }
-  /// Whether the frame has fallen as far as that from where it began.
+  /// Whether the frame has fallen as far as that from where it began, or by an eighth of a periodic axis.
   [[nodiscard]] bool has_fallen(double far) const {
-    const auto fallen = [&](int k) { return axes_[k].unit * std::abs(static_cast<double>(depth_[k])) >= far; };
+    const auto fallen = [&](int k) {
+      const double depth = axes_[k].unit * std::abs(static_cast<double>(depth_[k]));
+      return depth >= (axes_[k].periodic ? std::min(far, length(k) / 8.0) : far);
+    };
     return fallen(0) || fallen(1);
   }
   /// Puts the frame back to where it began, at the epoch; all lines stay where they are in the box.
@@ -236,7 +240,11 @@ class FlightFrame {
   void reset_fall(Lines& lines) {
     for (int k = 0; k < 2; ++k) {
       const std::int64_t fallen = std::exchange(depth_[k], 0);
-      for (Line& a : lines) a.x[k] += fallen;
+      std::int32_t i = 0;
+      for (Line& a : lines) {
+        if (__builtin_add_overflow(a.x[k], fallen, &a.x[k])) images_.step(i, k, fallen < 0 ? -1 : 1);
+        ++i;
+      }
     }
   }
   /// Doubles the step of the coordinates along an axis, so that nothing but their last digits changes.
@@ -300,11 +308,17 @@ class FlightFrame {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(centre) << 32);
   }
 
-  /// The coordinate of a line at the epoch, in steps from the middle of the box: the frame in which it is drawn had fallen by
-  /// then.
-  [[nodiscard]] std::int64_t coordinate(const Line& a, int axis) const {
-    if constexpr (World::plain) return a.x[axis];
-    return a.x[axis] + depth_[axis];
+  /// The coordinate of a line at the epoch, in steps from the middle of the box, and how many periodic edges the frame in which
+  /// it is drawn has carried it past by then: -1, 0 or 1.
+  struct AtEpoch {
+    std::int64_t x;
+    std::int64_t edges;
+  };
+  [[nodiscard]] AtEpoch coordinate(const Line& a, int axis) const {
+    if constexpr (World::plain) return {a.x[axis], 0};
+    std::int64_t x;
+    const bool wraps = __builtin_add_overflow(a.x[axis], depth_[axis], &x);
+    return {x, !wraps ? 0 : depth_[axis] < 0 ? -1 : 1};
   }
 
   [[nodiscard]] std::int32_t centre_along(int axis, const Line& a, double when, double ahead) const {

@@ -125,6 +125,7 @@ struct TextbookWorld {
     ++totals.wall;
     const auto hit = walls.meet(wall, a.v, falling.g, a.mass, a.radius, a.radius * expansion, elastic, now);
     totals.wall_impulse[index_of(wall)].add(static_cast<double>(slowed * hit.impulse));
+    if (hit.shear != 0) totals.wall_shear[index_of(wall)].add(static_cast<double>(slowed * hit.shear));
     totals.wall_energy[index_of(wall)].add(static_cast<double>(slowed * slowed * hit.energy));
     return hit.smallness;
   }

@@ -41,6 +41,8 @@ H5mdObservables::H5mdObservables(hid_t file, const Scene& scene, const Disks& di
   put(effects_.square_well.has_value(), "well_passages", {},
       [](const Sample& s, Row row) { row[0] = static_cast<double>(s.totals.well); });
   put(walled, "wall_impulse", {4}, [](const Sample& s, Row row) { copy(s.totals.wall_impulse, row); });
+  const bool thermal = any_wall(effects_, [](const WallProperties& wall) { return wall.temperature.has_value(); });
+  put(thermal, "wall_shear", {4}, [](const Sample& s, Row row) { copy(s.totals.wall_shear, row); });
   put(walled, "wall_energy", {4}, [](const Sample& s, Row row) { copy(s.totals.wall_energy, row); });
   put(rough, "spin", {disks.count()}, [](const Sample& s, Row row) { copy(s.state.spins, row); });
   put(rough, "spin_energy", {}, [](const Sample& s, Row row) { row[0] = carom::spin_energy(s.disks, s.state); });

@@ -35,6 +35,7 @@ Json walls_json(const std::vector<WallReport>& walls) {
            {"energy", number(wall.energy)},
            {"force", number(wall.force)},
            {"pressure", number(wall.pressure)}};
+    if (wall.shear_momentum) one["shear_momentum"] = number(wall.shear_momentum), one["shear_stress"] = number(wall.shear_stress);
     if (!wall.end) continue;
     one["position"] = number(wall.end->position);
     one["velocity"] = number(wall.end->velocity);

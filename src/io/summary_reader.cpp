@@ -56,6 +56,8 @@ WallReport wall_in(const std::string& name, const Json& json) {
                   .energy = finite_in(json.at("energy")),
                   .force = number_in(json.at("force")),
                   .pressure = number_in(json.at("pressure")),
+                  .shear_momentum = number_in(json, "shear_momentum"),
+                  .shear_stress = number_in(json, "shear_stress"),
                   .end = {}};
   if (json.contains("position")) wall.end = WallState{finite_in(json.at("position")), finite_in(json.at("velocity"))};
   return wall;

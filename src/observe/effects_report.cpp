@@ -23,9 +23,12 @@ WallReport wall_report(const Scene& scene, const Totals& totals, const State& en
   wall.energy = totals.wall_energy[side];
   const std::size_t across = side < 2 ? 2 : 0;  // the walls that this one runs between
   const bool keeps_length = !moves(scene.effects.walls[across]) && !moves(scene.effects.walls[across + 1]);
+  if (scene.effects.walls[side].temperature) wall.shear_momentum = totals.wall_shear[side];
   if (end.time > 0.0) {
+    const double length = scene.box.lengths()[side < 2 ? 1 : 0];
     wall.force = wall.momentum / end.time;
-    if (keeps_length) wall.pressure = *wall.force / scene.box.lengths()[side < 2 ? 1 : 0];
+    if (keeps_length) wall.pressure = *wall.force / length;
+    if (keeps_length && wall.shear_momentum) wall.shear_stress = *wall.shear_momentum / end.time / length;
   }
   if (may_move(scene.effects.walls[side]) && end.walls.size() == 4) wall.end = end.walls[side];
   return wall;

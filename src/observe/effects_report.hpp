@@ -19,12 +19,14 @@ namespace carom {
 
 /// One wall: what disks gave it, and where it ended.
 struct WallReport {
-  std::string name;                ///< "left", "right", "bottom", "top"
-  double momentum = 0.0;           ///< given to it, outward positive
-  double energy = 0.0;             ///< given to it: heat and work
-  std::optional<double> force;     ///< momentum / time; empty at time 0
-  std::optional<double> pressure;  ///< force / length; empty where other walls change the length
-  std::optional<WallState> end;    ///< state of a moving wall at the end
+  std::string name;                           ///< "left", "right", "bottom", "top"
+  double momentum = 0.0;                      ///< given to it, outward positive
+  double energy = 0.0;                        ///< given to it: heat and work
+  std::optional<double> force;                ///< momentum / time; empty at time 0
+  std::optional<double> pressure;             ///< force / length; empty where other walls change the length
+  std::optional<double> shear_momentum = {};  ///< given to it along itself, towards +x or +y; only thermal walls
+  std::optional<double> shear_stress = {};    ///< shear_momentum / (time length); empty as force and pressure are
+  std::optional<WallState> end;               ///< state of a moving wall at the end
 };
 
 struct ThermostatReport {

@@ -19,7 +19,10 @@ Wide energy_of_heights(const Box& box, const Eigen::Vector2d& g, const Disks& di
     if (g[axis] == 0.0) continue;
     const Wide ground = g[axis] < 0.0 ? box.lower[axis] : box.upper[axis];
     for (std::size_t i = 0; i < disks.count(); ++i) {
-      const Wide height = static_cast<Wide>(state.positions(axis, static_cast<Eigen::Index>(i))) - ground;
+      const auto column = static_cast<Eigen::Index>(i);
+      Wide height = static_cast<Wide>(state.positions(axis, column)) - ground;
+      if (box.periodic(axis) && state.images.cols() > column)  // the way that it has fallen, round and round
+        height += static_cast<Wide>(state.images(axis, column)) * static_cast<Wide>(box.lengths()[axis]);
       sum -= static_cast<Wide>(disks.mass[i]) * static_cast<Wide>(g[axis]) * height;
     }
   }

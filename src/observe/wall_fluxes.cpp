@@ -1,4 +1,5 @@
-// Momentum and energy that go through each wall, per time and length of wall, outward positive: pressure, and heat and work.
+// Momentum and energy that go through each wall, per time and length of wall, outward positive: pressure, shear stress on thermal
+// walls, and heat and work.
 // Averages over time.
 
 #include "observe/blocking.hpp"
@@ -26,12 +27,14 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
       const int along = side < 2 ? 1 : 0;
       const double length = 0.5 * (lengths[along] + lengths_[along]);
       if (dt > 0.0) momentum_[side].add(totals.wall_impulse[side] - impulse_[side], length * dt, bounded_[side], bounded[side]);
+      if (dt > 0.0) shear_[side].add(totals.wall_shear[side] - shears_[side], length * dt);
       if (dt > 0.0) energy_[side].add(totals.wall_energy[side] - energies_[side], length * dt);
     }
     time_ = state.time;
     lengths_ = lengths;
     bounded_ = bounded;
     impulse_ = totals.wall_impulse;
+    shears_ = totals.wall_shear;
     energies_ = totals.wall_energy;
   }
 
@@ -40,6 +43,8 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
     for (std::size_t side = 0; side < 4; ++side) {
       if (run_.scene.box.periodic(side < 2 ? 0 : 1)) continue;
       put(found, {.name = std::string("momentum_") + wall_names[side], .unit = "energy / area"}, momentum_[side]);
+      if (run_.scene.effects.walls[side].temperature)
+        put(found, {.name = std::string("shear_") + wall_names[side], .unit = "energy / area"}, shear_[side]);
       put(found, {.name = std::string("energy_") + wall_names[side], .unit = "energy / (length time)"}, energy_[side]);
     }
     return found;
@@ -47,7 +52,7 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(time_, lengths_, impulse_, energies_, bounded_, momentum_, energy_);
+    archive(time_, lengths_, impulse_, shears_, energies_, bounded_, momentum_, shear_, energy_);
   }
 
  private:
@@ -67,9 +72,9 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
 
   double time_ = 0.0;
   Eigen::Vector2d lengths_ = Eigen::Vector2d::Zero();
-  std::array<double, 4> impulse_{}, energies_{}, bounded_{};
+  std::array<double, 4> impulse_{}, shears_{}, energies_{}, bounded_{};
   std::array<RateWithBoundedPart, 4> momentum_;
-  std::array<Blocking, 4> energy_;
+  std::array<Blocking, 4> shear_, energy_;
 };
 
 }  // namespace

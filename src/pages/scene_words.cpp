@@ -34,6 +34,9 @@ std::string words(const WallProperties& wall, int axis) {
   std::vector<std::string> parts;
   if (wall.mass) parts.push_back(fmt::format("a free piston of mass {:.6g} under load {:.6g}", *wall.mass, *wall.load));
   if (wall.temperature) parts.push_back(fmt::format("thermal, kT = {:.6g}", *wall.temperature));
+  if (wall.tangential_velocity)
+    parts.push_back(fmt::format("slides at {:.6g} in {}", *wall.tangential_velocity, axis == 0 ? "y" : "x"));
+  if (wall.vibration) parts.push_back(fmt::format("vibrates at speed {:.6g}, without amplitude", *wall.vibration));
   if (wall.restitution) parts.push_back(fmt::format("restitution {:.6g}", *wall.restitution));
   if (wall.velocity) parts.push_back(fmt::format("moves at {:.6g} in {}", *wall.velocity, axis == 0 ? "x" : "y"));
   return fmt::format("{}", fmt::join(parts, ", "));

@@ -34,6 +34,7 @@ SummaryRow row_of_wall(const WallReport& wall) {
   std::string remark = wall.energy == 0.0 ? "" : gain(-wall.energy);
   if (wall.end)
     remark += fmt::format("{}now at {:.6g}, velocity {:.4g}", remark.empty() ? "" : "; ", wall.end->position, wall.end->velocity);
+  if (wall.shear_stress) remark += fmt::format("{}shear stress {}", remark.empty() ? "" : "; ", digits(*wall.shear_stress));
   const std::string value = wall.pressure ? "pressure " + digits(*wall.pressure)
                             : wall.force  ? "force " + digits(*wall.force)
                                           : "no time has passed";

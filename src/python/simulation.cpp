@@ -203,6 +203,7 @@ nb::typed<nb::dict, nb::str, nb::any> dict_of(const Totals& totals) {
   d["virial"] = totals.virial;
   d["virial_yx"] = totals.virial_yx;
   d["wall_impulse"] = std::vector<double>(totals.wall_impulse.begin(), totals.wall_impulse.end());
+  d["wall_shear"] = std::vector<double>(totals.wall_shear.begin(), totals.wall_shear.end());
   d["wall_energy"] = std::vector<double>(totals.wall_energy.begin(), totals.wall_energy.end());
   d["obstacle_impulse"] = pair(totals.obstacle_impulse);
   d["dissipated"] = totals.dissipated;

@@ -3,6 +3,7 @@
 #include "scene/checks.hpp"
 #include "scene/effect_traits.hpp"
 #include "scene/number_keys.hpp"
+#include "scene/walls.hpp"
 
 #include <fmt/format.h>
 
@@ -37,16 +38,21 @@ void check_collision(const Collision& collision) {
       "rule = \"specular\", or remove roughness");
 }
 
+/// Returns whether something takes both momentum and energy that disks gain along periodic axes.
+bool takes_momentum_and_energy(const Effects& effects) {
+  return effects.bath_temperature() || any_wall(effects, [](const WallProperties& wall) { return wall.temperature.has_value(); });
+}
+
 void check_gravity(const Scene& scene) {
   if (!scene.effects.gravity) return;
   const Gravity& gravity = *scene.effects.gravity;
   require_pair("gravity.acceleration", gravity.acceleration, keys::acceleration_example);
   for (int axis = 0; axis < 2; ++axis) {
-    if (!scene.box.periodic(axis) || gravity.acceleration[axis] == 0.0) continue;
+    if (!scene.box.periodic(axis) || gravity.acceleration[axis] == 0.0 || takes_momentum_and_energy(scene.effects)) continue;
     throw Refusal(
         "gravity",
-        fmt::format("gravity.acceleration is {} in {}, where the box is periodic, so the disks would fall for ever; make "
-                    "it 0 there, or give that axis walls",
+        fmt::format("gravity.acceleration is {} in {}, where the box is periodic and nothing holds the disks back; make it "
+                    "0 there, give that axis walls, or give the other axis a wall with a temperature",
                     gravity.acceleration[axis], axis_names[axis]));
   }
 }

@@ -74,6 +74,8 @@ void check_wall(const std::string& path, const WallProperties& wall) {
   require(path, wall.restitution, keys::wall_restitution);
   require(path, wall.temperature, keys::wall_temperature);
   require(path, wall.velocity, keys::wall_velocity);
+  require(path, wall.tangential_velocity, keys::tangential_velocity);
+  require(path, wall.vibration, keys::vibration);
   require(path, wall.mass, keys::piston_mass);
   require(path, wall.load, keys::piston_load);
 }

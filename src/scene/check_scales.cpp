@@ -90,6 +90,11 @@ std::vector<Drive> drives_of(const Scene& scene, const Sizes& sizes) {
     const WallProperties& wall = effects.walls[w];
     const std::string path = fmt::format("walls.{}", wall_names[w]);
     if (wall.velocity) put(path + ".velocity", *wall.velocity, std::abs(*wall.velocity), std::abs(*wall.velocity), 1, false);
+    if (wall.tangential_velocity) {
+      const long double speed = std::abs(static_cast<long double>(*wall.tangential_velocity));
+      put(path + ".tangential_velocity", *wall.tangential_velocity, speed, speed, 1, true);
+    }
+    if (wall.vibration) put(path + ".vibration", *wall.vibration, *wall.vibration, *wall.vibration, 1, true);
     if (wall.temperature)
       from_energy(path + ".temperature", *wall.temperature, *wall.temperature, sizes.lightest, sizes.heaviest);
     if (wall.mass && wall.load)  // what it gives a disk that it pushes through the box

@@ -23,6 +23,15 @@ void check_kind(const WallProperties& wall, const std::string& path) {
     refuse_both("temperature", "restitution", "a wall that draws velocities anew has no restitution");
   if (wall.temperature && wall.mass) refuse_both("temperature", "mass", "a wall that draws velocities anew cannot be a piston");
   if (wall.velocity && wall.mass) refuse_both("velocity", "mass", "a piston moves as it is pushed");
+  if (wall.vibration && wall.temperature)
+    refuse_both("temperature", "vibration", "a wall that draws velocities anew does not reflect");
+  if (wall.vibration && wall.velocity) refuse_both("velocity", "vibration", "a wall that vibrates stays where it is");
+  if (wall.vibration && wall.mass) refuse_both("vibration", "mass", "a piston moves as it is pushed");
+  if (wall.tangential_velocity && !wall.temperature)
+    throw Refusal(path,
+                  fmt::format("{} has tangential_velocity but no temperature; disks do not notice that a smooth wall slides, "
+                              "so give both, such as {}",
+                              path, keys::tangential_velocity.example));
   if (wall.mass.has_value() == wall.load.has_value()) return;
   throw Refusal(path, fmt::format("{} has {} but no {}; a piston needs both, such as {}", path, wall.mass ? "mass" : "load",
                                   wall.mass ? "load" : "mass", keys::piston_mass.example));

@@ -25,7 +25,7 @@ bool is_drawn(const Velocities& velocities) {
 
 bool start_is_drawn(const Scene& scene) {
   return std::any_of(scene.species.begin(), scene.species.end(), [](const Species& species) {
-    return species.count > 0 && (is_drawn(species.positions) || is_drawn(species.velocities));
+    return species.count > 0 && (species.radii_are_drawn || is_drawn(species.positions) || is_drawn(species.velocities));
   });
 }
 

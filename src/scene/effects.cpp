@@ -23,7 +23,7 @@ bool Effects::dissipate() const {
 
 bool conserves_momentum(const Box& box, const Effects& effects, int axis) {
   const auto changes_it = [&](const detail::EffectTraits& effect) { return !effect.conserves_momentum && effect.acts(effects); };
-  return box.periodic(axis) && std::ranges::none_of(detail::all_effects(), changes_it);
+  return box.periodic(axis) && effects.acceleration()[axis] == 0.0 && std::ranges::none_of(detail::all_effects(), changes_it);
 }
 
 bool centre_of_mass_is_thermal(const Box& box, const Effects& effects, int axis) {

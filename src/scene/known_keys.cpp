@@ -90,6 +90,8 @@ std::string home_of(std::string_view key) {
                                    {"right", "[walls]"},
                                    {"bottom", "[walls]"},
                                    {"top", "[walls]"},
+                                   {"tangential_velocity", "a wall in [walls]"},
+                                   {"vibration", "a wall in [walls]"},
                                    {"load", "a wall in [walls]"},
                                    {"centre", "a disk in [[obstacles]]"},
                                    {"from", "a segment in [[obstacles]]"},

@@ -55,6 +55,7 @@ Scene with_disks(Scene scene, const DiskArrays& disks) {
     if (!disks.radii.empty()) {
       species.radii = part(disks.radii, first, species.count);
       species.radius = 0.0;
+      species.radii_are_drawn = false;
     }
     if (!disks.masses.empty()) {
       species.masses = part(disks.masses, first, species.count);

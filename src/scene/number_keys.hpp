@@ -63,6 +63,8 @@ inline constexpr std::string_view acceleration_example = "acceleration = [0.0, -
 inline constexpr NumberKey wall_restitution{"restitution", "{ restitution = 0.8 }", Range::within, 0.0, 1.0};
 inline constexpr NumberKey wall_temperature{"temperature", "{ temperature = 2.0 }", Range::above_zero};
 inline constexpr NumberKey wall_velocity{"velocity", "{ velocity = -0.1 }"};
+inline constexpr NumberKey tangential_velocity{"tangential_velocity", "{ temperature = 1.0, tangential_velocity = 0.5 }"};
+inline constexpr NumberKey vibration{"vibration", "{ vibration = 0.5 }", Range::zero_or_more};
 inline constexpr NumberKey piston_mass{"mass", "{ mass = 10.0, load = 5.0 }", Range::above_zero};
 inline constexpr NumberKey piston_load{"load", "{ mass = 10.0, load = 5.0 }", Range::zero_or_more};
 

@@ -21,9 +21,6 @@ struct UniformRadii {
 };
 using RadiusLaw = std::variant<LognormalRadii, UniformRadii>;
 
-/// The stream of random numbers of radii; it follows the last name of Stream.
-inline constexpr auto radii_stream = static_cast<Stream>(8);
-
 /// Returns one radius of the law. A law of deviation 0 gives its mean, and limits that are equal give that number, to the last
 /// bit. The bits are the same with every C library.
 [[nodiscard]] double draw_radius(const RadiusLaw& law, RandomStream& random);

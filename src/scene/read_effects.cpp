@@ -82,17 +82,20 @@ Collision read_collision(const toml::table& node) {
 namespace {
 
 WallProperties read_wall(const toml::table& node, const std::string& path) {
-  const TableReader table(node, path, {"restitution", "temperature", "velocity", "mass", "load"});
+  const TableReader table(node, path,
+                          {"restitution", "temperature", "velocity", "tangential_velocity", "vibration", "mass", "load"});
   WallProperties wall;
   wall.restitution = table.number(keys::wall_restitution);
   wall.temperature = table.number(keys::wall_temperature);
   wall.velocity = table.number(keys::wall_velocity);
+  wall.tangential_velocity = table.number(keys::tangential_velocity);
+  wall.vibration = table.number(keys::vibration);
   wall.mass = table.number(keys::piston_mass);
   wall.load = table.number(keys::piston_load);
   if (node.empty()) {
     throw SceneError(table.where(),
-                     fmt::format("{} has no property; give restitution, temperature, velocity, or mass and load, or remove "
-                                 "it: a wall that is not named is hard and at rest",
+                     fmt::format("{} has no property; give restitution, temperature, velocity, vibration, or mass and load, or "
+                                 "remove it: a wall that is not named is hard and at rest",
                                  path));
   }
   return wall;

@@ -37,6 +37,8 @@ std::string wall(const char* name, const WallProperties& wall) {
   put("restitution", wall.restitution);
   put("temperature", wall.temperature);
   put("velocity", wall.velocity);
+  put("tangential_velocity", wall.tangential_velocity);
+  put("vibration", wall.vibration);
   put("mass", wall.mass);
   put("load", wall.load);
   return fmt::format("{} = {{ {} }}\n", name, fmt::join(entries, ", "));

@@ -72,10 +72,10 @@ void radius_from_share(DisksDraft& disks, double area) {
 /// Draws the radii of a species with a law. Disk number i of all has a stream of its own, so its radius depends on nothing else.
 void draw_radii(DisksDraft& disks, std::uint64_t seed, std::int64_t first) {
   for (std::int64_t i = 0; i < *disks.count; ++i) {
-    RandomStream random(seed, radii_stream, static_cast<std::uint64_t>(first + i));
+    RandomStream random(seed, Stream::radii, static_cast<std::uint64_t>(first + i));
     disks.species.radii.push_back(draw_radius(*disks.radius_law, random));
   }
-  disks.has_radii = true;
+  disks.has_radii = disks.species.radii_are_drawn = true;
 }
 
 /// Radii must be known before the packing fractions are: a law therefore needs every count up to its own.

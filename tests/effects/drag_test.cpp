@@ -248,12 +248,13 @@ TEST(Drag, IsRefusedWithWhatItCannotActWith) {
   expect("elastic_below", [](Effects& e) { e.collision.elastic_below = 1e-6; });
   expect("gravity", [](Effects& e) { e.gravity = Gravity{{0.0, -1.0}}; });
   expect("thermal_walls", [](Effects& e) { e.walls[1].temperature = 1.0; });
+  expect("vibrating_walls", [](Effects& e) { e.walls[1].vibration = 1e-3; });
   expect("moving_walls", [](Effects& e) { e.walls[1].velocity = 1e-3; });
   expect("pistons", [](Effects& e) { e.walls[1].mass = 1.0, e.walls[1].load = 1.0; });
   expect("growth", [](Effects& e) { e.growth = Growth{.rate = 1e-3, .reduced_pressure = 10.0}; });
   expect("thermostat", [](Effects& e) { e.thermostat = Thermostat{1.0, 0.1}; });
   expect("square_well", [](Effects& e) { e.square_well = SquareWell{1.1, 0.1}; });
-  EXPECT_EQ(drag.excludes.size(), 10U);  // these, and shear, which has no walls
+  EXPECT_EQ(drag.excludes.size(), 11U);  // these, and shear, which has no walls
   Scene equilibrated = scene;
   equilibrated.run.equilibrate = Run::Equilibrate{1.0, {}};
   EXPECT_EQ(

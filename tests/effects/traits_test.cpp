@@ -38,6 +38,8 @@ const std::map<std::string, std::function<void(Effects&)>> other_effects = {
      }},
     {"inelastic_walls", [](Effects& e) { e.walls[0].restitution = 0.5; }},
     {"thermal_walls", [](Effects& e) { e.walls[0].temperature = 2.0; }},
+    {"sliding_walls", [](Effects& e) { e.walls[0] = {.temperature = 2.0, .tangential_velocity = 1.0}; }},
+    {"vibrating_walls", [](Effects& e) { e.walls[1].vibration = 0.25; }},
     {"moving_walls", [](Effects& e) { e.walls[1].velocity = -0.25; }},
     {"pistons", [](Effects& e) { e.walls[3] = {.mass = 1e6, .load = 1.0}; }},
     {"obstacles",
@@ -174,6 +176,11 @@ TEST(CentreOfMass, IsThermalWhereMomentumIsExchangedAtRandom) {
   Effects effects;
   EXPECT_FALSE(centre_of_mass_is_thermal(box, effects, 0));
   EXPECT_TRUE(centre_of_mass_is_thermal(box, effects, 1));
+  effects.gravity = Gravity{{1.0, 0.0}};
+  EXPECT_FALSE(conserves_momentum(box, effects, 0)) << "disks fall along it";
+  effects.gravity = Gravity{{0.0, 1.0}};
+  EXPECT_TRUE(conserves_momentum(box, effects, 0));
+  effects.gravity.reset();
   effects.drag = Drag{0.5};  // the momentum decays, and heats nothing
   EXPECT_FALSE(centre_of_mass_is_thermal(box, effects, 0));
   EXPECT_FALSE(conserves_momentum(box, effects, 0));

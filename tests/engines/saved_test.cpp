@@ -37,6 +37,7 @@ void expect_same_totals(const Totals& a, const Totals& b) {
   EXPECT_EQ(a.thermostat, b.thermostat);
   EXPECT_EQ(a.virial, b.virial);
   EXPECT_EQ(a.wall_impulse, b.wall_impulse);
+  EXPECT_EQ(a.wall_shear, b.wall_shear);
   EXPECT_EQ(a.wall_energy, b.wall_energy);
   EXPECT_EQ(a.dissipated, b.dissipated);
   EXPECT_EQ(a.thermostat_energy, b.thermostat_energy);

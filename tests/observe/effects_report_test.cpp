@@ -49,6 +49,15 @@ TEST_F(EffectsOfARun, WithoutEffectsThereAreOnlyTheWalls) {
                r.bonds || r.energy_supplied);
 }
 
+TEST_F(EffectsOfARun, ThermalWallsTakeMomentumAlongThemselves) {
+  scene_.effects.walls[3].temperature = 1.0;
+  totals_.wall_shear = {0.0, 0.0, 0.0, -10.0};
+  const EffectsReport r = report();
+  EXPECT_EQ(r.walls[1].shear_momentum, -10.0);
+  EXPECT_EQ(r.walls[1].shear_stress, -0.5);
+  EXPECT_FALSE(r.walls[0].shear_momentum || r.walls[0].shear_stress);
+}
+
 TEST_F(EffectsOfARun, NoTimeGivesNoForce) {
   end_.time = 0.0;
   EXPECT_FALSE(report().walls[0].force || report().walls[0].pressure);

@@ -2,6 +2,7 @@
 
 #include "scene/radius_law.hpp"
 
+#include "scene/drawn.hpp"
 #include "scene/scene_equality.hpp"
 #include "scene/scene_texts.hpp"
 
@@ -160,6 +161,17 @@ TEST(RadiusLaw, ThePackingFractionGivesTheBox) {
 TEST(RadiusLaw, TheResolvedSceneListsWhatWasDrawn) {
   const Scene scene = parse_changed({{"radius = 0.25", lognormal}, {"mass = 1.0", "mass = { per_area = 2.0 }"}});
   EXPECT_EQ(first_difference(parse_scene(resolved_toml(scene)), scene), "");
+}
+
+TEST(RadiusLaw, ANewSeedIsAnotherScene) {
+  const auto still = [](const char* radius) {
+    return parse_changed(
+        {{"count = 10\nradius = 0.25", radius}, {"\"random\"", "[[1, 1], [3, 3]]"}, {"{ uniform = 1.0 }", "\"rest\""}});
+  };
+  EXPECT_TRUE(run_is_drawn(still(lognormal)));
+  EXPECT_FALSE(run_is_drawn(still("radius = { list = [0.1, 0.2] }")));
+  Scene other = with_disks(still(lognormal), {.positions = {{1, 1}, {3, 3}}, .radii = {0.1, 0.2}});
+  EXPECT_FALSE(run_is_drawn(other));
 }
 
 TEST(RadiusLaw, ItsExponentialAndLogarithmAreThoseOfTheLibraryToRounding) {

@@ -109,10 +109,12 @@ class EffectsMaker {
     const char* names[] = {"left", "right", "bottom", "top"};
     for (int w = 0; w < 4; ++w) {
       if (periodic_[w / 2] || maybe()) continue;
-      const int kind = *rc::gen::inRange(0, 4);
+      const int kind = *rc::gen::inRange(0, 5);
       std::string entries;
       const auto put = [&](const char* key, double value) { entries += (entries.empty() ? "" : ", ") + entry(key, value); };
       if (kind == 0) put("temperature", moderate_positive_double());
+      if (kind == 0 && maybe()) put("tangential_velocity", moderate_double());
+      if (kind == 4) put("vibration", std::abs(moderate_double()));
       if (kind != 0 && (kind == 1 || maybe())) put("restitution", unit_interval());
       if (kind == 2 || (kind == 0 && maybe())) put("velocity", 0.2 * unit_interval() - 0.1), moving_ = true;
       if (kind == 3) put("mass", 0.5 + unit_interval()), put("load", std::abs(moderate_double())), moving_ = true;

@@ -27,7 +27,7 @@ struct UnitOf {
 };
 
 /// The first that fits.
-constexpr std::array<UnitOf, 15> of_numbers = {{{"time", "time", "time"},
+constexpr std::array<UnitOf, 17> of_numbers = {{{"time", "time", "time"},
                                                 {"energy.", "drift", ""},
                                                 {"energy.", "unaccounted", ""},
                                                 {"energy.", "", "energy"},
@@ -39,11 +39,13 @@ constexpr std::array<UnitOf, 15> of_numbers = {{{"time", "time", "time"},
                                                 {"walls.", ".energy", "energy"},
                                                 {"walls.", ".force", "energy / length"},
                                                 {"walls.", ".pressure", "energy / area"},
+                                                {"walls.", ".shear_momentum", "mass length / time"},
+                                                {"walls.", ".shear_stress", "energy / area"},
                                                 {"walls.", ".position", "length"},
                                                 {"walls.", ".velocity", "length / time"},
                                                 {"dissipated", "dissipated", "energy"}}};
 
-constexpr std::array<UnitOf, 16> of_keys = {{{"box.x", "", "length"},
+constexpr std::array<UnitOf, 18> of_keys = {{{"box.x", "", "length"},
                                              {"box.y", "", "length"},
                                              {"disks.", ".radius", "length"},
                                              {"disks.", ".mass", "mass"},
@@ -53,6 +55,8 @@ constexpr std::array<UnitOf, 16> of_keys = {{{"box.x", "", "length"},
                                              {"collision.", ".time", "time"},
                                              {"walls.", ".temperature", "energy"},
                                              {"walls.", ".velocity", "length / time"},
+                                             {"walls.", ".tangential_velocity", "length / time"},
+                                             {"walls.", ".vibration", "length / time"},
                                              {"walls.", ".mass", "mass"},
                                              {"walls.", ".load", "energy / area"},
                                              {"run.sample_every", "sample_every", "time"},
