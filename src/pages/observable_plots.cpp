@@ -360,9 +360,41 @@ Plot plain_plot_of(const Table& table) {
 
 }  // namespace
 
+namespace {
+
+/// Returns fields as a profile along the axis that has several cells; nothing where both have, which field_maps() draws.
+std::vector<Plot> profile_of(const Table& fields) {
+  const auto varies = [&](std::size_t c) {
+    const std::vector<double>& values = fields.columns[c].values;
+    return std::any_of(values.begin(), values.end(), [&](double value) { return value != values.front(); });
+  };
+  if (varies(0) && varies(1)) return {};
+  Table profile = fields;
+  profile.columns.erase(profile.columns.begin() + (varies(0) ? 1 : 0));
+  std::vector<Plot> plots;
+  for (std::size_t c = 1; c < profile.columns.size(); ++c) {
+    if (is_error(profile.columns[c])) continue;
+    const std::string& name = profile.columns[c].name;
+    std::string id = "field-" + name;
+    std::replace(id.begin(), id.end(), '_', '-');
+    std::string title = name;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    plots.push_back({.id = id,
+                     .title = "Profile of " + title,
+                     .x = {.title = with_unit(profile.columns[0].name, profile.columns[0].unit)},
+                     .y = {.title = with_unit(title, profile.columns[c].unit)},
+                     .series = {series_of(profile, profile.columns[0], profile.columns[c], "measured", 0)}});
+  }
+  return plots;
+}
+
+}  // namespace
+
 std::vector<Plot> plots_of(const Table& table, const RunTheory& theory) {
   std::vector<Plot> plots;
+  if (table.name == "fields_in_time") return plots;
   if (table.columns.size() < 2 || table.columns.front().values.empty()) return plots;
+  if (table.name == "fields") return profile_of(table);
   for (const Frame& frame : frames)
     if (table.name == frame.table) plots.push_back(plot_of(frame, table, theory));
   if (plots.empty()) plots.push_back(plain_plot_of(table));

@@ -1,4 +1,5 @@
 #include "pages/report_page.hpp"
+#include "pages/field_maps.hpp"
 
 #include "pages/player_page.hpp"
 #include "pages/report_parts.hpp"
@@ -163,8 +164,12 @@ Section observed(const RunReport& report, const RunTheory& theory) {
     // The note on all observables is part of the summary.
     if (!measured.note.empty() && measured.note != report.note_on_errors)
       section.blocks.emplace_back(Paragraph{fmt::format("`{}`: {}.", measured.name, measured.note)});
-    for (const Table& table : measured.tables)
+    for (const Table& table : measured.tables) {
+      if (table.name == "fields")
+        if (std::optional<std::string> maps = field_maps(table))
+          section.blocks.emplace_back(EmbeddedPage{"Maps of the fields", std::move(*maps)});
       for (Plot& plot : plots_of(table, theory)) section.blocks.emplace_back(std::move(plot));
+    }
   }
   return section;
 }

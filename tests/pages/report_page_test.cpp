@@ -23,6 +23,7 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
 using ::testing::Not;
 
@@ -126,6 +127,32 @@ TEST_F(ReportPage, HasASectionForEachPartOfTheRun) {
                                                 HasSubstr("u √n / N"), HasSubstr("simultaneous | ")));
   EXPECT_THAT(words_of(page, "Pressure"), HasSubstr("Kolafa & Rottner, N = 40"));
   EXPECT_THAT(ids_of(page), Contains("pressure"));
+}
+
+TEST_F(ReportPage, HasMapsOfFieldsOnAGridAndProfilesOfALineOfCells) {
+  const auto maps_in = [](const Page& page) {
+    std::string found;
+    for (const Section& section : page.sections)
+      for (const Block& block : section.blocks)
+        if (const EmbeddedPage* one = std::get_if<EmbeddedPage>(&block); one != nullptr && one->title == "Maps of the fields")
+          found += one->html;
+    return found;
+  };
+  const auto count = [](const std::string& text, const std::string& word) {
+    std::size_t times = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++times;
+    return times;
+  };
+  const std::string grid = maps_in(report_page(recorded(fluid + "[observe]\nfields = { cells = [3, 2] }\n"), std::nullopt));
+  EXPECT_EQ(count(grid, "<svg "), 3U);
+  EXPECT_EQ(count(grid, "<path fill=\"#"), 18U) << "six cells on each map";
+  EXPECT_EQ(count(grid, "Arrows: "), 2U);
+  EXPECT_THAT(grid, AllOf(Not(HasSubstr("nan")), Not(HasSubstr("inf"))));
+  const std::filesystem::path first = run_;
+  run_ = directory_.path() / "line";
+  const Page line = report_page(recorded(fluid + "[observe]\nfields = { cells = [1, 4] }\n"), std::nullopt);
+  EXPECT_THAT(maps_in(line), IsEmpty());
+  EXPECT_THAT(ids_of(line), IsSupersetOf({"field-density", "field-temperature", "field-stress-xy", "field-energy-lost"}));
 }
 
 TEST_F(ReportPage, HasAPlotForEveryTableThatWasAskedFor) {
