@@ -3,6 +3,7 @@
 #include "studies/analysis/analysis.hpp"
 
 #include "io/output_error.hpp"
+#include "scene/observables_known.hpp"
 #include "support/child_process.hpp"
 #include "support/recorded_run.hpp"
 #include "support/same_measurements.hpp"
@@ -147,7 +148,8 @@ TEST_P(Analysed, WhetherTheRunMeasuredItOrNot) {
   std::vector<std::string> words;
   for (const ObservableRequest& request : asked) {
     std::string settings = request.every ? "every = " + std::to_string(*request.every) + ", " : "";
-    if (request.range) settings += "range = " + std::to_string(*request.range) + ", ";
+    if (request.range)
+      settings += std::string(detail::find_observable(request.name)->range_key) + " = " + std::to_string(*request.range) + ", ";
     if (!settings.empty()) settings.resize(settings.size() - 2);
     words.push_back(request.name + (settings.empty() ? "" : "={ " + settings + " }"));
   }
