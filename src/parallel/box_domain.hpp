@@ -16,6 +16,7 @@
 #include "engine/event_loop.hpp"
 #include "parallel/box_parts.hpp"
 #include "parallel/disk_message.hpp"
+#include "parallel/slots_of_disks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -204,11 +205,11 @@ class BoxDomain : private EventLoop<Impact, Layout, World> {
   double reach_;
   std::vector<std::size_t> neighbours_;
 
-  LargeVector<Mark> marks_;            ///< by slot
-  std::vector<std::int32_t> slot_of_;  ///< by id, one more than the slot; 0 for none
-  std::vector<std::int32_t> unused_;   ///< slots
-  std::vector<std::int32_t> halo_;     ///< slots
-  std::vector<std::int32_t> moved_;    ///< slots of disks that have left their neighbourhoods in this window
+  LargeVector<Mark> marks_;  ///< by slot
+  SlotsOfDisks slot_of_;
+  std::vector<std::int32_t> unused_;  ///< slots
+  std::vector<std::int32_t> halo_;    ///< slots
+  std::vector<std::int32_t> moved_;   ///< slots of disks that have left their neighbourhoods in this window
   std::size_t moves_ = 0;
   std::vector<std::vector<std::int32_t>> copied_;  ///< slots of the disks that each neighbour copies
   std::vector<std::vector<Message>> outboxes_;     ///< to each neighbour

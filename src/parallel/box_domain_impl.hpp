@@ -21,7 +21,7 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
       me_(me),
       reach_(reach),
       marks_(lines_.size()),
-      slot_of_(whole.lines_.size()) {
+      slot_of_(whole.lines_.size(), lines_.size()) {
   for (std::size_t part = 0; part < parts.count(); ++part)
     if (part != me && parts.adjacent(me, part, reach)) neighbours_.push_back(part);
   copied_.resize(neighbours_.size());
@@ -74,8 +74,7 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
 /// The slot of the disk with that id: the one that it has or had, or an unused one.
 template <class Impact, class Layout, class World>
 std::int32_t BoxDomain<Impact, Layout, World>::slot_for(std::int32_t disk) {
-  std::int32_t& slot = slot_of_[static_cast<std::size_t>(disk)];
-  if (slot != 0) return slot - 1;
+  if (const std::int32_t slot = slot_of_.find(disk); slot >= 0) return slot;
   if (unused_.empty()) recycle_slots();
   if (unused_.empty()) {
     crowded_ = true;
@@ -83,7 +82,7 @@ std::int32_t BoxDomain<Impact, Layout, World>::slot_for(std::int32_t disk) {
   }
   const std::int32_t i = unused_.back();
   unused_.pop_back();
-  slot = i + 1;
+  slot_of_.insert(disk, i);
   ids_[static_cast<std::size_t>(i)] = disk;
   plans_[i] = {never, never, -1, neighbourhood_edge, 0, 1};
   line(i).v[0] = line(i).v[1] = 0.0;
@@ -101,10 +100,14 @@ void BoxDomain<Impact, Layout, World>::recycle_slots() {
         if (impact_.wells().present())
           for (const std::int32_t j : impact_.wells().of(i)) named[static_cast<std::size_t>(j)] = true;
     }
+  slot_of_.clear();
   for (auto i = count(); i-- > 0;) {
     std::int32_t& of = ids_[static_cast<std::size_t>(i)];
-    if (!empty(i) || named[static_cast<std::size_t>(i)] || of < 0) continue;
-    slot_of_[static_cast<std::size_t>(of)] = 0;
+    if (of < 0) continue;
+    if (!empty(i) || named[static_cast<std::size_t>(i)]) {
+      slot_of_.insert(of, i);
+      continue;
+    }
     of = -1;
     unused_.push_back(i);
   }
@@ -294,7 +297,7 @@ void BoxDomain<Impact, Layout, World>::read_lines(std::span<const Message> messa
   constexpr std::size_t ahead = 8;
   for (std::size_t k = 0; k < messages.size(); ++k) {
     if (k + ahead < messages.size())
-      if (const std::int32_t next = slot_of_[static_cast<std::size_t>(messages[k + ahead].id)] - 1; next >= 0) {
+      if (const std::int32_t next = slot_of_.find(messages[k + ahead].id); next >= 0) {
         prefetch_early(&line(next)), prefetch_early(&plans_[next]), prefetch_early(&mark(next));
         lists_.prefetch_list_early(next);
       }
@@ -531,7 +534,7 @@ template <class Impact, class Layout, class World>
 std::size_t BoxDomain<Impact, Layout, World>::bytes() const {
   std::size_t messages = 0;
   for (const auto& outbox : outboxes_) messages += outbox.capacity() * sizeof(Message);
-  return Loop::bytes() + marks_.capacity() * sizeof(Mark) + slot_of_.capacity() * sizeof(std::int32_t) + messages +
+  return Loop::bytes() + marks_.capacity() * sizeof(Mark) + slot_of_.bytes() + messages +
          (moved_.capacity() + halo_.capacity() + unused_.capacity()) * sizeof(std::int32_t);
 }
 
