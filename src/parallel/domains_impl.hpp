@@ -28,14 +28,23 @@ Domains<Impact, Layout, World>::~Domains() {
 template <class Impact, class Layout, class World>
 bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit,
                                                bool exact_events) {
+  constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
+  const auto processed = [this] {
+    const Counts so_far = counts();
+    return so_far.events() + so_far.other + so_far.stale;
+  };
+  const std::uint64_t told = processed();
   const auto alone = [&](const Instant& until) {
     gather();
-    return serially([&] { return engine_.run_until(until, pair_limit, event_limit); });
+    // After a window that was void the whole engine stands before what the caller knows of already.
+    const std::uint64_t behind = told - std::min(told, processed());
+    const std::uint64_t limit = behind < no_limit - event_limit ? event_limit + behind : no_limit;
+    return serially([&] { return engine_.run_until(until, pair_limit, limit); });
   };
   for (;;) {
     const Counts so_far = counts();
-    if (so_far.pair >= pair_limit || (exact_events && event_limit < std::numeric_limits<std::uint64_t>::max()) || whole_.idle() ||
-        whole_.stall_.jammed() || whole_.lines_.size() < 2)
+    if (so_far.pair >= pair_limit || (exact_events && event_limit < no_limit) || whole_.idle() || whole_.stall_.jammed() ||
+        whole_.lines_.size() < 2)
       return alone(target);
     if (alone_until_) {
       const Instant until = std::min(target, *alone_until_);

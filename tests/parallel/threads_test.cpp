@@ -1,6 +1,7 @@
 // A run on several cores has the bits of the run on one: for any number of domains and threads, any halo and window, and wherever
 // one stops.
 
+#include "support/engines.hpp"
 #include "support/several_cores.hpp"
 
 #include <carom/simulation.hpp>
@@ -182,6 +183,24 @@ TEST(Threads, FindEveryWindowThatTheirHalosAreTooNarrowFor) {
       redone += shared.thread_counts().windows_redone;
     }
   EXPECT_GT(redone, 10U);
+}
+
+/// A window that is void takes back what happened since the whole engine was last up to date, which is more than a caller may ask
+/// for at a time. Such a caller would see a run that goes nowhere.
+TEST(Threads, NeverGoBackBehindWhatTheyHaveTold) {
+  const Scene scene = lean_gas(6000, 0.5, Boundary::periodic);
+  const auto engine = make_engine("fast", scene);
+  engine->set_threads({.domains = 4, .halo = 5.0, .events_per_window = 0.1});
+  std::uint64_t pairs = 0;
+  Instant time{};
+  while (pairs < 200'000) {
+    ASSERT_FALSE(engine->run_about(Instant{1e6, 0.0}, 1'000'000, 500));
+    ASSERT_GT(engine->counts().pair, pairs);
+    ASSERT_TRUE(time < engine->now());
+    pairs = engine->counts().pair;
+    time = engine->now();
+  }
+  EXPECT_GT(engine->thread_counts().windows_redone, 2U);
 }
 
 TEST(Threads, StopAtAnExactNumberOfCollisions) {
