@@ -18,49 +18,42 @@ namespace {
 class NonGaussian final : public SavedObservable<NonGaussian> {
  public:
   NonGaussian(const ObservableRequest& request, const ObservedRun& run)
-      : SavedObservable(request, run), fourth_(run.species_count()) {
-    for (std::size_t s = 0; s < run.species_count(); ++s) species_.emplace_back(request, run, s);
-  }
+      : SavedObservable(request, run), followed_(request, run), fourth_(run.species_count()) {}
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Vector2d drift = state.time * non_thermal_velocity(run_, state);
-    for (std::size_t s = 0; s < species_.size(); ++s)
-      species_[s].add(run_, state, drift, [&](std::size_t row, std::span<const double> moved) {
-        double square = 0.0, fourth = 0.0;
-        for (std::size_t c = 0; c < moved.size(); c += 2) {
-          const double one = moved[c] * moved[c] + moved[c + 1] * moved[c + 1];
-          square += one, fourth += one * one;
-        }
-        const double count = 0.5 * static_cast<double>(moved.size());
-        fourth_[s].add(row, fourth / count, square / count);
-      });
+    followed_.add(run_, state, drift, [&](std::size_t s, std::size_t row, std::span<const double> moved) {
+      double square = 0.0, fourth = 0.0;
+      for (std::size_t c = 0; c < moved.size(); c += 2) {
+        const double one = moved[c] * moved[c] + moved[c + 1] * moved[c + 1];
+        square += one, fourth += one * one;
+      }
+      const double count = 0.5 * static_cast<double>(moved.size());
+      fourth_[s].add(row, fourth / count, square / count);
+    });
   }
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
     Table table{.name = name()};
-    for (std::size_t s = 0; s < species_.size(); ++s) {
+    for (std::size_t s = 0; s < run_.species_count(); ++s) {
       if (fourth_[s].size() < 2) continue;
       if (table.columns.empty()) table.columns.push_back(lag_column(1, fourth_[s].size(), step_));
       LaggedColumn alpha("alpha_2" + run_.suffix(s), "");
       for (std::size_t row = 1; row < fourth_[s].size(); ++row) alpha.add(fourth_[s].estimate(row, 2), 0.5, -1.0);
       alpha.put(table);
     }
-    if (table.columns.empty())
-      found.note = "the run is too short";
-    else
-      found.tables.push_back(std::move(table));
+    put_table(found, std::move(table));
     return found;
   }
 
   template <class Archive>
   void serialize(Archive& archive) {
-    for (FollowedSpecies& one : species_) archive(one.states);
-    archive(fourth_);
+    archive(followed_, fourth_);
   }
 
  private:
-  std::vector<FollowedSpecies> species_;
+  DisksAtLags followed_;
   std::vector<LaggedRows> fourth_;  ///< by species: of r^4 with r^2 as its weight
 };
 
@@ -68,28 +61,26 @@ class VanHove final : public SavedObservable<VanHove> {
  public:
   VanHove(const ObservableRequest& request, const ObservedRun& run)
       : SavedObservable(request, run),
+        followed_(request, run),
         bins_(static_cast<std::size_t>(request.bins.value_or(100))),
         width_(request.range.value_or(5.0) * run.mean_diameter / static_cast<double>(bins_)),
-        densities_(run.species_count()) {
-    for (std::size_t s = 0; s < run.species_count(); ++s) species_.emplace_back(request, run, s);
-  }
+        densities_(run.species_count()) {}
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Vector2d drift = state.time * non_thermal_velocity(run_, state);
-    for (std::size_t s = 0; s < species_.size(); ++s)
-      species_[s].add(run_, state, drift, [&](std::size_t row, std::span<const double> moved) {
-        if (row == 0) return;
-        const int power = std::ilogb(LaggedStates::lag(row));
-        if (std::ldexp(1.0, power) != LaggedStates::lag(row)) return;
-        std::vector<double> counts(bins_);
-        for (std::size_t c = 0; c < moved.size(); c += 2)
-          if (const double bin = std::hypot(moved[c], moved[c + 1]) / width_; bin < static_cast<double>(bins_))
-            counts[static_cast<std::size_t>(bin)] += 1.0;
-        const auto at = static_cast<std::size_t>(power);
-        if (at >= densities_[s].size()) densities_[s].resize(at + 1, BlockedColumn(bins_));
-        const double count = 0.5 * static_cast<double>(moved.size());
-        for (std::size_t b = 0; b < bins_; ++b) densities_[s][at].add(b, counts[b] / count);
-      });
+    followed_.add(run_, state, drift, [&](std::size_t s, std::size_t row, std::span<const double> moved) {
+      if (row == 0) return;
+      const int power = std::ilogb(LaggedStates::lag(row));
+      if (std::ldexp(1.0, power) != LaggedStates::lag(row)) return;
+      std::vector<double> counts(bins_);
+      for (std::size_t c = 0; c < moved.size(); c += 2)
+        if (const double bin = std::hypot(moved[c], moved[c + 1]) / width_; bin < static_cast<double>(bins_))
+          counts[static_cast<std::size_t>(bin)] += 1.0;
+      const auto at = static_cast<std::size_t>(power);
+      if (at >= densities_[s].size()) densities_[s].resize(at + 1, BlockedColumn(bins_));
+      const double count = 0.5 * static_cast<double>(moved.size());
+      for (std::size_t b = 0; b < bins_; ++b) densities_[s][at].add(b, counts[b] / count);
+    });
   }
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
@@ -97,27 +88,23 @@ class VanHove final : public SavedObservable<VanHove> {
     Table table{.name = name()};
     table.columns.push_back({"r", "length", {}});
     for (std::size_t b = 0; b < bins_; ++b) table.columns[0].values.push_back((static_cast<double>(b) + 0.5) * width_);
-    for (std::size_t s = 0; s < species_.size(); ++s)
+    for (std::size_t s = 0; s < run_.species_count(); ++s)
       for (std::size_t at = 0; at < densities_[s].size(); ++at)
         densities_[s][at].put(table, fmt::format("density{}_{:.6g}", run_.suffix(s), std::ldexp(step_, static_cast<int>(at))),
                               "1 / length", 1.0 / width_);
-    if (table.columns.size() < 2)
-      found.note = "the run is too short";
-    else
-      found.tables.push_back(std::move(table));
+    put_table(found, std::move(table), 1);
     return found;
   }
 
   template <class Archive>
   void serialize(Archive& archive) {
-    for (FollowedSpecies& one : species_) archive(one.states);
-    archive(densities_);
+    archive(followed_, densities_);
   }
 
  private:
+  DisksAtLags followed_;
   std::size_t bins_;
   double width_;
-  std::vector<FollowedSpecies> species_;
   std::vector<std::vector<BlockedColumn>> densities_;  ///< by species, and by the lag's power of two
 };
 

@@ -36,22 +36,20 @@ class IntermediateScattering final : public SavedObservable<IntermediateScatteri
  public:
   IntermediateScattering(const ObservableRequest& request, const ObservedRun& run)
       : SavedObservable(request, run),
+        followed_(request, run),
         vectors_(wave_vectors_near(request.largest.value_or(6.3) / run.mean_diameter, run.scene.box.lengths())),
         modes_(2 * vectors_.size()),
-        self_(run.species_count()) {
-    for (std::size_t s = 0; s < run.species_count(); ++s) species_.emplace_back(request, run, s);
-  }
+        self_(run.species_count()) {}
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Vector2d drift = state.time * non_thermal_velocity(run_, state);
     const auto count = static_cast<double>(vectors_.size());
-    for (std::size_t s = 0; s < species_.size(); ++s)
-      species_[s].add(run_, state, drift, [&](std::size_t row, std::span<const double> moved) {
-        double sum = 0.0;
-        for (std::size_t c = 0; c < moved.size(); c += 2)
-          for (const Eigen::Vector2d& k : vectors_) sum += std::cos(k.x() * moved[c] + k.y() * moved[c + 1]);
-        self_[s].add(row, 2.0 * sum / (count * static_cast<double>(moved.size())));
-      });
+    followed_.add(run_, state, drift, [&](std::size_t s, std::size_t row, std::span<const double> moved) {
+      double sum = 0.0;
+      for (std::size_t c = 0; c < moved.size(); c += 2)
+        for (const Eigen::Vector2d& k : vectors_) sum += std::cos(k.x() * moved[c] + k.y() * moved[c + 1]);
+      self_[s].add(row, 2.0 * sum / (count * static_cast<double>(moved.size())));
+    });
     std::vector<double> modes(2 * vectors_.size());
     for (std::size_t v = 0; v < vectors_.size(); ++v)
       for (Eigen::Index i = 0; i < state.positions.cols(); ++i) {
@@ -71,8 +69,8 @@ class IntermediateScattering final : public SavedObservable<IntermediateScatteri
     double k = 0.0;
     for (const Eigen::Vector2d& vector : vectors_) k += vector.norm() / static_cast<double>(vectors_.size());
     found.scalars.push_back({.name = "k", .unit = "1 / length", .value = k, .note = "mean length of the wave vectors"});
-    for (std::size_t s = 0; s < species_.size(); ++s)
-      if (species_[s].disks.channels() > 0) found.scalars.push_back(relaxation_time(s));
+    for (std::size_t s = 0; s < run_.species_count(); ++s)
+      if (followed_.channels(s) > 0) found.scalars.push_back(relaxation_time(s));
     if (all_.size() == 0) {
       found.note = "the run is too short";
       return found;
@@ -94,8 +92,7 @@ class IntermediateScattering final : public SavedObservable<IntermediateScatteri
 
   template <class Archive>
   void serialize(Archive& archive) {
-    for (FollowedSpecies& one : species_) archive(one.states);
-    archive(modes_, self_, all_);
+    archive(followed_, modes_, self_, all_);
   }
 
  private:
@@ -117,9 +114,9 @@ class IntermediateScattering final : public SavedObservable<IntermediateScatteri
     return found;
   }
 
+  DisksAtLags followed_;
   std::vector<Eigen::Vector2d> vectors_;
   LaggedStates modes_;
-  std::vector<FollowedSpecies> species_;
   std::vector<LaggedRows> self_;  ///< by species
   LaggedRows all_;
 };

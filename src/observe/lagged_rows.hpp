@@ -56,25 +56,45 @@ struct LaggedColumn {
   return lags;
 }
 
-/// The disks of one species and where they were.
-struct FollowedSpecies {
-  TrackedDisks disks;
-  LaggedStates states;
-  FollowedSpecies(const ObservableRequest& request, const ObservedRun& run, std::size_t species)
-      : disks(request, run, species), states(disks.channels()) {}
+/// The disks that are followed, by species, and where they were.
+class DisksAtLags {
+ public:
+  DisksAtLags(const ObservableRequest& request, const ObservedRun& run) {
+    for (std::size_t s = 0; s < run.species_count(); ++s) species_.emplace_back(request, run, s);
+  }
 
-  /// Takes the state of the next step, and calls visit(row, displacements) for each lag, with x and y for each disk in turn.
-  /// `drift` is the displacement of the centre of mass.
+  /// The number of coordinates that are followed of a species, two for each disk.
+  [[nodiscard]] std::size_t channels(std::size_t species) const { return species_[species].disks.channels(); }
+  /// Takes the state of the next step, and calls visit(species, row, displacements) for each lag, with x and y for each disk in
+  /// turn. `drift` is the displacement of the centre of mass.
   template <class Visit>
   void add(const ObservedRun& run, const State& state, const Eigen::Vector2d& drift, Visit&& visit) {
-    if (disks.channels() == 0) return;
-    const std::span<const double> now = disks.unwrapped(run, state, drift);
-    std::vector<double> moved(now.size());
-    states.add(now, [&](std::size_t row, std::span<const double> earlier) {
-      for (std::size_t c = 0; c < moved.size(); ++c) moved[c] = now[c] - earlier[c];
-      visit(row, std::span<const double>(moved));
-    });
+    for (std::size_t s = 0; s < species_.size(); ++s) {
+      Species& one = species_[s];
+      if (one.disks.channels() == 0) continue;
+      const std::span<const double> now = one.disks.unwrapped(run, state, drift);
+      std::vector<double> moved(now.size());
+      one.states.add(now, [&](std::size_t row, std::span<const double> earlier) {
+        for (std::size_t c = 0; c < moved.size(); ++c) moved[c] = now[c] - earlier[c];
+        visit(s, row, std::span<const double>(moved));
+      });
+    }
   }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    for (Species& one : species_) archive(one.states);
+  }
+
+ private:
+  struct Species {
+    TrackedDisks disks;
+    LaggedStates states;
+    Species(const ObservableRequest& request, const ObservedRun& run, std::size_t species)
+        : disks(request, run, species), states(disks.channels()) {}
+  };
+
+  std::vector<Species> species_;
 };
 
 }  // namespace carom

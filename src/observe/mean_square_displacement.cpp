@@ -62,10 +62,7 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
     if (!run_.scene.box.periodic(0) || !run_.scene.box.periodic(1))
       add_note("between walls errors at long lags are up to 1.3 times too large");
     if (run_.disks.count() < few) add_note("errors of so few disks are up to 1.4 times too large");
-    if (table.columns.empty())
-      found.note = "the run is too short";
-    else
-      found.tables.push_back(std::move(table));
+    put_table(found, std::move(table));
     return found;
   }
 

@@ -17,34 +17,32 @@ class Overlap final : public SavedObservable<Overlap> {
  public:
   Overlap(const ObservableRequest& request, const ObservedRun& run)
       : SavedObservable(request, run),
+        followed_(request, run),
         square_(std::pow(request.range.value_or(0.3) * run.mean_diameter, 2)),
         overlap_(run.species_count()),
-        squares_(run.species_count()) {
-    for (std::size_t s = 0; s < run.species_count(); ++s) species_.emplace_back(request, run, s);
-  }
+        squares_(run.species_count()) {}
 
   void sample(const State& state, const Totals&) override {
     const Eigen::Vector2d drift = state.time * non_thermal_velocity(run_, state);
-    for (std::size_t s = 0; s < species_.size(); ++s)
-      species_[s].add(run_, state, drift, [&](std::size_t row, std::span<const double> moved) {
-        double near = 0.0;
-        for (std::size_t c = 0; c < moved.size(); c += 2)
-          if (moved[c] * moved[c] + moved[c + 1] * moved[c + 1] < square_) near += 1.0;
-        const double q = 2.0 * near / static_cast<double>(moved.size());
-        overlap_[s].add(row, q);
-        squares_[s].add(row, q * q, q);
-      });
+    followed_.add(run_, state, drift, [&](std::size_t s, std::size_t row, std::span<const double> moved) {
+      double near = 0.0;
+      for (std::size_t c = 0; c < moved.size(); c += 2)
+        if (moved[c] * moved[c] + moved[c + 1] * moved[c + 1] < square_) near += 1.0;
+      const double q = 2.0 * near / static_cast<double>(moved.size());
+      overlap_[s].add(row, q);
+      squares_[s].add(row, q * q, q);
+    });
   }
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
     Table table{.name = name()};
     bool is_part = false;
-    for (std::size_t s = 0; s < species_.size(); ++s) {
+    for (std::size_t s = 0; s < run_.species_count(); ++s) {
       if (overlap_[s].size() < 2) continue;
       if (table.columns.empty()) table.columns.push_back(lag_column(1, overlap_[s].size(), step_));
       LaggedColumn overlap("overlap" + run_.suffix(s), ""), chi("chi_4" + run_.suffix(s), "");
-      const double count = 0.5 * static_cast<double>(species_[s].disks.channels());
+      const double count = 0.5 * static_cast<double>(followed_.channels(s));
       is_part = is_part || static_cast<std::int64_t>(count) < run_.scene.species[s].count;
       for (std::size_t row = 1; row < overlap_[s].size(); ++row) {
         const auto q = overlap_[s].estimate(row), ratio = squares_[s].estimate(row, 2);  // <Q^2> / <Q>^2
@@ -56,22 +54,18 @@ class Overlap final : public SavedObservable<Overlap> {
       chi.put(table);
     }
     if (is_part) found.note = "chi_4 is that of the followed disks alone; take disks = N for all";
-    if (table.columns.empty())
-      found.note = "the run is too short";
-    else
-      found.tables.push_back(std::move(table));
+    put_table(found, std::move(table));
     return found;
   }
 
   template <class Archive>
   void serialize(Archive& archive) {
-    for (FollowedSpecies& one : species_) archive(one.states);
-    archive(overlap_, squares_);
+    archive(followed_, overlap_, squares_);
   }
 
  private:
+  DisksAtLags followed_;
   double square_;
-  std::vector<FollowedSpecies> species_;
   std::vector<LaggedRows> overlap_, squares_;  ///< by species: of Q, and of Q^2 with Q as its weight
 };
 

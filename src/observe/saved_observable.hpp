@@ -7,6 +7,7 @@
 
 #include <carom/observe.hpp>
 
+#include <cstddef>
 #include <istream>
 #include <ostream>
 #include <string>
@@ -35,6 +36,14 @@ class SavedObservable : public Observable {
   }
 
  protected:
+  /// Adds a table to the results, or a note that the run was too short where it has no more columns than the first `heads`, which
+  /// hold no results.
+  static void put_table(Measurement& found, Table table, std::size_t heads = 0) {
+    if (table.columns.size() <= heads)
+      found.note = "the run is too short";
+    else
+      found.tables.push_back(std::move(table));
+  }
   /// Adds a number to the results, as `series.fill(scalar, step, more...)` gives it, or `otherwise` as its note.
   template <class Series, class... More>
   void put(Measurement& found, Scalar scalar, const Series& series, const char* otherwise = "nothing was measured",

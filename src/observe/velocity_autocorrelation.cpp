@@ -81,10 +81,7 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
       all.insert(all.end(), means.begin(), means.end());
     }
     found.note = MultipleTau::note_on_errors(all);
-    if (table.columns.empty())
-      found.note = "the run is too short";
-    else
-      found.tables.push_back(std::move(table));
+    put_table(found, std::move(table));
     return found;
   }
 
