@@ -2,9 +2,9 @@
 
 #include "io/summary.hpp"
 
+#include "core/all_events.hpp"
 #include "io/json.hpp"
 #include "io/observable_output.hpp"
-#include "simulation/all_events.hpp"
 
 #include <fmt/format.h>
 

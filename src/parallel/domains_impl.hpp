@@ -1,6 +1,7 @@
 #pragma once
 // How domains run together.
 
+#include "core/all_events.hpp"
 #include "parallel/domains_of_ranks.hpp"
 
 namespace carom {
@@ -29,15 +30,11 @@ template <class Impact, class Layout, class World>
 bool Domains<Impact, Layout, World>::run_until(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit,
                                                bool exact_events) {
   constexpr auto no_limit = std::numeric_limits<std::uint64_t>::max();
-  const auto processed = [this] {
-    const Counts so_far = counts();
-    return so_far.events() + so_far.other + so_far.stale;
-  };
-  const std::uint64_t told = processed();
+  const std::uint64_t told = detail::all_events(counts());
   const auto alone = [&](const Instant& until) {
     gather();
     // After a window that was void the whole engine stands before what the caller knows of already.
-    const std::uint64_t behind = told - std::min(told, processed());
+    const std::uint64_t behind = told - std::min(told, detail::all_events(counts()));
     const std::uint64_t limit = behind < no_limit - event_limit ? event_limit + behind : no_limit;
     return serially([&] { return engine_.run_until(until, pair_limit, limit); });
   };

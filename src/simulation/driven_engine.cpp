@@ -1,7 +1,7 @@
 #include "simulation/driven_engine.hpp"
 
+#include "core/all_events.hpp"
 #include "scene/growth_room.hpp"
-#include "simulation/all_events.hpp"
 
 #include <algorithm>
 #include <cmath>

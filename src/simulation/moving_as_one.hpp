@@ -2,7 +2,7 @@
 // Tells a run that waits for collisions of disks that have all but lost their energy, and fly along together. A common motion
 // never cools. Against it relative speeds become so small that ever more events pass from one collision to the next.
 
-#include "simulation/all_events.hpp"
+#include "core/all_events.hpp"
 #include "simulation/any_engine.hpp"
 
 #include <carom/scene.hpp>

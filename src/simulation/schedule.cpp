@@ -4,10 +4,10 @@
 
 #include <carom/simulation.hpp>
 
+#include "core/all_events.hpp"
 #include "core/archive.hpp"
 #include "core/seconds.hpp"
 #include "scene/checks.hpp"
-#include "simulation/all_events.hpp"
 #include "simulation/disk_table.hpp"
 #include "simulation/finite_state.hpp"
 #include "simulation/moving_as_one.hpp"

@@ -2,8 +2,8 @@
 
 #include <carom/simulation.hpp>
 
+#include "core/all_events.hpp"
 #include "scene/effect_traits.hpp"
-#include "simulation/all_events.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
 #include "simulation/proceed_watch.hpp"

@@ -3,9 +3,9 @@
 // every event may move the clock by that digit, and a run would take years for the next thousandth of a unit of time. Or events
 // may follow each other ever faster, so that the clock converges to a time before the end of the run.
 
+#include "core/all_events.hpp"
 #include "core/instant.hpp"
 #include "scene/effect_traits.hpp"
-#include "simulation/all_events.hpp"
 #include "simulation/any_engine.hpp"
 
 #include <carom/effects.hpp>

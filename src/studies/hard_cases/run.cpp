@@ -1,9 +1,9 @@
 #include "studies/hard_cases/run.hpp"
 
+#include "core/all_events.hpp"
 #include "core/nearest_image.hpp"
 #include "observe/geometry.hpp"
 #include "observe/run_measurements.hpp"
-#include "simulation/all_events.hpp"
 
 #include <algorithm>
 #include <bit>

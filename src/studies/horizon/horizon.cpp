@@ -1,7 +1,7 @@
 #include "studies/horizon/horizon.hpp"
 
+#include "core/all_events.hpp"
 #include "core/real.hpp"
-#include "simulation/all_events.hpp"
 #include "simulation/fixed_step.hpp"
 #include "studies/horizon/difference.hpp"
 #include "studies/horizon/lyapunov.hpp"

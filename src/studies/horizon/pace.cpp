@@ -1,6 +1,6 @@
 #include "studies/horizon/pace.hpp"
 
-#include "simulation/all_events.hpp"
+#include "core/all_events.hpp"
 
 #include <carom/simulation.hpp>
 
