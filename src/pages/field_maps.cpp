@@ -2,6 +2,7 @@
 
 #include "pages/field_maps.hpp"
 
+#include "observe/table_column.hpp"
 #include "pages/palette.hpp"
 #include "text/numbers.hpp"
 
@@ -25,15 +26,9 @@ struct Cells {
   double width = 0.0, height = 0.0;
 };
 
-const Column* column(const Table& table, std::string_view name) {
-  for (const Column& one : table.columns)
-    if (one.name == name) return &one;
-  return nullptr;
-}
-
 /// Cells come row after row, from below.
 std::optional<Cells> cells_of(const Table& fields) {
-  const Column *x = column(fields, "x"), *y = column(fields, "y");
+  const Column *x = find_column(fields, "x"), *y = find_column(fields, "y");
   if (x == nullptr || y == nullptr || y->values.empty()) return {};
   Cells cells;
   while (cells.across < y->values.size() && y->values[cells.across] == y->values.front()) ++cells.across;
@@ -100,7 +95,7 @@ std::optional<std::string> field_maps(const Table& fields) {
   const std::optional<Cells> cells = cells_of(fields);
   if (!cells) return {};
   const auto values = [&](std::string_view name) -> const Values* {
-    const Column* const found = column(fields, name);
+    const Column* const found = find_column(fields, name);
     return found == nullptr ? nullptr : &found->values;
   };
   const Values *density = values("density"), *u = values("velocity_x"), *v = values("velocity_y"), *kT = values("temperature");
@@ -111,7 +106,7 @@ std::optional<std::string> field_maps(const Table& fields) {
   for (std::size_t c = 0; c < xx->size(); ++c) pressure.push_back(0.5 * ((*xx)[c] + (*yy)[c]));
   std::string stops;
   for (int k = 0; k <= 8; ++k) stops += (k == 0 ? "" : ",") + hex(scale_colour(k / 8.0));
-  const auto unit = [&](std::string_view name) { return column(fields, name)->unit; };
+  const auto unit = [&](std::string_view name) { return find_column(fields, name)->unit; };
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Maps of the fields</title><style>\n"
          ":root{color-scheme:light dark}body{margin:1rem;font:1rem/1.4 "
          "system-ui,sans-serif;background:#fff;color:#1b2330;display:grid;"

@@ -1,5 +1,6 @@
 #include "pages/report_parts.hpp"
 
+#include "observe/table_column.hpp"
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
@@ -260,12 +261,6 @@ constexpr std::array<Frame, 25> frames = {{
      "H of the velocities at each instant. It falls to that of Maxwell's distribution and stays there."},
 }};
 
-const Column* column_of(const Table& table, std::string_view name) {
-  for (const Column& column : table.columns)
-    if (column.name == name) return &column;
-  return nullptr;
-}
-
 bool is_error(const Column& column) { return column.name.ends_with("_error"); }
 
 /// Returns text such as "density", "density_small", but not "density_error".
@@ -282,7 +277,7 @@ std::vector<const Column*> with_species(const Table& table, std::string_view bas
 Series series_of(const Table& table, const Column& x, const Column& y, std::string name, int group) {
   constexpr std::size_t most_points = 130;  // with error bars; more run into each other
   Series series{.name = std::move(name), .x = x.values, .y = y.values, .style = Style::points, .group = group};
-  const Column* const error = column_of(table, y.name + "_error");
+  const Column* const error = find_column(table, y.name + "_error");
   if (error != nullptr)
     for (std::size_t k = 0; k < y.values.size(); ++k) {
       series.y_low.push_back(y.values[k] - error->values[k]);
@@ -311,7 +306,7 @@ Plot plot_of(const Frame& frame, const Table& table, const RunTheory& theory) {
     if (columns.values == nullptr) continue;
     const std::vector<const Column*> found = with_species(table, columns.values);
     for (const Column* const column : found) {
-      const Column* const x = *columns.x == '\0' ? &table.columns.front() : column_of(table, columns.x);
+      const Column* const x = *columns.x == '\0' ? &table.columns.front() : find_column(table, columns.x);
       if (x == nullptr) continue;
       if (plot.series.empty()) {
         plot.x.title = with_unit(frame.x, x->unit);

@@ -1,6 +1,7 @@
 #include "studies/sweep/seed_tables.hpp"
 
 #include "io/observable_output.hpp"
+#include "observe/table_column.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -30,15 +31,9 @@ std::vector<std::string> split_at_commas(const std::string& line) {
   return cells;
 }
 
-const Column* column_named(const Table& table, const std::string& name) {
-  const auto found =
-      std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& column) { return column.name == name; });
-  return found == table.columns.end() ? nullptr : &*found;
-}
-
 bool is_error_column(const Table& table, const Column& column) {
   return column.name.ends_with(error_ending) &&
-         column_named(table, column.name.substr(0, column.name.size() - error_ending.size())) != nullptr;
+         find_column(table, column.name.substr(0, column.name.size() - error_ending.size())) != nullptr;
 }
 
 bool same_number(double a, double b) { return std::isnan(a) ? std::isnan(b) : a == b || !differ(a, b); }
@@ -94,7 +89,7 @@ Table mean_of_tables(const std::vector<Table>& tables) {
           fmt::format("its {} differs from seed to seed; give the observable a step, every = ..., that is the "
                       "same for all",
                       column.name));
-    const bool is_key = c == 0 || (equal && column_named(first, column.name + std::string(error_ending)) == nullptr);
+    const bool is_key = c == 0 || (equal && find_column(first, column.name + std::string(error_ending)) == nullptr);
     Column values{column.name, column.unit, {}}, errors{column.name + std::string(error_ending), column.unit, {}};
     for (std::size_t r = 0; r < rows; ++r) {
       std::vector<std::optional<double>> found;
