@@ -4,6 +4,8 @@
 #include "observe/lagged_states.hpp"
 #include "observe/observed_system.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <complex>
 #include <functional>

@@ -5,6 +5,7 @@
 
 #include "support/sweep_files.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
