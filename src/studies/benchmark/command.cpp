@@ -150,7 +150,6 @@ std::string measured_on() {
 }
 
 nlohmann::ordered_json measured_on_json() {
-  using Json = nlohmann::ordered_json;
   const std::optional<std::size_t> cache = second_level_cache();
   return {{"carom", detail::build_json()},
           {"machine", {{"processor", processor()}, {"second_level_cache", cache ? Json(*cache) : Json(nullptr)}}},
