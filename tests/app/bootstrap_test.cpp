@@ -21,8 +21,8 @@ using ::testing::Not;
 class Bootstrap : public ::testing::Test {
  protected:
   Bootstrap() {
-    for (const char* name :
-         {"bootstrap", "cmake/debian-packages.txt", "python/requirements.txt", "tests/python/requirements.txt"}) {
+    for (const char* name : {"bootstrap", "cmake/debian-packages.txt", "python/requirements.txt", "python/wheel-requirements.txt",
+                             "tests/python/requirements.txt"}) {
       fs::create_directories(file("checkout") / fs::path(name).parent_path());
       fs::copy_file(fs::path(CAROM_SOURCE_DIR) / name, file("checkout") / name);
     }
@@ -39,12 +39,18 @@ class Bootstrap : public ::testing::Test {
         echo "CMAKE_HOME_DIRECTORY:INTERNAL=$PWD" >build/release/CMakeCache.txt
         if grep -qx libopenmpi-dev "$home/packages"; then echo 'with MPI' >>"$home/called"; fi ;;
       --build) printf '#!/bin/sh\n' >build/release/carom; chmod +x build/release/carom ;; esac)");
-    // What makes an environment is its interpreter too; it finds PyPI where there is a file of that name.
+    // What makes an environment is its interpreter too; it finds PyPI where there is a file of that name, and pip builds a wheel.
     tool("python3", R"(case "$1 $2 $*" in
       "-m venv "*) mkdir -p "$3/bin"; cp "$0" "$3/bin/python" ;;
-      "-m pip "*) [[ -e $home/PyPI ]] && echo "pip $*" >>"$home/called" ;;
+      "-m pip "*)
+        [[ -e $home/PyPI ]] && echo "pip $*" >>"$home/called" || exit 1
+        for word; do
+          if [[ $before == --wheel-dir ]]; then mkdir -p "$word" && echo bare >"$word/carom.whl"; fi
+          before=$word
+        done ;;
       "-c "*) echo "$home" ;;
       *) echo Python 3.11 ;; esac)");
+    tool("auditwheel", R"([[ $1 == repair && $(<"$4") == bare ]] && echo "with libraries" >"$3/carom-manylinux.whl")");
     for (const char* name : {"ctest", "ninja", "g++", "sudo"}) tool(name, "");
   }
 
@@ -95,6 +101,18 @@ TEST_F(Bootstrap, TakesPythonPackagesFromPyPIOnce) {
   EXPECT_THAT(calls("test"), AllOf(HasSubstr("tests/python/requirements.txt"), HasSubstr("--fresh")));
   for (const char* verb : {"test", "python", "run"})
     EXPECT_THAT(calls(verb), AllOf(Not(HasSubstr("pip")), Not(HasSubstr("--preset"))));
+}
+
+TEST_F(Bootstrap, MakesAWheelThatBringsItsLibraries) {
+  calls("wheel", 1);
+  EXPECT_THAT(outcome.err, HasSubstr("pip could not install these packages from PyPI"));
+  write_text(file("PyPI"), "");
+  fs::create_directories(file("checkout/build/wheels"));
+  write_text(file("checkout/build/wheels/carom-of-yesterday.whl"), "");
+  EXPECT_THAT(calls("wheel"), AllOf(HasSubstr("python/wheel-requirements.txt"), Not(HasSubstr("tests/python/requirements.txt"))));
+  const fs::path wheels = fs::canonical(file("checkout")) / "build/wheels";
+  EXPECT_EQ(outcome.out, (wheels / "carom-manylinux.whl\n").string());  // the bare one and that of yesterday are gone
+  EXPECT_EQ(text_of(wheels / "carom-manylinux.whl"), "with libraries\n");
 }
 
 TEST_F(Bootstrap, MakesTheSiteOfProgramAndPackageAndOfThePlaygroundWhereThatIsBuilt) {

