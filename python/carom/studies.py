@@ -380,7 +380,7 @@ def validate(*, full: bool = False, only: Sequence[str] = (), seed: int = 1, pro
 
     Args:
         full: twenty times the collisions, and trials of its own.
-        only: names of trials, of `carom.validation_trials()`; none: all.
+        only: names of trials, of `carom.validation_trials()`, and of their groups; none: all.
         seed: of the random numbers, 0 to 9e12.
         progress: True for a bar (needs tqdm), or a function of the fraction done.
 

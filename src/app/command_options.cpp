@@ -261,7 +261,7 @@ void add_validate(CLI::App& program, Action& action, const Invocation& invocatio
   command->add_flag("--full", options->full,
                     "Twenty times as many collisions, and the liquid-hexatic transition: up to two hours");
   command->add_option("--seed", options->seed, "Seed of all random numbers (default: 1)")->type_name("N");
-  command->add_option("--only", options->only, "Run only this trial; may be repeated")
+  command->add_option("--only", options->only, "Run only this trial, or this group of trials; may be repeated")
       ->type_name("TRIAL")
       ->allow_extra_args(false);
   command->add_option("-o,--out", options->out, "Directory for the results (default: validation)")->type_name("DIR");

@@ -43,7 +43,8 @@ TEST_F(ValidateCommand, WhatMakesNoSenseIsRefusedInOneSentence) {
   for (const auto& [arguments, sentence] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{"--quick", "--full"}, "--quick and --full: give one of them"},
            {{"--force", "--resume"}, "--force begins anew and --resume goes on"},
-           {{"--only", "pressure-7"}, "--only pressure-7: there is no such trial; carom validate --list names them all"},
+           {{"--only", "pressure-7"},
+            "--only pressure-7: there is no such trial and no such group; carom validate --list names them all"},
            {{"--resume", "--only", "equipartition-walls"}, "trials.jsonl"},
            {{"--seed", "-1"}, "--seed"}}) {
     const Outcome outcome = validate(arguments);

@@ -23,7 +23,11 @@
 namespace carom::test {
 namespace {
 
+using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::SizeIs;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -280,6 +284,40 @@ TEST(ValidationFiles, LeaveOutALineThatWasNotFinishedAndRefuseWhatIsNotTheirs) {
 TEST(ValidationFiles, KeyTellsSeedsAndModesApart) {
   std::set<std::string> keys = {validation_key({}), validation_key({.full = true}), validation_key({.seed = 2})};
   EXPECT_EQ(keys.size(), 3U);
+}
+
+TEST(Validation, AGroupStandsForItsTrials) {
+  const auto names = [](const ValidateOptions& options) {
+    std::vector<std::string> list;
+    for (const validation::Trial& trial : chosen_trials(options)) list.push_back(trial.name);
+    return list;
+  };
+  EXPECT_THAT(names({.only = {"single file"}}),
+              ElementsAre("single-file-1.8-1", "single-file-1.8-2", "single-file-1.5-0.95", "single-file-1.2-1.2"));
+  const std::vector<std::string> quick = names({.only = {"equation of state"}});
+  EXPECT_THAT(quick, Not(Contains("transition-0.708")));
+  EXPECT_THAT(names({.full = true, .only = {"equation of state"}}), Contains("transition-0.708"));
+  EXPECT_THAT(names({.only = {"equation of state", "transition-0.708"}}), SizeIs(quick.size() + 1));
+  EXPECT_THROW((void)chosen_trials({.only = {"equation of states"}}), std::invalid_argument);
+}
+
+TEST(Validation, AGroupFitsByTheFirstNormalCheckOfEachTrial) {
+  Check statistic = check(0.0, 3.0, 0.0);
+  statistic.equivalent = 3.0;
+  Validation found;
+  for (const char* trial : {"pressure-0.01", "pressure-0.05", "pressure-0.10", "pressure-0.20", "pressure-0.30"})
+    found.results.push_back({.trial = trial, .checks = {statistic, check(1.0, 1.2, 0.1), check(1.0, 9.0, 0.1)}});
+  found.results.push_back({.trial = "pressure-0.40", .checks = {check(1.0, 9.0, 0.1, 0.5)}});  // its allowance hides a part
+  found.results.push_back({.trial = "single-file-1.8-1", .checks = {check(1.0, 9.0, 0.1)}});   // one trial says little
+  const std::vector<GroupFit> fits = group_fits(found);
+  ASSERT_THAT(fits, SizeIs(1));
+  EXPECT_EQ(fits[0].group, "equation of state");
+  EXPECT_EQ(fits[0].trials, 5U);
+  EXPECT_NEAR(fits[0].mean_square, 4.0, 1e-12);
+  // Percentage points of chi squared with 5 degrees of freedom: Abramowitz & Stegun, table 26.8.
+  EXPECT_NEAR(fits[0].least, 0.831211 / 5.0, 1e-6);
+  EXPECT_NEAR(fits[0].most, 12.8325 / 5.0, 1e-5);
+  EXPECT_THAT(validation_markdown(found), HasSubstr("equation of state: chi squared per trial 4.00 (5 trials; 0.17 to 2.57 in"));
 }
 
 TEST(Validation, TakesWhatIsKnownAndStopsWhereItIsTold) {

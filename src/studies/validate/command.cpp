@@ -68,7 +68,8 @@ ValidateOptions validate_options(const ValidateCommandOptions& options) {
   try {
     (void)chosen_trials(chosen);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--only {}: there is no such trial; carom validate --list names them all", error.what()));
+    throw UsageError(
+        fmt::format("--only {}: there is no such trial and no such group; carom validate --list names them all", error.what()));
   }
   return chosen;
 }
@@ -117,6 +118,7 @@ ExitCode validate(const ValidateCommandOptions& options, const Invocation& invoc
     if (options.markdown) fmt::print("{}", validation_markdown(validation));
     if (!options.json && !options.markdown) {
       fmt::print("{}{}\n", as_it_goes ? "\n" : "", summary_of(validation));
+      for (const GroupFit& fit : group_fits(validation)) fmt::print("  {}: {}\n", fit.group, sentence_of(fit));
       if (!options.quiet) fmt::print("Files in {}: report.html, validation.json, trials.jsonl\n", directory.path().string());
     }
     return validation.failed() == 0 ? exit_done : exit_check_failed;

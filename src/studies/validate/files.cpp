@@ -147,6 +147,12 @@ std::string validation_json(const Validation& validation, const std::string& com
   json["seed"] = validation.options.seed;
   json["checks"] = validation.checks();
   json["failed"] = validation.failed();
+  json["groups"] = Json::array();
+  for (const GroupFit& fit : group_fits(validation))
+    json["groups"].push_back({{"name", fit.group},
+                              {"trials", fit.trials},
+                              {"chi_squared_per_trial", number(fit.mean_square)},
+                              {"between", {fit.least, fit.most}}});
   json["trials"] = Json::array();
   for (const TrialResult& result : validation.results) json["trials"].push_back(json_of(result));
   return json.dump(1, ' ', false, Json::error_handler_t::replace);

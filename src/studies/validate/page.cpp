@@ -62,12 +62,6 @@ constexpr std::array<TrialPlot, 16> trial_plots = {{
      "One start, advanced in fixed steps."},
 }};
 
-std::string group_of(const TrialResult& result) {
-  for (const validation::Trial& trial : validation::all_trials())
-    if (trial.name == result.trial) return trial.group;
-  return {};
-}
-
 Series theory_of_equation_of_state() {
   Series line{.name = "Kolafa and Rottner", .style = Style::line, .group = 7};
   for (int k = 0; k <= 69; ++k) {
@@ -155,6 +149,7 @@ Page validation_page(const Validation& validation, const std::string& command_li
     page.sections.push_back(std::move(section));
   }
   page.facts = {{"Command", command_line}, {"Seed", std::to_string(validation.options.seed)}};
+  for (const GroupFit& fit : group_fits(validation)) page.facts.push_back({fit.group, sentence_of(fit)});
   add_build(page.facts);
   return page;
 }

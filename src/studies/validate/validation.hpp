@@ -15,7 +15,7 @@ namespace carom {
 struct ValidateOptions {
   bool full = false;  ///< twenty times the collisions of a quick validation, and trials of its own
   std::uint64_t seed = 1;
-  std::vector<std::string> only = {};  ///< names of trials; empty: all
+  std::vector<std::string> only = {};  ///< names of trials and of groups; empty: all
 };
 
 struct Validation {
@@ -33,11 +33,30 @@ struct ValidateHooks {
   std::function<void(const TrialResult& result)> done = {};
 };
 
-/// Returns the trials that `options` name. Throws std::invalid_argument where there is no such trial.
+/// Returns the trials that `options` name. Throws std::invalid_argument where there is no such trial and no such group.
 [[nodiscard]] std::vector<validation::Trial> chosen_trials(const ValidateOptions& options);
 
 /// Runs the trials that `before` does not hold already. A trial that cannot be run is one that fails.
 [[nodiscard]] Validation validate(const ValidateOptions& options, const ValidateHooks& hooks, const Validation& before = {});
+
+/// Returns the group of the trial whose results these are; an empty name where there is no such trial.
+[[nodiscard]] std::string group_of(const TrialResult& result);
+
+/// How well the trials of a group fit theory and literature together: the mean of z^2 over one check of each trial. The checks
+/// are those of separate runs, so that for a right engine with right errors `trials` times that mean has the distribution of chi
+/// squared.
+struct GroupFit {
+  std::string group = {};
+  std::size_t trials = 0;          ///< trials that count: those with a check whose statistic is normal
+  double mean_square = 0.0;        ///< chi squared per trial
+  double least = 0.0, most = 0.0;  ///< what `mean_square` lies between in 19 of 20 cases
+};
+
+/// Returns the fit of every group of at least five such trials. A trial's first check that Check::is_normal counts for it.
+[[nodiscard]] std::vector<GroupFit> group_fits(const Validation& validation);
+
+/// Returns text such as "chi squared per trial 0.93 (22 trials; 0.50 to 1.67 in 19 of 20 cases)"
+[[nodiscard]] std::string sentence_of(const GroupFit& fit);
 
 /// One check as people read it.
 struct CheckRow {
