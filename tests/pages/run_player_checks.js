@@ -2,21 +2,66 @@
 {
   const { moment, duration } = carom;
   const options = [...byId("colour").options].map((option) => option.value);
-  check("all colourings are offered", options.join() === "speed,species,collisions,id,psi6");
+  check("all colourings are offered", options.join() === "speed,species,collisions,id,psi6,psi6_angle,neighbours");
 
-  const order = (i) => {
+  // A side of a Voronoi cell is what all other centres, and the walls, leave of the bisector between two: an interval of it.
+  const slowOrder = (i) => {
     const { lower, upper, periodic } = carom.description.box;
-    const away = (a, b, axis) => (periodic[axis] ? a - b - Math.round((a - b) / (upper[axis] - lower[axis])) * (upper[axis] - lower[axis]) : a - b);
-    const others = [...moment.x.keys()].filter((j) => j !== i).map((j) => [away(moment.x[j], moment.x[i], 0), away(moment.y[j], moment.y[i], 1)]);
-    const six = others.sort((a, b) => Math.hypot(...a) - Math.hypot(...b)).slice(0, 6).map(([x, y]) => 6 * Math.atan2(y, x));
-    const mean = (f) => six.reduce((sum, angle) => sum + f(angle), 0) / 6;
-    return Math.hypot(mean(Math.cos), mean(Math.sin));
+    const lengths = [upper[0] - lower[0], upper[1] - lower[1]];
+    const images = [];
+    for (const a of periodic[0] ? [-1, 0, 1] : [0])
+      for (const b of periodic[1] ? [-1, 0, 1] : [0])
+        for (const j of moment.x.keys())
+          if (j !== i || a !== 0 || b !== 0) images.push([moment.x[j] + a * lengths[0] - moment.x[i], moment.y[j] + b * lengths[1] - moment.y[i]]);
+    const planes = images.map(([x, y]) => [x, y, (x * x + y * y) / 2, true]);
+    const at = [moment.x[i], moment.y[i]];
+    for (const axis of [0, 1])
+      if (!periodic[axis])
+        for (const sign of [-1, 1]) planes.push([...(axis === 0 ? [sign, 0] : [0, sign]), sign > 0 ? upper[axis] - at[axis] : at[axis] - lower[axis], false]);
+    let [re, im, perimeter, neighbours, isAtWall] = [0, 0, 0, 0, false];
+    for (const [x, y, half, isDisk] of planes) {
+      const distance = Math.hypot(x, y);
+      const foot = [(x * half) / distance ** 2, (y * half) / distance ** 2];
+      const along = [-y / distance, x / distance];
+      let [from, to] = [-1e9, 1e9];
+      for (const [u, v, other] of planes) {
+        if (u === x && v === y && other === half) continue;
+        const slope = u * along[0] + v * along[1];
+        const room = other - u * foot[0] - v * foot[1];
+        if (slope > 0) to = Math.min(to, room / slope);
+        else if (slope < 0) from = Math.max(from, room / slope);
+        else if (room < 0) to = from;
+      }
+      if (to - from < 1e-9 * lengths[0]) continue;
+      if (!isDisk) {
+        isAtWall = true;
+        continue;
+      }
+      const angle = 6 * Math.atan2(y, x);
+      re += (to - from) * Math.cos(angle);
+      im += (to - from) * Math.sin(angle);
+      perimeter += to - from;
+      ++neighbours;
+    }
+    return { re: re / perimeter, im: im / perimeter, neighbours: isAtWall ? 0 : neighbours };
   };
   give("colour", "psi6", "change");
-  for (const share of [0, 0.31, 0.77]) {
+  for (const share of [0.31, 0.77]) {
     carom.seek(share * duration);
-    check(`sixfold order at ${share}`, [...moment.x.keys()].every((i) => Math.abs(psi[i] - order(i)) < 1e-12));
+    const slow = [...moment.x.keys()].map(slowOrder);
+    check(`sixfold order at ${share}`, slow.every(({ re, im }, i) => Math.abs(order.re[i] - re) < 1e-9 && Math.abs(order.im[i] - im) < 1e-9 && Math.abs(order.size[i] - Math.hypot(re, im)) < 1e-9));
+    check(`neighbours at ${share}`, slow.every(({ neighbours }, i) => order.neighbours[i] === neighbours));
+    const { periodic } = carom.description.box;
+    if (periodic[0] && periodic[1]) check(`six neighbours on average at ${share}`, order.neighbours.reduce((sum, n) => sum + n - 6, 0) === 0);
   }
+  const legend = () => [...document.querySelectorAll("#legend span, #legend b")].map((element) => element.textContent).join();
+  give("colour", "psi6_angle", "change");
+  check("axes have the legend of the film", legend() === "−30°,30°");
+  give("colour", "neighbours", "change");
+  check("neighbours have the legend of the film", legend() === "≤ 4,5,6,7,≥ 8 neighbours");
+  check("fives and sevens have the colours of the film", neighbourColours(false).join() === "#e69f00,#d55e00,#d5dae0,#0072b2,#009e73");
+  carom.frame(0);
+  check("all disks are drawn in the colour of their neighbours", [...bucket].every((b, i) => (order.neighbours[i] === 0 ? colours[b] === theme.frame : b === Math.min(Math.max(order.neighbours[i], 4), 8) - 4)));
   give("colour", "speed", "change");
   carom.seek(duration);
   // Velocities in the page are rounded to 24 bits, 6e-8 of the speed, and momenta handed over are seldom a hundredth of mass times speed.

@@ -42,7 +42,7 @@ function showSettings() {
   for (const [name, setting] of Object.entries(toggles)) control(name).setAttribute("aria-pressed", settings[setting]);
   control("colour").value = settings.colourBy;
   control("palette").value = settings.palette;
-  control("palette").disabled = Boolean(colourings[settings.colourBy].isKind);
+  control("palette").disabled = Boolean(colourings[settings.colourBy].colours);
   control("theme").value = settings.theme;
   control("rate").value = positionOf(settings.rate);
   control("rate-text").textContent = `time ${shortNumber(settings.rate)} per second`;

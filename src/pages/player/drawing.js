@@ -5,22 +5,25 @@ let context = canvas.getContext("2d", { alpha: false });  // context of the canv
 const stageContext = context;
 const bucket = new Uint8Array(disks);        // colour number of each disk
 const ordered = new Uint32Array(disks);      // disks by colour, so that each colour is set once
-const bucketEnd = new Uint32Array(colourSteps + 1);
+const bucketEnd = new Uint32Array(colourSteps + 2);  // one colour more is that of disks without a value
 let colours = [];
 
 /// Sorts the disks by their colours at the moment.
 function colourDisks(moment) {
   const colouring = colourings[settings.colourBy];
-  colours = colouring.isKind ? kinds : scaleColours.cached(settings.palette, theme.isDark);
+  colours = colouring.colours ? colouring.colours() : scaleColours.cached(settings.palette, theme.isDark);
+  const uncoloured = colours.length;
+  if (colouring.isCut) colours = [...colours, theme.frame];
   if (colouring.prepare) colouring.prepare(moment);
   bucketEnd.fill(0);
   for (let i = 0; i < disks; ++i) {
     const value = colouring.value(moment, i);
     bucket[i] = colouring.isKind ? value : Math.min(Math.max(Math.floor(value * colourSteps), 0), colourSteps - 1);
+    if (colouring.isCut?.(i)) bucket[i] = uncoloured;
     ++bucketEnd[bucket[i] + 1];
   }
-  for (let b = 0; b < colourSteps; ++b) bucketEnd[b + 1] += bucketEnd[b];
-  const place = bucketEnd.slice(0, colourSteps);
+  for (let b = 0; b <= colourSteps; ++b) bucketEnd[b + 1] += bucketEnd[b];
+  const place = bucketEnd.slice(0, colourSteps + 1);
   for (let i = 0; i < disks; ++i) ordered[place[bucket[i]]++] = i;
 }
 scaleColours.cached = (() => {

@@ -1,10 +1,14 @@
-// Sixfold order: psi = mean over the six nearest neighbours of exp(6 i theta), as in docs/observables.md; 1 in a perfect crystal.
+// Voronoi cells of the disks, and what they say of the order round each: as `carom movie` and the observable voronoi have them
+// (docs/observables.md). Psi = mean of exp(6 i theta) over the neighbours, weighted by the lengths of the sides; 1 in a perfect
+// crystal. Where centres form exact rectangles, both diagonals have length 0 and count as no sides.
 "use strict";
 
-const hexaticOffered = disks >= 7 && disks <= 5000;
+const cellsOffered = disks >= 3 && disks <= 5000;
 
-/// Writes |psi| of every disk into `order`. Neighbours are searched in square cells of about two disks.
-function hexaticOrder(moment, order) {
+/// Writes the real and imaginary part of psi, its size, and the number of neighbours of every disk into `order`; 0 neighbours where a
+/// wall cuts the cell off. A cell is the box round its disk, cut by the bisector to one neighbour after the other; these are
+/// searched in square cells of about two disks, ring after ring, until the rest is too far away to cut.
+function findOrder(moment, order) {
   const left = box.periodic[0] ? box.lower[0] : moment.walls[0];
   const bottom = box.periodic[1] ? box.lower[1] : moment.walls[2];
   const width = box.periodic[0] ? box.lengths[0] : moment.walls[1] - left;
@@ -20,55 +24,99 @@ function hexaticOrder(moment, order) {
     next[i] = head[at];
     head[at] = i;
   }
-  const square = new Float64Array(6);
-  const toX = new Float64Array(6);
-  const toY = new Float64Array(6);
-  const cellWidth = width / across;
-  const cellHeight = height / up;
+  const step = Math.min(width / across, height / up);
+  const most = 64;  // corners of a cell
+  const wall = -1;  // the label of a side that is one
+  let x = new Float64Array(most), y = new Float64Array(most), label = new Int32Array(most), count = 0;
+  let newX = new Float64Array(most), newY = new Float64Array(most), newLabel = new Int32Array(most);
+  const toX = [];
+  const toY = [];
+  /// Cuts away what is nearer to (dx, dy) than to 0. Side k runs from corner k to the next.
+  const cut = (dx, dy) => {
+    const half = 0.5 * (dx * dx + dy * dy);
+    const slack = 1e-12 * half;
+    const beyond = (k) => x[k] * dx + y[k] * dy - half;
+    let outside = 0;
+    for (let k = 0; k < count; ++k) if (beyond(k) > slack) ++outside;
+    if (outside === 0) return;
+    const mark = toX.push(dx) - 1;
+    toY.push(dy);
+    let kept = 0;
+    const put = (px, py, name) => {
+      newX[kept] = px;
+      newY[kept] = py;
+      newLabel[kept++] = name;
+    };
+    for (let k = 0; k < count && kept < most - 2; ++k) {
+      const to = (k + 1) % count;
+      const a = beyond(k);
+      const b = beyond(to);
+      if (a <= slack) put(x[k], y[k], label[k]);
+      if (a <= slack !== b <= slack) {
+        const share = a / (a - b);
+        put(x[k] + share * (x[to] - x[k]), y[k] + share * (y[to] - y[k]), a <= slack ? mark : label[k]);
+      }
+    }
+    [x, newX] = [newX, x];
+    [y, newY] = [newY, y];
+    [label, newLabel] = [newLabel, label];
+    count = kept;
+  };
   for (let i = 0; i < disks; ++i) {
-    const cx = cell(moment.x[i], left, width, across);
-    const cy = cell(moment.y[i], bottom, height, up);
-    let found = 0;
-    // Search ring after ring of cells, until the sixth neighbour is nearer than the next ring, or all cells are searched.
-    for (let ring = 0; ring <= Math.max(across, up); ++ring) {
-      if (found === 6 && square[5] <= ((ring - 1) * Math.min(cellWidth, cellHeight)) ** 2) break;
+    const mx = moment.x[i];
+    const my = moment.y[i];
+    const west = box.periodic[0] ? -2 * width : left - mx;
+    const east = box.periodic[0] ? 2 * width : left + width - mx;
+    const south = box.periodic[1] ? -2 * height : bottom - my;
+    const north = box.periodic[1] ? 2 * height : bottom + height - my;
+    x.set([west, east, east, west]);
+    y.set([south, south, north, north]);
+    label.set([wall, wall, wall, wall]);
+    count = 4;
+    toX.length = toY.length = 0;
+    const cx = cell(mx, left, width, across);
+    const cy = cell(my, bottom, height, up);
+    const farthest = () => {
+      let square = 0;
+      for (let k = 0; k < count; ++k) square = Math.max(square, x[k] * x[k] + y[k] * y[k]);
+      return Math.sqrt(square);
+    };
+    const rings = 2 * Math.max(across, up) + 2;
+    for (let ring = 0; ring <= rings && (ring - 1) * step <= 2 * farthest(); ++ring) {
       for (let b = -ring; b <= ring; ++b) {
         for (let a = -ring; a <= ring; a += Math.abs(b) === ring ? 1 : Math.max(2 * ring, 1)) {
-          let ax = cx + a;
-          let by = cy + b;
-          if (box.periodic[0] && (2 * Math.abs(a) > across || 2 * a === -across)) continue;  // the nearest image is on the other side
-          if (box.periodic[1] && (2 * Math.abs(b) > up || 2 * b === -up)) continue;
-          if (box.periodic[0]) ax = (ax + across) % across;
-          if (box.periodic[1]) by = (by + up) % up;
-          if (ax < 0 || by < 0 || ax >= across || by >= up) continue;
-          for (let j = head[ax + across * by]; j >= 0; j = next[j]) {
-            if (j === i) continue;
-            let dx = moment.x[j] - moment.x[i];
-            let dy = moment.y[j] - moment.y[i];
-            if (box.periodic[0]) dx -= Math.round(dx / width) * width;
-            if (box.periodic[1]) dy -= Math.round(dy / height) * height;
-            const d = dx * dx + dy * dy;
-            if (found === 6 && d >= square[5]) continue;
-            let at = found < 6 ? found++ : 5;
-            for (; at > 0 && square[at - 1] > d; --at) {
-              square[at] = square[at - 1];
-              toX[at] = toX[at - 1];
-              toY[at] = toY[at - 1];
-            }
-            square[at] = d;
-            toX[at] = dx;
-            toY[at] = dy;
+          const boxX = Math.floor((cx + a) / across);
+          const boxY = Math.floor((cy + b) / up);
+          if ((!box.periodic[0] && boxX !== 0) || (!box.periodic[1] && boxY !== 0)) continue;
+          for (let j = head[cx + a - boxX * across + across * (cy + b - boxY * up)]; j >= 0; j = next[j]) {
+            if (j === i && boxX === 0 && boxY === 0) continue;
+            cut(moment.x[j] + boxX * width - mx, moment.y[j] + boxY * height - my);
           }
         }
       }
     }
     let re = 0;
     let im = 0;
-    for (let k = 0; k < found; ++k) {
-      const angle = 6 * Math.atan2(toY[k], toX[k]);
-      re += Math.cos(angle);
-      im += Math.sin(angle);
+    let perimeter = 0;
+    let neighbours = 0;
+    let isAtWall = false;
+    for (let k = 0; k < count; ++k) {
+      const to = (k + 1) % count;
+      const length = Math.hypot(x[to] - x[k], y[to] - y[k]);
+      if (length < 1e-9 * side) continue;
+      if (label[k] === wall) {
+        isAtWall = true;
+        continue;
+      }
+      const angle = 6 * Math.atan2(toY[label[k]], toX[label[k]]);
+      re += length * Math.cos(angle);
+      im += length * Math.sin(angle);
+      perimeter += length;
+      ++neighbours;
     }
-    order[i] = found > 0 ? Math.hypot(re, im) / found : 0;
+    order.re[i] = perimeter > 0 ? re / perimeter : 0;
+    order.im[i] = perimeter > 0 ? im / perimeter : 0;
+    order.size[i] = Math.hypot(order.re[i], order.im[i]);
+    order.neighbours[i] = isAtWall ? 0 : neighbours;
   }
 }

@@ -14,11 +14,13 @@ function showLegend() {
   };
   if (colouring.isKind) {
     const most = 12;
-    description.species.slice(0, most).forEach((name, k) => add("span", name, `--swatch: ${kinds[k % kinds.length]}`));
-    if (description.species.length > most) add("em", `and ${description.species.length - most} more`);
+    const names = colouring.names();
+    const colours = colouring.colours();
+    names.slice(0, most).forEach((name, k) => add("span", name, `--swatch: ${colours[k % colours.length]}`));
+    if (names.length > most) add("em", `and ${names.length - most} more`);
   } else {
     add("b", "");
-    add("i", "", `background: linear-gradient(to right, ${scaleColours(settings.palette, theme.isDark).join(",")})`);
+    add("i", "", `background: linear-gradient(to right, ${(colouring.colours?.() ?? scaleColours(settings.palette, theme.isDark)).join(",")})`);
     add("b", "");
     showLegendEnds();
   }

@@ -2,7 +2,8 @@
 "use strict";
 
 /// The quantities that colours can show. `value` is a number from 0 to 1 for each disk, or the number of its kind; `prepare` must
-/// be called first where there is one. `ends` are the texts at the ends of the legend.
+/// be called first where there is one. `ends` are the texts at the ends of the legend. `colours` are those of the scale or of the
+/// kinds where they are not the reader's choice, `names` those of the kinds. `isCut` says which disks have no value.
 const colourings = {
   speed: {
     label: "speed",
@@ -10,7 +11,7 @@ const colourings = {
     ends: () => ["0", shortNumber(2.5 * speedScale)],
     value: (moment, i) => speedOf(moment, i) / (2.5 * speedScale),
   },
-  species: { label: "species", isOffered: true, isKind: true, value: (moment, i) => species[i] % kinds.length },
+  species: { label: "species", isOffered: true, isKind: true, colours: () => kinds, names: () => description.species, value: (moment, i) => species[i] % kinds.length },
   collisions: {
     label: "collisions so far",
     isOffered: description.exact,
@@ -26,9 +27,24 @@ const colourings = {
     value: (moment, i) => (replay.collisionsOf(i) - fewest) / Math.max(most - fewest, 1),
   },
   id: { label: "id", isOffered: true, ends: () => ["0", String(Math.max(disks - 1, 0))], value: (moment, i) => i / Math.max(disks - 1, 1) },
-  psi6: { label: "sixfold order |ψ6|", isOffered: hexaticOffered, prepare: (moment) => hexaticOrder(moment, psi), ends: () => ["0", "1"], value: (moment, i) => psi[i] },
+  psi6: { label: "sixfold order |ψ6|", ends: () => ["0", "1"], value: (moment, i) => order.size[i] },
+  psi6_angle: {
+    label: "axes of the sixfold order",
+    colours: () => circleColours,
+    ends: () => ["−30°", "30°"],
+    value: (moment, i) => Math.atan2(order.im[i], order.re[i]) / (2 * Math.PI) + 0.5,
+  },
+  neighbours: {
+    label: "neighbours",
+    isKind: true,
+    colours: () => neighbourColours(theme.isDark),
+    names: () => ["≤ 4", "5", "6", "7", "≥ 8 neighbours"],
+    value: (moment, i) => Math.min(Math.max(order.neighbours[i], 4), 8) - 4,
+  },
 };
-const psi = new Float64Array(hexaticOffered ? disks : 0);
+for (const name of ["psi6", "psi6_angle", "neighbours"])
+  Object.assign(colourings[name], { isOffered: cellsOffered, prepare: (moment) => findOrder(moment, order), isCut: (i) => order.neighbours[i] === 0 });
+const order = Object.fromEntries(["re", "im", "size", "neighbours"].map((name) => [name, new Float64Array(cellsOffered ? disks : 0)]));
 let fewest = 0;  // smallest number of collisions of a disk up to the moment
 let most = 0;
 

@@ -11,6 +11,15 @@ const scales = {
 };
 const kinds = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442", "#8c8c8c"];
 
+/// A circle of colours of about equal lightness, from -30 to 30 degrees: its ends are the same.
+const circleColours = Array.from({ length: colourSteps }, (_, k) => {
+  const part = (begin) => 0.55 + 0.4 * Math.cos(2 * Math.PI * ((k + 0.5) / colourSteps - 0.5 - begin));
+  return "#" + [0, 1 / 3, 2 / 3].map((begin) => Math.round(255 * part(begin)).toString(16).padStart(2, "0")).join("");
+});
+
+/// The colours of disks with at most 4, 5, 6, 7, and at least 8 neighbours: none stands out but those that are not six.
+const neighbourColours = (isDark) => [kinds[1], kinds[5], isDark ? "#39424e" : "#d5dae0", kinds[0], kinds[2]];
+
 function mixed(from, to, share) {
   const part = (colour, k) => parseInt(colour.slice(1 + 2 * k, 3 + 2 * k), 16);
   return "#" + [0, 1, 2].map((k) => Math.round(part(from, k) + share * (part(to, k) - part(from, k))).toString(16).padStart(2, "0")).join("");
