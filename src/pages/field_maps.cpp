@@ -108,10 +108,10 @@ std::optional<std::string> field_maps(const Table& fields) {
   for (int k = 0; k <= 8; ++k) stops += (k == 0 ? "" : ",") + hex(scale_colour(k / 8.0));
   const auto unit = [&](std::string_view name) { return find_column(fields, name)->unit; };
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Maps of the fields</title><style>\n"
-         ":root{color-scheme:light dark}body{margin:1rem;font:1rem/1.4 "
+         ":root{color-scheme:light dark}body{margin:0;padding:1rem;font:1rem/1.4 "
          "system-ui,sans-serif;background:#fff;color:#1b2330;display:grid;"
          "grid-template-columns:repeat(auto-fit,minmax(min(15rem,100%),1fr));gap:1.2rem;align-items:start}"
-         "figure{margin:0}svg{display:block;width:100%;max-height:80vh}figcaption{min-height:3.6em;font-size:.9rem}"
+         "figure{margin:0}svg{display:block;width:100%;max-height:32rem}figcaption{min-height:3.6em;font-size:.9rem}"
          ".scale{display:inline-block;width:5em;height:.7em;background:linear-gradient(to right," +
          stops + ")}@media(prefers-color-scheme:dark){body{background:#12161c;color:#e6eaf0}}\n</style></head><body>\n" +
          map_of(*cells, "Density", unit("density"), *density, u, v, "flow") +

@@ -42,6 +42,7 @@ pressure = true
 free_flight = true
 speeds = { bins = 30 }
 radial_distribution = { range = 3.0, bins = 30 }
+fields = { cells = [4, 4] }
 viscosity = true
 )";
 

@@ -13,7 +13,8 @@ function connectEmbedded(frame) {
     const height = isStacked() ? `${inside.body.offsetHeight + border}px` : "";
     if (frame.style.height !== height) frame.style.height = height;
   };
-  new frame.contentWindow.ResizeObserver(fit).observe(inside.body);
+  // In the next frame: a height that changes while sizes are being told of is an error of the browser.
+  new frame.contentWindow.ResizeObserver(() => requestAnimationFrame(fit)).observe(inside.body);
   window.addEventListener("resize", fit);
   fit();
 }
