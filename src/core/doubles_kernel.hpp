@@ -1,4 +1,4 @@
-// No include guard: four doubles at a time, for kernels that are compiled once per instruction set, in the namespace
+// No include guard: four doubles at a time, or eight, for kernels that are compiled once per instruction set, in the namespace
 // CAROM_INSTRUCTIONS. The vectors are those of GCC and Clang; every operation is IEEE's.
 
 #include <cmath>
@@ -15,6 +15,17 @@ namespace {
 using Doubles = double __attribute__((vector_size(32)));
 
 CAROM_INLINE Doubles all(double x) { return Doubles{x, x, x, x}; }
+
+#if defined(__AVX512F__)
+/// Eight at a time, where one instruction does that: fewer instructions leave more room for those of the events after.
+using EightDoubles = double __attribute__((vector_size(64)));
+
+CAROM_INLINE EightDoubles all_eight(double x) { return EightDoubles{x, x, x, x, x, x, x, x}; }
+
+CAROM_INLINE EightDoubles square_root(EightDoubles x) {
+  return reinterpret_cast<EightDoubles>(_mm512_maskz_sqrt_pd(0xFF, reinterpret_cast<__m512d>(x)));
+}
+#endif
 
 CAROM_INLINE Doubles square_root(Doubles x) {
 #if defined(__AVX__)

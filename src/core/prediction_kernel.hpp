@@ -98,8 +98,53 @@ CAROM_INLINE Longs load(const Line& line) {
   return *reinterpret_cast<const StoredLongs*>(&line);
 }
 
-/// When `mine` meets each of four others. Growing disks: core/contact_time.hpp has the formulas; without expansion they are the
-/// same.
+/// That number in all lanes of a vector.
+template <class Lanes>
+CAROM_INLINE Lanes lanes_of(double x) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(Lanes) > sizeof(Doubles))
+    return all_eight(x);
+  else
+#endif
+    return all(x);
+}
+
+/// When disks meet whose separations are (x, y), with relative velocities (vx, vy) and contact distances sigma (at the epoch),
+/// in each lane. Growing disks: core/contact_time.hpp has the formulas; without expansion they are the same.
+template <bool growing, class Lanes>
+CAROM_INLINE Lanes contact_times(const PredictionFrame& frame, Lanes x, Lanes y, Lanes vx, Lanes vy, Lanes sigma, double now) {
+  const Lanes zero = lanes_of<Lanes>(0.0), start = lanes_of<Lanes>(now), none = lanes_of<Lanes>(never);
+  if constexpr (!growing) {
+    const Lanes sigma2 = sigma * sigma;
+    const Lanes b = x * vx + y * vy;
+    const Lanes s = x * vy - y * vx;
+    const Lanes d = sigma2 * (vx * vx + vy * vy) - s * s;
+    const Lanes c = (x * x + y * y) - sigma2;
+    Lanes wait = c / (square_root(d) - b);
+    wait = wait > zero ? wait : zero;
+    const auto meets = (b < zero) & (d >= zero);
+    return meets ? start + wait : none;
+  } else {
+    const Lanes a = sigma * lanes_of<Lanes>(frame.expansion);
+    sigma = sigma * lanes_of<Lanes>(frame.scale + frame.expansion * now);
+    const Lanes h = a / sigma, wx = vx - h * x, wy = vy - h * y;
+    const Lanes sigma2 = sigma * sigma;
+    const Lanes b = (x * vx + y * vy) - sigma * a;
+    const Lanes s = x * vy - y * vx;
+    const Lanes d = sigma2 * (wx * wx + wy * wy) - s * s;
+    const Lanes c = (x * x + y * y) - sigma2;
+    const Lanes shrinking = (vx * vx + vy * vy) - a * a;  // below zero: the disks grow faster than they part
+    const Lanes root = square_root(d);
+    const auto approach = b < zero;
+    Lanes wait = approach ? c / (root - b) : (b + root) / -shrinking;
+    wait = wait > zero ? wait : zero;
+    // A disk does not meet itself, which it is padded with: there is no distance.
+    const auto meets = (d >= zero) & (approach | (shrinking < zero)) & ((x * x + y * y) > zero);
+    return meets ? start + wait : none;
+  }
+}
+
+/// When `mine` meets each of four others.
 template <bool growing, class Line>
 CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& frame, const Mine& mine, const std::int32_t* ids,
                                    double now) {
@@ -113,37 +158,9 @@ CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& fra
   const Doubles vy = mine.vy - reinterpret_cast<Doubles>(__builtin_shufflevector(y01, y23, 2, 3, 6, 7));
   const Doubles x = to_double(dx) * all(frame.unit[0]) + vx * all(now);
   const Doubles y = to_double(dy) * all(frame.unit[1]) + vy * all(now);
-
   Doubles sigma = all(frame.sigma);
   if constexpr (sizeof(Line) > 32) sigma = all(mine.radius) + Doubles{l0.radius, l1.radius, l2.radius, l3.radius};
-  if constexpr (!growing) {
-    const Doubles sigma2 = sigma * sigma;
-    const Doubles b = x * vx + y * vy;
-    const Doubles s = x * vy - y * vx;
-    const Doubles d = sigma2 * (vx * vx + vy * vy) - s * s;
-    const Doubles c = (x * x + y * y) - sigma2;
-    Doubles wait = c / (square_root(d) - b);
-    wait = wait > all(0.0) ? wait : all(0.0);
-    const Longs meets = (b < all(0.0)) & (d >= all(0.0));
-    return meets ? all(now) + wait : all(never);
-  } else {
-    const Doubles a = sigma * all(frame.expansion);
-    sigma = sigma * all(frame.scale + frame.expansion * now);
-    const Doubles h = a / sigma, wx = vx - h * x, wy = vy - h * y;
-    const Doubles sigma2 = sigma * sigma;
-    const Doubles b = (x * vx + y * vy) - sigma * a;
-    const Doubles s = x * vy - y * vx;
-    const Doubles d = sigma2 * (wx * wx + wy * wy) - s * s;
-    const Doubles c = (x * x + y * y) - sigma2;
-    const Doubles shrinking = (vx * vx + vy * vy) - a * a;  // below zero: the disks grow faster than they part
-    const Doubles root = square_root(d);
-    const Longs approach = b < all(0.0);
-    Doubles wait = approach ? c / (root - b) : (b + root) / -shrinking;
-    wait = wait > all(0.0) ? wait : all(0.0);
-    // A disk does not meet itself, which it is padded with: there is no distance.
-    const Longs meets = (d >= all(0.0)) & (approach | (shrinking < all(0.0))) & ((x * x + y * y) > all(0.0));
-    return meets ? all(now) + wait : all(never);
-  }
+  return contact_times<growing>(frame, x, y, vx, vy, sigma, now);
 }
 
 /// The earliest of eight times, into `first`.
@@ -268,6 +285,98 @@ CAROM_INLINE Longs new_places(const Line& a, const Line& b, Doubles v, const Pre
 #endif
 }
 
+#if defined(__AVX512F__)
+
+using EightLongs = long long __attribute__((vector_size(64)));
+using EightUnsignedLongs = unsigned long long __attribute__((vector_size(64)));
+
+/// A line spread over eight lanes; or one over four and another over the other four.
+struct MineOfEight {
+  EightLongs x, y;
+  EightDoubles vx, vy, radius;
+};
+
+CAROM_INLINE EightLongs both(Longs a, Longs b) { return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7); }
+CAROM_INLINE EightDoubles both(Doubles a, Doubles b) { return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7); }
+CAROM_INLINE MineOfEight both(const Mine& a, const Mine& b) {
+  return {both(a.x, b.x), both(a.y, b.y), both(a.vx, b.vx), both(a.vy, b.vy), both(all(a.radius), all(b.radius))};
+}
+CAROM_INLINE Doubles low_half(EightDoubles a) { return __builtin_shufflevector(a, a, 0, 1, 2, 3); }
+CAROM_INLINE Doubles high_half(EightDoubles a) { return __builtin_shufflevector(a, a, 4, 5, 6, 7); }
+
+/// Returns the lengths of a separation in steps that wraps.
+CAROM_INLINE EightDoubles lengths(EightLongs a, EightLongs b, double unit) {
+  const auto steps = reinterpret_cast<__m512i>(reinterpret_cast<EightUnsignedLongs>(a) - reinterpret_cast<EightUnsignedLongs>(b));
+  return reinterpret_cast<EightDoubles>(_mm512_maskz_cvtepi64_pd(0xFF, steps)) * all_eight(unit);
+}
+
+/// When `mine` meets each of eight others: four and four.
+template <bool growing, class Line>
+CAROM_INLINE EightDoubles meeting_times(const Line* lines, const PredictionFrame& frame, const MineOfEight& mine,
+                                        const std::int32_t* ids, const std::int32_t* more, double now) {
+  const Line &l0 = lines[ids[0]], &l1 = lines[ids[1]], &l2 = lines[ids[2]], &l3 = lines[ids[3]];
+  const Line &l4 = lines[more[0]], &l5 = lines[more[1]], &l6 = lines[more[2]], &l7 = lines[more[3]];
+  const EightLongs a02 = both(load(l0), load(l2)), a13 = both(load(l1), load(l3));
+  const EightLongs a46 = both(load(l4), load(l6)), a57 = both(load(l5), load(l7));
+  const EightLongs x0 = __builtin_shufflevector(a02, a13, 0, 8, 2, 10, 4, 12, 6, 14);
+  const EightLongs x4 = __builtin_shufflevector(a46, a57, 0, 8, 2, 10, 4, 12, 6, 14);
+  const EightLongs y0 = __builtin_shufflevector(a02, a13, 1, 9, 3, 11, 5, 13, 7, 15);
+  const EightLongs y4 = __builtin_shufflevector(a46, a57, 1, 9, 3, 11, 5, 13, 7, 15);
+  const auto speeds = [](EightLongs first, EightLongs second) {
+    return reinterpret_cast<EightDoubles>(__builtin_shufflevector(first, second, 2, 3, 6, 7, 10, 11, 14, 15));
+  };
+  const EightDoubles vx = mine.vx - speeds(x0, x4), vy = mine.vy - speeds(y0, y4);
+  const EightDoubles x =
+      lengths(mine.x, __builtin_shufflevector(x0, x4, 0, 1, 4, 5, 8, 9, 12, 13), frame.unit[0]) + vx * all_eight(now);
+  const EightDoubles y =
+      lengths(mine.y, __builtin_shufflevector(y0, y4, 0, 1, 4, 5, 8, 9, 12, 13), frame.unit[1]) + vy * all_eight(now);
+  EightDoubles sigma = all_eight(frame.sigma);
+  if constexpr (sizeof(Line) > 32) {
+    sigma = mine.radius + EightDoubles{l0.radius, l1.radius, l2.radius, l3.radius, l4.radius, l5.radius, l6.radius, l7.radius};
+  }
+  return contact_times<growing>(frame, x, y, vx, vy, sigma, now);
+}
+
+/// What collided disks meet first among their first eight and, where `most` has more, twelve neighbours.
+template <bool growing, class Line>
+CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, const Mine& a, const Mine& b,
+                                 std::uint32_t most, double now, CollidedPair& pair) {
+  const std::int32_t *const ids_a = pair.around[0].ids, *const ids_b = pair.around[1].ids;
+  const EightDoubles ta = meeting_times<growing>(lines, frame, both(a, a), ids_a, ids_a + 4, now);
+  const EightDoubles tb = meeting_times<growing>(lines, frame, both(b, b), ids_b, ids_b + 4, now);
+  if (most <= 8) {
+    earliest(low_half(ta), high_half(ta), ids_a, pair.ahead[0]);
+    earliest(low_half(tb), high_half(tb), ids_b, pair.ahead[1]);
+    return;
+  }
+  const EightDoubles more = meeting_times<growing>(lines, frame, both(a, b), ids_a + 8, ids_b + 8, now);
+  earliest(low_half(ta), high_half(ta), low_half(more), ids_a, pair.ahead[0]);
+  earliest(low_half(tb), high_half(tb), high_half(more), ids_b, pair.ahead[1]);
+}
+
+#else
+
+template <bool growing, class Line>
+CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, const Mine& a, const Mine& b,
+                                 std::uint32_t most, double now, CollidedPair& pair) {
+  const std::int32_t *const ids_a = pair.around[0].ids, *const ids_b = pair.around[1].ids;
+  const Doubles a0 = meeting_times<growing>(lines, frame, a, ids_a, now),
+                b0 = meeting_times<growing>(lines, frame, b, ids_b, now);
+  const Doubles a1 = meeting_times<growing>(lines, frame, a, ids_a + 4, now);
+  const Doubles b1 = meeting_times<growing>(lines, frame, b, ids_b + 4, now);
+  if (most <= 8) {
+    earliest(a0, a1, ids_a, pair.ahead[0]);
+    earliest(b0, b1, ids_b, pair.ahead[1]);
+    return;
+  }
+  const Doubles a2 = meeting_times<growing>(lines, frame, a, ids_a + 8, now);
+  const Doubles b2 = meeting_times<growing>(lines, frame, b, ids_b + 8, now);
+  earliest(a0, a1, a2, ids_a, pair.ahead[0]);
+  earliest(b0, b1, b2, ids_b, pair.ahead[1]);
+}
+
+#endif
+
 template <bool growing, bool falling, class Line>
 void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& pair, double now, double avx, double avy,
                       double bvx, double bvy) {
@@ -281,25 +390,13 @@ void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& p
 
   const Mine mine_a = {all_of<0>(x), all_of<1>(x), all(avx), all(avy), radius_of(a)};
   const Mine mine_b = {all_of<2>(x), all_of<3>(x), all(bvx), all(bvy), radius_of(b)};
-  const Doubles a0 = meeting_times<growing>(lines, frame, mine_a, near_a.ids, now);
-  const Doubles b0 = meeting_times<growing>(lines, frame, mine_b, near_b.ids, now);
-  const Doubles a1 = meeting_times<growing>(lines, frame, mine_a, near_a.ids + 4, now);
-  const Doubles b1 = meeting_times<growing>(lines, frame, mine_b, near_b.ids + 4, now);
+  const std::uint32_t most = near_a.count > near_b.count ? near_a.count : near_b.count;
   const Longs centre = {near_a.centre[0], near_a.centre[1], near_b.centre[0], near_b.centre[1]};
   const Doubles leaving = leaving_times(frame, x, v, centre, now);
   const Doubles edge = lesser(leaving, __builtin_shufflevector(leaving, leaving, 1, 0, 3, 2));
   pair.ahead[0].edge_time = edge[0];
   pair.ahead[1].edge_time = edge[2];
-  const std::uint32_t most = near_a.count > near_b.count ? near_a.count : near_b.count;
-  if (most <= 8) {
-    earliest(a0, a1, near_a.ids, pair.ahead[0]);
-    earliest(b0, b1, near_b.ids, pair.ahead[1]);
-    return;
-  }
-  const Doubles a2 = meeting_times<growing>(lines, frame, mine_a, near_a.ids + 8, now);
-  const Doubles b2 = meeting_times<growing>(lines, frame, mine_b, near_b.ids + 8, now);
-  earliest(a0, a1, a2, near_a.ids, pair.ahead[0]);
-  earliest(b0, b1, b2, near_b.ids, pair.ahead[1]);
+  first_meetings<growing>(lines, frame, mine_a, mine_b, most, now, pair);
   if (most <= 12) return;
   if (near_a.count > 12) search_on<growing>(lines, frame, mine_a, near_a, now, pair.ahead[0]);
   if (near_b.count > 12) search_on<growing>(lines, frame, mine_b, near_b, now, pair.ahead[1]);
