@@ -11,12 +11,16 @@ namespace carom {
 inline constexpr std::size_t tournament_group = 32;
 
 /// level[0] has the time of every disk, infinity for none; level[n + 1] the earliest of each group of level[n]; the last level is
-/// one group. Each is aligned to 64 bytes, and filled up to whole groups with infinity.
+/// one group. Each is aligned to 64 bytes, and filled up to whole groups with infinity. Where there are three levels, first[n][k]
+/// (n >= 1) is a disk with the time level[n][k], and has the bit tournament_tied where there may be others: nobody has to go down
+/// the levels to find it.
 struct TournamentTree {
   double* level[3];
+  std::uint32_t* first[3];
 };
+inline constexpr std::uint32_t tournament_tied = 0x80000000;
 
-/// A disk with the earliest time. `others` is not 0 where other disks have the same time.
+/// A disk with the earliest time. `others` is not 0 where other disks may have the same time.
 struct Winner {
   double time;
   std::int32_t disk;

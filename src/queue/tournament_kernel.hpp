@@ -9,6 +9,7 @@
 #include "queue/tournament.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace carom::CAROM_INSTRUCTIONS {
@@ -47,10 +48,15 @@ CAROM_INLINE double least_of(const double* group) {
   return least_of(lesser(lesser(load(group), load(group + 8)), lesser(load(group + 16), load(group + 24))));
 }
 
-CAROM_INLINE std::uint32_t among(const double* group, double time) {
-  const auto eight = [&](int n) -> __mmask16 { return _mm512_cmp_pd_mask(load(group + n), times_of(time), _CMP_EQ_OQ); };
-  const std::uint32_t low = _mm512_kunpackb(eight(8), eight(0)), high = _mm512_kunpackb(eight(24), eight(16));
+/// Returns which of 32 times are equal to one, a bit for each.
+CAROM_INLINE std::uint32_t equal_to(Times a, Times b, Times c, Times d, double time) {
+  const auto eight = [time](Times t) -> __mmask16 { return _mm512_cmp_pd_mask(t, times_of(time), _CMP_EQ_OQ); };
+  const std::uint32_t low = _mm512_kunpackb(eight(b), eight(a)), high = _mm512_kunpackb(eight(d), eight(c));
   return low | high << 16;
+}
+
+CAROM_INLINE std::uint32_t among(const double* group, double time) {
+  return equal_to(load(group), load(group + 8), load(group + 16), load(group + 24), time);
 }
 
 #elif defined(__AVX2__)
@@ -122,28 +128,47 @@ CAROM_INLINE void lower(double* level, std::size_t place, double time) {
   store(vector, replaced(load(vector), place, lesser(load(vector), times_of(time))));
 }
 
-/// Sets the time of one member of a group. Returns the least time of the group then.
-CAROM_INLINE double replace(double* group, std::size_t place, double time) {
+/// The least time of a group, and its members that have it, a bit for each.
+struct Least {
+  double time;
+  std::uint32_t members;
+};
+
+/// Sets the time of one member of a group.
+CAROM_INLINE Least replace(double* group, std::size_t place, double time) {
 #if defined(__AVX512F__)
   double* const vector = vector_of(group, place);
   const Times mine = replaced(load(vector), place, times_of(time));
   store(vector, mine);
   // Not read back: that would be waited for.
   const auto other = [&](std::size_t n) { return load(vector_of(group, (place + n) % tournament_group)); };
-  return least_of(lesser(mine, lesser(lesser(other(8), other(16)), other(24))));
+  const Times second = other(8), third = other(16), fourth = other(24);
+  const double least = least_of(lesser(mine, lesser(second, lesser(third, fourth))));
+  return {least, std::rotl(equal_to(mine, second, third, fourth, least), static_cast<int>(place & ~std::size_t{7}))};
 #else
   set(group, place, time);
-  return least_of(group);
+  const double least = least_of(group);
+  return {least, among(group, least)};
 #endif
 }
 
 CAROM_INLINE std::size_t first_of(std::uint32_t bits) { return static_cast<std::size_t>(__builtin_ctz(bits)); }
+/// Returns tournament_tied where there are several bits.
+CAROM_INLINE std::uint32_t tied(std::uint32_t bits) { return (bits & (bits - 1)) != 0 ? tournament_tied : 0; }
+
+/// Whether TournamentTree::first is kept: with two levels there is only one to go down.
+template <int levels>
+constexpr bool keeps_first = levels > 2;
 
 template <int levels>
 Winner winner(const TournamentTree& tree) {
   const double time = least_of(tree.level[levels - 1]);
   std::uint32_t bits = among(tree.level[levels - 1], time), others = bits & (bits - 1);
   std::size_t place = first_of(bits);
+  if constexpr (keeps_first<levels>) {
+    const std::uint32_t first = tree.first[levels - 1][place];
+    return {time, static_cast<std::int32_t>(first & ~tournament_tied), others | (first & tournament_tied)};
+  }
   for (int n = levels - 2; n >= 0; --n) {
     bits = among(tree.level[n] + tournament_group * place, time);
     others |= bits & (bits - 1);
@@ -158,17 +183,37 @@ CAROM_INLINE void take(const TournamentTree& tree, std::int32_t disk) {
   double time = never;
   for (int n = 0; n < levels - 1; ++n) {
     const std::size_t group = place / tournament_group;
-    time = replace(tree.level[n] + tournament_group * group, place % tournament_group, time);
+    const Least least = replace(tree.level[n] + tournament_group * group, place % tournament_group, time);
+    if constexpr (keeps_first<levels>) {
+      const std::size_t where = tournament_group * group + first_of(least.members);
+      tree.first[n + 1][group] = (n == 0 ? static_cast<std::uint32_t>(where) : tree.first[n][where]) | tied(least.members);
+    }
+    time = least.time;
     place = group;
   }
   set(tree.level[levels - 1], place, time);
 }
 
+/// A disk with a new event is seldom the earliest of its group. That is a branch, and nobody waits for the time: the next event
+/// is found while the prediction that gives it is still going on.
 template <int levels>
 CAROM_INLINE void enter(const TournamentTree& tree, std::int32_t disk, double time) {
   auto place = static_cast<std::size_t>(disk);
   tree.level[0][place] = time;
-  for (int n = 1; n < levels; ++n) lower(tree.level[n], place /= tournament_group, time);
+  if (!(time <= tree.level[1][place / tournament_group])) [[likely]]
+    return;
+  for (int n = 1; n < levels; ++n) {
+    place /= tournament_group;
+    if constexpr (keeps_first<levels>) {
+      const double before = tree.level[n][place];
+      std::uint32_t& first = tree.first[n][place];
+      if (time < before)
+        first = static_cast<std::uint32_t>(disk);
+      else if (time == before)
+        first |= tournament_tied;
+    }
+    lower(tree.level[n], place, time);
+  }
 }
 
 template <int levels>

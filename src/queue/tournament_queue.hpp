@@ -113,7 +113,7 @@ class TournamentQueue {
   /// The number of events pushed since start(), those at infinity included.
   [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
 
-  [[nodiscard]] std::size_t bytes() const { return keys_.capacity() * sizeof(double); }
+  [[nodiscard]] std::size_t bytes() const { return keys_.capacity() * sizeof(double) + firsts_.capacity() * sizeof(firsts_[0]); }
 
   /// Whether next() will come across the event of a disk.
   [[nodiscard]] bool holds(const Events& events, std::int32_t disk) const {
@@ -125,7 +125,10 @@ class TournamentQueue {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(disks_, keys_, first_, stage_, replaced_, crowded_, pushed_);
-    if constexpr (Archive::is_loading::value) lay_out();
+    if constexpr (Archive::is_loading::value) {
+      lay_out();
+      if (stage_ != Stage::filling) find_firsts();
+    }
   }
 
  private:
@@ -148,7 +151,9 @@ class TournamentQueue {
                       nodes = tournament_group * groups_of(groups);
     levels_ = nodes <= tournament_group ? 2 : 3;
     keys_.resize(leaves + nodes + (levels_ == 3 ? tournament_group : 0));
-    tree_ = {{keys_.data(), keys_.data() + leaves, keys_.data() + leaves + nodes}};
+    firsts_.resize(levels_ == 3 ? nodes + tournament_group : 0);
+    tree_ = {{keys_.data(), keys_.data() + leaves, keys_.data() + leaves + nodes}, {}};
+    if (levels_ == 3) tree_.first[1] = firsts_.data(), tree_.first[2] = firsts_.data() + nodes;
     kernel_ = &tournament_kernel(levels_);
   }
 
@@ -162,7 +167,20 @@ class TournamentQueue {
         const double* const group = tree_.level[n] + tournament_group * k;
         tree_.level[n + 1][k] = *std::min_element(group, group + tournament_group);
       }
+    find_firsts();
     replaced_ = 0;
+  }
+  /// Finds a disk for each time of the levels, where they keep it.
+  void find_firsts() {
+    if (levels_ == 2) return;
+    const std::size_t groups = static_cast<std::size_t>(tree_.level[1] - tree_.level[0]) / tournament_group;
+    for (int n = 0; n + 1 < levels_; ++n)
+      for (std::size_t k = 0; k < (n == 0 ? groups : groups_of(groups)); ++k) {
+        const std::uint32_t members = kernel_->among(tree_.level[n] + tournament_group * k, tree_.level[n + 1][k]);
+        const std::size_t where = tournament_group * k + static_cast<std::size_t>(std::countr_zero(members));
+        tree_.first[n + 1][k] = (n == 0 ? static_cast<std::uint32_t>(where) : tree_.first[n][where]) |
+                                ((members & (members - 1)) != 0 ? tournament_tied : 0);
+      }
   }
 
   void find(const Events& events) {
@@ -216,6 +234,7 @@ class TournamentQueue {
   }
 
   LargeVector<double> keys_;
+  LargeVector<std::uint32_t> firsts_;  ///< of the tree; follow from keys_
   TournamentTree tree_{};
   const TournamentKernel* kernel_ = nullptr;
   std::size_t disks_ = 0;

@@ -119,7 +119,7 @@ TEST(FutureEventList, ServesAnyNumberOfEventsFromOneSpan) {
   const Draw near = [](Random& random, double now) { return now + 1e-9 * unit(random); };
   const Draw crowded = [](Random& random, double now) { return std::floor(now / 10.0) * 10.0 + 10.0 * (1 + below(random, 2)); };
   const Draw crowds = [](Random& random, double now) { return std::floor(now) + 1.0 + 1e-3 * unit(random) + below(random, 5); };
-  for (const std::int32_t disks : {15, 16, 17, 33, 49, 200, 1000}) {
+  for (const std::int32_t disks : {15, 16, 17, 33, 49, 200, 1000, 1500}) {
     expect_as_twin({disks, 1e9, 1000, near}, 10);
     expect_as_twin({disks, 1.0, 1000, crowded, 3}, 11);
     expect_as_twin({disks, 0.5, 1000, crowds, 3}, 12);
