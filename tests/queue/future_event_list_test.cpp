@@ -114,12 +114,20 @@ TEST(FutureEventList, ServesTimesUpToTheLargestNumberInOrder) {
   for (const double span : {1e-300, 1e-6, 1.0, 1e300}) expect_as_twin({40, span, 3000, far}, 9);
 }
 
+TEST(FutureEventList, ServesTwoEventsAtOneTimeInOrderWhereverTheyAre) {
+  // A few have the same time: two of one group of a tournament now and then, and nobody else.
+  const Draw dyadic = [](Random& random, double now) { return now + 0x1p-10 * (1 + below(random, 3000)); };
+  for (const std::int32_t disks : {64, 1000, 1500})
+    for (const Ranks ranks : {Ranks::of_disks, Ranks::of_disks_falling})
+      expect_as_twin({disks, 0.01, 3000, dyadic, 1, ranks}, 13);
+}
+
 TEST(FutureEventList, ServesAnyNumberOfEventsFromOneSpan) {
   // All within one span, or all in the same few: 16 ids find room in a span, the others spill.
   const Draw near = [](Random& random, double now) { return now + 1e-9 * unit(random); };
   const Draw crowded = [](Random& random, double now) { return std::floor(now / 10.0) * 10.0 + 10.0 * (1 + below(random, 2)); };
   const Draw crowds = [](Random& random, double now) { return std::floor(now) + 1.0 + 1e-3 * unit(random) + below(random, 5); };
-  for (const std::int32_t disks : {15, 16, 17, 33, 49, 200, 1000, 1500}) {
+  for (const std::int32_t disks : {15, 16, 17, 33, 49, 200, 1000}) {
     expect_as_twin({disks, 1e9, 1000, near}, 10);
     expect_as_twin({disks, 1.0, 1000, crowded, 3}, 11);
     expect_as_twin({disks, 0.5, 1000, crowds, 3}, 12);

@@ -60,9 +60,9 @@ inline std::int32_t below(Random& random, std::int32_t n) {
 /// Draws the time of a disk's next event, not before `now`.
 using Draw = std::function<double(Random& random, double now)>;
 
-/// What orders events at one time: who they belong to, or something that changes with every event, as the ids of two
-/// partners do.
-enum class Ranks { of_disks, of_events };
+/// What orders events at one time: who they belong to, the first or the last disk first, or something that changes with every
+/// event, as the ids of two partners do.
+enum class Ranks { of_disks, of_disks_falling, of_events };
 
 struct Trial {
   std::int32_t disks;
@@ -83,7 +83,11 @@ void expect_as_twin(const Trial& trial, std::uint64_t seed, List&& list) {
   Random random(seed);
   Events events(static_cast<std::size_t>(trial.disks));
   const auto draw = [&](std::int32_t disk, double now) {
-    events.set(disk, trial.draw(random, now), trial.ranks == Ranks::of_disks ? disk : below(random, trial.disks));
+    const double time = trial.draw(random, now);
+    events.set(disk, time,
+               trial.ranks == Ranks::of_disks           ? disk
+               : trial.ranks == Ranks::of_disks_falling ? trial.disks - disk
+                                                        : below(random, trial.disks));
   };
   const auto schedule = [&](std::int32_t disk, double now) {
     draw(disk, now);

@@ -26,8 +26,8 @@ constexpr double diameters_per_step = 0.05;
 constexpr double most_steps = 2'000.0;
 /// And for so many examined pairs, a second or so with the tenfold steps that are to do better.
 constexpr double most_looks = 2e7;
-/// Errors below this many diameters count as held: a first-order method that is right has about dt v / sigma.
-constexpr double held = 1e-6;
+/// Errors below this many diameters count as none: a first-order method that is right has about dt v / sigma.
+constexpr double negligible_error = 1e-6;
 
 double smallest_diameter(const Disks& disks) { return 2.0 * *std::min_element(disks.radius.begin(), disks.radius.end()); }
 
@@ -96,8 +96,8 @@ std::vector<std::string> StepTrial::faults() const {
   if (counts.missed > 0 && counts.found < exact_collisions) found.emplace_back("tunnelled");
   if (counts.repeated > counts.found) found.emplace_back("stuck");
   if (counts.deepest > overlap_at_start + 1e-9) found.emplace_back("overlapped");
-  if (error > held && !(finer_error < 0.5 * error)) found.emplace_back("gained nothing");
-  if (found.empty() && error > held) found.emplace_back("off");
+  if (error > negligible_error && !(finer_error < 0.5 * error)) found.emplace_back("gained nothing");
+  if (found.empty() && error > negligible_error) found.emplace_back("off");
   if (found.empty()) found.emplace_back("held");
   return found;
 }
