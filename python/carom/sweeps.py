@@ -9,7 +9,7 @@ import os
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Union
 
@@ -21,7 +21,7 @@ from carom._errors import Interrupted, SceneError
 from carom._progress import Progress, reporting
 from carom._toml import value_text
 from carom.results import Table, with_error
-from carom.runs import Observables, _with_observables, run
+from carom.runs import Observables, Result, _with_observables, run
 from carom.scene import Scene, SceneLike, as_scene, build
 from carom.simulation import Simulation
 
@@ -146,7 +146,9 @@ def sweep(
             list of points, [{"disks.0.radius": 0.1, "disks.0.count": 50}, ...]. Keys are those of `Scene.set()`, or their ends
             where no other key of the scene ends so: "packing_fraction" for "disks.0.packing_fraction".
         seeds: of the runs at every point; a number n: the scene's own seed and those after it.
-        numbers: names of numbers of summary.json, such as "pressure.Z_error"; None: the usual ones, and all of observables.
+        numbers: names of numbers of summary.json, such as "pressure.Z_error"; or of a table of an observable, the value of a column
+            where its first column has a value, "observables.mean_square_displacement.diffusion@5"; None: the usual ones, and all
+            scalars of observables.
         observables, engine, method, dt, stiffness: as for `carom.run()`. Each run has its own copy of an observable of one's own.
         workers: how many threads run side by side; None: one for each processor.
         executor: in place of threads, anything with the interface of `concurrent.futures.Executor`: a ProcessPoolExecutor, an
@@ -188,9 +190,13 @@ def sweep(
         for seed in seed_list
     ]
     found: dict[tuple[int, int], _Found] = {}
+    in_tables = [name for name in numbers or () if "@" in name]
+    orders = [replace(order, in_tables=tuple(in_tables)) for order in orders]
     with _kept(out, base, full, settings, orders) as kept, reporting(progress, "sweep") as tell:
         for order in orders:
-            if kept is not None and (earlier := kept.find(order.name(full))) is not None:
+            earlier = None if kept is None else kept.find(order.name(full))
+            # One that was kept without a number that is now asked for runs again.
+            if earlier is not None and all(name in earlier["numbers"] for name in in_tables):
                 found[order.at, order.seed] = earlier
 
         def keep(order: _Order, outcome: _Found | None) -> None:
@@ -236,6 +242,7 @@ class _Order:
     values: tuple[str, ...]  #: of the keys, in TOML; empty where the scene's own stays
     scene: Scene
     settings: dict[str, Any]  #: arguments of carom.run()
+    in_tables: tuple[str, ...] = ()  #: the numbers that come from tables of observables
 
     def name(self, keys: Sequence[str]) -> dict[str, Any]:
         """What tells this run from the others of the sweep."""
@@ -278,9 +285,31 @@ def _carry_out(order: _Order, going: _Going) -> _Found | None:
         "state": "finished",
         "stopped": str(result.stopped),
         "state_hash": result.state_hash,
-        "numbers": {name: value for name, value, _ in numbers},
-        "units": {name: unit for name, _, unit in numbers if unit},
+        "numbers": {name: value for name, value, _ in numbers} | {name: _value_at(result, name)[0] for name in order.in_tables},
+        "units": {name: unit for name, _, unit in numbers if unit}
+        | {name: unit for name in order.in_tables if (unit := _value_at(result, name)[1])},
     }
+
+
+def _value_at(result: Result, name: str) -> tuple[float | None, str]:
+    """The number "observables.TABLE.COLUMN@VALUE" of a run, on a straight line between two rows of the table, and its unit."""
+    title, _, rest = name.removeprefix("observables.").partition(".")
+    column, _, where = rest.rpartition("@")
+    for measured in result.observables.values():
+        table = measured.tables.get(title)
+        if table is None or column not in table:
+            continue
+        x, y, at = table[next(iter(table))], table[column], float(where)
+        unit = table.units.get(column, "")
+        near = np.flatnonzero(np.abs(x - at) <= 1e-9 * np.abs(at))
+        if len(near):
+            value = float(y[near[0]])
+        elif len(x) and x[0] < at < x[-1] and bool((np.diff(x) > 0).all()):
+            value = float(np.interp(at, x, y))
+        else:
+            return None, unit
+        return (value if math.isfinite(value) else None), unit
+    return None, ""
 
 
 def _run_all(executor: Executor, orders: Sequence[_Order], keep: Callable[[_Order, _Found | None], None]) -> None:

@@ -239,7 +239,7 @@ std::vector<NumberParts> numbers_in(const std::string& summary) {
 void require_numbers(const Scene& scene, const std::vector<std::string>& names) {
   const std::vector<std::string> known = number_names(scene);
   for (const std::string& name : names)
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (!has_number(name, scene, known))
       throw std::invalid_argument(fmt::format("numbers: \"{}\": {}", name, fault_of_number_name(name, known)));
 }
 

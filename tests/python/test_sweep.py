@@ -50,6 +50,30 @@ def test_a_sweep_has_the_programs_table(swept, gas, program, tmp_path):
     assert swept.table["finished"].tolist() == [int(row["finished"]) for row in rows]
 
 
+def test_a_function_of_a_lag_is_a_column(gas, program, tmp_path):
+    name = "observables.mean_square_displacement.diffusion@0.3"
+    gas = gas.set({"observe.mean_square_displacement.every": 0.125})
+    (tmp_path / "gas.toml").write_text(gas.toml)
+    (tmp_path / "grid.toml").write_text(
+        f'scene = "gas.toml"\nseeds = [3, 4]\ntable = ["{name}"]\n[grid]\n"disks.0.radius" = [0.2, 0.3]\n'
+    )
+    assert program("sweep", tmp_path / "grid.toml", "--out", tmp_path / "out", "--quiet").returncode == 0
+    with open(tmp_path / "out/sweep.csv") as file:
+        rows = list(csv.DictReader(file))
+    points = {"disks.0.radius": [0.2, 0.3]}
+    swept = carom.sweep(gas, points, seeds=[3, 4], numbers=[name], out=tmp_path / "kept")
+    assert swept.table[name] == pytest.approx([float(row[f"{name}_mean"]) for row in rows], rel=1e-12)
+    assert swept.table.units[name] == "length^2 / time"
+    table = carom.run(gas.set({"disks.0.radius": 0.2, "run.seed": 3})).observables["mean_square_displacement"].table
+    low, high = table["diffusion"][1:3]  # at lags of 0.25 and 0.375
+    assert swept.runs[name][0] == pytest.approx(0.6 * low + 0.4 * high, rel=1e-12)
+    # Another lag, of runs that are kept: they run again.
+    again = carom.sweep(gas, points, seeds=[3, 4], numbers=[name.replace("0.3", "0.25")], out=tmp_path / "kept")
+    assert again.runs[name.replace("0.3", "0.25")][0] == pytest.approx(low, rel=1e-12)
+    with pytest.raises(ValueError, match="no run is that long"):
+        carom.sweep(gas, points, seeds=1, numbers=[name.replace("0.3", "1e9")])
+
+
 def test_every_run_is_that_of_carom_run(swept, gas):
     runs = swept.runs
     for k in (0, 4, 11):

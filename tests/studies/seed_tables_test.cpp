@@ -42,6 +42,19 @@ TEST(MeanOfTables, HasTheScatterOfSeedsInPlaceOfTheirErrors) {
   EXPECT_DOUBLE_EQ(mean.columns[3].values[2], 1.0) << "of two numbers half their distance";
 }
 
+TEST(ValueAt, IsOnAStraightLineBetweenTheRowsAround) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const Table table = seed_table({1, 2, 4, 8}, {1, 5, none, 7});
+  EXPECT_EQ(value_at(table, "x", 1.0), 1.0);
+  EXPECT_EQ(value_at(table, "x", 1.25), 2.0);
+  EXPECT_EQ(value_at(table, "x_error", 3.0), 9.0);
+  EXPECT_EQ(value_at(table, "x", 8.0), 7.0);
+  EXPECT_EQ(value_at(seed_table({3 * 0.1, 0.4}, {2, 6}), "x", 0.3), 2.0) << "0.1 + 0.1 + 0.1 is not 0.3 in binary";
+  for (const double absent : {0.5, 3.0, 6.0, 9.0}) EXPECT_EQ(value_at(table, "x", absent), std::nullopt) << absent;
+  EXPECT_EQ(value_at(table, "y", 1.0), std::nullopt);
+  EXPECT_EQ(value_at(seed_table({1, 1, 2}, {1, 2, 3}), "x", 1.5), std::nullopt) << "cells of a grid are no curve";
+}
+
 TEST(MeanOfTables, OfOtherLagsIsRefused) {
   try {
     (void)mean_of_tables({seed_table({1, 2}, {1, 5}), seed_table({1, 2.5}, {1, 5})});

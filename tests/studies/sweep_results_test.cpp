@@ -12,6 +12,8 @@
 
 #include <cmath>
 #include <string>
+#include <variant>
+#include <vector>
 
 namespace carom::test {
 namespace {
@@ -141,6 +143,75 @@ TEST_F(SweepResultsOf, WithoutATableTheUsualNumbersAreThereAndNoneOfAClock) {
   measured["collisions_per_second"] = 1e6;
   put(0, measured);
   EXPECT_THAT(results().numbers, ElementsAre("pressure.Z", "observables.temperature.kT"));
+  // What an observable measures again is there once.
+  measured["observables"]["pressure"] = {{"Z", {{"value", 1.0}, {"error", 0.2}}}};
+  put(0, measured);
+  EXPECT_THAT(results().numbers, ElementsAre("observables.temperature.kT", "observables.pressure.Z"));
+}
+
+/// A sweep of two densities, with D at a lag of 1, and Z.
+class SweepOfDiffusion : public ::testing::Test {
+ protected:
+  SweepOfDiffusion() {
+    sweep_ = files_.load(
+        "scene = \"gas.toml\"\nseeds = 2\n"
+        "table = [\"pressure.Z\", \"observables.mean_square_displacement.diffusion@1\"]\n"
+        "[set]\n\"box.boundary\" = \"periodic\"\nrun.time = 10.0\nobserve.mean_square_displacement = true\n"
+        "[grid]\ndisks.0.radius = [0.1, 0.2]\n");
+    for (std::size_t run = 0; run < sweep_.run_count(); ++run) {
+      const fs::path place = out() / sweep_.directory_of(run);
+      fs::create_directories(place);
+      const Json summary = {{"carom", {{"version", "1.2.3"}}},
+                            {"pressure", {{"Z", 1.5}}},
+                            {"temperature", {{"mean", 2.0}}},
+                            {"stopped", "time"},
+                            {"resolved_scene", resolved_toml(sweep_.scene_of(run))}};
+      write_text(place / "summary.json", summary.dump());
+      write_text(place / "observe_mean_square_displacement.csv",
+                 "# averages over time; units: time, length^2 / time, length^2 / time\nlag,diffusion,diffusion_error\n0.5," +
+                     std::to_string(run) + ",0.1\n1.5," + std::to_string(run + 2) + ",0.1\n");
+    }
+  }
+  [[nodiscard]] fs::path out() const { return files_.directory().path() / "out"; }
+
+  SweepFiles files_;
+  Sweep sweep_;
+};
+
+TEST_F(SweepOfDiffusion, TakesItFromTheTablesOfTheRuns) {
+  SweepResults results = collect(sweep_, out());
+  EXPECT_EQ(results.units.at(1), "length^2 / time");
+  for (std::size_t run = 0; run < 4; ++run) EXPECT_EQ(results.values.at(run).at(1), static_cast<double>(run) + 1.0);
+  EXPECT_EQ(results.averages.at(1).at(1).mean, 3.5);
+  write_text(out() / sweep_.directory_of(2) / "observe_mean_square_displacement.csv", "damaged\n");
+  results = collect(sweep_, out());
+  EXPECT_EQ(results.averages.at(1).at(1).count, 1U) << "that run has no such number";
+}
+
+TEST_F(SweepOfDiffusion, IsDrawnBesideTheory) {
+  // 50 disks in a box of area A: D of Enskog is that of Boltzmann over g, D = sigma sqrt(kT/m) / (2 sqrt(pi) n sigma^2 g) but for
+  // the first Sonine polynomials, which add two parts in a hundred; g after Henderson.
+  const Page page = sweep_page(sweep_, collect(sweep_, out()));
+  const Scene scene = sweep_.scene_of(0);
+  std::size_t drawn = 0;
+  for (const Section& section : page.sections)
+    for (const Block& block : section.blocks) {
+      const Plot* const plot = std::get_if<Plot>(&block);
+      if (plot == nullptr || plot->series.size() != 2) continue;
+      const Series& theory = plot->series[1];
+      ASSERT_EQ(theory.x, (std::vector<double>{0.1, 0.2}));
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double sigma = 2.0 * theory.x[k], n = 50.0 / scene.box.area(), eta = 0.25 * M_PI * n * sigma * sigma;
+        const double g = (1.0 - 7.0 / 16.0 * eta) / ((1.0 - eta) * (1.0 - eta));
+        if (plot->title.find("diffusion@1") != std::string::npos)
+          EXPECT_NEAR(theory.y[k], std::sqrt(2.0) / (2.0 * std::sqrt(M_PI) * n * sigma * g), 0.04 * theory.y[k]);
+        else
+          EXPECT_NEAR(theory.y[k], 1.0 + 2.0 * eta * g, 0.02 * theory.y[k]) << "N = 50 differs by that at most";
+      }
+      EXPECT_THAT(theory.name, HasSubstr(plot->title.find("diffusion@1") != std::string::npos ? "Enskog" : "Kolafa"));
+      ++drawn;
+    }
+  EXPECT_EQ(drawn, 1U) << "Z is the same in all runs here, and is not drawn";
 }
 
 TEST_F(SweepResultsOf, NumbersOfListsAndErrorsOfObservablesHaveNames) {

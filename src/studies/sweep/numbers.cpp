@@ -15,7 +15,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <span>
+#include <system_error>
 
 namespace carom {
 
@@ -102,6 +105,10 @@ constexpr std::array<std::string_view, 7> usual = {"packing_fraction", "time",  
 
 constexpr std::string_view observables = "observables.";
 
+/// Those that measure functions of a lag have columns only once they have seen a pair of states, some after nine.
+constexpr std::array<std::string_view, 6> functions_of_lag = {
+    "mean_square_displacement", "intermediate_scattering", "overlap", "non_gaussian", "van_hove", "velocity_autocorrelation"};
+
 std::optional<double> value_of(const Json& json) { return json.is_null() ? std::nullopt : std::optional(json.get<double>()); }
 
 void collect(const Json& json, const std::string& name, std::vector<SummaryNumber>& numbers) {
@@ -134,6 +141,18 @@ State state_of_nothing(const Scene& scene, Eigen::Index disks) {
   return state;
 }
 
+/// Hands the same state again and again to observables whose tables would have no columns without.
+void sample_functions_of_lag(ObservableGroup& group, State state) {
+  for (const auto& [step, due] : group.by_step())
+    for (Observable* observable : due) {
+      if (std::find(functions_of_lag.begin(), functions_of_lag.end(), observable->name()) == functions_of_lag.end()) continue;
+      for (int k = 0; k < 9; ++k) {
+        state.time = k * step;
+        observable->sample(state, Totals{});
+      }
+    }
+}
+
 /// Returns the observable of a number: "pressure" of "observables.pressure.Z"
 std::string observable_of(std::string_view name) {
   const std::string_view rest = name.substr(observables.size());
@@ -144,7 +163,7 @@ std::string fault_of_observable(const std::string& name, const std::vector<std::
   const std::string observable = observable_of(name);
   std::vector<std::string> own, all;
   for (const std::string& number : numbers) {
-    if (!number.starts_with(observables) || number.ends_with("_error")) continue;
+    if (!number.starts_with(observables) || number.find("_error") != std::string::npos) continue;
     all.push_back(number);
     if (observable_of(number) == observable) own.push_back(number);
   }
@@ -170,6 +189,29 @@ std::vector<SummaryNumber> numbers_of(const Json& summary) {
   return numbers;
 }
 
+std::optional<TableNumber> table_number(std::string_view name) {
+  const std::size_t sign = name.rfind('@');
+  if (!name.starts_with(observables) || sign == std::string_view::npos) return {};
+  const std::string_view middle = name.substr(observables.size(), sign - observables.size()), value = name.substr(sign + 1);
+  const std::size_t dot = middle.find('.');
+  double at = 0.0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), at);
+  if (dot == std::string_view::npos || value.empty() || error != std::errc() || end != value.data() + value.size() ||
+      !std::isfinite(at))
+    return {};
+  return TableNumber{std::string(middle.substr(0, dot)), std::string(middle.substr(dot + 1)), at};
+}
+
+bool has_number(const std::string& name, const Scene& scene, const std::vector<std::string>& numbers) {
+  const std::optional<TableNumber> wanted = table_number(name);
+  if (!wanted) return name.find('@') == std::string::npos && std::find(numbers.begin(), numbers.end(), name) != numbers.end();
+  const std::string form = fmt::format("{}{}.{}@", observables, wanted->table, wanted->column);
+  const auto found = std::find_if(numbers.begin(), numbers.end(), [&](const std::string& one) { return one.starts_with(form); });
+  if (found == numbers.end()) return false;
+  const bool is_lag = found->substr(form.size()) == "lag";
+  return !is_lag || !scene.run.time || wanted->at <= *scene.run.time;
+}
+
 bool is_usual_number(std::string_view name) {
   if (name.starts_with(observables)) return !name.ends_with("_error");
   return std::find(usual.begin(), usual.end(), name) != usual.end();
@@ -184,13 +226,27 @@ std::vector<std::string> number_names(const Scene& scene) {
   if (scene.run.accept_overlap) report.overlap_at_start = 0.0;
   ObservableGroup group(observed_run(scene, disks, 1.0));
   group.start(state);
+  sample_functions_of_lag(group, state);
   report.observables = group.results(0.0, Totals{});
   std::vector<std::string> names;
   for (const SummaryNumber& number : numbers_of(Json::parse(summary_json(report, {})))) names.push_back(number.name);
+  for (const Measurement& measured : report.observables)
+    for (const Table& table : measured.tables)
+      for (std::size_t c = 1; c < table.columns.size(); ++c)
+        names.push_back(fmt::format("{}{}.{}@{}", observables, table.name, table.columns[c].name, table.columns[0].name));
   return names;
 }
 
 std::string fault_of_number_name(const std::string& name, const std::vector<std::string>& numbers) {
+  if (const std::size_t sign = name.find('@'); sign != std::string::npos) {
+    const auto form = std::find_if(numbers.begin(), numbers.end(), [&](const std::string& number) {
+      return number.size() > sign && number[sign] == '@' && number.compare(0, sign, name, 0, sign) == 0;
+    });
+    if (form != numbers.end() && !table_number(name))
+      return fmt::format("behind @ there is to be a value of {}, such as {}1.5", form->substr(sign + 1),
+                         form->substr(0, sign + 1));
+    if (form != numbers.end()) return "no run is that long; a lag is at most run.time";
+  }
   const std::vector<std::string_view> words(numbers.begin(), numbers.end());
   const std::string_view near = detail::nearest_word(name, words);
   if (!near.empty()) return fmt::format("no run has that number; did you mean \"{}\"?", near);

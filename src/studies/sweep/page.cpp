@@ -4,6 +4,7 @@
 #include "studies/sweep/results.hpp"
 #include "studies/sweep/seed_tables.hpp"
 #include "studies/sweep/sweep.hpp"
+#include "studies/sweep/theory.hpp"
 #include "text/numbers.hpp"
 
 #include <carom/version.hpp>
@@ -29,6 +30,7 @@ struct PlottedPoint {
   double x = 0.0;
   SeedAverage y;
   std::string label;
+  std::optional<Expected> theory = {};
 };
 
 struct PlottedCurve {
@@ -46,7 +48,8 @@ std::string others_of(const Sweep& sweep, const SweepPoint& point, std::size_t k
   return text;
 }
 
-std::vector<PlottedCurve> curves_of(const Sweep& sweep, const SweepResults& results, std::size_t number, std::size_t key) {
+std::vector<PlottedCurve> curves_of(const Sweep& sweep, const SweepResults& results, const SweepTheory& theory,
+                                    std::size_t number, std::size_t key) {
   std::vector<PlottedCurve> curves;
   for (std::size_t p = 0; p < sweep.points.size(); ++p) {
     const SweepPoint& point = sweep.points[p];
@@ -56,7 +59,7 @@ std::vector<PlottedCurve> curves_of(const Sweep& sweep, const SweepResults& resu
     const std::string name = others_of(sweep, point, key);
     auto curve = std::find_if(curves.begin(), curves.end(), [&](const PlottedCurve& c) { return c.name == name; });
     if (curve == curves.end()) curve = curves.insert(curves.end(), {.name = name, .points = {}});
-    curve->points.push_back({*x, y, fmt::format("{}: {} seeds", point.name, y.count)});
+    curve->points.push_back({*x, y, fmt::format("{}: {} seeds", point.name, y.count), theory.of(p, results.numbers[number])});
   }
   for (PlottedCurve& curve : curves)
     std::stable_sort(curve.points.begin(), curve.points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
@@ -74,6 +77,28 @@ Series series_of(const PlottedCurve& curve, std::size_t place, const std::string
     series.y_high.push_back(*point.y.mean + error);
     series.labels.push_back(point.label);
   }
+  return series;
+}
+
+constexpr int line_of_theory = 6;  // its colour, as on the page of a run
+
+/// Returns what theory says at the points of a curve; empty where it says nothing.
+Series theory_of(const PlottedCurve& curve, std::size_t place, bool alone) {
+  Series series{.style = alone ? Style::line : Style::dashed,
+                .group = alone ? line_of_theory : static_cast<int>(place),
+                .visible = place < most_visible};
+  for (const PlottedPoint& point : curve.points) {
+    if (!point.theory) continue;
+    const std::string& source = point.theory->source;
+    if (series.x.empty()) series.name = source;
+    // Sources that differ do so behind a comma: "..., N = 64".
+    if (series.name != source) series.name = source.substr(0, source.find(','));
+    series.x.push_back(point.x);
+    series.y.push_back(point.theory->value);
+    series.labels.push_back(source);
+  }
+  if (series.x.size() == 1) series.style = Style::points;
+  if (!alone && !curve.name.empty()) series.name += ", " + curve.name;
   return series;
 }
 
@@ -95,13 +120,14 @@ bool varies(const SweepResults& results, std::size_t number) {
   return least && differ(*least, *most);
 }
 
-/// Returns plots of a number against each key with more than one numeric value: a curve for every combination of the others.
-std::vector<Plot> plots_of(const Sweep& sweep, const SweepResults& results, std::size_t number) {
+/// Returns plots of a number against each key with more than one numeric value: a curve for every combination of the others, and
+/// lines of theory where there is one.
+std::vector<Plot> plots_of(const Sweep& sweep, const SweepResults& results, const SweepTheory& theory, std::size_t number) {
   std::vector<Plot> plots;
   const std::string& name = results.numbers[number];
   for (std::size_t key = 0; key < sweep.keys.size(); ++key) {
     if (!has_several_numbers(sweep, key)) continue;
-    const std::vector<PlottedCurve> curves = curves_of(sweep, results, number, key);
+    const std::vector<PlottedCurve> curves = curves_of(sweep, results, theory, number, key);
     if (curves.empty()) continue;
     Plot plot{.id = fmt::format("number-{}-key-{}", number, key),
               .title = fmt::format("{} against {}", name, sweep.keys[key]),
@@ -111,6 +137,9 @@ std::vector<Plot> plots_of(const Sweep& sweep, const SweepResults& results, std:
     if (curves.size() > most_visible)
       plot.caption += fmt::format(" The first {} curves are drawn; click on others in the legend.", most_visible);
     for (std::size_t place = 0; place < curves.size(); ++place) plot.series.push_back(series_of(curves[place], place, name));
+    for (std::size_t place = 0; place < curves.size(); ++place)
+      if (Series line = theory_of(curves[place], place, curves.size() == 1); !line.x.empty())
+        plot.series.push_back(std::move(line));
     plots.push_back(std::move(plot));
   }
   return plots;
@@ -212,10 +241,11 @@ Page sweep_page(const Sweep& sweep, const SweepResults& results, const std::vect
       .lead = lead_of(sweep, results)};
   constexpr std::size_t most_plotted = 40;
   std::size_t plotted = 0;
+  const SweepTheory theory(sweep, results);
   for (std::size_t k = 0; k < results.numbers.size() && plotted < most_plotted; ++k) {
     if (!varies(results, k)) continue;
     Section section{.heading = results.numbers[k], .blocks = {}};
-    for (Plot& plot : plots_of(sweep, results, k)) section.blocks.emplace_back(std::move(plot));
+    for (Plot& plot : plots_of(sweep, results, theory, k)) section.blocks.emplace_back(std::move(plot));
     if (section.blocks.empty()) continue;
     page.sections.push_back(std::move(section));
     ++plotted;

@@ -271,11 +271,10 @@ class MissingNumbers {
 
   void look_in(const Scene& scene) {
     if (std::find(missing_.begin(), missing_.end(), true) == missing_.end()) return;
-    for (const std::string& name : number_names(scene)) {
-      const auto found = std::find(sweep_.table.begin(), sweep_.table.end(), name);
-      if (found != sweep_.table.end()) missing_[static_cast<std::size_t>(found - sweep_.table.begin())] = false;
+    const std::vector<std::string> names = number_names(scene);
+    for (std::size_t k = 0; k < missing_.size(); ++k) missing_[k] = missing_[k] && !has_number(sweep_.table[k], scene, names);
+    for (const std::string& name : names)
       if (std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
-    }
   }
 
   /// Throws where one is missing in all of them: no run would have it.

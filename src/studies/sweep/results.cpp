@@ -1,15 +1,22 @@
 #include "studies/sweep/results.hpp"
 
+#include "observe/table_column.hpp"
+#include "studies/sweep/seed_tables.hpp"
 #include "text/numbers.hpp"
+
+#include <carom/observe.hpp>
 
 #include <fmt/format.h>
 #include <boost/math/statistics/univariate_statistics.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -30,6 +37,12 @@ void look_again(const fs::path& directory) {
   for (fs::directory_iterator entry(directory, ignored); entry != fs::directory_iterator(); entry.increment(ignored)) continue;
 }
 
+std::optional<double> mean_temperature(const Json& summary) {
+  const auto of_run = summary.find("temperature");
+  if (of_run == summary.end() || !of_run->contains("mean") || !of_run->at("mean").is_number()) return {};
+  return of_run->at("mean").get<double>();
+}
+
 FoundRun run_of(const Json& summary, const std::string& resolved) {
   const std::string stopped = summary.at("stopped");
   if (stopped == "interrupted") return {};
@@ -40,7 +53,8 @@ FoundRun run_of(const Json& summary, const std::string& resolved) {
   return {.state = RunState::finished,
           .stopped = stopped,
           .version = fmt::format("{} (commit {})", build.value("version", "?"), build.value("commit", "?")),
-          .numbers = numbers_of(summary)};
+          .numbers = numbers_of(summary),
+          .temperature = mean_temperature(summary)};
 }
 
 }  // namespace
@@ -85,13 +99,48 @@ bool is_wanted(const Sweep& sweep, const std::string& name) {
                              : std::find(sweep.table.begin(), sweep.table.end(), name) != sweep.table.end();
 }
 
-/// Returns the usual numbers that any run has, in the order in which they first appear; those asked for, in the order asked for.
+/// Adds the numbers of the sweep's table that are in tables of the run's observables.
+void add_table_numbers(const Sweep& sweep, const fs::path& directory, Numbers& numbers) {
+  std::map<std::string, std::optional<Table>> tables;
+  for (const std::string& name : sweep.table) {
+    const std::optional<TableNumber> wanted = table_number(name);
+    if (!wanted) continue;
+    const auto [entry, fresh] = tables.emplace(wanted->table, std::nullopt);
+    const fs::path file = directory / fmt::format("observe_{}.csv", wanted->table);
+    try {
+      if (fresh && fs::is_regular_file(file)) entry->second = read_observed_table(file);
+    } catch (const std::runtime_error&) {  // the run is finished, but this file of it is damaged: it has no such number
+    }
+    if (!entry->second) continue;
+    const Column* const column = find_column(*entry->second, wanted->column);
+    numbers.push_back({name, value_at(*entry->second, wanted->column, wanted->at), column == nullptr ? "" : column->unit});
+  }
+}
+
+/// A number that the summary has of itself and an observable measures too, under the second name.
+struct Twin {
+  std::string_view own, observed;
+};
+constexpr std::array<Twin, 3> twins = {{{"pressure.Z", "observables.pressure.Z"},
+                                        {"pressure.reduced", "observables.pressure.reduced"},
+                                        {"temperature.mean", "observables.temperature.kT"}}};
+
+/// Leaves out numbers that are there twice.
+void drop_twins(std::vector<std::string>& columns) {
+  for (const Twin& twin : twins)
+    if (std::find(columns.begin(), columns.end(), twin.observed) != columns.end())
+      std::erase_if(columns, [&](const std::string& name) { return name == twin.own; });
+}
+
+/// Returns the usual numbers that any run has, in the order in which they first appear and none twice; those asked for, in the
+/// order asked for.
 std::vector<std::string> columns_of(const Sweep& sweep, const std::vector<Numbers>& found) {
   if (!sweep.table.empty()) return sweep.table;
   std::vector<std::string> columns;
   for (const Numbers& numbers : found)
     for (const SummaryNumber& number : numbers)
       if (number.value && std::find(columns.begin(), columns.end(), number.name) == columns.end()) columns.push_back(number.name);
+  drop_twins(columns);
   return columns;
 }
 
@@ -141,6 +190,7 @@ SweepResults collect(const Sweep& sweep, const std::filesystem::path& directory)
     FoundRun one = find_run(directory / sweep.directory_of(run), [&] { return resolved_toml(sweep.scene_of(run)); });
     found.push_back(std::exchange(one.numbers, {}));
     std::erase_if(found.back(), [&](const SummaryNumber& number) { return !is_wanted(sweep, number.name); });
+    if (one.state == RunState::finished) add_table_numbers(sweep, directory / sweep.directory_of(run), found.back());
     if (!one.version.empty() &&
         std::find(results.versions.begin(), results.versions.end(), one.version) == results.versions.end())
       results.versions.push_back(one.version);
@@ -154,6 +204,9 @@ SweepResults collect(const Sweep& sweep, const std::filesystem::path& directory)
   }
   const std::size_t seeds = sweep.seeds.size();
   for (std::size_t point = 0; point < sweep.points.size(); ++point) {
+    std::vector<std::optional<double>> temperatures;
+    for (std::size_t seed = 0; seed < seeds; ++seed) temperatures.push_back(results.runs[point * seeds + seed].temperature);
+    results.temperatures.push_back(average_of(temperatures));
     results.averages.emplace_back();
     for (std::size_t k = 0; k < results.numbers.size(); ++k) {
       std::vector<std::optional<double>> values;

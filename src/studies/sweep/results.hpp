@@ -35,6 +35,7 @@ struct FoundRun {
   std::string stopped = {};                 ///< why it ended, of one that is finished
   std::string version = {};                 ///< and by which program: "0.1.0 (commit 1234567)"
   std::vector<SummaryNumber> numbers = {};  ///< its results
+  std::optional<double> temperature = {};   ///< its mean kT, which theories need
 };
 
 /// `resolved` gives the scene of the run with every default; it is asked for only where there are results to hold it against.
@@ -54,6 +55,7 @@ struct SweepResults {
   std::vector<FoundRun> runs;        ///< state of every run; `numbers` is empty
   std::vector<std::vector<std::optional<double>>> values;  ///< values of every run, one per column
   std::vector<std::vector<SeedAverage>> averages;          ///< averages of every point, one per column
+  std::vector<SeedAverage> temperatures;                   ///< mean kT of every point
   std::vector<std::string> versions;                       ///< the programs that have run it; one, or the runs are of several
 
   /// Returns the number of runs of a point in this state.
@@ -61,7 +63,7 @@ struct SweepResults {
   [[nodiscard]] std::size_t count(RunState state) const;
 };
 
-/// Reads what is below `directory`.
+/// Reads what is below `directory`. A number at a lag (table_number()) comes from the tables of the runs.
 [[nodiscard]] SweepResults collect(const Sweep& sweep, const std::filesystem::path& directory);
 
 /// Returns a value in TOML as a number; absent where it is none, or absent itself.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <set>
@@ -65,6 +66,23 @@ Table read_observed_table(const fs::path& path) {
       table.columns[c].values.push_back(number_of(cells[c]).value_or(std::numeric_limits<double>::quiet_NaN()));
   }
   return table;
+}
+
+std::optional<double> value_at(const Table& table, const std::string& column, double at) {
+  const Column* const values = find_column(table, column);
+  const std::vector<double>& x = table.columns.front().values;
+  if (values == nullptr || x.empty() || std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) != x.end()) return {};
+  // A step that is no short number in binary may put the row that was meant a rounding beside it.
+  const auto is_near = [&](double other) { return !differ(other, at); };
+  const auto found = std::find_if(x.begin(), x.end(), [&](double other) { return other >= at || is_near(other); });
+  if (found == x.end() || (found == x.begin() && !is_near(*found))) return {};
+  const auto k = static_cast<std::size_t>(found - x.begin());
+  double value = values->values[k];
+  if (!is_near(x[k])) {
+    const double share = (at - x[k - 1]) / (x[k] - x[k - 1]);
+    value = (1.0 - share) * values->values[k - 1] + share * value;
+  }
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 Table mean_of_tables(const std::vector<Table>& tables) {

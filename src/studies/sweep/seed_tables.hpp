@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@ namespace carom {
 
 /// Returns the table in a file observe_NAME.csv of a run. Throws std::runtime_error where it is none.
 [[nodiscard]] Table read_observed_table(const std::filesystem::path& path);
+
+/// Returns the number in `column` of a table where the first column has the value `at`: a straight line between the two rows
+/// around it. That of a column of errors is an upper bound, because errors of neighbouring rows are correlated. Nothing where the
+/// table has no such column, ends before, does not increase, or has no number there.
+[[nodiscard]] std::optional<double> value_at(const Table& table, const std::string& column, double at);
 
 /// Returns the table of means over tables of the same columns, row by row. Columns that come with errors, and others that differ,
 /// have the standard error of independent seeds in `NAME_error`; NaN is left out. Rows are those that all have. Throws

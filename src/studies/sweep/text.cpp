@@ -58,7 +58,7 @@ constexpr std::size_t most_columns = 4, most_points = 40, most_failures = 20;
 std::vector<std::size_t> shown_columns(const Sweep& sweep, const SweepResults& results) {
   std::vector<std::size_t> columns;
   if (sweep.table.empty())
-    for (const char* name : {"pressure.Z", "temperature.mean", "packing_fraction"}) {
+    for (const char* name : {"pressure.Z", "observables.pressure.Z", "temperature.mean", "packing_fraction"}) {
       const auto found = std::find(results.numbers.begin(), results.numbers.end(), name);
       if (found != results.numbers.end()) columns.push_back(static_cast<std::size_t>(found - results.numbers.begin()));
     }
