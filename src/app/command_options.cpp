@@ -163,6 +163,7 @@ void add_horizon(CLI::App& program, Action& action) {
                    "Number of collisions for the Lyapunov exponent (default: 500000, or 100 per disk)")
       ->type_name("N")
       ->check(countable());
+  command->add_flag("--spectrum", options->spectrum, "Measure all Lyapunov exponents instead, of up to 256 disks");
   command->add_flag("--json", options->json, "Print JSON instead of the table");
   command->add_flag("-q,--quiet", options->quiet, "Print only the conclusion, and no progress");
   add_progress(*command, options->progress);

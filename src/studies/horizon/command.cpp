@@ -4,6 +4,7 @@
 #include "studies/horizon/json.hpp"
 #include "studies/horizon/method.hpp"
 #include "studies/horizon/report.hpp"
+#include "studies/horizon/spectrum.hpp"
 #include "studies/horizon/text.hpp"
 
 #include <fmt/format.h>
@@ -18,12 +19,39 @@ namespace carom::cli {
 
 namespace {
 
+void require_few_disks(const Scene& scene) {
+  if (scene.disk_count() > most_disks_of_a_spectrum)
+    throw UsageError(fmt::format("--spectrum: {} has {} disks, and the exponents of at most {} are measured; take fewer disks",
+                                 scene.source, scene.disk_count(), most_disks_of_a_spectrum));
+}
+
+ExitCode measure_all_exponents(const Scene& scene, const State& start, const HorizonCommandOptions& options, ProgressMode mode,
+                               const StopRequest& stop) {
+  std::optional<LyapunovSpectrum> found;
+  {
+    ProgressLine line(mode, scene);
+    found = measure_spectrum(scene, start, {.collisions = options.collisions.value_or(0), .proceed = [&](double fraction) {
+                                              line.update("Lyapunov exponents", fraction);
+                                              return !stop.made();
+                                            }});
+  }
+  if (!found) {
+    fmt::print(stderr, "carom: {}: {}\n", scene.source,
+               stop.made() ? "interrupted before the exponents were measured"
+                           : "no exponents were measured: disks collide too rarely, or lose energy when they do");
+    return stop.made() ? exit_interrupted : exit_failed;
+  }
+  fmt::print("{}", options.json ? spectrum_json(*found, scene) + "\n" : spectrum_text(*found, scene));
+  return exit_done;
+}
+
 ExitCode measure(const HorizonCommandOptions& options) {
   if (options.collisions == 0) throw UsageError("--collisions 0: an exponent needs some collisions");
   const ProgressMode mode = progress_mode(options.progress, options.quiet);
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
   require_known_effects(scene, "carom horizon");
+  if (options.spectrum) require_few_disks(scene);
   const StopRequest stop;
   const std::optional<State> start = [&] {
     ProgressLine line(mode, scene);
@@ -37,6 +65,7 @@ ExitCode measure(const HorizonCommandOptions& options) {
                stop.made() ? "interrupted" : "the scene stopped");
     return stop.made() ? exit_interrupted : exit_failed;
   }
+  if (options.spectrum) return measure_all_exponents(scene, *start, options, mode, stop);
   const Horizon horizon =
       horizon_with_progress(scene, *start, {.engine = engine, .lyapunov_collisions = options.collisions.value_or(0)}, mode, stop);
   if (options.json) {

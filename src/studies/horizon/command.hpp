@@ -14,6 +14,7 @@ struct HorizonCommandOptions {
   SceneOptions scene;
   /// number of pair collisions for the exponent; absent: half a million, or 100 per disk
   std::optional<std::uint64_t> collisions;
+  bool spectrum = false;  ///< all exponents in place of the horizon
   bool json = false;
   bool quiet = false;
   std::string progress = "auto";

@@ -211,6 +211,13 @@ double TangentFlow::norm(double length, double speed) const {
   return std::sqrt(lengths / (length * length) + speeds / (speed * speed));
 }
 
+void TangentFlow::set(const Eigen::Matrix2Xd& dr, const Eigen::Matrix2Xd& dv) {
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    all_[i].dr = dr.col(static_cast<Eigen::Index>(i));
+    all_[i].dv = dv.col(static_cast<Eigen::Index>(i));
+  }
+}
+
 void TangentFlow::scale(double factor) {
   for (Disk& a : all_) {
     a.dr *= factor;

@@ -50,6 +50,9 @@ class TangentFlow {
   [[nodiscard]] double norm(double length, double speed) const;
   void scale(double factor);
 
+  /// Puts another difference in the place of this one, just after advance(). Both are 2 x N.
+  void set(const Eigen::Matrix2Xd& dr, const Eigen::Matrix2Xd& dv);
+
  private:
   struct Disk {
     Vec2<double> r;  ///< at time + remainder, not folded
