@@ -23,7 +23,7 @@ struct TrialPlot {
   const char* caption;
   bool log = false;  ///< the axis of y
 };
-constexpr std::array<TrialPlot, 16> trial_plots = {{
+constexpr std::array<TrialPlot, 17> trial_plots = {{
     {"speeds-periodic", "Maxwell and Boltzmann", "Speeds in a periodic box", "speed (v_T)", "density",
      "Two gases that started far from equilibrium, after fifty collisions per disk, beside the law for 64 disks."},
     {"speeds-walls", "Maxwell and Boltzmann", "Speeds between walls", "speed (v_T)", "density",
@@ -58,6 +58,8 @@ constexpr std::array<TrialPlot, 16> trial_plots = {{
     {"barometer", "cooling, weight and walls", "Barometric law", "height", "disks in a layer", "Layers of height 5.", true},
     {"wall-pressure", "cooling, weight and walls", "Pressure on walls", "N^-1/2", "Z from walls",
      "Walls add terms of order 1 / sqrt N; the fit extrapolates to the fluid's Z."},
+    {"flow-pressure", "cooling, weight and walls", "Pressure across flows", "height", "P_yy / mean - 1",
+     "A steady flow has the same normal pressure at every height, whatever its velocity and temperature are there."},
     {"speeds-fixed-steps", "fixed steps", "Speeds under fixed steps", "speed (v_T)", "density",
      "One start, advanced in fixed steps."},
 }};

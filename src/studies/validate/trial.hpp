@@ -40,6 +40,8 @@ void add_single_file(std::vector<Trial>& trials);
 void add_collisions(std::vector<Trial>& trials);
 void add_transport(std::vector<Trial>& trials);
 void add_cooling_fields_walls(std::vector<Trial>& trials);
+void add_flows(std::vector<Trial>& trials);
+void add_rough_gas(std::vector<Trial>& trials);
 void add_fixed_steps(std::vector<Trial>& trials);
 
 /// All, in the order in which they run.

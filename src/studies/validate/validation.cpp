@@ -25,6 +25,8 @@ const std::vector<Trial>& all_trials() {
     add_collisions(list);
     add_transport(list);
     add_cooling_fields_walls(list);
+    add_flows(list);
+    add_rough_gas(list);
     add_fixed_steps(list);
     return list;
   }();

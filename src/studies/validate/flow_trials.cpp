@@ -1,0 +1,141 @@
+// Steady flows between thermal walls: what the balances of momentum and energy leave no choice in.
+
+#include "studies/validate/gas.hpp"
+#include "theory/goodness_of_fit.hpp"
+
+#include <fmt/format.h>
+#include <boost/math/distributions/students_t.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace carom::validation {
+
+namespace {
+
+/// Momentum and energy of all disks, and how far they have come along x.
+struct FlowBalance {
+  double momentum = 0.0, energy = 0.0, place = 0.0;
+};
+
+FlowBalance balance_of(const State& state, double length) {
+  return {state.velocities.row(0).sum(), 0.5 * state.velocities.squaredNorm(),
+          state.positions.row(0).sum() + length * state.images.row(0).cast<double>().sum()};
+}
+
+/// Notes how the measured run begins.
+class FlowBeginning final : public Observable {
+ public:
+  FlowBeginning(double length, FlowBalance& begun) : length_(length), begun_(begun) {}
+  [[nodiscard]] std::string name() const override { return "flow_beginning"; }
+  void start(const State& state) override { begun_ = balance_of(state, length_); }
+  [[nodiscard]] Measurement finish(double, const Totals&) override { return {.name = name()}; }
+
+ private:
+  double length_;
+  FlowBalance& begun_;
+};
+
+/// A deviation from 0 in standard errors of a normal variable, of a mean over so few values.
+double normal_deviation(const Measured& mean, std::size_t values) {
+  const boost::math::students_t_distribution<double> student(static_cast<double>(values - 1));
+  const double t = mean.value / mean.error, p = 2.0 * boost::math::cdf(boost::math::complement(student, std::abs(t)));
+  return p > 0.0 ? std::copysign(theory::standard_errors(std::min(p, 1.0)), t) : std::copysign(40.0, t);
+}
+
+constexpr std::int64_t flow_disks = 200, flow_layers = 10;
+constexpr double flow_width = 20.0;
+
+/// The mean of P_yy / (its mean over the height) - 1 in each layer that no wall touches, over stretches of the run.
+std::vector<std::vector<double>> deviations_of_pressure(const Found& found) {
+  std::vector<std::vector<double>> deviations(static_cast<std::size_t>(flow_layers - 2));
+  for (const Measurement& one : found.measurements)
+    for (const Table& table : one.tables) {
+      if (table.name != "fields_in_time") continue;
+      for (const Column& column : table.columns) {
+        if (column.name != "stress_yy") continue;
+        for (std::size_t first = 0; first < column.values.size(); first += flow_layers) {
+          double mean = 0.0;
+          for (std::size_t k = 1; k + 1 < flow_layers; ++k) mean += column.values[first + k] / (flow_layers - 2.0);
+          for (std::size_t k = 1; k + 1 < flow_layers; ++k) deviations[k - 1].push_back(column.values[first + k] / mean - 1.0);
+        }
+      }
+    }
+  return deviations;
+}
+
+TrialResult flow(const std::string& trial, const std::string& what, double wall_speed, double acceleration,
+                 const Effort& effort) {
+  TrialResult result{.trial = trial};
+  Scene scene{.box = {.upper = {flow_width, flow_width}, .boundary = {Boundary::periodic, Boundary::walls}},
+              .species = {{.count = flow_disks, .radius = 0.5, .mass = 1.0, .velocities = MaxwellVelocities{1.0}}},
+              .effects = {},
+              .run = {.time = effort.full ? 100'000.0 : 5000.0,
+                      .equilibrate = Run::Equilibrate{.time = 200.0},
+                      .seed = effort.seed_of(0)},
+              .observe = {{.name = "fields", .every = 0.25, .cells = std::array<std::int64_t, 2>{1, flow_layers}}}};
+  for (const std::size_t wall : {2U, 3U}) scene.effects.walls[wall].temperature = 1.0;
+  if (wall_speed != 0.0) {
+    scene.effects.walls[2].tangential_velocity = -wall_speed;
+    scene.effects.walls[3].tangential_velocity = wall_speed;
+  }
+  if (acceleration != 0.0) scene.effects.gravity = Gravity{{acceleration, 0.0}};
+  FlowBalance begun;
+  std::vector<std::unique_ptr<Observable>> own;
+  own.push_back(std::make_unique<FlowBeginning>(flow_width, begun));
+  const Found found = run(scene, effort, result, std::move(own));
+  const FlowBalance ended = balance_of(found.simulation.state(), flow_width);
+  const Totals totals = found.simulation.totals();
+  const double time = *scene.run.time, weight = static_cast<double>(flow_disks) * acceleration;
+
+  Curve measured{.plot = "flow-pressure", .name = what};
+  const auto layers = deviations_of_pressure(found);
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    const Measured mean = mean_of(layers[k]);
+    const double height = (static_cast<double>(k) + 1.5) * flow_width / flow_layers;
+    measured.x.push_back(height), measured.y.push_back(mean.value), measured.error.push_back(mean.error);
+    result.checks.push_back({.name = fmt::format("P_yy at height {:g} over its mean, {}", height, what),
+                             .theory = "1, the same at every height of a steady flow",
+                             .source = "balance of momentum",
+                             .expected = 1.0,
+                             .measured = {1.0 + mean.value, mean.error},
+                             .equivalent = normal_deviation(mean, layers[k].size())});
+  }
+  result.curves.push_back(std::move(measured));
+  result.curves.push_back({.plot = "flow-pressure", .name = "constant", .theory = true, .x = {0.0, flow_width}, .y = {0.0, 0.0}});
+
+  // The work is that of walls that slide and of the weight. What walls took is heat, less the work that they did.
+  const double of_weight = acceleration * (ended.place - begun.place);
+  const double work = wall_speed * (totals.wall_shear[2] - totals.wall_shear[3]) + of_weight;
+  const double gained = of_weight - totals.wall_energy[2] - totals.wall_energy[3];
+  result.checks.push_back({.name = "heat that the walls took and energy that the gas kept, over the work, " + what,
+                           .theory = "1",
+                           .source = "conservation of energy",
+                           .expected = 1.0,
+                           .measured = {1.0 + ((ended.energy - begun.energy) - gained) / work, 0.0},
+                           .allowance = 1e-9,
+                           .allowance_for = "rounding"});
+  const double sheared = totals.wall_shear[2] + totals.wall_shear[3] + ended.momentum - begun.momentum;
+  const double passed = std::abs(totals.wall_shear[2]) + std::abs(totals.wall_shear[3]);
+  result.checks.push_back(
+      {.name = "momentum that walls took and the gas kept, less that of the weight, over what passed, " + what,
+       .theory = "0",
+       .source = "conservation of momentum",
+       .expected = 0.0,
+       .measured = {(sheared - weight * time) / passed, 0.0},
+       .allowance = 1e-9,
+       .allowance_for = "rounding"});
+  return result;
+}
+
+}  // namespace
+
+void add_flows(std::vector<Trial>& trials) {
+  const std::string group = "cooling, weight and walls";
+  trials.push_back({"couette", group, false,
+                    [](const Effort& effort) { return flow("couette", "walls that slide at 1 and -1", 1.0, 0.0, effort); }});
+  trials.push_back({"poiseuille", group, false,
+                    [](const Effort& effort) { return flow("poiseuille", "a weight along the channel", 0.0, 0.02, effort); }});
+}
+
+}  // namespace carom::validation
