@@ -15,7 +15,7 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
              std::size_t slots = 0;
              for (std::int32_t i = 0; i < whole.count(); ++i)
                slots += parts.outside(whole.lists_.centre(i), me) <= reach ? 1U : 0U;
-             return slots + slots / 16 + 512;
+             return slots + slots / 32 + 512;
            }()),
       parts_(parts),
       me_(me),
@@ -26,6 +26,7 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
     if (part != me && parts.adjacent(me, part, reach)) neighbours_.push_back(part);
   copied_.resize(neighbours_.size());
   outboxes_.resize(neighbours_.size());
+  unused_.reserve(lines_.size());
   for (auto i = count(); i-- > 0;) unused_.push_back(i);
 
   recorder_.begin_epoch(epoch_);
@@ -65,9 +66,13 @@ BoxDomain<Impact, Layout, World>::BoxDomain(const Loop& whole, const BoxParts& p
     }
   for (const std::int32_t i : halo_) settle(i);
   std::erase_if(halo_, [this](std::int32_t i) { return mark(i).role != Role::halo; });
+  halo_.shrink_to_fit();  // all disks have been there, and most slots here
+  unused_.shrink_to_fit();
   limit_events();
   moved_.resize(lines_.size() / 4 + 64);
   prefetcher_.suit(Loop::bytes());
+  const std::size_t disks = std::max<std::size_t>(homes_ + halo_.size(), 1);
+  pacing_.lengthen_span(static_cast<double>(whole.lines_.size()) / static_cast<double>(disks));
   begin_epoch();
 }
 
@@ -257,6 +262,7 @@ void BoxDomain<Impact, Layout, World>::write_messages() {
   for (std::size_t n = 0; n < neighbours_.size(); ++n) {
     std::erase_if(copied_[n], [&](std::int32_t i) { return (mark(i).copied_by >> n & 1U) == 0; });
     outboxes_[n].clear();
+    if (const std::size_t size = copied_[n].size(); size > outboxes_[n].capacity()) outboxes_[n].reserve(size + size / 16 + 16);
     constexpr std::size_t ahead = 8;
     for (std::size_t k = 0; k < copied_[n].size(); ++k) {
       if (k + ahead < copied_[n].size()) {

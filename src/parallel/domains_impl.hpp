@@ -188,7 +188,7 @@ void Domains<Impact, Layout, World>::leave_to_domains() {
   for (const auto& line : whole_.lines_) speeds.add(line.v);
   watch_speeds(speeds);
   const auto disks = static_cast<double>(whole_.lines_.size());
-  const double suitable = threads_.events_per_window * disks * whole_.pacing_.span() / 6.0;
+  const double suitable = threads_.events_per_window * disks * whole_.pacing_.time_per_event();
   window_ = window_ == 0.0 ? suitable : std::clamp(window_, suitable / 32.0, 2.0 * suitable);
   shortest_window_ = suitable / 32.0;
   if (pair_rate_ == 0.0) pair_rate_ = disks / window_;  // more than there will be

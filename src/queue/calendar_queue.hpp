@@ -12,6 +12,7 @@
 #include "core/large_memory.hpp"
 #include "core/prefetch.hpp"
 #include "queue/future_event.hpp"
+#include "queue/queue_pacing.hpp"
 
 #include <algorithm>
 #include <array>
@@ -38,8 +39,8 @@ class CalendarQueue {
   /// Forgets everything, and starts at time 0 with spans of the given length > 0 for that many disks. Events at `end` or later
   /// are not kept. `far`: the ring is not in a near cache, and ids wait for the memory that they go to.
   void start(double span, std::size_t disks, double end, bool far = false) {
-    const std::size_t spans = std::bit_ceil(std::max<std::size_t>(64, disks / 2));
-    reserve(spans_, spans);
+    const std::size_t spans = calendar_spans(disks);
+    spans_.reserve(spans + spans / 64);  // few spans are ever full
     spans_.resize(spans);
     counts_.assign(spans, 0);
     more_.assign(spans, none);
@@ -53,7 +54,7 @@ class CalendarQueue {
     free_ = none;
     at_hand_.clear();
     heaped_ = false;
-    later_.clear();
+    later_ = std::vector<Entry>();  // the first span was a guess, and may have left many for later
     far_ = far;
     waiting_ = fetched_ = 0;
   }

@@ -1,13 +1,18 @@
 #pragma once
-// The width of the spans of the calendar, and whether many events are to be expected, by the last epoch.
+// The number and the width of the spans of the calendar, and whether many events are to be expected, by the last epoch.
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 namespace carom {
+
+/// The number of spans in the ring of a calendar for so many disks: a power of two, 0.375 to 0.75 of their number, so that few
+/// events lie beyond it.
+inline std::size_t calendar_spans(std::size_t disks) { return std::bit_ceil(std::max<std::size_t>(64, disks * 3 / 8)); }
 
 class QueuePacing {
  public:
@@ -27,6 +32,10 @@ class QueuePacing {
     else if (longest < infinite)
       span_ = longest;
   }
+  /// The mean time from one event to the next when the span was judged last.
+  [[nodiscard]] double time_per_event() const { return span_ / events_per_span_; }
+  /// Makes spans longer by that factor: as many events take so much longer where there are fewer disks.
+  void lengthen_span(double factor) { span_ *= factor; }
   /// Whether the last epoch had a new event for every fourth disk or more.
   [[nodiscard]] bool busy() const { return busy_; }
 
@@ -36,7 +45,8 @@ class QueuePacing {
   void judge(double elapsed, std::uint64_t pushed, std::size_t disks) {
     const std::uint64_t events = pushed - begun_with_;
     const bool enough = events > disks / 4 + 16;  // too few say nothing: an epoch may have been cut short
-    if (enough) span_ = events_per_span * elapsed / static_cast<double>(events);
+    events_per_span_ = std::clamp(3.0 * static_cast<double>(disks) / static_cast<double>(calendar_spans(disks)), fewest, most);
+    if (enough) span_ = events_per_span_ * elapsed / static_cast<double>(events);
     if (elapsed > 0.0) busy_ = enough;
   }
 
@@ -46,10 +56,12 @@ class QueuePacing {
   }
 
  private:
-  /// Between two and eight there is no difference in speed; fewer take more memory.
-  static constexpr double events_per_span = 6.0;
+  /// Events per span: between two and eight there is little difference in speed. More in a ring that is short for the number of
+  /// disks, so that it is three events of each disk long.
+  static constexpr double fewest = 6.0, most = 7.5;
 
   double span_ = 0.0;
+  double events_per_span_ = fewest;
   std::uint64_t begun_with_ = 0;
   bool busy_ = true;
 };

@@ -20,6 +20,28 @@ TEST(QueuePacing, ASpanIsAsLongAsSixEventsTake) {
   EXPECT_TRUE(pacing.busy());
 }
 
+TEST(QueuePacing, TheRingIsThreeEventsOfEachDiskLong) {
+  for (const std::size_t disks : {100'000U, 20'000U, 70'000U, 43'690U}) {
+    const auto spans = static_cast<double>(calendar_spans(disks)), all = static_cast<double>(disks);
+    EXPECT_GE(spans, 0.375 * all - 1.0);
+    EXPECT_LE(spans, 0.75 * all);
+    QueuePacing pacing;
+    pacing.begin(0);
+    pacing.judge(1.0, 100'000, disks);
+    EXPECT_GE(spans * pacing.span() * 100'000.0, 2.8 * all) << disks;
+    EXPECT_LE(pacing.span() * 100'000.0, 7.5) << disks;
+    EXPECT_DOUBLE_EQ(pacing.time_per_event(), 1e-5);
+  }
+}
+
+TEST(QueuePacing, OfAPartOfTheDisksASpanIsLonger) {
+  QueuePacing pacing;
+  pacing.begin(0);
+  pacing.judge(12.0, 400, 100);
+  pacing.lengthen_span(16.0);
+  EXPECT_EQ(pacing.span(), 16.0 * (6.0 * 12.0 / 400.0));
+}
+
 TEST(QueuePacing, TheFirstSpanIsFourTimesTheMedianOfTheFirstEventsOverTheirNumber) {
   QueuePacing pacing;
   pacing.choose_span({8.0, 1.0, infinite, 2.0, 4.0}, 100.0);
