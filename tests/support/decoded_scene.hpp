@@ -13,7 +13,8 @@
 
 namespace carom::test {
 
-/// Reads bytes one by one; after the last one there are zeros.
+/// Reads bytes one by one; after the last one there are zeros. To be asked for one number in an expression: which of two
+/// arguments is computed first is up to the compiler, and bytes would be another scene.
 class Bytes {
  public:
   explicit Bytes(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -80,12 +81,16 @@ inline std::string decoded_wall(Bytes& bytes, double heaviest) {
       return fmt::format("{{ temperature = {} }}", bytes.positive());
     case 1:
       return fmt::format("{{ velocity = {} }}", 0.1 * bytes.component());
-    case 2:
-      return fmt::format("{{ mass = {}, load = {} }}", std::fmax(bytes.positive(), 0x1p-52 * heaviest), bytes.positive());
+    case 2: {
+      const double mass = std::fmax(bytes.positive(), 0x1p-52 * heaviest), load = bytes.positive();
+      return fmt::format("{{ mass = {}, load = {} }}", mass, load);
+    }
     case 3:
       return fmt::format("{{ restitution = {} }}", bytes.unit());
-    case 4:
-      return fmt::format("{{ velocity = {}, restitution = {} }}", 0.1 * bytes.component(), bytes.unit());
+    case 4: {
+      const double velocity = 0.1 * bytes.component(), restitution = bytes.unit();
+      return fmt::format("{{ velocity = {}, restitution = {} }}", velocity, restitution);
+    }
     default:
       return "{ restitution = 1.0 }";
   }
@@ -95,9 +100,10 @@ inline std::string decoded_effects(Bytes& bytes, const std::array<double, 4>& bo
   const double side = std::fmin(box[1] - box[0], box[3] - box[2]);
   const int which = bytes.next();
   std::string text;
-  if ((which & 1) != 0)
-    text +=
-        fmt::format("[gravity]\nacceleration = [{}, {}]\n", walls_x ? bytes.component() : 0.0, walls_y ? bytes.component() : 0.0);
+  if ((which & 1) != 0) {
+    const double x = walls_x ? bytes.component() : 0.0, y = walls_y ? bytes.component() : 0.0;
+    text += fmt::format("[gravity]\nacceleration = [{}, {}]\n", x, y);
+  }
   if ((which & 2) != 0 && (walls_x || walls_y)) {
     text += "[walls]\n";
     for (const char* wall : {"left", "right", "bottom", "top"}) {
@@ -106,17 +112,24 @@ inline std::string decoded_effects(Bytes& bytes, const std::array<double, 4>& bo
     }
   }
   if ((which & 4) != 0) text += fmt::format("[growth]\nrate = {}\n", 0.01 * bytes.positive());
-  if ((which & 8) != 0) text += fmt::format("[thermostat]\ntemperature = {}\nrate = {}\n", bytes.positive(), bytes.positive());
+  if ((which & 8) != 0) {
+    const double temperature = bytes.positive(), rate = bytes.positive();
+    text += fmt::format("[thermostat]\ntemperature = {}\nrate = {}\n", temperature, rate);
+  }
   if ((which & 16) != 0) text += fmt::format("[shear]\nrate = {}\n", bytes.component());
-  if ((which & 32) != 0)
-    text += fmt::format("[square_well]\nwidth = {}\ndepth = {}\n", 1.0 + 0.5 * bytes.unit(), bytes.component());
-  if ((which & 64) != 0)
-    text += fmt::format("[[obstacles]]\ndisk = {{ centre = [{}, {}], radius = {} }}\n", box[0] + bytes.unit() * (box[1] - box[0]),
-                        box[2] + bytes.unit() * (box[3] - box[2]), 0.2 * side * bytes.positive());
-  if ((which & 128) != 0)
-    text += fmt::format("[[obstacles]]\nsegment = {{ from = [{}, {}], to = [{}, {}] }}\n",
-                        box[0] + bytes.unit() * (box[1] - box[0]), box[2] + bytes.unit() * (box[3] - box[2]),
-                        box[0] + bytes.unit() * (box[1] - box[0]), box[2] + bytes.unit() * (box[3] - box[2]));
+  if ((which & 32) != 0) {
+    const double width = 1.0 + 0.5 * bytes.unit(), depth = bytes.component();
+    text += fmt::format("[square_well]\nwidth = {}\ndepth = {}\n", width, depth);
+  }
+  const auto along = [&](std::size_t axis) { return box[2 * axis] + bytes.unit() * (box[2 * axis + 1] - box[2 * axis]); };
+  if ((which & 64) != 0) {
+    const double x = along(0), y = along(1), radius = 0.2 * side * bytes.positive();
+    text += fmt::format("[[obstacles]]\ndisk = {{ centre = [{}, {}], radius = {} }}\n", x, y, radius);
+  }
+  if ((which & 128) != 0) {
+    const double x = along(0), y = along(1), to_x = along(0), to_y = along(1);
+    text += fmt::format("[[obstacles]]\nsegment = {{ from = [{}, {}], to = [{}, {}] }}\n", x, y, to_x, to_y);
+  }
   return text;
 }
 
