@@ -32,5 +32,5 @@ with tempfile.TemporaryDirectory() as place:
             continue
         subprocess.run(line, shell=True, check=True, cwd=place, env=environment)
         with Image.open(pathlib.Path(place) / f"{name}.png") as picture:
-            picture.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(pictures / f"{name}.png", optimize=True)
+            picture.convert("RGB").quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(pictures / f"{name}.png", optimize=True)
 print(f"{sum(file.stat().st_size for file in pictures.glob('*.png')) / 1e6:.2f} MB in {pictures}")
