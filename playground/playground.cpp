@@ -105,7 +105,8 @@ class Measured {
     integral_ += force / box.area() * step_;
     for (std::size_t k = 0; k < 4; ++k) {
       const double length = box.lengths()[k < 2 ? 1 : 0];
-      walls_[k].add((totals.wall_impulse[k] - totals_.wall_impulse[k]) / (step_ * length));
+      walls_[k].add(box.is_circle ? (totals.circle_impulse - totals_.circle_impulse) / (step_ * std::numbers::pi * length)
+                                  : (totals.wall_impulse[k] - totals_.wall_impulse[k]) / (step_ * length));
     }
     pairs_ += totals.pair - totals_.pair;
     double speeds = 0.0;
@@ -454,6 +455,9 @@ std::string obstacles_json(const Effects& effects) {
       text += fmt::format("{{\"centre\":{},\"radius\":{}}}", json_pair(disk->centre), json_number(disk->radius));
     else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle))
       text += fmt::format("{{\"from\":{},\"to\":{}}}", json_pair(segment->from), json_pair(segment->to));
+    else if (const auto* arc = std::get_if<ArcObstacle>(&obstacle))
+      text += fmt::format("{{\"centre\":{},\"radius\":{},\"angles\":[{},{}]}}", json_pair(arc->centre), json_number(arc->radius),
+                          json_number(arc->from), json_number(arc->to));
   }
   return "[" + text + "]";
 }
@@ -504,6 +508,7 @@ std::string description(Session& session) {
       effects.square_well ? json_number(effects.square_well->width) : "null", json_text(simulation.engine()),
       json_text(why_no_Z(effects)), json_number(theory_Z(simulation)), json_number(scene.packing_fraction()),
       json_number(session.crossing()));
+  json += fmt::format("\"isCircle\":{},", scene.box.is_circle);
   json += fmt::format("\"thermal\":[{},{}],\"seed\":{},\"changes\":{}}}", centre_of_mass_is_thermal(scene.box, effects, 0),
                       centre_of_mass_is_thermal(scene.box, effects, 1), session.run().first_scene().run.seed,
                       session.run().changes().size());

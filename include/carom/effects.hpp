@@ -62,8 +62,22 @@ struct SegmentObstacle {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
 };
+/// A fixed circular arc, hard on both sides; its ends are points. It runs counterclockwise from the direction `from` to the
+/// direction `to` as seen from its centre.
+struct ArcObstacle {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  double radius = 0.0;  ///< length, > 0
+  double from = 0.0;    ///< degrees; 0 is along +x, 90 along +y
+  double to = 0.0;      ///< degrees, above `from` by 360 at most: then it is a full circle, without ends
+};
 /// A fixed obstacle: one [[obstacles]] table.
-using Obstacle = std::variant<DiskObstacle, SegmentObstacle>;
+using Obstacle = std::variant<DiskObstacle, SegmentObstacle, ArcObstacle>;
+
+/// A circle that holds the disks: box.circle.
+struct Circle {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  double radius = 0.0;  ///< length, > 0
+};
 
 /// Growth of all radii as radius (1 + rate t), t from the start of the measured run (Lubachevsky-Stillinger): the [growth] table.
 struct Growth {
@@ -100,6 +114,7 @@ struct Effects {
   std::optional<Gravity> gravity = {};
   std::array<WallProperties, 4> walls = {};  ///< left, right, bottom, top
   std::vector<Obstacle> obstacles = {};
+  std::optional<Circle> circle = {};  ///< present where Box::is_circle: put_in_circle() sets both
   std::optional<Growth> growth = {};
   std::optional<Thermostat> thermostat = {};
   std::optional<Shear> shear = {};
@@ -127,6 +142,9 @@ struct Effects {
   /// Returns the rate at which all velocities decay; 1 / time, 0 without drag.
   [[nodiscard]] double drag_rate() const;
 };
+
+/// Encloses the disks in a circle in the place of walls: sets the box to the square round it, and the effect.
+void put_in_circle(Box& box, Effects& effects, const Circle& circle);
 
 /// Returns whether the total momentum along `axis` is conserved: the axis is periodic, and no effect acts that changes the
 /// momentum of the disks (a thermostat, obstacles, thermal walls, drag, shear, growth, or gravity along this axis).

@@ -65,7 +65,8 @@ struct State {
 /// The walls of the box. Their values stand for the partner's id in an event.
 enum Wall : std::int32_t { wall_left = -1, wall_right = -2, wall_bottom = -3, wall_top = -4 };
 
-/// The partner's id in an event with obstacle k of the scene is first_obstacle - k.
+/// The partner's id in an event with obstacle k of the scene is first_obstacle - k; the rim of a circular box counts as the
+/// obstacle after the last.
 inline constexpr std::int32_t first_obstacle = -1000;
 
 /// The partner's id in an event of a thermostat, which has given the disk a new velocity, relative to the flow in a sheared box.
@@ -132,6 +133,7 @@ struct Totals : Counts {
   /// kept only where the box is sheared.
   double virial_yx = 0.0;
   Eigen::Vector2d obstacle_impulse = Eigen::Vector2d::Zero();  ///< impulse that disks gave to obstacles; mass length / time
+  double circle_impulse = 0.0;  ///< impulse that disks gave to the rim of a circular box, outward; mass length / time
 };
 
 }  // namespace carom

@@ -161,6 +161,14 @@ function drawBox(pane) {
   const [left, right, bottom, top] = [at.left, at.right, at.bottom, at.top].map((k) => run.numbers[k]);
   const x = [pixelX(left, pane), pixelX(right, pane)];
   const y = [pixelY(bottom, pane), pixelY(top, pane)];
+  if (run.description.isCircle) {
+    pen.beginPath();
+    pen.lineWidth = 4;
+    pen.strokeStyle = theme.solid;
+    pen.arc((x[0] + x[1]) / 2, (y[0] + y[1]) / 2, (x[1] - x[0]) / 2 + 2, 0, 2 * Math.PI);
+    pen.stroke();
+    return;
+  }
   const sides = [[x[0], y[0], x[0], y[1]], [x[1], y[0], x[1], y[1]], [x[0], y[0], x[1], y[0]], [x[0], y[1], x[1], y[1]]];
   sides.forEach(([x0, y0, x1, y1], side) => {
     const wall = run.description.walls[side];
@@ -212,7 +220,13 @@ function drawObstacles(pane) {
   pen.lineCap = "round";
   for (const one of run.description.obstacles) {
     pen.beginPath();
-    if (one.from) {
+    if (one.angles) {
+      pen.lineWidth = 3;
+      pen.strokeStyle = theme.solid;
+      const [first, last] = one.angles.map((angle) => (-angle * Math.PI) / 180);
+      pen.arc(pixelX(one.centre[0], pane), pixelY(one.centre[1], pane), one.radius * view.scale, first, last, true);
+      pen.stroke();
+    } else if (one.from) {
       pen.lineWidth = 3;
       pen.strokeStyle = theme.solid;
       pen.moveTo(pixelX(one.from[0], pane), pixelY(one.from[1], pane));

@@ -56,7 +56,7 @@ function settingsOf(description) {
   found.push("restitution");
   if (description.species.length > 0 && description.species[0].uniform) found.push("radius", "mass0");
   if (description.species.length > 1 && description.species[1].uniform) found.push("mass1");
-  if (!acrossX && !acrossY && description.walls.every((wall) => wall.mass === null && !wall.velocity)) found.push("wallsT");
+  if (!acrossX && !acrossY && !description.isCircle && description.walls.every((wall) => wall.mass === null && !wall.velocity)) found.push("wallsT");
   for (const [name, isThere] of [["thermostat", true], ["shear", description.shear !== null], ["drag", true], ["growth", description.growth !== null], ["wellDepth", description.wellDepth !== null],
     ["roughness", description.roughness !== null], ["load", description.walls[3].mass !== null], ["pistonMass", description.walls[3].mass !== null]])
     if (isThere) found.push(name);

@@ -51,7 +51,8 @@ function showNumbers() {
   const hasWalls = !d.periodic[0] || !d.periodic[1];
   byId("wallsRow").hidden = !hasWalls;
   if (m && hasWalls) {
-    const shown = m.walls.map((wall, k) => (d.periodic[k < 2 ? 0 : 1] ? null : `${t(`wall.${k}`)} ${wall.pressure_error > 0 ? withError(wall.pressure, wall.pressure_error) : short(wall.pressure)}`)).filter(Boolean);
+    const name = (k) => (d.isCircle ? "" : `${t(`wall.${k}`)} `);
+    const shown = m.walls.map((wall, k) => (d.periodic[k < 2 ? 0 : 1] || (d.isCircle && k > 0) ? null : `${name(k)}${wall.pressure_error > 0 ? withError(wall.pressure, wall.pressure_error) : short(wall.pressure)}`)).filter(Boolean);
     put("walls", shown.join(" · "), "energy / length²");
   }
   const theoryPath = enskogPath();

@@ -29,6 +29,7 @@ function hasRoom(x, y, radius, but = -1) {
   const [left, right, bottom, top] = [at.left, at.right, at.bottom, at.top].map((k) => run.numbers[k]);
   if (!box.periodic[0] && (x - radius < left || x + radius > right)) return false;
   if (!box.periodic[1] && (y - radius < bottom || y + radius > top)) return false;
+  if (run.description.isCircle && Math.hypot(x - (left + right) / 2, y - (bottom + top) / 2) + radius > (right - left) / 2) return false;
   for (let i = 0; i < disks; ++i) {
     if (i !== but && distanceFrom(i, x, y) < radius + run.radius[i] * run.numbers[at.scale]) return false;
   }
@@ -37,6 +38,12 @@ function hasRoom(x, y, radius, but = -1) {
 
 /// The distance of a place from the surface of an obstacle.
 function distanceTo(one, x, y) {
+  if (one.angles) {
+    const [dx, dy] = [x - one.centre[0], y - one.centre[1]];
+    const turned = (angle) => ((angle % 360) + 360) % 360;
+    if (turned((Math.atan2(dy, dx) * 180) / Math.PI - one.angles[0]) <= one.angles[1] - one.angles[0]) return Math.abs(Math.hypot(dx, dy) - one.radius);
+    return Math.min(...one.angles.map((angle) => (angle * Math.PI) / 180).map((angle) => Math.hypot(dx - one.radius * Math.cos(angle), dy - one.radius * Math.sin(angle))));
+  }
   if (!one.from) return Math.hypot(x - one.centre[0], y - one.centre[1]) - one.radius;
   const [dx, dy] = [one.to[0] - one.from[0], one.to[1] - one.from[1]];
   const along = Math.min(1, Math.max(0, ((x - one.from[0]) * dx + (y - one.from[1]) * dy) / (dx * dx + dy * dy || 1)));

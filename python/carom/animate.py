@@ -30,6 +30,10 @@ class _Picture:
         axes.set_title(scene.title or "carom", fontsize="medium")
         for side, periodic in (("left", 0), ("right", 0), ("bottom", 1), ("top", 1)):
             axes.spines[side].set_linestyle((0, (4, 4)) if scene.periodic[periodic] else "solid")
+        if scene.circle is not None:
+            centre, radius = scene.circle
+            axes.axis("off")
+            axes.add_patch(plt.Circle(centre, radius, fill=False, clip_on=False))
         self.half = np.array([x1 - x0, y1 - y0]) / 2
         self.color, self.trail, self.past = color, trail, list[Any]()
         self.trails = LineCollection([], linewidths=0.8, colors="0.6")

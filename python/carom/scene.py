@@ -201,6 +201,14 @@ class Scene:
         x, y = self._core.periodic
         return x, y
 
+    @property
+    def circle(self) -> tuple[tuple[float, float], float] | None:
+        """The centre and the radius of a circular box, for which `box` is the square round it; None for a rectangle."""
+        if self._core.circle is None:
+            return None
+        (x, y), radius = self._core.circle
+        return (x, y), radius
+
     def to_dict(self) -> dict[str, Any]:
         """Returns the scene with every default as nested dicts, with the keys of the scene format."""
         import tomllib

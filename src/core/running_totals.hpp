@@ -28,6 +28,7 @@ struct RunningTotals : Counts {
   std::array<ExactSum, 4> wall_impulse, wall_shear, wall_energy;
   ExactSum dissipated, thermostat_energy, growth_energy, shear_energy;
   std::array<ExactSum, 2> obstacle_impulse;
+  ExactSum circle_impulse;
 
   /// Adds what another engine has counted of other events.
   void add(const RunningTotals& more) {
@@ -38,6 +39,7 @@ struct RunningTotals : Counts {
     dissipated.add(more.dissipated), thermostat_energy.add(more.thermostat_energy);
     growth_energy.add(more.growth_energy), shear_energy.add(more.shear_energy);
     for (std::size_t k = 0; k < obstacle_impulse.size(); ++k) obstacle_impulse[k].add(more.obstacle_impulse[k]);
+    circle_impulse.add(more.circle_impulse);
   }
   /// Goes on from what another engine has counted. Requires nothing but new epochs and lists to have been counted here.
   void go_on_from(const RunningTotals& before) {
@@ -64,6 +66,7 @@ struct RunningTotals : Counts {
     totals.shear_energy = shear_energy.value();
     for (std::size_t k = 0; k < obstacle_impulse.size(); ++k)
       totals.obstacle_impulse[static_cast<Eigen::Index>(k)] = obstacle_impulse[k].value();
+    totals.circle_impulse = circle_impulse.value();
     return totals;
   }
 };

@@ -40,6 +40,23 @@ struct DiskPath {
   [[nodiscard]] DiskPath after(Real t) const { return {at(t), v + t * g, g, radius + expansion * t, expansion}; }
 };
 
+/// Returns the time for which a disk in contact with a fixed point at the origin needs no impulse to pass it: 0, unless its
+/// overlap on the way would be less than what rounding makes of the distance, 32 epsilon of it. The overlap after time t is c t
+/// - b t^2/2, where c is the speed of approach and b > 0 the acceleration away, centrifugal and of flight; c^2 / 2b at most,
+/// and none from 2c / b on.
+template <class Real>
+[[nodiscard]] Real grazing_duration(const DiskPath<Real>& path) {
+  using std::sqrt;
+  const Real distance = sqrt(path.r.squaredNorm());
+  if (!(distance > 0)) return 0;
+  const Vec2<Real> n = path.r / distance;
+  const Real along = cross<Real>(n, path.v), approach = path.expansion - n.dot(path.v);
+  const Real away = along * along / distance + n.dot(path.g);
+  const Real rounding = 32 * epsilon<Real> * path.radius;
+  if (!(away > 0) || approach * approach > 2 * away * rounding) return 0;
+  return 2 * sqrt(2 * rounding / away);
+}
+
 /// A coordinate of a path along one direction: x + v t + a t^2/2.
 template <class Real>
 struct Coordinate {

@@ -56,4 +56,23 @@ template <class Real>
   return {impulse, expansion > 0 ? -impulse.dot(before + v) / 2 : Real(0)};
 }
 
+/// Lets a disk that has hit the hollow side of an arc leave it at no less than `slope` times its speed along it. Flatter flights
+/// along a rim do not rise above the rounding of coordinates, and their number has no limit. Its speed stays the same, and its
+/// angular momentum changes by slope^2 / 2 of itself at most. `normal` points away from the arc. Returns the change of the
+/// velocity.
+template <class Real>
+[[nodiscard]] Vec2<Real> keep_off_hollow(const Vec2<Real>& normal, Vec2<Real>& v, Real expansion, Real slope) {
+  using std::abs;
+  using std::sqrt;
+  const Vec2<Real> n = normal / sqrt(normal.squaredNorm());
+  const Vec2<Real> before = v;
+  const Real away = n.dot(v), along = cross<Real>(n, v), least = abs(along) * slope;
+  if (away - expansion < least) {
+    const Real leaving = least + expansion, square = (along * along + away * away) - leaving * leaving;
+    const Real kept = square > 0 ? (along < 0 ? -sqrt(square) : sqrt(square)) : along;
+    v = leaving * n + kept * Vec2<Real>(-n.y(), n.x());
+  }
+  return v - before;
+}
+
 }  // namespace carom

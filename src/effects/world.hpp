@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace carom {
 
@@ -27,11 +28,13 @@ struct AnyWorld {
   AnyWorld(const Box& box, const Effects& effects, const State& start, std::uint64_t seed)
       : falling(effects.gravity),
         walls(box, effects.walls, seed),
-        obstacles(box, effects.obstacles),
+        obstacles(box, fixed_shapes(effects)),
         lees_edwards(box, effects.shear, start.shear_displacement),
         drag_(effects.drag_rate()),
         scale_(start.scale),
-        growth_(effects.growth_rate()) {
+        growth_(effects.growth_rate()),
+        circle_(effects.circle),
+        rim_(effects.circle ? static_cast<std::int32_t>(effects.obstacles.size()) : -1) {
     walls.start_from(start.walls);
   }
 
@@ -55,8 +58,9 @@ struct AnyWorld {
     const double expansion = growth_ * contact.radius / scale(now), slowed = drag_.at(now);
     if (what <= first_obstacle) {
       ++totals.obstacle;
-      const Vec2<double> normal = obstacles.from_nearest_point(first_obstacle - what, contact.r);
-      const auto bounce = bounce_off<double>(normal, v, falling.g, contact.mass, contact.radius, expansion);
+      const auto bounce =
+          obstacles.bounce(first_obstacle - what, contact.r, v, falling.g, contact.mass, contact.radius, expansion);
+      if (first_obstacle - what == rim_) totals.circle_impulse.add(slowed * outward(bounce.impulse, contact.r));
       for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(slowed * bounce.impulse[k]);
       if (bounce.energy != 0.0) totals.growth_energy.add(bounce.energy);
       return infinity<double>;
@@ -79,6 +83,12 @@ struct AnyWorld {
     drag_.rebase(now);
     scale_ += growth_ * now;
   }
+  /// Returns the distance by which a disk at r reaches beyond the rim of a circular box; negative where it does not. Requires
+  /// one.
+  [[nodiscard]] double beyond_circle(const Vec2<double>& r, double radius) const {
+    return ((r - circle_->centre).norm() + radius) - circle_->radius;
+  }
+  [[nodiscard]] bool in_circle() const { return circle_.has_value(); }
   [[nodiscard]] std::size_t bytes() const { return obstacles.bytes(); }
 
   template <class Archive>
@@ -93,8 +103,15 @@ struct AnyWorld {
 
  private:
   DragFactor<double> drag_;
+  /// Returns the component of a vector away from the centre of the circular box, at r.
+  [[nodiscard]] double outward(const Vec2<double>& vector, const Vec2<double>& r) const {
+    return vector.dot((r - circle_->centre).normalized());
+  }
+
   double scale_;
   double growth_;
+  std::optional<Circle> circle_;
+  std::int32_t rim_;  ///< the circle's index among the fixed shapes; -1 without one
 };
 
 }  // namespace carom

@@ -24,6 +24,7 @@ class BoundaryPlanner {
   BoundaryPlanner(const Box& box, const FlightFrame<Line, World>& flight, const World& world)
       : flight_(flight), world_(world), walled_(!box.periodic(0) || !box.periodic(1)) {
     if constexpr (!World::plain) everywhere_ = !world.obstacles.empty();
+    has_sides_ = !box.is_circle;
     bounded_ = walled_ || everywhere_ || world.sheared();
   }
 
@@ -34,6 +35,7 @@ class BoundaryPlanner {
         walled_(other.walled_),
         bounded_(other.bounded_),
         everywhere_(other.everywhere_),
+        has_sides_(other.has_sides_),
         clear_{other.clear_[0], other.clear_[1]} {}
 
   /// Adapts to neighbourhoods of this half-width, of disks whose largest contact distance at scale 1 is given.
@@ -101,7 +103,7 @@ class BoundaryPlanner {
                                                   Plan& mine) const {
     const double radius = radius_at_scale_1 * world_.scale(now), expansion = radius_at_scale_1 * world_.expansion();
     for (int axis = 0; axis < 2; ++axis) {
-      if (flight_.axis(axis).periodic) continue;
+      if (flight_.axis(axis).periodic || !has_sides_) continue;
       const double v = a.v[axis] + world_.g()[axis] * now, g = world_.g()[axis];
       for (const int sign : {-1, 1}) {
         const Wall wall = wall_of(axis, sign > 0);
@@ -133,6 +135,7 @@ class BoundaryPlanner {
   bool walled_;
   bool bounded_;             ///< by walls, obstacles or images that slide
   bool everywhere_ = false;  ///< obstacles may be anywhere
+  bool has_sides_ = true;    ///< the box is no circle
   /// Neighbourhoods with centres nearer to the middle than this, in steps of 2^32, are out of reach of walls and sheared edges.
   std::int64_t clear_[2] = {};
 };

@@ -58,6 +58,8 @@ template <class Impact, class Layout, class World>
 double Engine<Impact, Layout, World>::beyond_walls(std::int32_t i, int axis) const {
   if (flight_.axis(axis).periodic) return -never;
   const Line& a = line(i);
+  if constexpr (!World::plain)
+    if (world_.in_circle()) return world_.beyond_circle(flight_.place(a, now_), layout_.radius(a) * world_.scale(now_));
   double out = -never;
   for (const int sign : {-1, 1}) {
     double left = flight_.room(a, axis, sign, layout_.radius(a) * world_.scale(now_), now_);

@@ -238,6 +238,11 @@ template <class Real>
 Real TextbookEngine<Real>::beyond_walls(std::int32_t i, int axis) const {
   if (!world_.edges.walled(axis)) return -infinity<Real>;
   const Record& a = record(i);
+  if (world_.circle) {
+    using std::sqrt;
+    const Vec2<Real> from = position(a, now_) - world_.circle->centre.template cast<Real>();
+    return sqrt(from.squaredNorm()) + radius_at(a, now_) - Real(world_.circle->radius);
+  }
   const Real r = position(a, now_)[axis], radius = radius_at(a, now_);
   return std::max<Real>(world_.edges.domain().lower[axis] + radius - r - world_.walls.displacement(wall_of(axis, false), now_),
                         r - world_.edges.domain().upper[axis] + radius - world_.walls.displacement(wall_of(axis, true), now_));

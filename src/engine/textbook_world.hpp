@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace carom {
 
@@ -58,9 +59,11 @@ struct TextbookWorld {
       : edges(box, effects, start.shear_displacement),
         falling(effects.gravity),
         walls(box, effects.walls, seed),
-        obstacles(box, effects.obstacles),
+        obstacles(box, fixed_shapes(effects)),
         scale_at_epoch(Real(start.scale)),
-        expansion(effects.growth ? Real(effects.growth->rate) : Real(0)) {
+        expansion(effects.growth ? Real(effects.growth->rate) : Real(0)),
+        circle(effects.circle),
+        rim(effects.circle ? static_cast<std::int32_t>(effects.obstacles.size()) : -1) {
     walls.start_from(start.walls);
   }
 
@@ -92,7 +95,7 @@ struct TextbookWorld {
   [[nodiscard]] BoundaryPlan<Real> next_boundary(const Record& a, Real leaves_cell, Real epoch_length) const {
     BoundaryPlan<Real> first;
     for (int axis = 0; axis < 2; ++axis)
-      if (!edges.domain().periodic[axis])
+      if (!edges.domain().periodic[axis] && !circle)
         for (const bool upper : {false, true}) consider_wall(a, wall_of(axis, upper), first);
     if (obstacles.empty()) return first;
     Real until = std::min(leaves_cell, first.time);
@@ -114,8 +117,11 @@ struct TextbookWorld {
   Real meet(std::int32_t what, Record& a, bool elastic, Real slowed, Real now, RunningTotals& totals) {
     if (what <= first_obstacle) {
       ++totals.obstacle;
-      const Vec2<Real> normal = obstacles.from_nearest_point(first_obstacle - what, a.r);
-      const auto bounce = bounce_off<Real>(normal, a.v, falling.g, a.mass, a.radius, a.radius * expansion);
+      const auto bounce = obstacles.bounce(first_obstacle - what, a.r, a.v, falling.g, a.mass, a.radius, a.radius * expansion);
+      if (first_obstacle - what == rim) {
+        const Vec2<Real> outward = (a.r - circle->centre.template cast<Real>()).normalized();
+        totals.circle_impulse.add(static_cast<double>(slowed * bounce.impulse.dot(outward)));
+      }
       for (int k = 0; k < 2; ++k)
         totals.obstacle_impulse[static_cast<std::size_t>(k)].add(static_cast<double>(slowed * bounce.impulse[k]));
       totals.growth_energy.add(static_cast<double>(bounce.energy));
@@ -145,6 +151,8 @@ struct TextbookWorld {
   Obstacles<Real> obstacles;
   Real scale_at_epoch;  ///< of all radii, when the epoch began
   Real expansion;       ///< of the scale, per time
+  std::optional<Circle> circle;
+  std::int32_t rim;  ///< the circle's index among the fixed shapes; -1 without one
 
  private:
   /// Puts the meeting of a disk with a side of the box in the place of a later one. Like that of a pair, its time depends on the

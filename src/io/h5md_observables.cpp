@@ -41,6 +41,7 @@ H5mdObservables::H5mdObservables(hid_t file, const Scene& scene, const Disks& di
   put(effects_.square_well.has_value(), "well_passages", {},
       [](const Sample& s, Row row) { row[0] = static_cast<double>(s.totals.well); });
   put(walled, "wall_impulse", {4}, [](const Sample& s, Row row) { copy(s.totals.wall_impulse, row); });
+  put(effects_.circle.has_value(), "circle_impulse", {}, [](const Sample& s, Row row) { row[0] = s.totals.circle_impulse; });
   const bool thermal = any_wall(effects_, [](const WallProperties& wall) { return wall.temperature.has_value(); });
   put(thermal, "wall_shear", {4}, [](const Sample& s, Row row) { copy(s.totals.wall_shear, row); });
   put(walled, "wall_energy", {4}, [](const Sample& s, Row row) { copy(s.totals.wall_energy, row); });

@@ -184,6 +184,7 @@ Totals RunReader::totals(std::uint64_t k) const {
       std::copy(values.begin(), values.end(), sides.begin());
     };
     copy("wall_impulse", totals.wall_impulse);
+    for (const double impulse : observable("circle_impulse", k, 1)) totals.circle_impulse = impulse;
     copy("wall_shear", totals.wall_shear);
     copy("wall_energy", totals.wall_energy);
     return totals;

@@ -101,6 +101,9 @@ std::string text_of(const Eigen::Vector2d& pair) { return fmt::format("[{}, {}]"
 std::string text_of(const Obstacle& obstacle) {
   if (const auto* disk = std::get_if<DiskObstacle>(&obstacle))
     return fmt::format("{{ disk = {{ centre = {}, radius = {} }} }}", text_of(disk->centre), disk->radius);
+  if (const auto* arc = std::get_if<ArcObstacle>(&obstacle))
+    return fmt::format("{{ arc = {{ centre = {}, radius = {}, from = {}, to = {} }} }}", text_of(arc->centre), arc->radius,
+                       arc->from, arc->to);
   const auto& segment = std::get<SegmentObstacle>(obstacle);
   return fmt::format("{{ segment = {{ from = {}, to = {} }} }}", text_of(segment.from), text_of(segment.to));
 }

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -73,11 +74,17 @@ EffectsReport effects_report(const Scene& scene, const Disks& disks, const Total
   const Effects& effects = scene.effects;
   EffectsReport report;
   for (std::size_t side = 0; side < 4; ++side)
-    if (!scene.box.periodic(side < 2 ? 0 : 1)) report.walls.push_back(wall_report(scene, totals, end, side));
+    if (!scene.box.periodic(side < 2 ? 0 : 1) && !scene.box.is_circle)
+      report.walls.push_back(wall_report(scene, totals, end, side));
   if (any_wall(effects, may_move)) report.packing_fraction_end = packing_fraction(scene.box, disks, end);
   if (has_more_than_kinetic_energy(effects)) report.energies_end = energies_of(scene.box, effects, disks, end);
   if (effects.collision.restitution || effects.collision.roughness) report.dissipated = totals.dissipated;
   if (!effects.obstacles.empty()) report.obstacles = totals.obstacle_impulse;
+  if (effects.circle) {
+    report.circle = {.momentum = totals.circle_impulse, .pressure = {}};
+    const double perimeter = 2.0 * std::numbers::pi * effects.circle->radius;
+    if (end.time > 0.0) report.circle->pressure = totals.circle_impulse / (end.time * perimeter);
+  }
   if (effects.thermostat) report.thermostat = {.events = totals.thermostat, .energy = totals.thermostat_energy};
   if (effects.growth)
     report.growth = {

@@ -29,6 +29,11 @@ struct WallReport {
   std::optional<WallState> end;               ///< state of a moving wall at the end
 };
 
+struct CircleReport {
+  double momentum = 0.0;           ///< impulse that disks gave to the rim, outward
+  std::optional<double> pressure;  ///< momentum / (time perimeter); empty at time 0
+};
+
 struct ThermostatReport {
   std::uint64_t events = 0;  ///< velocities redrawn
   double energy = 0.0;       ///< given to the disks
@@ -55,6 +60,7 @@ struct EffectsReport {
   std::optional<double> spin_temperature;      ///< mean over samples, or of the final state where there are none
   std::optional<double> dissipated;            ///< energy lost in pair collisions
   std::optional<Eigen::Vector2d> obstacles;    ///< momentum given to them
+  std::optional<CircleReport> circle;          ///< of a circular box, in the place of walls
   std::optional<ThermostatReport> thermostat;
   std::optional<GrowthReport> growth;
   std::optional<ShearReport> shear;
@@ -79,6 +85,10 @@ template <class Report, class Visit>
 void visit_sections(Report& report, Visit&& visit) {
   visit("obstacles", report.obstacles, [](auto& momentum, auto&& put) {
     put({"momentum", "mass length / time", "obstacle momentum", "transferred by disks"}, momentum);
+  });
+  visit("circle", report.circle, [](auto& part, auto&& put) {
+    put({"momentum", "mass length / time", "momentum to the circle", "transferred by disks, outward"}, part.momentum);
+    put({"pressure", "energy / area", "pressure on the circle", "momentum over time and perimeter"}, part.pressure);
   });
   visit("thermostat", report.thermostat, [](auto& part, auto&& put) {
     put({"events"}, part.events);
@@ -105,7 +115,7 @@ void visit_sections(Report& report, Visit&& visit) {
 /// summary.json, its name in tables for people (empty where they leave it out), and its count.
 template <class AnyCounts, class Visit>
 void visit_events(const EffectsReport& report, AnyCounts& counts, Visit&& visit) {
-  if (report.obstacles) visit("obstacle", "obstacle hits", counts.obstacle);
+  if (report.obstacles || report.circle) visit("obstacle", "obstacle hits", counts.obstacle);
   if (report.bonds) visit("well", "", counts.well);
   if (report.thermostat) visit("thermostat", "thermostat events", counts.thermostat);
 }

@@ -98,6 +98,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     double time = 0.0, kT = 0.0, virial = 0.0, meetings = 0.0, area = 0.0, action = 0.0;
     std::uint64_t pairs = 0;
     std::array<double, 4> flow{}, transfer{}, walls{};
+    double circle = 0.0;
   };
 
   [[nodiscard]] Snapshot look(const State& state, const Totals& totals) const {
@@ -105,7 +106,8 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
                  .virial = totals.virial,
                  .meetings = transfer_.meetings,
                  .pairs = totals.pair,
-                 .walls = totals.wall_impulse};
+                 .walls = totals.wall_impulse,
+                 .circle = totals.circle_impulse};
     for (std::size_t c = 0; c < 4; ++c) now.transfer[c] = transfer_.virial[c].sum();
     now.area = box_of(run_.scene.box, state).area();
     const bool in_flow = run_.has_flow();
@@ -137,7 +139,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
         equal_ ? static_cast<double>(now.pairs - before_.pairs) * 2.0 * run_.disks.radius[0] * std::sqrt(0.5 * run_.disks.mass[0])
                : now.meetings - before_.meetings;
     rate_.add(std::numbers::pi * met, count * dt * std::sqrt(2.0 * std::numbers::pi) * thermal * speed_factor(freedom_));
-    double push = 0.0;
+    double push = (now.circle - before_.circle) * (0.5 * run_.scene.box.lengths().x() - run_.disks.radius[0]);
     for (int axis = 0; axis < 2; ++axis) {
       const std::size_t low = 2 * static_cast<std::size_t>(axis);
       push += 0.5 * (now.walls[low] - before_.walls[low] + now.walls[low + 1] - before_.walls[low + 1]) *

@@ -70,6 +70,7 @@ class Drawing {
 
   void outline_box() {
     const auto& [left, right, bottom, top] = moment_.sides;
+    if (box().is_circle) return circle(box().lower + 0.5 * box().lengths(), 0.5 * (right - left) * at_.scale);
     cairo_rectangle(context_, at_.x(left), at_.y(top), (right - left) * at_.scale, (top - bottom) * at_.scale);
   }
 
@@ -129,9 +130,16 @@ class Drawing {
     return of_.look.colouring == Colouring::species || of_.look.colouring == Colouring::id ? colour_of(disk) : theme_.accent;
   }
 
+  void stroke_shape() {
+    cairo_set_line_width(context_, std::max(1.5, 0.67 * at_.line));
+    cairo_set_line_cap(context_, CAIRO_LINE_CAP_ROUND);
+    cairo_stroke(context_);
+  }
+  [[nodiscard]] static double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
   void draw_fixed_shapes() {
     set_colour(context_, theme_.solid);
-    for (const Obstacle& shape : fixed_shapes(of_.scene.effects)) {
+    for (const Obstacle& shape : of_.scene.effects.obstacles) {
       if (const auto* disk = std::get_if<DiskObstacle>(&shape)) {
         for_images(disk->centre, disk->radius,
                    [&](const Eigen::Vector2d& shift) { circle(disk->centre + shift, disk->radius * at_.scale); });
@@ -141,9 +149,15 @@ class Drawing {
           move_to(segment->from + shift);
           line_to(segment->to + shift);
         });
-        cairo_set_line_width(context_, std::max(1.5, 0.67 * at_.line));
-        cairo_set_line_cap(context_, CAIRO_LINE_CAP_ROUND);
-        cairo_stroke(context_);
+        stroke_shape();
+      } else if (const auto* arc = std::get_if<ArcObstacle>(&shape)) {
+        for_images(arc->centre, arc->radius, [&](const Eigen::Vector2d& shift) {
+          const Eigen::Vector2d centre = arc->centre + shift;
+          cairo_new_sub_path(context_);  // angles of the picture are clockwise, for y goes down
+          cairo_arc_negative(context_, at_.x(centre.x()), at_.y(centre.y()), arc->radius * at_.scale, -radians(arc->from),
+                             -radians(arc->to));
+        });
+        stroke_shape();
       }
     }
   }
@@ -222,6 +236,12 @@ class Drawing {
   /// Walls as solid lines outside the box, periodic edges as faint dashes.
   void draw_edges() {
     const auto& [left, right, bottom, top] = moment_.sides;
+    if (box().is_circle) {
+      circle(box().lower + 0.5 * box().lengths(), 0.5 * (right - left) * at_.scale + 0.5 * at_.line);
+      set_colour(context_, theme_.ink);
+      cairo_set_line_width(context_, at_.line);
+      return cairo_stroke(context_);
+    }
     const double x0 = at_.x(left), x1 = at_.x(right), y0 = at_.y(bottom), y1 = at_.y(top);
     const double off = 0.5 * at_.line;
     const auto edge = [&](int axis, double ax, double ay, double bx, double by) {

@@ -24,6 +24,8 @@ Json shapes_of(const Effects& effects) {
       list.push_back({{"centre", vector(disk->centre)}, {"radius", disk->radius}});
     else if (const auto* segment = std::get_if<SegmentObstacle>(&shape))
       list.push_back({{"from", vector(segment->from)}, {"to", vector(segment->to)}});
+    else if (const auto* arc = std::get_if<ArcObstacle>(&shape))
+      list.push_back({{"centre", vector(arc->centre)}, {"radius", arc->radius}, {"angles", Json::array({arc->from, arc->to})}});
   }
   return list;
 }
@@ -120,6 +122,7 @@ Json player_description(const Scene& scene, const std::string& title, const std:
   Json json{{"title", title}, {"disks", disks}};
   json["box"] = {
       {"lower", vector(box.lower)}, {"upper", vector(box.upper)}, {"periodic", Json::array({box.periodic(0), box.periodic(1)})}};
+  if (box.is_circle) json["box"]["isCircle"] = true;
   json["species"] = species_names;
   json["acceleration"] = vector(effects.acceleration());
   json["growth"] = effects.growth_rate();

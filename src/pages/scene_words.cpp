@@ -128,6 +128,9 @@ std::string words(const Box& box, const std::array<WallProperties, 4>& propertie
   const bool hard = std::none_of(properties.begin(), properties.end(), [](const WallProperties& wall) { return wall.present(); });
   const std::string walls = hard ? "hard walls" : "walls";  // the others are described among the effects
 
+  if (box.is_circle)
+    return fmt::format("circle of radius {:.6g} round ({:.6g}, {:.6g})", 0.5 * box.lengths().x(),
+                       0.5 * (box.lower.x() + box.upper.x()), 0.5 * (box.lower.y() + box.upper.y()));
   const std::string limits =
       fmt::format("[{:.6g}, {:.6g}] x [{:.6g}, {:.6g}]", box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y());
   if (box.periodic(0) && box.periodic(1)) return limits + ", periodic";

@@ -52,7 +52,8 @@ void require_apart(const Scene& scene, const State& given) {
       throw refusal(fmt::format("disk {} overlaps a wall in {}", i, axis == 0 ? "x" : "y"), radii[i] - room, radii[i], "it");
     }
     if (const auto found = overlapped_shape(box, scene.effects, centre, radii[i], 2.0 * rounding))
-      throw refusal(fmt::format("disk {} overlaps {}", i, path_of_shape(found->shape)), found->depth, found->contact, "it");
+      throw refusal(fmt::format("disk {} overlaps {}", i, path_of_shape(scene.effects, found->shape)), found->depth,
+                    found->contact, "it");
   }
   // The first search is fast however many disks lie in one place; the second knows where the images of a sheared box are.
   if (state.shear_displacement != 0.0) box.boundary[1] = Boundary::walls;

@@ -72,6 +72,12 @@ void add_scene(nb::module_& module) {
                    [](const Scene& scene) {
                      return std::vector<bool>{scene.box.periodic(0), scene.box.periodic(1)};
                    })
+      .def_prop_ro("circle",
+                   [](const Scene& scene) -> std::optional<std::tuple<std::vector<double>, double>> {
+                     if (!scene.effects.circle) return std::nullopt;
+                     return std::tuple{std::vector<double>{scene.effects.circle->centre.x(), scene.effects.circle->centre.y()},
+                                       scene.effects.circle->radius};
+                   })
       .def_prop_ro("species",
                    [](const Scene& scene) {
                      std::vector<std::string> names;

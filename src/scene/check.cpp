@@ -52,9 +52,13 @@ void check_counts(const Scene& scene) {
   }
 }
 
-/// Between walls a disk may just fit; on a periodic axis it must not touch its own image.
+/// Between walls a disk may just fit; on a periodic axis it must not touch its own image, and in a circle it needs room to move.
 template <class PathOf>
 void check_fit(const Box& box, double radius, PathOf path) {
+  const double largest = 0.5 * box.lengths().x();
+  if (box.is_circle && !(radius < largest * (1.0 - touching)))
+    throw Refusal(path(), fmt::format("a disk of radius {} does not fit: its radius must be less than {}, that of the circle",
+                                      radius, largest));
   for (int axis = 0; axis < 2; ++axis) {
     const double length = box.lengths()[axis];
     const bool fits = box.periodic(axis) ? 2.0 * radius < length : 2.0 * radius <= length * (1.0 + touching);
@@ -159,8 +163,23 @@ void check_box(const Box& box) {
                                        box.area()));
 }
 
+void check_circle(const Scene& scene) {
+  if (scene.effects.circle) {
+    require_pair("box.circle.centre", scene.effects.circle->centre, keys::circle_example);
+    require("box.circle", scene.effects.circle->radius, keys::circle_radius);
+  }
+  Box box = scene.box;
+  Effects effects;
+  if (scene.effects.circle) put_in_circle(box, effects, *scene.effects.circle);
+  const bool same = box.lower == scene.box.lower && box.upper == scene.box.upper && box.boundary == scene.box.boundary;
+  if (scene.box.is_circle == scene.effects.circle.has_value() && same) return;
+  throw Refusal("box.circle",
+                "Box::is_circle and Effects::circle do not describe the same circle; set both with put_in_circle()");
+}
+
 void check_scene(const Scene& scene) {
   check_numbers(scene);
+  check_circle(scene);
   check_box(scene.box);
   check_names(scene);
   check_counts(scene);

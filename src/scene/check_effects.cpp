@@ -59,6 +59,10 @@ void check_gravity(const Scene& scene) {
 
 void check_shear(const Scene& scene) {
   if (!scene.effects.shear) return;
+  if (scene.box.is_circle)
+    throw Refusal("shear",
+                  "[shear] moves periodic images past each other, but the box is a circle, which has none; remove "
+                  "[shear], or take x and y in [box] with boundary = \"periodic\"");
   for (int axis = 0; axis < 2; ++axis) {
     if (scene.box.periodic(axis)) continue;
     throw Refusal("shear", fmt::format("[shear] moves periodic images past each other, but {} has walls; take boundary = "

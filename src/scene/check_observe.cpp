@@ -134,6 +134,14 @@ void check_structure(const Scene& scene, const ObservableRequest& request) {
                                            *request.range, half));
 }
 
+/// Lines across a circle have different lengths, and its edge is no side.
+void check_circle_observables(const Scene& scene, const ObservableRequest& request) {
+  if (scene.box.is_circle && one_of(request.name, {"voronoi", "density_profile", "fields", "wall_fluxes"}))
+    refuse_observable(request,
+                      "is measured in a rectangular box, and this one is a circle; remove it, or build the circle of an "
+                      "arc in [[obstacles]]");
+}
+
 }  // namespace
 
 void check_observe(const Scene& scene) {
@@ -143,6 +151,7 @@ void check_observe(const Scene& scene) {
     check_collisions(scene, request);
     check_structure(scene, request);
     check_geometry(scene, request);
+    check_circle_observables(scene, request);
     check_wave_number(scene, request);
     if (request.every) check_step(scene, fmt::format("observe.{}.every", request.name), *request.every);
     if (request.name == "wall_fluxes" && scene.box.periodic(0) && scene.box.periodic(1))

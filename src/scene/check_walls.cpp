@@ -74,13 +74,13 @@ void check_sweep(const Scene& scene, std::size_t w) {
   const double inward = upper ? -velocity_of(wall) : velocity_of(wall);
   if (!(inward > 0.0)) return;
   const double travel = inward * duration(scene.run);
-  const std::span<const Obstacle> shapes = fixed_shapes(scene.effects);
+  const std::vector<Obstacle>& shapes = scene.effects.obstacles;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const Rectangle bounds = bounds_of(shapes[k]);
     const double room = upper ? scene.box.upper[axis] - bounds.upper[axis] : bounds.lower[axis] - scene.box.lower[axis];
     if (travel <= room) continue;
     throw Refusal(path_of(w), fmt::format("walls.{} would run into {} at time {:.6g}; make it slower, or end before that",
-                                          wall_names[w], path_of_shape(k), room / inward));
+                                          wall_names[w], path_of_shape(scene.effects, k), room / inward));
   }
 }
 
@@ -92,6 +92,10 @@ void check_walls(const Scene& scene) {
     const int axis = axis_of_wall(w);
     check_kind(wall, path_of(w));
     if (!wall.present()) continue;
+    if (scene.box.is_circle)
+      throw Refusal(path_of(w), fmt::format("walls.{} is given, but the box is a circle, which has no sides; remove it, or take "
+                                            "x and y in [box] in place of circle",
+                                            wall_names[w]));
     if (scene.box.periodic(axis)) {
       throw Refusal(path_of(w),
                     fmt::format("walls.{} is given, but the box is periodic in {} and has no wall there; remove it, or "

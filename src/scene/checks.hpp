@@ -50,6 +50,8 @@ void check_numbers(const Scene& scene);
 /// `path` is that of the count.
 void check_count(std::int64_t count, const std::string& path);
 void check_box(const Box& box);
+/// The box is a circle where the effects have one, which fills the square.
+void check_circle(const Scene& scene);
 /// Disks are grown together or not at all, and to what they are.
 void check_grown(const Scene& scene);
 /// Fixed shapes lie in the box, and given disks clear of them.

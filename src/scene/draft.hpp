@@ -26,6 +26,7 @@ struct Rows {
 struct BoxDraft {
   Box box;                       ///< limits valid only where `aspect` is empty
   std::optional<double> aspect;  ///< Lx / Ly
+  std::optional<Circle> circle;  ///< in the place of both
 };
 
 /// One [[disks]] table.

@@ -3,8 +3,10 @@
 #include "text/numbers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace carom::detail {
@@ -153,15 +155,17 @@ std::vector<EffectTraits> make_table() {
        .absence = "obstacles",
        .is_present = [](const Effects& e) { return !e.obstacles.empty(); },
        .acts = [](const Effects& e) { return !e.obstacles.empty(); },
-       .other_keys = {"disk", "segment"},
+       .other_keys = {"disk", "segment", "arc"},
        .unit_of_other_keys = "length",
        .words =
            [](const Effects& e) {
-             const auto is_disk = [](const Obstacle& one) { return std::holds_alternative<DiskObstacle>(one); };
-             const auto disks = static_cast<std::uint64_t>(std::count_if(e.obstacles.begin(), e.obstacles.end(), is_disk));
-             const std::uint64_t segments = e.obstacles.size() - disks;
-             return (disks > 0 ? counted(disks, "fixed disk") : "") + (disks > 0 && segments > 0 ? " and " : "") +
-                    (segments > 0 ? counted(segments, "fixed segment") : "");
+             std::array<std::uint64_t, 3> counts{};
+             for (const Obstacle& one : e.obstacles) ++counts[one.index()];
+             static constexpr std::array<const char*, 3> kinds = {"fixed disk", "fixed segment", "fixed arc"};
+             std::vector<std::string> parts;
+             for (std::size_t k = 0; k < kinds.size(); ++k)
+               if (counts[k] > 0) parts.push_back(counted(counts[k], kinds[k]));
+             return fmt::format("{}", fmt::join(parts, " and "));
            },
        .conserves_momentum = false,
        .thermalises_centre_of_mass = true,
@@ -169,6 +173,19 @@ std::vector<EffectTraits> make_table() {
        .keeps_speeds = true,
        .why_no_Z = "obstacles carry pressure and take up area",
        .why_no_transport = "obstacles take momentum; remove [[obstacles]]"},
+      {.name = "circle",
+       .title = "box.circle",
+       .is_present = [](const Effects& e) { return e.circle.has_value(); },
+       .acts = [](const Effects& e) { return e.circle.has_value(); },
+       .words =
+           [](const Effects& e) {
+             return fmt::format("the box is a circle of radius {:.6g} round ({:.6g}, {:.6g}), a hard wall", e.circle->radius,
+                                e.circle->centre.x(), e.circle->centre.y());
+           },
+       .conserves_momentum = false,
+       .thermalises_centre_of_mass = true,
+       .keeps_speeds = true,
+       .why_no_transport = "a circular wall takes momentum; take a periodic box"},
       {.name = "growth",
        .title = "[growth]",
        .absence = "growing disks",

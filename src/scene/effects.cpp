@@ -21,6 +21,12 @@ bool Effects::dissipate() const {
          std::ranges::any_of(walls, [](const WallProperties& wall) { return wall.restitution.value_or(1.0) < 1.0; });
 }
 
+void put_in_circle(Box& box, Effects& effects, const Circle& circle) {
+  const Eigen::Vector2d radius = Eigen::Vector2d::Constant(circle.radius);
+  box = {circle.centre - radius, circle.centre + radius, {Boundary::walls, Boundary::walls}, true};
+  effects.circle = circle;
+}
+
 bool conserves_momentum(const Box& box, const Effects& effects, int axis) {
   const auto changes_it = [&](const detail::EffectTraits& effect) { return !effect.conserves_momentum && effect.acts(effects); };
   return box.periodic(axis) && effects.acceleration()[axis] == 0.0 && std::ranges::none_of(detail::all_effects(), changes_it);

@@ -1,4 +1,5 @@
-// The [[obstacles]] tables: how they are read, what is wrong with them, and which of them a disk lies upon.
+// The [[obstacles]] tables: how they are read, what is wrong with them, and which of them, or the rim of a circular box, a disk
+// lies upon.
 
 #include "scene/fixed_shapes.hpp"
 
@@ -7,8 +8,10 @@
 #include "scene/read_tables.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace carom {
@@ -23,8 +26,15 @@ Eigen::Vector2d nearest_on_segment(const Eigen::Vector2d& from, const Eigen::Vec
   return share == 1.0 ? to : Eigen::Vector2d(from + share * along);
 }
 
+double distance(const ArcObstacle& arc, const Eigen::Vector2d& point) {
+  const Eigen::Vector2d from = point - arc.centre;
+  if (spans(arc, from)) return std::abs(from.norm() - arc.radius);
+  return std::min((from - arc.radius * direction(arc.from)).norm(), (from - arc.radius * direction(arc.to)).norm());
+}
+
 double distance(const Obstacle& shape, const Eigen::Vector2d& point) {
   if (const auto* disk = std::get_if<DiskObstacle>(&shape)) return (point - disk->centre).norm();
+  if (const auto* arc = std::get_if<ArcObstacle>(&shape)) return distance(*arc, point);
   const auto& segment = std::get<SegmentObstacle>(shape);
   return (point - nearest_on_segment(segment.from, segment.to, point)).norm();
 }
@@ -44,23 +54,29 @@ double distance(const Box& box, const Obstacle& shape, const Eigen::Vector2d& po
 
 }  // namespace
 
-std::string path_of_shape(std::size_t k) { return fmt::format("obstacles.{}", k); }
+std::string path_of_shape(const Effects& effects, std::size_t k) {
+  return k < effects.obstacles.size() ? detail::path_of_obstacle(k) : "box.circle";
+}
 
 std::optional<ShapeOverlap> overlapped_shape(const Box& box, const Effects& effects, const Eigen::Vector2d& position,
                                              double radius, double tolerance) {
-  const std::span<const Obstacle> shapes = fixed_shapes(effects);
+  const std::vector<Obstacle>& shapes = effects.obstacles;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const auto* disk = std::get_if<DiskObstacle>(&shapes[k]);
     const double contact = radius + (disk == nullptr ? 0.0 : disk->radius);
     const double depth = contact - distance(box, shapes[k], position);
     if (depth > tolerance * contact) return ShapeOverlap{k, depth, contact};
   }
+  if (!effects.circle) return std::nullopt;
+  const double depth = radius - (effects.circle->radius - (position - effects.circle->centre).norm());
+  if (depth > tolerance * radius) return ShapeOverlap{shapes.size(), depth, radius};
   return std::nullopt;
 }
 
 namespace detail {
 namespace {
 
+using keys::arc_example;
 using keys::disk_example;
 using keys::segment_example;
 
@@ -78,19 +94,34 @@ SegmentObstacle read_segment(const toml::table& node, const std::string& path) {
   return {read_point(table, "from", segment_example), read_point(table, "to", segment_example)};
 }
 
+ArcObstacle read_arc(const toml::table& node, const std::string& path) {
+  const TableReader table(node, path, {"centre", "radius", "from", "to"});
+  return {read_point(table, "centre", arc_example), table.required_number(keys::arc_radius),
+          table.required_number(keys::arc_from), table.required_number(keys::arc_to)};
+}
+
 }  // namespace
 
+std::string path_of_obstacle(std::size_t k) { return fmt::format("obstacles.{}", k); }
+
 Obstacle read_obstacle(const toml::table& node, const std::string& path) {
-  const TableReader table(node, path, {"disk", "segment"});
+  const TableReader table(node, path, {"disk", "segment", "arc"});
   const toml::table* disk = table.table("disk", std::string(disk_example));
   const toml::table* segment = table.table("segment", std::string(segment_example));
-  if ((disk == nullptr) == (segment == nullptr)) {
-    throw SceneError(table.where(), fmt::format("{} has {}; give exactly one, disk = {} or segment = {}", path,
-                                                disk == nullptr ? "neither disk nor segment" : "both disk and segment",
-                                                disk_example, segment_example));
+  const toml::table* arc = table.table("arc", std::string(arc_example));
+  std::vector<std::string_view> given;
+  if (disk != nullptr) given.push_back("disk");
+  if (segment != nullptr) given.push_back("segment");
+  if (arc != nullptr) given.push_back("arc");
+  if (given.size() != 1) {
+    throw SceneError(table.where(), fmt::format("{} has {}; give exactly one, disk = {}, segment = {} or arc = {}", path,
+                                                given.empty() ? "neither disk nor segment nor arc"
+                                                              : fmt::format("{}", fmt::join(given, " and ")),
+                                                disk_example, segment_example, arc_example));
   }
   if (disk != nullptr) return read_disk(*disk, table.path("disk"));
-  return read_segment(*segment, table.path("segment"));
+  if (segment != nullptr) return read_segment(*segment, table.path("segment"));
+  return read_arc(*arc, table.path("arc"));
 }
 
 std::vector<Obstacle> read_obstacles(const toml::node& node) {
@@ -98,7 +129,7 @@ std::vector<Obstacle> read_obstacles(const toml::node& node) {
   if (list == nullptr) refuse(node, "obstacles", "a list of tables: write [[obstacles]] with double brackets");
   std::vector<Obstacle> obstacles;
   for (std::size_t i = 0; i < list->size(); ++i) {
-    const std::string path = path_of_shape(i);
+    const std::string path = path_of_obstacle(i);
     const toml::node& entry = (*list)[i];
     if (!entry.is_table()) refuse(entry, path, "a table: write [[obstacles]] with double brackets");
     obstacles.push_back(read_obstacle(*entry.as_table(), path));
@@ -120,9 +151,15 @@ void check_numbers_of(const Obstacle& obstacle, const std::string& path) {
   if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
     require_pair(path + ".disk.centre", disk->centre, keys::disk_example);
     require(path + ".disk", disk->radius, keys::obstacle_radius);
+  } else if (const auto* segment = std::get_if<SegmentObstacle>(&obstacle)) {
+    require_pair(path + ".segment.from", segment->from, keys::segment_example);
+    require_pair(path + ".segment.to", segment->to, keys::segment_example);
   } else {
-    require_pair(path + ".segment.from", std::get<SegmentObstacle>(obstacle).from, keys::segment_example);
-    require_pair(path + ".segment.to", std::get<SegmentObstacle>(obstacle).to, keys::segment_example);
+    const auto& arc = std::get<ArcObstacle>(obstacle);
+    require_pair(path + ".arc.centre", arc.centre, keys::arc_example);
+    require(path + ".arc", arc.radius, keys::arc_radius);
+    require(path + ".arc", arc.from, keys::arc_from);
+    require(path + ".arc", arc.to, keys::arc_to);
   }
 }
 
@@ -154,16 +191,50 @@ void check_segment(const Box& box, const SegmentObstacle& segment, const std::st
   require_inside(box, segment.to, path, ".segment.to");
 }
 
+/// The whole arc lies in the box: what sticks out would be met by nothing, or by its own image.
+void check_arc(const Box& box, const ArcObstacle& arc, const std::string& path) {
+  const double span = arc.to - arc.from;
+  if (!(span > 0.0 && span <= 360.0))
+    throw Refusal(
+        path + ".arc",
+        fmt::format("{}.arc runs counterclockwise from {} to {} degrees; `to` must be above `from`, by at most 360, such "
+                    "as {}",
+                    path, arc.from, arc.to, keys::arc_example));
+  const Rectangle bounds = bounds_of(arc);
+  const double slack = 2.0 * touching * arc.radius;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (bounds.lower[axis] >= box.lower[axis] - slack && bounds.upper[axis] <= box.upper[axis] + slack) continue;
+    throw Refusal(path, fmt::format("{}.arc reaches from {:.6g} to {:.6g} in {}; it must stay in the box, from {} to {}", path,
+                                    bounds.lower[axis], bounds.upper[axis], axis_names[axis], box.lower[axis], box.upper[axis]));
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// Returns where a disk would not overlap: "at least 0.5 from that segment".
+std::string where_clear(const Effects& effects, const ShapeOverlap& found) {
+  if (found.shape >= effects.obstacles.size())
+    return fmt::format("at most {:.6g} from that of the circle", effects.circle->radius - found.contact);
+  const Obstacle& shape = effects.obstacles[found.shape];
+  const char* what = std::holds_alternative<DiskObstacle>(shape)      ? "the centre of that disk"
+                     : std::holds_alternative<SegmentObstacle>(shape) ? "that segment"
+                                                                      : "that arc";
+  return fmt::format("at least {:.6g} from {}", found.contact, what);
+}
+
 }  // namespace
 
 void check_fixed_shapes(const Scene& scene) {
-  const std::span<const Obstacle> obstacles = fixed_shapes(scene.effects);
-  if (obstacles.empty()) return;
+  const std::vector<Obstacle>& obstacles = scene.effects.obstacles;
+  if (obstacles.empty() && !scene.effects.circle) return;
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
-    const std::string path = path_of_shape(o);
+    const std::string path = path_of_obstacle(o);
     check_numbers_of(obstacles[o], path);
     if (const auto* disk = std::get_if<DiskObstacle>(&obstacles[o])) check_disk(scene.box, *disk, path);
     if (const auto* segment = std::get_if<SegmentObstacle>(&obstacles[o])) check_segment(scene.box, *segment, path);
+    if (const auto* arc = std::get_if<ArcObstacle>(&obstacles[o])) check_arc(scene.box, *arc, path);
   }
   std::int64_t first_id = 0;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
@@ -173,11 +244,9 @@ void check_fixed_shapes(const Scene& scene) {
       const auto disk = static_cast<std::int64_t>(i);
       const auto found = overlapped_shape(scene.box, scene.effects, positions[i], species.radius_of(disk), touching);
       if (!found) continue;
-      const bool round = std::holds_alternative<DiskObstacle>(obstacles[found->shape]);
       throw Refusal(fmt::format("disks.{}.positions.{}", s, i),
-                    fmt::format("disk {} overlaps {} by {:.6g}; its centre must be at least {:.6g} from {}", first_id + disk,
-                                path_of_shape(found->shape), found->depth, found->contact,
-                                round ? "the centre of that disk" : "that segment"));
+                    fmt::format("disk {} overlaps {} by {:.6g}; its centre must be {}", first_id + disk,
+                                path_of_shape(scene.effects, found->shape), found->depth, where_clear(scene.effects, *found)));
     }
     first_id += species.count;
   }

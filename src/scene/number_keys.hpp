@@ -36,6 +36,8 @@ void require_pair(const std::string& path, const Eigen::Vector2d& pair, std::str
 namespace keys {
 
 inline constexpr std::string_view limits_example[] = {"x = [-1.0, 1.0]", "y = [-1.0, 1.0]"};
+inline constexpr std::string_view circle_example = "{ centre = [0.0, 0.0], radius = 1.0 }";
+inline constexpr NumberKey circle_radius{"radius", circle_example, Range::above_zero};
 inline constexpr std::string_view count_example = "count = 64";
 inline constexpr NumberKey aspect{"aspect", "aspect = 1.0", Range::above_zero};
 
@@ -71,6 +73,10 @@ inline constexpr NumberKey piston_load{"load", "{ mass = 10.0, load = 5.0 }", Ra
 inline constexpr std::string_view disk_example = "{ centre = [0.0, 0.0], radius = 0.3 }";
 inline constexpr std::string_view segment_example = "{ from = [0.0, -1.0], to = [0.0, -0.1] }";
 inline constexpr NumberKey obstacle_radius{"radius", disk_example, Range::above_zero};
+inline constexpr std::string_view arc_example = "{ centre = [0.0, 0.0], radius = 0.5, from = 0, to = 180 }";
+inline constexpr NumberKey arc_radius{"radius", arc_example, Range::above_zero};
+inline constexpr NumberKey arc_from{"from", arc_example};
+inline constexpr NumberKey arc_to{"to", arc_example};
 
 inline constexpr NumberKey growth_rate{"rate", "rate = 0.01", Range::zero_or_more};
 inline constexpr NumberKey until_fraction{"packing_fraction", "{ packing_fraction = 0.84 }", Range::above_zero};

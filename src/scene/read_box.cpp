@@ -1,4 +1,4 @@
-// The [box] table: limits or aspect, and the boundary in its three spellings.
+// The [box] table: limits or aspect, and the boundary in its three spellings; or a circle.
 
 #include "scene/checks.hpp"
 #include "scene/read_tables.hpp"
@@ -40,11 +40,34 @@ void read_limits(const TableReader& box, Box& limits) {
   }
 }
 
+/// A circle has its size, and is a wall.
+void read_circle(const TableReader& box, const toml::table& node, BoxDraft& draft) {
+  for (const char* key : {"x", "y", "aspect", "boundary"}) {
+    if (box.find(key) == nullptr) continue;
+    throw SceneError(box.where("circle"),
+                     fmt::format("box.circle and box.{} exclude each other; a circle is a hard wall of its own size, so give it "
+                                 "alone, or the limits x and y with a boundary",
+                                 key));
+  }
+  const TableReader table(node, "box.circle", {"centre", "radius"});
+  Circle circle;
+  circle.centre = read_pair(table.require("centre", fmt::format("give it, such as {}", keys::circle_example)),
+                            table.path("centre"), keys::circle_example);
+  circle.radius = table.required_number(keys::circle_radius);
+  Effects effects;
+  put_in_circle(draft.box, effects, circle);
+  draft.circle = circle;
+}
+
 }  // namespace
 
 BoxDraft read_box(const toml::table& table) {
-  const TableReader box(table, "box", {"x", "y", "boundary", "aspect"});
+  const TableReader box(table, "box", {"x", "y", "boundary", "aspect", "circle"});
   BoxDraft draft;
+  if (const toml::table* circle = box.table("circle", std::string(keys::circle_example))) {
+    read_circle(box, *circle, draft);
+    return draft;
+  }
   draft.aspect = box.number(keys::aspect);
   if (draft.aspect) {
     for (const char* key : {"x", "y"}) {

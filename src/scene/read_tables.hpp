@@ -21,6 +21,8 @@ Collision read_collision(const toml::table& table);
 /// Fills everything but the collision from the tables of the scene.
 void read_effects(const TableReader& scene, Effects& effects);
 std::array<WallProperties, 4> read_walls(const toml::table& table);
+/// Returns the place of an obstacle in a scene file: "obstacles.0".
+std::string path_of_obstacle(std::size_t k);
 /// `path` is "obstacles.0".
 Obstacle read_obstacle(const toml::table& node, const std::string& path);
 /// `node` is the value of `obstacles`, a list of tables.

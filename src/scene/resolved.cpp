@@ -137,9 +137,14 @@ std::string resolved_toml(const Scene& scene) {
   Buffer out;
   put(out, "title = {}\n", quoted_text(scene.title));
   if (scene.species.empty()) put(out, "disks = []\n");
-  put(out, "\n[box]\nx = [{}, {}]\ny = [{}, {}]\n", number_text(scene.box.lower[0]), number_text(scene.box.upper[0]),
-      number_text(scene.box.lower[1]), number_text(scene.box.upper[1]));
-  put(out, "boundary = {{ x = \"{}\", y = \"{}\" }}\n", boundary(0), boundary(1));
+  if (const std::optional<Circle>& circle = scene.effects.circle) {
+    put(out, "\n[box]\ncircle = {{ centre = [{}, {}], radius = {} }}\n", number_text(circle->centre[0]),
+        number_text(circle->centre[1]), number_text(circle->radius));
+  } else {
+    put(out, "\n[box]\nx = [{}, {}]\ny = [{}, {}]\n", number_text(scene.box.lower[0]), number_text(scene.box.upper[0]),
+        number_text(scene.box.lower[1]), number_text(scene.box.upper[1]));
+    put(out, "boundary = {{ x = \"{}\", y = \"{}\" }}\n", boundary(0), boundary(1));
+  }
   for (const Species& species : scene.species) put_species(out, species);
   put(out, "{}", detail::effects_toml(scene.effects));
   put_run(out, scene.run);

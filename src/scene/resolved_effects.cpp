@@ -56,6 +56,10 @@ std::string obstacle(const Obstacle& obstacle) {
   if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
     return fmt::format("\n[[obstacles]]\ndisk = {{ centre = {}, radius = {} }}\n", pair(disk->centre), number_text(disk->radius));
   }
+  if (const auto* arc = std::get_if<ArcObstacle>(&obstacle)) {
+    return fmt::format("\n[[obstacles]]\narc = {{ centre = {}, radius = {}, from = {}, to = {} }}\n", pair(arc->centre),
+                       number_text(arc->radius), number_text(arc->from), number_text(arc->to));
+  }
   const auto& segment = std::get<SegmentObstacle>(obstacle);
   return fmt::format("\n[[obstacles]]\nsegment = {{ from = {}, to = {} }}\n", pair(segment.from), pair(segment.to));
 }

@@ -69,6 +69,7 @@ void read_document(const toml::table& document, const std::string& directory, de
   scene.effects.collision =
       detail::read_collision(require_table(reader, "collision", "choose rule = \"reversal\" or rule = \"specular\""));
   detail::read_effects(reader, scene.effects);
+  scene.effects.circle = draft.box.circle;
   const toml::table& run = require_table(reader, "run", "give time = 5.0, collisions = 1_000_000, or both");
   scene.run = detail::read_run(run);
   scene.output = detail::read_output(reader.table("output", "[output]"), scene.run.is_sampled());

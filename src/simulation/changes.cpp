@@ -98,7 +98,9 @@ void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_ru
 void Simulation::set_effects(const Effects& effects) {
   parts_->require_changeable();
   Scene scene = parts_->scene;
+  const std::optional<Circle> circle = scene.effects.circle;  // it belongs to the box, which stays
   scene.effects = effects;
+  scene.effects.circle = circle;
   State state = parts_->engine->state();
   check_begun(begun_now(scene, state, parts_->engine_name == "textbook-float"), state);
   parts_->go_on(std::move(scene), std::move(state), parts_->rule);

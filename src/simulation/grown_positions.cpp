@@ -58,6 +58,7 @@ class Growing {
   Growing(const Scene& scene, const Disks& disks) : scene_(scene), disks_(disks), final_fraction_(scene.packing_fraction()) {
     scene_.effects = Effects{};
     scene_.effects.obstacles = scene.effects.obstacles;
+    scene_.effects.circle = scene.effects.circle;
     disks_.mass.assign(disks.count(), 1.0);  // equal masses share their energy soonest
     double squares = 0.0;
     for (const double radius : disks.radius) squares += 4.0 * radius * radius;

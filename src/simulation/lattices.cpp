@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace carom {
 
@@ -98,10 +99,65 @@ Lattice lattice(const Box& box, std::int64_t count, double diameter, bool hexago
   return result;
 }
 
+/// Calls visit(x, y) for the sites of a lattice of spacing 1 round (0, 0), moved by (left, down), within `reach`.
+template <class Visit>
+void visit_round_sites(bool hexagonal, double left, double down, double reach, Visit&& visit) {
+  const double between_rows = hexagonal ? std::sqrt(0.75) : 1.0;
+  for (double row = std::ceil((down - reach) / between_rows); row * between_rows <= down + reach; row += 1.0) {
+    const double y = row * between_rows - down;
+    const double half = std::sqrt(std::max(0.0, reach * reach - y * y));
+    const double shift = hexagonal && std::fmod(row, 2.0) != 0.0 ? 0.5 : 0.0;
+    visit(std::ceil(left - shift - half), std::floor(left - shift + half), shift - left, y);
+  }
+}
+
+/// The sites of a lattice in a circle: of lattices with a site, the middle of a cell or the middle of an edge in the centre, the
+/// one with the widest spacing of which enough sites fit; of these, those nearest to the centre.
+Lattice round_lattice(const Box& box, std::int64_t count, double diameter, bool hexagonal) {
+  Lattice result;
+  result.sites.resize(2, count);
+  if (count == 0) return result;
+  const Eigen::Vector2d centre = box.lower + 0.5 * box.lengths();
+  const double reach = 0.5 * (box.lengths().x() - diameter) * (1.0 + 1e-12);  // of the centres of disks
+  const auto fitting = [&](const Eigen::Vector2d& origin, double spacing) {
+    double sites = 0.0;
+    visit_round_sites(hexagonal, origin.x(), origin.y(), reach / spacing,
+                      [&](double first, double last, double, double) { sites += std::max(0.0, last - first + 1.0); });
+    return static_cast<std::int64_t>(sites);
+  };
+  const Eigen::Vector2d cell(0.5, hexagonal ? std::sqrt(1.0 / 12.0) : 0.5);
+  Eigen::Vector2d best(0.0, 0.0);
+  for (const Eigen::Vector2d& origin : {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(0.5, 0.0), cell}) {
+    double fits = 2.0 * box.lengths().x();
+    while (fitting(origin, fits) < count) fits *= 0.995;
+    for (double low = fits, high = fits / 0.995; high - low > 1e-13 * high;) {
+      const double middle = 0.5 * (low + high);
+      if (!(middle > low && middle < high)) break;
+      (fitting(origin, middle) >= count ? low : high) = middle;
+      fits = low;
+    }
+    if (fits > result.spacing) result.spacing = fits, best = origin;
+  }
+  std::vector<Eigen::Vector2d> sites;
+  visit_round_sites(hexagonal, best.x(), best.y(), reach / result.spacing,
+                    [&](double first, double last, double shift, double y) {
+                      for (double k = first; k <= last; k += 1.0) sites.emplace_back(k + shift, y);
+                    });
+  std::stable_sort(sites.begin(), sites.end(), [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.squaredNorm() < b.squaredNorm() * (1.0 - 1e-12);
+  });
+  for (std::int64_t k = 0; k < count; ++k) result.sites.col(k) = centre + result.spacing * sites[static_cast<std::size_t>(k)];
+  return result;
+}
+
+Lattice any_lattice(const Box& box, std::int64_t count, double diameter, bool hexagonal) {
+  return box.is_circle ? round_lattice(box, count, diameter, hexagonal) : lattice(box, count, diameter, hexagonal);
+}
+
 }  // namespace
 
-Lattice square_lattice(const Box& box, std::int64_t count, double diameter) { return lattice(box, count, diameter, false); }
+Lattice square_lattice(const Box& box, std::int64_t count, double diameter) { return any_lattice(box, count, diameter, false); }
 
-Lattice hexagonal_lattice(const Box& box, std::int64_t count, double diameter) { return lattice(box, count, diameter, true); }
+Lattice hexagonal_lattice(const Box& box, std::int64_t count, double diameter) { return any_lattice(box, count, diameter, true); }
 
 }  // namespace carom

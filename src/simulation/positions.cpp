@@ -100,7 +100,7 @@ class Placement {
         throw detail::scene_error(scene_, where,
                                   fmt::format("the {} lattice puts disk {} upon {}; give all positions one by one, or ask for "
                                               "\"random\"",
-                                              name, ids[k], path_of_shape(shape->shape)));
+                                              name, ids[k], path_of_shape(scene_.effects, shape->shape)));
       }
       const auto found =
           in_place_.deepest(site, disks_.radius[static_cast<std::size_t>(ids[k])], static_cast<std::int32_t>(ids[k]));

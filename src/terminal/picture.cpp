@@ -61,6 +61,13 @@ void draw_shape(DotCanvas& canvas, const Placement& place, const Obstacle& shape
     canvas.circle(place(disk->centre), place.length(disk->radius));
   } else if (const auto* segment = std::get_if<SegmentObstacle>(&shape)) {
     canvas.line(place(segment->from), place(segment->to));
+  } else {
+    const auto& arc = std::get<ArcObstacle>(shape);
+    const int pieces = std::clamp(static_cast<int>(place.length(arc.radius) * (arc.to - arc.from) / 90.0), 8, 720);
+    const auto point = [&](int k) {
+      return place(arc.centre + arc.radius * direction(arc.from + (arc.to - arc.from) * k / pieces));
+    };
+    for (int k = 0; k < pieces; ++k) canvas.line(point(k), point(k + 1));
   }
 }
 

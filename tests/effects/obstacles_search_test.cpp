@@ -29,7 +29,10 @@ class ObstacleSearch : public ::testing::Test {
     std::vector<Obstacle> list;
     for (int k = 0; k < count; ++k) {
       const Eigen::Vector2d at = place(box);
-      if (random() % 2 == 0)
+      if (random() % 4 == 0)
+        list.push_back(
+            fixed_arc(at, size * between(0.1, 1.5), between(-360.0, 360.0), random() % 8 == 0 ? 360.0 : between(1.0, 359.0)));
+      else if (random() % 2 == 0)
         list.push_back(fixed_disk(at.x(), at.y(), size * between(0.1, 1.0)));
       else if (!list.empty() && random() % 2 == 0 && std::holds_alternative<SegmentObstacle>(list.back()))
         list.push_back(fixed_segment(std::get<SegmentObstacle>(list.back()).to, at));

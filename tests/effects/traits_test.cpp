@@ -13,6 +13,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,8 +49,13 @@ const std::map<std::string, std::function<void(Effects&)>> other_effects = {
      }},
 };
 
-/// Sets the effect so strong that a short run shows it.
-void set_strong(Effects& effects, const EffectTraits& effect) {
+/// Sets the effect so strong that a short run shows it. A circle takes the area of the box.
+void set_strong(Scene& scene, const EffectTraits& effect) {
+  Effects& effects = scene.effects;
+  if (effect.name == "circle") {
+    const Box box = scene.box;
+    return put_in_circle(scene.box, effects, {0.5 * (box.lower + box.upper), std::sqrt(box.area() / std::numbers::pi)});
+  }
   if (effect.numbers.empty()) return other_effects.at(std::string(effect.name))(effects);
   for (const detail::EffectNumber& number : effect.numbers)
     number.set(effects, number.mild == number.neutral ? number.mild : 0.5);
@@ -66,8 +72,9 @@ Scene cluster(const EffectTraits& effect) {
   }
   Box box{{-100.0, -100.0}, {100.0, 100.0}, {Boundary::walls, Boundary::walls}};
   if (effect.name == "shear") box.boundary = {Boundary::periodic, Boundary::periodic};
+  if (effect.name == "circle") box.upper = -(box.lower = {-5.0, -5.0});  // its rim is met, and keeps angular momentum
   Scene scene = scene_of_placed(box, disks);
-  set_strong(scene.effects, effect);
+  set_strong(scene, effect);
   return scene;
 }
 
@@ -116,7 +123,8 @@ TEST_P(EffectTraitsHold, MomentumAlongAPeriodicAxisIsConservedAsTheTableSays) {
   const bool is_sheared = effect.name == "shear";
   const int axis = is_sheared ? 0 : 1;  // images above move along x
   Scene scene = cluster(effect);
-  scene.box = {{-6.0, -6.0}, {6.0, 6.0}, {is_sheared ? Boundary::periodic : Boundary::walls, Boundary::periodic}};
+  if (effect.name != "circle")
+    scene.box = {{-6.0, -6.0}, {6.0, 6.0}, {is_sheared ? Boundary::periodic : Boundary::walls, Boundary::periodic}};
   if (effect.name == "gravity") scene.effects.gravity->acceleration = {-1.0, 0.0};
   if (effect.name == "pistons") std::swap(scene.effects.walls[1], scene.effects.walls[3]);
   const auto momentum = [&](const Simulation& simulation) {
@@ -140,10 +148,11 @@ TEST_P(EffectTraitsHold, MomentumAlongAPeriodicAxisIsConservedAsTheTableSays) {
 
 TEST_P(EffectTraitsHold, MemoryPerDiskIsThatOfTheTable) {
   const EffectTraits& effect = detail::effect_named(GetParam());
+  if (effect.name == "circle") GTEST_SKIP() << "disks in another box have other neighbours";
   const auto bytes = [&](bool with, std::int64_t disks) {
     Scene scene = gas_scene(disks, 0.25, effect.name == "shear" ? Boundary::periodic : Boundary::walls);
     scene.species[0].positions = RandomPositions{};
-    if (with) set_strong(scene.effects, effect);
+    if (with) set_strong(scene, effect);
     if (with) detail::set_numbers(scene.effects, effect, &detail::EffectNumber::mild);
     if (with && !scene.effects.obstacles.empty()) scene.effects.obstacles = {DiskObstacle{{4.0, 4.0}, 0.25}};
     if (with && scene.effects.square_well) scene.effects.square_well->width = 1.0 + 1e-9;  // no bonds

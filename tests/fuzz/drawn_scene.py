@@ -361,6 +361,12 @@ def draw_obstacle(r, gas, walled):
     if r.random() < 0.5:
         a = min(r.choice([0.1, 0.5, 1.0]) * gas.radius, 0.3 * min(gas.sides))
         return {"disk": {"centre": point(a), "radius": length(a)}}
+    if r.random() < 0.3:
+        a = 0.4 * min(gas.sides) * r.choice([1.0, r.random()])
+        start = r.choice([0, 90, -90, r.uniform(-360.0, 360.0)])
+        # The whole arc must lie in the box, across periodic edges too.
+        centre = [length(r.uniform(low + a, high - a)) for low, high in zip(gas.lower, gas.upper)]
+        return {"arc": {"centre": centre, "radius": length(a), "from": start, "to": start + r.choice([90, 180, 360, r.uniform(1.0, 359.0)])}}
     one, other = point(), point()
     if r.random() < 0.4:
         other[r.randrange(2)] = one[0]

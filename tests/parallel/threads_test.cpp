@@ -170,6 +170,15 @@ TEST(Threads, GiveTheBitsOfOneBetweenObstacles) {
   expect_same_runs(scene, {.domains = 4}, 10.0, 4);
 }
 
+TEST(Threads, GiveTheBitsOfOneInACircle) {
+  Scene scene = lean_gas(3000, 0.3, Boundary::walls);
+  scene.species[0].positions = RandomPositions{};
+  const Eigen::Vector2d middle = 0.5 * (scene.box.lower + scene.box.upper);
+  put_in_circle(scene.box, scene.effects, {middle, 0.57 * scene.box.lengths().x()});
+  scene.effects.obstacles = {ArcObstacle{middle, 0.25 * scene.box.lengths().x(), 10.0, 300.0}};
+  expect_same_runs(scene, {.domains = 4}, 10.0, 4);
+}
+
 TEST(Threads, FindEveryWindowThatTheirHalosAreTooNarrowFor) {
   std::uint64_t redone = 0;
   for (const double halo : {2.5, 3.0, 4.0, 6.0})

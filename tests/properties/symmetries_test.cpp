@@ -55,6 +55,7 @@ void for_all_points(std::vector<Obstacle>& obstacles, Change&& change) {
   for (Obstacle& obstacle : obstacles) {
     if (auto* disk = std::get_if<DiskObstacle>(&obstacle)) change(disk->centre);
     if (auto* segment = std::get_if<SegmentObstacle>(&obstacle)) change(segment->from), change(segment->to);
+    if (auto* arc = std::get_if<ArcObstacle>(&obstacle)) change(arc->centre);
   }
 }
 
@@ -84,6 +85,11 @@ Scene mirrored(Scene scene) {
   for_all_velocities(scene, turn);
   Effects& effects = scene.effects;
   for_all_points(effects.obstacles, turn);
+  for (Obstacle& obstacle : effects.obstacles)
+    if (auto* arc = std::get_if<ArcObstacle>(&obstacle)) {
+      const double from = arc->from;
+      arc->from = 180.0 - arc->to, arc->to = 180.0 - from;
+    }
   if (effects.gravity) turn(effects.gravity->acceleration);
   std::swap(effects.walls[0], effects.walls[1]);
   for (const std::size_t side : {0U, 1U})
@@ -173,7 +179,10 @@ Scene in_other_units(Scene scene, int a, int b) {
   }
   for_all_points(effects.obstacles, [&](Eigen::Vector2d& point) { scale_both(point, a); });
   for (Obstacle& obstacle : effects.obstacles)
-    if (auto* disk = std::get_if<DiskObstacle>(&obstacle)) scale(disk->radius, a);
+    if (auto* disk = std::get_if<DiskObstacle>(&obstacle))
+      scale(disk->radius, a);
+    else if (auto* arc = std::get_if<ArcObstacle>(&obstacle))
+      scale(arc->radius, a);
   if (effects.growth) scale(effects.growth->rate, -b);
   if (effects.thermostat) scale(effects.thermostat->temperature, 2 * (a - b)), scale(effects.thermostat->rate, -b);
   if (effects.shear) scale(effects.shear->rate, -b);

@@ -160,3 +160,21 @@ print([m for m in {heavy} if m in sys.modules and m not in before], threading.ac
 def test_version_is_that_of_the_program(program) -> None:
     assert carom.__version__ == carom.build()["version"]
     assert carom.__version__ in program("--version").stdout
+
+
+def test_a_box_may_be_a_circle() -> None:
+    scene = carom.Scene(
+        box={"circle": {"centre": [1.0, 2.0], "radius": 3.0}},
+        disks={"count": 5, "radius": 0.25, "mass": 1.0, "positions": "random", "velocities": {"temperature": 1.0}},
+        collision={"rule": "specular"},
+        obstacles={"arc": {"centre": [1.0, 2.0], "radius": 1.0, "from": 0, "to": 180}},
+        run={"time": 1.0},
+    )
+    assert scene.circle == ((1.0, 2.0), 3.0) and scene.box == ((-2.0, 4.0), (-1.0, 5.0))
+    assert scene.packing_fraction == pytest.approx(5 * 0.25**2 / 9)
+    simulation = carom.Simulation(scene)
+    simulation.run_until(20.0)
+    assert simulation.totals["circle_impulse"] > 0
+    simulation.set("gravity.acceleration", (0.0, -1.0))
+    simulation.run_until(40.0)
+    assert (((simulation.positions - [1.0, 2.0]) ** 2).sum(axis=1) < 2.75**2 * (1 + 1e-9)).all()

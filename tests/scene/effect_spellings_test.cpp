@@ -96,6 +96,28 @@ TEST(EffectSpellings, ObstaclesAreDisksAndSegments) {
   EXPECT_TRUE(parse_scene("obstacles = []\n" + std::string(small_scene)).effects.obstacles.empty());
 }
 
+TEST(EffectSpellings, AnObstacleMayBeAnArc) {
+  const Effects effects = with("[[obstacles]]\narc = { centre = [5, 4], radius = 0.5, from = -90, to = 270.0 }\n").effects;
+  const auto& arc = std::get<ArcObstacle>(effects.obstacles[0]);
+  EXPECT_EQ(arc.centre, Eigen::Vector2d(5.0, 4.0));
+  EXPECT_EQ(arc.radius, 0.5);
+  EXPECT_EQ(arc.from, -90.0);
+  EXPECT_EQ(arc.to, 270.0);
+  EXPECT_NO_THROW(with("[[obstacles]]\narc = { centre = [0, 4], radius = 4, from = -90, to = 90 }\n")) << "it touches walls";
+}
+
+TEST(EffectSpellings, TheBoxMayBeACircle) {
+  const Scene scene = parse_scene(
+      changed({{"x = [0.0, 10.0]\ny = [0.0, 8.0]\nboundary = \"walls\"", "circle = { centre = [5, 4], radius = 40 }"}}));
+  EXPECT_TRUE(scene.box.is_circle);
+  ASSERT_TRUE(scene.effects.circle);
+  EXPECT_EQ(scene.effects.circle->radius, 40.0);
+  EXPECT_EQ(scene.box.lower, Eigen::Vector2d(-35.0, -36.0));
+  EXPECT_EQ(scene.box.upper, Eigen::Vector2d(45.0, 44.0));
+  EXPECT_THAT(names_of(scene.effects, true), testing::ElementsAre("specular", "walls", "circle"));
+  EXPECT_EQ(parse_scene(resolved_toml(scene)).effects.circle->radius, 40.0);
+}
+
 TEST(EffectSpellings, AnObstacleDiskMayTouchAWallAndStickThroughAPeriodicEdge) {
   EXPECT_NO_THROW(with("[[obstacles]]\ndisk = { centre = [0.3, 4], radius = 0.3 }\n"));
   EXPECT_NO_THROW(periodic_with("[[obstacles]]\ndisk = { centre = [0, 8], radius = 0.3 }\n"));

@@ -100,6 +100,8 @@ TEST(EffectTraits, CountsObstaclesInWords) {
   effects.obstacles.emplace_back(DiskObstacle{{0.0, 0.0}, 0.5});
   effects.obstacles.emplace_back(DiskObstacle{{2.0, 0.0}, 0.5});
   EXPECT_EQ(words(), "2 fixed disks and 1 fixed segment");
+  effects.obstacles = {ArcObstacle{{0.0, 0.0}, 1.0, 0.0, 90.0}, ArcObstacle{{2.0, 0.0}, 1.0, 0.0, 90.0}};
+  EXPECT_EQ(words(), "2 fixed arcs");
 }
 
 TEST(EffectTraits, TellsWhereSpeedsChangeBetweenCollisions) {

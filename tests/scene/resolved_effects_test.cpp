@@ -130,6 +130,9 @@ class EffectsMaker {
 
   static std::string obstacle() {
     if (maybe()) return "[[obstacles]]\ndisk = { centre = " + point() + ", " + entry("radius", 0.1 + unit_interval()) + " }\n";
+    if (maybe())
+      return "[[obstacles]]\narc = { centre = " + point() + ", " + entry("radius", 0.1 + unit_interval()) + ", " +
+             entry("from", 180.0 + 359.0 * unit_interval()) + ", to = 540.0 }\n";
     return "[[obstacles]]\nsegment = { from = " + point() + ", to = [7.0, " + number_text(5.0 + 2.0 * unit_interval()) + "] }\n";
   }
 

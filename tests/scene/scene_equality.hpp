@@ -25,6 +25,11 @@ inline bool same_shape(const Obstacle& a, const Obstacle& b) {
     const auto& other = std::get<DiskObstacle>(b);
     return same_bits(disk->centre, other.centre) && same_bits(disk->radius, other.radius);
   }
+  if (const auto* arc = std::get_if<ArcObstacle>(&a)) {
+    const auto& other = std::get<ArcObstacle>(b);
+    return same_bits(arc->centre, other.centre) && same_bits(arc->radius, other.radius) && same_bits(arc->from, other.from) &&
+           same_bits(arc->to, other.to);
+  }
   const auto &segment = std::get<SegmentObstacle>(a), &other = std::get<SegmentObstacle>(b);
   return same_bits(segment.from, other.from) && same_bits(segment.to, other.to);
 }
@@ -49,6 +54,9 @@ inline std::string first_difference(const Effects& a, const Effects& b) {
       return "walls." + std::to_string(w);
     }
   }
+  if (a.circle.has_value() != b.circle.has_value()) return "box.circle";
+  if (a.circle && !(same_bits(a.circle->centre, b.circle->centre) && same_bits(a.circle->radius, b.circle->radius)))
+    return "numbers of box.circle";
   if (a.obstacles.size() != b.obstacles.size()) return "number of obstacles";
   for (std::size_t o = 0; o < a.obstacles.size(); ++o) {
     if (!same_shape(a.obstacles[o], b.obstacles[o])) return "obstacles." + std::to_string(o);

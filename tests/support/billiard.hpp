@@ -14,6 +14,11 @@ inline Obstacle fixed_disk(double x, double y, double radius) { return DiskObsta
 
 inline Obstacle fixed_segment(Eigen::Vector2d from, Eigen::Vector2d to) { return SegmentObstacle{from, to}; }
 
+/// An arc that spans an angle in degrees from the direction `from` on.
+inline Obstacle fixed_arc(Eigen::Vector2d centre, double radius, double from, double span) {
+  return ArcObstacle{centre, radius, from, from + span};
+}
+
 inline std::vector<Obstacle> polygon(const std::vector<Eigen::Vector2d>& corners) {
   std::vector<Obstacle> sides;
   for (std::size_t k = 0; k < corners.size(); ++k) sides.push_back(fixed_segment(corners[k], corners[(k + 1) % corners.size()]));
@@ -46,6 +51,10 @@ struct Billiard {
   void bounce(std::int32_t obstacle) {
     const Vec2<double> n = obstacles.from_nearest_point(obstacle, r);
     v -= 2 * (v.dot(n) / n.squaredNorm()) * n;
+  }
+  /// As engines do it, where it may skim along an arc.
+  void bounce_and_leave(std::int32_t obstacle) {
+    static_cast<void>(obstacles.bounce(obstacle, r, v, g, 1.0, radius, radius * growth));
   }
   /// To the next obstacle and off it.
   Obstacles<double>::Meeting step(double until = infinity<double>) {

@@ -130,6 +130,15 @@ inline std::string decoded_effects(Bytes& bytes, const std::array<double, 4>& bo
     const double x = along(0), y = along(1), to_x = along(0), to_y = along(1);
     text += fmt::format("[[obstacles]]\nsegment = {{ from = [{}, {}], to = [{}, {}] }}\n", x, y, to_x, to_y);
   }
+  if ((which & 192) == 192) {
+    const double radius = 0.4 * side * bytes.unit(), from = 360.0 * bytes.unit(), span = 360.0 * bytes.unit();
+    const auto clear = [&](std::size_t axis) {
+      return box[2 * axis] + radius + bytes.unit() * (box[2 * axis + 1] - box[2 * axis] - 2.0 * radius);
+    };
+    const double x = clear(0), y = clear(1);
+    text += fmt::format("[[obstacles]]\narc = {{ centre = [{}, {}], radius = {}, from = {}, to = {} }}\n", x, y, radius, from,
+                        from + span);
+  }
   return text;
 }
 

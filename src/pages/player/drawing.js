@@ -74,13 +74,29 @@ const largestRadius = radius.reduce((most, r) => Math.max(most, r), 0);
 function boxPath(moment) {
   const [left, right, bottom, top] = moment.walls;
   context.beginPath();
+  if (box.isCircle) return circlePath((left + right) / 2, (bottom + top) / 2, (right - left) / 2, 0);
   context.rect(pixelX(left), pixelY(top), (right - left) * view.scale, (top - bottom) * view.scale);
+}
+
+/// Adds a circle to the path, its radius longer by some pixels.
+function circlePath(x, y, radius, more) {
+  const length = radius * view.scale + more;
+  context.moveTo(pixelX(x) + length, pixelY(y));
+  context.arc(pixelX(x), pixelY(y), length, 0, 2 * Math.PI);
 }
 
 /// Draws walls as solid lines outside the box, and periodic edges as dashed lines.
 function drawEdges(moment) {
   const [left, right, bottom, top] = moment.walls;
   const thick = 3;
+  if (box.isCircle) {
+    context.strokeStyle = theme.ink;
+    context.lineWidth = thick;
+    context.beginPath();
+    circlePath((left + right) / 2, (bottom + top) / 2, (right - left) / 2, thick / 2);
+    context.stroke();
+    return;
+  }
   const lines = [
     [left, bottom, left, top, -1, 0],
     [right, bottom, right, top, 1, 0],
@@ -107,7 +123,7 @@ function drawShapes(shifts) {
   for (const [a, b] of shifts) {
     context.beginPath();
     for (const shape of description.shapes) {
-      if (shape.centre === undefined) continue;
+      if (shape.centre === undefined || shape.angles !== undefined) continue;
       const px = pixelX(shape.centre[0] + a * box.lengths[0]);
       const py = pixelY(shape.centre[1] + b * box.lengths[1]);
       context.moveTo(px + shape.radius * view.scale, py);
@@ -116,6 +132,13 @@ function drawShapes(shifts) {
     context.fillStyle = theme.solid;
     context.fill();
     context.beginPath();
+    for (const { centre, radius: size, angles } of description.shapes) {
+      if (angles === undefined || (box.isCircle && angles[1] - angles[0] >= 360)) continue;
+      const [first, last] = angles.map((angle) => (-angle * Math.PI) / 180);
+      const [px, py] = [pixelX(centre[0] + a * box.lengths[0]), pixelY(centre[1] + b * box.lengths[1])];
+      context.moveTo(px + size * view.scale * Math.cos(first), py + size * view.scale * Math.sin(first));
+      context.arc(px, py, size * view.scale, first, last, true);
+    }
     for (const { from, to } of description.shapes) {
       if (from === undefined) continue;
       context.moveTo(pixelX(from[0] + a * box.lengths[0]), pixelY(from[1] + b * box.lengths[1]));

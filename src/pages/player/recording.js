@@ -32,6 +32,7 @@ const box = {
   lower: description.box.lower,
   upper: description.box.upper,
   periodic: description.box.periodic,
+  isCircle: description.box.isCircle === true,
   lengths: [0, 1].map((axis) => description.box.upper[axis] - description.box.lower[axis]),
 };
 

@@ -48,7 +48,8 @@ constexpr std::array<UnitOf, 17> of_numbers = {{{"time", "time", "time"},
                                                 {"walls.", ".velocity", "length / time"},
                                                 {"dissipated", "dissipated", "energy"}}};
 
-constexpr std::array<UnitOf, 18> of_keys = {{{"box.x", "", "length"},
+constexpr std::array<UnitOf, 19> of_keys = {{{"box.x", "", "length"},
+                                             {"box.circle.", "", "length"},
                                              {"box.y", "", "length"},
                                              {"disks.", ".radius", "length"},
                                              {"disks.", ".mass", "mass"},
