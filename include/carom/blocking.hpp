@@ -45,9 +45,16 @@ class Blocking {
     /// Whether correlations were found but no blocks are long enough for them: the longest blocks estimate more than twice the
     /// variance that the shortest do. False where `statistical_inefficiency` is present.
     bool lower_bound = false;
+    std::uint64_t blocks = 0;  ///< number of blocks whose scatter gave `error`
   };
   /// Estimates <x> / <w>^power. Returns nothing without samples, or where all weights are zero.
   [[nodiscard]] std::optional<Estimate> estimate(int power = 1) const { return estimate(levels_, power); }
+
+  /// Compares <x> / <w>^power of the first part of the samples with that of the rest. The standard error is that of the rest, as
+  /// blocking finds it, by which in equilibrium the first part fluctuates too: a start that has not yet come to equilibrium does
+  /// not hide itself behind its own scatter. The probability is that of Student's t with the number of these blocks. Returns
+  /// nothing where the rest has too few samples, correlations that are too long, or no scatter but rounding.
+  [[nodiscard]] std::optional<Halves> halves(int power = 1) const;
 
   /// Sums over all blocks of 2^level samples. Sums of squares are about the mean of all blocks.
   struct Level {
@@ -69,18 +76,19 @@ class Blocking {
   /// Returns the number of samples.
   [[nodiscard]] std::uint64_t samples() const { return levels_.empty() ? 0 : levels_.front().blocks; }
 
-  /// Sets value, error and integrated correlation time of `scalar` to those of offset + factor <x> / <w>^power. `step` is the
-  /// time between samples. Where no blocks are long enough, the note says that the error is a lower bound.
+  /// Sets value, error, integrated correlation time and halves of `scalar` to those of offset + factor <x> / <w>^power. `step` is
+  /// the time between samples. Where no blocks are long enough, the note says that the error is a lower bound.
   void fill(Scalar& scalar, double step, double factor = 1.0, double offset = 0.0, int power = 1) const;
 
   /// Saves or loads all samples, with an archive in the manner of cereal.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(levels_);
+    archive(levels_, at_power_, at_power_before_);
   }
 
  private:
   std::vector<Level> levels_;
+  std::vector<Level> at_power_, at_power_before_;  ///< as they were at the last two numbers of samples that are powers of two
 };
 
 }  // namespace carom

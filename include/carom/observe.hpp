@@ -27,6 +27,15 @@ namespace carom {
 /// The measure of an average: a mean over time weighs long flights more than a mean over collisions does.
 enum class Average { time, collisions };
 
+/// The mean of a number over the first part of a run, about half of it, beside that over the rest.
+struct Halves {
+  double share = 0.5;        ///< share of the samples in the first part, from 0.3 to 0.6
+  double first = 0.0;        ///< mean over the first part
+  double rest = 0.0;         ///< mean over the rest
+  double error = 0.0;        ///< standard error of the difference, by the fluctuations of the rest
+  double probability = 1.0;  ///< of a difference as large as this one by chance, in equilibrium
+};
+
 /// One measured number. Where `value` is absent the number has no meaning in this run, and `note` says why.
 struct Scalar {
   std::string name;
@@ -38,6 +47,7 @@ struct Scalar {
   /// T / (2 integrated_correlation_time) independent samples. Absent where the run is too short; `error` is then a lower bound.
   std::optional<double> integrated_correlation_time = {};
   std::string note = {};
+  std::optional<Halves> halves = {};  ///< absent where the run is too short to compare its halves
 };
 
 /// One column of a table: one number per row, NaN where it is unknown.

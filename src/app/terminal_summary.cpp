@@ -3,6 +3,7 @@
 
 #include "app/terminal_summary.hpp"
 
+#include "observe/drift.hpp"
 #include "pages/scene_words.hpp"
 #include "pages/summary_rows.hpp"
 #include "scene/drawn.hpp"
@@ -56,8 +57,14 @@ std::string what_was_observed(const RunReport& report) {
     }
     table.add({measured.name, words});
   }
-  return "Observables: the first number of each with its standard error, in scene units (summary.json has all)\n" + table.text() +
-         "\n";
+  std::string text =
+      "Observables: the first number of each with its standard error, in scene units (summary.json has all)\n" + table.text();
+  if (const std::vector<std::string> drifting = drifting_numbers(report.observables); !drifting.empty())
+    text += fmt::format(
+        "\nThe first and the second half of the run differ by more than chance, so it was not in equilibrium: {}.\n"
+        "Let it equilibrate for longer, run.equilibrate, or take the numbers as those of a change.\n",
+        fmt::join(drifting, ", "));
+  return text + "\n";
 }
 
 std::string how_far_to_trust(const RunReport& report, const Scene& scene) {

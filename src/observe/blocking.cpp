@@ -1,5 +1,7 @@
 #include "observe/blocking.hpp"
 
+#include <boost/math/distributions/students_t.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +14,9 @@ namespace {
 constexpr std::uint64_t least_samples = 16;
 /// Below this many blocks their scatter says little: the error has an error of 1 / sqrt(2 (n - 1)), a quarter at 8.
 constexpr std::uint64_t least_blocks = 8;
+/// Correlations that are longer than blocks pass now and then for short ones, and with few blocks more often: the error is then
+/// far too small, which a mean forgives and a test does not.
+constexpr std::uint64_t least_for_halves = 16;
 
 /// Returns the variance of the mean of `count` samples over that of one sample.
 double variance_of_mean_of(std::uint64_t count, std::span<const double> correlation) {
@@ -52,7 +57,11 @@ double Blocking::Level::variance_of_mean(double ratio) const {
 
 void Blocking::add(double x, double weight) {
   for (std::size_t level = 0;; ++level) {
-    if (level == levels_.size()) levels_.emplace_back();
+    if (level == levels_.size()) {
+      at_power_before_ = std::move(at_power_);
+      at_power_ = levels_;
+      levels_.emplace_back();
+    }
     Level& here = levels_[level];
     here.add(x, weight);
     if (here.blocks % 2 == 1) {
@@ -90,6 +99,7 @@ std::optional<Blocking::Estimate> Blocking::estimate(std::span<const Level> leve
         told * left_across_blocks(first > 0.0 ? told / first : 1.0, variance_of_mean_of(1ULL << level, known));
     const double s = white > 0.0 ? variance / white : 1.0;
     estimate.error = std::sqrt(variance) / std::abs(scale);
+    estimate.blocks = levels[level].blocks;
     estimate.lower_bound = told > 2.0 * first;
     if (!long_enough(length, n, s)) continue;
     estimate.statistical_inefficiency = std::max(1.0, s);
@@ -99,11 +109,51 @@ std::optional<Blocking::Estimate> Blocking::estimate(std::span<const Level> leve
   return estimate;
 }
 
+std::optional<Halves> Blocking::halves(int power) const {
+  const auto count = [](const std::vector<Level>& levels) {
+    return levels.empty() ? 0.0 : static_cast<double>(levels[0].blocks);
+  };
+  constexpr double most_of_all = 0.6;
+  const bool is_late = count(at_power_) <= most_of_all * count(levels_);
+  const std::vector<Level>& first = is_late ? at_power_ : at_power_before_;
+  std::vector<Level> rest;
+  for (std::size_t level = 0; level < first.size(); ++level) {
+    const Level& whole = levels_[level];
+    const Level& part = first[level];
+    Level& left = rest.emplace_back();
+    left.blocks = whole.blocks - part.blocks;
+    if (left.blocks == 0) break;
+    const double n = static_cast<double>(whole.blocks), of_part = static_cast<double>(part.blocks) / n, of_left = 1.0 - of_part;
+    left.mean_x = (whole.mean_x - of_part * part.mean_x) / of_left;
+    left.mean_w = (whole.mean_w - of_part * part.mean_w) / of_left;
+    const double dx = left.mean_x - part.mean_x, dw = left.mean_w - part.mean_w, between = n * of_part * of_left;
+    left.xx = std::max(0.0, whole.xx - part.xx - between * dx * dx);
+    left.xw = whole.xw - part.xw - between * dx * dw;
+    left.ww = std::max(0.0, whole.ww - part.ww - between * dw * dw);
+  }
+  const std::optional<Estimate> before = estimate(first, power), after = estimate(rest, power);
+  if (!before || !after || !after->error || !after->statistical_inefficiency || after->blocks < least_for_halves) return {};
+  Halves found{.share = count(first) / count(levels_), .first = before->mean, .rest = after->mean};
+  found.error = *after->error / std::sqrt(found.share);
+  // Sums of squares that are differences have no more digits than this; nor have quantities that are conserved.
+  if (!(found.error > 1e-12 * std::max(std::abs(found.first), std::abs(found.rest)))) return {};
+  const boost::math::students_t_distribution<double> student(static_cast<double>(after->blocks - 1));
+  const double t = std::abs(found.first - found.rest) / found.error;
+  found.probability = 2.0 * boost::math::cdf(boost::math::complement(student, t));
+  return found;
+}
+
 void Blocking::fill(Scalar& scalar, double step, double factor, double offset, int power) const {
   const std::optional<Estimate> found = estimate(power);
   if (!found) return;
   scalar.value = offset + factor * found->mean;
   if (found->error) scalar.error = std::abs(factor) * *found->error;
+  scalar.halves = halves(power);
+  if (scalar.halves) {
+    scalar.halves->first = offset + factor * scalar.halves->first;
+    scalar.halves->rest = offset + factor * scalar.halves->rest;
+    scalar.halves->error *= std::abs(factor);
+  }
   if (found->statistical_inefficiency) scalar.integrated_correlation_time = 0.5 * step * *found->statistical_inefficiency;
   // A conserved quantity scatters by rounding alone, which need not look like noise.
   const bool conserved = found->error && *found->error <= 1e-13 * std::abs(found->mean);

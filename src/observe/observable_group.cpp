@@ -1,6 +1,7 @@
 #include "observe/observable_group.hpp"
 
 #include "core/archive.hpp"
+#include "observe/drift.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/observables.hpp"
 
@@ -123,6 +124,7 @@ std::vector<Measurement> ObservableGroup::results(double time, const Totals& tot
     std::string& note = measured.emplace_back(observable->finish(time, totals)).note;
     if (!of_one_start.empty()) note += (note.empty() ? "" : "; ") + std::string(of_one_start);
   }
+  note_drifts(measured, run_.scene.effects);
   return measured;
 }
 

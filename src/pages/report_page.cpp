@@ -1,6 +1,7 @@
 #include "pages/report_page.hpp"
 #include "pages/field_maps.hpp"
 
+#include "observe/drift.hpp"
 #include "pages/player_page.hpp"
 #include "pages/report_parts.hpp"
 #include "pages/scene_words.hpp"
@@ -158,6 +159,11 @@ TextTable table_of_numbers(const RunReport& report, const RunTheory& theory) {
 
 Section observed(const RunReport& report, const RunTheory& theory) {
   Section section{.heading = "Observables"};
+  if (const std::vector<std::string> drifting = drifting_numbers(report.observables); !drifting.empty())
+    section.blocks.emplace_back(Paragraph{
+        fmt::format("The first and the second half of the run differ by more than chance, so it was not in equilibrium: "
+                    "{}. The remarks below have both.",
+                    fmt::join(drifting, ", "))});
   TextTable numbers = table_of_numbers(report, theory);
   if (!numbers.rows.empty()) section.blocks.emplace_back(std::move(numbers));
   for (const Measurement& measured : report.observables) {
