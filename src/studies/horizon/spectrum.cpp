@@ -193,7 +193,10 @@ std::string spectrum_json(const LyapunovSpectrum& spectrum, const Scene& scene) 
 }
 
 std::string spectrum_text(const LyapunovSpectrum& spectrum, const Scene& scene) {
-  const auto number = [](double value, const std::optional<double>& error) { return with_error(value, error.value_or(0.0)); };
+  const double vanishing = 1e-9 * spectrum.collision_rate;
+  const auto number = [&](double value, const std::optional<double>& error) {
+    return std::abs(value) < vanishing ? "0" : with_error(value, error.value_or(0.0));
+  };
   std::string text = fmt::format("{}\n{}, packing fraction {:.4g}; seed {}; {} collisions, {:.4g} per time of each disk\n\n",
                                  scene.title.empty() ? scene.source : scene.title,
                                  counted(static_cast<std::uint64_t>(scene.disk_count()), "disk"), scene.packing_fraction(),
