@@ -35,7 +35,8 @@ std::array<std::int64_t, 2> read_cells(const TableReader& table, const std::arra
 }
 
 void read_settings(const toml::table& node, const KnownObservable& known, ObservableRequest& request) {
-  std::vector<std::string_view> keys = {"every"};
+  std::vector<std::string_view> keys;
+  if (known.step > 0.0) keys.emplace_back("every");
   if (known.bins) keys.emplace_back("bins");
   if (known.range) keys.emplace_back(known.range_key);
   if (known.largest) keys.emplace_back(known.largest_key);
@@ -43,7 +44,7 @@ void read_settings(const toml::table& node, const KnownObservable& known, Observ
   if (known.disks) keys.emplace_back("disks");
   if (known.cells) keys.emplace_back("cells");
   const TableReader table(node, fmt::format("observe.{}", known.name), keys);
-  request.every = table.number(keys::observe_every);
+  if (known.step > 0.0) request.every = table.number(keys::observe_every);
   if (known.bins) request.bins = table.integer("bins", fmt::format("bins = {}", *known.bins)).value_or(*known.bins);
   if (known.range) request.range = table.number({known.range_key, example_of(known.range_key, *known.range), Range::above_zero});
   if (known.largest)
