@@ -30,11 +30,10 @@ double Check::deviation() const {
 
 bool Check::fits() const { return std::abs(deviation()) <= 5.0; }
 
-bool Check::is_normal() const {
-  return judged == Judged::agrees && !equivalent && !error_is_bound && measured.error > 0.0 && allowance < 0.2 * error();
+bool Check::calibrates() const {
+  const bool normal = !equivalent && !error_is_bound && measured.error > 0.0;
+  return judged == Judged::agrees && normal && allowance + reference_error < 0.2 * measured.error;
 }
-
-bool Check::calibrates() const { return is_normal() && allowance + reference_error < 0.2 * measured.error; }
 
 bool Check::holds() const { return judged == Judged::shown || fits() == (judged == Judged::agrees); }
 

@@ -44,11 +44,8 @@ struct Check {
   [[nodiscard]] double deviation() const;
   /// Returns whether deviation() is within five standard errors, which chance exceeds once in 1.7 million.
   [[nodiscard]] bool fits() const;
-  /// Returns whether z() must be a normal variable of variance 1: a normal statistic that must agree, of errors that are no
-  /// bounds, of which the allowance is less than a fifth.
-  [[nodiscard]] bool is_normal() const;
-  /// Returns whether z() is moreover that of the measurement alone: the errors of reference and theory together are less than a
-  /// fifth of its own error.
+  /// Returns whether z() is that of the measurement alone: a normal statistic that must agree, with an error of its own that is
+  /// no bound, of which the errors of reference and theory together are less than a fifth.
   [[nodiscard]] bool calibrates() const;
   /// Returns whether fits() is what it must be.
   [[nodiscard]] bool holds() const;

@@ -113,7 +113,8 @@ std::string group_of(const TrialResult& result) {
 std::vector<GroupFit> group_fits(const Validation& validation) {
   std::vector<GroupFit> fits;
   for (const TrialResult& result : validation.results) {
-    const auto check = std::find_if(result.checks.begin(), result.checks.end(), [](const Check& one) { return one.is_normal(); });
+    const auto check =
+        std::find_if(result.checks.begin(), result.checks.end(), [](const Check& one) { return one.calibrates(); });
     if (check == result.checks.end()) continue;
     const std::string group = group_of(result);
     if (fits.empty() || fits.back().group != group) fits.push_back({.group = group});

@@ -47,12 +47,12 @@ struct ValidateHooks {
 /// squared.
 struct GroupFit {
   std::string group = {};
-  std::size_t trials = 0;          ///< trials that count: those with a check whose statistic is normal
+  std::size_t trials = 0;          ///< trials that count: those with a check that calibrates
   double mean_square = 0.0;        ///< chi squared per trial
   double least = 0.0, most = 0.0;  ///< what `mean_square` lies between in 19 of 20 cases
 };
 
-/// Returns the fit of every group of at least five such trials. A trial's first check that Check::is_normal counts for it.
+/// Returns the fit of every group of at least five such trials. A trial's first check that Check::calibrates counts for it.
 [[nodiscard]] std::vector<GroupFit> group_fits(const Validation& validation);
 
 /// Returns text such as "chi squared per trial 0.93 (22 trials; 0.50 to 1.67 in 19 of 20 cases)"
