@@ -64,7 +64,7 @@ CONTENTS = {
     "How-to guides": ["how-to", "sweeps", "long-runs", "playground", "player", "report", "movies", "python-files"],
     "Reference": ["scene-format", "reference/scene-keys", "reference/scenes", "effects/README", "observables", "output",
                   "reference/command-line", "python", "reference/python", "library", "reference/cpp", "notation", "glossary"],
-    "Explanation": ["model", "algorithm", "numerics", "accuracy", "validation", "hard-cases", "reliability", "performance", "parallel"],
+    "Explanation": ["model", "algorithm", "numerics", "accuracy", "results", "validation", "hard-cases", "reliability", "performance", "parallel"],
     "Classroom": ["teach/README"],
     "Development": ["site/contributing", "architecture", "adding-an-effect", "adding-an-observable", "claims", "site/changes"],
 }
