@@ -23,6 +23,7 @@ class _Picture:
     def __init__(self, scene: Scene, radii: Floats, species: npt.NDArray[np.int32], color: str, trail: int = 0) -> None:
         import matplotlib.pyplot as plt
         from matplotlib.collections import EllipseCollection, LineCollection
+        from matplotlib.patches import Circle
 
         (x0, x1), (y0, y1) = scene.box
         self.figure, axes = plt.subplots(figsize=(5, max(1.5, min(10.0, 5 * (y1 - y0) / (x1 - x0)))))
@@ -33,7 +34,7 @@ class _Picture:
         if scene.circle is not None:
             centre, radius = scene.circle
             axes.axis("off")
-            axes.add_patch(plt.Circle(centre, radius, fill=False, clip_on=False))
+            axes.add_patch(Circle(centre, radius, fill=False, clip_on=False))
         self.half = np.array([x1 - x0, y1 - y0]) / 2
         self.color, self.trail, self.past = color, trail, list[Any]()
         self.trails = LineCollection([], linewidths=0.8, colors="0.6")
