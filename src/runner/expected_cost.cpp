@@ -165,7 +165,7 @@ ExpectedCost Trial::run() {
 }
 
 double expected_bytes_per_disk(const Effects& effects) {
-  constexpr double without_effects = 245.0;  // of equal disks at a packing fraction of 0.5, as the tests measure it
+  constexpr double without_effects = 215.0;  // of equal disks at a packing fraction of 0.5, as the tests measure it
   double bytes = without_effects;
   for (const detail::EffectTraits& effect : detail::all_effects())
     if (effect.is_present(effects)) bytes += effect.bytes_per_disk;
