@@ -238,7 +238,7 @@ def test_a_hard_case_of_ones_own_may_fail(tmp_path):
             lambda scene: carom.beside({**scene, "gravity": {"acceleration": (0, -1)}}),
             "the page draws straight flights, and this scene asks for gravity",
         ),
-        (lambda scene: carom.validate(only="presure"), "only=presure: there is no such trial; carom.validation_trials() names"),
+        (lambda scene: carom.validate(only="presure"), "only=presure: there is no such trial and no such group; carom.validation_trials() names"),
         (lambda scene: carom.validate(seed=10**13), "seed=10000000000000: it can be 0 to 9000000000000"),
         (lambda scene: carom.validate(seed=-1), "seed is -1; it must be from 0"),
         (lambda scene: carom.compare(scene, seeds="many"), "seeds is 'many'; give a whole number"),
