@@ -38,7 +38,20 @@ class SceneError : public std::runtime_error {
   std::string sentence_;
 };
 
-struct RandomPositions {};   ///< uniform without overlap, by random sequential addition
+/// A rectangle in which disks are to lie.
+struct RectangleRegion {
+  Eigen::Vector2d lower = Eigen::Vector2d::Zero();
+  Eigen::Vector2d upper = Eigen::Vector2d::Zero();
+};
+/// A circle in which disks are to lie.
+struct CircleRegion {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  double radius = 0.0;  ///< length, > 0
+};
+struct RandomPositions {  ///< uniform without overlap, by random sequential addition
+  /// Where the disks of the species lie, none of them across its edge; absent: in the whole box.
+  std::optional<std::variant<RectangleRegion, CircleRegion>> region = {};
+};
 struct SquareLattice {};     ///< a rectangular lattice over the whole box
 struct HexagonalLattice {};  ///< a triangular lattice over the whole box
 struct ListedPositions {     ///< one centre per disk

@@ -104,13 +104,16 @@ std::string value_or_range(double same, const std::vector<double>& each) {
 }
 
 std::string words(const Positions& positions) {
-  return std::visit(Overloaded{[](const RandomPositions&) { return std::string("at random positions"); },
-                               [](const SquareLattice&) { return std::string("on a square lattice"); },
-                               [](const HexagonalLattice&) { return std::string("on a hexagonal lattice"); },
-                               [](const GrownPositions&) { return std::string("at random positions, grown to their size"); },
-                               [](const ListedPositions&) { return std::string("at the positions listed"); },
-                               [](const FilePositions& file) { return fmt::format("at the positions in {}", file.path); }},
-                    positions);
+  return std::visit(
+      Overloaded{[](const RandomPositions& random) {
+                   return std::string(random.region ? "at random positions in a part of the box" : "at random positions");
+                 },
+                 [](const SquareLattice&) { return std::string("on a square lattice"); },
+                 [](const HexagonalLattice&) { return std::string("on a hexagonal lattice"); },
+                 [](const GrownPositions&) { return std::string("at random positions, grown to their size"); },
+                 [](const ListedPositions&) { return std::string("at the positions listed"); },
+                 [](const FilePositions& file) { return fmt::format("at the positions in {}", file.path); }},
+      positions);
 }
 
 std::string words(const Velocities& velocities) {

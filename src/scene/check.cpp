@@ -4,6 +4,7 @@
 #include "scene/checks.hpp"
 #include "scene/number_keys.hpp"
 
+#include "scene/regions.hpp"
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -88,6 +89,38 @@ void check_positions_inside(const Box& box, std::size_t s, const Species& specie
 }
 
 void check_density(const Scene& scene) {
+/// A region lies in the box, and each disk of its species fits in it.
+void check_regions(const Scene& scene) {
+  for (std::size_t s = 0; s < scene.species.size(); ++s) {
+    const Species& species = scene.species[s];
+    const auto* random = std::get_if<RandomPositions>(&species.positions);
+    if (random == nullptr || !random->region) continue;
+    const std::string path = fmt::format("disks.{}.positions", s);
+    const Rectangle bounds = bounds_of(*random->region);
+    for (int axis = 0; axis < 2; ++axis)
+      if (bounds.lower[axis] < scene.box.lower[axis] || bounds.upper[axis] > scene.box.upper[axis])
+        throw Refusal(path, fmt::format("{}.random reaches from {:.6g} to {:.6g} in {}; it must lie in the box, from {} to {}",
+                                        path, bounds.lower[axis], bounds.upper[axis], axis_names[axis], scene.box.lower[axis],
+                                        scene.box.upper[axis]));
+    double area = 0.0, largest = 0.0;
+    for (std::int64_t i = 0; i < (species.radii.empty() ? std::min<std::int64_t>(species.count, 1) : species.count); ++i) {
+      const double radius = species.radius_of(i);
+      largest = std::max(largest, radius);
+      area += std::numbers::pi * radius * radius * static_cast<double>(species.radii.empty() ? species.count : 1);
+    }
+    const double narrowest = (bounds.upper - bounds.lower).minCoeff();
+    if (2.0 * largest > narrowest)
+      throw Refusal(path, fmt::format("a disk of radius {} does not fit in {}.random, which is {:.6g} across; make it larger, or "
+                                      "the disks smaller",
+                                      largest, path, narrowest));
+    const double fraction = area / area_of(*random->region);
+    if (fraction > closest_packing * (1.0 + touching))
+      throw Refusal(path, fmt::format("the disks of {}.random would cover {:.4g} of it, and equal disks cannot cover more than "
+                                      "{:.4g}; take fewer or smaller disks, or a larger region",
+                                      path, fraction, closest_packing));
+  }
+}
+
   bool all_random = true;
   std::optional<std::size_t> first;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
@@ -194,6 +227,7 @@ void check_scene(const Scene& scene) {
     first_id += species.count;
   }
   check_density(scene);
+  check_regions(scene);
   check_overlaps(scene);
   check_fixed_shapes(scene);
   check_effects(scene);

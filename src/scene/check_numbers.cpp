@@ -13,6 +13,7 @@
 #include <optional>
 #include <string_view>
 #include <type_traits>
+#include <variant>
 
 namespace carom::detail {
 namespace {
@@ -30,6 +31,23 @@ void check_list(const std::string& path, const std::vector<double>& list, std::i
     if (!key.holds(list[i])) refuse_number(fmt::format("{}.{}", path, i), list[i], key);
 }
 
+void check_region(const std::string& path, const std::variant<RectangleRegion, CircleRegion>& region) {
+  if (const auto* circle = std::get_if<CircleRegion>(&region)) {
+    require_pair(path + ".centre", circle->centre, keys::circle_example);
+    require(path, circle->radius, keys::region_radius);
+    return;
+  }
+  const auto& rectangle = std::get<RectangleRegion>(region);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double lower = rectangle.lower[axis], upper = rectangle.upper[axis];
+    const std::string limits = fmt::format("{}.{}", path, axis_names[axis]);
+    require_pair(limits, {lower, upper}, keys::rectangle_example);
+    if (!(lower < upper))
+      throw Refusal(limits, fmt::format("{} runs from {} to {}; the lower limit must come first, such as {}", limits, lower,
+                                        upper, keys::rectangle_example));
+  }
+}
+
 void check_positions(const std::string& path, const Species& species) {
   std::visit(
       [&]<class Kind>(const Kind& kind) {
@@ -38,6 +56,8 @@ void check_positions(const std::string& path, const Species& species) {
             throw Refusal(path + ".count", unequal_counts(path + ".count", species.count, kind.values.size()));
           require_pairs(path + ".positions", kind.values, keys::position_example);
         }
+        if constexpr (std::is_same_v<Kind, RandomPositions>)
+          if (kind.region) check_region(path + ".positions.random", *kind.region);
         if constexpr (std::is_same_v<Kind, GrownPositions>)
           require(path + ".positions", kind.packing_fraction, keys::grown_fraction);
       },

@@ -139,7 +139,7 @@ DisksDraft read_disks(const toml::table& node, const std::string& path, const st
 namespace {
 
 constexpr const char* position_kinds =
-    R"("random", "square", "hexagonal", [[x, y], ...], { file = "start.csv" } or { packing_fraction = 0.7 })";
+    R"("random", "square", "hexagonal", [[x, y], ...], { file = "start.csv" }, { packing_fraction = 0.7 } or { random = { x = [-1.0, 0.0], y = [-1.0, 1.0] } })";
 
 Positions named(const toml::node& node, const std::string& name, const std::string& path) {
   if (name == "random") return RandomPositions{};
@@ -176,16 +176,36 @@ FilePositions from_file(const TableReader& table, const std::string& directory, 
   return positions;
 }
 
-Positions from_table(const toml::table& node, const std::string& path, const std::string& directory, DisksDraft& disks) {
-  const TableReader table(node, path, {"file", "packing_fraction"});
-  const std::optional<double> fraction = table.number(keys::grown_fraction);
-  const bool file = table.find("file") != nullptr;
-  if (file == fraction.has_value()) {
-    throw SceneError(table.where(),
-                     fmt::format("{} has {}; give exactly one, {{ file = \"start.csv\" }} or {{ packing_fraction = 0.7 }}", path,
-                                 file ? "both file and packing_fraction" : "neither of its keys"));
+/// A rectangle or a circle.
+Positions in_region(const toml::table& node, const std::string& path) {
+  const TableReader table(node, path, {"x", "y", "centre", "radius"});
+  const auto has = [&](const char* key) { return table.find(key) != nullptr; };
+  const auto pair = [&](const char* key, std::string_view example) {
+    return read_pair(*table.find(key), table.path(key), example);
+  };
+  if (has("x") && has("y") && !has("centre") && !has("radius")) {
+    const Eigen::Vector2d x = pair("x", keys::rectangle_example), y = pair("y", keys::rectangle_example);
+    return RandomPositions{.region = RectangleRegion{{x[0], y[0]}, {x[1], y[1]}}};
   }
-  if (fraction) return GrownPositions{*fraction};
+  if (has("centre") && has("radius") && !has("x") && !has("y"))
+    return RandomPositions{.region =
+                               CircleRegion{pair("centre", keys::circle_example), table.required_number(keys::region_radius)}};
+  throw SceneError(table.where(), fmt::format("{} is neither a rectangle nor a circle; give x and y, such as {}, or centre and "
+                                              "radius, such as {}",
+                                              path, keys::rectangle_example, keys::circle_example));
+}
+
+Positions from_table(const toml::table& node, const std::string& path, const std::string& directory, DisksDraft& disks) {
+  const TableReader table(node, path, {"file", "packing_fraction", "random"});
+  if (node.size() != 1) {
+    throw SceneError(table.where(),
+                     fmt::format("{} has {}; give exactly one, {{ file = \"start.csv\" }}, {{ packing_fraction = "
+                                 "0.7 }} or {}",
+                                 path, node.empty() ? "none of its keys" : "several of its keys", keys::rectangle_example));
+  }
+  if (const toml::table* region = table.table("random", std::string(keys::rectangle_example)))
+    return in_region(*region, table.path("random"));
+  if (const std::optional<double> fraction = table.number(keys::grown_fraction)) return GrownPositions{*fraction};
   return from_file(table, directory, disks);
 }
 

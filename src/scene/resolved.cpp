@@ -43,7 +43,18 @@ void put_numbers(Buffer& out, const std::vector<double>& numbers) {
 
 struct PutPositions {
   Buffer& out;
-  void operator()(const RandomPositions&) const { put(out, "positions = \"random\"\n"); }
+  void operator()(const RandomPositions& random) const {
+    if (!random.region) {
+      put(out, "positions = \"random\"\n");
+    } else if (const auto* circle = std::get_if<CircleRegion>(&*random.region)) {
+      put(out, "positions = {{ random = {{ centre = [{}, {}], radius = {} }} }}\n", number_text(circle->centre.x()),
+          number_text(circle->centre.y()), number_text(circle->radius));
+    } else {
+      const auto& rectangle = std::get<RectangleRegion>(*random.region);
+      put(out, "positions = {{ random = {{ x = [{}, {}], y = [{}, {}] }} }}\n", number_text(rectangle.lower.x()),
+          number_text(rectangle.upper.x()), number_text(rectangle.lower.y()), number_text(rectangle.upper.y()));
+    }
+  }
   void operator()(const SquareLattice&) const { put(out, "positions = \"square\"\n"); }
   void operator()(const HexagonalLattice&) const { put(out, "positions = \"hexagonal\"\n"); }
   void operator()(const FilePositions& file) const { put(out, "positions = {{ file = {} }}\n", quoted_text(file.path)); }

@@ -4,6 +4,7 @@
 #include "neighbours/disks_at_rest.hpp"
 #include "scene/fixed_shapes.hpp"
 #include "scene/refusal.hpp"
+#include "scene/regions.hpp"
 #include "simulation/start.hpp"
 
 #include <fmt/format.h>
@@ -143,17 +144,26 @@ class Placement {
 
   Eigen::Vector2d find_room(std::int64_t i, std::size_t species) const {
     const double radius = disks_.radius[static_cast<std::size_t>(i)];
+    const auto& region = std::get<RandomPositions>(scene_.species[species].positions).region;
+    const Rectangle within = region ? detail::bounds_of(*region) : Rectangle{scene_.box.lower, scene_.box.upper};
     RandomStream random(scene_.run.seed, Stream::positions, static_cast<std::uint64_t>(i));
     for (int tries = 0; tries < placement_tries; ++tries) {
       Eigen::Vector2d position;
       for (int a = 0; a < 2; ++a) {
-        const double margin = scene_.box.periodic(a) ? 0.0 : radius;
-        const double from = scene_.box.lower[a] + margin;
-        const double to = scene_.box.upper[a] - margin;
+        const double margin = scene_.box.periodic(a) && !region ? 0.0 : radius;
+        const double from = within.lower[a] + margin;
+        const double to = within.upper[a] - margin;
         position[a] = from < to ? boost::random::uniform_real_distribution<double>(from, to)(random) : 0.5 * (from + to);
       }
+      if (region && !detail::holds_disk(*region, position, radius)) continue;
       if (in_place_.deepest(position, radius).disk < 0 && !upon_shape(i, position, 0.0)) return position;
     }
+    if (region)
+      throw detail::scene_error(
+          scene_, fmt::format("disks.{}.positions", species),
+          fmt::format("no room for disk {} of radius {:g} in disks.{}.positions.random after {} random tries; take fewer or "
+                      "smaller disks, or a larger region",
+                      i, radius, species, placement_tries));
     throw detail::scene_error(
         scene_, fmt::format("disks.{}.positions", species),
         fmt::format("no room for disk {} of radius {:g} after {} random tries: the scene asks for a packing "

@@ -152,7 +152,7 @@ class SceneMaker {
     return text + "positions = " +
            (file     ? "{ file = \"start" + std::to_string(s) + ".csv\" }"
             : listed ? "[" + list + "]"
-                     : *rc::gen::element<std::string>("\"random\"", "\"square\"", "\"hexagonal\"")) +
+                     : *rc::gen::element<std::string>("\"random\"", "\"square\"", "\"hexagonal\"", region())) +
            "\n";
   }
 
@@ -177,6 +177,15 @@ class SceneMaker {
         return "{ speed = " + number_text(std::abs(any_double())) + " }";
       default:
         break;
+  /// A part of the box, a rectangle or a circle.
+  [[nodiscard]] std::string region() const {
+    const double x = lower_[0] + 2.0 * unit_interval(), y = lower_[1] + 2.0 * unit_interval();
+    if (*rc::gen::arbitrary<bool>())
+      return "{ random = { x = " + pair_text(x, x + 9.0 + unit_interval()) + ", y = " + pair_text(y, y + 9.0 + unit_interval()) +
+             " } }";
+    return "{ random = { centre = " + pair_text(x + 6.0, y + 6.0) + ", radius = " + number_text(5.0 + unit_interval()) + " } }";
+  }
+
     }
     std::string list;
     for (int i = 0; i < count; ++i) {

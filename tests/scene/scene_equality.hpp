@@ -127,6 +127,18 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
       const auto& other = std::get<FilePositions>(y.positions);
       if (file->path != other.path || !same_list(file->values, other.values, same_pair)) return at + " start file";
     }
+    if (const auto* random = std::get_if<RandomPositions>(&x.positions)) {
+      const auto& other = std::get<RandomPositions>(y.positions).region;
+      if (random->region.has_value() != other.has_value()) return at + " region";
+      if (other && random->region->index() != other->index()) return at + " kind of region";
+      if (other && std::holds_alternative<CircleRegion>(*other)) {
+        const auto &mine = std::get<CircleRegion>(*random->region), &its = std::get<CircleRegion>(*other);
+        if (!same_pair(mine.centre, its.centre) || !same(mine.radius, its.radius)) return at + " circle";
+      } else if (other) {
+        const auto &mine = std::get<RectangleRegion>(*random->region), &its = std::get<RectangleRegion>(*other);
+        if (!same_pair(mine.lower, its.lower) || !same_pair(mine.upper, its.upper)) return at + " rectangle";
+      }
+    }
     if (const auto* grown = std::get_if<GrownPositions>(&x.positions)) {
       if (!same(grown->packing_fraction, std::get<GrownPositions>(y.positions).packing_fraction)) return at + " packing fraction";
     }
