@@ -92,6 +92,19 @@ struct Thermostat {
   double rate = 0.0;         ///< mean number of redraws per disk and time, >= 0; neutral: 0
 };
 
+/// Run-and-tumble motion, which redraws the direction of the velocity of each disk at random times and leaves its speed: the
+/// [tumbling] table.
+struct Tumbling {
+  double rate = 0.0;  ///< mean number of tumbles per disk and time, >= 0; neutral: 0
+};
+
+/// Brownian motion, which redraws the velocities of all disks at once from the Maxwell distribution, `rate` times in a unit of
+/// time and at equal steps (Scala, Voigtmann & De Michele 2007): the [brownian] table.
+struct Brownian {
+  double temperature = 0.0;  ///< kT > 0
+  double rate = 0.0;         ///< 1 / time, >= 0; neutral: 0
+};
+
 /// Lees-Edwards boundaries with the flow v_x = rate y: the [shear] table.
 struct Shear {
   double rate = 0.0;  ///< 1 / time; neutral: 0
@@ -117,6 +130,8 @@ struct Effects {
   std::optional<Circle> circle = {};  ///< present where Box::is_circle: put_in_circle() sets both
   std::optional<Growth> growth = {};
   std::optional<Thermostat> thermostat = {};
+  std::optional<Tumbling> tumbling = {};
+  std::optional<Brownian> brownian = {};
   std::optional<Shear> shear = {};
   std::optional<SquareWell> square_well = {};
   std::optional<Drag> drag = {};
@@ -137,7 +152,7 @@ struct Effects {
   [[nodiscard]] double growth_rate() const;
   /// Returns the rate of the flow v_x = rate y; 1 / time, 0 without a flow.
   [[nodiscard]] double shear_rate() const;
-  /// Returns kT of the bath that redraws velocities; empty without a bath.
+  /// Returns kT of the bath that redraws velocities, of single disks or of all; empty without a bath.
   [[nodiscard]] std::optional<double> bath_temperature() const;
   /// Returns the rate at which all velocities decay; 1 / time, 0 without drag.
   [[nodiscard]] double drag_rate() const;
@@ -147,7 +162,7 @@ struct Effects {
 void put_in_circle(Box& box, Effects& effects, const Circle& circle);
 
 /// Returns whether the total momentum along `axis` is conserved: the axis is periodic, and no effect acts that changes the
-/// momentum of the disks (a thermostat, obstacles, thermal walls, drag, shear, growth, or gravity along this axis).
+/// momentum of the disks (a thermostat, tumbles, obstacles, thermal walls, drag, shear, growth, or gravity along this axis).
 [[nodiscard]] bool conserves_momentum(const Box& box, const Effects& effects, int axis);
 
 /// Returns whether motion of the centre of mass along `axis` is heat, a part of the temperature: the axis has walls, or

@@ -106,7 +106,7 @@ struct Counts {
   std::uint64_t stale = 0;       ///< stale predictions: another collision had overtaken them
   std::uint64_t obstacle = 0;    ///< collisions with an obstacle
   std::uint64_t well = 0;        ///< passages of the edge of a square well, and bounces there
-  std::uint64_t thermostat = 0;  ///< velocities redrawn by a thermostat
+  std::uint64_t thermostat = 0;  ///< velocities redrawn by a thermostat, by tumbles or by Brownian motion
   Numerics numerics;
 
   /// The number of all events that change a velocity: collisions with disks, walls and obstacles, edges of wells, and kicks.
@@ -126,7 +126,7 @@ struct Totals : Counts {
   /// Energy, as heat and work, that disks gave to the walls left, right, bottom, top. All energies are in mass length^2 / time^2.
   std::array<double, 4> wall_energy{};
   double dissipated = 0.0;         ///< energy lost in pair collisions; for growing disks in the frame of their surfaces
-  double thermostat_energy = 0.0;  ///< energy that disks gained from the thermostat
+  double thermostat_energy = 0.0;  ///< energy that disks gained from redrawn velocities
   double growth_energy = 0.0;      ///< energy that disks gained from growing surfaces, less that removed by rescaling velocities
   double shear_energy = 0.0;       ///< energy that disks gained at the edges of a sheared box
   /// Sum over pair collisions of r_y times the impulse along x: momentum along x transferred along y; mass length^2 / time. It is

@@ -467,7 +467,7 @@ class Simulation:
         """Changes what acts on the disks from now on, by a key of the scene: `sim.set("gravity.acceleration", (0, -1))`.
 
         Time, totals and random numbers go on. Whatever acts can be changed: collision, gravity, walls, obstacles, growth, thermostat,
-        shear, square_well, drag; a dict changes several keys at once. A table whose value is None no longer acts.
+        tumbling, brownian, shear, square_well, drag; a dict changes several keys at once. A table whose value is None no longer acts.
 
         Raises:
             SceneError: where the scene, as it would begin now, is wrong. Then nothing is changed.
@@ -581,7 +581,7 @@ class Simulation:
 
 
 #: Tables of a scene that say what acts on the disks.
-_EFFECTS = ("collision", "gravity", "walls", "obstacles", "growth", "thermostat", "shear", "square_well", "drag")
+_EFFECTS = ("collision", "gravity", "walls", "obstacles", "growth", "thermostat", "tumbling", "brownian", "shear", "square_well", "drag")
 
 
 def _put(tables: dict[str, Any], path: list[str], value: Any) -> None:

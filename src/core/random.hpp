@@ -19,7 +19,9 @@ enum class Stream : std::uint32_t {
   thermal_walls = 5,
   thermostat = 6,
   sampled_disks = 7,
-  radii = 8
+  radii = 8,
+  tumbling = 9,
+  brownian = 10
 };
 
 /// A uniform random bit generator (32 bits a draw, 2^32 blocks of four) for Boost.Random's distributions.

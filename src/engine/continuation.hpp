@@ -22,6 +22,7 @@ struct Continuation {
   /// The next event of the thermostat. At another rate it comes at another time, and is drawn anew.
   struct Pending {
     double rate = 0.0;
+    int kind = 0;  ///< of redraws, as src/simulation/driven_engine.hpp numbers them
     std::uint64_t number = 0;
     ThermostatEvent event;
     Instant time;

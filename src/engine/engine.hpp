@@ -60,6 +60,8 @@ class Engine : public EventLoop<Impact, Layout, World> {
   void reset_clock();
   /// Gives the disk with this id a new velocity and, where disks spin, a new spin. Returns the energy that it gained.
   double set_velocity(std::int32_t disk, const Eigen::Vector2d& v, double spin);
+  /// Returns the velocity at now() of the disk with this id.
+  [[nodiscard]] Eigen::Vector2d velocity(std::int32_t disk);
   /// Multiplies all velocities and spins by `factor`.
   void scale_velocities(double factor);
 
@@ -102,11 +104,13 @@ class Engine : public EventLoop<Impact, Layout, World> {
   using Loop::lines_, Loop::ids_, Loop::plans_, Loop::lists_, Loop::queue_, Loop::recorder_, Loop::totals_;
   using typename Loop::Line;
 
+  /// Returns where the disk with this id is in memory.
+  [[nodiscard]] std::int32_t slot_of(std::int32_t disk);
   [[nodiscard]] double contact_distance(std::int32_t i, std::int32_t j) const;
   [[nodiscard]] double beyond_walls(std::int32_t i, int axis) const;
   void check_pair(std::int32_t i, std::int32_t j, double tolerated_overlap, std::vector<std::string>& faults) const;
 
-  std::vector<std::int32_t> slot_of_id_;  ///< once set_velocity() is called
+  std::vector<std::int32_t> slot_of_id_;  ///< once slot_of() is called
 };
 
 }  // namespace carom

@@ -57,12 +57,23 @@ void Engine<Impact, Layout, World>::reset_clock() {
 }
 
 template <class Impact, class Layout, class World>
-double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eigen::Vector2d& v, double spin) {
+std::int32_t Engine<Impact, Layout, World>::slot_of(std::int32_t disk) {
   if (slot_of_id_.empty()) {
     slot_of_id_.resize(lines_.size());
     for (std::int32_t i = 0; i < count(); ++i) slot_of_id_[static_cast<std::size_t>(id(i))] = i;
   }
-  const std::int32_t i = slot_of_id_[static_cast<std::size_t>(disk)];
+  return slot_of_id_[static_cast<std::size_t>(disk)];
+}
+
+template <class Impact, class Layout, class World>
+Eigen::Vector2d Engine<Impact, Layout, World>::velocity(std::int32_t disk) {
+  const Vec2<double> v = flight_.velocity(line(slot_of(disk)), now_);
+  return {v[0], v[1]};
+}
+
+template <class Impact, class Layout, class World>
+double Engine<Impact, Layout, World>::set_velocity(std::int32_t disk, const Eigen::Vector2d& v, double spin) {
+  const std::int32_t i = slot_of(disk);
   const double mass = layout_.mass(line(i));
   Vec2<double> to = v;  // NOLINT(performance-unnecessary-copy-initialization): in some worlds it changes
   if constexpr (!World::plain)

@@ -402,6 +402,8 @@ class TextbookEngine {
   /// Gives disk i a new velocity, which in a flow is relative to it, and, where disks spin, a new spin. Returns the energy that
   /// it gained.
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin);
+  /// Returns the velocity of disk i at now().
+  [[nodiscard]] Eigen::Vector2d velocity(std::int32_t i) const { return velocity(record(i), now_).template cast<double>(); }
 
   /// The kinetic energy of disk i, with its spin. Requires that its record is of now.
   [[nodiscard]] double kinetic_energy(std::int32_t i) const;

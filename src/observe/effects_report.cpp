@@ -86,6 +86,8 @@ EffectsReport effects_report(const Scene& scene, const Disks& disks, const Total
     if (end.time > 0.0) report.circle->pressure = totals.circle_impulse / (end.time * perimeter);
   }
   if (effects.thermostat) report.thermostat = {.events = totals.thermostat, .energy = totals.thermostat_energy};
+  if (effects.tumbling) report.tumbling = {.events = totals.thermostat};
+  if (effects.brownian) report.brownian = {.events = totals.thermostat, .energy = totals.thermostat_energy};
   if (effects.growth)
     report.growth = {
         .scale = end.scale, .packing_fraction = packing_fraction(scene.box, disks, end), .energy = totals.growth_energy};

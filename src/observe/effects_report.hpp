@@ -39,6 +39,16 @@ struct ThermostatReport {
   double energy = 0.0;       ///< given to the disks
 };
 
+struct TumblingReport {
+  std::uint64_t events = 0;  ///< directions redrawn
+};
+
+/// The changes of the scene.
+struct ChangesReport {
+  std::uint64_t made = 0;
+  double energy = 0.0;  ///< given to disks, pistons and fields: by other fields and other velocities
+};
+
 struct GrowthReport {
   double scale = 1.0;  ///< radii at the end over those of the scene
   double packing_fraction = 0.0;
@@ -62,6 +72,9 @@ struct EffectsReport {
   std::optional<Eigen::Vector2d> obstacles;    ///< momentum given to them
   std::optional<CircleReport> circle;          ///< of a circular box, in the place of walls
   std::optional<ThermostatReport> thermostat;
+  std::optional<TumblingReport> tumbling;
+  std::optional<ThermostatReport> brownian;
+  std::optional<ChangesReport> changes;
   std::optional<GrowthReport> growth;
   std::optional<ShearReport> shear;
   std::optional<std::uint64_t> bonds;  ///< number of bonds at the end
@@ -94,6 +107,17 @@ void visit_sections(Report& report, Visit&& visit) {
     put({"events"}, part.events);
     put({"energy", "energy", "thermostat"}, part.energy);
   });
+  visit("tumbling", report.tumbling, [](auto& part, auto&& put) {
+    put({"events", "", "tumbles", "directions redrawn"}, part.events);
+  });
+  visit("brownian", report.brownian, [](auto& part, auto&& put) {
+    put({"events"}, part.events);
+    put({"energy", "energy", "Brownian redraws"}, part.energy);
+  });
+  visit("changes", report.changes, [](auto& part, auto&& put) {
+    put({"made", "", "changes", "of the scene that were made"}, part.made);
+    put({"energy", "energy", "changes"}, part.energy);
+  });
   visit("growth", report.growth, [](auto& part, auto&& put) {
     put({"scale", "", "radii", "times those at the start"}, part.scale);
     put({"packing_fraction", "", "packing fraction", "at the end"}, part.packing_fraction);
@@ -118,6 +142,8 @@ void visit_events(const EffectsReport& report, AnyCounts& counts, Visit&& visit)
   if (report.obstacles || report.circle) visit("obstacle", "obstacle hits", counts.obstacle);
   if (report.bonds) visit("well", "", counts.well);
   if (report.thermostat) visit("thermostat", "thermostat events", counts.thermostat);
+  if (report.tumbling) visit("tumbling", "", counts.thermostat);
+  if (report.brownian) visit("brownian", "velocities redrawn", counts.thermostat);
 }
 
 /// Returns the unit of a number of a section, "growth.energy" or "obstacles.momentum.x"; empty for a pure number and for a name

@@ -112,6 +112,8 @@ std::vector<Drive> drives_of(const Scene& scene, const Sizes& sizes) {
         static_cast<long double>(growth->rate) * sizes.shortest, 1, false);
   if (const auto& bath = effects.thermostat; bath && bath->rate > 0.0)
     from_energy("thermostat.temperature", bath->temperature, bath->temperature, sizes.lightest, sizes.heaviest);
+  if (const auto& bath = effects.brownian; bath && bath->rate > 0.0)
+    from_energy("brownian.temperature", bath->temperature, bath->temperature, sizes.lightest, sizes.heaviest);
   if (const auto& shear = effects.shear) {
     const long double flow = std::abs(static_cast<long double>(shear->rate)) * lengths.y();
     put("shear.rate", shear->rate, flow, flow, 1, true);
@@ -233,26 +235,32 @@ void check_runaways(const Scene& scene, const Sizes& sizes, double fastest) {
   }
 }
 
-void check_thermostat(const Scene& scene, const Sizes& sizes) {
-  if (!scene.effects.thermostat) return;
-  const Thermostat& bath = *scene.effects.thermostat;
+/// Checks the rate of an effect that redraws velocities: `speed` is one that it gives, or leaves, to a heavy disk.
+void check_redraws(const Scene& scene, const Sizes& sizes, const std::string& path, double rate, double speed,
+                   const std::string& which) {
   const auto refuse = [&](double limit, const std::string& why) {
-    throw Refusal("thermostat.rate",
-                  fmt::format("thermostat.rate is {}; it must be below {:.3g} here: {}", bath.rate, limit, why));
+    throw Refusal(path, fmt::format("{} is {}; it must be below {:.3g} here: {}", path, rate, limit, why));
   };
-  const double speed = std::sqrt(bath.temperature / sizes.heaviest), way = least_way * sizes.smallest;
-  if (bath.rate * way > speed)
-    refuse(speed / way,
-           fmt::format(
-               "at temperature {} the heaviest disk would move by {:.3g} from one redraw of its velocity to the next, less than "
-               "coordinates resolve",
-               bath.temperature, speed / bath.rate));
+  const double way = least_way * sizes.smallest;
+  if (rate * way > speed && speed > 0.0)
+    refuse(speed / way, fmt::format("{} would move by {:.3g} from one redraw of its velocity to the next, less than coordinates "
+                                    "resolve",
+                                    which, speed / rate));
   const auto disks = static_cast<double>(scene.disk_count());
-  if (sizes.duration && bath.rate * disks * *sizes.duration > most_countable)
+  if (sizes.duration && rate * disks * *sizes.duration > most_countable)
     refuse(most_countable / disks / *sizes.duration,
            fmt::format("until time {} there would be {:.3g} redraws of velocities, and there can be at most "
                        "2^53",
-                       *sizes.duration, bath.rate * disks * *sizes.duration));
+                       *sizes.duration, rate * disks * *sizes.duration));
+}
+
+void check_baths(const Scene& scene, const Sizes& sizes) {
+  const auto check_bath = [&](const std::string& path, double rate, double temperature) {
+    check_redraws(scene, sizes, path, rate, std::sqrt(temperature / sizes.heaviest),
+                  fmt::format("at temperature {} the heaviest disk", temperature));
+  };
+  if (const auto& bath = scene.effects.thermostat) check_bath("thermostat.rate", bath->rate, bath->temperature);
+  if (const auto& bath = scene.effects.brownian) check_bath("brownian.rate", bath->rate, bath->temperature);
 }
 
 }  // namespace
@@ -282,7 +290,9 @@ void check_scales(const Scene& scene) {
   const std::vector<Drive> drives = drives_of(scene, sizes);
   for (const Drive& drive : drives) check_drive(drive, sizes);
   check_runaways(scene, sizes, fastest_of(scene, drives));
-  check_thermostat(scene, sizes);
+  check_baths(scene, sizes);
+  if (const auto& tumbling = scene.effects.tumbling)
+    check_redraws(scene, sizes, "tumbling.rate", tumbling->rate, fastest_of(scene, drives), "the fastest disk");
 }
 
 }  // namespace carom::detail

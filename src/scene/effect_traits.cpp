@@ -49,6 +49,9 @@ bool has_wall_other_than(const Effects& effects, double neutral) {
                              [&](const WallProperties& wall) { return (wall.*Member).value_or(neutral) != neutral; });
 }
 
+constexpr NumberKey tumbling_rate{"rate", "rate = 1.0", Range::zero_or_more};
+constexpr NumberKey brownian_temperature{"temperature", "temperature = 1.0", Range::above_zero};
+constexpr NumberKey brownian_rate{"rate", "rate = 10.0", Range::zero_or_more};
 constexpr NumberKey drag_rate{"rate", "rate = 0.5", Range::zero_or_more};
 
 constexpr std::string_view special_walls = "moving, thermal or inelastic walls";
@@ -231,6 +234,45 @@ std::vector<EffectTraits> make_table() {
        .draws_random_numbers = true,
        .bytes_per_disk = 20,
        .why_no_replay = "the thermostat changes velocities between collisions, which the event log does not hold"},
+      {.name = "tumbling",
+       .title = "[tumbling]",
+       .is_present = has<&Effects::tumbling>,
+       .acts = has_other_than_zero<&Effects::tumbling, &Tumbling::rate>,
+       .numbers = {number<&Effects::tumbling, &Tumbling::rate>(tumbling_rate, "1 / time", 0.0, 0.1)},
+       .words =
+           [](const Effects& e) {
+             return fmt::format("the direction of each velocity is redrawn at rate {:.6g}, its speed stays", e.tumbling->rate);
+           },
+       .excludes = {{"thermostat"}, {"brownian"}, {"shear"}},
+       .conserves_momentum = false,
+       .thermalises_centre_of_mass = true,
+       .conserves_angular_momentum = false,
+       .changes_velocities_in_flight = true,
+       .draws_random_numbers = true,
+       .bytes_per_disk = 20,
+       .why_no_Z = "tumbles keep the disks out of equilibrium",
+       .why_no_replay = "tumbles change velocities between collisions, which the event log does not hold"},
+      {.name = "brownian",
+       .title = "[brownian]",
+       .is_present = has<&Effects::brownian>,
+       .acts = has_other_than_zero<&Effects::brownian, &Brownian::rate>,
+       .numbers = {number<&Effects::brownian, &Brownian::temperature>(brownian_temperature, "energy", 1.0, 1.0),
+                   number<&Effects::brownian, &Brownian::rate>(brownian_rate, "1 / time", 0.0, 0.1)},
+       .words =
+           [](const Effects& e) {
+             return fmt::format("all velocities are redrawn from the Maxwell distribution at kT = {:.6g}, {:.6g} times per time",
+                                e.brownian->temperature, e.brownian->rate);
+           },
+       .excludes = {{"thermostat"}},
+       .conserves_energy = false,
+       .conserves_momentum = false,
+       .thermalises_centre_of_mass = true,
+       .conserves_angular_momentum = false,
+       .lets_temperature_fluctuate = true,
+       .changes_velocities_in_flight = true,
+       .draws_random_numbers = true,
+       .bytes_per_disk = 20,
+       .why_no_replay = "redraws change velocities between collisions, which the event log does not hold"},
       {.name = "shear",
        .title = "[shear]",
        .absence = "shear",
@@ -284,6 +326,8 @@ std::vector<EffectTraits> make_table() {
                     {"pistons"},
                     {"growth"},
                     {"thermostat"},
+                    {"tumbling"},
+                    {"brownian"},
                     {"shear"},
                     {"square_well"}},
        .conserves_energy = false,
@@ -349,7 +393,8 @@ double Effects::growth_rate() const { return growth ? growth->rate : 0.0; }
 double Effects::shear_rate() const { return shear ? shear->rate : 0.0; }
 double Effects::drag_rate() const { return drag ? drag->rate : 0.0; }
 std::optional<double> Effects::bath_temperature() const {
-  return thermostat && thermostat->rate > 0.0 ? std::optional(thermostat->temperature) : std::nullopt;
+  if (thermostat && thermostat->rate > 0.0) return thermostat->temperature;
+  return brownian && brownian->rate > 0.0 ? std::optional(brownian->temperature) : std::nullopt;
 }
 
 }  // namespace carom

@@ -78,6 +78,8 @@ class AnyEngine {
   /// Something from outside changes how a disk moves, at now(); returns the energy that it gave. In a sheared box v is relative
   /// to the flow. Spins are left alone where disks are smooth.
   virtual double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) = 0;
+  /// The velocity of disk i at now().
+  [[nodiscard]] virtual Eigen::Vector2d velocity(std::int32_t i) = 0;
   /// All velocities and spins become `factor` times what they are.
   virtual void scale_velocities(double factor) = 0;
   /// Puts the clock back to an earlier time, since which nothing has happened: no event, no new epoch.
@@ -169,6 +171,10 @@ class EngineAdapter final : public AnyEngine {
   }
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
     if constexpr (requires { engine_.set_velocity(i, v, spin); }) return engine_.set_velocity(i, v, spin);
+    refuse_to_be_driven();
+  }
+  [[nodiscard]] Eigen::Vector2d velocity([[maybe_unused]] std::int32_t i) override {
+    if constexpr (requires { engine_.velocity(i); }) return engine_.velocity(i);
     refuse_to_be_driven();
   }
   void scale_velocities(double factor) override {

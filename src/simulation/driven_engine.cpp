@@ -38,21 +38,24 @@ Instant ratio(double a, double b) {
 }  // namespace
 
 bool DrivenEngine::needed_by(const Effects& effects) {
-  return effects.growth_rate() > 0.0 || effects.bath_temperature().has_value();
+  return effects.growth_rate() > 0.0 || effects.bath_temperature().has_value() ||
+         (effects.tumbling && effects.tumbling->rate > 0.0);
 }
 
 DrivenEngine::DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene, Disks disks)
     : WrappedEngine(std::move(engine)),
       disks_(std::move(disks)),
       andersen_(scene.effects.thermostat, static_cast<std::int32_t>(disks_.count()), scene.run.seed),
+      tumbles_(scene.effects.tumbling, static_cast<std::int32_t>(disks_.count()), scene.run.seed),
+      brownian_(disks_.count() > 0 ? scene.effects.brownian : std::nullopt, scene.run.seed),
       spinning_(scene.effects.collision.roughness.has_value()),
       growth_rate_(scene.effects.growth_rate()),
       packing_fraction_(scene.packing_fraction()),
-      keeps_energy_(growth_rate_ > 0.0 && !andersen_.acts()),
+      keeps_energy_(growth_rate_ > 0.0 && !andersen_.acts() && !brownian_.acts()),
       between_measurements_(std::max<std::uint64_t>(1, disks_.count() / 2)),
       window_(disks_.count(), degrees_of_freedom(scene)) {
-  if (andersen_.acts()) {
-    next_ = andersen_.event(0);
+  if (redraws()) {
+    next_ = redraw(0);
     thermostat_time_ = engine_->now().plus(next_.wait);
   }
   if (growth_rate_ > 0.0) {
@@ -100,7 +103,7 @@ bool DrivenEngine::run(const Instant& target, std::uint64_t pair_limit, std::uin
 /// Disks that nothing moves now may be given a velocity later, or grow until they touch.
 bool DrivenEngine::idle() const {
   const bool grows = growth_rate_ > 0.0 && !grown_ && !filled_;
-  return engine_->idle() && !(andersen_.acts() || grows);
+  return engine_->idle() && !(andersen_.acts() || brownian_.acts() || grows);
 }
 
 std::size_t DrivenEngine::bytes() const {
@@ -148,20 +151,20 @@ void DrivenEngine::leave(Continuation& continuation) const {
   continuation.totals.thermostat += counted_thermostat_events_;
   continuation.totals.thermostat_energy.add(thermostat_energy_);
   continuation.totals.growth_energy.add(rescaling_energy_);
-  if (!andersen_.acts()) return;
+  if (!redraws()) return;
   continuation.thermostat_events = thermostat_events_ + 1;
-  continuation.pending = Continuation::Pending{andersen_.rate(), thermostat_events_, next_, thermostat_time_};
+  continuation.pending = Continuation::Pending{redraw_rate(), redraw_kind(), thermostat_events_, next_, thermostat_time_};
 }
 
 void DrivenEngine::take_over(const Continuation& continuation) {
   engine_->take_over(continuation);
-  if (const auto& pending = continuation.pending; pending && pending->rate == andersen_.rate()) {
+  if (const auto& pending = continuation.pending; pending && pending->rate == redraw_rate() && pending->kind == redraw_kind()) {
     thermostat_events_ = pending->number;
     next_ = pending->event;
     thermostat_time_ = pending->time;
-  } else if (andersen_.acts()) {
+  } else if (redraws()) {
     thermostat_events_ = continuation.thermostat_events;
-    next_ = andersen_.event(thermostat_events_);
+    next_ = redraw(thermostat_events_);
     thermostat_time_ = engine_->now().plus(next_.wait);
   }
   begin();
@@ -209,16 +212,48 @@ DrivenEngine::Energy DrivenEngine::energy() const {
   return energy;
 }
 
+double DrivenEngine::redraw_rate() const {
+  return tumbles_.acts() ? tumbles_.rate() : brownian_.acts() ? brownian_.rate() : andersen_.rate();
+}
+
+ThermostatEvent DrivenEngine::redraw(std::uint64_t n) const {
+  if (brownian_.acts()) return {.wait = brownian_.step()};
+  return tumbles_.acts() ? tumbles_.event(n) : andersen_.event(n);
+}
+
 void DrivenEngine::apply_thermostat_event() {
-  const auto disk = static_cast<std::size_t>(next_.disk);
-  const Eigen::Vector2d v = andersen_.velocity(next_, disks_.mass[disk]);
-  const double spin = spinning_ ? andersen_.spin(next_, moment_of_inertia(disk)) : 0.0;
-  thermostat_energy_.add(engine_->set_velocity(next_.disk, v, spin));
-  last_thermostat_event_ = {
-      .time = now().high, .time_remainder = now().low, .disk = next_.disk, .partner = thermostat_event, .velocity = v};
-  ++counted_thermostat_events_;
-  next_ = andersen_.event(++thermostat_events_);
+  if (brownian_.acts()) {
+    redraw_all();
+  } else {
+    const auto disk = static_cast<std::size_t>(next_.disk);
+    const bool turns = tumbles_.acts();
+    const Eigen::Vector2d v =
+        turns ? Tumbles::velocity(next_, engine_->velocity(next_.disk)) : andersen_.velocity(next_, disks_.mass[disk]);
+    const double spin = !spinning_ ? 0.0
+                        : turns    ? engine_->state().spins[next_.disk]
+                                   : andersen_.spin(next_, moment_of_inertia(disk));
+    thermostat_energy_.add(engine_->set_velocity(next_.disk, v, spin));
+    last_thermostat_event_ = {
+        .time = now().high, .time_remainder = now().low, .disk = next_.disk, .partner = thermostat_event, .velocity = v};
+    ++counted_thermostat_events_;
+  }
+  next_ = redraw(++thermostat_events_);
   thermostat_time_ = thermostat_time_.plus(next_.wait);
+}
+
+/// The last of them stands for all where they are told one by one.
+void DrivenEngine::redraw_all() {
+  RandomStream random = brownian_.stream(thermostat_events_);
+  for (std::size_t i = 0; i < disks_.count(); ++i) {
+    const Normals normals = draw_normals(random);
+    const Eigen::Vector2d v = brownian_.velocity(normals, disks_.mass[i]);
+    const double spin = spinning_ ? brownian_.spin(normals, moment_of_inertia(i)) : 0.0;
+    const auto disk = static_cast<std::int32_t>(i);
+    thermostat_energy_.add(engine_->set_velocity(disk, v, spin));
+    last_thermostat_event_ = {
+        .time = now().high, .time_remainder = now().low, .disk = disk, .partner = thermostat_event, .velocity = v};
+  }
+  counted_thermostat_events_ += disks_.count();
 }
 
 /// Each time that every disk has collided about once on average.

@@ -1,10 +1,13 @@
 #pragma once
-// An engine that something drives from outside, between events: a thermostat that gives disks new velocities, and the schedule by
-// which disks grow (Lubachevsky & Stillinger 1990), which rescales velocities and says when to stop. Both are so rare that the
-// loop need not know of them: it runs to the time, or the number of collisions, at which the next of them is due.
+// An engine that something drives from outside, between events: a thermostat, tumbles or Brownian redraws that give disks new
+// velocities, of which one acts at most, and the schedule by which disks grow (Lubachevsky & Stillinger 1990), which rescales
+// velocities and says when to stop. Both are so rare that the loop need not know of them: it runs to the time, or the number of
+// collisions, at which the next of them is due.
 
 #include "core/exact_sum.hpp"
 #include "effects/andersen.hpp"
+#include "effects/brownian.hpp"
+#include "effects/tumbling.hpp"
 #include "simulation/pressure_window.hpp"
 #include "simulation/wrapped_engine.hpp"
 
@@ -74,7 +77,14 @@ class DrivenEngine final : public WrappedEngine {
   using RunFunction = bool (AnyEngine::*)(const Instant&, std::uint64_t, std::uint64_t);
   bool run(const Instant& target, std::uint64_t pair_limit, std::uint64_t event_limit, RunFunction run_engine);
   void begin();
+  /// The rate of redraws of any kind, and which they are: numbers of Continuation::Pending.
+  [[nodiscard]] double redraw_rate() const;
+  [[nodiscard]] int redraw_kind() const { return tumbles_.acts() ? 1 : brownian_.acts() ? 2 : 0; }
+  [[nodiscard]] bool redraws() const { return redraw_rate() > 0.0; }
+  /// Redraw number n, of one disk or, by Brownian motion, of all.
+  [[nodiscard]] ThermostatEvent redraw(std::uint64_t n) const;
   void apply_thermostat_event();
+  void redraw_all();
   void measure_and_rescale();
   void measure_pressure(const Energy& energy);
   void rescale(const Energy& energy);
@@ -82,6 +92,8 @@ class DrivenEngine final : public WrappedEngine {
 
   Disks disks_;
   Andersen andersen_;
+  Tumbles tumbles_;
+  BrownianRedraws brownian_;
   bool spinning_;
 
   std::uint64_t thermostat_events_ = 0;  ///< ever

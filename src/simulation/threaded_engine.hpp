@@ -48,6 +48,10 @@ class ThreadedEngine final : public WrappedEngine {
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
     return alone([&] { return engine_->set_velocity(i, v, spin); });
   }
+  [[nodiscard]] Eigen::Vector2d velocity(std::int32_t i) override {
+    if (domains_) domains_->update();
+    return engine_->velocity(i);
+  }
   void scale_velocities(double factor) override {
     domains_ ? domains_->scale_velocities(factor) : engine_->scale_velocities(factor);
     count();

@@ -34,6 +34,7 @@ class WrappedEngine : public AnyEngine {
   double set_velocity(std::int32_t i, const Eigen::Vector2d& v, double spin) override {
     return engine_->set_velocity(i, v, spin);
   }
+  [[nodiscard]] Eigen::Vector2d velocity(std::int32_t i) override { return engine_->velocity(i); }
   void scale_velocities(double factor) override { engine_->scale_velocities(factor); }
   void set_back(const Instant& time) override { engine_->set_back(time); }
   void reset_clock() override { engine_->reset_clock(); }

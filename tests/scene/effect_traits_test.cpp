@@ -61,7 +61,7 @@ TEST(EffectTraits, SetsAndTellsTheNumbersOfATable) {
 }
 
 TEST(EffectTraits, KnowsWhichTablesHaveAKey) {
-  EXPECT_EQ(detail::tables_with_key("rate"), "[growth], [thermostat], [shear] or [drag]");
+  EXPECT_EQ(detail::tables_with_key("rate"), "[growth], [thermostat], [tumbling], [brownian], [shear] or [drag]");
   EXPECT_EQ(detail::tables_with_key("depth"), "[square_well]");
   EXPECT_EQ(detail::tables_with_key("until"), "[growth]");
   EXPECT_EQ(detail::tables_with_key("mass"), "");

@@ -65,6 +65,8 @@ inline std::string first_difference(const Effects& a, const Effects& b) {
   if (differ(a.thermostat, b.thermostat, &Thermostat::temperature, &Thermostat::rate)) return "thermostat";
   if (differ(a.shear, b.shear, &Shear::rate)) return "shear";
   if (differ(a.square_well, b.square_well, &SquareWell::width, &SquareWell::depth)) return "square_well";
+  if (differ(a.tumbling, b.tumbling, &Tumbling::rate)) return "tumbling";
+  if (differ(a.brownian, b.brownian, &Brownian::temperature, &Brownian::rate)) return "brownian";
   return {};
 }
 
