@@ -352,7 +352,9 @@ class Session {
   }
 
   void keep_moment() {
-    if (!moments_.empty() && moments_.back().time == run_.time() && moments_.back().changes == run_.changes().size()) return;
+    if (!moments_.empty() && moments_.back().time == run_.time() &&
+        moments_.back().changes + moments_.back().own_changes == run_.changes_made())
+      return;
     moments_.push_back(run_.moment());
     bytes_ += moments_.back().bytes.size();
     while (bytes_ > most_snapshot_bytes && moments_.size() > 3) {
@@ -511,7 +513,7 @@ std::string description(Session& session) {
   json += fmt::format("\"isCircle\":{},", scene.box.is_circle);
   json += fmt::format("\"thermal\":[{},{}],\"seed\":{},\"changes\":{}}}", centre_of_mass_is_thermal(scene.box, effects, 0),
                       centre_of_mass_is_thermal(scene.box, effects, 1), session.run().first_scene().run.seed,
-                      session.run().changes().size());
+                      session.run().changes_made());
   return json;
 }
 
@@ -670,7 +672,7 @@ EMSCRIPTEN_KEEPALIVE const double* carom_state() {
              now.measured().covered(),
              now.measured().range(),
              static_cast<double>(shown.bonds),
-             static_cast<double>(run.changes().size()),
+             static_cast<double>(run.changes_made()),
              now.measured().free_path(),
              totals.dissipated,
              static_cast<double>(now.pending())};

@@ -3,6 +3,7 @@
 // with every default, and checked. Nothing here is computed beyond what the file says.
 
 #include <carom/box.hpp>
+#include <carom/changes.hpp>
 #include <carom/effects.hpp>
 
 #include <Eigen/Core>
@@ -169,6 +170,8 @@ struct Scene {
   Run run = {};
   Output output = {};
   std::vector<ObservableRequest> observe = {};  ///< in the order of docs/scene-format.md
+  /// What changes during the measured run, in order of time: effects and the scale of velocities, no disk.
+  std::vector<Change> changes = {};
 
   std::string source = {};                  ///< the file's path, or the name given to parse_scene
   std::string text = {};                    ///< the TOML text as it was read, before overrides

@@ -47,11 +47,12 @@ enum class StopReason {
   grown,          ///< the packing fraction or pressure up to which disks were to grow was reached
   at_rest,        ///< drag has stopped the disks: what is left of the way of each is 2^-52 of it
   no_collisions,  ///< only a number of collisions was asked for, and no pair will ever (or seems ever to) collide
+  blocked,        ///< one of the scene's changes cannot be made where disks and walls are by then: RunResult::blocked_by says why
   invalid_state,  ///< check_invariants() found a fault, or a number is not finite: RunResult::faults says which
 };
 
 /// "time", "collisions", "events", "condition", "interrupted", "jammed", "collapsed", "overheated", "cooled", "grown", "at_rest",
-/// "no_collisions", "invalid_state"
+/// "no_collisions", "blocked", "invalid_state"
 std::string to_string(StopReason reason);
 
 /// The method that exact events replace: move by v dt, look for contacts, move on.
@@ -102,7 +103,11 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
 
+  /// The scene as it is now: changes that have been made are in its effects, and in its list of changes no more.
   [[nodiscard]] const Scene& scene() const;
+  /// The scene as it was given, with every effect that acts before its last change is made or after it: what holds for the whole
+  /// run. It is scene() where the scene has no changes.
+  [[nodiscard]] const Scene& whole_scene() const;
   [[nodiscard]] const Disks& disks() const;
   [[nodiscard]] const std::string& engine()
       const;  ///< the name of the engine that the catalogue chose, or of a fixed-step method
@@ -124,9 +129,11 @@ class Simulation {
   /// Writes the state into `state` and uses its memory again: for loops that look often.
   void state(State& state) const;
 
-  /// Processes every event up to and including `time`. Requires time >= this->time(); an earlier time does nothing.
-  /// Stops early, at the event itself, where a limit says so. The bits of the trajectory do not depend on where one stops. Takes
-  /// constant time beside its events. Throws std::invalid_argument where time is not finite, or the method does not know a limit.
+  /// Processes every event up to and including `time`. Requires time >= this->time(); an earlier time does nothing. On the way
+  /// the scene's changes are made, each after all events up to and including its time, and where `time` is later than that.
+  /// Throws SceneError where one cannot be made, as set_effects() does; the simulation then stands at its time. Stops early, at
+  /// the event itself, where a limit says so. The bits of the trajectory do not depend on where one stops. Takes constant time
+  /// beside its events. Throws std::invalid_argument where time is not finite, or the method does not know a limit.
   StopReason run_until(double time, const RunLimits& limits = {});
 
   /// Runs as run_until() does up to k * dt, the product taken exactly: grid times do not drift however large k is.
@@ -185,7 +192,8 @@ class Simulation {
   /// Returns what sharing it out has taken so far.
   [[nodiscard]] ThreadCounts thread_counts() const;
 
-  /// Makes now the zero of time and forgets all totals. The state stays.
+  /// Makes now the zero of time and forgets all totals. The state stays. In a scene with run.equilibrate no change is made
+  /// before.
   void reset_clock();
 
   /// From now on every collision is appended to an internal log, until taken.
@@ -301,6 +309,8 @@ struct RunHooks {
   std::function<std::span<CollisionRecord>()> room_for_records;
   std::function<void(const Progress& progress)> block;  ///< after about every collision per disk, at collisions
   std::vector<SamplingGrid> grids;                      ///< beside the scene's own samples; of equal steps the first comes first
+  /// Just before (false) and just after (true) one of the scene's changes is made.
+  std::function<void(bool made)> change;
   std::function<bool(const Progress& progress)> proceed;  ///< several times a second; false stops the run
   /// Called after every collision of the measured run, before it is handed on; the run ends at the collision for which it is
   /// true, the same one on every machine. With it the engine is entered anew for every event, which takes several times as long.
@@ -322,6 +332,7 @@ struct RunResult {
   bool measured = true;             ///< false where the run ended while it was still equilibrating
   std::uint64_t verified = 0;       ///< checks of the invariants, the last of them at the end
   std::vector<std::string> faults;  ///< of the last of them, or what is not finite; the run has ended there
+  std::string blocked_by = {};      ///< why a change could not be made, where that has ended the run
 };
 
 /// Runs the scene's whole schedule: equilibrate, reset the clock, then sample until time or collisions are reached.

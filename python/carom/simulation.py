@@ -54,6 +54,7 @@ class Stop(StrEnum):
     GROWN = "grown"  #: the packing fraction or pressure up to which disks were to grow was reached
     AT_REST = "at_rest"  #: drag has stopped the disks
     NO_COLLISIONS = "no_collisions"  #: no pair will ever collide
+    BLOCKED = "blocked"  #: one of the scene's changes could not be made
     INVALID_STATE = "invalid_state"  #: a number is not finite, or the engine found a fault in its plan
 
     @property
@@ -304,6 +305,8 @@ class Simulation:
     def _moved(self) -> None:
         """Forgets the state, before it changes."""
         self._state = None
+        if self._core.changes_to_come > 0:
+            self._now = None
 
     def run(self, duration: float, *, progress: Progress | None = None) -> Stop:
         """Goes on for `duration`. Repeated calls add up with rounding; `sample()` has an exact grid."""

@@ -7,6 +7,7 @@
 #include "pages/scene_words.hpp"
 #include "runner/expected_cost.hpp"
 #include "runner/run_threads.hpp"
+#include "scene/changes.hpp"
 #include "scene/drawn.hpp"
 #include "text/numbers.hpp"
 
@@ -70,19 +71,20 @@ ExitCode check(const CheckOptions& options) {
     return exit_done;
   }
   if (options.quiet) return exit_done;
+  const Effects whole_run = detail::effects_of_whole_run(scene);
   const std::string start =
       trial ? start_and_engine(scene, trial->simulation())
             : fmt::format("  start       not drawn: more than {} disks; `carom run` draws them, in some {:.0f} bytes per disk\n",
                           grouped(most_disks_drawn), expected_bytes_per_disk(scene.effects));
   fmt::print("{} is a valid scene{}\n\n", scene.source, scene.title.empty() ? "" : fmt::format(": {}", scene.title));
-  fmt::print("{}  conserved   {}\n{}", describe(scene), conserved(scene.box, scene.effects), start);
+  fmt::print("{}  conserved   {}\n{}", describe(scene), conserved(scene.box, whole_run), start);
   if (trial) {
     const SuggestedThreads suggested = suggested_threads(trial->simulation());
     fmt::print("  threads     {}\n  cost        {}{}\n", suggested.words, cost_words(trial->run()),
                suggested.threads > 1 ? "; the trial had one core" : "");
   }
   fmt::print("{}", files(scene));
-  if (const std::string missing = absent(scene.effects); !missing.empty()) fmt::print("\nNot simulated: {}.\n", missing);
+  if (const std::string missing = absent(whole_run); !missing.empty()) fmt::print("\nNot simulated: {}.\n", missing);
   return exit_done;
 }
 

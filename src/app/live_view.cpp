@@ -151,7 +151,7 @@ std::vector<std::string> LiveView::gauges(const Progress& progress, const State&
       fmt::format("  changed  {}", energy_at_start_ && *energy_at_start_ != 0.0
                                        ? fmt::format("{:+.1e}", (energy - *energy_at_start_) / *energy_at_start_)
                                        : std::string("-"))};
-  if (why_no_Z(scene.effects).empty() && kT > 0.0 && progress.time > 0.0)
+  if (why_no_Z(scene).empty() && kT > 0.0 && progress.time > 0.0)
     lines.push_back(fmt::format("Z          {:.4f}",
                                 compressibility(progress.totals.virial / progress.time, static_cast<double>(disks.count()), kT)));
   if (kT > 0.0 && std::isfinite(kT))

@@ -101,8 +101,8 @@ class Session {
     if (options_.json) {
       fmt::print("{}\n", summary_json(report, runner_.provenance()));
     } else if (!options_.quiet) {
-      fmt::print(
-          "{}", terminal_summary(report, given_.simulation.scene(), {given_.directory.path(), files, given_.invocation.program}));
+      fmt::print("{}", terminal_summary(report, given_.simulation.whole_scene(),
+                                        {given_.directory.path(), files, given_.invocation.program}));
     }
     if (report.stopped == StopReason::interrupted) say_how_to_go_on();
     const ExitCode code = exit_code_of(report);

@@ -106,6 +106,7 @@ std::string summary_json(const RunReport& report, const Provenance& provenance) 
   json["stopped"] = to_string(report.stopped);
   if (!report.stopped_disks.empty()) json["stopped_disks"] = report.stopped_disks;
   if (!report.faults.empty()) json["faults"] = report.faults;
+  if (!report.blocked_by.empty()) json["blocked_by"] = report.blocked_by;
   if (!report.measured) json["measured"] = false;
 
   json["title"] = report.title;

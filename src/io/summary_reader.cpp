@@ -176,6 +176,7 @@ RunReport run_report_of(const Json& json) {
   report.stopped = stop_reason_in(json.at("stopped").get<std::string>());
   if (json.contains("stopped_disks")) report.stopped_disks = json.at("stopped_disks").get<std::vector<std::int32_t>>();
   if (json.contains("faults")) report.faults = json.at("faults").get<std::vector<std::string>>();
+  report.blocked_by = json.value("blocked_by", "");
   report.measured = json.value("measured", true);
   if (json.contains("observables"))
     for (const auto& [name, measured] : json.at("observables").items())

@@ -15,11 +15,13 @@
 namespace carom {
 namespace {
 
-/// The scene of a run that ends when somebody stops it: its walls may move, and its disks grow, as long as they are let.
+/// The scene of a run that ends when somebody stops it: its walls may move, and its disks grow, as long as they are let. LiveRun
+/// makes its changes.
 Scene without_end(Scene scene) {
   scene.run.time.reset();
   scene.run.collisions.reset();
   scene.run.equilibrate.reset();
+  scene.changes.clear();
   return scene;
 }
 
@@ -108,17 +110,6 @@ void add_disk(Scene& scene, State& state, const AddDisk& add) {
   state.spins = with_entry(state.spins, column);
 }
 
-/// Refuses a change of what a run has only at its start.
-void require_changeable(const std::string& override_text) {
-  const std::string key = override_text.substr(0, override_text.find_first_of("= "));
-  for (const char* const table : {"box", "run", "output", "observe", "title"})
-    if (key == table || key.starts_with(std::string(table) + "."))
-      throw SceneError(
-          {}, fmt::format("{} belongs to the start of a run; a change may set effects, and radius and mass of disks", key));
-  if (key.starts_with("disks.") && !key.ends_with(".radius") && !key.ends_with(".mass"))
-    throw SceneError({}, fmt::format("{} belongs to the start of a run; a change may set radius and mass of disks", key));
-}
-
 }  // namespace
 
 LiveRun::LiveRun(const Scene& scene) : first_(scene), simulation_(make_simulation(without_end(scene))) {
@@ -127,9 +118,31 @@ LiveRun::LiveRun(const Scene& scene) : first_(scene), simulation_(make_simulatio
 
 StopReason LiveRun::run_until(double time, std::uint64_t most_events) {
   RunLimits limits;
-  const std::uint64_t now = simulation_.counts().events();
-  if (most_events < RunLimits::none - now) limits.events = now + most_events;
-  return simulation_.run_until(time - before_, limits);
+  const std::uint64_t now = events();
+  const std::uint64_t most = most_events < RunLimits::none - now ? now + most_events : RunLimits::none;
+  const auto run = [&](double until) {
+    if (most < RunLimits::none) limits.events = most - counts_before_.events();
+    return simulation_.run_until(until - before_, limits);
+  };
+  while (has_change_before(time)) {
+    if (const StopReason stopped = run(first_.changes[own_changes_].time); stopped != StopReason::time) return stopped;
+    make_own_change();
+  }
+  return run(time);
+}
+
+std::optional<Event> LiveRun::step(double until) {
+  while (has_change_before(until)) {
+    const double change = first_.changes[own_changes_].time;
+    if (std::optional<Event> event = simulation_.step(change - before_)) return event;
+    make_own_change();
+  }
+  return simulation_.step(until - before_);
+}
+
+void LiveRun::make_own_change() {
+  make(first_.changes[own_changes_]);
+  ++own_changes_;
 }
 
 void LiveRun::state(State& state) const {
@@ -147,22 +160,18 @@ void LiveRun::apply(const Change& change) {
   if (change.time < time())
     throw SceneError({}, fmt::format("a change at time {} comes too late at time {}", change.time, time()));
   run_until(change.time);
+  while (own_changes_ < first_.changes.size() && first_.changes[own_changes_].time == change.time) make_own_change();
+  make(change);
+  changes_.push_back(change);
+}
+
+void LiveRun::make(const Change& change) {
   State state = simulation_.state();
   Scene scene = simulation_.scene();
   if (const auto* set = std::get_if<SetKeys>(&change.what)) {
-    set_keys(set->overrides);
+    set_keys(*set);
   } else if (const auto* scale = std::get_if<ScaleVelocities>(&change.what)) {
     simulation_.set_velocities(scale->factor * state.velocities, scale->factor * state.spins);
-  } else if (const auto* obstacle = std::get_if<AddObstacle>(&change.what)) {
-    Effects effects = scene.effects;
-    effects.obstacles.push_back(obstacle->obstacle);
-    simulation_.set_effects(effects);
-  } else if (const auto* gone = std::get_if<RemoveObstacle>(&change.what)) {
-    Effects effects = scene.effects;
-    if (gone->obstacle < 0 || gone->obstacle >= static_cast<std::int64_t>(effects.obstacles.size()))
-      throw SceneError({}, fmt::format("there is no obstacle {}; there are {}", gone->obstacle, effects.obstacles.size()));
-    effects.obstacles.erase(effects.obstacles.begin() + gone->obstacle);
-    simulation_.set_effects(effects);
   } else if (const auto* add = std::get_if<AddDisk>(&change.what)) {
     add_disk(scene, state, *add);
     begin_again(scene, state);
@@ -175,45 +184,50 @@ void LiveRun::apply(const Change& change) {
     state.positions.col(column) = move->position;
     state.velocities.col(column) = move->velocity;
     begin_again(scene, state);
+  } else {
+    simulation_.set_effects(effects_after(scene.effects, change));
   }
-  changes_.push_back(change);
 }
 
-/// The keys are read in the scene of the start with all keys set so far, which says what its effects are now; obstacles, disks
-/// and places of walls are those of the run.
-void LiveRun::set_keys(const std::vector<std::string>& overrides) {
+/// Keys of effects are set in the effects of now, which may be those of the scene's own changes. Radii and masses are read in the
+/// scene of the start with all that were set so far, which completes short forms.
+void LiveRun::set_keys(const SetKeys& set) {
+  SetKeys of_effects;
   std::vector<std::string> all = overrides_;
-  for (const std::string& text : overrides) {
+  std::vector<std::string> of_disks;
+  for (const std::string& text : set.overrides) {
     require_changeable(text);
+    if (!text.starts_with("disks.")) {
+      of_effects.overrides.push_back(text);
+      continue;
+    }
+    of_disks.push_back(text);
     const std::string key = text.substr(0, text.find('='));
     std::erase_if(all, [&](const std::string& other) { return other.substr(0, other.find('=')) == key; });
     all.push_back(text);
   }
+  Scene scene = simulation_.scene();
+  scene.effects = effects_after(scene.effects, {.what = of_effects});
+  if (of_disks.empty()) {
+    simulation_.set_effects(scene.effects);
+    return;
+  }
   std::vector<std::string> from_start = first_.overrides;
   from_start.insert(from_start.end(), all.begin(), all.end());
+  from_start.emplace_back("changes=[]");
   if (first_.run.time) from_start.emplace_back("run.time=1e-30");  // what is set need not last until the end of the run
   const Scene asked = parse_scene(first_.text, first_.source, from_start);
-  Scene scene = simulation_.scene();
-  bool other_disks = false;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
     const std::string path = fmt::format("disks.{}.", s);
-    for (const std::string& text : overrides) {
+    for (const std::string& text : of_disks) {
       if (!text.starts_with(path)) continue;
-      other_disks = true;
       Species& species = scene.species[s];
       (text.starts_with(path + "radius") ? species.radius : species.mass) =
           text.starts_with(path + "radius") ? asked.species[s].radius : asked.species[s].mass;
       (text.starts_with(path + "radius") ? species.radii : species.masses).clear();
     }
   }
-  Effects effects = asked.effects;
-  effects.obstacles = scene.effects.obstacles;
-  if (other_disks) {
-    scene.effects = effects;
-    begin_again(scene, simulation_.state());
-  } else {
-    simulation_.set_effects(effects);
-  }
+  begin_again(scene, simulation_.state());
   overrides_ = std::move(all);
 }
 
@@ -235,7 +249,8 @@ void LiveRun::begin_again(const Scene& with, const State& state) {
 LiveRun::Moment LiveRun::moment() const {
   std::ostringstream bytes;
   simulation_.save(bytes);
-  return {time(), events(), std::move(bytes).str(), simulation_.scene(), before_, counts_before_, changes_.size(), overrides_};
+  return {time(),         events(),        std::move(bytes).str(), simulation_.scene(), before_,
+          counts_before_, changes_.size(), own_changes_,           overrides_};
 }
 
 void LiveRun::back_to(const Moment& moment) {
@@ -244,6 +259,7 @@ void LiveRun::back_to(const Moment& moment) {
   before_ = moment.before;
   counts_before_ = moment.counts_before;
   changes_.resize(moment.changes);
+  own_changes_ = moment.own_changes;
   overrides_ = moment.overrides;
 }
 

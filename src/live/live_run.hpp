@@ -1,9 +1,11 @@
 #pragma once
 // A run that is changed while it goes on: the simulation of a scene, and all changes so far. The same scene and the same changes
-// at the same times give the same bits, wherever and with whatever pauses it runs.
+// at the same times give the same bits, wherever and with whatever pauses it runs. Changes that the scene has itself are made
+// before others of the same time.
 
-#include "live/change.hpp"
+#include "scene/changes.hpp"
 
+#include <carom/changes.hpp>
 #include <carom/scene.hpp>
 #include <carom/simulation.hpp>
 #include <carom/state.hpp>
@@ -29,7 +31,7 @@ class LiveRun {
 
   /// Goes to the next event up to `until`, and returns it, its time counted since disks last came or went; otherwise goes to
   /// `until`.
-  std::optional<Event> step(double until) { return simulation_.step(until - before_); }
+  std::optional<Event> step(double until);
 
   /// Time since the start of the measured run. After disks came or went it is the sum of what runs before and after have taken.
   [[nodiscard]] double time() const { return before_ + simulation_.time(); }
@@ -48,7 +50,10 @@ class LiveRun {
   [[nodiscard]] const Simulation& simulation() const { return simulation_; }
   /// The scene at the start.
   [[nodiscard]] const Scene& first_scene() const { return first_; }
+  /// The changes that were applied, without those of the scene itself.
   [[nodiscard]] const std::vector<Change>& changes() const { return changes_; }
+  /// The number of all changes so far, those of the scene included.
+  [[nodiscard]] std::size_t changes_made() const { return changes_.size() + own_changes_; }
 
   /// A moment of the run to which back_to() returns.
   struct Moment {
@@ -59,6 +64,7 @@ class LiveRun {
     double before = 0.0;
     Counts counts_before;
     std::size_t changes = 0;
+    std::size_t own_changes = 0;
     std::vector<std::string> overrides;
   };
   [[nodiscard]] Moment moment() const;
@@ -66,15 +72,22 @@ class LiveRun {
   void back_to(const Moment& moment);
 
  private:
-  void set_keys(const std::vector<std::string>& overrides);
+  void make(const Change& change);
+  /// Whether one of the scene's own changes is to be made before the run goes on to `time`.
+  [[nodiscard]] bool has_change_before(double time) const {
+    return own_changes_ < first_.changes.size() && first_.changes[own_changes_].time < time;
+  }
+  void make_own_change();
+  void set_keys(const SetKeys& set);
   void begin_again(const Scene& scene, const State& state);
 
   Scene first_;
   Simulation simulation_;
   double before_ = 0.0;  ///< time that simulations before this one have taken
   Counts counts_before_;
-  std::vector<std::string> overrides_;  ///< of all SetKeys so far
+  std::vector<std::string> overrides_;  ///< of radii and masses, in all SetKeys so far
   std::vector<Change> changes_;
+  std::size_t own_changes_ = 0;  ///< of the scene, made so far
 };
 
 }  // namespace carom

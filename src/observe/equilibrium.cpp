@@ -43,6 +43,10 @@ std::string_view why_no_Z(const Effects& effects, bool detail::EffectTraits::*pa
   return detail::first_reason(effects, &detail::EffectTraits::why_no_Z, passed_over);
 }
 
+std::string_view why_no_Z(const Scene& scene) {
+  return scene.changes.empty() ? why_no_Z(scene.effects) : "what acts changes during the run";
+}
+
 bool temperature_fluctuates(const Effects& effects) {
   return detail::any_acting(effects, &detail::EffectTraits::lets_temperature_fluctuate);
 }

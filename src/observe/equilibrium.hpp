@@ -13,6 +13,8 @@ namespace carom {
 /// Returns why there is no such number, as the end of a sentence; empty where there is one. An effect at its neutral value does
 /// no harm, and one with the trait `passed_over`, where that is given, is not asked.
 [[nodiscard]] std::string_view why_no_Z(const Effects& effects, bool detail::EffectTraits::*passed_over = nullptr);
+/// Does so for a scene, whose effects may change during the run.
+[[nodiscard]] std::string_view why_no_Z(const Scene& scene);
 
 /// Returns whether the kinetic energy fluctuates, because a heat bath, spins or wells take part in it. Z is then computed with
 /// the mean of the temperature, and not with that of one state.

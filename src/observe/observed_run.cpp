@@ -34,7 +34,7 @@ std::string word_of(std::string name) {
 }  // namespace
 
 ObservedRun observed_run(const Simulation& simulation) {
-  const Scene& scene = simulation.scene();
+  const Scene& scene = simulation.whole_scene();
   const std::optional<double> bath = scene.effects.bath_temperature();
   ObservedRun run =
       observed_run(scene, simulation.disks(),

@@ -46,7 +46,7 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
     equal_radii_ = all_equal(run.disks.radius);
     freedom_ = 2.0 * static_cast<double>(run.disks.count()) - (run.centre_of_mass_is_thermal(0) ? 0.0 : 1.0) -
                (run.centre_of_mass_is_thermal(1) ? 0.0 : 1.0);
-    why_no_Z_ = carom::why_no_Z(effects);
+    why_no_Z_ = carom::why_no_Z(run.scene);
     has_Z_walls_ = why_no_walls().empty();
   }
 

@@ -12,7 +12,7 @@
 namespace carom {
 
 RunMeasurements::RunMeasurements(const Simulation& simulation) : simulation_(simulation) {
-  const Scene& scene = simulation.scene();
+  const Scene& scene = simulation.whole_scene();
   report_.scene = scene.source;
   report_.title = scene.title;
   report_.seed = scene.run.seed;
@@ -46,6 +46,14 @@ void RunMeasurements::sample(const State& state) {
   look_for_overlap(state);
 }
 
+/// The energy of disks and pistons, and of fields, before the change and after it.
+void RunMeasurements::change(bool made) {
+  const Scene& scene = simulation_.scene();
+  const double energy = total_energy(scene.box, scene.effects, simulation_.disks(), simulation_.state());
+  energy_of_changes_ += made ? energy : -energy;
+  if (made) ++changes_;
+}
+
 void RunMeasurements::block(const Progress& progress) { virial_.add(progress.time, progress.totals.virial); }
 
 void RunMeasurements::look_for_overlap(const State& state) {
@@ -57,7 +65,7 @@ void RunMeasurements::look_for_overlap(const State& state) {
 
 /// kT that fluctuates carries the virial with it: Z is the ratio of both, with its error that of a ratio.
 void RunMeasurements::look_at_heat(double time, double temperature) {
-  if (!temperature_fluctuates(simulation_.scene().effects)) return;
+  if (!temperature_fluctuates(simulation_.whole_scene().effects)) return;
   heat_ += static_cast<double>(report_.disks) * (seen_temperature_ + temperature) * (time - seen_time_);
   seen_temperature_ = temperature;
   seen_time_ = time;
@@ -67,8 +75,8 @@ void RunMeasurements::look_at_heat(double time, double temperature) {
 void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
   virial_.add(report_.time, report_.totals.virial);
   if (samples_ > 0) look_at_heat(report_.time, temperature);
-  const Effects& effects = simulation_.scene().effects;
-  if (!why_no_Z(effects).empty()) return;
+  const Effects& effects = simulation_.whole_scene().effects;
+  if (!why_no_Z(simulation_.whole_scene()).empty()) return;
   const bool fluctuates = temperature_fluctuates(effects);
   const BlockedRate& series = fluctuates ? virial_over_heat_ : virial_;
   if (result.measured && report_.totals.pair > 0 && series.rate() && temperature > 0.0) {
@@ -80,6 +88,19 @@ void RunMeasurements::measure_Z(const RunResult& result, double temperature) {
       report_.note_on_errors = why_error_of_Z_is_off(simulation_.scene(), 2.0 * static_cast<double>(report_.totals.pair) / disks);
     report_.reduced_pressure = 4.0 * report_.packing_fraction / std::numbers::pi * *report_.Z;
   }
+}
+
+void RunMeasurements::add_changes(const Scene& whole) {
+  EffectsReport& report = report_.of_effects;
+  const Scene& now = simulation_.scene();
+  report.changes = {.made = changes_, .energy = energy_of_changes_};
+  const State state = simulation_.state();
+  if (report.energies_end) report.energies_end = energies_of(now.box, now.effects, simulation_.disks(), state);
+  if (report.packing_fraction_end) report.packing_fraction_end = packing_fraction(now.box, simulation_.disks(), state);
+  if (exchanges_uncounted_energy(whole.effects) || whole.effects.drag_rate() > 0.0)
+    report.energy_supplied.reset();  // what drag takes depends on when it acted
+  else
+    report.energy_supplied = report.energy_supplied.value_or(0.0) + energy_of_changes_;
 }
 
 RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) {
@@ -104,9 +125,12 @@ RunReport RunMeasurements::report(const RunResult& result, double wall_seconds) 
   report_.stopped = result.stopped;
   report_.stopped_disks = result.stopped_disks;
   report_.faults = result.faults;
-  report_.of_effects = effects_report(scene, disks, report_.totals, state);
+  report_.blocked_by = result.blocked_by;
+  const Scene& whole = simulation_.whole_scene();
+  report_.of_effects = effects_report(whole, disks, report_.totals, state);
+  if (!whole.changes.empty()) add_changes(whole);
   if (!result.measured) report_.of_effects.energy_supplied.reset();  // totals began before the initial energy did
-  effect_means_.add_to(report_.of_effects, scene, disks, state);
+  effect_means_.add_to(report_.of_effects, whole, disks, state);
   measure_Z(result, temperature);
   return report_;
 }

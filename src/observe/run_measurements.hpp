@@ -16,6 +16,7 @@ class RunMeasurements {
   void start(const State& state);        ///< the measured run begins
   void sample(const State& state);       ///< a state of the sampling grid
   void block(const Progress& progress);  ///< RunHooks::block
+  void change(bool made);                ///< RunHooks::change
 
   /// Returns all results, when the run has ended. `wall_seconds`: of the whole run, as the caller took it.
   [[nodiscard]] RunReport report(const RunResult& result, double wall_seconds);
@@ -25,12 +26,13 @@ class RunMeasurements {
   void serialize(Archive& archive) {
     archive(report_.energy_initial, report_.energy_scale, report_.momentum_initial, report_.max_relative_overlap,
             report_.overlap_checked, report_.overlap_at_start, virial_, virial_over_heat_, heat_, seen_temperature_, seen_time_,
-            temperature_sum_, effect_means_, samples_);
+            temperature_sum_, effect_means_, samples_, energy_of_changes_, changes_);
   }
 
  private:
   void look_for_overlap(const State& state);
   void look_at_heat(double time, double temperature);
+  void add_changes(const Scene& whole);
   void measure_Z(const RunResult& result, double temperature);
 
   const Simulation& simulation_;
@@ -42,6 +44,8 @@ class RunMeasurements {
   double temperature_sum_ = 0.0;
   EffectMeans effect_means_;
   std::uint64_t samples_ = 0;
+  double energy_of_changes_ = 0.0;  ///< given by the scene's changes
+  std::uint64_t changes_ = 0;       ///< made
 };
 
 }  // namespace carom

@@ -61,6 +61,7 @@ struct RunReport {
   StopReason stopped = StopReason::time;
   std::vector<std::int32_t> stopped_disks;  ///< RunResult::stopped_disks
   std::vector<std::string> faults;          ///< RunResult::faults
+  std::string blocked_by;                   ///< RunResult::blocked_by
   EffectsReport of_effects;
   std::string note_on_errors;                ///< remark on the errors of Z and of observables; empty where there is none
   std::vector<Measurement> observables;      ///< results of the scene's [observe] table

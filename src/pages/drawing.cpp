@@ -1,6 +1,7 @@
 #include "pages/drawing.hpp"
 
 #include "observe/voronoi_cells.hpp"
+#include "scene/changes.hpp"
 #include "scene/fixed_shapes.hpp"
 
 #include <algorithm>
@@ -139,7 +140,8 @@ class Drawing {
 
   void draw_fixed_shapes() {
     set_colour(context_, theme_.solid);
-    for (const Obstacle& shape : of_.scene.effects.obstacles) {
+    const Effects effects = effects_at(of_.scene, moment_.time);
+    for (const Obstacle& shape : effects.obstacles) {
       if (const auto* disk = std::get_if<DiskObstacle>(&shape)) {
         for_images(disk->centre, disk->radius,
                    [&](const Eigen::Vector2d& shift) { circle(disk->centre + shift, disk->radius * at_.scale); });

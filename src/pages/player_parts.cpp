@@ -5,6 +5,7 @@
 #include "io/json.hpp"
 #include "observe/equilibrium.hpp"
 #include "observe/mechanics.hpp"
+#include "scene/changes.hpp"
 #include "scene/fixed_shapes.hpp"
 
 #include <fmt/format.h>
@@ -26,6 +27,17 @@ Json shapes_of(const Effects& effects) {
       list.push_back({{"from", vector(segment->from)}, {"to", vector(segment->to)}});
     else if (const auto* arc = std::get_if<ArcObstacle>(&shape))
       list.push_back({{"centre", vector(arc->centre)}, {"radius", arc->radius}, {"angles", Json::array({arc->from, arc->to})}});
+  }
+  return list;
+}
+
+/// The shapes after each change, with its time.
+Json later_shapes(const Scene& scene) {
+  Json list = Json::array();
+  Effects effects = scene.effects;
+  for (const Change& change : scene.changes) {
+    effects = effects_after(effects, change);
+    list.push_back({{"time", change.time}, {"shapes", shapes_of(effects)}});
   }
   return list;
 }
@@ -127,9 +139,10 @@ Json player_description(const Scene& scene, const std::string& title, const std:
   json["acceleration"] = vector(effects.acceleration());
   json["growth"] = effects.growth_rate();
   json["shapes"] = shapes_of(effects);
+  if (!scene.changes.empty()) json["laterShapes"] = later_shapes(scene);
   json["centreOfMassIsThermal"] =
       Json::array({centre_of_mass_is_thermal(box, effects, 0), centre_of_mass_is_thermal(box, effects, 1)});
-  json["whyNoZ"] = why_no_Z(effects);
+  json["whyNoZ"] = why_no_Z(scene);
   return json;
 }
 

@@ -19,6 +19,7 @@ constexpr double sign_of(std::size_t side) { return side % 2 == 1 ? 1.0 : -1.0; 
 }  // namespace
 
 std::string why_no_replay(const Scene& scene) {
+  if (!scene.changes.empty()) return "what acts changes during the run, which the event log does not hold";
   const Effects& effects = scene.effects;
   if (const std::string_view why = detail::first_reason(effects, &detail::EffectTraits::why_no_replay); !why.empty())
     return std::string(why);

@@ -1,5 +1,6 @@
 #include "pages/scene_words.hpp"
 
+#include "scene/changes.hpp"
 #include "scene/effect_traits.hpp"
 #include "scene/walls.hpp"
 #include "text/numbers.hpp"
@@ -166,6 +167,21 @@ std::string words(const std::vector<ObservableRequest>& requests) {
   return text;
 }
 
+/// One row for each of a few changes; many are counted.
+SummaryRows words_of_changes(const std::vector<Change>& changes) {
+  constexpr std::size_t most = 8;
+  if (changes.size() > most)
+    return {
+        {"changes", fmt::format("{}, from time {:.6g} to {:.6g}", changes.size(), changes.front().time, changes.back().time)}};
+  SummaryRows rows;
+  for (const Change& change : changes) {
+    const std::string text = changes_text(change);  // its second line has what it changes
+    const std::size_t begin = text.find('\n', text.find("time")) + 1;
+    rows.push_back({"change", fmt::format("at time {:.6g}, {}", change.time, text.substr(begin, text.size() - begin - 1))});
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::string sampling_words(const Run& run) {
@@ -186,6 +202,7 @@ SummaryRows words_of(const Scene& scene) {
   rows.push_back(
       {"box", fmt::format("{}; packing fraction {:.4g}", words(scene.box, scene.effects.walls), scene.packing_fraction())});
   for (const SummaryRow& row : words_of(scene.effects)) rows.push_back(row);
+  for (const SummaryRow& row : words_of_changes(scene.changes)) rows.push_back(row);
   rows.push_back({"run", words(scene.run)});
   if (!scene.observe.empty()) rows.push_back({"observables", words(scene.observe)});
   return rows;

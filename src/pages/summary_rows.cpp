@@ -121,7 +121,7 @@ SummaryRow row_of_overlap(const RunReport& report) {
 
 std::string why_there_is_no_Z(const RunReport& report, const Scene* scene) {
   if (scene != nullptr)
-    if (const std::string_view reason = why_no_Z(scene->effects); !reason.empty()) return std::string(reason);
+    if (const std::string_view reason = why_no_Z(*scene); !reason.empty()) return std::string(reason);
   if (report.totals.pair == 0) return "no pair of disks has collided";
   return report.measured && scene != nullptr && temperature_fluctuates(scene->effects)
              ? "the mean temperature is unknown without samples"
@@ -203,6 +203,8 @@ std::string why_stopped(const RunReport& report, const Scene* scene) {
                  : "grown, as requested";
     case StopReason::at_rest:
       return "at rest: drag has stopped the disks; a run with this drag cannot go further";
+    case StopReason::blocked:
+      return "blocked: " + report.blocked_by;
     case StopReason::invalid_state:
       return report.faults.empty() ? "stopped: an invariant of the engine is broken" : "stopped: " + report.faults.front();
     case StopReason::no_collisions:

@@ -317,6 +317,8 @@ void add_simulation(nb::module_& module) {
       .def_prop_ro("time", [](Running& self) { return self.use([](Simulation& s) { return s.time(); }); })
       .def_prop_ro("collisions", [](Running& self) { return self.use([](Simulation& s) { return s.counts().pair; }); })
       .def_prop_ro("engine", [](Running& self) { return self.use([](Simulation& s) { return s.engine(); }); })
+      .def_prop_ro("changes_to_come",
+                   [](Running& self) { return self.use([](Simulation& s) { return s.scene().changes.size(); }); })
       .def_prop_ro("engine_reason", [](Running& self) { return self.use([](Simulation& s) { return s.engine_reason(); }); })
       .def_prop_ro("time_step", [](Running& self) { return self.use([](Simulation& s) { return s.time_step(); }); })
       .def_prop_ro("stiffness", [](Running& self) { return self.use([](Simulation& s) { return s.stiffness(); }); })

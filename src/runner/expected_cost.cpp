@@ -59,9 +59,10 @@ std::vector<Part> parts_of(const Scene& scene) {
   return parts;
 }
 
-/// Returns the scene with its motion alone: without samples, and with equilibration as part of the run.
+/// Returns the scene with its motion alone: without samples and changes, and with equilibration as part of the run.
 Scene trial_of(const Scene& scene) {
   Scene trial = scene;
+  trial.changes.clear();
   double time = 0.0, collisions = 0.0;
   for (const Part& part : parts_of(scene)) time += part.time, collisions += part.collisions;
   trial.run.equilibrate.reset();
@@ -105,6 +106,7 @@ Trial::Trial(const Scene& scene, const std::string& engine)
 void Trial::observe(ExpectedCost& cost, const State& start, double equilibrated, double measured) const {
   Scene scene = scene_;
   scene.run.equilibrate.reset();
+  scene.changes.clear();
   scene.run.take_no_samples();
   if (scene.run.time) scene.run.time = std::min(*scene.run.time, latest);
   Simulation simulation = make_simulation(scene, start, engine_);

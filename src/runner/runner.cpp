@@ -16,7 +16,7 @@ namespace carom {
 Runner::Runner(Simulation& simulation, const RunDirectory* directory, Provenance provenance, RunnerOptions options,
                const Checkpoint* from)
     : simulation_(simulation),
-      scene_(simulation.scene()),
+      scene_(simulation.whole_scene()),
       directory_(directory),
       provenance_(std::move(provenance)),
       options_(std::move(options)),
@@ -62,6 +62,7 @@ RunResult Runner::simulate(const RunnerHooks& hooks) {
   };
   if (writer_ && scene_.output.events) schedule.events = [&](std::span<const Event> events) { writer_->events(events); };
   schedule.block = [&](const Progress& progress) { measurements_.block(progress); };
+  schedule.change = [&](bool made) { measurements_.change(made); };
   schedule.proceed = [&](const Progress& progress) {
     stopped_ = hooks.proceed && !hooks.proceed(progress);
     return !stopped_;
@@ -152,7 +153,7 @@ void Runner::read(const Checkpoint& from) {
 
 /// Observables keep the steps that followed from the end which the run began with; from another end others would follow.
 std::string Runner::scene_with_steps() const {
-  Scene scene = scene_;
+  Scene scene = parse_scene(provenance_.resolved_scene, scene_.source);  // before its changes
   const std::vector<double> steps = observation_->steps();
   for (std::size_t k = 0; k < steps.size(); ++k)
     if (steps[k] > 0.0) scene.observe[k].every = steps[k];

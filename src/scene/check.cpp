@@ -1,10 +1,11 @@
 // Checks of the parts of a scene against each other: names, room for the disks, density, given positions, and an end to the run.
 
 #include "neighbours/disks_at_rest.hpp"
+#include "scene/changes.hpp"
 #include "scene/checks.hpp"
 #include "scene/number_keys.hpp"
-
 #include "scene/regions.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -88,7 +89,6 @@ void check_positions_inside(const Box& box, std::size_t s, const Species& specie
   }
 }
 
-void check_density(const Scene& scene) {
 /// A region lies in the box, and each disk of its species fits in it.
 void check_regions(const Scene& scene) {
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
@@ -121,6 +121,7 @@ void check_regions(const Scene& scene) {
   }
 }
 
+void check_density(const Scene& scene) {
   bool all_random = true;
   std::optional<std::size_t> first;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
@@ -226,14 +227,24 @@ void check_scene(const Scene& scene) {
     check_positions_inside(scene.box, s, species, first_id);
     first_id += species.count;
   }
-  check_density(scene);
   check_regions(scene);
+  check_density(scene);
   check_overlaps(scene);
   check_fixed_shapes(scene);
-  check_effects(scene);
-  check_scales(scene);
+  if (scene.changes.empty()) {
+    check_effects(scene);
+    check_scales(scene);
+  } else {
+    check_changes(scene);
+  }
   check_run(scene);
-  check_observe(scene);
+  if (scene.changes.empty() || scene.observe.empty()) {
+    check_observe(scene);
+  } else {
+    Scene whole = scene;
+    whole.effects = effects_of_whole_run(scene);
+    check_observe(whole);
+  }
 }
 
 }  // namespace carom::detail

@@ -62,6 +62,8 @@ void check_walls(const Scene& scene);
 void check_growth(const Scene& scene);
 /// Speeds, places and masses are such that the arithmetic of every engine keeps its digits, and runs come to their end.
 void check_scales(const Scene& scene);
+/// The list of changes, and effects before and after each; in the place of check_effects() and check_scales(). Requires a change.
+void check_changes(const Scene& scene);
 void check_run(const Scene& scene);
 void check_observe(const Scene& scene);
 /// Gives a request the range of its histogram where it has none: no more than half of the box.

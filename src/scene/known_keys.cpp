@@ -184,7 +184,7 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
 std::string table_title(std::string_view path) {
   if (path.empty()) return "the scene";
   if (path.find('.') == std::string_view::npos) return fmt::format("[{}]", path);
-  for (const std::string_view list : {"disks", "obstacles"}) {
+  for (const std::string_view list : {"disks", "obstacles", "changes"}) {
     const bool entry = path.starts_with(list) && path.find('.', list.size() + 1) == std::string_view::npos;
     if (entry) return fmt::format("[[{}]]", list);
   }

@@ -20,6 +20,8 @@ void read_velocities(const TableReader& table, DisksDraft& disks);
 Collision read_collision(const toml::table& table);
 /// Fills everything but the collision from the tables of the scene.
 void read_effects(const TableReader& scene, Effects& effects);
+/// Reads the collision and all other effects of a document that has nothing else.
+Effects read_all_effects(const toml::table& document);
 std::array<WallProperties, 4> read_walls(const toml::table& table);
 /// Returns the place of an obstacle in a scene file: "obstacles.0".
 std::string path_of_obstacle(std::size_t k);

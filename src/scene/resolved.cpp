@@ -2,6 +2,7 @@
 
 #include <carom/scene.hpp>
 
+#include "scene/changes.hpp"
 #include "scene/observables_known.hpp"
 #include "scene/resolved_effects.hpp"
 #include "scene/value_text.hpp"
@@ -162,6 +163,7 @@ std::string resolved_toml(const Scene& scene) {
   put(out, "\n[output]\ntrajectory = {}\nxyz = {}\ncsv = {}\nevents = {}\nunwrapped = {}\n", scene.output.trajectory,
       scene.output.xyz, scene.output.csv, scene.output.events, scene.output.unwrapped);
   put_observe(out, scene.observe);
+  for (const Change& change : scene.changes) put(out, "\n{}", changes_text(change));
   return fmt::to_string(out);
 }
 

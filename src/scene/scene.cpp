@@ -2,6 +2,7 @@
 
 #include <carom/scene.hpp>
 
+#include "scene/changes.hpp"
 #include "scene/checks.hpp"
 #include "scene/document.hpp"
 #include "scene/effect_traits.hpp"
@@ -53,7 +54,7 @@ std::vector<detail::DisksDraft> read_all_disks(const detail::TableReader& scene,
 
 /// The keys of a whole scene: the tables of effects are those of the traits, and those that have a reader of their own.
 std::vector<std::string_view> tables() {
-  std::vector<std::string_view> names = {"title", "box", "disks", "collision", "walls", "run", "output", "observe"};
+  std::vector<std::string_view> names = {"title", "box", "disks", "collision", "walls", "run", "output", "observe", "changes"};
   for (const detail::EffectTraits& effect : detail::all_effects())
     if (effect.title == fmt::format("[{}]", effect.name) || effect.title == fmt::format("[[{}]]", effect.name))
       names.push_back(effect.name);
@@ -74,6 +75,7 @@ void read_document(const toml::table& document, const std::string& directory, de
   scene.run = detail::read_run(run);
   scene.output = detail::read_output(reader.table("output", "[output]"), scene.run.is_sampled());
   if (const toml::table* observe = reader.table("observe", "[observe]")) scene.observe = detail::read_observe(*observe);
+  if (const toml::node* changes = reader.find("changes")) scene.changes = detail::read_changes(*changes);
 }
 
 /// Returns the place of a path. A row of a start file has its place there.
@@ -106,8 +108,9 @@ Scene scene_of(const toml::table& document, const std::string& source, const std
 
 }  // namespace
 
-Effects detail::parse_effects(const std::string& text) {
-  const toml::table document = parse_toml(text, "effects");
+Effects detail::parse_effects(const std::string& text) { return read_all_effects(parse_toml(text, "effects")); }
+
+Effects detail::read_all_effects(const toml::table& document) {
   const TableReader reader(document, "", tables());
   Effects effects;
   effects.collision = read_collision(require_table(reader, "collision", "it has the rule"));

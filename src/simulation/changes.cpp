@@ -1,7 +1,9 @@
-// What a program changes while a simulation runs: another engine goes on from where the one before has come to.
+// What a program, or the scene itself, changes while a simulation runs: another engine goes on from where the one before has come
+// to.
 
 #include <carom/simulation.hpp>
 
+#include "scene/changes.hpp"
 #include "scene/effect_traits.hpp"
 #include "scene/listed_disks.hpp"
 #include "simulation/catalogue.hpp"
@@ -10,9 +12,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 namespace carom {
 
@@ -26,8 +30,9 @@ void scale_radii(Scene& scene, double scale) {
 }
 
 /// The scene that begins where a simulation is now: walls where they stand, disks one by one and as large as they have grown. In
-/// single precision disks may overlap by more than check() takes for rounding.
+/// single precision disks may overlap by more than check() takes for rounding. Changes to come have been checked.
 Scene begun_now(Scene scene, const State& state, bool single) {
+  scene.changes.clear();
   scene.box = box_of(scene.box, state);
   scale_radii(scene, single ? state.scale * (1.0 - 1e-5) : state.scale);
   list_disks(scene, state);
@@ -93,6 +98,36 @@ void Simulation::Parts::go_on(Scene with, State state, CollisionFunction with_ru
   engine_reason = std::move(reason);
   engine = std::move(another);
   if (ranks != nullptr && engine->why_not_threads().empty()) share_out();
+}
+
+/// What acts from now on need last only until the next change, or the end of the run.
+void Simulation::Parts::make_change() {
+  const Change change = scene.changes.front();
+  Scene changed = scene;
+  changed.changes.erase(changed.changes.begin());
+  State state = engine->state();
+  const auto refuse = [&](const std::string& why) {
+    throw SceneError({}, fmt::format("the change of time {} cannot be made: {}", change.time, why));
+  };
+  try {
+    if (const auto* scale = std::get_if<ScaleVelocities>(&change.what)) {
+      state.velocities *= scale->factor;
+      state.spins *= scale->factor;
+    } else {
+      changed.effects = effects_after(scene.effects, change);
+      Scene begun = begun_now(changed, state, engine_name == "textbook-float");
+      begun.run.equilibrate.reset();
+      if (const Instant next = changed.changes.empty() ? forever : Instant{changed.changes.front().time, 0.0}; next < forever)
+        begun.run.time = next.high;
+      if (begun.run.time) begun.run.time = std::max(0.0, *begun.run.time - change.time);
+      check_begun(begun, state);
+    }
+    go_on(std::move(changed), std::move(state), rule);
+  } catch (const SceneError& error) {
+    refuse(error.sentence());
+  } catch (const std::invalid_argument& error) {  // the engine that was asked for does not cover it
+    refuse(error.what());
+  }
 }
 
 void Simulation::set_effects(const Effects& effects) {

@@ -114,6 +114,8 @@ std::string why_not_by_sweeping(const Scene& scene) {
 /// Returns why a method cannot run the scene, in one sentence; empty where it can.
 std::string why_not(std::string_view method, const Scene& scene) {
   std::string why = why_no_fixed_step(scene.effects);
+  if (why.empty() && !scene.changes.empty())
+    why = "fixed-step methods go on as they began; this scene has [[changes]], which exact events alone make";
   if (why.empty() && method == "soft") why = why_not_by_springs(scene.effects);
   if (why.empty() && method == "swept") why = why_not_by_sweeping(scene);
   return why;

@@ -56,11 +56,20 @@ struct Simulation::Parts {
   CollisionFunction rule = {};              ///< of the program
   bool rule_missing = false;                ///< it had one when it was saved, and has not been given it again
   bool scheduled = false;                   ///< run_schedule() is at work
+  bool clock_began = false;                 ///< it was set to zero at the end of equilibrating: changes count from then on
+  std::optional<Scene> whole = {};          ///< Simulation::whole_scene() of a scene with changes
   Ranks* ranks = nullptr;                   ///< that compute it; null: this process alone
 
   /// Goes on with another engine, from this state in this scene, which has been checked. Throws as make_simulation() does from a
   /// state; then all is as it was.
   void go_on(Scene with, State state, CollisionFunction with_rule);
+  /// The time of the next of the scene's changes; `forever` where none is to come.
+  [[nodiscard]] Instant next_change() const {
+    const bool equilibrates = scene.run.equilibrate && !clock_began;
+    return scene.changes.empty() || equilibrates ? forever : Instant{scene.changes.front().time, 0.0};
+  }
+  /// Makes the next of the scene's changes, at now. Throws SceneError where it cannot be made; then all is as it was.
+  void make_change();
   /// Has the engine compute on the threads of all ranks. The other ranks are in serve_ranks(), and serve no simulation.
   void share_out();
   /// Throws std::invalid_argument where there is a reason against sharing it out.
@@ -73,6 +82,11 @@ struct Simulation::Parts {
   StopReason run_to(const Instant& target, const RunLimits& limits);
   /// Does the same, for runs in several stretches with one watch.
   StopReason run_to(const Instant& target, const RunLimits& limits, detail::ProceedWatch& watch);
+  /// Does the same up to the next change at most.
+  StopReason run_between_changes(const Instant& target, const RunLimits& limits, detail::ProceedWatch& watch);
+  std::optional<Event> next_event_before_change(const Instant& target, std::uint64_t collision_limit, bool& arrived);
+  /// Keeps what holds for the whole run of a scene with changes.
+  void keep_whole(const Scene& given);
   /// Goes to the next event, unless `target` or the limit of collisions comes first or the engine cannot go on. `arrived`:
   /// whether it stands at the target.
   std::optional<Event> next_event(const Instant& target, std::uint64_t collision_limit, bool& arrived);

@@ -29,7 +29,7 @@ constexpr std::string_view first_words = "carom simulation ";
 std::string build() { return fmt::format("carom {} ({}, {})", build_info().version, build_info().commit, build_info().compiler); }
 
 /// The first line. The number is that of the format of what follows: what one has written, another must not read.
-std::string head() { return fmt::format("{}4 of {}", first_words, build()); }
+std::string head() { return fmt::format("{}5 of {}", first_words, build()); }
 
 std::runtime_error refusal(const std::string& sentence) {
   return std::runtime_error("the simulation cannot be restored: " + sentence);
@@ -51,14 +51,17 @@ struct Changed {
   std::string effects;       ///< as TOML
   Box box;                   ///< its limits
   std::vector<Sizes> sizes;  ///< of each species
+  std::uint64_t to_come;     ///< of the scene's own changes
 
-  explicit Changed(const Scene& scene = {}) : effects(detail::effects_toml(scene.effects)), box(scene.box) {
+  explicit Changed(const Scene& scene = {})
+      : effects(detail::effects_toml(scene.effects)), box(scene.box), to_come(scene.changes.size()) {
     for (const Species& species : scene.species) sizes.push_back({species.radius, species.radii});
   }
   void change(Scene& scene) const {
     scene.effects = detail::parse_effects(effects);
     scene.box.lower = box.lower;
     scene.box.upper = box.upper;
+    while (scene.changes.size() > to_come) scene.changes.erase(scene.changes.begin());
     for (std::size_t s = 0; s < sizes.size(); ++s) {
       scene.species[s].radius = sizes[s].radius;
       scene.species[s].radii = sizes[s].radii;
@@ -67,7 +70,7 @@ struct Changed {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(effects, box.lower, box.upper, sizes);
+    archive(effects, box.lower, box.upper, sizes, to_come);
   }
 };
 
@@ -95,7 +98,7 @@ void detail::check_saved_head(std::istream& in) {
 }
 
 std::string detail::lasting_text(const Scene& scene) {
-  Scene lasting = {.box = scene.box, .effects = scene.effects, .run = {.seed = scene.run.seed}};
+  Scene lasting = {.box = scene.box, .effects = scene.effects, .run = {.seed = scene.run.seed}, .changes = scene.changes};
   std::uint64_t lists = 0;
   for (const Species& species : scene.species) {
     lasting.species.push_back({.count = species.count, .radius = species.radius, .mass = species.mass});
@@ -113,7 +116,8 @@ void Simulation::save(std::ostream& out) const {
   std::ostream within(&checked);
   SavingArchive archive(within);
   archive(parts.made_of.value_or(now), now, Changed(parts.scene));
-  archive(parts.engine_name, parts.engine_asked, parts.engine_reason, parts.time_step, parts.stiffness, has_collision_rule());
+  archive(parts.engine_name, parts.engine_asked, parts.engine_reason, parts.time_step, parts.stiffness, has_collision_rule(),
+          parts.clock_began);
   archive(parts.continuation.wall_draws, parts.continuation.thermostat_events, state());
   parts.engine->save(archive);
   checked.finish();
@@ -140,19 +144,22 @@ Simulation restore_simulation(const Scene& given, std::istream& in) {
 
     std::string name, asked, reason;
     std::optional<double> time_step, stiffness;
-    bool own_rule = false;
+    bool own_rule = false, clock_began = false;
     std::uint64_t wall_draws = 0, thermostat_events = 0;
     Start start{disks_of(scene), {}};
-    archive(name, asked, reason, time_step, stiffness, own_rule, wall_draws, thermostat_events, start.state);
+    archive(name, asked, reason, time_step, stiffness, own_rule, clock_began, wall_draws, thermostat_events, start.state);
     Simulation simulation = time_step ? Simulation::begin(scene, std::move(start), FixedStep{name, *time_step, stiffness})
                                       : Simulation::begin(scene, std::move(start), name);
     Simulation::Parts& parts = *simulation.parts_;
     parts.engine_asked = std::move(asked);
     parts.engine_reason = std::move(reason);
     parts.rule_missing = own_rule;
+    parts.clock_began = clock_began;
     parts.continuation.wall_draws = wall_draws;
     parts.continuation.thermostat_events = thermostat_events;
     if (made_of != saved_with) parts.made_of = std::move(made_of);
+    parts.whole.reset();
+    parts.keep_whole(given);
     parts.engine->load(archive);
     if (!checked.at_end()) throw std::runtime_error("it holds more than a simulation");
     return simulation;

@@ -25,6 +25,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace carom {
@@ -49,36 +50,41 @@ bool ends_by_growth(const std::optional<Growth>& growth) { return growth && grow
 
 class Schedule {
  public:
-  Schedule(const Scene& scene, detail::AnyEngine& engine, const Disks& disks, double smallest_radius, const RunHooks& hooks)
-      : run_(scene.run),
+  /// `make_change` makes the next of the scene's changes, which leaves another engine in `engine`.
+  Schedule(const Scene& scene, const std::unique_ptr<detail::AnyEngine>& engine, const Disks& disks, double smallest_radius,
+           const RunHooks& hooks, std::function<void()> make_change, bool& clock_began)
+      : scene_(scene),
+        run_(scene.run),
         effects_(scene.effects),
         engine_(engine),
         hooks_(hooks),
+        make_change_(std::move(make_change)),
+        clock_began_(clock_began),
         sampling_times_(detail::SamplingTimes::of(run_)),
         sample_collisions_(run_.sample_every_collisions.value_or(no_limit)),
         block_collisions_(std::max<std::uint64_t>(16, disks.count() / 2)),
         disks_(disks),
         standstill_(disks.count(), smallest_radius, effects_),
-        moving_as_one_(scene, disks) {}
+        moving_as_one_(std::in_place, scene, disks) {}
   Schedule(const Schedule&) = delete;
   Schedule& operator=(const Schedule&) = delete;
-  ~Schedule() { engine_.listen({}); }
+  ~Schedule() { engine().listen({}); }
 
   RunResult operator()() {
     list_grids();
     if (hooks_.resume != nullptr) {
       restore();
     } else if (hooks_.verify_every > 0) {
-      tolerated_overlap_ = engine_.deepest_overlap();
+      tolerated_overlap_ = engine().deepest_overlap();
     }
     if (!measuring_) {
       result_.measured = equilibrate();
       if (result_.measured) begin_to_measure();
     }
     if (measuring_) measure();
-    engine_.record_events(false);
+    engine().record_events(false);
     hand_over_records();
-    if (result_.stopped != StopReason::invalid_state) (void)is_finite(engine_.state());
+    if (result_.stopped != StopReason::invalid_state) (void)is_finite(engine().state());
     if (hooks_.checkpoint) hooks_.checkpoint(saving_moment(true));
     const bool unverified = since_verified_ > 0 || result_.verified == 0;
     if (measuring_ && hooks_.verify_every > 0 && unverified && result_.stopped != StopReason::invalid_state) verify();
@@ -116,7 +122,7 @@ class Schedule {
     }
     end_ = {until, collisions};
     if (!advance(until, collisions) && result_.stopped != StopReason::collisions) return false;
-    engine_.reset_clock();
+    engine().reset_clock();
     equilibrating_ = false;
     const std::uint64_t verified = result_.verified;
     result_ = {};
@@ -134,9 +140,9 @@ class Schedule {
   };
 
   void begin_to_measure() {
-    measuring_ = true;
+    measuring_ = clock_began_ = true;
     next_block_ = block_collisions_;
-    if (hooks_.start) hooks_.start(engine_.state());
+    if (hooks_.start) hooks_.start(engine().state());
     record_events(hooks_.events || hooks_.stop_when);
     listen();
   }
@@ -149,14 +155,14 @@ class Schedule {
     for (Instant when = next_sample(); when < forever; when = next_sample()) {
       const bool beyond = end < when;  // by the rounding of k * step, as 3 * 0.1 is beyond 0.3
       if (beyond && !advance_and_count(end, collisions)) return;
-      const Instant before = engine_.now();
-      const std::uint64_t happened = detail::happenings(engine_.counts());
+      const Instant before = engine().now();
+      const std::uint64_t happened = detail::happenings(engine().counts());
       const bool arrived = advance_and_count(when, collisions);
       const bool at_start = !(Instant{} < when);
       if (!arrived && !(at_start && collisions == 0)) return;  // the start is sampled even where nothing is to happen
       if (!take_samples(when) || !arrived) return;
       // The run ends at its end, whether it is sampled or not.
-      if (beyond && detail::happenings(engine_.counts()) == happened) engine_.set_back(before);
+      if (beyond && detail::happenings(engine().counts()) == happened) engine().set_back(before);
       if (is_hopeless()) {
         stop(StopReason::no_collisions);
         return;
@@ -174,7 +180,7 @@ class Schedule {
 
   void listen() {
     if (!hooks_.collisions) return;
-    const std::span<const std::int32_t> ids = engine_.ids();
+    const std::span<const std::int32_t> ids = engine().ids();
     const std::shared_ptr<const DiskTable> disks = disk_table({ids.begin(), ids.end()}, disks_);
     // The engine is in the middle of an event: what is thrown has to wait.
     const auto keep_thrown = [this](auto&& call) {
@@ -198,7 +204,7 @@ class Schedule {
         keep_thrown([&] { room = hooks_.room_for_records(); });
         return room;
       };
-    engine_.listen(std::move(listener));
+    engine().listen(std::move(listener));
   }
 
   [[nodiscard]] SavingMoment saving_moment(bool ended) {
@@ -225,7 +231,7 @@ class Schedule {
 
   /// The first sample after now, of a grid that was not there when the run was saved.
   [[nodiscard]] std::uint64_t first_after_now(const Grid& grid) const {
-    return measuring_ ? grid.times.last(engine_.now().high) / grid.stride + 1 : 0;
+    return measuring_ ? grid.times.last(engine().now().high) / grid.stride + 1 : 0;
   }
 
   /// `forever` where no sample is left. That of the last sample does not depend on where the run ends.
@@ -250,16 +256,16 @@ class Schedule {
     const bool positions = std::ranges::any_of(
         grids_, [&](const Grid& grid) { return looks(grid) && (grid.hook == nullptr || !grid.hook->velocities_alone); });
     if (positions)
-      engine_.state(whole_);
+      engine().state(whole_);
     else if (std::ranges::any_of(grids_, looks))
-      engine_.store_velocities(moving_);
+      engine().store_velocities(moving_);
     State& state = positions ? whole_ : moving_;
     state.time = when.high;  // the product itself, not what the engine's clock makes of it
     if (!is_finite(state)) return false;
     for (Grid& grid : grids_) {
       if (!due(grid)) continue;
       const bool own = grid.hook == nullptr;
-      if (looks(grid)) own ? hooks_.sample(grid.k, state) : grid.hook->sample(grid.k, state, engine_.totals());
+      if (looks(grid)) own ? hooks_.sample(grid.k, state) : grid.hook->sample(grid.k, state, engine().totals());
       if (own) ++result_.samples;
       ++grid.k;
     }
@@ -274,17 +280,17 @@ class Schedule {
       const std::uint64_t next = counted_ > collisions / sample_collisions_ ? collisions : counted_ * sample_collisions_;
       if (advance(target, next)) return true;
       if (result_.stopped != StopReason::collisions) return false;
-      if (engine_.counts().pair >= counted_ * sample_collisions_ && !take_counted_sample()) return false;
-      if (engine_.counts().pair >= collisions) return false;
+      if (engine().counts().pair >= counted_ * sample_collisions_ && !take_counted_sample()) return false;
+      if (engine().counts().pair >= collisions) return false;
       result_.stopped = StopReason::time;  // it goes on
     }
   }
 
   /// A fixed step may have brought several collisions at once: its sample is that of the last of them. False as take_samples().
   bool take_counted_sample() {
-    const std::uint64_t k = engine_.counts().pair / sample_collisions_;
+    const std::uint64_t k = engine().counts().pair / sample_collisions_;
     if (hooks_.sample) {
-      engine_.state(whole_);
+      engine().state(whole_);
       if (!is_finite(whole_)) return false;
       hooks_.sample(k, whole_);
     }
@@ -293,8 +299,41 @@ class Schedule {
     return true;
   }
 
-  /// Runs to `target`; false when something else ended the run first, as result_.stopped then says.
+  /// Runs to `target`, and makes the changes on the way; false when something else ended the run first, as result_.stopped then
+  /// says.
   bool advance(const Instant& target, std::uint64_t collisions) {
+    while (next_change() < target) {
+      if (!advance_unchanged(next_change(), collisions) || !change()) return false;
+    }
+    return advance_unchanged(target, collisions);
+  }
+
+  /// `forever` where no change is to come. Changes are those of the measured run.
+  [[nodiscard]] Instant next_change() const {
+    return measuring_ && !scene_.changes.empty() ? Instant{scene_.changes.front().time, 0.0} : forever;
+  }
+
+  /// Makes the change that is due now; false where it cannot be made.
+  bool change() {
+    if (recording_ && take_events()) return stop(StopReason::condition);
+    hand_over_records();
+    if (hooks_.change) hooks_.change(false);
+    try {
+      make_change_();
+    } catch (const SceneError& error) {
+      result_.blocked_by = error.sentence();
+      return stop(StopReason::blocked);
+    }
+    engine().record_events(recording_);
+    listen();
+    moving_as_one_.emplace(scene_, disks_);
+    without_collision_ = 0;
+    if (hooks_.change) hooks_.change(true);
+    return true;
+  }
+
+  /// Runs to `target` while nothing changes.
+  bool advance_unchanged(const Instant& target, std::uint64_t collisions) {
     for (;;) {
       if (hooks_.proceed && Clock::now() - last_look_ > std::chrono::milliseconds(100)) {
         last_look_ = Clock::now();
@@ -306,42 +345,42 @@ class Schedule {
       const bool is_met = recording_ && take_events();
       hand_over_records();
       if (hooks_.verify_every > 0 && since_verified_ >= hooks_.verify_every && !verify()) return false;
-      if (engine_.counts().pair >= next_block_) {
+      if (engine().counts().pair >= next_block_) {
         if (hooks_.block) hooks_.block(progress());
         next_block_ += block_collisions_;
       }
-      if (!engine_.fault().empty()) return stop(StopReason::invalid_state);
+      if (!engine().fault().empty()) return stop(StopReason::invalid_state);
       if (is_met) return stop(StopReason::condition);
-      if (engine_.counts().pair >= collisions) return stop(StopReason::collisions);
+      if (engine().counts().pair >= collisions) return stop(StopReason::collisions);
       if (arrived && target < forever) return true;
-      if (const auto reason = detail::why_stopped(engine_, effects_)) return stop(*reason);
-      if (const auto reason = standstill_.reached(engine_, end_)) return stop_at_standstill(*reason, target, collisions);
-      if (!ends_by_time_ && moving_as_one_.reached(engine_)) return stop(StopReason::cooled);
+      if (const auto reason = detail::why_stopped(engine(), effects_)) return stop(*reason);
+      if (const auto reason = standstill_.reached(engine(), end_)) return stop_at_standstill(*reason, target, collisions);
+      if (!ends_by_time_ && moving_as_one_->reached(engine())) return stop(StopReason::cooled);
       if (is_hopeless()) return stop(StopReason::no_collisions);
     }
   }
 
   /// True when the engine stands at the target.
   bool run_stretch(const Instant& target, std::uint64_t pair_limit) {
-    const std::uint64_t pairs = engine_.counts().pair;
-    const std::uint64_t before = detail::all_events(engine_.counts()), epochs = engine_.counts().numerics.epochs;
-    const Instant began = engine_.now();
+    const std::uint64_t pairs = engine().counts().pair;
+    const std::uint64_t before = detail::all_events(engine().counts()), epochs = engine().counts().numerics.epochs;
+    const Instant began = engine().now();
     const auto started = Clock::now();
     const std::uint64_t limit = std::min({hooks_.stop_when && measuring_ ? 1
                                           : recording_                   ? recorded_events
                                                                          : stretch_events,
-                                          until_verified(), moving_as_one_.until_look(engine_.counts())});
+                                          until_verified(), moving_as_one_->until_look(engine().counts())});
     const bool step_by_step = hooks_.stop_when && measuring_;
     const bool arrived =
-        step_by_step ? engine_.run_until(target, pair_limit, limit) : engine_.run_about(target, pair_limit, limit);
+        step_by_step ? engine().run_until(target, pair_limit, limit) : engine().run_about(target, pair_limit, limit);
     result_.loop_seconds += seconds_since(started);
-    const std::uint64_t events = detail::all_events(engine_.counts()) - before;
-    stands_ = events > 0 && !(began < engine_.now());
-    if (began < engine_.now()) standing_.clear();
+    const std::uint64_t events = detail::all_events(engine().counts()) - before;
+    stands_ = events > 0 && !(began < engine().now());
+    if (began < engine().now()) standing_.clear();
     since_verified_ += events;
     const std::uint64_t begun =
-        engine_.counts().numerics.epochs - epochs;  // walls may outrun all disks, and nothing else happens
-    without_collision_ = engine_.counts().pair > pairs ? 0 : without_collision_ + events + begun;
+        engine().counts().numerics.epochs - epochs;  // walls may outrun all disks, and nothing else happens
+    without_collision_ = engine().counts().pair > pairs ? 0 : without_collision_ + events + begun;
     return arrived;
   }
 
@@ -354,16 +393,16 @@ class Schedule {
   bool verify() {
     since_verified_ = 0;
     ++result_.verified;
-    result_.faults = engine_.check_invariants(tolerated_overlap_);
+    result_.faults = engine().check_invariants(tolerated_overlap_);
     // Disks that overlap from the start come apart, and never overlap deeper.
-    if (tolerated_overlap_ > 0.0) tolerated_overlap_ = std::min(tolerated_overlap_, engine_.deepest_overlap());
+    if (tolerated_overlap_ > 0.0) tolerated_overlap_ = std::min(tolerated_overlap_, engine().deepest_overlap());
     return result_.faults.empty() || stop(StopReason::invalid_state);
   }
 
   /// Only collisions can end this, and none will come.
   [[nodiscard]] bool is_hopeless() const {
-    return !ends_by_time_ && !ends_by_growth(effects_.growth) &&
-           (disks_.count() < 2 || engine_.idle() || without_collision_ > patience);
+    return !ends_by_time_ && scene_.changes.empty() && !ends_by_growth(effects_.growth) &&
+           (disks_.count() < 2 || engine().idle() || without_collision_ > patience);
   }
 
   /// Ends the run where a number of the state is none.
@@ -376,7 +415,7 @@ class Schedule {
 
   /// Whether the condition for the end of the run is met.
   bool take_events() {
-    engine_.take_events(events_);
+    engine().take_events(events_);
     if (events_.empty()) return false;
     for (const Event& event : events_) {
       if (!stands_) break;
@@ -390,17 +429,17 @@ class Schedule {
   }
 
   void hand_over_records() {
-    engine_.hand_over_records();
+    engine().hand_over_records();
     if (thrown_) std::rethrow_exception(thrown_);
   }
 
-  void record_events(bool on) { engine_.record_events(recording_ = on); }
+  void record_events(bool on) { engine().record_events(recording_ = on); }
 
   bool stop(StopReason reason) {
     result_.stopped = reason;
-    if (reason == StopReason::invalid_state && result_.faults.empty()) result_.faults = {engine_.fault()};
+    if (reason == StopReason::invalid_state && result_.faults.empty()) result_.faults = {engine().fault()};
     if (reason == StopReason::jammed || reason == StopReason::collapsed) {
-      for (const std::int32_t disk : engine_.slow()) standing_.push_back(disk);
+      for (const std::int32_t disk : engine().slow()) standing_.push_back(disk);
       sort_out(standing_);
       result_.stopped_disks = standing_;
     }
@@ -416,22 +455,29 @@ class Schedule {
     return stop(reason);
   }
 
-  [[nodiscard]] Progress progress() const { return {engine_.now().high, engine_.totals(), result_.loop_seconds, equilibrating_}; }
+  [[nodiscard]] Progress progress() const {
+    return {engine().now().high, engine().totals(), result_.loop_seconds, equilibrating_};
+  }
 
+  [[nodiscard]] detail::AnyEngine& engine() const { return *engine_; }
+
+  const Scene& scene_;
   const Run& run_;
   const Effects& effects_;
-  detail::AnyEngine& engine_;
+  const std::unique_ptr<detail::AnyEngine>& engine_;
   const RunHooks& hooks_;
+  const std::function<void()> make_change_;
+  bool& clock_began_;
   const std::optional<detail::SamplingTimes> sampling_times_;
   const std::uint64_t sample_collisions_;  ///< from one sample to the next; no_limit where they are not counted so
   const std::uint64_t block_collisions_;
   const Disks& disks_;
   detail::Standstill standstill_;
-  detail::MovingAsOne moving_as_one_;
-  detail::RunEnd end_;                  ///< of equilibrating, or of the measured run
-  bool stands_ = false;                 ///< the clock, over a whole stretch
-  std::vector<std::int32_t> standing_;  ///< ids of the disks that have collided since then
-  bool recording_ = false;              ///< events
+  std::optional<detail::MovingAsOne> moving_as_one_;  ///< there always; made anew where effects change
+  detail::RunEnd end_;                                ///< of equilibrating, or of the measured run
+  bool stands_ = false;                               ///< the clock, over a whole stretch
+  std::vector<std::int32_t> standing_;                ///< ids of the disks that have collided since then
+  bool recording_ = false;                            ///< events
   std::uint64_t next_block_ = no_limit;
   std::uint64_t counted_ = 0;  ///< the next of the samples that are counted in collisions
   std::uint64_t without_collision_ = 0;
@@ -475,7 +521,9 @@ RunResult run_schedule(Simulation& simulation, const RunHooks& hooks) {
     ~AtWork() { flag = false; }
   } const at_work(parts.scheduled);
   parts.recording = false;
-  return Schedule(parts.scene, *parts.engine, parts.disks, parts.smallest_radius, hooks)();
+  return Schedule(
+      parts.scene, parts.engine, parts.disks, parts.smallest_radius, hooks, [&parts] { parts.make_change(); },
+      parts.clock_began)();
 }
 
 }  // namespace carom

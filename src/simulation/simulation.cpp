@@ -3,6 +3,7 @@
 #include <carom/simulation.hpp>
 
 #include "core/all_events.hpp"
+#include "scene/changes.hpp"
 #include "scene/effect_traits.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
@@ -22,6 +23,14 @@
 namespace carom {
 
 StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& limits, detail::ProceedWatch& watch) {
+  while (next_change() < target) {
+    if (const StopReason stopped = run_between_changes(next_change(), limits, watch); stopped != StopReason::time) return stopped;
+    make_change();
+  }
+  return run_between_changes(target, limits, watch);
+}
+
+StopReason Simulation::Parts::run_between_changes(const Instant& target, const RunLimits& limits, detail::ProceedWatch& watch) {
   if (!std::isfinite(target.high) || !std::isfinite(target.low))
     throw std::invalid_argument("a simulation runs to a finite time only");
   if (time_step && (limits.events != RunLimits::none || limits.stop_when))
@@ -48,12 +57,29 @@ StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& lim
   }
 }
 
+void Simulation::Parts::keep_whole(const Scene& given) {
+  if (given.changes.empty()) return;
+  whole = given;
+  whole->effects = detail::effects_of_whole_run(given);
+}
+
 StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& limits) {
   detail::ProceedWatch watch(limits.proceed);
   return run_to(target, limits, watch);
 }
 
 std::optional<Event> Simulation::Parts::next_event(const Instant& target, std::uint64_t collision_limit, bool& arrived) {
+  while (next_change() < target) {
+    std::optional<Event> event = next_event_before_change(next_change(), collision_limit, arrived);
+    if (event || !arrived) return event;
+    make_change();
+    arrived = false;
+  }
+  return next_event_before_change(target, collision_limit, arrived);
+}
+
+std::optional<Event> Simulation::Parts::next_event_before_change(const Instant& target, std::uint64_t collision_limit,
+                                                                 bool& arrived) {
   const Counts before = engine->counts();
   const auto may_go_on = [&] {
     const Counts& now = engine->counts();
@@ -80,6 +106,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 const Scene& Simulation::scene() const { return parts_->scene; }
+const Scene& Simulation::whole_scene() const { return parts_->whole ? *parts_->whole : parts_->scene; }
 const Disks& Simulation::disks() const { return parts_->disks; }
 const std::string& Simulation::engine() const { return parts_->engine_name; }
 std::optional<double> Simulation::time_step() const { return parts_->time_step; }
@@ -103,7 +130,6 @@ StopReason Simulation::run_sampled(double until, const SamplingGrid& grid, const
     throw std::invalid_argument(fmt::format("samples are {:g} apart; that must be positive and finite", grid.step));
   if (!std::isfinite(until)) throw std::invalid_argument("a simulation runs to a finite time only");
   if (range.stride == 0) throw std::invalid_argument("every 0th sample is none; the stride must be 1 or more");
-  detail::AnyEngine& engine = *parts_->engine;
   const detail::SamplingTimes times(grid.step);
   detail::ProceedWatch watch(limits.proceed);
   const Instant end{until, 0.0};
@@ -111,21 +137,21 @@ StopReason Simulation::run_sampled(double until, const SamplingGrid& grid, const
   const std::uint64_t last = times.last(until);
   State state;
   std::uint64_t taken = 0;
-  for (std::uint64_t k = times.next(engine.now(), range); k <= last; k += range.stride) {
+  for (std::uint64_t k = times.next(parts_->engine->now(), range); k <= last; k += range.stride) {
     if (taken++ == range.most) return StopReason::condition;
-    const Instant when = std::max(times.at(k), engine.now());
+    const Instant when = std::max(times.at(k), parts_->engine->now());
     const bool beyond = end < when;  // by the rounding of k * step, as 3 * 0.1 is beyond 0.3
     if (beyond)
       if (const StopReason reason = parts_->run_to(end, limits, watch); reason != StopReason::time) return reason;
-    const Instant before = engine.now();
-    const std::uint64_t happened = detail::happenings(engine.counts());
+    const Instant before = parts_->engine->now();
+    const std::uint64_t happened = detail::happenings(parts_->engine->counts());
     if (const StopReason reason = parts_->run_to(when, limits, watch); reason != StopReason::time) return reason;
     if (grid.sample) {
-      grid.velocities_alone ? engine.store_velocities(state) : engine.state(state);
+      grid.velocities_alone ? parts_->engine->store_velocities(state) : parts_->engine->state(state);
       state.time = when.high;
-      grid.sample(k, state, engine.totals());
+      grid.sample(k, state, parts_->engine->totals());
     }
-    if (beyond && detail::happenings(engine.counts()) == happened) engine.set_back(before);
+    if (beyond && detail::happenings(parts_->engine->counts()) == happened) parts_->engine->set_back(before);
     if (watch.stopped()) return StopReason::interrupted;
   }
   return parts_->run_to(end, limits, watch);
@@ -164,7 +190,10 @@ void Simulation::set_threads(const Threads& threads, Ranks& ranks) {
 }
 ThreadCounts Simulation::thread_counts() const { return parts_->engine->thread_counts(); }
 
-void Simulation::reset_clock() { parts_->engine->reset_clock(); }
+void Simulation::reset_clock() {
+  parts_->engine->reset_clock();
+  parts_->clock_began = true;
+}
 void Simulation::record_events(bool on) { parts_->engine->record_events(parts_->recording = on); }
 std::vector<Event> Simulation::take_events() {
   std::vector<Event> events;
@@ -178,7 +207,7 @@ void Simulation::take_events(std::vector<Event>& events) {
   parts_->events.clear();
 }
 bool Simulation::supports_collision_records() const {
-  const Effects& effects = parts_->scene.effects;
+  const Effects& effects = whole_scene().effects;
   return parts_->engine->supports_collision_records() && !has_collision_rule() && velocities_determine_contacts(effects) &&
          !detail::any_acting(effects, &detail::EffectTraits::bends_paths);
 }
@@ -209,6 +238,7 @@ Simulation Simulation::begin(const Scene& scene, Start start, const std::string&
   Simulation simulation(
       std::unique_ptr<Parts>(new Parts{scene, std::move(start.disks), entry.name, std::move(running), std::move(reason)}));
   simulation.parts_->engine_asked = engine;
+  simulation.parts_->keep_whole(scene);
   return simulation;
 }
 
@@ -248,6 +278,8 @@ std::string to_string(StopReason reason) {
       return "at_rest";
     case StopReason::no_collisions:
       return "no_collisions";
+    case StopReason::blocked:
+      return "blocked";
     case StopReason::invalid_state:
       return "invalid_state";
   }

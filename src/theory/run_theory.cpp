@@ -47,6 +47,10 @@ RunTheory::RunTheory(const RunReport& report, std::optional<TheorySource> source
   }
   const Scene& scene = source_->scene;
   const Disks& disks = source_->disks;
+  if (!scene.changes.empty()) {
+    why_not_Z_ = "No theory is given: what acts changes during the run.";
+    return;
+  }
   const bool is_moving = report_.measured && kT_ > 0.0 && std::isfinite(kT_);
   const bool is_equal = disks.count() > 2 && all_equal(disks.radius) && all_equal(disks.mass);
   const bool is_periodic = scene.box.periodic(0) && scene.box.periodic(1);

@@ -173,3 +173,35 @@ def test_maxwells_demon_makes_heat_flow_from_cold_to_hot() -> None:
     untouched = carom.Simulation(carom.Scene.parse(sim.scene.toml))
     assert sim.kinetic_energy == pytest.approx(untouched.kinetic_energy, rel=1e-11)  # a door does no work
     assert sim.check_invariants() == []
+
+
+def test_a_scene_changes_itself_on_the_way() -> None:
+    box = {"x": (0, 10), "y": (0, 10), "boundary": "walls"}
+    disks = {"radius": 0.1, "mass": 2, "positions": [(5, 5)], "velocities": [(0.5, 0)]}
+    changes = [{"time": 1.0, "set": ["gravity.acceleration=[0.0, -2.0]"]}, {"time": 2.5, "scale_velocities": 0.0}]
+    scene = {"box": box, "disks": disks, "collision": {"rule": "specular"}, "run": {"time": 3}, "changes": changes}
+    sim = carom.Simulation(scene)
+    sim.run_until(1.0)
+    assert "gravity" not in sim.scene.to_dict()
+    sim.run_until(2.5)
+    assert sim.scene.to_dict()["gravity"]["acceleration"] == [0.0, -2.0]
+    assert len(sim.scene.to_dict()["changes"]) == 1
+    assert sim.positions == pytest.approx(np.array([[6.25, 5.0 - 0.5 * 2.0 * 1.5**2]]), abs=1e-12)
+    again = pickle.loads(pickle.dumps(sim))
+    for one in (sim, again):
+        one.run_until(3.0)
+        assert one.positions == pytest.approx(np.array([[6.25, 2.75 - 0.5 * 2.0 * 0.5**2]]), abs=1e-12)
+    assert carom.run(scene).state_hash == sim.state.state_hash
+
+
+def test_a_change_that_a_disk_blocks_is_told() -> None:
+    box = {"x": (0, 10), "y": (0, 10), "boundary": "walls"}
+    disks = {"radius": 0.5, "mass": 1, "positions": [(5, 5)], "velocities": "rest"}
+    changes = [{"time": 1.0, "add_obstacle": {"disk": {"centre": (5, 5.1), "radius": 0.2}}}]
+    scene = {"box": box, "disks": disks, "collision": {"rule": "specular"}, "run": {"time": 3}, "changes": changes}
+    sim = carom.Simulation(scene)
+    with pytest.raises(carom.SceneError, match="the change of time 1 cannot be made: disk 0 overlaps obstacles.0"):
+        sim.run_until(3.0)
+    assert sim.time == 1.0
+    with pytest.warns(carom.StoppedEarly):
+        assert carom.run(scene).stopped == "blocked"

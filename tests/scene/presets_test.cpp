@@ -102,7 +102,7 @@ TEST(Readme, ItsSceneIsValid) {
 
 TEST(FormatPage, ItsScenesAreValid) {
   const std::vector<std::string> blocks = scenes_of_the_page();
-  ASSERT_EQ(blocks.size(), 4U);
+  ASSERT_EQ(blocks.size(), 5U);
   EXPECT_EQ(parse_scene(blocks[0]).disk_count(), 64);
   // The second shows the short form of box and disks alone; its comment gives the length that follows.
   const Scene scene = parse_scene(blocks[1] + "[collision]\nrule = \"specular\"\n[run]\ntime = 1.0\n");
@@ -113,6 +113,8 @@ TEST(FormatPage, ItsScenesAreValid) {
       testing::ElementsAre("reversal", "walls", "gravity", "inelastic_walls", "thermal_walls", "obstacles", "thermostat"));
   // The fourth has the second measured.
   EXPECT_EQ(parse_scene(blocks[1] + "[collision]\nrule = \"specular\"\n[run]\ntime = 1.0\n" + blocks[3]).observe.size(), 5U);
+  // The fifth changes what the third has added.
+  EXPECT_EQ(parse_scene(blocks[0] + blocks[2] + blocks[4]).changes.size(), 2U);
 }
 
 TEST(FormatPage, NamesEveryObservable) {

@@ -82,6 +82,27 @@ TEST(Resolved, ASceneMadeInAProgramSurvives) {
   EXPECT_EQ(first_difference(parse_scene(resolved_toml(scene)), named), "");
 }
 
+TEST(Resolved, ChangesSurvive) {
+  const Scene scene = parse_scene(std::string(testing_support::small_scene) + R"(
+[[obstacles]]
+segment = { from = [0.0, 0.1], to = [0.3, 0.0] }
+[[changes]]
+time = 0.1
+set = ["gravity.acceleration=[0.1, 0.2]", 'collision.rule="reversal"']
+[[changes]]
+time = 0.30000000000000004
+scale_velocities = -0.1
+[[changes]]
+time = 0.30000000000000004
+remove_obstacle = 0
+[[changes]]
+time = 4.9
+add_obstacle = { disk = { centre = [9.9, 0.1], radius = 0.05 } }
+)");
+  EXPECT_EQ(scene.changes.size(), 4U);
+  EXPECT_EQ(first_difference(parse_scene(resolved_toml(scene)), scene), "");
+}
+
 TEST(Resolved, AnEmptyBoxSurvives) {
   const Scene scene = parse_scene(
       "disks = []\nbox = { x = [0, 1], y = [0, 1], boundary = \"walls\" }\ncollision.rule = \"reversal\"\nrun.time = 0");
@@ -156,6 +177,15 @@ class SceneMaker {
            "\n";
   }
 
+  /// A part of the box, a rectangle or a circle.
+  [[nodiscard]] std::string region() const {
+    const double x = lower_[0] + 2.0 * unit_interval(), y = lower_[1] + 2.0 * unit_interval();
+    if (*rc::gen::arbitrary<bool>())
+      return "{ random = { x = " + pair_text(x, x + 9.0 + unit_interval()) + ", y = " + pair_text(y, y + 9.0 + unit_interval()) +
+             " } }";
+    return "{ random = { centre = " + pair_text(x + 6.0, y + 6.0) + ", radius = " + number_text(5.0 + unit_interval()) + " } }";
+  }
+
   /// One number, or where there are disks perhaps a list of one for each.
   template <class Number>
   static std::string one_or_list(int count, Number number) {
@@ -177,15 +207,6 @@ class SceneMaker {
         return "{ speed = " + number_text(std::abs(any_double())) + " }";
       default:
         break;
-  /// A part of the box, a rectangle or a circle.
-  [[nodiscard]] std::string region() const {
-    const double x = lower_[0] + 2.0 * unit_interval(), y = lower_[1] + 2.0 * unit_interval();
-    if (*rc::gen::arbitrary<bool>())
-      return "{ random = { x = " + pair_text(x, x + 9.0 + unit_interval()) + ", y = " + pair_text(y, y + 9.0 + unit_interval()) +
-             " } }";
-    return "{ random = { centre = " + pair_text(x + 6.0, y + 6.0) + ", radius = " + number_text(5.0 + unit_interval()) + " } }";
-  }
-
     }
     std::string list;
     for (int i = 0; i < count; ++i) {

@@ -1,6 +1,8 @@
 #pragma once
 // Whether two scenes ask for the same, to the last bit: all fields but text, source, locations and overrides.
 
+#include "scene/changes.hpp"
+
 #include <carom/scene.hpp>
 
 #include <bit>
@@ -63,10 +65,10 @@ inline std::string first_difference(const Effects& a, const Effects& b) {
   }
   if (differ(a.growth, b.growth, &Growth::rate, &Growth::packing_fraction, &Growth::reduced_pressure)) return "growth";
   if (differ(a.thermostat, b.thermostat, &Thermostat::temperature, &Thermostat::rate)) return "thermostat";
-  if (differ(a.shear, b.shear, &Shear::rate)) return "shear";
-  if (differ(a.square_well, b.square_well, &SquareWell::width, &SquareWell::depth)) return "square_well";
   if (differ(a.tumbling, b.tumbling, &Tumbling::rate)) return "tumbling";
   if (differ(a.brownian, b.brownian, &Brownian::temperature, &Brownian::rate)) return "brownian";
+  if (differ(a.shear, b.shear, &Shear::rate)) return "shear";
+  if (differ(a.square_well, b.square_well, &SquareWell::width, &SquareWell::depth)) return "square_well";
   return {};
 }
 
@@ -114,6 +116,9 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
       return "observe." + x.name;
     }
   }
+  if (a.changes.size() != b.changes.size()) return "number of changes";
+  for (std::size_t k = 0; k < a.changes.size(); ++k)
+    if (changes_text(a.changes[k]) != changes_text(b.changes[k])) return "changes." + std::to_string(k);
   if (a.species.size() != b.species.size()) return "number of species";
   for (std::size_t s = 0; s < a.species.size(); ++s) {
     const Species &x = a.species[s], &y = b.species[s];
@@ -122,13 +127,6 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
     if (!same(x.radius, y.radius) || !same_list(x.radii, y.radii, same)) return at + " radius";
     if (!same(x.mass, y.mass) || !same_list(x.masses, y.masses, same)) return at + " mass";
     if (x.positions.index() != y.positions.index()) return at + " kind of positions";
-    if (const auto* list = std::get_if<ListedPositions>(&x.positions)) {
-      if (!same_list(list->values, std::get<ListedPositions>(y.positions).values, same_pair)) return at + " positions";
-    }
-    if (const auto* file = std::get_if<FilePositions>(&x.positions)) {
-      const auto& other = std::get<FilePositions>(y.positions);
-      if (file->path != other.path || !same_list(file->values, other.values, same_pair)) return at + " start file";
-    }
     if (const auto* random = std::get_if<RandomPositions>(&x.positions)) {
       const auto& other = std::get<RandomPositions>(y.positions).region;
       if (random->region.has_value() != other.has_value()) return at + " region";
@@ -140,6 +138,13 @@ inline std::string first_difference(const Scene& a, const Scene& b) {
         const auto &mine = std::get<RectangleRegion>(*random->region), &its = std::get<RectangleRegion>(*other);
         if (!same_pair(mine.lower, its.lower) || !same_pair(mine.upper, its.upper)) return at + " rectangle";
       }
+    }
+    if (const auto* list = std::get_if<ListedPositions>(&x.positions)) {
+      if (!same_list(list->values, std::get<ListedPositions>(y.positions).values, same_pair)) return at + " positions";
+    }
+    if (const auto* file = std::get_if<FilePositions>(&x.positions)) {
+      const auto& other = std::get<FilePositions>(y.positions);
+      if (file->path != other.path || !same_list(file->values, other.values, same_pair)) return at + " start file";
     }
     if (const auto* grown = std::get_if<GrownPositions>(&x.positions)) {
       if (!same(grown->packing_fraction, std::get<GrownPositions>(y.positions).packing_fraction)) return at + " packing fraction";

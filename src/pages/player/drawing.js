@@ -119,10 +119,20 @@ function drawEdges(moment) {
   context.lineCap = "round";
 }
 
-function drawShapes(shifts) {
+/** The fixed shapes at a time: the scene may change them. */
+function shapesAt(time) {
+  let shapes = description.shapes;
+  for (const change of description.laterShapes ?? []) {
+    if (change.time < time) shapes = change.shapes;
+  }
+  return shapes;
+}
+
+function drawShapes(shifts, time) {
+  const shapes = shapesAt(time);
   for (const [a, b] of shifts) {
     context.beginPath();
-    for (const shape of description.shapes) {
+    for (const shape of shapes) {
       if (shape.centre === undefined || shape.angles !== undefined) continue;
       const px = pixelX(shape.centre[0] + a * box.lengths[0]);
       const py = pixelY(shape.centre[1] + b * box.lengths[1]);
@@ -132,14 +142,14 @@ function drawShapes(shifts) {
     context.fillStyle = theme.solid;
     context.fill();
     context.beginPath();
-    for (const { centre, radius: size, angles } of description.shapes) {
+    for (const { centre, radius: size, angles } of shapes) {
       if (angles === undefined || (box.isCircle && angles[1] - angles[0] >= 360)) continue;
       const [first, last] = angles.map((angle) => (-angle * Math.PI) / 180);
       const [px, py] = [pixelX(centre[0] + a * box.lengths[0]), pixelY(centre[1] + b * box.lengths[1])];
       context.moveTo(px + size * view.scale * Math.cos(first), py + size * view.scale * Math.sin(first));
       context.arc(px, py, size * view.scale, first, last, true);
     }
-    for (const { from, to } of description.shapes) {
+    for (const { from, to } of shapes) {
       if (from === undefined) continue;
       context.moveTo(pixelX(from[0] + a * box.lengths[0]), pixelY(from[1] + b * box.lengths[1]));
       context.lineTo(pixelX(to[0] + a * box.lengths[0]), pixelY(to[1] + b * box.lengths[1]));
@@ -234,7 +244,7 @@ function drawMoment(moment, target = stageContext) {
     boxPath(moment);
     context.clip();  // an image shows on the other side what the edge cuts off
   }
-  drawShapes(shifts);
+  drawShapes(shifts, moment.time);
   const [left, right, bottom, top] = moment.walls;
   const boxFrame = { left: pixelX(left), right: pixelX(right), top: pixelY(top), bottom: pixelY(bottom) };
   const frame = showsImages ? { left: 0, right: view.width, top: 0, bottom: view.height } : boxFrame;

@@ -3,6 +3,7 @@
 #include "io/summary.hpp"
 #include "observe/effects_report.hpp"
 #include "observe/observable_group.hpp"
+#include "scene/changes.hpp"
 #include "scene/effect_traits.hpp"
 #include "scene/excerpt.hpp"
 #include "scene/known_keys.hpp"
@@ -218,13 +219,16 @@ bool is_usual_number(std::string_view name) {
   return std::find(usual.begin(), usual.end(), name) != usual.end();
 }
 
-std::vector<std::string> number_names(const Scene& scene) {
-  const Disks disks = all_disks(scene);
+std::vector<std::string> number_names(const Scene& given) {
+  const Disks disks = all_disks(given);
+  Scene scene = given;
+  scene.effects = detail::effects_of_whole_run(given);
   const State state = state_of_nothing(scene, static_cast<Eigen::Index>(disks.count()));
   RunReport report;
   report.of_effects = effects_report(scene, disks, Totals{}, state);
   if (scene.effects.collision.roughness) report.of_effects.spin_temperature = 0.0;
   if (scene.run.accept_overlap) report.overlap_at_start = 0.0;
+  if (!scene.changes.empty()) report.of_effects.changes.emplace();
   ObservableGroup group(observed_run(scene, disks, 1.0));
   group.start(state);
   sample_functions_of_lag(group, state);

@@ -1,6 +1,6 @@
 #pragma once
-// Changes of a run at given times, as data and as TOML text: what somebody did while the run went on, so that the same run can be
-// had again to the last bit.
+// Changes of a run at given times, as plain data: the [[changes]] tables of a scene, of a file for `carom run --changes`, and of
+// the playground.
 
 #include <carom/effects.hpp>
 
@@ -13,8 +13,8 @@
 
 namespace carom {
 
-/// Sets keys of the scene, as overrides do: "gravity.acceleration=[0,-1]". Effects can be changed, and radius and mass of a
-/// species.
+/// Sets keys of the scene, as overrides do: "gravity.acceleration=[0,-1]". Effects can be changed; outside of a scene's own list,
+/// radius and mass of a species too.
 struct SetKeys {
   std::vector<std::string> overrides = {};
 };
@@ -47,19 +47,10 @@ struct RemoveObstacle {
   std::int64_t obstacle = 0;
 };
 
-/// One change, at one time.
+/// One change, at one time: after all that happens up to and at that time, samples included.
 struct Change {
   double time = 0.0;  ///< since the start of the measured run, >= 0
   std::variant<SetKeys, ScaleVelocities, AddDisk, RemoveDisk, MoveDisk, AddObstacle, RemoveObstacle> what = {};
 };
-
-/// Reads a list of changes, one [[changes]] table each, in order of time. `source` names the text in messages. Throws SceneError
-/// with the place of what is wrong.
-[[nodiscard]] std::vector<Change> parse_changes(const std::string& text, const std::string& source);
-/// Reads the file of such a list. Throws SceneError, too where the file cannot be read.
-[[nodiscard]] std::vector<Change> load_changes(const std::string& path);
-
-/// Returns the change as its [[changes]] table, with a newline at the end. parse_changes() of the result gives the same change.
-[[nodiscard]] std::string changes_text(const Change& change);
 
 }  // namespace carom

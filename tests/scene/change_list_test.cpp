@@ -1,6 +1,6 @@
 // Lists of changes as text: every kind is read as it was written, and what is wrong is refused with its place.
 
-#include "live/change.hpp"
+#include "scene/changes.hpp"
 
 #include <carom/scene.hpp>
 

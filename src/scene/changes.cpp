@@ -1,0 +1,263 @@
+#include "scene/changes.hpp"
+
+#include "scene/document.hpp"
+#include "scene/effect_traits.hpp"
+#include "scene/read_tables.hpp"
+#include "scene/refusal.hpp"
+#include "scene/resolved_effects.hpp"
+#include "scene/table_reader.hpp"
+#include "scene/value_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace carom {
+namespace {
+
+using detail::TableReader;
+
+constexpr std::string_view pair_example = "[0.5, 0.5]";
+
+double finite_number(const toml::node& node, const std::string& path) {
+  const std::optional<double> value = node.value<double>();
+  if (!value || !node.is_number() || !std::isfinite(*value)) detail::refuse(node, path, "a finite number");
+  return *value;
+}
+
+std::int64_t index_at(const TableReader& table, std::string_view key) {
+  return detail::read_integer(table.require(key, fmt::format("give it, such as {} = 0", key)), table.path(key),
+                              fmt::format("{} = 0", key));
+}
+
+Eigen::Vector2d pair_at(const TableReader& table, std::string_view key) {
+  return detail::read_pair(table.require(key, fmt::format("give it, such as {} = {}", key, pair_example)), table.path(key),
+                           pair_example);
+}
+
+Eigen::Vector2d velocity_in(const TableReader& table) {
+  const toml::node* node = table.find("velocity");
+  return node == nullptr ? Eigen::Vector2d(Eigen::Vector2d::Zero())
+                         : detail::read_pair(*node, table.path("velocity"), pair_example);
+}
+
+SetKeys keys_in(const toml::node& node, const std::string& path) {
+  const std::string expected = "a list of texts, such as [\"gravity.acceleration=[0,-1]\"]";
+  const toml::array* list = node.as_array();
+  if (list == nullptr || list->empty()) detail::refuse(node, path, expected);
+  SetKeys set;
+  for (const toml::node& entry : *list) {
+    if (!entry.is_string()) detail::refuse(entry, path, expected);
+    set.overrides.push_back(entry.as_string()->get());
+  }
+  return set;
+}
+
+Change read_change(const toml::table& node, const std::string& path) {
+  const std::vector<std::string_view> kinds = {"set",       "scale_velocities", "add_disk",       "remove_disk",
+                                               "move_disk", "add_obstacle",     "remove_obstacle"};
+  std::vector<std::string_view> known = kinds;
+  known.emplace_back("time");
+  const TableReader table(node, path, known);
+  Change change;
+  const toml::node& time = table.require("time", "give it, such as time = 2.5");
+  change.time = finite_number(time, table.path("time"));
+  if (change.time < 0.0) detail::refuse(time, table.path("time"), "zero or more");
+  std::string_view found;
+  for (const std::string_view kind : kinds) {
+    if (table.find(kind) == nullptr) continue;
+    if (!found.empty())
+      throw SceneError(table.where(kind),
+                       fmt::format("{} has both {} and {}; give each change a table of its own", path, found, kind));
+    found = kind;
+  }
+  if (found.empty())
+    throw SceneError(table.where(), fmt::format("{} changes nothing; give one of {}", path, fmt::join(kinds, ", ")));
+  const toml::node& value = *table.find(found);
+  const auto within = [&](const char* example, std::vector<std::string_view> keys) {
+    return TableReader(*table.table(found, example), table.path(found), std::move(keys));
+  };
+  if (found == "set") {
+    change.what = keys_in(value, table.path(found));
+  } else if (found == "scale_velocities") {
+    change.what = ScaleVelocities{finite_number(value, table.path(found))};
+  } else if (found == "add_disk") {
+    const TableReader disk = within("add_disk = { position = [0.5, 0.5] }", {"species", "position", "velocity"});
+    change.what = AddDisk{disk.integer("species", "species = 0").value_or(0), pair_at(disk, "position"), velocity_in(disk)};
+  } else if (found == "remove_disk") {
+    change.what = RemoveDisk{index_at(table, found)};
+  } else if (found == "move_disk") {
+    const TableReader disk = within("move_disk = { disk = 0, position = [0.5, 0.5] }", {"disk", "position", "velocity"});
+    change.what = MoveDisk{index_at(disk, "disk"), pair_at(disk, "position"), velocity_in(disk)};
+  } else if (found == "add_obstacle") {
+    change.what = AddObstacle{detail::read_obstacle(
+        *table.table(found, "add_obstacle = { segment = { from = [0, 0], to = [0, 1] } }"), table.path(found))};
+  } else {
+    change.what = RemoveObstacle{index_at(table, found)};
+  }
+  return change;
+}
+
+std::string text_of(const Eigen::Vector2d& pair) {
+  return fmt::format("[{}, {}]", detail::number_text(pair.x()), detail::number_text(pair.y()));
+}
+
+/// The obstacle as the value of a key: its table of a scene in one line.
+std::string text_of(const Obstacle& obstacle) {
+  Effects alone;
+  alone.obstacles = {obstacle};
+  const std::string table = detail::effects_toml(alone);
+  const std::string_view title = "[[obstacles]]\n";
+  const std::size_t begin = table.find(title) + title.size();
+  return fmt::format("{{ {} }}", table.substr(begin, table.find('\n', begin) - begin));
+}
+
+struct Text {
+  std::string operator()(const SetKeys& set) const {
+    std::string list;
+    for (const std::string& entry : set.overrides) list += (list.empty() ? "" : ", ") + detail::quoted_text(entry);
+    return fmt::format("set = [{}]", list);
+  }
+  std::string operator()(const ScaleVelocities& scale) const {
+    return fmt::format("scale_velocities = {}", detail::number_text(scale.factor));
+  }
+  std::string operator()(const AddDisk& add) const {
+    return fmt::format("add_disk = {{ species = {}, position = {}, velocity = {} }}", add.species, text_of(add.position),
+                       text_of(add.velocity));
+  }
+  std::string operator()(const RemoveDisk& remove) const { return fmt::format("remove_disk = {}", remove.disk); }
+  std::string operator()(const MoveDisk& move) const {
+    return fmt::format("move_disk = {{ disk = {}, position = {}, velocity = {} }}", move.disk, text_of(move.position),
+                       text_of(move.velocity));
+  }
+  std::string operator()(const AddObstacle& add) const { return "add_obstacle = " + text_of(add.obstacle); }
+  std::string operator()(const RemoveObstacle& remove) const { return fmt::format("remove_obstacle = {}", remove.obstacle); }
+};
+
+}  // namespace
+
+std::vector<Change> detail::read_changes(const toml::node& node) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr) refuse(node, "changes", "a list of tables: write [[changes]] with double brackets");
+  std::vector<Change> changes;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const std::string path = fmt::format("changes.{}", i);
+    const toml::table* entry = (*list)[i].as_table();
+    if (entry == nullptr) refuse((*list)[i], path, "a table: write [[changes]] with double brackets");
+    changes.push_back(read_change(*entry, path));
+    if (i > 0 && changes[i].time < changes[i - 1].time)
+      throw SceneError(location_of((*list)[i]), times_out_of_order(i, changes[i].time, changes[i - 1].time));
+  }
+  return changes;
+}
+
+std::string detail::times_out_of_order(std::size_t k, double time, double before) {
+  return fmt::format("changes.{}.time is {}, before the {} of the change above; put changes in order of time", k, time, before);
+}
+
+std::vector<Change> parse_changes(const std::string& text, const std::string& source) {
+  const toml::table document = detail::parse_toml(text, source);
+  const TableReader reader(document, "", {"changes"});
+  const toml::node* node = reader.find("changes");
+  return node == nullptr ? std::vector<Change>() : detail::read_changes(*node);
+}
+
+std::vector<Change> load_changes(const std::string& path) { return parse_changes(detail::read_text_file(path), path); }
+
+std::string changes_text(const Change& change) {
+  return fmt::format("[[changes]]\ntime = {}\n{}\n", detail::number_text(change.time), std::visit(Text{}, change.what));
+}
+
+void require_changeable(const std::string& override_text) {
+  const std::string key = override_text.substr(0, override_text.find_first_of("= "));
+  for (const char* const table : {"box", "run", "output", "observe", "title", "changes"})
+    if (key == table || key.starts_with(std::string(table) + "."))
+      throw SceneError(
+          {}, fmt::format("{} belongs to the start of a run; a change may set effects, and radius and mass of disks", key));
+  if (key.starts_with("disks.") && !key.ends_with(".radius") && !key.ends_with(".mass"))
+    throw SceneError({}, fmt::format("{} belongs to the start of a run; a change may set radius and mass of disks", key));
+}
+
+/// Keys are set in the effects of now, as overrides are in a file that says so.
+Effects effects_after(const Effects& effects, const Change& change) {
+  Effects after = effects;
+  if (const auto* set = std::get_if<SetKeys>(&change.what)) {
+    for (const std::string& text : set->overrides) require_changeable(text);
+    toml::table document = detail::parse_toml(detail::effects_toml(effects), "effects");
+    for (const std::string& text : set->overrides) detail::apply_override(document, text);
+    try {
+      return detail::read_all_effects(document);
+    } catch (const detail::Refusal& refusal) {
+      throw SceneError({}, refusal.what());
+    }
+  }
+  if (const auto* add = std::get_if<AddObstacle>(&change.what)) {
+    after.obstacles.push_back(add->obstacle);
+  } else if (const auto* gone = std::get_if<RemoveObstacle>(&change.what)) {
+    if (gone->obstacle < 0 || gone->obstacle >= static_cast<std::int64_t>(after.obstacles.size()))
+      throw SceneError({}, fmt::format("there is no obstacle {}; there are {}", gone->obstacle, after.obstacles.size()));
+    after.obstacles.erase(after.obstacles.begin() + gone->obstacle);
+  }
+  return after;
+}
+
+Effects effects_at(const Scene& scene, double time) {
+  Effects effects = scene.effects;
+  for (const Change& change : scene.changes)
+    if (change.time < time) effects = effects_after(effects, change);
+  return effects;
+}
+
+namespace {
+
+void take_where_it_lacks(std::optional<double>& number, const std::optional<double>& other, double neutral) {
+  if (number.value_or(neutral) == neutral && other) number = other;
+}
+
+}  // namespace
+
+Effects detail::merged(const Effects& one, const Effects& other) {
+  Effects both = one;
+  const auto acts = [](const Effects& effects, std::string_view name) { return effect_named(name).acts(effects); };
+  const auto take = [&](auto Effects::*table, std::string_view name) {
+    if (!acts(one, name) && other.*table) both.*table = other.*table;
+  };
+  take(&Effects::gravity, "gravity");
+  take(&Effects::growth, "growth");
+  take(&Effects::thermostat, "thermostat");
+  take(&Effects::tumbling, "tumbling");
+  take(&Effects::brownian, "brownian");
+  take(&Effects::shear, "shear");
+  take(&Effects::square_well, "square_well");
+  take(&Effects::drag, "drag");
+  if (one.obstacles.empty()) both.obstacles = other.obstacles;
+  take_where_it_lacks(both.collision.restitution, other.collision.restitution, 1.0);
+  take_where_it_lacks(both.collision.roughness, other.collision.roughness, -1.0);
+  take_where_it_lacks(both.collision.elastic_below, other.collision.elastic_below, 0.0);
+  for (std::size_t w = 0; w < both.walls.size(); ++w) {
+    WallProperties& wall = both.walls[w];
+    const WallProperties& more = other.walls[w];
+    take_where_it_lacks(wall.restitution, more.restitution, 1.0);
+    if (!wall.temperature) wall.temperature = more.temperature;
+    take_where_it_lacks(wall.velocity, more.velocity, 0.0);
+    take_where_it_lacks(wall.tangential_velocity, more.tangential_velocity, 0.0);
+    take_where_it_lacks(wall.vibration, more.vibration, 0.0);
+    if (!wall.mass) wall.mass = more.mass, wall.load = more.load;
+  }
+  return both;
+}
+
+Effects detail::effects_of_whole_run(const Scene& scene) {
+  Effects now = scene.effects, whole = scene.effects;
+  for (const Change& change : scene.changes) {
+    now = effects_after(now, change);
+    whole = merged(whole, now);
+  }
+  return whole;
+}
+
+}  // namespace carom

@@ -1,0 +1,136 @@
+// The list of changes of a scene: times within the run and in order, effects that exist, and after each change a scene that could
+// have begun so. Whether disks are in the way is known only when the run has come there.
+
+#include "scene/changes.hpp"
+#include "scene/checks.hpp"
+#include "scene/effect_traits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace carom::detail {
+namespace {
+
+constexpr const char* advice_on_disks =
+    "a run has the same disks from start to end, so give such changes by carom run --changes, or in the playground";
+
+void check_kind(const Change& change, const std::string& path) {
+  const auto refuse = [&](const char* key) {
+    throw Refusal(path + "." + key, fmt::format("{}.{} changes the disks; {}", path, key, advice_on_disks));
+  };
+  if (std::holds_alternative<AddDisk>(change.what)) refuse("add_disk");
+  if (std::holds_alternative<RemoveDisk>(change.what)) refuse("remove_disk");
+  if (std::holds_alternative<MoveDisk>(change.what)) refuse("move_disk");
+  if (const auto* scale = std::get_if<ScaleVelocities>(&change.what); scale != nullptr && !std::isfinite(scale->factor))
+    throw Refusal(path + ".scale_velocities", fmt::format("{}.scale_velocities is {}; it must be a finite number, such as "
+                                                          "scale_velocities = -1.0",
+                                                          path, scale->factor));
+  if (const auto* set = std::get_if<SetKeys>(&change.what))
+    for (const std::string& text : set->overrides)
+      if (text.starts_with("disks."))
+        throw Refusal(path + ".set", fmt::format("{}.set has {}; {}", path, text.substr(0, text.find('=')), advice_on_disks));
+}
+
+void check_time(const Scene& scene, std::size_t k, const std::string& path) {
+  const double time = scene.changes[k].time;
+  if (!(time >= 0.0) || !std::isfinite(time))
+    throw Refusal(path + ".time",
+                  fmt::format("{}.time is {}; it must be a finite number, zero or more, such as time = 2.5", path, time));
+  if (k > 0 && time < scene.changes[k - 1].time)
+    throw Refusal(path + ".time", times_out_of_order(k, time, scene.changes[k - 1].time));
+  if (scene.run.time && time >= *scene.run.time)
+    throw Refusal(path + ".time", fmt::format("{}.time is {}, and the run ends at time {}; make the change earlier, or the run "
+                                              "longer",
+                                              path, time, *scene.run.time));
+}
+
+/// A scene with the effects of one stretch of the run, which lasts as long as that.
+Scene stage_of(const Scene& scene, const Effects& effects, const Box& box, std::optional<double> lasts) {
+  Scene stage = scene;
+  for (Species& species : stage.species) species.positions = RandomPositions{};
+  stage.effects = effects;
+  stage.box = box;
+  stage.run.time = lasts;
+  stage.changes.clear();
+  stage.observe.clear();
+  return stage;
+}
+
+void check_stage(const Scene& stage) {
+  check_numbers(stage);
+  check_fixed_shapes(stage);
+  check_effects(stage);
+  check_scales(stage);
+}
+
+/// Moves walls of given velocities. Where pistons get to is not known.
+void move_walls(Box& box, const Effects& effects, double time) {
+  for (std::size_t w = 0; w < effects.walls.size(); ++w) {
+    const auto axis = static_cast<Eigen::Index>(w / 2);
+    (w % 2 == 0 ? box.lower : box.upper)[axis] += effects.walls[w].velocity.value_or(0.0) * time;
+  }
+}
+
+/// Observables know one flow and one clock.
+void check_observables(const Scene& scene, const Effects& now, const Effects& before, const std::string& path) {
+  if (scene.observe.empty()) return;
+  const auto slides_otherwise = [&](std::size_t w) {
+    const WallProperties &one = now.walls[w], &other = before.walls[w];
+    return one.tangential_velocity.value_or(0.0) != other.tangential_velocity.value_or(0.0) ||
+           one.vibration.value_or(0.0) != other.vibration.value_or(0.0);
+  };
+  const bool slides = slides_otherwise(0) || slides_otherwise(1) || slides_otherwise(2) || slides_otherwise(3);
+  if ((slides || now.acceleration() != before.acceleration()) &&
+      std::ranges::any_of(scene.observe, [](const ObservableRequest& request) { return request.name == "work"; }))
+    throw Refusal(path,
+                  fmt::format("{} changes gravity, or how a wall slides or vibrates, and observe.work knows one value of each "
+                              "only; remove one of the two",
+                              path));
+  if (now.shear_rate() == before.shear_rate() && now.drag_rate() == before.drag_rate() &&
+      now.growth_rate() == before.growth_rate())
+    return;
+  throw Refusal(path,
+                fmt::format("{} changes shear, growth or drag, and observables know one rate only; remove [observe], or make "
+                            "a run of each rate",
+                            path));
+}
+
+}  // namespace
+
+void check_changes(const Scene& scene) {
+  Effects now = scene.effects;
+  Box box = scene.box;
+  double since = 0.0;
+  const auto until = [&](std::size_t k) -> std::optional<double> {
+    return k < scene.changes.size() ? std::optional(scene.changes[k].time) : scene.run.time;
+  };
+  check_time(scene, 0, "changes.0");
+  check_stage(stage_of(scene, now, box, until(0)));
+  for (std::size_t k = 0; k < scene.changes.size(); ++k) {
+    const Change& change = scene.changes[k];
+    const std::string path = fmt::format("changes.{}", k);
+    check_time(scene, k, path);
+    check_kind(change, path);
+    move_walls(box, now,
+               change.time - since + (k == 0 && scene.run.equilibrate ? scene.run.equilibrate->time.value_or(0.0) : 0.0));
+    since = change.time;
+    const Effects before = now;
+    try {
+      now = effects_after(before, change);
+      const std::optional<double> end = until(k + 1);
+      Scene stage = stage_of(scene, now, box, end ? std::optional(*end - change.time) : std::nullopt);
+      stage.run.equilibrate.reset();
+      check_stage(stage);
+    } catch (const Refusal& refusal) {
+      throw Refusal(path, fmt::format("{}: {}", path, refusal.what()));
+    } catch (const SceneError& error) {
+      throw Refusal(path, fmt::format("{}: {}", path, error.sentence()));
+    }
+    check_observables(scene, now, before, path);
+  }
+}
+
+}  // namespace carom::detail
