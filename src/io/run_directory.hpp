@@ -17,7 +17,7 @@ namespace carom {
 
 /// The names of all files that a run may write, and of the pages that `carom play` and `carom report` make of one: another run's
 /// must not stay beside them. The summary comes last: where it is, the run is complete.
-inline constexpr std::array<std::string_view, 30> run_products = {"checkpoint.h5",
+inline constexpr std::array<std::string_view, 31> run_products = {"checkpoint.h5",
                                                                   "checkpoint-previous.h5",
                                                                   "trajectory.h5md",
                                                                   "trajectory.xyz",
@@ -44,6 +44,7 @@ inline constexpr std::array<std::string_view, 30> run_products = {"checkpoint.h5
                                                                   "observe_viscosity.csv",
                                                                   "observe_heat_conductivity.csv",
                                                                   "observe_h_function.csv",
+                                                                  "observe_work.csv",
                                                                   "player.html",
                                                                   "report.html",
                                                                   "summary.json"};

@@ -35,6 +35,7 @@ constexpr Entry catalogue[] = {
     {"heat_conductivity", &make_heat_conductivity},
     {"h_function", &make_h_function},
     {"wall_fluxes", &make_wall_fluxes},
+    {"work", &make_work},
 };
 
 }  // namespace

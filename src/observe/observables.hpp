@@ -49,6 +49,7 @@ MadeObservable make_viscosity(const ObservableRequest& request, const ObservedRu
 MadeObservable make_heat_conductivity(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_h_function(const ObservableRequest& request, const ObservedRun& run);
 MadeObservable make_wall_fluxes(const ObservableRequest& request, const ObservedRun& run);
+MadeObservable make_work(const ObservableRequest& request, const ObservedRun& run);
 
 /// Makes the observable that a scene asks for. Throws SceneError where there is none of that name.
 [[nodiscard]] MadeObservable make_observable(const ObservableRequest& request, const ObservedRun& run);

@@ -28,7 +28,7 @@ struct KnownObservable {
 };
 
 /// All observables, in the order of docs/scene-format.md, which is that of all results.
-inline constexpr std::array<KnownObservable, 23> known_observables = {{
+inline constexpr std::array<KnownObservable, 24> known_observables = {{
     {.name = "temperature", .example = "temperature = true", .step = 4.0},
     {.name = "pressure", .example = "pressure = true", .step = 16.0},
     {.name = "collision_rate", .example = "collision_rate = true", .step = 16.0},
@@ -66,6 +66,7 @@ inline constexpr std::array<KnownObservable, 23> known_observables = {{
     {.name = "heat_conductivity", .example = "heat_conductivity = true", .step = 0.25},
     {.name = "h_function", .example = "h_function = true", .step = 0.25},
     {.name = "wall_fluxes", .example = "wall_fluxes = true", .step = 16.0},
+    {.name = "work", .example = "work = true", .step = 1.0},
 }};
 
 /// Null where there is no observable of that name.

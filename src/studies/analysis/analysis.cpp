@@ -2,6 +2,7 @@
 
 #include "observe/observable_group.hpp"
 #include "observe/observables.hpp"
+#include "scene/changes.hpp"
 #include "simulation/sampling_times.hpp"
 
 #include <carom/io/run_reader.hpp>
@@ -121,6 +122,12 @@ Analysis analyse(const std::filesystem::path& run_directory, const std::vector<s
   Scene& scene = analysis.scene;
   if (scene.observe.empty())
     throw std::invalid_argument("the run's scene has no [observe] table; name what to measure, such as pressure");
+  for (const ObservableRequest& request : scene.observe)
+    if (request.name == "work")
+      throw std::invalid_argument(
+          "work and heat are measured while the scene runs, and its files do not hold what baths and collisions gave; name other "
+          "observables");
+  scene.effects = detail::effects_of_whole_run(scene);
   ObservedRun observed = observed_run(scene, run.disks(), run.reference_temperature());
   observed.collisions_known = run.has_event_log();
   for (ObservableRequest& request : scene.observe) choose_step(request, observed, run.samples());

@@ -27,6 +27,7 @@ const std::vector<Trial>& all_trials() {
     add_cooling_fields_walls(list);
     add_flows(list);
     add_rough_gas(list);
+    add_fluctuations(list);
     add_fixed_steps(list);
     return list;
   }();
