@@ -3,7 +3,7 @@
 set(carom_presets box barometer bouncing_ball brownian cavity channel clusters compression couette defects dense
                   dense_mixture diffusion dilute_gas drag drum free_expansion galperin galton gas granular_column
                   granular_gas growth heated_walls hourglass lorentz lorentz_wide maxwells_door mixture mushroom newtons_cradle
-                  observe piston poiseuille polydisperse rough shear sinai square_well stadium thermostat two_disks vibrated)
+                  observe piston poiseuille polydisperse rough shear sinai square_well stadium thermostat two_disks vibrated brownian_dynamics heat_fluctuations jarzynski maxwells_demon tumbling)
 
 list(TRANSFORM carom_presets REPLACE "(.+)" "docs/scenes/\\1.toml" OUTPUT_VARIABLE carom_preset_files)
 carom_embed_texts(carom preset_texts ${carom_preset_files})
