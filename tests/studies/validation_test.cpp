@@ -146,7 +146,7 @@ TEST(ValidationTrials, HaveNamesOfTheirOwnAndCoverEveryGroup) {
     EXPECT_TRUE(names.insert(trial.name).second) << trial.name;
     groups.insert(trial.group);
   }
-  EXPECT_EQ(groups.size(), 8U);
+  EXPECT_EQ(groups.size(), 9U);
 }
 
 TEST(ValidationTrials, OfAQuickValidationAreThoseThatAreNotForTheFullOneAlone) {
