@@ -18,7 +18,7 @@ FORBIDDEN = {
     "thermostat": {"drag"},
 }
 OBSERVABLES = (
-    "temperature", "pressure", "velocity_moments", "h_function", "work", "collision_rate", "free_flight", "speeds", "radial_distribution", "structure_factor",
+    "temperature", "pressure", "velocity_moments", "h_function", "collision_rate", "free_flight", "speeds", "radial_distribution", "structure_factor",
     "hexatic", "voronoi", "clusters", "density_profile", "fields", "mean_square_displacement", "intermediate_scattering", "overlap", "non_gaussian", "van_hove", "velocity_autocorrelation", "viscosity", "heat_conductivity", "wall_fluxes",
 )
 HOSTILE = (
