@@ -64,7 +64,7 @@ std::vector<double> works(double from, double to, std::uint64_t first, int runs)
 }
 
 TEST(PhysicsFluctuations, WorkObeysJarzynskiAndCrooks) {
-  constexpr int runs = 1200;
+  constexpr int runs = 800;
   const double difference = theory::free_energy_difference(2, 1.0, 6.0, 4.0, 4.0);
   std::vector<double> exponentials, one, other, plain = works(6.0, 4.0, 1, runs);
   for (const double work : plain) {
@@ -74,13 +74,13 @@ TEST(PhysicsFluctuations, WorkObeysJarzynskiAndCrooks) {
   for (const double work : works(4.0, 6.0, 10'001, runs)) other.push_back(1.0 / (1.0 + std::exp(work + difference)));
   const Mean jarzynski = mean_of(exponentials), work = mean_of(plain), forward = mean_of(one), back = mean_of(other);
   EXPECT_NEAR(jarzynski.value, 1.0, 4.0 * jarzynski.error);
-  EXPECT_LT(jarzynski.error, 0.05);
+  EXPECT_LT(jarzynski.error, 0.08);
   EXPECT_NEAR(forward.value, back.value, 4.0 * std::hypot(forward.error, back.error));
   EXPECT_GT(work.value - difference, 4.0 * work.error) << "the compression is not slow";
 }
 
 TEST(PhysicsFluctuations, HeatGoesTheWrongWayAsOftenAsItMay) {
-  constexpr int runs = 2000;
+  constexpr int runs = 1200;
   std::vector<double> exponentials;
   int wrong = 0;
   for (int r = 0; r < runs; ++r) {
