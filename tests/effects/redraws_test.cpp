@@ -127,7 +127,7 @@ TEST_P(Redraws, AreToldOneByOneToThoseWhoStep) {
   while (const auto event = simulation.step(2.0)) {
     if (event->partner != thermostat_event) continue;
     ++told;
-    EXPECT_EQ(simulation.state().velocities.col(event->disk), event->velocity);
+    EXPECT_LT((simulation.state().velocities.col(event->disk) - event->velocity).norm(), 1e-13);  // of a falling frame
   }
   EXPECT_GT(told, 1U);
 }

@@ -54,7 +54,7 @@ TEST(Changes, AreReadAsTheyWereWritten) {
 TEST(Changes, MayBeNone) { EXPECT_TRUE(parse_changes("", "list.toml").empty()); }
 
 TEST(Changes, AreRefusedWithTheirPlace) {
-  EXPECT_THAT(refusal_of("[[changes]]\nremove_disk = 1\n"), HasSubstr("list.toml:1:1: changes.0 lacks time"));
+  EXPECT_THAT(refusal_of("[[changes]]\nremove_disk = 1\n"), HasSubstr("list.toml:1:1: [[changes]] lacks time"));
   EXPECT_THAT(refusal_of("[[changes]]\ntime = -1\nremove_disk = 1\n"), HasSubstr("list.toml:2:8: changes.0.time"));
   EXPECT_THAT(refusal_of("[[changes]]\ntime = nan\nremove_disk = 1\n"), HasSubstr("must be a finite number"));
   EXPECT_THAT(refusal_of("[[changes]]\ntime = 1\n"), HasSubstr("changes nothing; give one of set, scale_velocities"));
