@@ -23,7 +23,7 @@
 namespace carom {
 
 StopReason Simulation::Parts::run_to(const Instant& target, const RunLimits& limits, detail::ProceedWatch& watch) {
-  while (next_change() < target) {
+  while (next_change() < std::min(target, forever)) {  // a target that is not finite is refused below
     if (const StopReason stopped = run_between_changes(next_change(), limits, watch); stopped != StopReason::time) return stopped;
     make_change();
   }
