@@ -33,7 +33,7 @@ void check_list(const std::string& path, const std::vector<double>& list, std::i
 
 void check_region(const std::string& path, const std::variant<RectangleRegion, CircleRegion>& region) {
   if (const auto* circle = std::get_if<CircleRegion>(&region)) {
-    require_pair(path + ".centre", circle->centre, keys::circle_example);
+    require_pair(path + ".centre", circle->centre, keys::region_circle_example);
     require(path, circle->radius, keys::region_radius);
     return;
   }

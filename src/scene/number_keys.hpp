@@ -53,8 +53,8 @@ inline constexpr NumberKey packing_fraction{"packing_fraction", "packing_fractio
 inline constexpr NumberKey grown_fraction{"packing_fraction", "{ packing_fraction = 0.7 }", Range::above_zero};
 inline constexpr std::string_view position_example = "[0.5, 0.5]", velocity_example = "[1.0, 0.0]";
 inline constexpr std::string_view rectangle_example = "{ random = { x = [-1.0, 0.0], y = [-1.0, 1.0] } }";
-inline constexpr std::string_view circle_example = "{ random = { centre = [0.0, 0.0], radius = 0.5 } }";
-inline constexpr NumberKey region_radius{"radius", circle_example, Range::above_zero};
+inline constexpr std::string_view region_circle_example = "{ random = { centre = [0.0, 0.0], radius = 0.5 } }";
+inline constexpr NumberKey region_radius{"radius", region_circle_example, Range::above_zero};
 inline constexpr NumberKey uniform{"uniform", "{ uniform = 1.0 }", Range::zero_or_more};
 inline constexpr NumberKey start_temperature{"temperature", "{ temperature = 1.0 }", Range::zero_or_more};
 inline constexpr NumberKey speed{"speed", "{ speed = 1.0 }", Range::zero_or_more};

@@ -189,10 +189,10 @@ Positions in_region(const toml::table& node, const std::string& path) {
   }
   if (has("centre") && has("radius") && !has("x") && !has("y"))
     return RandomPositions{.region =
-                               CircleRegion{pair("centre", keys::circle_example), table.required_number(keys::region_radius)}};
+                               CircleRegion{pair("centre", keys::region_circle_example), table.required_number(keys::region_radius)}};
   throw SceneError(table.where(), fmt::format("{} is neither a rectangle nor a circle; give x and y, such as {}, or centre and "
                                               "radius, such as {}",
-                                              path, keys::rectangle_example, keys::circle_example));
+                                              path, keys::rectangle_example, keys::region_circle_example));
 }
 
 Positions from_table(const toml::table& node, const std::string& path, const std::string& directory, DisksDraft& disks) {
