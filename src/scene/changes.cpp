@@ -190,10 +190,12 @@ Effects effects_after(const Effects& effects, const Change& change) {
     toml::table document = detail::parse_toml(detail::effects_toml(effects), "effects");
     for (const std::string& text : set->overrides) detail::apply_override(document, text);
     try {
-      return detail::read_all_effects(document);
+      after = detail::read_all_effects(document);
     } catch (const detail::Refusal& refusal) {
       throw SceneError({}, refusal.what());
     }
+    after.circle = effects.circle;  // it belongs to the box, which stays
+    return after;
   }
   if (const auto* add = std::get_if<AddObstacle>(&change.what)) {
     after.obstacles.push_back(add->obstacle);

@@ -58,7 +58,9 @@ struct Changed {
     for (const Species& species : scene.species) sizes.push_back({species.radius, species.radii});
   }
   void change(Scene& scene) const {
+    const std::optional<Circle> circle = scene.effects.circle;  // it belongs to the box
     scene.effects = detail::parse_effects(effects);
+    scene.effects.circle = circle;
     scene.box.lower = box.lower;
     scene.box.upper = box.upper;
     while (scene.changes.size() > to_come) scene.changes.erase(scene.changes.begin());

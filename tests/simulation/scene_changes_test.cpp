@@ -222,6 +222,43 @@ TEST(SceneChanges, APartitionHoldsTheGasUntilItVanishes) {
   EXPECT_GT(on_the_right(), 8);
 }
 
+TEST(SceneChanges, LeaveACircularBoxAsItIs) {
+  const std::string round =
+      "[box]\ncircle = { centre = [0, 0], radius = 5 }\n[[disks]]\ncount = 12\nradius = 0.4\nmass = 1\n"
+      "positions = \"random\"\nvelocities = { temperature = 1 }\n[collision]\nrule = \"specular\"\n[run]\ntime = 20\n";
+  const Scene scene = parse_scene(round + "[[changes]]\ntime = 1.0\nset = [\"gravity.acceleration=[0, -1]\"]\n" +
+                                  "[[changes]]\ntime = 2.0\nadd_obstacle = { arc = { centre = [0, 0], radius = 0.001, from = "
+                                  "0, to = 180 } }\n");
+  for (const char* engine : both_engines) {
+    Simulation simulation = make_simulation(scene, engine);
+    const RunResult result = run_schedule(simulation);
+    ASSERT_EQ(result.stopped, StopReason::time);
+    EXPECT_LE(simulation.state().positions.colwise().norm().maxCoeff(), 4.6 * (1.0 + 1e-12)) << engine;
+    Simulation by_hand = make_simulation(parse_scene(round), engine);
+    by_hand.run_until(1.0);
+    Effects effects = by_hand.scene().effects;
+    effects.gravity = Gravity{{0.0, -1.0}};
+    by_hand.set_effects(effects);
+    by_hand.run_until(2.0);
+    effects.obstacles = {ArcObstacle{{0.0, 0.0}, 0.001, 0.0, 180.0}};
+    by_hand.set_effects(effects);
+    by_hand.run_until(20.0);
+    EXPECT_EQ(hash_of(simulation), hash_of(by_hand)) << engine;
+  }
+  Simulation before = make_simulation(scene);
+  before.run_until(3.0);
+  std::stringstream saved;
+  before.save(saved);
+  Simulation restored = restore_simulation(scene, saved);
+  restored.run_until(20.0);
+  LiveRun live(scene);
+  live.run_until(20.0);
+  Simulation direct = make_simulation(scene);
+  direct.run_until(20.0);
+  EXPECT_EQ(live.hash(), hash_of(direct));
+  EXPECT_EQ(hash_of(restored), hash_of(direct));
+}
+
 TEST(SceneChanges, ThatDisksBlockEndTheRunWithWhatItHas) {
   const Scene scene = parse_scene(gas("[[changes]]\ntime = 1.5\nadd_obstacle = { disk = { centre = [5, 5], radius = 4.5 } }\n",
                                       "time = 3.0\nsample_every = 0.5"));
