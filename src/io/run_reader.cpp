@@ -6,7 +6,7 @@
 #include "io/finished_run.hpp"
 #include "io/h5md_parts.hpp"
 #include "io/hdf5_handle.hpp"
-#include "scene/fixed_shapes.hpp"
+#include "scene/changes.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -240,7 +240,7 @@ std::vector<Event> RunReader::event_log(std::uint64_t first, std::uint64_t numbe
                               partner = column("partner", 1);
     const std::vector<double> velocity = column("velocity", 2), partner_velocity = column("partner_velocity", 2);
     const auto count = static_cast<double>(disks_.count());
-    const double last_shape = first_obstacle + 1.0 - static_cast<double>(fixed_shapes(scene_.effects).size());
+    const double last_shape = first_obstacle + 1.0 - static_cast<double>(most_fixed_shapes(scene_));
     for (std::size_t e = 0; e < events.size(); ++e) {
       const double p = partner[e];
       const bool known = p >= 0.0 ? p < count && p != disk[e]

@@ -2,6 +2,7 @@
 
 #include "scene/document.hpp"
 #include "scene/effect_traits.hpp"
+#include "scene/fixed_shapes.hpp"
 #include "scene/read_tables.hpp"
 #include "scene/refusal.hpp"
 #include "scene/resolved_effects.hpp"
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -212,6 +214,16 @@ Effects effects_at(const Scene& scene, double time) {
   for (const Change& change : scene.changes)
     if (change.time < time) effects = effects_after(effects, change);
   return effects;
+}
+
+std::size_t most_fixed_shapes(const Scene& scene) {
+  Effects now = scene.effects;
+  std::size_t most = fixed_shapes(now).size();
+  for (const Change& change : scene.changes) {
+    now = effects_after(now, change);
+    most = std::max(most, fixed_shapes(now).size());
+  }
+  return most;
 }
 
 namespace {

@@ -31,6 +31,9 @@ void require_changeable(const std::string& override_text);
 /// Returns what acts at a time of the measured run: what the scene begins with and all changes before that time have left.
 [[nodiscard]] Effects effects_at(const Scene& scene, double time);
 
+/// Returns the largest number of fixed shapes that the scene has at any time of its run.
+[[nodiscard]] std::size_t most_fixed_shapes(const Scene& scene);
+
 namespace detail {
 
 /// `node` is the value of `changes`, a list of tables.

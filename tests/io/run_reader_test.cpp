@@ -170,6 +170,19 @@ TEST_F(RunReaderTest, HasTheEventsOfARunWithoutSamples) {
   EXPECT_THROW((void)run.sample(0), OutputError);
 }
 
+TEST_F(RunReaderTest, KnowsObstaclesThatComeDuringTheRun) {
+  const std::string scene =
+      "[box]\nx = [0, 4]\ny = [0, 4]\nboundary = \"walls\"\n[[disks]]\nradius = 0.5\nmass = 1\npositions = [[1, 1]]\n"
+      "velocities = [[1, 0]]\n[collision]\nrule = \"specular\"\n[run]\ntime = 4.0\nsample_every = 1.0\n"
+      "[output]\nevents = true\n[[changes]]\ntime = 0.5\nadd_obstacle = { segment = { from = [3, 0], to = [3, 4] } }\n";
+  record(parse_scene(scene), run_);
+  const std::vector<Event> log = RunReader(run_).event_log();
+  ASSERT_EQ(log.size(), 2U);
+  EXPECT_EQ(log[0].partner, first_obstacle);
+  EXPECT_EQ(log[0].time, 1.5);
+  EXPECT_EQ(log[1].partner, wall_left);
+}
+
 TEST_F(RunReaderTest, RefusesARunWithoutATrajectory) {
   (void)recorded();
   fs::remove(run_ / "trajectory.h5md");
