@@ -188,8 +188,8 @@ Positions in_region(const toml::table& node, const std::string& path) {
     return RandomPositions{.region = RectangleRegion{{x[0], y[0]}, {x[1], y[1]}}};
   }
   if (has("centre") && has("radius") && !has("x") && !has("y"))
-    return RandomPositions{.region =
-                               CircleRegion{pair("centre", keys::region_circle_example), table.required_number(keys::region_radius)}};
+    return RandomPositions{
+        .region = CircleRegion{pair("centre", keys::region_circle_example), table.required_number(keys::region_radius)}};
   throw SceneError(table.where(), fmt::format("{} is neither a rectangle nor a circle; give x and y, such as {}, or centre and "
                                               "radius, such as {}",
                                               path, keys::rectangle_example, keys::region_circle_example));
