@@ -257,7 +257,7 @@ std::vector<EffectTraits> make_table() {
        .is_present = has<&Effects::brownian>,
        .acts = has_other_than_zero<&Effects::brownian, &Brownian::rate>,
        .numbers = {number<&Effects::brownian, &Brownian::temperature>(brownian_temperature, "energy", 1.0, 1.0),
-                   number<&Effects::brownian, &Brownian::rate>(brownian_rate, "1 / time", 0.0, 0.1)},
+                   number<&Effects::brownian, &Brownian::rate>(brownian_rate, "1 / time", 0.0, 10.0)},
        .words =
            [](const Effects& e) {
              return fmt::format("all velocities are redrawn from the Maxwell distribution at kT = {:.6g}, {:.6g} times per time",

@@ -253,8 +253,10 @@ TEST(Drag, IsRefusedWithWhatItCannotActWith) {
   expect("pistons", [](Effects& e) { e.walls[1].mass = 1.0, e.walls[1].load = 1.0; });
   expect("growth", [](Effects& e) { e.growth = Growth{.rate = 1e-3, .reduced_pressure = 10.0}; });
   expect("thermostat", [](Effects& e) { e.thermostat = Thermostat{1.0, 0.1}; });
+  expect("tumbling", [](Effects& e) { e.tumbling = Tumbling{0.1}; });
+  expect("brownian", [](Effects& e) { e.brownian = Brownian{1.0, 0.1}; });
   expect("square_well", [](Effects& e) { e.square_well = SquareWell{1.1, 0.1}; });
-  EXPECT_EQ(drag.excludes.size(), 11U);  // these, and shear, which has no walls
+  EXPECT_EQ(drag.excludes.size(), 13U);  // these, and shear, which has no walls
   Scene equilibrated = scene;
   equilibrated.run.equilibrate = Run::Equilibrate{1.0, {}};
   EXPECT_EQ(
