@@ -12,12 +12,12 @@
 
 #include <Eigen/Core>
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 
 namespace carom {
 
+/// Redraws of all velocities at equal steps.
 class BrownianRedraws {
  public:
   BrownianRedraws(const std::optional<Brownian>& brownian, std::uint64_t seed)
@@ -25,6 +25,7 @@ class BrownianRedraws {
 
   /// Neutral at rate 0.
   [[nodiscard]] bool acts() const { return rate_ > 0.0; }
+  /// Returns how often all velocities are redrawn; 1 / time.
   [[nodiscard]] double rate() const { return rate_; }
   /// Returns the time from one redraw to the next. Requires acts().
   [[nodiscard]] double step() const { return 1.0 / rate_; }
@@ -32,14 +33,11 @@ class BrownianRedraws {
   /// Returns the random numbers of redraw number n, from 0.
   [[nodiscard]] RandomStream stream(std::uint64_t n) const { return RandomStream(seed_, Stream::brownian, n); }
 
-  /// <m v^2> = 2 kT
   [[nodiscard]] Eigen::Vector2d velocity(const Normals& normals, double mass) const {
-    const double scale = std::sqrt(temperature_ / mass);
-    return {scale * normals.a, scale * normals.b};
+    return maxwell_velocity(normals, temperature_, mass);
   }
-  /// <I w^2> = kT
   [[nodiscard]] double spin(const Normals& normals, double moment_of_inertia) const {
-    return std::sqrt(temperature_ / moment_of_inertia) * normals.c;
+    return maxwell_spin(normals, temperature_, moment_of_inertia);
   }
 
  private:

@@ -4,6 +4,8 @@
 #include "core/random.hpp"
 #include "core/vec2.hpp"
 
+#include <Eigen/Core>
+
 #include <boost/random/normal_distribution.hpp>
 
 #include <cmath>
@@ -22,6 +24,17 @@ inline Normals draw_normals(RandomStream& random) {
   const double b = normal(random);
   const double c = normal(random);
   return {a, b, c};
+}
+
+/// Returns the velocity of a disk at temperature kT: <m v^2> = 2 kT.
+inline Eigen::Vector2d maxwell_velocity(const Normals& normals, double temperature, double mass) {
+  const double scale = std::sqrt(temperature / mass);
+  return {scale * normals.a, scale * normals.b};
+}
+
+/// Returns the angular velocity of a disk at temperature kT: <I w^2> = kT.
+inline double maxwell_spin(const Normals& normals, double temperature, double moment_of_inertia) {
+  return std::sqrt(temperature / moment_of_inertia) * normals.c;
 }
 
 /// The velocity of a disk that leaves a diffuse wall at temperature kT: the speed along the normal has the density

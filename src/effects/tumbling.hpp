@@ -7,15 +7,11 @@
 // digits.
 
 #include "core/random.hpp"
-#include "effects/andersen.hpp"
-#include "effects/maxwell.hpp"
+#include "effects/thermostat_event.hpp"
 
 #include <carom/effects.hpp>
 
 #include <Eigen/Core>
-
-#include <boost/random/exponential_distribution.hpp>
-#include <boost/random/uniform_int_distribution.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -23,6 +19,7 @@
 
 namespace carom {
 
+/// The tumbles of all disks, a Poisson process.
 class Tumbles {
  public:
   Tumbles(const std::optional<Tumbling>& tumbling, std::int32_t disks, std::uint64_t seed)
@@ -36,12 +33,7 @@ class Tumbles {
 
   /// Returns event number n, from 0. Requires acts().
   [[nodiscard]] ThermostatEvent event(std::uint64_t n) const {
-    RandomStream random(seed_, Stream::tumbling, n);
-    ThermostatEvent drawn;
-    drawn.wait = boost::random::exponential_distribution<double>(rate_)(random);
-    drawn.disk = boost::random::uniform_int_distribution<std::int32_t>(0, disks_ - 1)(random);
-    drawn.normals = draw_normals(random);
-    return drawn;
+    return draw_event(RandomStream(seed_, Stream::tumbling, n), rate_, disks_);
   }
 
   /// Returns a velocity as fast as `v`.
