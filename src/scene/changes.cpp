@@ -104,20 +104,6 @@ Change read_change(const toml::table& node, const std::string& path) {
   return change;
 }
 
-std::string text_of(const Eigen::Vector2d& pair) {
-  return fmt::format("[{}, {}]", detail::number_text(pair.x()), detail::number_text(pair.y()));
-}
-
-/// The obstacle as the value of a key: its table of a scene in one line.
-std::string text_of(const Obstacle& obstacle) {
-  Effects alone;
-  alone.obstacles = {obstacle};
-  const std::string table = detail::effects_toml(alone);
-  const std::string_view title = "[[obstacles]]\n";
-  const std::size_t begin = table.find(title) + title.size();
-  return fmt::format("{{ {} }}", table.substr(begin, table.find('\n', begin) - begin));
-}
-
 struct Text {
   std::string operator()(const SetKeys& set) const {
     std::string list;
@@ -128,15 +114,17 @@ struct Text {
     return fmt::format("scale_velocities = {}", detail::number_text(scale.factor));
   }
   std::string operator()(const AddDisk& add) const {
-    return fmt::format("add_disk = {{ species = {}, position = {}, velocity = {} }}", add.species, text_of(add.position),
-                       text_of(add.velocity));
+    return fmt::format("add_disk = {{ species = {}, position = {}, velocity = {} }}", add.species,
+                       detail::pair_text(add.position), detail::pair_text(add.velocity));
   }
   std::string operator()(const RemoveDisk& remove) const { return fmt::format("remove_disk = {}", remove.disk); }
   std::string operator()(const MoveDisk& move) const {
-    return fmt::format("move_disk = {{ disk = {}, position = {}, velocity = {} }}", move.disk, text_of(move.position),
-                       text_of(move.velocity));
+    return fmt::format("move_disk = {{ disk = {}, position = {}, velocity = {} }}", move.disk, detail::pair_text(move.position),
+                       detail::pair_text(move.velocity));
   }
-  std::string operator()(const AddObstacle& add) const { return "add_obstacle = " + text_of(add.obstacle); }
+  std::string operator()(const AddObstacle& add) const {
+    return fmt::format("add_obstacle = {{ {} }}", detail::obstacle_text(add.obstacle));
+  }
   std::string operator()(const RemoveObstacle& remove) const { return fmt::format("remove_obstacle = {}", remove.obstacle); }
 };
 

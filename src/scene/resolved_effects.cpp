@@ -15,8 +15,6 @@
 namespace carom::detail {
 namespace {
 
-std::string pair(const Eigen::Vector2d& value) { return fmt::format("[{}, {}]", number_text(value.x()), number_text(value.y())); }
-
 std::string line(std::string_view key, double value) { return fmt::format("{} = {}\n", key, number_text(value)); }
 
 std::string line(std::string_view key, const std::optional<double>& value) { return value ? line(key, *value) : std::string(); }
@@ -52,18 +50,6 @@ std::string walls(const std::array<WallProperties, 4>& walls) {
   return text.empty() ? text : "\n[walls]\n" + text;
 }
 
-std::string obstacle(const Obstacle& obstacle) {
-  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle)) {
-    return fmt::format("\n[[obstacles]]\ndisk = {{ centre = {}, radius = {} }}\n", pair(disk->centre), number_text(disk->radius));
-  }
-  if (const auto* arc = std::get_if<ArcObstacle>(&obstacle)) {
-    return fmt::format("\n[[obstacles]]\narc = {{ centre = {}, radius = {}, from = {}, to = {} }}\n", pair(arc->centre),
-                       number_text(arc->radius), number_text(arc->from), number_text(arc->to));
-  }
-  const auto& segment = std::get<SegmentObstacle>(obstacle);
-  return fmt::format("\n[[obstacles]]\nsegment = {{ from = {}, to = {} }}\n", pair(segment.from), pair(segment.to));
-}
-
 std::string until(const Growth& growth) {
   const auto end = [](const char* key, double value) { return fmt::format("until = {{ {} = {} }}\n", key, number_text(value)); };
   if (growth.packing_fraction) return end("packing_fraction", *growth.packing_fraction);
@@ -72,11 +58,25 @@ std::string until(const Growth& growth) {
 
 }  // namespace
 
+std::string pair_text(const Eigen::Vector2d& value) {
+  return fmt::format("[{}, {}]", number_text(value.x()), number_text(value.y()));
+}
+
+std::string obstacle_text(const Obstacle& obstacle) {
+  if (const auto* disk = std::get_if<DiskObstacle>(&obstacle))
+    return fmt::format("disk = {{ centre = {}, radius = {} }}", pair_text(disk->centre), number_text(disk->radius));
+  if (const auto* arc = std::get_if<ArcObstacle>(&obstacle))
+    return fmt::format("arc = {{ centre = {}, radius = {}, from = {}, to = {} }}", pair_text(arc->centre),
+                       number_text(arc->radius), number_text(arc->from), number_text(arc->to));
+  const auto& segment = std::get<SegmentObstacle>(obstacle);
+  return fmt::format("segment = {{ from = {}, to = {} }}", pair_text(segment.from), pair_text(segment.to));
+}
+
 std::string effects_toml(const Effects& effects) {
   std::string text = collision(effects.collision);
-  if (effects.gravity) text += fmt::format("\n[gravity]\nacceleration = {}\n", pair(effects.gravity->acceleration));
+  if (effects.gravity) text += fmt::format("\n[gravity]\nacceleration = {}\n", pair_text(effects.gravity->acceleration));
   text += walls(effects.walls);
-  for (const Obstacle& each : effects.obstacles) text += obstacle(each);
+  for (const Obstacle& each : effects.obstacles) text += fmt::format("\n[[obstacles]]\n{}\n", obstacle_text(each));
   for (const EffectTraits& effect : all_effects()) {
     if (effect.numbers.empty() || !effect.is_present(effects)) continue;
     text += fmt::format("\n[{}]\n", effect.name);
