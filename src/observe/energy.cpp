@@ -55,6 +55,10 @@ double spin_energy(const Disks& disks, const State& state) {
   return static_cast<double>(sum);
 }
 
+double gravitational_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
+  return static_cast<double>(energy_of_heights(box, effects.acceleration(), disks, state));
+}
+
 double potential_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
   Wide sum = 0.0;
   sum += energy_of_heights(box, effects.acceleration(), disks, state);

@@ -14,6 +14,9 @@ namespace carom {
 /// Returns the sum of I w^2 / 2, I = m r^2 / 2 with the radii of the state; 0 where disks are smooth
 [[nodiscard]] double spin_energy(const Disks& disks, const State& state);
 
+/// Returns the sum of m |g| h over disks, as in potential_energy(). Along a periodic axis h goes on through the edges.
+[[nodiscard]] double gravitational_energy(const Box& box, const Effects& effects, const Disks& disks, const State& state);
+
 /// Returns the work still to be got from weight, wells and loads, the sum of
 ///   m |g| h over disks, h the height of the centre above the side of the box to which that component of g points;
 ///   - depth over pairs inside each other's well;

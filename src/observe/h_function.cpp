@@ -7,6 +7,7 @@
 
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
+#include "observe/thinned_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +34,7 @@ class HFunction final : public SavedObservable<HFunction> {
   [[nodiscard]] bool needs_positions() const override { return run_.has_flow(); }
 
   void sample(const State& state, const Totals&) override {
-    if (calls_++ % stride_ != 0) return;
-    if (times_.size() == most) halve();
-    if ((calls_ - 1) % stride_ != 0) return;
+    if (!rows_.takes_next()) return;
     const Eigen::Matrix2Xd v = peculiar_velocities(run_, state);
     const std::size_t kinds = thermal_.size();
     std::vector<std::vector<double>> counts(kinds, std::vector<double>(side * side));
@@ -64,15 +63,15 @@ class HFunction final : public SavedObservable<HFunction> {
       h += weight * (mean - (occupied - 1.0) / (2.0 * disks[s]));
       variance += weight * weight * std::max(0.0, square - mean * mean) / disks[s];
     }
-    times_.push_back(state.time);
-    values_.push_back(h);
-    errors_.push_back(std::sqrt(variance));
+    rows_.add(state.time, {h, std::sqrt(variance)});
   }
 
   [[nodiscard]] Measurement finish(double, const Totals&) override {
     Measurement found{.name = name()};
     if (beyond_) found.note = "some velocities were beyond the histogram, 16 thermal velocities of the start to either side";
-    found.tables.push_back({.name = name(), .columns = {{"time", "time", times_}, {"H", "", values_}, {"H_error", "", errors_}}});
+    found.tables.push_back(
+        {.name = name(),
+         .columns = {{"time", "time", rows_.times()}, {"H", "", rows_.column(0)}, {"H_error", "", rows_.column(1)}}});
     Scalar maxwell{.name = "maxwell", .note = "of Maxwell's distribution at the temperature of the start"};
     if (run_.temperature > 0.0) {
       double h = 0.0;
@@ -89,11 +88,10 @@ class HFunction final : public SavedObservable<HFunction> {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(calls_, stride_, times_, values_, errors_, beyond_);
+    archive(rows_, beyond_);
   }
 
  private:
-  static constexpr std::size_t most = 1024;
   static constexpr std::size_t side =
       64;  ///< bins per component, 16 thermal velocities to either side; what is beyond is in the last
 
@@ -101,18 +99,10 @@ class HFunction final : public SavedObservable<HFunction> {
     const double at = std::floor(v / (0.5 * thermal_[s])) + 0.5 * static_cast<double>(side);
     return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(side - 1)));
   }
-  void halve() {
-    for (std::vector<double>* list : {&times_, &values_, &errors_}) {
-      for (std::size_t k = 0; 2 * k < list->size(); ++k) (*list)[k] = (*list)[2 * k];
-      list->resize(list->size() / 2);
-    }
-    stride_ *= 2;
-  }
 
   std::vector<double> thermal_;  ///< velocity, of each species
-  std::uint64_t calls_ = 0, stride_ = 1;
-  std::vector<double> times_, values_, errors_;
-  bool beyond_ = false;  ///< a velocity was in the last bin that belongs behind it
+  ThinnedRows rows_{2};          ///< H and its error
+  bool beyond_ = false;          ///< a velocity was in the last bin that belongs behind it
 };
 
 }  // namespace

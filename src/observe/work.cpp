@@ -5,10 +5,12 @@
 // A wall gives -E, E the energy that it has received in Totals. What of it is work follows from the momentum that the wall has
 // received, outward J and along itself S: work = -(J u + S s) for a wall that moves outward at u and slides at s; the rest is
 // heat. A piston does work alone. The numbers at the end are sums, not means, and have no errors: a run has one of them, and the
-// seeds of a sweep give their distribution. At most 1024 instants are kept, as by h_function.
+// seeds of a sweep give their distribution. ThinnedRows keeps them against time.
 
+#include "observe/energy.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
+#include "observe/thinned_rows.hpp"
 #include "scene/walls.hpp"
 
 #include <array>
@@ -37,6 +39,7 @@ class Work final : public SavedObservable<Work> {
     if (effects.shear) list(work, "work_shear", of_shear);
     if (effects.thermostat || effects.brownian) list(heat, "heat_bath", of_bath);
     if (effects.collision.restitution || effects.collision.roughness) list(heat, "heat_collisions", of_collisions);
+    rows_ = ThinnedRows(parts_.size() + 2);
   }
 
   [[nodiscard]] bool needs_positions() const override { return falls(); }
@@ -49,14 +52,10 @@ class Work final : public SavedObservable<Work> {
     if (falls()) sums_[of_field] = potential_ - potential(state);
     add(totals);
     for (std::size_t side = 0; side < 4; ++side) velocity_[side] = state.walls.size() == 4 ? state.walls[side].velocity : 0.0;
-    if (calls_++ % stride_ != 0) return;
-    if (times_.size() == most) halve();
-    if ((calls_ - 1) % stride_ != 0) return;
-    times_.push_back(state.time);
-    rows_.resize(parts_.size() + 2);
-    for (std::size_t k = 0; k < parts_.size(); ++k) rows_[k + 2].push_back(sums_[parts_[k].at]);
-    rows_[0].push_back(total(work));
-    rows_[1].push_back(total(heat));
+    if (!rows_.takes_next()) return;
+    std::vector<double> row = {total(work), total(heat)};
+    for (const Part& part : parts_) row.push_back(sums_[part.at]);
+    rows_.add(state.time, row);
   }
 
   [[nodiscard]] Measurement finish(double, const Totals& totals) override {
@@ -68,23 +67,20 @@ class Work final : public SavedObservable<Work> {
     put_sum("work", total(work));
     put_sum("heat", total(heat));
     for (const Part& part : parts_) put_sum(part.name, sums_[part.at]);
-    Table table{.name = name(), .columns = {{"time", "time", times_}}};
-    if (!rows_.empty()) {
-      table.columns.push_back({"work", "energy", rows_[0]});
-      table.columns.push_back({"heat", "energy", rows_[1]});
-      for (std::size_t k = 0; k < parts_.size(); ++k) table.columns.push_back({parts_[k].name, "energy", rows_[k + 2]});
-    }
+    Table table{
+        .name = name(),
+        .columns = {{"time", "time", rows_.times()}, {"work", "energy", rows_.column(0)}, {"heat", "energy", rows_.column(1)}}};
+    for (std::size_t k = 0; k < parts_.size(); ++k) table.columns.push_back({parts_[k].name, "energy", rows_.column(k + 2)});
     found.tables.push_back(std::move(table));
     return found;
   }
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(potential_, sums_, velocity_, energies_, impulses_, shears_, calls_, stride_, times_, rows_);
+    archive(potential_, sums_, velocity_, energies_, impulses_, shears_, rows_);
   }
 
  private:
-  static constexpr std::size_t most = 1024;
   enum Kind : std::uint8_t { work, heat };
   /// Places in sums_.
   static constexpr std::size_t work_of_left = 0, heat_of_left = 4, of_field = 8, of_growth = 9, of_shear = 10, of_bath = 11,
@@ -105,17 +101,8 @@ class Work final : public SavedObservable<Work> {
     return sum;
   }
 
-  /// Of all disks in the field, continued through periodic edges.
   [[nodiscard]] double potential(const State& state) const {
-    const Eigen::Vector2d g = run_.scene.effects.acceleration(), lengths = run_.scene.box.lengths();
-    double sum = 0.0;
-    for (std::size_t i = 0; i < run_.disks.count(); ++i) {
-      const auto column = static_cast<Eigen::Index>(i);
-      Eigen::Vector2d r = state.positions.col(column);
-      if (state.images.cols() > column) r += state.images.col(column).cast<double>().cwiseProduct(lengths);
-      sum -= run_.disks.mass[i] * g.dot(r);
-    }
-    return sum;
+    return gravitational_energy(run_.scene.box, run_.scene.effects, run_.disks, state);
   }
 
   /// Adds what has happened since the totals of before, at the velocities that walls had then.
@@ -141,24 +128,12 @@ class Work final : public SavedObservable<Work> {
     shears_ = totals.wall_shear;
   }
 
-  void halve() {
-    for (std::size_t k = 0; 2 * k < times_.size(); ++k) times_[k] = times_[2 * k];
-    times_.resize((times_.size() + 1) / 2);
-    for (std::vector<double>& row : rows_) {
-      for (std::size_t k = 0; 2 * k < row.size(); ++k) row[k] = row[2 * k];
-      row.resize((row.size() + 1) / 2);
-    }
-    stride_ *= 2;
-  }
-
   std::vector<Part> parts_;
   double potential_ = 0.0;  ///< at the start
   std::array<double, places> sums_{};
   std::array<double, 4> velocity_{};                          ///< of walls at the last sample
   std::array<double, 4> energies_{}, impulses_{}, shears_{};  ///< at the last sample
-  std::uint64_t calls_ = 0, stride_ = 1;
-  std::vector<double> times_;
-  std::vector<std::vector<double>> rows_;  ///< work, heat, and each part
+  ThinnedRows rows_{0};                                       ///< work, heat, and each part
 };
 
 }  // namespace
