@@ -156,7 +156,7 @@ struct ObservableRequest {
   std::optional<std::int64_t> bins = {};                  ///< number of bins of its histogram, >= 2
   std::optional<double> range = {};                       ///< upper end of the histogram, > 0; in mean diameters for distances
   std::optional<double> largest = {};                     ///< largest wave number, > 0; in inverse mean diameters
-  std::optional<int> axis = {};                           ///< 0 or 1
+  std::optional<int> axis = {};                           ///< 0 or 1, or in a circular box 2: the radius
   std::optional<std::int64_t> disks = {};                 ///< how many disks of each species it follows, >= 1
   std::optional<std::array<std::int64_t, 2>> cells = {};  ///< numbers of cells along x and y, >= 1
 };

@@ -8,10 +8,14 @@
 //   P = <m v v> - rho u u + <r dp>,    q = <(m v^2 / 2) v> - u (rho u^2 / 2 + n kT) - P u + <r dE>,    per area (and time).
 // Nearer to a wall than a radius a part of the momentum is carried from the wall to centres, which is not counted here.
 //
+// In a circular box the grid divides the square round the circle. The area of a cell is that of its part inside the circle, which
+// is a column of the averages; a cell without any has no fields.
+//
 // Averages over time: of disks at the steps, of collisions over all the time between. The run is kept as up to thirty-two
 // stretches of equal length, each twice as long as before when there would be more. They are the fields in time, and errors come
 // from them by the jackknife.
 
+#include "observe/area_in_circle.hpp"
 #include "observe/blocking.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
@@ -72,10 +76,11 @@ constexpr std::array<FieldName, 11> field_names = {{{"density", "1 / area"},
                                                     {"energy_lost", "energy / (area time)"}}};
 using FieldValues = std::array<double, field_names.size()>;
 
-/// Returns the fields in a cell from the sums of so many steps. Without disks there is a density alone.
+/// Returns the fields in a cell from the sums of so many steps. Without disks there is a density alone, without area nothing.
 FieldValues fields_of(const CellSums& sums, double steps, double step, double area) {
   FieldValues found;
   found.fill(unknown);
+  if (!(area > 0.0)) return found;
   found[0] = sums.disks / (steps * area);
   if (sums.disks == 0.0 || sums.mass == 0.0) return found;
   const Eigen::Vector2d u = sums.momentum / sums.mass;
@@ -101,6 +106,9 @@ class Fields final : public SavedObservable<Fields> {
         coming_(static_cast<std::size_t>(cells_[0] * cells_[1])) {
     for (int axis = 0; axis < 2; ++axis)
       width_[axis] = run.scene.box.lengths()[axis] / static_cast<double>(cells_[static_cast<std::size_t>(axis)]);
+    areas_.assign(coming_.size(), width_[0] * width_[1]);
+    for (std::size_t c = 0; c < areas_.size() && run.scene.box.is_circle; ++c)
+      areas_[c] = area_in_circle(rectangle_of(c), run.scene.box);
   }
 
   [[nodiscard]] bool follows_collisions() const override { return follows_; }
@@ -171,6 +179,14 @@ class Fields final : public SavedObservable<Fields> {
     return 0.5 * run_.disks.mass[static_cast<std::size_t>(disk)] * (after.squaredNorm() - before.squaredNorm());
   }
 
+  /// Returns the rectangle of a cell.
+  [[nodiscard]] Rectangle rectangle_of(std::size_t c) const {
+    const auto across = static_cast<std::size_t>(cells_[0]);
+    const Eigen::Vector2d at(static_cast<double>(c % across), static_cast<double>(c / across));
+    const Eigen::Vector2d lower = run_.scene.box.lower + at.cwiseProduct(width_);
+    return {lower, lower + width_};
+  }
+
   /// Returns the cell at a place; along periodic axes the place may be outside the box. Null where there is none.
   [[nodiscard]] CellSums* cell_at(const Eigen::Vector2d& place) {
     std::array<std::int64_t, 2> at{};
@@ -221,22 +237,22 @@ class Fields final : public SavedObservable<Fields> {
   [[nodiscard]] Table averages() const {
     Table table{.name = "fields"};
     for (Column& column : middles()) table.columns.push_back(std::move(column));
+    if (run_.scene.box.is_circle) table.columns.push_back({"area", "area", areas_});
     const std::size_t first = table.columns.size();
     for (const FieldName& field : field_names) {
       table.columns.push_back({field.name, field.unit, {}});
       table.columns.push_back({std::string(field.name) + "_error", field.unit, {}});
     }
     const auto count = static_cast<double>(stretches_.size()), steps = static_cast<double>(steps_of_stretch_);
-    const double area = width_[0] * width_[1];
     for (std::size_t c = 0; c < coming_.size(); ++c) {
       CellSums all;
       for (const std::vector<CellSums>& stretch : stretches_) all += stretch[c];
-      const FieldValues mean = fields_of(all, count * steps, step_, area);
+      const FieldValues mean = fields_of(all, count * steps, step_, areas_[c]);
       FieldValues squares{};
       for (const std::vector<CellSums>& stretch : stretches_) {
         CellSums others = all;
         others -= stretch[c];
-        const FieldValues without = fields_of(others, (count - 1.0) * steps, step_, area);
+        const FieldValues without = fields_of(others, (count - 1.0) * steps, step_, areas_[c]);
         for (std::size_t f = 0; f < mean.size(); ++f) squares[f] += (without[f] - mean[f]) * (without[f] - mean[f]);
       }
       for (std::size_t f = 0; f < mean.size(); ++f) {
@@ -260,7 +276,7 @@ class Fields final : public SavedObservable<Fields> {
       for (std::size_t c = 0; c < coming_.size(); ++c) {
         table.columns[0].values.push_back((static_cast<double>(s) + 0.5) * steps * step_);
         for (std::size_t axis = 0; axis < 2; ++axis) table.columns[1 + axis].values.push_back(places[axis].values[c]);
-        const FieldValues values = fields_of(stretches_[s][c], steps, step_, width_[0] * width_[1]);
+        const FieldValues values = fields_of(stretches_[s][c], steps, step_, areas_[c]);
         for (std::size_t f = 0; f < values.size(); ++f) table.columns[3 + f].values.push_back(values[f]);
       }
     return table;
@@ -269,6 +285,7 @@ class Fields final : public SavedObservable<Fields> {
   std::array<std::int64_t, 2> cells_;
   bool follows_;
   Eigen::Vector2d width_;
+  std::vector<double> areas_;                     ///< of the cells, within a circular box
   std::vector<std::vector<CellSums>> stretches_;  ///< that have ended, in order of time; each by cell, row after row
   std::vector<CellSums> coming_;                  ///< the stretch that has begun
   std::uint64_t steps_ = 0, steps_of_stretch_ = 1;

@@ -1,5 +1,5 @@
 // Momentum and energy that go through each wall, per time and length of wall, outward positive: pressure, shear stress on thermal
-// walls, and heat and work.
+// walls, and heat and work. The rim of a circular box is one wall, smooth and elastic: it has the pressure alone.
 // Averages over time.
 
 #include "observe/blocking.hpp"
@@ -9,7 +9,9 @@
 #include "observe/wall_momentum.hpp"
 #include "scene/walls.hpp"
 
+#include <algorithm>
 #include <array>
+#include <numbers>
 
 namespace carom {
 
@@ -77,9 +79,43 @@ class WallFluxes final : public SavedObservable<WallFluxes> {
   std::array<Blocking, 4> shear_, energy_;
 };
 
+/// The momentum through the rim of a circular box. Its bounded part is that of wall_momentum.hpp on a circle: the action G = sum
+/// of m (r - centre) . v changes by dG = S dt - h I for disks whose centres come as far as h, so I = S dt / h - d(G / h).
+class RimFluxes final : public SavedObservable<RimFluxes> {
+ public:
+  RimFluxes(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run) {}
+
+  void sample(const State& state, const Totals& totals) override {
+    const double radius = 0.5 * run_.scene.box.lengths().x(), reach = std::max(0.0, radius - 0.5 * run_.mean_diameter);
+    double bounded = 0.0;
+    for (int axis = 0; axis < 2 && reach > 0.0; ++axis) bounded += wall_momentum(run_, state, axis).action / reach;
+    const double dt = state.time - time_, perimeter = 2.0 * std::numbers::pi * radius;
+    if (dt > 0.0) momentum_.add(totals.circle_impulse - impulse_, perimeter * dt, bounded_, bounded);
+    time_ = state.time;
+    bounded_ = bounded;
+    impulse_ = totals.circle_impulse;
+  }
+
+  [[nodiscard]] Measurement finish(double, const Totals&) override {
+    Measurement found{.name = name()};
+    put(found, {.name = "momentum_rim", .unit = "energy / area"}, momentum_);
+    return found;
+  }
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(time_, impulse_, bounded_, momentum_);
+  }
+
+ private:
+  double time_ = 0.0, impulse_ = 0.0, bounded_ = 0.0;
+  RateWithBoundedPart momentum_;
+};
+
 }  // namespace
 
 MadeObservable make_wall_fluxes(const ObservableRequest& request, const ObservedRun& run) {
+  if (run.scene.box.is_circle) return std::make_unique<RimFluxes>(request, run);
   return std::make_unique<WallFluxes>(request, run);
 }
 

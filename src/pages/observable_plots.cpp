@@ -126,7 +126,7 @@ constexpr std::array<Frame, 25> frames = {{
      "Clusters of this size up to twice as many, of disks whose surfaces are nearer than the gap."},
     {"density_profile",
      "density-profile",
-     "Density along the box",
+     "Density profile",
      "position",
      "disks per area",
      {{{"density"}}},
@@ -368,7 +368,7 @@ std::vector<Plot> profile_of(const Table& fields) {
   profile.columns.erase(profile.columns.begin() + (varies(0) ? 1 : 0));
   std::vector<Plot> plots;
   for (std::size_t c = 1; c < profile.columns.size(); ++c) {
-    if (is_error(profile.columns[c])) continue;
+    if (is_error(profile.columns[c]) || profile.columns[c].name == "area") continue;
     const std::string& name = profile.columns[c].name;
     std::string id = "field-" + name;
     std::replace(id.begin(), id.end(), '_', '-');

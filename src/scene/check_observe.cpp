@@ -46,7 +46,7 @@ bool equal_masses(const Scene& scene) {
   return true;
 }
 
-void check_settings(const ObservableRequest& request) {
+void check_settings(const ObservableRequest& request, bool is_circle) {
   constexpr std::int64_t most_bins = 100'000;
   const std::string path = "observe." + request.name;
   const KnownObservable* known = find_observable(request.name);
@@ -75,8 +75,9 @@ void check_settings(const ObservableRequest& request) {
   if (request.disks && *request.disks < 1)
     throw Refusal(path + ".disks", fmt::format("{}.disks is {}; it follows one disk of each species at least, such as disks = {}",
                                                path, *request.disks, known->disks.value_or(1)));
-  if (request.axis && *request.axis != 0 && *request.axis != 1)
-    throw Refusal(path + ".axis", fmt::format("{}.axis is {}; it must be 0 or 1", path, *request.axis));
+  if (request.axis && *request.axis != 0 && *request.axis != 1 && !(is_circle && *request.axis == radial_axis))
+    throw Refusal(path + ".axis", fmt::format("{}.axis is {}; it must be 0 or 1{}", path, *request.axis,
+                                              is_circle ? ", or 2 for the radius" : ""));
 }
 
 void check_disks(const Scene& scene, const ObservableRequest& request) {
@@ -134,9 +135,8 @@ void check_structure(const Scene& scene, const ObservableRequest& request) {
                                            *request.range, half));
 }
 
-/// Lines across a circle have different lengths, and its edge is no side.
 void check_circle_observables(const Scene& scene, const ObservableRequest& request) {
-  if (scene.box.is_circle && one_of(request.name, {"voronoi", "density_profile", "fields", "wall_fluxes"}))
+  if (scene.box.is_circle && request.name == "voronoi")
     refuse_observable(request,
                       "is measured in a rectangular box, and this one is a circle; remove it, or build the circle of an "
                       "arc in [[obstacles]]");
@@ -146,7 +146,7 @@ void check_circle_observables(const Scene& scene, const ObservableRequest& reque
 
 void check_observe(const Scene& scene) {
   for (const ObservableRequest& request : scene.observe) {
-    check_settings(request);
+    check_settings(request, scene.box.is_circle);
     check_disks(scene, request);
     check_collisions(scene, request);
     check_structure(scene, request);

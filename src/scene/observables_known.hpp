@@ -27,6 +27,10 @@ struct KnownObservable {
   std::optional<std::array<std::int64_t, 2>> cells = {};
 };
 
+/// What ObservableRequest::axis may be, and its words: along x or y, or from the centre of a circular box.
+inline constexpr int radial_axis = 2;
+inline constexpr std::array<std::string_view, 3> axis_words = {"x", "y", "radius"};
+
 /// All observables, in the order of docs/scene-format.md, which is that of all results.
 inline constexpr std::array<KnownObservable, 24> known_observables = {{
     {.name = "temperature", .example = "temperature = true", .step = 4.0},

@@ -13,10 +13,15 @@
 namespace carom::detail {
 namespace {
 
-int read_axis(const TableReader& table, int otherwise) {
-  const std::string axis = table.string("axis", "axis = \"y\"").value_or(otherwise == 0 ? "x" : "y");
-  if (axis == "x" || axis == "y") return axis == "x" ? 0 : 1;
-  throw SceneError(table.where("axis"), fmt::format("{} is \"{}\"; it must be \"x\" or \"y\"", table.path("axis"), axis));
+/// In a circular box there is a third axis, the radius.
+int read_axis(const TableReader& table, int otherwise, bool is_circle) {
+  const std::optional<std::string> axis = table.string("axis", "axis = \"y\"");
+  if (!axis) return otherwise;
+  const auto* const found = std::find(axis_words.begin(), axis_words.end(), *axis);
+  const auto number = static_cast<int>(found - axis_words.begin());
+  if (number < (is_circle ? 3 : 2)) return number;
+  throw SceneError(table.where("axis"), fmt::format("{} is \"{}\"; it must be {}", table.path("axis"), *axis,
+                                                    is_circle ? R"("radius", "x" or "y")" : R"("x" or "y")"));
 }
 
 std::array<std::int64_t, 2> read_cells(const TableReader& table, const std::array<std::int64_t, 2>& otherwise) {
@@ -34,7 +39,7 @@ std::array<std::int64_t, 2> read_cells(const TableReader& table, const std::arra
   return cells;
 }
 
-void read_settings(const toml::table& node, const KnownObservable& known, ObservableRequest& request) {
+void read_settings(const toml::table& node, const KnownObservable& known, bool is_circle, ObservableRequest& request) {
   std::vector<std::string_view> keys;
   if (known.step > 0.0) keys.emplace_back("every");
   if (known.bins) keys.emplace_back("bins");
@@ -49,14 +54,14 @@ void read_settings(const toml::table& node, const KnownObservable& known, Observ
   if (known.range) request.range = table.number({known.range_key, example_of(known.range_key, *known.range), Range::above_zero});
   if (known.largest)
     request.largest = table.number({known.largest_key, example_of(known.largest_key, *known.largest), Range::above_zero});
-  if (known.axis) request.axis = read_axis(table, *known.axis);
+  if (known.axis) request.axis = read_axis(table, *request.axis, is_circle);
   if (known.disks) request.disks = table.integer("disks", fmt::format("disks = {}", *known.disks)).value_or(*known.disks);
   if (known.cells) request.cells = read_cells(table, *known.cells);
 }
 
 }  // namespace
 
-std::vector<ObservableRequest> read_observe(const toml::table& node) {
+std::vector<ObservableRequest> read_observe(const toml::table& node, bool is_circle) {
   const TableReader table(node, "observe", names_of_observables());
   std::vector<ObservableRequest> requests;
   for (const KnownObservable& known : known_observables) {
@@ -68,10 +73,10 @@ std::vector<ObservableRequest> read_observe(const toml::table& node) {
     request.name = known.name;
     request.bins = known.bins;
     request.largest = known.largest;
-    request.axis = known.axis;
+    if (known.axis) request.axis = is_circle ? radial_axis : *known.axis;
     request.disks = known.disks;
     request.cells = known.cells;
-    if (value->is_table()) read_settings(*value->as_table(), known, request);
+    if (value->is_table()) read_settings(*value->as_table(), known, is_circle, request);
     if (known.largest && !request.largest) request.largest = known.largest;
     requests.push_back(std::move(request));
   }

@@ -34,7 +34,7 @@ Run read_run(const toml::table& table);
 Output read_output(const toml::table* table, bool sampled);
 
 /// Reads the observables, in the order of the format.
-std::vector<ObservableRequest> read_observe(const toml::table& table);
+std::vector<ObservableRequest> read_observe(const toml::table& table, bool is_circle);
 /// The range of histograms over distances, where the scene leaves it open: no more than half of the box.
 void complete_observe(Scene& scene);
 

@@ -134,7 +134,8 @@ void put_observe(Buffer& out, const std::vector<ObservableRequest>& requests) {
     if (request.every) settings.push_back(fmt::format("every = {}", number_text(*request.every)));
     if (request.range) settings.push_back(fmt::format("{} = {}", range, number_text(*request.range)));
     if (request.largest) settings.push_back(fmt::format("{} = {}", largest, number_text(*request.largest)));
-    if (request.axis) settings.push_back(fmt::format("axis = \"{}\"", *request.axis == 0 ? "x" : "y"));
+    if (request.axis)
+      settings.push_back(fmt::format("axis = \"{}\"", detail::axis_words.at(static_cast<std::size_t>(*request.axis))));
     if (request.bins) settings.push_back(fmt::format("bins = {}", *request.bins));
     if (request.cells) settings.push_back(fmt::format("cells = [{}, {}]", (*request.cells)[0], (*request.cells)[1]));
     if (request.disks) settings.push_back(fmt::format("disks = {}", *request.disks));

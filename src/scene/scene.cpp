@@ -74,7 +74,9 @@ void read_document(const toml::table& document, const std::string& directory, de
   const toml::table& run = require_table(reader, "run", "give time = 5.0, collisions = 1_000_000, or both");
   scene.run = detail::read_run(run);
   scene.output = detail::read_output(reader.table("output", "[output]"), scene.run.is_sampled());
-  if (const toml::table* observe = reader.table("observe", "[observe]")) scene.observe = detail::read_observe(*observe);
+  if (const toml::table* observe = reader.table("observe", "[observe]")) {
+    scene.observe = detail::read_observe(*observe, draft.box.circle.has_value());
+  }
   if (const toml::node* changes = reader.find("changes")) scene.changes = detail::read_changes(*changes);
 }
 

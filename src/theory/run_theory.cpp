@@ -159,6 +159,7 @@ std::vector<TheoryCurve> RunTheory::flight_curves(const Table& table) const {
 
 std::vector<TheoryCurve> RunTheory::density_curves(const Table& table) const {
   const Scene& scene = source_->scene;
+  if (scene.box.is_circle) return {};  // its strips and rings differ in width
   const int axis = table.columns.front().name == "x" ? 0 : 1;
   const int across = 1 - axis;
   const std::vector<double>& x = table.columns.front().values;
