@@ -4,16 +4,26 @@
 //
 // Boost knows no periodic boxes. Images within a reach of the box are added. A corner of a cell is right if the circle around it
 // through the centre lies within that reach; where one does not, the reach is doubled.
+//
+// In a circle there are no images: cells without an end are cut off. The bisector to a neighbour is a chord of the circle, of
+// which the bisectors to the other neighbours leave a side or nothing. Where a side ends at the rim, an arc follows until the
+// next side begins there.
 
 #include "observe/voronoi_cells.hpp"
 
+#include "core/vec2.hpp"
+
 #include <boost/polygon/voronoi.hpp>
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace carom {
 
@@ -219,6 +229,102 @@ Eigen::Vector2d circumcentre(const Eigen::Vector2d& a, const Eigen::Vector2d& b)
   return {(b.y() * aa - a.y() * bb) / twice, (a.x() * bb - b.x() * aa) / twice};
 }
 
+/// Returns the neighbours of each disk where there are no images, in no order.
+std::vector<std::vector<std::int32_t>> neighbours_in_plane(const Box& box, const Eigen::Matrix2Xd& positions) {
+  std::vector<GridPoint> points;
+  const double unit = 2.0e9 / box.lengths().maxCoeff();
+  for (Eigen::Index i = 0; i < positions.cols(); ++i) {
+    const Eigen::Vector2d at = unit * (positions.col(i) - box.lower);
+    points.emplace_back(static_cast<std::int32_t>(at.x()), static_cast<std::int32_t>(at.y()));
+  }
+  boost::polygon::voronoi_diagram<double> diagram;
+  boost::polygon::construct_voronoi(points.begin(), points.end(), &diagram);
+  if (diagram.num_cells() < points.size())
+    throw std::invalid_argument("two disks have the same centre, which has no Voronoi cell");
+  std::vector<std::vector<std::int32_t>> found(points.size());
+  for (const auto& cell : diagram.cells()) {
+    const auto* const first = cell.incident_edge();
+    if (first == nullptr) continue;  // a disk alone
+    const auto* edge = first;
+    do {
+      found[cell.source_index()].push_back(static_cast<std::int32_t>(edge->twin()->cell()->source_index()));
+      edge = edge->next();
+    } while (edge != first);
+  }
+  return found;
+}
+
+/// A cell in a circle, as its disk at the origin sees it.
+class CellInCircle {
+ public:
+  /// Requires the neighbours in the order of their directions.
+  CellInCircle(const Eigen::Vector2d& centre, double radius, const std::vector<Direction>& neighbours)
+      : centre_(centre), radius_(radius) {
+    for (std::size_t k = 0; k < neighbours.size(); ++k)
+      if (const std::optional<Side> side = side_to(neighbours, k)) sides_.push_back(*side);
+  }
+
+  /// Appends the sides and arcs, and returns the area.
+  double finish(std::vector<VoronoiSide>& found, bool& at_wall) const {
+    at_wall = sides_.empty();
+    if (at_wall) {
+      const double square = centre_.squaredNorm();  // the arc is all of the rim; its middle is where the disk is nearest to it
+      const Eigen::Vector2d outward = square > 0.0 ? Eigen::Vector2d(-centre_.normalized()) : Eigen::Vector2d(1.0, 0.0);
+      found.push_back({-1, 2.0 * (centre_ + radius_ * outward), 2.0 * std::numbers::pi * radius_});
+      return std::numbers::pi * radius_ * radius_;
+    }
+    double area = 0.0;
+    for (std::size_t k = 0; k < sides_.size(); ++k) {
+      const Side &side = sides_[k], &next = sides_[(k + 1) % sides_.size()];
+      area += 0.5 * cross<double>(side.begin, side.end);
+      found.push_back({side.neighbour, side.to, (side.end - side.begin).norm()});
+      if (!side.ends_at_rim || !next.begins_at_rim) continue;
+      const Eigen::Vector2d from = side.end - centre_, to = next.begin - centre_;
+      double angle = std::atan2(cross<double>(from, to), from.dot(to));
+      if (angle < -1e-9) angle += 2.0 * std::numbers::pi;  // an arc of a corner at the rim is empty to rounding
+      area += 0.5 * cross<double>(side.end, next.begin) + 0.5 * radius_ * radius_ * (angle - std::sin(angle));
+      const Eigen::Rotation2Dd half(0.5 * angle);
+      found.push_back({-1, 2.0 * (centre_ + half * from), std::max(0.0, radius_ * angle)});
+      at_wall = true;
+    }
+    return area;
+  }
+
+ private:
+  /// A side, which runs counter-clockwise.
+  struct Side {
+    std::int32_t neighbour;
+    Eigen::Vector2d to, begin, end;
+    bool begins_at_rim, ends_at_rim;
+  };
+
+  /// Returns the side to a neighbour; nothing where none of it is in the circle.
+  [[nodiscard]] std::optional<Side> side_to(const std::vector<Direction>& neighbours, std::size_t k) const {
+    const Eigen::Vector2d& to = neighbours[k].to;
+    const Eigen::Vector2d across = to.normalized(), along(-across.y(), across.x()), middle = 0.5 * to;
+    const double distance = (middle - centre_).dot(across), square = radius_ * radius_ - distance * distance;
+    if (!(square > 0.0)) return {};
+    const double half = std::sqrt(square), foot = (centre_ - middle).dot(along);
+    double begin = foot - half, end = foot + half;
+    bool begins_at_rim = true, ends_at_rim = true;
+    for (std::size_t other = 0; other < neighbours.size(); ++other) {
+      if (other == k) continue;
+      const Eigen::Vector2d& there = neighbours[other].to;
+      const double slope = along.dot(there), beyond = middle.dot(there) - 0.5 * there.squaredNorm();
+      const double crossing = -beyond / slope;
+      if (slope > 0.0 && crossing < end) end = crossing, ends_at_rim = false;
+      if (slope < 0.0 && crossing > begin) begin = crossing, begins_at_rim = false;
+      if (slope == 0.0 && beyond > 0.0) return {};
+    }
+    if (!(begin < end)) return {};
+    return Side{neighbours[k].image.disk, to, middle + begin * along, middle + end * along, begins_at_rim, ends_at_rim};
+  }
+
+  Eigen::Vector2d centre_;  ///< of the circle
+  double radius_;
+  std::vector<Side> sides_;
+};
+
 Neighbours neighbours_of(const Box& box, const Eigen::Matrix2Xd& positions) {
   const double spacing = std::sqrt(box.area() / static_cast<double>(positions.cols()));
   for (double reach = 4.0 * spacing;; reach *= 2.0)
@@ -238,9 +344,29 @@ std::complex<double> sixfold_order(std::span<const VoronoiSide> sides) {
   return sum / perimeter;
 }
 
+void VoronoiCells::cut_by_circle(const Box& box, const Eigen::Matrix2Xd& positions) {
+  const std::vector<std::vector<std::int32_t>> neighbours = neighbours_in_plane(box, positions);
+  const Eigen::Vector2d centre = 0.5 * (box.lower + box.upper);
+  const double radius = 0.5 * box.lengths().x();
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    const Eigen::Vector2d self = positions.col(static_cast<Eigen::Index>(i));
+    std::vector<Direction> around;
+    for (const std::int32_t j : neighbours[i]) around.push_back({{j, {}}, positions.col(j) - self});
+    sort_by_angle(around);
+    bool at_wall = false;
+    areas_.push_back(CellInCircle(centre - self, radius, around).finish(sides_, at_wall));
+    first_.push_back(sides_.size());
+    at_wall_.push_back(at_wall);
+  }
+}
+
 VoronoiCells::VoronoiCells(const Box& box, const Eigen::Matrix2Xd& positions) : first_{0} {
   const auto count = static_cast<std::size_t>(positions.cols());
   if (count == 0) return;
+  if (box.is_circle) {
+    cut_by_circle(box, positions);
+    return;
+  }
   Neighbours neighbours = neighbours_of(box, positions);
   make_mutual(neighbours);
   Directions around(count);

@@ -1,5 +1,5 @@
 #pragma once
-// The Voronoi cells of the disks' centres, in periodic boxes and between walls.
+// The Voronoi cells of the disks' centres, in periodic boxes, between walls and in circular boxes.
 
 #include <carom/box.hpp>
 
@@ -16,11 +16,13 @@ namespace carom {
 /// A side of a Voronoi cell.
 struct VoronoiSide {
   std::int32_t neighbour = -1;  ///< id of the disk on the other side, which may be the disk itself; -1 at a wall
-  Eigen::Vector2d to = {};      ///< from the centre to that of the neighbour, which is the mirror image at a wall
-  double length = 0.0;          ///< length of the side, >= 0
+  Eigen::Vector2d to = {};  ///< from the centre to that of the neighbour; at a wall to its mirror image, at the rim of a circle
+                            ///< twice as far as the middle of the arc
+  double length = 0.0;      ///< length of the side, which may be an arc, >= 0
 };
 
-/// The Voronoi cells of the centres, whatever the radii. Walls cut the cells off.
+/// The Voronoi cells of the centres, whatever the radii. Walls cut the cells off, and so does the rim of a circle, along arcs:
+/// the areas of all cells add up to that of the box.
 ///
 /// In a periodic box the neighbours are those of a triangulation, so that the sum of 6 - z over the disks, z the number of
 /// neighbours, is 0. Where four or more centres are on an empty circle, as in a square lattice, one choice of diagonals is made,
@@ -41,6 +43,8 @@ class VoronoiCells {
   [[nodiscard]] bool at_wall(std::size_t cell) const { return at_wall_[cell]; }
 
  private:
+  void cut_by_circle(const Box& box, const Eigen::Matrix2Xd& positions);
+
   std::vector<std::size_t> first_;  ///< side of each cell
   std::vector<VoronoiSide> sides_;
   std::vector<double> areas_;

@@ -135,13 +135,6 @@ void check_structure(const Scene& scene, const ObservableRequest& request) {
                                            *request.range, half));
 }
 
-void check_circle_observables(const Scene& scene, const ObservableRequest& request) {
-  if (scene.box.is_circle && request.name == "voronoi")
-    refuse_observable(request,
-                      "is measured in a rectangular box, and this one is a circle; remove it, or build the circle of an "
-                      "arc in [[obstacles]]");
-}
-
 }  // namespace
 
 void check_observe(const Scene& scene) {
@@ -151,7 +144,6 @@ void check_observe(const Scene& scene) {
     check_collisions(scene, request);
     check_structure(scene, request);
     check_geometry(scene, request);
-    check_circle_observables(scene, request);
     check_wave_number(scene, request);
     if (request.every) check_step(scene, fmt::format("observe.{}.every", request.name), *request.every);
     if (request.name == "wall_fluxes" && scene.box.periodic(0) && scene.box.periodic(1))

@@ -59,7 +59,41 @@ struct CutCell {
   }
 };
 
+/// The cells of a circular box are cut out of a polygon of so many corners on the circle. What is between a side of it and its
+/// arc is added to a cell, so that areas are too small by some (2 pi / corners)^3 of the circle at each end of an arc.
+constexpr int corners_of_circles = 20'000;
+
+std::vector<CutCell> cut_cells_in_circle(const Box& box, const Eigen::Matrix2Xd& positions) {
+  const Eigen::Vector2d centre = 0.5 * (box.lower + box.upper);
+  const double radius = 0.5 * box.lengths().x();
+  std::vector<CutCell> cells;
+  for (Eigen::Index i = 0; i < positions.cols(); ++i) {
+    CutCell cell;
+    for (int k = 0; k < corners_of_circles; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / corners_of_circles;
+      const Eigen::Vector2d corner = centre + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)) - positions.col(i);
+      cell.add(corner, -1, corner);
+    }
+    for (Eigen::Index j = 0; j < positions.cols(); ++j)
+      if (j != i) cell.cut(static_cast<std::int32_t>(j), positions.col(j) - positions.col(i));
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+/// Returns the area of a cell that is cut out of a polygon on a circle, with what is between polygon and circle.
+double area_with_arcs(const CutCell& cell, double radius) {
+  double area = cell.area();
+  for (std::size_t k = 0; k < cell.neighbours.size(); ++k) {
+    if (cell.neighbours[k] >= 0) continue;
+    const double angle = 2.0 * std::asin(0.5 * cell.length(k) / radius);
+    area += 0.5 * radius * radius * (angle - std::sin(angle));
+  }
+  return area;
+}
+
 std::vector<CutCell> cut_cells(const Box& box, const Eigen::Matrix2Xd& positions) {
+  if (box.is_circle) return cut_cells_in_circle(box, positions);
   std::vector<CutCell> cells;
   for (Eigen::Index i = 0; i < positions.cols(); ++i) {
     CutCell cell;
@@ -246,8 +280,115 @@ TEST(VoronoiCells, OfAnIdealGasHaveItsMoments) {
 }
 
 TEST(VoronoiCells, OfDisksAtOnePlaceAreRefused) {
-  const Box box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::periodic, Boundary::periodic}};
+  Box box{{0.0, 0.0}, {1.0, 1.0}, {Boundary::periodic, Boundary::periodic}};
   EXPECT_THROW(VoronoiCells(box, Eigen::Matrix2Xd::Constant(2, 2, 0.5)), std::invalid_argument);
+  box = {box.lower, box.upper, {Boundary::walls, Boundary::walls}, true};
+  EXPECT_THROW(VoronoiCells(box, Eigen::Matrix2Xd::Constant(2, 2, 0.5)), std::invalid_argument);
+}
+
+const Box circle_of_cells{{-2.0, 1.0}, {3.0, 6.0}, {Boundary::walls, Boundary::walls}, true};
+
+Eigen::Matrix2Xd random_points_in_circle(Eigen::Index count, std::uint64_t seed) {
+  const Eigen::Matrix2Xd all = random_points(circle_of_cells, 3 * count + 20, seed);
+  Eigen::Matrix2Xd positions(2, count);
+  const Eigen::Vector2d centre = 0.5 * (circle_of_cells.lower + circle_of_cells.upper);
+  Eigen::Index kept = 0;
+  for (Eigen::Index i = 0; i < all.cols() && kept < count; ++i)
+    if ((all.col(i) - centre).norm() < 2.5) positions.col(kept++) = all.col(i);
+  EXPECT_EQ(kept, count);
+  return positions;
+}
+
+TEST(VoronoiCells, InACircleAreThoseThatOneCutAfterTheOtherLeaves) {
+  const double circle = circle_of_cells.area(), rounding = 1e-9 * circle;
+  for (const Eigen::Index count : {1, 2, 3, 7, 40}) {
+    SCOPED_TRACE(count);
+    const Eigen::Matrix2Xd positions = random_points_in_circle(count, static_cast<std::uint64_t>(count));
+    const VoronoiCells cells(circle_of_cells, positions);
+    const std::vector<CutCell> twins = cut_cells(circle_of_cells, positions);
+    ASSERT_EQ(cells.count(), twins.size());
+    for (std::size_t i = 0; i < twins.size(); ++i) {
+      EXPECT_NEAR(cells.area(i), area_with_arcs(twins[i], 2.5), rounding) << i;
+      EXPECT_EQ(cells.at_wall(i), twins[i].at_wall()) << i;
+      double at_rim = 0.0;
+      for (const VoronoiSide& side : cells.sides(i)) {
+        if (side.neighbour < 0) {
+          at_rim += side.length;
+          continue;
+        }
+        const auto& others = twins[i].neighbours;
+        const auto same = std::find(others.begin(), others.end(), side.neighbour);
+        ASSERT_NE(same, others.end());
+        // The polygon is nearer to the centre than the circle by 1.2e-8 of the radius, and a side may end at a sharp angle to it.
+        EXPECT_NEAR(side.length, twins[i].length(static_cast<std::size_t>(same - others.begin())), 1e-5);
+      }
+      double of_twin = 0.0;
+      for (std::size_t k = 0; k < twins[i].neighbours.size(); ++k)
+        if (twins[i].neighbours[k] < 0) of_twin += twins[i].length(k);
+      EXPECT_NEAR(at_rim, of_twin, 1e-5);
+    }
+  }
+}
+
+/// Euler: cells, sides and corners that fill a disc have N - E + V = 1, three sides meet at each corner, and of arcs there are as
+/// many as corners at the rim: the sum of 6 - z over the cells, arcs counted as sides, is 6 and the number of arcs.
+TEST(VoronoiCells, InACircleFillItAndHaveEulersNumberOfSides) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const Eigen::Index count = 2 + static_cast<Eigen::Index>(seed * seed);
+    const VoronoiCells cells(circle_of_cells, random_points_in_circle(count, seed));
+    double area = 0.0, rim = 0.0;
+    std::ptrdiff_t charge = 0, arcs = 0;
+    for (std::size_t i = 0; i < cells.count(); ++i) {
+      area += cells.area(i);
+      charge += 6 - static_cast<std::ptrdiff_t>(cells.sides(i).size());
+      for (const VoronoiSide& side : cells.sides(i)) {
+        if (side.neighbour >= 0) continue;
+        ++arcs;
+        rim += side.length;
+        EXPECT_TRUE(cells.at_wall(i));
+      }
+    }
+    EXPECT_NEAR(area, circle_of_cells.area(), 1e-13 * circle_of_cells.area()) << count;
+    EXPECT_NEAR(rim, 5.0 * std::numbers::pi, 1e-12) << count;
+    EXPECT_EQ(charge, 6 + arcs) << count;
+  }
+}
+
+/// Seven coins: the one in the middle has a hexagon, the others share the rest of the circle.
+TEST(VoronoiCells, InACircleOfSevenCoinsAreKnown) {
+  Eigen::Matrix2Xd positions(2, 7);
+  const Eigen::Vector2d centre = 0.5 * (circle_of_cells.lower + circle_of_cells.upper);
+  positions.col(0) = centre;
+  for (int k = 1; k < 7; ++k)
+    positions.col(k) =
+        centre + Eigen::Vector2d(std::cos(k * std::numbers::pi / 3.0), std::sin(k * std::numbers::pi / 3.0)) * 5.0 / 3.0;
+  const VoronoiCells cells(circle_of_cells, positions);
+  const double hexagon = std::sqrt(3.0) / 2.0 * 25.0 / 9.0;
+  EXPECT_NEAR(cells.area(0), hexagon, 1e-14);
+  EXPECT_FALSE(cells.at_wall(0));
+  EXPECT_NEAR(std::abs(psi6(cells, 0)), 1.0, 1e-14);
+  for (std::size_t i = 1; i < 7; ++i) {
+    EXPECT_NEAR(cells.area(i), (circle_of_cells.area() - hexagon) / 6.0, 1e-13);
+    EXPECT_TRUE(cells.at_wall(i));
+    EXPECT_EQ(cells.sides(i).size(), 4U) << "the hexagon, both coins beside, and the rim";
+  }
+}
+
+/// A disk whose cell has two arcs stands between two others; one alone in the middle has all of the circle.
+TEST(VoronoiCells, InACircleMayHaveNoneOrSeveralArcs) {
+  const Eigen::Vector2d centre = 0.5 * (circle_of_cells.lower + circle_of_cells.upper);
+  Eigen::Matrix2Xd positions(2, 3);
+  positions << centre.x() - 1.0, centre.x(), centre.x() + 1.0, centre.y(), centre.y(), centre.y();
+  const VoronoiCells three(circle_of_cells, positions);
+  const double strip = 2.0 * (0.5 * std::sqrt(6.25 - 0.25) + 6.25 * std::asin(0.2));
+  EXPECT_EQ(three.sides(1).size(), 4U);
+  EXPECT_NEAR(three.area(1), strip, 1e-13);
+  EXPECT_NEAR(three.area(0), (circle_of_cells.area() - strip) / 2.0, 1e-13);
+  for (const Eigen::Vector2d& at : {centre, Eigen::Vector2d(centre + Eigen::Vector2d(0.3, -1.0))}) {
+    const VoronoiCells one(circle_of_cells, at);
+    EXPECT_NEAR(one.area(0), circle_of_cells.area(), 1e-14);
+    EXPECT_TRUE(one.at_wall(0));
+  }
 }
 
 void expect_means_over_cut_cells(const Observed& o, const std::string& observable) {
@@ -259,8 +400,9 @@ void expect_means_over_cut_cells(const Observed& o, const std::string& observabl
     std::complex<double> all = 0.0, all_areas = 0.0;
     double here = 0.0, its_area = 0.0;
     for (const CutCell& cell : cells) {
-      variance += std::pow(cell.area() / mean - 1.0, 2) / static_cast<double>(cells.size());
-      if (const auto bin = static_cast<std::size_t>(5.0 * cell.area() / mean); bin < 20)
+      const double area = o.scene.box.is_circle ? area_with_arcs(cell, 0.5 * o.scene.box.lengths().x()) : cell.area();
+      variance += std::pow(area / mean - 1.0, 2) / static_cast<double>(cells.size());
+      if (const auto bin = static_cast<std::size_t>(5.0 * area / mean); bin < 20)
         areas[bin] += 1.0 / static_cast<double>(cells.size());
       if (cell.at_wall()) continue;
       here += 1.0, its_area += cell.area();
@@ -281,7 +423,7 @@ void expect_means_over_cut_cells(const Observed& o, const std::string& observabl
   EXPECT_NEAR(o.value(observable, "global"), global / states, 1e-11);
   EXPECT_NEAR(o.value(observable, "global_by_area"), by_area / states, 1e-11);
   EXPECT_NEAR(o.value(observable, "perimeter"), perimeter / whole, 1e-11);
-  EXPECT_NEAR(o.value(observable, "area_variance"), variance / states, 1e-11);
+  EXPECT_NEAR(o.value(observable, "area_variance"), variance / states, o.scene.box.is_circle ? 1e-9 : 1e-11);
   for (std::size_t k = 0; k < fractions.size(); ++k)
     EXPECT_NEAR(o.column(observable, 0, "fraction")[k], fractions[k] / whole, 1e-12);
   EXPECT_NEAR(o.value(observable, "fraction_6"), fractions[3] / whole, 1e-12);
@@ -292,6 +434,15 @@ void expect_means_over_cut_cells(const Observed& o, const std::string& observabl
 TEST(ObservedVoronoi, IsTheMeanOverCellsOfItsStates) {
   expect_means_over_cut_cells(observe(parse_scene(small_fluid("voronoi = { every = 0.5, bins = 20 }")), 0.5), "voronoi");
   expect_means_over_cut_cells(observe(parse_scene(small_mixture("voronoi = { every = 0.5, bins = 20 }")), 0.5), "voronoi");
+}
+
+TEST(ObservedVoronoi, InACircleIsTheMeanOverCellsOfItsStates) {
+  const Observed o = observe(
+      parse_scene("[box]\ncircle = { centre = [1.0, 2.0], radius = 4.0 }\n[[disks]]\ncount = 30\nradius = 0.4\nmass = "
+                  "1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n[collision]\nrule = \"specular\"\n[run]\n"
+                  "time = 3.0\n[observe]\nvoronoi = { every = 0.5, bins = 20 }\n"),
+      0.5);
+  expect_means_over_cut_cells(o, "voronoi");
 }
 
 /// The states of disks on a torus have as many cells too many as too few.
