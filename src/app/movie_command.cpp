@@ -42,11 +42,6 @@ Look look_of(const MovieOptions& options, const MoviePlan& plan, const RunReader
   if (look.colouring == Colouring::collisions && !exact)
     throw UsageError(
         fmt::format("--colour collisions: the collisions of {} are not known; run the scene with --events", options.directory));
-  if (needs_cells(look.colouring) && run.scene().effects.shear)
-    throw UsageError(
-        fmt::format("--colour {}: it is that of Voronoi cells, and under [shear] images slide past each other; take "
-                    "another colour, such as speed",
-                    options.colour));
   return look;
 }
 

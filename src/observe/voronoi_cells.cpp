@@ -1,6 +1,6 @@
 // The topology of the cells is found by Boost.Polygon, whose predicates are exact for integers: centres are rounded to a grid of
-// some 2^-30 of the box, on which a shift by a box length and a reflection at a wall are exact too. Lengths and areas are
-// computed from the centres themselves.
+// some 2^-30 of the box, on which a shift by a box length, or by that of sheared images, and a reflection at a wall are exact
+// too. Lengths and areas are computed from the centres themselves.
 //
 // Boost knows no periodic boxes. Images within a reach of the box are added. A corner of a cell is right if the circle around it
 // through the centre lies within that reach; where one does not, the reach is doubled.
@@ -31,6 +31,12 @@ namespace {
 
 using GridPoint = boost::polygon::point_data<std::int32_t>;
 
+/// Where cells are sought: a box, whose images above are displaced along x where it is sheared.
+struct CellSpace {
+  Box box;
+  double displacement = 0.0;
+};
+
 /// An image of a disk: in the box that is so many boxes to the right and above; of walls, every second one is reflected.
 struct Image {
   std::int32_t disk = 0;
@@ -44,19 +50,22 @@ using Neighbours = std::vector<std::vector<Image>>;
 class Grid {
  public:
   /// Requires a box whose walls enclose all centres.
-  Grid(const Box& box, const Eigen::Matrix2Xd& positions, double reach) : box_(box) {
+  Grid(const CellSpace& space, const Eigen::Matrix2Xd& positions, double reach) : box_(space.box) {
     constexpr double largest = 2.0e9;  // of an int32
+    const Box& box = space.box;
     const double unit = largest / (box.lengths().maxCoeff() + reach);
     for (int axis = 0; axis < 2; ++axis) {
       length_[static_cast<std::size_t>(axis)] = std::max<std::int64_t>(4, std::llround(unit * box.lengths()[axis]));
       reach_[static_cast<std::size_t>(axis)] = std::floor(unit * reach);
     }
+    displacement_ = std::llround(unit * space.displacement);
     for (Eigen::Index i = 0; i < positions.cols(); ++i) add(i, positions.col(i));
     const std::size_t count = images_.size();
     std::array<std::int32_t, 2> boxes;
     for (std::size_t axis = 0; axis < 2; ++axis)
       boxes[axis] = static_cast<std::int32_t>(std::ceil(reach_[axis] / static_cast<double>(length_[axis])));
-    for (std::int32_t x = -boxes[0]; x <= boxes[0]; ++x)
+    const auto aside = static_cast<std::int32_t>(std::abs(displacement_ * boxes[1]) / length_[0]) + (displacement_ != 0 ? 1 : 0);
+    for (std::int32_t x = -boxes[0] - aside; x <= boxes[0] + aside; ++x)
       for (std::int32_t y = -boxes[1]; y <= boxes[1]; ++y)
         if (x != 0 || y != 0)
           for (std::size_t i = 0; i < count; ++i) add_image(i, {x, y});
@@ -107,6 +116,7 @@ class Grid {
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const bool reflected = !box_.periodic(static_cast<int>(axis)) && shift[axis] % 2 != 0;
       at[axis] = shift[axis] * length_[axis] + (reflected ? length_[axis] - at[axis] : at[axis]);
+      if (axis == 0) at[axis] += shift[1] * displacement_;
       const auto place = static_cast<double>(at[axis]);
       if (place < -reach_[axis] || place > static_cast<double>(length_[axis]) + reach_[axis]) return;
     }
@@ -140,6 +150,7 @@ class Grid {
 
   Box box_;
   std::array<std::int64_t, 2> length_{};  ///< of the box
+  std::int64_t displacement_ = 0;         ///< of the images above
   std::array<double, 2> reach_{};
   std::size_t count_ = 0;      ///< of disks
   std::vector<Image> images_;  ///< the disks themselves come first
@@ -149,7 +160,8 @@ class Grid {
 /// Returns the image of the disk `from` as its neighbour `to` has it. Requires that it is not a wall.
 Image seen_back(std::size_t from, const Image& to) { return {static_cast<std::int32_t>(from), {-to.shift[0], -to.shift[1]}}; }
 
-Eigen::Vector2d way_to(const Box& box, const Eigen::Matrix2Xd& positions, std::size_t i, const Image& image) {
+Eigen::Vector2d way_to(const CellSpace& space, const Eigen::Matrix2Xd& positions, std::size_t i, const Image& image) {
+  const Box& box = space.box;
   const auto self = static_cast<Eigen::Index>(i);
   Eigen::Vector2d to =
       image.disk < 0 ? Eigen::Vector2d(0.0, 0.0) : Eigen::Vector2d(positions.col(image.disk) - positions.col(self));
@@ -161,6 +173,7 @@ Eigen::Vector2d way_to(const Box& box, const Eigen::Matrix2Xd& positions, std::s
     else
       to[axis] += shift * box.lengths()[axis];
   }
+  if (image.disk >= 0 && image.shift[1] != 0) to.x() += image.shift[1] * space.displacement;
   return to;
 }
 
@@ -190,7 +203,7 @@ void make_mutual(Neighbours& neighbours) {
 }
 
 /// Divides polygons of four and more centres, which are on one circle, into triangles. Requires that there are no walls.
-void triangulate(const Box& box, const Eigen::Matrix2Xd& positions, Directions& around) {
+void triangulate(const CellSpace& space, const Eigen::Matrix2Xd& positions, Directions& around) {
   std::vector<std::vector<bool>> visited(around.size());
   for (std::size_t i = 0; i < around.size(); ++i) visited[i].resize(around[i].size());
   std::vector<std::array<Image, 2>> diagonals;  // from one to the other
@@ -217,7 +230,7 @@ void triangulate(const Box& box, const Eigen::Matrix2Xd& positions, Directions& 
   const auto join = [&](const Image& from, const Image& to) {
     const Image image{to.disk, {to.shift[0] - from.shift[0], to.shift[1] - from.shift[1]}};
     const auto i = static_cast<std::size_t>(from.disk);
-    around[i].push_back({image, way_to(box, positions, i, image)});
+    around[i].push_back({image, way_to(space, positions, i, image)});
   };
   for (const auto& [a, b] : diagonals) join(a, b), join(b, a);
   for (std::vector<Direction>& one : around) sort_by_angle(one);
@@ -325,10 +338,10 @@ class CellInCircle {
   std::vector<Side> sides_;
 };
 
-Neighbours neighbours_of(const Box& box, const Eigen::Matrix2Xd& positions) {
-  const double spacing = std::sqrt(box.area() / static_cast<double>(positions.cols()));
+Neighbours neighbours_of(const CellSpace& space, const Eigen::Matrix2Xd& positions) {
+  const double spacing = std::sqrt(space.box.area() / static_cast<double>(positions.cols()));
   for (double reach = 4.0 * spacing;; reach *= 2.0)
-    if (std::optional<Neighbours> found = Grid(box, positions, reach).neighbours()) return std::move(*found);
+    if (std::optional<Neighbours> found = Grid(space, positions, reach).neighbours()) return std::move(*found);
 }
 
 }  // namespace
@@ -360,22 +373,23 @@ void VoronoiCells::cut_by_circle(const Box& box, const Eigen::Matrix2Xd& positio
   }
 }
 
-VoronoiCells::VoronoiCells(const Box& box, const Eigen::Matrix2Xd& positions) : first_{0} {
+VoronoiCells::VoronoiCells(const Box& box, const Eigen::Matrix2Xd& positions, double shear_displacement) : first_{0} {
   const auto count = static_cast<std::size_t>(positions.cols());
   if (count == 0) return;
   if (box.is_circle) {
     cut_by_circle(box, positions);
     return;
   }
-  Neighbours neighbours = neighbours_of(box, positions);
+  const CellSpace space{box, shear_displacement};
+  Neighbours neighbours = neighbours_of(space, positions);
   make_mutual(neighbours);
   Directions around(count);
   for (std::size_t i = 0; i < count; ++i) {
-    for (const Image& image : neighbours[i]) around[i].push_back({image, way_to(box, positions, i, image)});
+    for (const Image& image : neighbours[i]) around[i].push_back({image, way_to(space, positions, i, image)});
     sort_by_angle(around[i]);
   }
   const bool is_torus = box.periodic(0) && box.periodic(1);
-  if (is_torus) triangulate(box, positions, around);
+  if (is_torus) triangulate(space, positions, around);
   std::vector<Eigen::Vector2d> corners;
   for (const std::vector<Direction>& all : around) {
     corners.clear();

@@ -29,8 +29,9 @@ struct VoronoiSide {
 /// whose sides have the length 0.
 class VoronoiCells {
  public:
-  /// Requires that no two centres coincide; throws std::invalid_argument where they do.
-  VoronoiCells(const Box& box, const Eigen::Matrix2Xd& positions);
+  /// Images above a sheared box are displaced along x by `shear_displacement`, n boxes above by n times that. Requires that no
+  /// two centres coincide; throws std::invalid_argument where they do.
+  VoronoiCells(const Box& box, const Eigen::Matrix2Xd& positions, double shear_displacement = 0.0);
 
   /// Returns the number of cells.
   [[nodiscard]] std::size_t count() const { return areas_.size(); }

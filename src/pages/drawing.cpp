@@ -31,7 +31,7 @@ LocalOrder order_of(const Subject& subject, const Moment& moment) {
   Box box = subject.scene.box;
   box.lower = {moment.sides[0], moment.sides[2]};
   box.upper = {moment.sides[1], moment.sides[3]};
-  const VoronoiCells cells(box, moment.positions);
+  const VoronoiCells cells(box, moment.positions, moment.shear_displacement);
   for (std::size_t i = 0; i < cells.count(); ++i) {
     found.psi6.push_back(sixfold_order(cells.sides(i)));
     found.neighbours.push_back(cells.at_wall(i) ? 0 : cells.sides(i).size());

@@ -18,7 +18,7 @@ namespace carom {
 class Playback;
 
 /// `psi6` is the size of the sixfold order of each disk, `psi6_angle` the direction of its axes, `neighbours` their number; all
-/// of them by Voronoi cells, which a box under shear has not.
+/// of them by Voronoi cells.
 enum class Colouring { speed, species, collisions, id, psi6, psi6_angle, neighbours, plain };
 [[nodiscard]] constexpr bool needs_cells(Colouring colouring) {
   return colouring == Colouring::psi6 || colouring == Colouring::psi6_angle || colouring == Colouring::neighbours;

@@ -92,7 +92,8 @@ double area_with_arcs(const CutCell& cell, double radius) {
   return area;
 }
 
-std::vector<CutCell> cut_cells(const Box& box, const Eigen::Matrix2Xd& positions) {
+std::vector<CutCell> cut_cells(const Box& box, const Eigen::Matrix2Xd& positions, double displacement = 0.0) {
+  const int reach = displacement == 0.0 ? 3 : 6;
   if (box.is_circle) return cut_cells_in_circle(box, positions);
   std::vector<CutCell> cells;
   for (Eigen::Index i = 0; i < positions.cols(); ++i) {
@@ -106,11 +107,11 @@ std::vector<CutCell> cut_cells(const Box& box, const Eigen::Matrix2Xd& positions
     cell.add({high.x(), low.y()}, -1, {2.0 * high.x(), 0.0});
     cell.add(high, -1, {0.0, 2.0 * high.y()});
     cell.add({low.x(), high.y()}, -1, {2.0 * low.x(), 0.0});
-    for (int x = box.periodic(0) ? -3 : 0; x <= (box.periodic(0) ? 3 : 0); ++x)
+    for (int x = box.periodic(0) ? -reach : 0; x <= (box.periodic(0) ? reach : 0); ++x)
       for (int y = box.periodic(1) ? -3 : 0; y <= (box.periodic(1) ? 3 : 0); ++y)
         for (Eigen::Index j = 0; j < positions.cols(); ++j) {
           if (j == i && x == 0 && y == 0) continue;
-          const Eigen::Vector2d shift(x * box.lengths().x(), y * box.lengths().y());
+          const Eigen::Vector2d shift(x * box.lengths().x() + y * displacement, y * box.lengths().y());
           cell.cut(static_cast<std::int32_t>(j), positions.col(j) - self + shift);
         }
     cells.push_back(cell);
@@ -129,10 +130,10 @@ Eigen::Matrix2Xd random_points(const Box& box, Eigen::Index count, std::uint64_t
   return positions;
 }
 
-void expect_cells_by_cutting(const Box& box, const Eigen::Matrix2Xd& positions) {
+void expect_cells_by_cutting(const Box& box, const Eigen::Matrix2Xd& positions, double displacement = 0.0) {
   constexpr double rounding = 1e-9;  // corners are far away where centres are nearly on a line
-  const VoronoiCells cells(box, positions);
-  const std::vector<CutCell> twins = cut_cells(box, positions);
+  const VoronoiCells cells(box, positions, displacement);
+  const std::vector<CutCell> twins = cut_cells(box, positions, displacement);
   ASSERT_EQ(cells.count(), twins.size());
   for (std::size_t i = 0; i < twins.size(); ++i) {
     EXPECT_NEAR(cells.area(i), twins[i].area(), rounding * box.area());
@@ -160,6 +161,13 @@ TEST(VoronoiCells, AreThoseThatOneCutAfterTheOtherLeaves) {
       }
   const Box narrow{{0.0, 0.0}, {30.0, 1.0}, {Boundary::periodic, Boundary::walls}};
   expect_cells_by_cutting(narrow, random_points(narrow, 25, 9));
+}
+
+TEST(VoronoiCells, OfAShearedBoxAreThoseOfImagesThatAreDisplaced) {
+  const Box box{{-2.0, 1.0}, {3.0, 4.5}, {Boundary::periodic, Boundary::periodic}};
+  for (const double displacement : {0.3, 2.6, 4.999, -1.7})
+    for (const Eigen::Index count : {1, 2, 3, 7, 40})
+      expect_cells_by_cutting(box, random_points(box, count, static_cast<std::uint64_t>(count)), displacement);
 }
 
 /// The first and the last number below an edge are rounded to the edge itself on a coarser grid.

@@ -88,8 +88,8 @@ void expect_positions_of_the_engine(const Scene& scene, double until) {
 
 TEST(BrowserPlayer, EveryControlDoesWhatItSays) {
   if (!has_browser()) GTEST_SKIP() << no_browser;
-  const Visit visit =
-      played(parse_scene(watched_gas), script("page_checks.js") + script("run_player_checks.js") + script("player_controls.js"));
+  const Visit visit = played(parse_scene(watched_gas), script("page_checks.js") + script("player_cells.js") +
+                                                           script("run_player_checks.js") + script("player_controls.js"));
   expect_clean(visit);
   EXPECT_EQ(data(visit, "failures"), "");
   EXPECT_GT(std::stoi(data(visit, "checks")), 100);
@@ -136,6 +136,26 @@ TEST(BrowserPlayer, ADiskCrossesTheEdgesOfAShearedBoxWhereItShould) {
     document.documentElement.dataset.apart = apart < 0.5 * 10 / 65535 + 1e-9 ? "rounding" : String(apart);
 )");
   EXPECT_EQ(data(visit, "apart"), "rounding");
+}
+
+/// Forty disks in a box, which is all that it says.
+Scene forty_disks_in(const std::string& box, const std::string& more) {
+  return parse_scene(
+      "[box]\n" + box +
+      "\n[[disks]]\ncount = 40\nradius = 0.3\nmass = 1.0\npositions = \"random\"\nvelocities = { temperature = 1.0 }\n"
+      "[collision]\nrule = \"specular\"\n[run]\ntime = 8.0\nsample_every = 0.25\nseed = 5\n[output]\nevents = true\n" +
+      more);
+}
+
+TEST(BrowserPlayer, FindsTheCellsOfPeriodicShearedAndCircularBoxes) {
+  if (!has_browser()) GTEST_SKIP() << no_browser;
+  const std::string periodic = "x = [0.0, 10.0]\ny = [-4.0, 4.0]\nboundary = \"periodic\"";
+  for (const Scene& scene : {forty_disks_in(periodic, ""), forty_disks_in(periodic, "[shear]\nrate = 0.3\n"),
+                             forty_disks_in("circle = { centre = [1.0, 2.0], radius = 4.5 }", "")}) {
+    const Visit visit = played(scene, script("page_checks.js") + script("player_cells.js") + "noteChecks();\n");
+    expect_clean(visit);
+    EXPECT_EQ(data(visit, "failures"), "");
+  }
 }
 
 TEST(BrowserPlayer, DrawsDisksFromSamplesAtTheirInstantsAndSaysSo) {

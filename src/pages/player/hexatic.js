@@ -6,8 +6,9 @@
 const cellsOffered = disks >= 3 && disks <= 5000;
 
 /// Writes the real and imaginary part of psi, its size, and the number of neighbours of every disk into `order`; 0 neighbours where a
-/// wall cuts the cell off. A cell is the box round its disk, cut by the bisector to one neighbour after the other; these are
-/// searched in square cells of about two disks, ring after ring, until the rest is too far away to cut.
+/// wall, or the rim of a circular box, cuts the cell off. A cell is the box round its disk, cut by the bisector to one neighbour after
+/// the other; these are searched in square cells of about two disks, ring after ring, until the rest is too far away to cut. Under
+/// shear the rows of square cells above the box are displaced by whole cells, and disks by their part of one besides.
 function findOrder(moment, order) {
   const left = box.periodic[0] ? box.lower[0] : moment.walls[0];
   const bottom = box.periodic[1] ? box.lower[1] : moment.walls[2];
@@ -25,6 +26,7 @@ function findOrder(moment, order) {
     head[at] = i;
   }
   const step = Math.min(width / across, height / up);
+  const slid = Math.round((moment.displacement / width) * across);  // cells by which a row above is displaced, to the nearest
   const most = 64;  // corners of a cell
   const wall = -1;  // the label of a side that is one
   let x = new Float64Array(most), y = new Float64Array(most), label = new Int32Array(most), count = 0;
@@ -82,15 +84,16 @@ function findOrder(moment, order) {
       return Math.sqrt(square);
     };
     const rings = 2 * Math.max(across, up) + 2;
-    for (let ring = 0; ring <= rings && (ring - 1) * step <= 2 * farthest(); ++ring) {
+    for (let ring = 0; ring <= rings && (ring - (moment.displacement === 0 ? 1 : 1.5)) * step <= 2 * farthest(); ++ring) {
       for (let b = -ring; b <= ring; ++b) {
         for (let a = -ring; a <= ring; a += Math.abs(b) === ring ? 1 : Math.max(2 * ring, 1)) {
-          const boxX = Math.floor((cx + a) / across);
           const boxY = Math.floor((cy + b) / up);
+          const column = cx + a - boxY * slid;
+          const boxX = Math.floor(column / across);
           if ((!box.periodic[0] && boxX !== 0) || (!box.periodic[1] && boxY !== 0)) continue;
-          for (let j = head[cx + a - boxX * across + across * (cy + b - boxY * up)]; j >= 0; j = next[j]) {
+          for (let j = head[column - boxX * across + across * (cy + b - boxY * up)]; j >= 0; j = next[j]) {
             if (j === i && boxX === 0 && boxY === 0) continue;
-            cut(moment.x[j] + boxX * width - mx, moment.y[j] + boxY * height - my);
+            cut(moment.x[j] + boxX * width + boxY * moment.displacement - mx, moment.y[j] + boxY * height - my);
           }
         }
       }
@@ -101,6 +104,7 @@ function findOrder(moment, order) {
     let neighbours = 0;
     let isAtWall = false;
     for (let k = 0; k < count; ++k) {
+      if (box.isCircle && Math.hypot(mx + x[k] - left - width / 2, my + y[k] - bottom - height / 2) > width / 2) isAtWall = true;
       const to = (k + 1) % count;
       const length = Math.hypot(x[to] - x[k], y[to] - y[k]);
       if (length < 1e-9 * side) continue;
