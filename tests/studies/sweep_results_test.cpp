@@ -188,6 +188,17 @@ TEST_F(SweepOfDiffusion, TakesItFromTheTablesOfTheRuns) {
   EXPECT_EQ(results.averages.at(1).at(1).count, 1U) << "that run has no such number";
 }
 
+TEST_F(SweepOfDiffusion, HasItsUnitInTheFiles) {
+  const SweepResults results = collect(sweep_, out());
+  const std::string path = files_.directory().file("sweep.h5"), name = "observables.mean_square_displacement.diffusion@1";
+  write_text(path, sweep_hdf5(sweep_, results));
+  const detail::Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  for (const char* group : {"/points/mean/", "/points/error/", "/runs/numbers/"})
+    EXPECT_EQ(detail::read_string_attribute(file.get(), group + name, "unit"), "length^2 / time");
+  const Json json = Json::parse(sweep_json(sweep_, results));
+  EXPECT_EQ(json.at("points").at(0).at("numbers").at(name).at("unit"), "length^2 / time");
+}
+
 TEST_F(SweepOfDiffusion, IsDrawnBesideTheory) {
   // 50 disks in a box of area A: D of Enskog is that of Boltzmann over g, D = sigma sqrt(kT/m) / (2 sqrt(pi) n sigma^2 g) but for
   // the first Sonine polynomials, which add two parts in a hundred; g after Henderson.
@@ -239,6 +250,8 @@ TEST_F(SweepResultsOf, TheHdf5FileHoldsTheSameAndHasTheSameBytesEveryTime) {
   EXPECT_EQ(detail::read_rows(file.get(), "/points/error/pressure.Z", 0, 1)[0], 0.5);
   EXPECT_THAT(detail::read_rows(file.get(), "/runs/numbers/pressure.Z", 0, 2), ElementsAre(1.0, 2.0));
   EXPECT_THAT(detail::read_rows(file.get(), "/runs/seed", 0, 6), ElementsAre(1, 2, 1, 2, 1, 2));
+  EXPECT_EQ(detail::read_string_attribute(file.get(), "/points/parameters/run.time", "unit"), "time");
+  EXPECT_EQ(detail::read_string_attribute(file.get(), "/points/mean/pressure.Z", "unit"), "") << "a pure number has none";
   EXPECT_EQ(detail::read_string_attribute(file.get(), "/", "sweep"), sweep_.text);
   EXPECT_EQ(detail::read_string_attribute(file.get(), "/", "scene"), fifty_disks);
 }

@@ -1,5 +1,6 @@
 // Numbers have the fewest digits that read back as the same double; an absent one is an empty cell. The HDF5 file is made in
-// memory, where no disk can be full, and does not depend on the day or the machine.
+// memory, where no disk can be full, and does not depend on the day or the machine. A data set with a unit has it as its
+// attribute `unit`, as in H5MD.
 
 #include "studies/sweep/products.hpp"
 
@@ -104,8 +105,10 @@ std::string sweep_json(const Sweep& sweep, const SweepResults& results) {
     for (std::size_t k = 0; k < results.numbers.size(); ++k) {
       const SeedAverage& average = results.averages[point][k];
       if (average.mean)
-        numbers[results.numbers[k]] = {
-            {"mean", *average.mean}, {"error", average.error ? Json(*average.error) : Json(nullptr)}, {"count", average.count}};
+        numbers[results.numbers[k]] = {{"mean", *average.mean},
+                                       {"error", average.error ? Json(*average.error) : Json(nullptr)},
+                                       {"unit", results.units[k]},
+                                       {"count", average.count}};
     }
     points.push_back({{"point", sweep.points[point].name},
                       {"values", values},
@@ -128,6 +131,14 @@ using detail::write_column;
 /// Returns NaN for an absent number.
 double number(const std::optional<double>& value) { return value.value_or(std::numeric_limits<double>::quiet_NaN()); }
 
+/// Writes a column with its unit, which a pure number has none of.
+void write_numbers(hid_t group, const std::string& name, const std::string& unit, const std::vector<double>& values) {
+  write_column(group, name, values);
+  if (unit.empty()) return;
+  const Hdf5Id column(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose);
+  write_attribute(column.get(), "unit", unit);
+}
+
 /// The number of its point for every run; for points their own number.
 using Points = std::vector<std::size_t>;
 
@@ -138,7 +149,7 @@ void write_parameters(hid_t table, const Sweep& sweep, const Points& points) {
     if (is_numeric(sweep, k)) {
       std::vector<double> values;
       for (const std::size_t point : points) values.push_back(number(number_of(sweep.points[point].values[k])));
-      write_column(group.get(), sweep.keys[k], values);
+      write_numbers(group.get(), sweep.keys[k], unit_of_key(sweep.keys[k]), values);
     } else {
       std::vector<std::string> values;
       for (const std::size_t point : points) values.push_back(plain_value(sweep.points[point].values[k]));
@@ -170,8 +181,8 @@ void write_points(hid_t file, const Sweep& sweep, const SweepResults& results) {
       means.push_back(number(averages[k].mean));
       errors.push_back(number(averages[k].error));
     }
-    write_column(mean.get(), results.numbers[k], means);
-    write_column(error.get(), results.numbers[k], errors);
+    write_numbers(mean.get(), results.numbers[k], results.units[k], means);
+    write_numbers(error.get(), results.numbers[k], results.units[k], errors);
   }
 }
 
@@ -200,7 +211,7 @@ void write_runs(hid_t file, const Sweep& sweep, const SweepResults& results) {
   for (std::size_t k = 0; k < results.numbers.size(); ++k) {
     std::vector<double> values;
     for (const std::vector<std::optional<double>>& run : results.values) values.push_back(number(run[k]));
-    write_column(group.get(), results.numbers[k], values);
+    write_numbers(group.get(), results.numbers[k], results.units[k], values);
   }
 }
 
