@@ -187,6 +187,49 @@ class Horizon:
 
 
 @dataclass(frozen=True, eq=False)
+class LyapunovSpectrum:
+    """All Lyapunov exponents of a scene, and the rate at which its trajectories lose the memory of their start.
+
+    Attributes:
+        summary: everything in numbers, as `carom horizon --spectrum --json` prints it.
+        exponents: a row for each of the 4 N exponents of N disks, the largest first: `exponent` and its standard error, 1 / time; the
+            error is nan where the run is too short.
+        entropy: the Kolmogorov-Sinai entropy, the sum of the positive exponents, 1 / time.
+        pairing: the largest of |exponent i + exponent 4 N + 1 - i|, 1 / time; 0 to rounding where the dynamics is Hamiltonian.
+        collision_rate: collisions of one disk per time, the natural unit of the exponents.
+    """
+
+    summary: dict[str, Any] = field(repr=False)
+    exponents: Table = field(repr=False)
+    entropy: Number
+    pairing: float
+    collision_rate: float
+    _text: str = field(repr=False)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws the exponents over their numbers. Needs matplotlib.
+
+        Args:
+            ax: where to draw; None: a figure of its own.
+        """
+        import matplotlib.pyplot as plt
+
+        axes = plt.subplots()[1] if ax is None else ax
+        values, errors = self.exponents["exponent"], np.nan_to_num(self.exponents["exponent_error"])
+        axes.errorbar(np.arange(1, len(values) + 1), values, errors, fmt=".")
+        axes.axhline(0.0, color="gray", linewidth=0.5)
+        axes.set_xlabel("number of the exponent")
+        axes.set_ylabel("Lyapunov exponent (1 / time)")
+        return axes
+
+    def __str__(self) -> str:
+        return self._text.rstrip("\n")
+
+    def _repr_html_(self) -> str:
+        return self.exponents._repr_html_()
+
+
+@dataclass(frozen=True, eq=False)
 class Validation:
     """The engine held against kinetic theory and the literature.
 
@@ -342,6 +385,35 @@ def horizon(
     exponent = summary["horizon"]["lyapunov"]
     lyapunov = exponent and Number(exponent["per_time"], exponent["per_time_error"], "1 / time")
     return Horizon(summary, sentence, Table(columns, units, "Horizons"), lyapunov, table)
+
+
+def lyapunov_spectrum(scene: SceneLike, *, collisions: int | None = None, progress: Progress | None = None) -> LyapunovSpectrum:
+    """Measures all Lyapunov exponents of a scene with up to 256 disks, by Benettin's method.
+
+    Args:
+        scene: a Scene, the path of a scene file, or a mapping.
+        collisions: pair collisions over which they are measured; None: 20,000.
+        progress: True for a bar (needs tqdm), or a function of the fraction done.
+
+    Raises:
+        SceneError: where the scene is wrong; ValueError: where an argument is, there are too many disks, or something acts that the
+        study does not know; RuntimeError: where disks collide too rarely, or lose energy when they do.
+    """
+    import json
+
+    from carom import _files
+
+    core = as_scene(scene)._core
+    count = None if collisions is None else _arguments.whole(collisions, "collisions")
+    with _sentences(), reporting(progress, "Lyapunov exponents") as tell:
+        text, lines = _files.lyapunov_spectrum(core, count, tell)
+    summary: dict[str, Any] = json.loads(text)
+    found = summary["lyapunov_spectrum"]
+    columns: dict[str, npt.ArrayLike] = {"exponent": found["exponents"], "exponent_error": _numbers(found["errors"])}
+    units = {"exponent": "1 / time", "exponent_error": "1 / time"}
+    entropy = Number(found["entropy"], found["entropy_error"], "1 / time")
+    table = Table(columns, units, "Lyapunov exponents")
+    return LyapunovSpectrum(summary, table, entropy, found["pairing"], found["collision_rate"], lines)
 
 
 def beside(

@@ -16,6 +16,7 @@
 #include "studies/horizon/json.hpp"
 #include "studies/horizon/method.hpp"
 #include "studies/horizon/report.hpp"
+#include "studies/horizon/spectrum.hpp"
 #include "studies/horizon/text.hpp"
 #include "studies/sweep/numbers.hpp"
 #include "studies/sweep/results.hpp"
@@ -172,6 +173,28 @@ HorizonParts horizon(const Scene& scene, const std::string& engine, std::optiona
   return parts;
 }
 
+/// What `carom horizon --spectrum --json` prints, the lines of the terminal
+using SpectrumParts = std::tuple<std::string, std::string>;
+
+SpectrumParts lyapunov_spectrum(const Scene& scene, std::optional<std::uint64_t> collisions, const nb::object& report) {
+  if (collisions == 0) throw cli::UsageError("--collisions 0: an exponent needs some collisions");
+  cli::require_known_effects(scene, "carom horizon");
+  if (const std::string words = why_no_spectrum(scene); !words.empty()) throw cli::UsageError(words);
+  Watch watch(report);
+  const SpectrumParts parts = watched(watch, [&]() -> SpectrumParts {
+    const std::optional<State> start = measured_start(scene, "auto", [&](const Progress&) { return watch(0.0); });
+    if (!start)
+      throw std::runtime_error(
+          fmt::format("{}: the scene stopped while equilibrating, before anything was measured", scene.source));
+    const std::optional<LyapunovSpectrum> found = measure_spectrum(
+        scene, *start, {.collisions = collisions.value_or(0), .proceed = [&](double fraction) { return watch(fraction); }});
+    if (!found) throw std::runtime_error(fmt::format("{}: {}", scene.source, no_exponents));
+    return {spectrum_json(*found, scene), spectrum_text(*found, scene)};
+  });
+  watch.raise();
+  return parts;
+}
+
 /// validation.json, the verdicts of all checks in words, one line on all of them, the page, whether it is complete
 using ValidationParts = std::tuple<std::string, std::vector<std::string>, std::string, std::string, bool>;
 
@@ -281,6 +304,7 @@ void add_studies(nb::module_& module) {
       },
       nb::arg("first"), nb::arg("second"), "Returns what carom diff --json prints, and the text of the terminal.");
   module.def("horizon", &horizon, nb::arg("scene"), nb::arg("engine"), nb::arg("collisions").none(), nb::arg("report").none());
+  module.def("lyapunov_spectrum", &lyapunov_spectrum, nb::arg("scene"), nb::arg("collisions").none(), nb::arg("report").none());
   module.def("validate", &validate, nb::arg("full"), nb::arg("only"), nb::arg("seed"), nb::arg("report").none());
   module.def("validation_trials", &validation_trials, nb::arg("full"));
   module.def("hard_cases", &hard_cases, nb::arg("names"), nb::arg("engine"), nb::arg("report").none());

@@ -128,6 +128,19 @@ def test_prices_of_a_comparison_are_a_table(comparison):
     assert prices["ratio"][~np.isnan(prices["ratio"])].tolist() == stored
 
 
+def test_a_spectrum_has_the_programs_numbers_and_pairs(scene, program):
+    spectrum = carom.lyapunov_spectrum(scene, collisions=2000)
+    expected = json.loads(program("horizon", scene, "--spectrum", "--collisions", "2000", "--json", "--quiet").stdout)
+    assert spectrum.summary["lyapunov_spectrum"] == expected["lyapunov_spectrum"]
+    exponents = spectrum.exponents["exponent"]
+    assert len(exponents) == 4 * expected["disks"] and np.all(np.diff(exponents) <= 0)
+    assert np.max(np.abs(exponents + exponents[::-1])) == spectrum.pairing < 1e-9 * spectrum.collision_rate
+    assert spectrum.entropy.value == pytest.approx(exponents[exponents > 0].sum(), rel=1e-9)
+    assert "Kolmogorov-Sinai" in str(spectrum) and "<table>" in spectrum._repr_html_()
+    assert "1 / time" in spectrum.plot().get_ylabel()
+    assert pickle.loads(pickle.dumps(spectrum)).entropy == spectrum.entropy
+
+
 def test_what_studies_show(comparison, horizon):
     html = comparison._repr_html_()
     assert html.startswith("<p>") and "<table>" in html and comparison.runs.rows >= 5
@@ -230,6 +243,11 @@ def test_a_hard_case_of_ones_own_may_fail(tmp_path):
         (lambda scene: carom.beside(scene, "naive:0.01", stiffness=1e4), 'a stiffness is that of the springs of method="soft"'),
         (lambda scene: carom.beside(scene, "soft:0.1", stiffness=1e9), "method=soft:0.1: "),
         (lambda scene: carom.horizon(scene, collisions=0), "collisions=0: an exponent needs some collisions"),
+        (lambda scene: carom.lyapunov_spectrum(scene, collisions=0), "collisions=0: an exponent needs some collisions"),
+        (
+            lambda scene: carom.lyapunov_spectrum({**scene, "disks": [{**scene["disks"][0], "count": 300, "radius": 0.01}]}),
+            "has 300 disks, and the exponents of at most 256 are measured",
+        ),
         (lambda scene: carom.horizon(scene, engine="slow"), "engine=slow: there is no such engine"),
         (lambda scene: carom.beside(scene, "nave"), 'method=nave: there is no fixed-step method "nave"; choose one of naive'),
         (lambda scene: carom.beside(scene, "naive:soon"), "method=naive:soon: after the colon stands a time step"),

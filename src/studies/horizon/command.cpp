@@ -13,17 +13,12 @@
 #include <cstdio>
 #include <new>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace carom::cli {
 
 namespace {
-
-void require_few_disks(const Scene& scene) {
-  if (scene.disk_count() > most_disks_of_a_spectrum)
-    throw UsageError(fmt::format("--spectrum: {} has {} disks, and the exponents of at most {} are measured; take fewer disks",
-                                 scene.source, scene.disk_count(), most_disks_of_a_spectrum));
-}
 
 ExitCode measure_all_exponents(const Scene& scene, const State& start, const HorizonCommandOptions& options, ProgressMode mode,
                                const StopRequest& stop) {
@@ -37,8 +32,7 @@ ExitCode measure_all_exponents(const Scene& scene, const State& start, const Hor
   }
   if (!found) {
     fmt::print(stderr, "carom: {}: {}\n", scene.source,
-               stop.made() ? "interrupted before the exponents were measured"
-                           : "no exponents were measured: disks collide too rarely, or lose energy when they do");
+               stop.made() ? std::string_view("interrupted before the exponents were measured") : no_exponents);
     return stop.made() ? exit_interrupted : exit_failed;
   }
   fmt::print("{}", options.json ? spectrum_json(*found, scene) + "\n" : spectrum_text(*found, scene));
@@ -51,7 +45,8 @@ ExitCode measure(const HorizonCommandOptions& options) {
   const std::string& engine = checked_engine(options.scene);
   const Scene scene = load(options.scene);
   require_known_effects(scene, "carom horizon");
-  if (options.spectrum) require_few_disks(scene);
+  if (options.spectrum)
+    if (const std::string words = why_no_spectrum(scene); !words.empty()) throw UsageError("--spectrum: " + words);
   const StopRequest stop;
   const std::optional<State> start = [&] {
     ProgressLine line(mode, scene);

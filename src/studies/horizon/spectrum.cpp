@@ -173,6 +173,12 @@ std::optional<LyapunovSpectrum> measure_spectrum(const Scene& scene, const State
   return spectrum_of(stretches, disks);
 }
 
+std::string why_no_spectrum(const Scene& scene) {
+  if (scene.disk_count() <= most_disks_of_a_spectrum) return {};
+  return fmt::format("{} has {} disks, and the exponents of at most {} are measured; take fewer disks", scene.source,
+                     scene.disk_count(), most_disks_of_a_spectrum);
+}
+
 std::string spectrum_json(const LyapunovSpectrum& spectrum, const Scene& scene) {
   using detail::Json;
   Json json;

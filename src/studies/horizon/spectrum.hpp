@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace carom {
@@ -41,6 +42,13 @@ struct SpectrumOptions {
 /// most most_disks_of_a_spectrum disks, and effects that TangentFlow knows. Throws as make_simulation.
 [[nodiscard]] std::optional<LyapunovSpectrum> measure_spectrum(const Scene& scene, const State& start,
                                                                const SpectrumOptions& options = {});
+
+/// Why measure_spectrum() found nothing, where nobody has stopped it.
+inline constexpr std::string_view no_exponents =
+    "no exponents were measured: disks collide too rarely, or lose energy when they do";
+
+/// Returns why the spectrum of this scene is not measured, as a sentence; empty where it is.
+[[nodiscard]] std::string why_no_spectrum(const Scene& scene);
 
 /// Returns the spectrum as JSON, with the scene and the program.
 [[nodiscard]] std::string spectrum_json(const LyapunovSpectrum& spectrum, const Scene& scene);
