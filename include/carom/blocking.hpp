@@ -54,7 +54,7 @@ class Blocking {
   /// blocking finds it, by which in equilibrium the first part fluctuates too: a start that has not yet come to equilibrium does
   /// not hide itself behind its own scatter. The probability is that of Student's t with the number of these blocks. Returns
   /// nothing where the rest has too few samples, correlations that are too long, or no scatter but rounding.
-  [[nodiscard]] std::optional<Halves> halves(int power = 1) const;
+  [[nodiscard]] std::optional<Halves> halves(int power = 1) const { return halves(levels_, at_power_, at_power_before_, power); }
 
   /// Sums over all blocks of 2^level samples. Sums of squares are about the mean of all blocks.
   struct Level {
@@ -72,6 +72,12 @@ class Blocking {
   /// by (variance of the mean) / (its expected estimate from such blocks), both for these correlations alone.
   [[nodiscard]] static std::optional<Estimate> estimate(std::span<const Level> levels, int power = 1,
                                                         std::span<const double> known = {});
+
+  /// Compares two parts of samples that were gathered elsewhere: `late` and `early` are the levels as they were at the last two
+  /// numbers of samples that may be the end of the first part, of which the one is taken that is nearer to half of all.
+  [[nodiscard]] static std::optional<Halves> halves(std::span<const Level> levels, std::span<const Level> late,
+                                                    std::span<const Level> early, int power = 1,
+                                                    std::span<const double> known = {});
 
   /// Returns the number of samples.
   [[nodiscard]] std::uint64_t samples() const { return levels_.empty() ? 0 : levels_.front().blocks; }

@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
 #include <iosfwd>
 #include <memory>
@@ -57,11 +58,20 @@ struct Column {
   std::vector<double> values;
 };
 
+/// Of the rows of a column whose two halves could be compared, the one in which they differ the most.
+struct ColumnHalves {
+  std::string column;
+  double at = 0.0;           ///< value of the table's first column there
+  Halves halves = {};        ///< of that row
+  std::size_t compared = 0;  ///< number of rows that were compared
+};
+
 /// A table of columns of equal length. The standard errors of a column are a column of their own, called NAME_error.
 struct Table {
   std::string name;
   Average average = Average::time;
   std::vector<Column> columns = {};
+  std::vector<ColumnHalves> halves = {};  ///< by column; of columns without rows that could be compared there are none
 };
 
 /// The results of one observable.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <utility>
 
 namespace carom {
 
@@ -13,6 +15,18 @@ std::uint64_t first_block(std::size_t row, std::size_t level) { return (row + (s
 }  // namespace
 
 void BlockedRows::add(std::span<double> samples) {
+  while (!samples.empty()) {
+    const std::uint64_t until_power = std::bit_ceil(steps() + 1) - steps();
+    const std::size_t count = std::min(samples.size(), static_cast<std::size_t>(until_power) * rows_);
+    add_some(samples.first(count));
+    samples = samples.subspan(count);
+    if (count != static_cast<std::size_t>(until_power) * rows_) continue;
+    at_power_before_ = std::move(at_power_);
+    at_power_ = levels_;
+  }
+}
+
+void BlockedRows::add_some(std::span<double> samples) {
   std::size_t lines = samples.size() / rows_;
   const std::uint64_t before = steps();
   for (std::uint64_t row = before; row < std::min<std::uint64_t>(rows_, before + lines); ++row)
@@ -67,21 +81,29 @@ std::size_t BlockedRows::add(std::size_t level, double* x, std::size_t lines) {
   return joined;
 }
 
-std::optional<Blocking::Estimate> BlockedRows::estimate(std::size_t row, std::span<const double> known) const {
-  if (row >= steps()) return std::nullopt;
-  std::vector<Blocking::Level> levels;
-  for (std::size_t level = 0; level < levels_.size(); ++level) {
+std::vector<Blocking::Level> BlockedRows::levels_of(const std::vector<Level>& levels, std::size_t row) const {
+  std::vector<Blocking::Level> row_levels;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
     const std::uint64_t before = first_block(row, level);
-    if (levels_[level].blocks <= before) break;
-    const std::uint64_t blocks = levels_[level].blocks - before;
-    const double n = static_cast<double>(blocks), sum = levels_[level].sum[row];
-    Blocking::Level& found = levels.emplace_back();
+    if (levels[level].blocks <= before) break;
+    const std::uint64_t blocks = levels[level].blocks - before;
+    const double n = static_cast<double>(blocks), sum = levels[level].sum[row];
+    Blocking::Level& found = row_levels.emplace_back();
     found.blocks = blocks;
     found.mean_x = first_[row] + sum / n;
     found.mean_w = 1.0;
-    found.xx = std::max(0.0, levels_[level].square[row] - sum * sum / n);
+    found.xx = std::max(0.0, levels[level].square[row] - sum * sum / n);
   }
-  return Blocking::estimate(levels, 1, known);
+  return row_levels;
+}
+
+std::optional<Blocking::Estimate> BlockedRows::estimate(std::size_t row, std::span<const double> known) const {
+  if (row >= steps()) return std::nullopt;
+  return Blocking::estimate(levels_of(levels_, row), 1, known);
+}
+
+std::optional<Halves> BlockedRows::halves(std::size_t row, std::span<const double> known) const {
+  return Blocking::halves(levels_of(levels_, row), levels_of(at_power_, row), levels_of(at_power_before_, row), 1, known);
 }
 
 }  // namespace carom

@@ -26,10 +26,12 @@ class BlockedRows {
   void add(std::span<double> samples);
   /// Nothing before the row has begun. `known`: see Blocking.
   [[nodiscard]] std::optional<Blocking::Estimate> estimate(std::size_t row, std::span<const double> known = {}) const;
+  /// Compares the first part of a row with the rest, as Blocking does.
+  [[nodiscard]] std::optional<Halves> halves(std::size_t row, std::span<const double> known = {}) const;
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(rows_, first_, levels_);
+    archive(rows_, first_, levels_, at_power_, at_power_before_);
   }
 
  private:
@@ -45,10 +47,13 @@ class BlockedRows {
   };
 
   [[nodiscard]] std::uint64_t steps() const { return levels_.empty() ? 0 : levels_.front().blocks; }
+  [[nodiscard]] std::vector<Blocking::Level> levels_of(const std::vector<Level>& levels, std::size_t row) const;
   [[nodiscard]] BlockSums sums_of(std::size_t level) {
     Level& here = levels_[level];
     return {here.sum.data(), here.square.data(), here.waiting.data(), rows_, rows_};
   }
+  /// Adds samples of which no step but the last may be a power of two.
+  void add_some(std::span<double> samples);
   void add_tree(double* x);
   std::size_t add(std::size_t level, double* x, std::size_t lines);
 
@@ -56,6 +61,7 @@ class BlockedRows {
   std::vector<double> first_;  ///< sample of every row
   const LagRowsKernel* kernel_ = &lag_rows_kernel();
   std::vector<Level> levels_;
+  std::vector<Level> at_power_, at_power_before_;  ///< as they were at the last two numbers of steps that are powers of two
 };
 
 }  // namespace carom

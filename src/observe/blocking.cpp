@@ -16,7 +16,7 @@ constexpr std::uint64_t least_samples = 16;
 constexpr std::uint64_t least_blocks = 8;
 /// Correlations that are longer than blocks pass now and then for short ones, and with few blocks more often: the error is then
 /// far too small, which a mean forgives and a test does not.
-constexpr std::uint64_t least_for_halves = 16;
+constexpr double least_for_halves = 16.0;
 
 /// Returns the variance of the mean of `count` samples over that of one sample.
 double variance_of_mean_of(std::uint64_t count, std::span<const double> correlation) {
@@ -109,16 +109,15 @@ std::optional<Blocking::Estimate> Blocking::estimate(std::span<const Level> leve
   return estimate;
 }
 
-std::optional<Halves> Blocking::halves(int power) const {
-  const auto count = [](const std::vector<Level>& levels) {
-    return levels.empty() ? 0.0 : static_cast<double>(levels[0].blocks);
-  };
+std::optional<Halves> Blocking::halves(std::span<const Level> levels, std::span<const Level> late, std::span<const Level> early,
+                                       int power, std::span<const double> known) {
+  const auto count = [](std::span<const Level> part) { return part.empty() ? 0.0 : static_cast<double>(part[0].blocks); };
   constexpr double most_of_all = 0.6;
-  const bool is_late = count(at_power_) <= most_of_all * count(levels_);
-  const std::vector<Level>& first = is_late ? at_power_ : at_power_before_;
+  const bool is_late = count(late) <= most_of_all * count(levels);
+  const std::span<const Level> first = is_late ? late : early;
   std::vector<Level> rest;
   for (std::size_t level = 0; level < first.size(); ++level) {
-    const Level& whole = levels_[level];
+    const Level& whole = levels[level];
     const Level& part = first[level];
     Level& left = rest.emplace_back();
     left.blocks = whole.blocks - part.blocks;
@@ -131,13 +130,16 @@ std::optional<Halves> Blocking::halves(int power) const {
     left.xw = whole.xw - part.xw - between * dx * dw;
     left.ww = std::max(0.0, whole.ww - part.ww - between * dw * dw);
   }
-  const std::optional<Estimate> before = estimate(first, power), after = estimate(rest, power);
-  if (!before || !after || !after->error || !after->statistical_inefficiency || after->blocks < least_for_halves) return {};
-  Halves found{.share = count(first) / count(levels_), .first = before->mean, .rest = after->mean};
+  const std::optional<Estimate> before = estimate(first, power, known), after = estimate(rest, power, known);
+  if (!before || !after || !after->error || !after->statistical_inefficiency) return {};
+  const double independent =
+      std::min(static_cast<double>(after->blocks), static_cast<double>(rest[0].blocks) / *after->statistical_inefficiency);
+  if (independent < least_for_halves) return {};
+  Halves found{.share = count(first) / count(levels), .first = before->mean, .rest = after->mean};
   found.error = *after->error / std::sqrt(found.share);
   // Sums of squares that are differences have no more digits than this; nor have quantities that are conserved.
   if (!(found.error > 1e-12 * std::max(std::abs(found.first), std::abs(found.rest)))) return {};
-  const boost::math::students_t_distribution<double> student(static_cast<double>(after->blocks - 1));
+  const boost::math::students_t_distribution<double> student(independent - 1.0);
   const double t = std::abs(found.first - found.rest) / found.error;
   found.probability = 2.0 * boost::math::cdf(boost::math::complement(student, t));
   return found;
@@ -161,13 +163,36 @@ void Blocking::fill(Scalar& scalar, double step, double factor, double offset, i
     scalar.note = "the run is too short for its correlations: the error is a lower bound";
 }
 
+void ColumnComparison::add(const std::optional<Halves>& halves, double factor, double offset) {
+  const std::size_t row = row_++;
+  constexpr double least_known = 0.05;
+  if (!halves || !(halves->error * std::sqrt(halves->share) <= least_known * std::abs(halves->rest))) return;
+  ++most_.compared;
+  if (most_.compared > 1 && !(halves->probability < most_.halves.probability)) return;
+  row_of_most_ = row;
+  most_.halves = *halves;
+  most_.halves.first = offset + factor * halves->first;
+  most_.halves.rest = offset + factor * halves->rest;
+  most_.halves.error *= std::abs(factor);
+}
+
+void ColumnComparison::put(Table& table, const std::string& column) const {
+  if (most_.compared == 0) return;
+  ColumnHalves& found = table.halves.emplace_back(most_);
+  found.column = column;
+  found.at = table.columns.front().values.at(row_of_most_);
+}
+
 void BlockedColumn::put(Table& table, const std::string& name, const std::string& unit, double factor) const {
   Column values{name, unit, {}}, errors{name + "_error", unit, {}};
+  ColumnComparison comparison;
   for (const Blocking& row : rows_) {
+    comparison.add(row.halves(), factor);
     const std::optional<Blocking::Estimate> found = row.estimate();
     values.values.push_back(found ? factor * found->mean : unknown);
     errors.values.push_back(found && found->error ? std::abs(factor) * *found->error : unknown);
   }
+  comparison.put(table, name);
   table.columns.push_back(std::move(values));
   table.columns.push_back(std::move(errors));
 }

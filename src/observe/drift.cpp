@@ -9,7 +9,8 @@ namespace carom {
 
 namespace {
 
-/// The probability that a run in equilibrium has a remark on any of its numbers.
+/// The probability that a run in equilibrium has a remark on any of its numbers. Where tables are compared too, half of it is for
+/// them: their many rows then do not raise the threshold of the other numbers by more than that.
 constexpr double false_alarms = 0.01;
 
 std::string words_of(const Halves& halves, bool is_steady_expected) {
@@ -18,27 +19,56 @@ std::string words_of(const Halves& halves, bool is_steady_expected) {
                      std::abs(halves.first - halves.rest) / halves.error);
 }
 
+void put_before(std::string& note, const std::string& words) { note = note.empty() ? words : fmt::format("{}; {}", words, note); }
+
+/// Returns the column of the measurement's tables whose halves differ the most; null where none can be compared.
+struct MostDifferent {
+  const Table* table = nullptr;
+  const ColumnHalves* column = nullptr;
+};
+MostDifferent most_different(const Measurement& measured) {
+  MostDifferent most;
+  for (const Table& table : measured.tables)
+    for (const ColumnHalves& column : table.halves)
+      if (most.column == nullptr || column.halves.probability < most.column->halves.probability) most = {&table, &column};
+  return most;
+}
+
+bool says_drift(const std::string& note) {
+  return note.find(not_in_equilibrium) != std::string::npos || note.find(not_steady) != std::string::npos;
+}
+
 }  // namespace
 
 void note_drifts(std::vector<Measurement>& measured, const Effects& effects) {
-  std::size_t compared = 0;
-  for (const Measurement& one : measured)
-    for (const Scalar& scalar : one.scalars) compared += scalar.halves ? 1U : 0U;
+  std::size_t numbers = 0, rows = 0;
+  for (const Measurement& one : measured) {
+    for (const Scalar& scalar : one.scalars) numbers += scalar.halves ? 1U : 0U;
+    for (const Table& table : one.tables)
+      for (const ColumnHalves& column : table.halves) rows += column.compared;
+  }
+  const double share = rows > 0 && numbers > 0 ? 0.5 : 1.0;
+  const auto is_chance = [&](const Halves& halves, std::size_t compared) {
+    return halves.probability * static_cast<double>(compared) >= share * false_alarms;
+  };
   const bool is_steady_expected = !effects.dissipate() && !(effects.growth && effects.growth->rate > 0.0);
-  for (Measurement& one : measured)
-    for (Scalar& scalar : one.scalars) {
-      if (!scalar.halves || scalar.halves->probability * static_cast<double>(compared) >= false_alarms) continue;
-      const std::string words = words_of(*scalar.halves, is_steady_expected);
-      scalar.note = scalar.note.empty() ? words : fmt::format("{}; {}", words, scalar.note);
-    }
+  for (Measurement& one : measured) {
+    for (Scalar& scalar : one.scalars)
+      if (scalar.halves && !is_chance(*scalar.halves, numbers))
+        put_before(scalar.note, words_of(*scalar.halves, is_steady_expected));
+    if (const MostDifferent most = most_different(one); most.column != nullptr && !is_chance(most.column->halves, rows))
+      put_before(one.note, fmt::format("{} ({} at {} = {:.5g})", words_of(most.column->halves, is_steady_expected),
+                                       most.column->column, most.table->columns.front().name, most.column->at));
+  }
 }
 
 std::vector<std::string> drifting_numbers(const std::vector<Measurement>& measured) {
   std::vector<std::string> names;
-  for (const Measurement& one : measured)
+  for (const Measurement& one : measured) {
     for (const Scalar& scalar : one.scalars)
-      if (scalar.note.find(not_in_equilibrium) != std::string::npos || scalar.note.find(not_steady) != std::string::npos)
-        names.push_back(fmt::format("{}.{}", one.name, scalar.name));
+      if (says_drift(scalar.note)) names.push_back(fmt::format("{}.{}", one.name, scalar.name));
+    if (says_drift(one.note)) names.push_back(fmt::format("{} (its table)", one.name));
+  }
   return names;
 }
 

@@ -78,12 +78,12 @@ class IntermediateScattering final : public SavedObservable<IntermediateScatteri
     Table table{.name = name()};
     table.columns.push_back(lag_column(0, all_.size(), step_));
     LaggedColumn all("F", "");
-    for (std::size_t row = 0; row < all_.size(); ++row) all.add(all_.estimate(row));
+    for (std::size_t row = 0; row < all_.size(); ++row) all.add(all_, row);
     all.put(table);
     for (std::size_t s = 0; s < self_.size(); ++s) {
       if (self_[s].size() == 0) continue;
       LaggedColumn self("F_self" + run_.suffix(s), "");
-      for (std::size_t row = 0; row < all_.size(); ++row) self.add(self_[s].estimate(row));
+      for (std::size_t row = 0; row < all_.size(); ++row) self.add(self_[s], row);
       self.put(table);
     }
     found.tables.push_back(std::move(table));

@@ -24,6 +24,7 @@ class LaggedRows {
   [[nodiscard]] std::optional<Blocking::Estimate> estimate(std::size_t row, int power = 1) const {
     return rows_[row].estimate(power);
   }
+  [[nodiscard]] std::optional<Halves> halves(std::size_t row, int power = 1) const { return rows_[row].halves(power); }
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -37,13 +38,20 @@ class LaggedRows {
 /// A column and that of its errors.
 struct LaggedColumn {
   Column values, errors;
+  ColumnComparison comparison = {};
 
   LaggedColumn(const std::string& name, const std::string& unit) : values{name, unit, {}}, errors{name + "_error", unit, {}} {}
   void add(const std::optional<Blocking::Estimate>& found, double factor = 1.0, double offset = 0.0) {
     values.values.push_back(found ? offset + factor * found->mean : unknown);
     errors.values.push_back(found && found->error ? factor * *found->error : unknown);
   }
+  /// Adds a row of a table, and compares its halves.
+  void add(const LaggedRows& rows, std::size_t row) {
+    add(rows.estimate(row));
+    comparison.add(rows.halves(row));
+  }
   void put(Table& table) {
+    comparison.put(table, values.name);
     table.columns.push_back(std::move(values));
     table.columns.push_back(std::move(errors));
   }

@@ -45,7 +45,9 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
       Column lags{"lag", "time", {}}, square{"msd" + suffix, "length^2", {}}, error{"msd" + suffix + "_error", "length^2", {}};
       Column diffusion{"diffusion" + suffix, "length^2 / time", {}},
           its_error{"diffusion" + suffix + "_error", "length^2 / time", {}};
+      ColumnComparison comparison;
       for (const MultipleTau::Row& row : rows) {
+        comparison.add(row.halves, 2.0);
         const double lag = step_ * row.lag, msd = 2.0 * row.pairs.mean;
         const double err = row.pairs.error ? 2.0 * *row.pairs.error : unknown;
         lags.values.push_back(lag);
@@ -55,6 +57,7 @@ class MeanSquareDisplacement final : public SavedObservable<MeanSquareDisplaceme
         its_error.values.push_back(err / (4.0 * lag));
       }
       if (table.columns.empty()) table.columns.push_back(lags);
+      comparison.put(table, square.name);
       for (Column* column : {&square, &error, &diffusion, &its_error}) table.columns.push_back(std::move(*column));
     }
     found.note = MultipleTau::note_on_errors(all);

@@ -37,17 +37,18 @@ std::vector<double> correlation_of_squares(std::size_t k, double power) {
   return correlation;
 }
 
-/// Returns row k of squares, with an error that allows for overlapping windows. The squares are taken as those of diffusion,
+/// Returns the correlation of row k of squares with itself, where windows overlap. The squares are taken as those of diffusion,
 /// unless they grow more slowly by more than a standard error, as between walls or in a crystal. Ballistic motion lasts less than
 /// the lag, which blocks detect.
-Blocking::Estimate estimate_of_squares(const BlockedRows& squares, const Means& means, std::size_t k) {
-  const Blocking::Estimate diffusing = *squares.estimate(k, correlation_of_squares(k, 1.0));
+std::vector<double> correlation_of_row(const BlockedRows& squares, const Means& means, std::size_t k) {
+  std::vector<double> of_diffusion = correlation_of_squares(k, 1.0);
+  const Blocking::Estimate diffusing = *squares.estimate(k, of_diffusion);
   const std::size_t half = k / 2;
-  if (half == 0 || !diffusing.error || !(means[half]->mean > 0.0)) return diffusing;
+  if (half == 0 || !diffusing.error || !(means[half]->mean > 0.0)) return of_diffusion;
   const double span = std::log(static_cast<double>(k) / static_cast<double>(half));
   const double power = std::log(means[k]->mean / means[half]->mean) / span, error = *diffusing.error / means[k]->mean / span;
-  if (!(power < 1.0 - error)) return diffusing;
-  return *squares.estimate(k, correlation_of_squares(k, std::max(0.0, power)));
+  if (!(power < 1.0 - error)) return of_diffusion;
+  return correlation_of_squares(k, std::max(0.0, power));
 }
 
 /// Correlation of x at 0, 1, 2, ... steps, as far as it stands out of its errors.
@@ -184,13 +185,15 @@ std::vector<MultipleTau::Row> MultipleTau::rows() {
     const std::vector<double> of_x = kind_ == Pairs::products ? significant(means) : std::vector<double>();
     for (std::size_t k = first; k < lags_ && means[k]; ++k) {
       if (kind_ == Pairs::squared_differences) {
-        rows.push_back({width * static_cast<double>(k), width, estimate_of_squares(level.pairs, means, k), std::nullopt});
+        const std::vector<double> known = correlation_of_row(level.pairs, means, k);
+        rows.push_back(
+            {width * static_cast<double>(k), width, *level.pairs.estimate(k, known), level.pairs.halves(k, known), std::nullopt});
         continue;
       }
       std::vector<double> weights(k + 1);
       weights[k] = 1.0;
-      Row row{width * static_cast<double>(k), width, *level.pairs.estimate(k, correlation_of_products(weights, of_x)),
-              std::nullopt};
+      const std::vector<double> known = correlation_of_products(weights, of_x);
+      Row row{width * static_cast<double>(k), width, *level.pairs.estimate(k, known), level.pairs.halves(k, known), std::nullopt};
       weights.assign(k + 1, 1.0);
       weights[0] = 0.5;
       row.integral = level.integrals.estimate(k, correlation_of_products(weights, of_x));

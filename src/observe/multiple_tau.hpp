@@ -38,6 +38,7 @@ class MultipleTau {
     double lag = 0.0;    ///< the lag, in steps
     double width = 1.0;  ///< length of a value of this level, in steps
     Blocking::Estimate pairs;
+    std::optional<Halves> halves;  ///< of `pairs`
     /// Products only: the integral from 0 to lag + width / 2, per step.
     std::optional<Blocking::Estimate> integral;
   };

@@ -47,7 +47,7 @@ class Overlap final : public SavedObservable<Overlap> {
       for (std::size_t row = 1; row < overlap_[s].size(); ++row) {
         const auto q = overlap_[s].estimate(row), ratio = squares_[s].estimate(row, 2);  // <Q^2> / <Q>^2
         const double scale = q ? count * q->mean * q->mean : 0.0;
-        overlap.add(q);
+        overlap.add(overlap_[s], row);
         chi.add(ratio, scale, -scale);
       }
       overlap.put(table);

@@ -168,10 +168,12 @@ Measurement Transport::finish(double time, const Totals&) {
   Column lags{"lag", "time", {}}, flux{"correlation", unit_of_flux, {}}, flux_error{"correlation_error", unit_of_flux, {}};
   Column until{"integral_to", "time", {}}, integral{"green_kubo", unit, {}}, integral_error{"green_kubo_error", unit, {}};
   Column helfand{"einstein_helfand", unit, {}}, helfand_error{"einstein_helfand_error", unit, {}};
+  ColumnComparison of_flux, of_helfand;
   for (const MultipleTau::Row& row : correlations) {
     lags.values.push_back(step * row.lag);
     flux.values.push_back(row.pairs.mean);
     flux_error.values.push_back(row.pairs.error.value_or(unknown));
+    of_flux.add(row.halves);
     until.values.push_back(step * (row.lag + 0.5 * row.width));
     integral.values.push_back(factor * step * row.integral->mean);
     integral_error.values.push_back(row.integral->error ? factor * step * *row.integral->error : unknown);
@@ -179,10 +181,13 @@ Measurement Transport::finish(double time, const Totals&) {
         std::find_if(moments.begin(), moments.end(), [&](const MultipleTau::Row& other) { return other.lag == row.lag; });
     const bool there = same != moments.end();
     const double scale = there ? factor / (2.0 * step * same->lag) : unknown;
+    of_helfand.add(there ? same->halves : std::nullopt, scale);
     helfand.values.push_back(there ? scale * same->pairs.mean : unknown);
     helfand_error.values.push_back(there && same->pairs.error ? scale * *same->pairs.error : unknown);
   }
   table.columns = {lags, flux, flux_error, until, integral, integral_error, helfand, helfand_error};
+  of_flux.put(table, flux.name);
+  of_helfand.put(table, helfand.name);
   found.tables.push_back(std::move(table));
   return found;
 }

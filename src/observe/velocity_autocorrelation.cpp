@@ -105,12 +105,14 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
         errors{"correlation" + suffix + "_error", "length^2 / time^2", {}};
     Column diffusion{"diffusion" + suffix, "length^2 / time", {}},
         its_errors{"diffusion" + suffix + "_error", "length^2 / time", {}};
+    ColumnComparison comparison;
     for (std::size_t r = 0; r < means.size(); ++r) {
       const bool instant = means[r].width == 1.0 && r < instants.size();
       const MultipleTau::Row& row = instant ? instants[r] : means[r];
       lag.values.push_back(step_ * row.lag);
       window.values.push_back(instant ? 0.0 : step_ * row.width);
       values.values.push_back(2.0 * row.pairs.mean);
+      comparison.add(row.halves, 2.0);
       errors.values.push_back(row.pairs.error ? 2.0 * *row.pairs.error : unknown);
       until.values.push_back(step_ * (means[r].lag + 0.5 * means[r].width));
       diffusion.values.push_back(step_ * means[r].integral->mean);
@@ -118,6 +120,7 @@ class VelocityAutocorrelation final : public SavedObservable<VelocityAutocorrela
     }
     if (means.empty()) return;
     if (table.columns.empty()) table.columns = {lag, window, until};
+    comparison.put(table, values.name);
     for (Column* column : {&values, &errors, &diffusion, &its_errors}) table.columns.push_back(std::move(*column));
   }
 

@@ -113,6 +113,30 @@ TEST(BlockedRows, TheFirstRowIsABlockingOfItsOwn) {
   EXPECT_NEAR(*found->error / *expected->error, 1.0, 1e-9);
 }
 
+TEST(BlockedRows, HalvesAreThoseOfABlockingOfEachRow) {
+  constexpr std::size_t rows = 3, steps = 1500;
+  const Samples samples = samples_of(steps, rows, 0.3);
+  for (const std::size_t together : {1U, 32U, 100U}) {
+    const BlockedRows blocked = blocked_rows(samples, together);
+    Blocking alone;
+    for (const auto& now : samples) alone.add(now[0]);
+    const std::optional<Halves> found = blocked.halves(0), expected = alone.halves();
+    ASSERT_TRUE(found && expected);
+    EXPECT_EQ(found->share, expected->share);
+    EXPECT_NEAR(found->error / expected->error, 1.0, 1e-9);
+    EXPECT_NEAR(found->probability / expected->probability, 1.0, 1e-7);
+    for (std::size_t k = 0; k < rows; ++k) {  // the first part ends with step 512, whenever the row began
+      const std::optional<Halves> halves = blocked.halves(k);
+      ASSERT_TRUE(halves);
+      double first = 0.0, rest = 0.0;
+      for (std::size_t step = k; step < steps; ++step) (step < 512 ? first : rest) += samples[step][k];
+      EXPECT_NEAR(halves->first, first / static_cast<double>(512 - k), 1e-13);
+      EXPECT_NEAR(halves->rest, rest / static_cast<double>(steps - 512), 1e-13);
+    }
+  }
+  EXPECT_FALSE(blocked_rows(samples_of(20, rows, 0.3), 1).halves(0)) << "too few";
+}
+
 TEST(BlockedRows, WhatNeverChangesHasNoScatter) {
   Samples samples(500, {0.1, 0.7});
   samples[0][1] = nothing;

@@ -137,6 +137,60 @@ TEST(DriftOfARun, ThresholdFallsWithTheNumberOfNumbers) {
   EXPECT_THAT(measured(0.0011, 9), IsEmpty());
 }
 
+/// The same disks, whose tables are compared.
+Scene bath_with_tables(double begins_at, int seed) {
+  Scene scene = bath(begins_at, seed);
+  scene.observe.clear();
+  for (const char* name :
+       {"radial_distribution", "mean_square_displacement", "overlap", "speeds", "structure_factor", "velocity_autocorrelation"})
+    scene.observe.push_back({.name = name, .every = 1.0});
+  return scene;
+}
+
+TEST(DriftOfATable, IsNotSaidInEquilibriumMoreOftenThanItsThreshold) {
+  constexpr int runs = 24;
+  int said = 0;
+  std::size_t compared = 0;
+  for (int seed = 1; seed <= runs; ++seed) {
+    Scene scene = bath_with_tables(1.0, seed);
+    scene.run.equilibrate = Run::Equilibrate{.time = 50.0};
+    const Observed run = observe(scene, 400.0);
+    for (const Measurement& one : run.measurements)
+      for (const Table& table : one.tables)
+        for (const ColumnHalves& column : table.halves) compared += column.compared;
+    said += drifting_numbers(run.measurements).empty() ? 0 : 1;
+  }
+  EXPECT_GT(compared, runs * 50U) << "or nothing could be said";
+  EXPECT_LE(said, 2) << "one in a hundred of 24: three or more in one of 560 cases";
+}
+
+TEST(DriftOfATable, IsSaidWithTheRowThatDiffersMost) {
+  Scene scene = bath_with_tables(4.0, 1);
+  scene.effects.thermostat->rate = 0.02;  // disks forget their start after 50 units of time
+  const Observed run = observe(scene, 400.0);
+  EXPECT_THAT(drifting_numbers(run.measurements), Contains("speeds (its table)"));
+  for (const Measurement& one : run.measurements)
+    if (one.name == "speeds") {
+      EXPECT_THAT(one.note, HasSubstr(" standard errors apart (density at middle = "));
+    }
+}
+
+TEST(DriftOfATable, ThresholdFallsWithTheNumberOfRows) {
+  const auto drifts = [](double probability, std::size_t rows, std::size_t numbers) {
+    std::vector<Measurement> all(1);
+    all[0].name = "a";
+    all[0].tables.push_back({.name = "a", .columns = {{"r", "", {1.5}}}});
+    all[0].tables[0].halves.push_back({"g", 1.5, Halves{.error = 1.0, .probability = probability}, rows});
+    for (std::size_t k = 0; k < numbers; ++k) all[0].scalars.push_back({.name = "y", .halves = Halves{.error = 1.0}});
+    note_drifts(all, Effects{});
+    return !drifting_numbers(all).empty();
+  };
+  EXPECT_TRUE(drifts(0.00009, 100, 0));
+  EXPECT_FALSE(drifts(0.00011, 100, 0));
+  EXPECT_TRUE(drifts(0.000049, 100, 7)) << "half of the threshold is for other numbers";
+  EXPECT_FALSE(drifts(0.000051, 100, 7));
+}
+
 TEST(DriftOfARun, OfDisksThatLoseEnergyIsCalledNotSteady) {
   std::vector<Measurement> all(1);
   all[0].scalars.push_back(
