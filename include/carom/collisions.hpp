@@ -32,6 +32,11 @@ struct PairCollision {
 struct DiskTable {
   std::vector<std::int32_t> ids;     ///< by slot
   std::vector<double> radius, mass;  ///< by id; one number where all are equal
+  /// Where diameters are not additive, else empty: the species of each disk, by id, and contact distances over the sums of radii,
+  /// a row of `kinds` for each species.
+  std::vector<std::int32_t> species = {};
+  std::size_t kinds = 0;
+  std::vector<double> contact_scales = {};
 };
 
 /// The contact of two disks, for collisions whose velocities do not determine it.

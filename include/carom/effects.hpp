@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -121,6 +122,23 @@ struct Drag {
   double rate = 0.0;  ///< 1 / time, >= 0; neutral: 0
 };
 
+/// Non-additive diameters: disks of two different species touch at (1 + delta) times the sum of their radii, disks of one species
+/// at twice their radius. The [non_additivity] table.
+struct NonAdditivity {
+  /// The delta of two species, in the place of that of all.
+  struct Pair {
+    std::array<std::int64_t, 2> species = {};  ///< indices into Scene::species, different from each other
+    double delta = 0.0;                        ///< > -1
+
+    bool operator==(const Pair&) const = default;
+  };
+  double delta = 0.0;            ///< > -1, of all pairs of different species that `pairs` does not name; neutral: 0
+  std::vector<Pair> pairs = {};  ///< each pair of species once at most
+
+  /// Returns the delta of two species; 0 where they are the same.
+  [[nodiscard]] double between(std::int64_t one, std::int64_t other) const;
+};
+
 /// All effects of a scene.
 struct Effects {
   Collision collision = {};
@@ -135,6 +153,7 @@ struct Effects {
   std::optional<Shear> shear = {};
   std::optional<SquareWell> square_well = {};
   std::optional<Drag> drag = {};
+  std::optional<NonAdditivity> non_additivity = {};
 
   /// Returns whether nothing acts but the collision rule and hard walls at rest: every other effect is absent or at its neutral
   /// value.

@@ -54,6 +54,12 @@ void write(const CollisionRecords& from, std::span<const CollisionRecord> record
     sigma[static_cast<Eigen::Index>(n)] = of(from.disks->radius, met.disk) + of(from.disks->radius, met.partner);
   }
   const auto count = static_cast<Eigen::Index>(records.size());
+  if (const DiskTable& disks = *from.disks; !disks.contact_scales.empty())
+    for (std::size_t n = 0; n < records.size(); ++n) {
+      const auto kind = [&](std::int32_t id) { return static_cast<std::size_t>(disks.species[static_cast<std::size_t>(id)]); };
+      sigma[static_cast<Eigen::Index>(n)] *=
+          disks.contact_scales[kind(collisions[n].disk) * disks.kinds + kind(collisions[n].partner)];
+    }
   sigma.head(count) /= squares.head(count).sqrt();
   for (Eigen::Index n = 0; n < count; ++n) collisions[n].separation = (squares[n] > 0.0 ? sigma[n] : 0.0) * collisions[n].impulse;
 }

@@ -29,6 +29,20 @@ struct alignas(64) SizedFlight {
   }
 };
 
+/// A disk of a mixture whose diameters are not additive: one cache line.
+struct alignas(64) MixedFlight {
+  std::int64_t x[2];
+  double v[2];
+  double radius;
+  double mass;
+  std::int32_t species;
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(x, v, radius, mass, species);
+  }
+};
+
 /// Returns a - b as integers that wrap: the nearest image on a periodic axis.
 [[nodiscard]] inline std::int64_t wrapped_difference(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));

@@ -34,6 +34,9 @@ struct PredictionFrame {
   double well = 1.0;       ///< outer over hard diameter; beyond 1 only for the kernel of wells
   const std::vector<std::int32_t>* inside = nullptr;  ///< for the kernel of wells: for each disk, those inside its well
   SlidingFrame sliding = {};
+  /// For disks whose diameters are not additive: contact distances over sums of radii, a row of `kinds` for each species.
+  const double* contact_scales = nullptr;
+  std::int32_t kinds = 0;
 };
 
 /// The kind of contact between two disks: hard cores, falling hard cores, growing hard cores, wells with hard cores (which may

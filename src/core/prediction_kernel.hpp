@@ -11,6 +11,7 @@
 #include "core/doubles_kernel.hpp"
 #include "core/prediction.hpp"
 
+#include <cstddef>
 #include <limits>
 
 namespace carom::CAROM_INSTRUCTIONS {
@@ -81,16 +82,39 @@ CAROM_INLINE unsigned bits_of(Longs mask) {
 CAROM_INLINE Doubles lesser(Doubles a, Doubles b) { return a < b ? a : b; }
 
 /// A line spread over all lanes.
-struct Mine {
+struct PlainMine {
   Longs x, y;
   Doubles vx, vy;
   double radius;
 };
+/// The same of a disk whose contact distances are not sums of radii.
+struct MixedMine : PlainMine {
+  const double* scales;  ///< of its contact distance with each species
+};
+template <class Line>
+constexpr bool is_mixed = requires(const Line& line) {
+  line.species;
+};
+template <class Line>
+struct MineOf {
+  using Type = PlainMine;
+};
+template <class Line>
+requires is_mixed<Line>
+struct MineOf<Line> {
+  using Type = MixedMine;
+};
+template <class Line>
+using Mine = typename MineOf<Line>::Type;
 
 template <class Line>
-CAROM_INLINE double radius_of(const Line& line) {
-  if constexpr (sizeof(Line) > 32) return line.radius;
-  return 0.0;
+CAROM_INLINE Mine<Line> mine_of(const Line& line, const PredictionFrame& frame, Longs x, Longs y, Doubles vx, Doubles vy) {
+  if constexpr (is_mixed<Line>)
+    return {{x, y, vx, vy, line.radius}, frame.contact_scales + std::ptrdiff_t{line.species} * frame.kinds};
+  else if constexpr (sizeof(Line) > 32)
+    return {x, y, vx, vy, line.radius};
+  else
+    return {x, y, vx, vy, 0.0};
 }
 
 template <class Line>
@@ -146,8 +170,8 @@ CAROM_INLINE Lanes contact_times(const PredictionFrame& frame, Lanes x, Lanes y,
 
 /// When `mine` meets each of four others.
 template <bool growing, class Line>
-CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& frame, const Mine& mine, const std::int32_t* ids,
-                                   double now) {
+CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& frame, const Mine<Line>& mine,
+                                   const std::int32_t* ids, double now) {
   const Line &l0 = lines[ids[0]], &l1 = lines[ids[1]], &l2 = lines[ids[2]], &l3 = lines[ids[3]];
   const Longs a0 = load(l0), a1 = load(l1), a2 = load(l2), a3 = load(l3);
   const Longs x01 = __builtin_shufflevector(a0, a1, 0, 4, 2, 6), x23 = __builtin_shufflevector(a2, a3, 0, 4, 2, 6);
@@ -160,6 +184,8 @@ CAROM_INLINE Doubles meeting_times(const Line* lines, const PredictionFrame& fra
   const Doubles y = to_double(dy) * all(frame.unit[1]) + vy * all(now);
   Doubles sigma = all(frame.sigma);
   if constexpr (sizeof(Line) > 32) sigma = all(mine.radius) + Doubles{l0.radius, l1.radius, l2.radius, l3.radius};
+  if constexpr (is_mixed<Line>)
+    sigma *= Doubles{mine.scales[l0.species], mine.scales[l1.species], mine.scales[l2.species], mine.scales[l3.species]};
   return contact_times<growing>(frame, x, y, vx, vy, sigma, now);
 }
 
@@ -191,7 +217,7 @@ CAROM_INLINE void earliest(Doubles t0, Doubles t1, Doubles t2, const std::int32_
 
 /// Predicts with all neighbours beyond the first twelve, four at a time.
 template <bool growing, class Line>
-void search_on(const Line* lines, const PredictionFrame& frame, const Mine& mine, const Surroundings& around, double now,
+void search_on(const Line* lines, const PredictionFrame& frame, const Mine<Line>& mine, const Surroundings& around, double now,
                Prediction& first) {
   for (std::uint32_t k = 12; k < around.count; k += 4) {
     Prediction next;
@@ -229,7 +255,7 @@ template <bool growing, class Line>
 void predict(const Line* lines, const PredictionFrame& frame, std::int32_t i, const Surroundings& around, double now,
              Prediction& ahead) {
   const Line& line = lines[i];
-  const Mine mine = {all(line.x[0]), all(line.x[1]), all(line.v[0]), all(line.v[1]), radius_of(line)};
+  const Mine<Line> mine = mine_of(line, frame, all(line.x[0]), all(line.x[1]), all(line.v[0]), all(line.v[1]));
   const Doubles t0 = meeting_times<growing>(lines, frame, mine, around.ids, now);
   Doubles t1 = all(never);
   if (around.count > 4) t1 = meeting_times<growing>(lines, frame, mine, around.ids + 4, now);  // those new on a list are few
@@ -291,15 +317,22 @@ using EightLongs = long long __attribute__((vector_size(64)));
 using EightUnsignedLongs = unsigned long long __attribute__((vector_size(64)));
 
 /// A line spread over eight lanes; or one over four and another over the other four.
-struct MineOfEight {
+struct PlainMineOfEight {
   EightLongs x, y;
   EightDoubles vx, vy, radius;
+};
+/// The same with the scales of the contact distances of either.
+struct MixedMineOfEight : PlainMineOfEight {
+  const double *scales, *more_scales;
 };
 
 CAROM_INLINE EightLongs both(Longs a, Longs b) { return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7); }
 CAROM_INLINE EightDoubles both(Doubles a, Doubles b) { return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7); }
-CAROM_INLINE MineOfEight both(const Mine& a, const Mine& b) {
+CAROM_INLINE PlainMineOfEight both(const PlainMine& a, const PlainMine& b) {
   return {both(a.x, b.x), both(a.y, b.y), both(a.vx, b.vx), both(a.vy, b.vy), both(all(a.radius), all(b.radius))};
+}
+CAROM_INLINE MixedMineOfEight both(const MixedMine& a, const MixedMine& b) {
+  return {both(static_cast<const PlainMine&>(a), static_cast<const PlainMine&>(b)), a.scales, b.scales};
 }
 CAROM_INLINE Doubles low_half(EightDoubles a) { return __builtin_shufflevector(a, a, 0, 1, 2, 3); }
 CAROM_INLINE Doubles high_half(EightDoubles a) { return __builtin_shufflevector(a, a, 4, 5, 6, 7); }
@@ -311,7 +344,7 @@ CAROM_INLINE EightDoubles lengths(EightLongs a, EightLongs b, double unit) {
 }
 
 /// When `mine` meets each of eight others: four and four.
-template <bool growing, class Line>
+template <bool growing, class Line, class MineOfEight>
 CAROM_INLINE EightDoubles meeting_times(const Line* lines, const PredictionFrame& frame, const MineOfEight& mine,
                                         const std::int32_t* ids, const std::int32_t* more, double now) {
   const Line &l0 = lines[ids[0]], &l1 = lines[ids[1]], &l2 = lines[ids[2]], &l3 = lines[ids[3]];
@@ -334,12 +367,17 @@ CAROM_INLINE EightDoubles meeting_times(const Line* lines, const PredictionFrame
   if constexpr (sizeof(Line) > 32) {
     sigma = mine.radius + EightDoubles{l0.radius, l1.radius, l2.radius, l3.radius, l4.radius, l5.radius, l6.radius, l7.radius};
   }
+  if constexpr (is_mixed<Line>) {
+    const double *const scales = mine.scales, *const with_more = mine.more_scales;
+    sigma *= EightDoubles{scales[l0.species],    scales[l1.species],    scales[l2.species],    scales[l3.species],
+                          with_more[l4.species], with_more[l5.species], with_more[l6.species], with_more[l7.species]};
+  }
   return contact_times<growing>(frame, x, y, vx, vy, sigma, now);
 }
 
 /// What collided disks meet first among their first eight and, where `most` has more, twelve neighbours.
 template <bool growing, class Line>
-CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, const Mine& a, const Mine& b,
+CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, const Mine<Line>& a, const Mine<Line>& b,
                                  std::uint32_t most, double now, CollidedPair& pair) {
   const std::int32_t *const ids_a = pair.around[0].ids, *const ids_b = pair.around[1].ids;
   const EightDoubles ta = meeting_times<growing>(lines, frame, both(a, a), ids_a, ids_a + 4, now);
@@ -357,7 +395,7 @@ CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame
 #else
 
 template <bool growing, class Line>
-CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, const Mine& a, const Mine& b,
+CAROM_INLINE void first_meetings(const Line* lines, const PredictionFrame& frame, const Mine<Line>& a, const Mine<Line>& b,
                                  std::uint32_t most, double now, CollidedPair& pair) {
   const std::int32_t *const ids_a = pair.around[0].ids, *const ids_b = pair.around[1].ids;
   const Doubles a0 = meeting_times<growing>(lines, frame, a, ids_a, now),
@@ -388,8 +426,8 @@ void turn_and_predict(Line* lines, const PredictionFrame& frame, CollidedPair& p
   store(a, x, v, false);
   store(b, x, v, true);
 
-  const Mine mine_a = {all_of<0>(x), all_of<1>(x), all(avx), all(avy), radius_of(a)};
-  const Mine mine_b = {all_of<2>(x), all_of<3>(x), all(bvx), all(bvy), radius_of(b)};
+  const Mine<Line> mine_a = mine_of(a, frame, all_of<0>(x), all_of<1>(x), all(avx), all(avy));
+  const Mine<Line> mine_b = mine_of(b, frame, all_of<2>(x), all_of<3>(x), all(bvx), all(bvy));
   const std::uint32_t most = near_a.count > near_b.count ? near_a.count : near_b.count;
   const Longs centre = {near_a.centre[0], near_a.centre[1], near_b.centre[0], near_b.centre[1]};
   const Doubles leaving = leaving_times(frame, x, v, centre, now);
@@ -417,5 +455,8 @@ CAROM_KERNEL(falling_flight_kernel, false, true, Flight)
 CAROM_KERNEL(falling_sized_flight_kernel, false, true, SizedFlight)
 CAROM_KERNEL(growing_flight_kernel, true, false, Flight)
 CAROM_KERNEL(growing_sized_flight_kernel, true, false, SizedFlight)
+CAROM_KERNEL(mixed_flight_kernel, false, false, MixedFlight)
+CAROM_KERNEL(falling_mixed_flight_kernel, false, true, MixedFlight)
+CAROM_KERNEL(growing_mixed_flight_kernel, true, false, MixedFlight)
 
 }  // namespace carom::CAROM_INSTRUCTIONS

@@ -55,16 +55,20 @@ constexpr PredictionKernel<Line> kernel = {&predict<Line, plain>, &turn_and_pred
 namespace portable {
 extern const PredictionKernel<Flight> flight_kernel;
 extern const PredictionKernel<SizedFlight> sized_flight_kernel;
+extern const PredictionKernel<MixedFlight> mixed_flight_kernel;
 extern const PredictionKernel<Flight> sheared_flight_kernel = kernel<Flight, flight_kernel>;
 extern const PredictionKernel<SizedFlight> sheared_sized_flight_kernel = kernel<SizedFlight, sized_flight_kernel>;
+extern const PredictionKernel<MixedFlight> sheared_mixed_flight_kernel = kernel<MixedFlight, mixed_flight_kernel>;
 }  // namespace portable
 
 #if CAROM_HAS_AVX2
 namespace avx2 {
 extern const PredictionKernel<Flight> flight_kernel;
 extern const PredictionKernel<SizedFlight> sized_flight_kernel;
+extern const PredictionKernel<MixedFlight> mixed_flight_kernel;
 extern const PredictionKernel<Flight> sheared_flight_kernel = kernel<Flight, flight_kernel>;
 extern const PredictionKernel<SizedFlight> sheared_sized_flight_kernel = kernel<SizedFlight, sized_flight_kernel>;
+extern const PredictionKernel<MixedFlight> sheared_mixed_flight_kernel = kernel<MixedFlight, mixed_flight_kernel>;
 }  // namespace avx2
 #endif
 
@@ -72,8 +76,10 @@ extern const PredictionKernel<SizedFlight> sheared_sized_flight_kernel = kernel<
 namespace avx512 {
 extern const PredictionKernel<Flight> flight_kernel;
 extern const PredictionKernel<SizedFlight> sized_flight_kernel;
+extern const PredictionKernel<MixedFlight> mixed_flight_kernel;
 extern const PredictionKernel<Flight> sheared_flight_kernel = kernel<Flight, flight_kernel>;
 extern const PredictionKernel<SizedFlight> sheared_sized_flight_kernel = kernel<SizedFlight, sized_flight_kernel>;
+extern const PredictionKernel<MixedFlight> sheared_mixed_flight_kernel = kernel<MixedFlight, mixed_flight_kernel>;
 }  // namespace avx512
 #endif
 

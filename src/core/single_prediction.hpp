@@ -17,6 +17,9 @@ inline double contact_distance(const PredictionFrame& frame, const Flight& /*a*/
 inline double contact_distance(const PredictionFrame& /*frame*/, const SizedFlight& a, const SizedFlight& b) {
   return a.radius + b.radius;
 }
+inline double contact_distance(const PredictionFrame& frame, const MixedFlight& a, const MixedFlight& b) {
+  return (a.radius + b.radius) * frame.contact_scales[a.species * frame.kinds + b.species];
+}
 
 template <class Line>
 double leaving_time(const PredictionFrame& frame, const Line& line, const Surroundings& around, double now) {

@@ -40,5 +40,7 @@ extern const PredictionKernel<Flight> well_flight_kernel = kernel<false, Flight>
 extern const PredictionKernel<SizedFlight> well_sized_flight_kernel = kernel<false, SizedFlight>;
 extern const PredictionKernel<Flight> falling_well_flight_kernel = kernel<true, Flight>;
 extern const PredictionKernel<SizedFlight> falling_well_sized_flight_kernel = kernel<true, SizedFlight>;
+extern const PredictionKernel<MixedFlight> well_mixed_flight_kernel = kernel<false, MixedFlight>;
+extern const PredictionKernel<MixedFlight> falling_well_mixed_flight_kernel = kernel<true, MixedFlight>;
 
 }  // namespace carom

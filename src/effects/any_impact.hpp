@@ -74,12 +74,12 @@ class AnyImpact {
     Vec2<Real>& v;
   };
 
-  /// Disks i and j meet at separation r = r_i - r_j at time `now`, at their hard cores or at the edge of their well. `expansion`:
-  /// of their contact distance. Changes velocities and keeps count. Returns InelasticResult::smallness.
-  Real meet(const Vec2<Real>& r, Real expansion, const Body& i, const Body& j, Real now, RunningTotals& totals) {
+  /// Disks i and j meet at separation r = r_i - r_j at time `now`, at their hard cores or at the edge of their well. `sigma`:
+  /// their contact distance; `expansion`: its rate. Changes velocities and keeps count. Returns InelasticResult::smallness.
+  Real meet(const Vec2<Real>& r, Real sigma, Real expansion, const Body& i, const Body& j, Real now, RunningTotals& totals) {
     const Real before = i.v.x(), slowed = drag_.at(now);
     InelasticResult<Real> impact;
-    if (wells_.present() && wells_.at_edge(r, i.radius + j.radius)) {
+    if (wells_.present() && wells_.at_edge(r, sigma)) {
       ++totals.well;
       impact = {wells_.cross_edge(i.disk, j.disk, r, i.mass, i.v, j.mass, j.v)};
     } else {

@@ -36,7 +36,7 @@ class Elastic {
   };
 
   /// Disks i and j meet at separation r = r_i - r_j.
-  static void meet(const Vec2<double>& r, double /*expansion*/, const Body& i, const Body& j, double /*now*/,
+  static void meet(const Vec2<double>& r, double /*sigma*/, double /*expansion*/, const Body& i, const Body& j, double /*now*/,
                    RunningTotals& totals) {
     const ImpactResult<double> impact = collide<Rule, double>(r, i.mass, i.v, j.mass, j.v);
     ++totals.pair;

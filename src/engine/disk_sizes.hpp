@@ -1,6 +1,7 @@
 #pragma once
 // The sizes of disks and their spacing, for the neighbour lists of a run in which they may grow.
 
+#include "effects/non_additivity.hpp"
 #include "engine/flight_frame.hpp"
 #include "neighbours/neighbourhood_tuning.hpp"
 
@@ -14,14 +15,15 @@
 
 namespace carom {
 
-/// The largest contact distance of any two disks.
-inline double largest_contact_distance(const Disks& disks) {
+/// The largest contact distance of any two disks, or more where diameters are not additive: the largest sum of two radii times
+/// the largest scale.
+inline double largest_contact_distance(const Disks& disks, const Effects& effects) {
   double largest = 0.0, second = 0.0;
   for (const double radius : disks.radius) {
     second = std::max(second, std::min(radius, largest));
     largest = std::max(largest, radius);
   }
-  return largest + second;
+  return (largest + second) * contact_scales<double>(effects, disks).largest();
 }
 
 /// The factor by which contact distances may grow in a run: disks until they fill the box, times the width of their wells.
@@ -31,14 +33,16 @@ inline double largest_scale(const Box& box, const Disks& disks, const Effects& e
   double squares = 0.0;
   for (const double radius : disks.radius) squares += radius * radius;
   const double fraction = std::numbers::pi * squares / box.area();
-  return scale * std::sqrt(effects.growth->packing_fraction.value_or(1.0) / fraction);  // no disks fill more than the box
+  const double full = std::max(1, contact_scales<double>(effects, disks).kinds());  // no disks of a kind fill more than the box
+  return scale * std::sqrt(effects.growth->packing_fraction.value_or(full) / fraction);
 }
 
 struct DiskSizes {
-  DiskSizes(const Box& box, const Disks& disks)
+  DiskSizes(const Box& box, const Disks& disks, const Effects& effects)
       : spacing(mean_spacing(box, disks.count())),
         mean_diameter(disks.mean_diameter()),
-        largest_contact(largest_contact_distance(disks)) {}
+        contact_scale(contact_scales<double>(effects, disks).largest()),
+        largest_contact(largest_contact_distance(disks, effects)) {}
 
   /// The half-width of neighbourhoods to begin with, for disks of the size that lists are for.
   [[nodiscard]] double suitable_half_width() const {
@@ -47,6 +51,7 @@ struct DiskSizes {
 
   double spacing;                     ///< root of the area per disk
   double mean_diameter;               ///< at scale 1
+  double contact_scale;               ///< the largest contact distance over a sum of radii, at least 1
   double largest_contact;             ///< the largest contact distance, at scale 1
   double area = 0.0;                  ///< per disk, where most of them were at the start
   std::vector<double> radius;         ///< by slot, where lists have to be made for larger disks; else empty

@@ -31,7 +31,7 @@ std::string LoopState<Impact, Layout, World>::why_not(const Box& box, const Disk
   if ((Impact::plain || World::plain) && !acting.empty()) return fmt::format("the scene asks for {}", fmt::join(acting, ", "));
   if (disks.count() == 0) return "";
   const double smallest = *std::min_element(disks.radius.begin(), disks.radius.end());
-  const double reach = largest_contact_distance(disks) * largest_scale(box, disks, effects);
+  const double reach = largest_contact_distance(disks, effects) * largest_scale(box, disks, effects);
   for (int k = 0; k < 2; ++k) {
     const FixedAxis axis = fixed_axis(box, k, disks.count());
     if (axis.periodic && axis.upper - axis.lower < 2.5 * reach)
@@ -49,7 +49,7 @@ std::string LoopState<Impact, Layout, World>::why_not(const Box& box, const Disk
 template <class Impact, class Layout, class World>
 LoopState<Impact, Layout, World>::LoopState(const Box& box, const Disks& disks, State start, const Effects& effects,
                                             std::uint64_t seed)
-    : layout_(disks),
+    : layout_(disks, effects),
       impact_(effects, disks.count()),
       world_(box, effects, start, seed),
       flight_(box, disks.count(), world_),
@@ -63,7 +63,7 @@ LoopState<Impact, Layout, World>::LoopState(const Box& box, const Disks& disks, 
       lines_(disks.count()),
       plans_(disks.count(), ids_),
       lists_(flight_.axis(0), flight_.axis(1), {}),
-      sizes_(box, disks),
+      sizes_(box, disks, effects),
       stall_(effects, disks.count()),
       common_motion_(box, effects),
       recorder_(ids_, world_.g()) {
@@ -85,6 +85,7 @@ LoopState<Impact, Layout, World>::LoopState(const Box& box, const Disks& disks, 
     for (std::int32_t i = 0; i < count() && impact_.spinning(); ++i)
       if (start.spins.size() > id(i)) impact_.spin(i) = start.spins[id(i)];
   }
+  if constexpr (requires { layout_.describe(frame_); }) layout_.describe(frame_);
   frame_.scale = world_.scale(0.0);
   frame_.expansion = world_.expansion();
   make_lists();
@@ -149,7 +150,7 @@ void LoopState<Impact, Layout, World>::find_wells() {
       for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
         const std::int32_t j = lists_.ids(i)[n];
         const Line &a = line(i), &b = line(j);
-        const double sigma = layout_.radius(a) + layout_.radius(b);
+        const double sigma = layout_.contact_distance(a, b);
         if (i < j && wells.begins_inside(flight_.separation(a, b, now_), sigma)) wells.enter(i, j);
       }
   }

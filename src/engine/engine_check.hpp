@@ -111,7 +111,7 @@ void Engine<Impact, Layout, World>::check_pair(std::int32_t i, std::int32_t j, d
 
 template <class Impact, class Layout, class World>
 double Engine<Impact, Layout, World>::contact_distance(std::int32_t i, std::int32_t j) const {
-  return (layout_.radius(line(i)) + layout_.radius(line(j))) * world_.scale(now_);
+  return layout_.contact_distance(line(i), line(j)) * world_.scale(now_);
 }
 
 }  // namespace carom

@@ -16,7 +16,7 @@ void LoopState<Impact, Layout, World>::make_lists() {
   const double factor = sizes_.listed_scale * frame_.well;
   sizes_.reach = sizes_.largest_contact * factor;
   std::vector<double> radius = sizes_.radius;
-  for (double& one : radius) one *= factor;
+  for (double& one : radius) one *= factor * sizes_.contact_scale;
   lists_ = NeighbourLists(flight_.axis(0), flight_.axis(1), radius);
   sizes_.widest_neighbourhood = std::max(flight_.length(0), flight_.length(1));  // that neighbourhood holds the box
   for (int k = 0; k < 2; ++k)

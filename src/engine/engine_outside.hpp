@@ -122,7 +122,7 @@ void Engine<Impact, Layout, World>::take_over(const Continuation& continuation) 
       for (std::uint32_t n = 0; n < lists_.count(i); ++n) {
         const std::int32_t j = lists_.ids(i)[n];
         const Line &a = line(i), &b = line(j);
-        if (i > j || !wells.is_edge(flight_.separation(a, b, now_), layout_.radius(a) + layout_.radius(b))) continue;
+        if (i > j || !wells.is_edge(flight_.separation(a, b, now_), layout_.contact_distance(a, b))) continue;
         const bool bound = continuation.bound(id(i), id(j));
         if (bound == wells.inside(i, j)) continue;
         bound ? wells.enter(i, j) : wells.leave(i, j);

@@ -132,12 +132,12 @@ class EventLoop : public LoopState<Impact, Layout, World> {
   void exchange(const Vec2<double>& r, std::int32_t i, Vec2<double>& va, std::int32_t j, Vec2<double>& vb) {
     const Line &a = line(i), &b = line(j);
     const double scale = world_.scale(now_), radius_a = layout_.radius(a), radius_b = layout_.radius(b);
-    const double expansion = (radius_a + radius_b) * world_.expansion();
-    count_contact<double>(r, va - vb, (radius_a + radius_b) * scale, expansion, counted_->numerics);
+    const double contact = layout_.contact_distance(a, b), sigma = contact * scale, expansion = contact * world_.expansion();
+    count_contact<double>(r, va - vb, sigma, expansion, counted_->numerics);
     last_collision_.count(now_, counted_->numerics);
     const auto meet = [&] {
-      return impact_.meet(r, expansion, {i, layout_.mass(a), radius_a * scale, va}, {j, layout_.mass(b), radius_b * scale, vb},
-                          now_, *counted_);
+      return impact_.meet(r, sigma, expansion, {i, layout_.mass(a), radius_a * scale, va},
+                          {j, layout_.mass(b), radius_b * scale, vb}, now_, *counted_);
     };
     if constexpr (Impact::plain)
       meet();

@@ -14,6 +14,7 @@
 
 #include "core/instant.hpp"
 #include "effects/any_impact.hpp"
+#include "effects/non_additivity.hpp"
 #include "engine/common_motion.hpp"
 #include "engine/contact_count.hpp"
 #include "engine/continuation.hpp"
@@ -83,7 +84,7 @@ class TextbookEngine {
     const Vec2<Real> r = separation(a, b, t, shift);
     Vec2<Real> v = velocity(a, t) - velocity(b, t);
     world_.edges.take_image_velocity(shift, v);
-    return t + world_.time_to_contact(impact_, i, j, r, v, a.radius + b.radius, t);
+    return t + world_.time_to_contact(impact_, i, j, r, v, contact_distance(i, j), t);
   }
   [[nodiscard]] Vec2<Real> separation(const Record& a, const Record& b, Real t, const Winding& shift) const {
     Vec2<Real> r = position(a, t) - position(b, t);
@@ -120,12 +121,13 @@ class TextbookEngine {
     Record& a = record(i);
     Record& b = record(j);
     const Vec2<Real> r = separation(a, b, now_, shift), before_a = a.v, before_b = b.v;
-    const Real image_before = world_.edges.enter_image(shift, b.v), expansion = (a.radius + b.radius) * world_.expansion;
-    count_contact<Real>(r, a.v - b.v, radius_at(a, now_) + radius_at(b, now_), expansion, totals_.numerics);
+    const Real image_before = world_.edges.enter_image(shift, b.v), contact = contact_distance(i, j);
+    const Real sigma = contact_distance_at(i, j, now_), expansion = contact * world_.expansion;
+    count_contact<Real>(r, a.v - b.v, sigma, expansion, totals_.numerics);
     last_collision_.count(now_, totals_.numerics);
-    stall_.record_loss(
-        impact_.meet(r, expansion, {i, a.mass, radius_at(a, now_), a.v}, {j, b.mass, radius_at(b, now_), b.v}, now_, totals_),
-        {i, j});
+    stall_.record_loss(impact_.meet(r, sigma, expansion, {i, a.mass, radius_at(a, now_), a.v},
+                                    {j, b.mass, radius_at(b, now_), b.v}, now_, totals_),
+                       {i, j});
     world_.edges.leave_image(shift, b.mass, image_before, b.v, totals_);
     if (!a.v.allFinite() || !b.v.allFinite()) {
       a.v = before_a, b.v = before_b;
@@ -319,6 +321,16 @@ class TextbookEngine {
   [[nodiscard]] Vec2<Real> velocity(const Record& a, Real t) const { return world_.velocity(a, t); }
   [[nodiscard]] Real radius_at(const Record& a, Real t) const { return world_.radius(a, t); }
 
+  /// The contact distance of disks i and j at scale 1.
+  [[nodiscard]] Real contact_distance(std::int32_t i, std::int32_t j) const {
+    return (record(i).radius + record(j).radius) * scales_.of_disks(i, j);
+  }
+
+  [[nodiscard]] Real contact_distance_at(std::int32_t i, std::int32_t j, Real t) const {
+    return (radius_at(record(i), t) + radius_at(record(j), t)) * scales_.of_disks(i, j);
+  }
+  /// No contact distance is larger, at scale 1.
+  [[nodiscard]] Real largest_contact() const { return 2 * Real(largest_radius_) * scales_.largest(); }
   [[nodiscard]] Winding nearest_image(std::int32_t i, std::int32_t j) const;
   /// The distance by which disk i reaches beyond the walls across an axis; negative where it does not.
   [[nodiscard]] Real beyond_walls(std::int32_t i, int axis) const;
@@ -367,6 +379,7 @@ class TextbookEngine {
   Real now_ = 0;   ///< since the epoch
   Real epoch_length_ = 0;
   double box_size_;  ///< root of the area
+  ContactScales<Real> scales_;
   double largest_radius_;
   StallDetector stall_;
   CommonMotion<Real> common_motion_;

@@ -22,6 +22,7 @@ TextbookEngine<Real>::TextbookEngine(const Box& box, const Disks& disks, const S
       plans_(disks.count()),
       images_(Images::Zero(2, static_cast<Eigen::Index>(disks.count()))),
       box_size_(box.lengths()[0] * std::sqrt(box.lengths()[1] / box.lengths()[0])),
+      scales_(contact_scales<Real>(effects, disks)),
       largest_radius_(disks.count() == 0 ? 0.5 : *std::max_element(disks.radius.begin(), disks.radius.end())),
       stall_(effects, disks.count()),
       common_motion_(box, effects) {
@@ -49,7 +50,7 @@ void TextbookEngine<Real>::find_wells() {
   for (std::int32_t i = 0; i < count(); ++i)
     grid_.for_neighbours(i, [&](std::int32_t j, const Winding& shift) {
       const Record &a = record(i), &b = record(j);
-      if (i < j && wells.begins_inside(separation(a, b, 0, shift), a.radius + b.radius)) wells.enter(i, j);
+      if (i < j && wells.begins_inside(separation(a, b, 0, shift), contact_distance(i, j))) wells.enter(i, j);
     });
 }
 
@@ -70,7 +71,7 @@ void TextbookEngine<Real>::take_over_bonds(const Continuation& continuation) {
   for (std::int32_t i = 0; i < count(); ++i)
     grid_.for_neighbours(i, [&](std::int32_t j, const Winding& shift) {
       const Record &a = record(i), &b = record(j);
-      if (i > j || !wells.is_edge(separation(a, b, 0, shift), a.radius + b.radius)) return;
+      if (i > j || !wells.is_edge(separation(a, b, 0, shift), contact_distance(i, j))) return;
       const bool bound = continuation.bound(i, j);
       if (bound == wells.inside(i, j)) return;
       bound ? wells.enter(i, j) : wells.leave(i, j);
@@ -84,8 +85,7 @@ void TextbookEngine<Real>::take_over_bonds(const Continuation& continuation) {
 template <class Real>
 void TextbookEngine<Real>::suit_grid() {
   if (world_.edges.sheared()) {
-    if (grid_.disks() != records_.size())
-      grid_ = CellGrid<Real>(world_.edges.domain(), 2 * Real(largest_radius_), records_.size());
+    if (grid_.disks() != records_.size()) grid_ = CellGrid<Real>(world_.edges.domain(), largest_contact(), records_.size());
     const auto [from, to] = world_.edges.slide(epoch_length_ < infinity<Real> ? epoch_length_ : 0);
     grid_.slide(from, to);
     return;
@@ -101,7 +101,7 @@ void TextbookEngine<Real>::suit_grid() {
   for (int axis = 0; axis < 2; ++axis)  // walls may have closed in upon each other: a grid needs some width
     now.upper[axis] = std::max(now.upper[axis], now.lower[axis] + largest_radius_);
   const Real scale = world_.expansion > 0 && epoch_length_ < infinity<Real> ? world_.scale(epoch_length_) : world_.scale_at_epoch;
-  grid_ = CellGrid<Real>(Domain<Real>(now), 2 * Real(largest_radius_) * scale * impact_.wells().reach(), records_.size());
+  grid_ = CellGrid<Real>(Domain<Real>(now), largest_contact() * scale * impact_.wells().reach(), records_.size());
 }
 
 template <class Real>
@@ -230,8 +230,7 @@ Winding TextbookEngine<Real>::nearest_image(std::int32_t i, std::int32_t j) cons
 template <class Real>
 Real TextbookEngine<Real>::overlap_with(std::int32_t i, std::int32_t j, const Winding& image) const {
   using std::sqrt;
-  return radius_at(record(i), now_) + radius_at(record(j), now_) -
-         sqrt(separation(record(i), record(j), now_, image).squaredNorm());
+  return contact_distance_at(i, j, now_) - sqrt(separation(record(i), record(j), now_, image).squaredNorm());
 }
 
 template <class Real>
@@ -258,8 +257,7 @@ double TextbookEngine<Real>::deepest_overlap() const {
     }
   for (std::int32_t i = 0; i < count() && count() <= 2000; ++i)
     for (std::int32_t j = i + 1; j < count(); ++j)
-      deepest = std::max<Real>(
-          deepest, overlap_with(i, j, nearest_image(i, j)) / (radius_at(record(i), now_) + radius_at(record(j), now_)));
+      deepest = std::max<Real>(deepest, overlap_with(i, j, nearest_image(i, j)) / contact_distance_at(i, j, now_));
   return static_cast<double>(deepest);
 }
 
@@ -295,7 +293,7 @@ std::vector<std::string> TextbookEngine<Real>::check_invariants(double tolerated
   for (std::int32_t i = 0; i < count(); ++i) {
     for (std::int32_t j = i + 1; j < count(); ++j) {
       const Winding nearest = nearest_image(i, j);
-      const Real overlap = overlap_with(i, j, nearest), sigma = radius_at(record(i), now_) + radius_at(record(j), now_);
+      const Real overlap = overlap_with(i, j, nearest), sigma = contact_distance_at(i, j, now_);
       if (overlap > (Real(tolerated_overlap) + tolerance) * sigma + rounding)
         faults.push_back(fmt::format("disks {} and {} overlap by {}", i, j, static_cast<double>(overlap)));
       const Real meeting = pair_time(i, j, nearest);

@@ -21,8 +21,13 @@ double way(const Box& box, int axis, double x, std::int64_t n, double y) {
 
 }  // namespace
 
-DisksAtRest::DisksAtRest(const Box& box, const std::vector<double>& radius)
-    : box_(box), radius_(radius), next_(radius.size(), none), position_(radius.size()) {
+DisksAtRest::DisksAtRest(const Box& box, const std::vector<double>& radius, const ContactScales<double>& scales)
+    : box_(box),
+      radius_(radius),
+      scales_(scales),
+      farthest_(scales.largest()),
+      next_(radius.size(), none),
+      position_(radius.size()) {
   for (const double r : radius) {
     const int exponent = std::ilogb(r);
     auto layer = std::find_if(layers_.begin(), layers_.end(), [&](const Layer& l) { return l.exponent == exponent; });
@@ -64,13 +69,14 @@ void DisksAtRest::insert(std::int32_t i, const Eigen::Vector2d& position, const 
   next_[index] = std::exchange(first, i);
 }
 
-DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, double radius, std::int32_t except, bool larger_only,
+DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, std::int32_t i, bool larger_only,
                                             const Eigen::Vector2d& remainder) const {
   Neighbour found{none, 0.0};
+  const double radius = radius_[static_cast<std::size_t>(i)];
   const int own = std::ilogb(radius);
   for (const Layer& layer : layers_) {
     if (larger_only && layer.exponent < own) break;
-    const double reach = radius + std::ldexp(2.0, layer.exponent);
+    const double reach = (radius + std::ldexp(2.0, layer.exponent)) * farthest_;
     std::int64_t from[2];
     std::int64_t to[2];
     for (int a = 0; a < 2; ++a) {
@@ -87,8 +93,8 @@ DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, dou
                                    y >= 0 ? y / layer.cells[1] : (y + 1) / layer.cells[1] - 1};
         const std::int64_t cell = (y - n[1] * layer.cells[1]) * layer.cells[0] + (x - n[0] * layer.cells[0]);
         for (std::int32_t j = layer.first[static_cast<std::size_t>(cell)]; j != none; j = next_[static_cast<std::size_t>(j)]) {
-          if (j == except) continue;
-          const double sigma = radius + radius_[static_cast<std::size_t>(j)];
+          if (j == i) continue;
+          const double sigma = (radius + radius_[static_cast<std::size_t>(j)]) * scales_.of_disks(i, j);
           const Eigen::Vector2d& other = position_[static_cast<std::size_t>(j)];
           Eigen::Vector2d apart(way(box_, 0, other[0], n[0], position[0]), way(box_, 1, other[1], n[1], position[1]));
           if (!remainder_.empty()) apart += remainder_[static_cast<std::size_t>(j)] - remainder;
@@ -103,11 +109,11 @@ DisksAtRest::Neighbour DisksAtRest::deepest(const Eigen::Vector2d& position, dou
 }
 
 DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius, const Eigen::Matrix2Xd& positions,
-                               const Eigen::Matrix2Xd& remainders) {
+                               const Eigen::Matrix2Xd& remainders, const ContactScales<double>& scales) {
   const auto remainder = [&](Eigen::Index i) -> Eigen::Vector2d {
     return remainders.cols() > 0 ? Eigen::Vector2d(remainders.col(i)) : Eigen::Vector2d::Zero();
   };
-  DisksAtRest disks(box, radius);
+  DisksAtRest disks(box, radius, scales);
   for (std::size_t i = 0; i < radius.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
     disks.insert(static_cast<std::int32_t>(i), positions.col(column), remainder(column));
@@ -115,7 +121,7 @@ DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius
   DeepestOverlap deepest;
   for (std::size_t i = 0; i < radius.size(); ++i) {
     const auto id = static_cast<std::int32_t>(i);
-    const auto found = disks.deepest(positions.col(id), radius[i], id, true, remainder(id));
+    const auto found = disks.deepest(positions.col(id), id, true, remainder(id));
     if (found.relative_overlap > deepest.relative)
       deepest = {found.relative_overlap, std::min(id, found.disk), std::max(id, found.disk)};
   }
@@ -123,11 +129,11 @@ DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius
 }
 
 DeepestOverlap first_overlap(const Box& box, const std::vector<double>& radius, const std::vector<Eigen::Vector2d>& positions,
-                             double tolerance) {
-  DisksAtRest disks(box, radius);
+                             double tolerance, const ContactScales<double>& scales) {
+  DisksAtRest disks(box, radius, scales);
   for (std::size_t i = 0; i < radius.size(); ++i) {
     const auto id = static_cast<std::int32_t>(i);
-    const auto found = disks.deepest(positions[i], radius[i]);
+    const auto found = disks.deepest(positions[i], id);
     if (found.relative_overlap > tolerance) return {found.relative_overlap, found.disk, id};
     disks.insert(id, positions[i]);
   }

@@ -5,6 +5,8 @@
 // Disks are kept in layers by size, radii within a factor of two in one layer, each layer with cells as wide as its
 // own disks. So one large disk among a million small ones costs nothing.
 
+#include "core/contact_scales.hpp"
+
 #include <carom/box.hpp>
 
 #include <Eigen/Core>
@@ -18,22 +20,24 @@ namespace carom {
 
 class DisksAtRest {
  public:
-  /// The disks to come: radius[i] belongs to disk i. None is in place yet. Requires `radius` to live as long as this.
-  DisksAtRest(const Box& box, const std::vector<double>& radius);
+  /// The disks to come: radius[i] belongs to disk i, and so does its species in `scales`. None is in place yet. Requires `radius`
+  /// and `scales` to live as long as this.
+  DisksAtRest(const Box& box, const std::vector<double>& radius, const ContactScales<double>& scales);
+  DisksAtRest(const Box& box, const std::vector<double>& radius, ContactScales<double>&&) = delete;
 
   /// Puts disk i at a position inside the box, given as a sum with a small remainder.
   void insert(std::int32_t i, const Eigen::Vector2d& position, const Eigen::Vector2d& remainder = Eigen::Vector2d::Zero());
 
   struct Neighbour {
     std::int32_t disk;
-    double relative_overlap;  ///< (sigma - distance) / sigma with sigma the sum of the radii; > 0 where they overlap
+    double relative_overlap;  ///< (sigma - distance) / sigma with sigma the contact distance; > 0 where they overlap
   };
 
-  /// Returns the disk in place, other than `except`, that a disk of the given radius would overlap most at
-  /// `position`, all periodic images counted; {-1, 0} where it overlaps none. With `larger_only` disks in layers of
-  /// smaller radii are left out: over all disks every pair is then still seen, from its smaller partner.
-  [[nodiscard]] Neighbour deepest(const Eigen::Vector2d& position, double radius, std::int32_t except = -1,
-                                  bool larger_only = false, const Eigen::Vector2d& remainder = Eigen::Vector2d::Zero()) const;
+  /// Returns the disk in place, other than itself, that disk i would overlap most at `position`, all periodic images counted;
+  /// {-1, 0} where it overlaps none. With `larger_only` disks in layers of smaller radii are left out: over all disks every pair
+  /// is then still seen, from its smaller partner.
+  [[nodiscard]] Neighbour deepest(const Eigen::Vector2d& position, std::int32_t i, bool larger_only = false,
+                                  const Eigen::Vector2d& remainder = Eigen::Vector2d::Zero()) const;
 
  private:
   struct Layer {
@@ -48,6 +52,8 @@ class DisksAtRest {
 
   Box box_;
   const std::vector<double>& radius_;
+  const ContactScales<double>& scales_;
+  double farthest_;            ///< the largest of them
   std::vector<Layer> layers_;  ///< by falling size
   std::vector<std::int32_t> next_;
   std::vector<Eigen::Vector2d> position_;
@@ -64,11 +70,13 @@ struct DeepestOverlap {
 /// Over all pairs of disks and their images on periodic axes. O(N). Requires positions inside the box; `remainders` has as
 /// many columns, or none. The distance of a pair is taken to 2^-52 of itself, not of the box.
 [[nodiscard]] DeepestOverlap deepest_overlap(const Box& box, const std::vector<double>& radius, const Eigen::Matrix2Xd& positions,
-                                             const Eigen::Matrix2Xd& remainders = Eigen::Matrix2Xd(2, 0));
+                                             const Eigen::Matrix2Xd& remainders = Eigen::Matrix2Xd(2, 0),
+                                             const ContactScales<double>& scales = {});
 
 /// The first disk that overlaps one before it by more than `tolerance` of their contact distance, with the one that it
 /// overlaps most as `first`; relative 0 where there is none. Fast however many disks lie in one place.
 [[nodiscard]] DeepestOverlap first_overlap(const Box& box, const std::vector<double>& radius,
-                                           const std::vector<Eigen::Vector2d>& positions, double tolerance);
+                                           const std::vector<Eigen::Vector2d>& positions, double tolerance,
+                                           const ContactScales<double>& scales = {});
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include "observe/disk_clusters.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
+#include "scene/contact_scales.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,13 +20,14 @@ class Clusters final : public SavedObservable<Clusters> {
  public:
   Clusters(const ObservableRequest& request, const ObservedRun& run)
       : SavedObservable(request, run),
+        scales_(contact_scales<double>(run.scene.effects, run.disks)),
         gap_(request.range.value_or(0.1) * run.mean_diameter),
         sizes_(static_cast<std::size_t>(std::bit_width(run.disks.count()))) {}
 
   void sample(const State& state, const Totals&) override {
     std::vector<double> radii = run_.disks.radius;
     for (double& radius : radii) radius *= state.scale;
-    const DiskClusters found(box_of(run_.scene.box, state), state.positions, radii, gap_);
+    const DiskClusters found(box_of(run_.scene.box, state), state.positions, radii, gap_, scales_);
     const auto count = static_cast<double>(radii.size());
     double clusters = 0.0, squares = 0.0, largest = 0.0;
     std::array<bool, 2> percolates = {};
@@ -75,6 +77,7 @@ class Clusters final : public SavedObservable<Clusters> {
   }
 
  private:
+  ContactScales<double> scales_;
   double gap_;
   BlockedColumn sizes_;  ///< of clusters of 1, 2 to 3, 4 to 7, ... disks
   Blocking contacts_, clusters_, mean_size_, largest_, percolating_, percolating_x_, percolating_y_;

@@ -1,5 +1,6 @@
 #include "observe/collision_stream.hpp"
 
+#include "scene/contact_scales.hpp"
 #include "simulation/disk_table.hpp"
 #include "simulation/velocities_determine_contacts.hpp"
 
@@ -9,13 +10,16 @@
 namespace carom {
 
 CollisionStream::CollisionStream(const Scene& scene, const Disks& disks)
-    : radius_(disks.radius), box_(scene.box), smooth_(velocities_determine_contacts(scene.effects)) {
+    : radius_(disks.radius),
+      scales_(contact_scales<double>(scene.effects, disks)),
+      box_(scene.box),
+      smooth_(velocities_determine_contacts(scene.effects)) {
   acceleration_ = scene.effects.acceleration();
   if (scene.effects.square_well) edge_ = 0.5 * (1.0 + scene.effects.square_well->width);
   moves_between_ = !smooth_ || !acceleration_.isZero(0.0);
   std::vector<std::int32_t> ids(disks.count());
   std::iota(ids.begin(), ids.end(), 0);
-  table_ = disk_table(std::move(ids), disks);
+  table_ = disk_table(std::move(ids), disks, scene.effects);
 }
 
 void CollisionStream::start(const State& state) {
@@ -57,7 +61,7 @@ PairContact CollisionStream::contact(std::int32_t disk, std::int32_t partner) co
   Eigen::Vector2d r = position_[i] - position_[j];
   for (int axis = 0; axis < 2; ++axis)
     if (box_.periodic(axis)) r[axis] = std::remainder(r[axis], box_.upper[axis] - box_.lower[axis]);
-  return {{r[0], r[1]}, edge_ == 0.0 || r.norm() < edge_ * (radius_[i] + radius_[j])};
+  return {{r[0], r[1]}, edge_ == 0.0 || r.norm() < edge_ * ((radius_[i] + radius_[j]) * scales_.of_disks(disk, partner))};
 }
 
 /// Returns where a disk that has been moved is in the box.

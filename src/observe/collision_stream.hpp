@@ -5,6 +5,8 @@
 // The impulse of smooth disks is along the line of centres, so their velocities determine where they touched. Only where that
 // does not hold (reversal, rough disks, wells) positions are followed too, and records come with their contacts.
 
+#include "core/contact_scales.hpp"
+
 #include <carom/observe.hpp>
 
 #include <array>
@@ -41,6 +43,7 @@ class CollisionStream {
   [[nodiscard]] std::array<double, 2> place(std::int32_t disk) const;
 
   std::vector<double> radius_;
+  ContactScales<double> scales_;
   Box box_;
   Eigen::Vector2d acceleration_ = Eigen::Vector2d::Zero();
   double edge_ = 0.0;   ///< distances above this many contact distances are edges of wells; 0 where there are none

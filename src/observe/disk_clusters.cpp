@@ -48,7 +48,8 @@ void for_each_near(const Box& box, const Eigen::Matrix2Xd& positions, double rea
 
 }  // namespace
 
-DiskClusters::DiskClusters(const Box& box, const Eigen::Matrix2Xd& positions, std::span<const double> radii, double gap)
+DiskClusters::DiskClusters(const Box& box, const Eigen::Matrix2Xd& positions, std::span<const double> radii, double gap,
+                           const ContactScales<double>& scales)
     : nodes_(radii.size()) {
   if (nodes_.empty()) return;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -62,9 +63,14 @@ DiskClusters::DiskClusters(const Box& box, const Eigen::Matrix2Xd& positions, st
     }
   }
   const double largest = *std::max_element(radii.begin(), radii.end());
-  for_each_near(box, positions, 2.0 * largest + gap,
+  for_each_near(box, positions, 2.0 * largest * scales.largest() + gap,
                 [&](std::size_t i, std::size_t j, const Shift& shift, const Eigen::Vector2d& r) {
-                  if (!(r.norm() - radii[i] - radii[j] < gap)) return;
+                  const bool is_near = scales.additive()
+                                           ? r.norm() - radii[i] - radii[j] < gap
+                                           : r.norm() - (radii[i] + radii[j]) * scales.of_disks(static_cast<std::int32_t>(i),
+                                                                                                static_cast<std::int32_t>(j)) <
+                                                 gap;
+                  if (!is_near) return;
                   ++pairs_;
                   join(i, j, shift);
                 });

@@ -1,6 +1,8 @@
 #pragma once
 // Clusters of disks whose surfaces are nearer to each other than a gap.
 
+#include "core/contact_scales.hpp"
+
 #include <carom/box.hpp>
 
 #include <Eigen/Core>
@@ -19,8 +21,10 @@ namespace carom {
 /// percolates if it has disks nearer than the gap to both.
 class DiskClusters {
  public:
-  /// Requires a radius for each position, and positions in the box.
-  DiskClusters(const Box& box, const Eigen::Matrix2Xd& positions, std::span<const double> radii, double gap);
+  /// Requires a radius for each position, and positions in the box. Surfaces of two disks are nearer than the gap where their
+  /// centres are nearer than the contact distance and the gap together: radii times `scales`.
+  DiskClusters(const Box& box, const Eigen::Matrix2Xd& positions, std::span<const double> radii, double gap,
+               const ContactScales<double>& scales = {});
 
   /// Returns the number of the cluster of a disk: that of one of its disks.
   [[nodiscard]] std::size_t cluster(std::size_t disk) const { return nodes_[disk].root; }

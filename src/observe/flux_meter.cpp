@@ -3,6 +3,7 @@
 #include "core/all_equal.hpp"
 #include "core/instant.hpp"
 #include "core/reduced_mass.hpp"
+#include "scene/contact_scales.hpp"
 #include "simulation/velocities_determine_contacts.hpp"
 
 #include <algorithm>
@@ -21,8 +22,9 @@ std::size_t id(const CollisionRecords& collisions, std::int32_t slot) {
 
 FluxMeter::FluxMeter(const Scene& scene, const Disks& disks)
     : disks_(disks),
+      scales_(contact_scales<double>(scene.effects, disks)),
       smooth_(velocities_determine_contacts(scene.effects)),
-      equal_(all_equal(disks.radius) && all_equal(disks.mass)) {
+      equal_(all_equal(disks.radius) && all_equal(disks.mass) && scales_.additive()) {
   if (!equal_ || !smooth_ || disks.count() == 0) return;
   std::ranges::fill(contacts_.mu, reduced_mass(disks.mass[0], disks.mass[0]));
   std::ranges::fill(contacts_.sigma, 2.0 * disks.radius[0]);
@@ -110,7 +112,8 @@ void FluxMeter::put_contacts(const CollisionRecords& collisions, std::size_t beg
 /// Adds the collision of two disks that touch.
 void FluxMeter::meet(std::size_t row, std::size_t disk, std::size_t partner) {
   contacts_.mu[row] = reduced_mass(disks_.mass[disk], disks_.mass[partner]);
-  contacts_.sigma[row] = disks_.radius[disk] + disks_.radius[partner];
+  contacts_.sigma[row] = (disks_.radius[disk] + disks_.radius[partner]) *
+                         scales_.of_disks(static_cast<std::int32_t>(disk), static_cast<std::int32_t>(partner));
   for (const Together& some : sums_)
     if (some.sums.transfer != nullptr) some.sums.transfer->meetings += contacts_.sigma[row] * std::sqrt(contacts_.mu[row]);
 }

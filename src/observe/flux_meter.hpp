@@ -2,6 +2,7 @@
 // Adds up the fluxes of collisions, from the simulation's records or from the event log: to the same bits, however they are
 // divided among calls.
 
+#include "core/contact_scales.hpp"
 #include "observe/collision_fluxes.hpp"
 #include "observe/followers.hpp"
 
@@ -48,8 +49,9 @@ class FluxMeter {
   void meet(std::size_t row, std::size_t disk, std::size_t partner);
 
   const Disks& disks_;
+  ContactScales<double> scales_;
   bool smooth_;  ///< whether velocities determine where disks touched
-  bool equal_;   ///< all disks are
+  bool equal_;   ///< all disks are, and touch at one distance
   std::vector<FluxFollower*> followers_;
   double until_ = -std::numeric_limits<double>::infinity();  ///< that of all followers
   std::vector<Together> sums_;

@@ -1,5 +1,7 @@
 #include "observe/geometry.hpp"
 
+#include "scene/contact_scales.hpp"
+
 #include <algorithm>
 #include <numbers>
 #include <vector>
@@ -42,15 +44,16 @@ Eigen::Matrix2Xd half_a_box_higher(const Box& box, const State& state) {
   return positions;
 }
 
-DeepestOverlap deepest_overlap_in_shear(const Box& box, const std::vector<double>& radii, const State& state) {
+DeepestOverlap deepest_overlap_in_shear(const Box& box, const std::vector<double>& radii, const State& state,
+                                        const ContactScales<double>& scales) {
   Box within = box;
   within.boundary[1] = Boundary::walls;
-  const DeepestOverlap inside = deepest_overlap(within, radii, state.positions, state.remainders);
+  const DeepestOverlap inside = deepest_overlap(within, radii, state.positions, state.remainders, scales);
   Box across = within;
   const double half = 0.5 * box.lengths().y();
   across.lower.y() += half;
   across.upper.y() += half;
-  const DeepestOverlap through_the_edge = deepest_overlap(across, radii, half_a_box_higher(box, state), state.remainders);
+  const DeepestOverlap through_the_edge = deepest_overlap(across, radii, half_a_box_higher(box, state), state.remainders, scales);
   return through_the_edge.relative > inside.relative ? through_the_edge : inside;
 }
 
@@ -58,9 +61,11 @@ DeepestOverlap deepest_overlap_in_shear(const Box& box, const std::vector<double
 
 DeepestOverlap deepest_overlap(const Box& box, const Effects& effects, const Disks& disks, const State& state) {
   const bool sheared = effects.shear_rate() != 0.0 && state.shear_displacement != 0.0;
-  if (sheared) return deepest_overlap_in_shear(box, radii_of(disks, state), state);
-  if (state.scale != 1.0) return deepest_overlap(box_of(box, state), radii_of(disks, state), state.positions, state.remainders);
-  return deepest_overlap(box_of(box, state), disks.radius, state.positions, state.remainders);
+  const ContactScales<double> scales = contact_scales<double>(effects, disks);
+  if (sheared) return deepest_overlap_in_shear(box, radii_of(disks, state), state, scales);
+  if (state.scale != 1.0)
+    return deepest_overlap(box_of(box, state), radii_of(disks, state), state.positions, state.remainders, scales);
+  return deepest_overlap(box_of(box, state), disks.radius, state.positions, state.remainders, scales);
 }
 
 }  // namespace carom

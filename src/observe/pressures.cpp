@@ -18,6 +18,7 @@
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
 #include "observe/wall_momentum.hpp"
+#include "scene/contact_scales.hpp"
 
 #include <boost/math/special_functions/gamma.hpp>
 
@@ -42,7 +43,8 @@ class Pressure final : public SavedObservable<Pressure>, public FluxFollower {
   Pressure(const ObservableRequest& request, const ObservedRun& run) : SavedObservable(request, run) {
     const Effects& effects = run.scene.effects;
     follows_ = run.collisions_known && !is_driven(effects) && run.disks.count() > 0;
-    equal_ = all_equal(run.disks.radius) && all_equal(run.disks.mass);
+    equal_ = all_equal(run.disks.radius) && all_equal(run.disks.mass) &&
+             contact_scales<double>(run.scene.effects, run.disks).additive();
     equal_radii_ = all_equal(run.disks.radius);
     freedom_ = 2.0 * static_cast<double>(run.disks.count()) - (run.centre_of_mass_is_thermal(0) ? 0.0 : 1.0) -
                (run.centre_of_mass_is_thermal(1) ? 0.0 : 1.0);

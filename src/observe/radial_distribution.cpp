@@ -11,6 +11,7 @@
 #include "observe/close_pairs.hpp"
 #include "observe/observables.hpp"
 #include "observe/saved_observable.hpp"
+#include "scene/contact_scales.hpp"
 
 #include <Eigen/QR>
 
@@ -72,8 +73,12 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
         g_(static_cast<std::size_t>(request.bins.value_or(250))),
         counts_(kinds_ > 1 ? 1 + kinds_ * kinds_ : 1, std::vector<double>(g_.size())),
         contact_(run.mean_diameter,
-                 all_equal(run.disks.radius) ? std::min(range_, smooth_until(run) * run.mean_diameter) : run.mean_diameter) {
+                 touch_at_one_distance(run) ? std::min(range_, smooth_until(run) * run.mean_diameter) : run.mean_diameter) {
     if (kinds_ > 1) partial_.resize(kinds_ * kinds_, BlockedColumn(g_.size()));
+  }
+
+  static bool touch_at_one_distance(const ObservedRun& run) {
+    return all_equal(run.disks.radius) && contact_scales<double>(run.scene.effects, run.disks).additive();
   }
 
   /// Distance, in diameters, up to which g is smooth: it jumps at the edge of a well.
@@ -113,7 +118,8 @@ class RadialDistribution final : public SavedObservable<RadialDistribution> {
       contact_value_.fill(contact, step_);
       if (!contact.value) contact.note = "nothing was measured";
     } else {
-      contact.note = "disks of several sizes touch at several distances";
+      contact.note = all_equal(run_.disks.radius) ? "disks of several species touch at several distances"
+                                                  : "disks of several sizes touch at several distances";
     }
     found.scalars.push_back(std::move(contact));
     Table table{.name = name()};

@@ -1,6 +1,7 @@
 #include "python/given_state.hpp"
 
 #include "observe/geometry.hpp"
+#include "scene/contact_scales.hpp"
 #include "scene/fixed_shapes.hpp"
 #include "simulation/start.hpp"
 
@@ -57,11 +58,13 @@ void require_apart(const Scene& scene, const State& given) {
   }
   // The first search is fast however many disks lie in one place; the second knows where the images of a sheared box are.
   if (state.shear_displacement != 0.0) box.boundary[1] = Boundary::walls;
-  DeepestOverlap found = first_overlap(box, radii, centres, rounding);
+  const ContactScales<double> scales = contact_scales<double>(scene.effects, start.disks);
+  DeepestOverlap found = first_overlap(box, radii, centres, rounding, scales);
   if (found.relative == 0.0 && state.shear_displacement != 0.0)
     found = deepest_overlap(scene.box, scene.effects, start.disks, state);
   if (!(found.relative > rounding)) return;
-  const double contact = radii[static_cast<std::size_t>(found.first)] + radii[static_cast<std::size_t>(found.second)];
+  const double contact = (radii[static_cast<std::size_t>(found.first)] + radii[static_cast<std::size_t>(found.second)]) *
+                         scales.of_disks(found.first, found.second);
   throw refusal(fmt::format("disk {} overlaps disk {}", found.second, found.first), found.relative * contact, contact,
                 "that one");
 }

@@ -3,6 +3,7 @@
 #include "neighbours/disks_at_rest.hpp"
 #include "scene/changes.hpp"
 #include "scene/checks.hpp"
+#include "scene/contact_scales.hpp"
 #include "scene/number_keys.hpp"
 #include "scene/regions.hpp"
 
@@ -130,8 +131,20 @@ void check_density(const Scene& scene) {
     all_random = all_random && std::holds_alternative<RandomPositions>(scene.species[s].positions);
   }
   if (!first) return;
-  const double fraction = scene.packing_fraction();
-  const Radii radii = radii_of(scene);
+  double fraction = scene.packing_fraction();
+  Radii radii = radii_of(scene);
+  if (brings_unlike_nearer(scene)) {  // circles of different species overlap, so that each species alone covers what it can
+    fraction = 0.0;
+    for (const Species& species : scene.species) {
+      double squares = species.radii.empty() ? static_cast<double>(species.count) * species.radius * species.radius : 0.0;
+      for (const double radius : species.radii) squares += radius * radius;
+      const double alone = std::numbers::pi * squares / scene.box.area();
+      if (alone <= fraction) continue;
+      fraction = alone;
+      radii = radii_of(species);
+    }
+    all_random = false;
+  }
   const bool equal = radii.equal();
   const double limit = radii.densest() * (1.0 + touching);
   if (fraction > limit) {
@@ -159,6 +172,7 @@ void check_overlaps(const Scene& scene) {
   std::vector<Eigen::Vector2d> centres;
   std::vector<double> radii;
   std::vector<Given> given;
+  std::vector<std::int32_t> species_of;
   std::int64_t first_id = 0;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
     const Species& species = scene.species[s];
@@ -168,14 +182,16 @@ void check_overlaps(const Scene& scene) {
       centres.push_back(positions[i]);
       radii.push_back(species.radius_of(row));
       given.push_back({s, i, first_id + row});
+      species_of.push_back(static_cast<std::int32_t>(s));
     }
     first_id += species.count;
   }
-  const DeepestOverlap overlap = first_overlap(scene.box, radii, centres, touching);
+  const ContactScales<double> scales = contact_scales<double>(scene.effects, std::move(species_of));
+  const DeepestOverlap overlap = first_overlap(scene.box, radii, centres, touching, scales);
   if (overlap.relative == 0.0) return;
   const auto first = static_cast<std::size_t>(overlap.first);
   const auto second = static_cast<std::size_t>(overlap.second);  // the later of the two is the one to move
-  const double contact = radii[first] + radii[second];
+  const double contact = (radii[first] + radii[second]) * scales.of_disks(overlap.first, overlap.second);
   throw Refusal(path_of_position(given[second].species, given[second].row),
                 fmt::format("disks {} and {} overlap by {:.6g}; their centres must be at least {:.6g} apart, or run them as they "
                             "are with --accept-overlap (accept_overlap = true in [run])",
@@ -218,6 +234,7 @@ void check_scene(const Scene& scene) {
   check_names(scene);
   check_counts(scene);
   check_grown(scene);
+  check_non_additivity(scene);
   std::int64_t first_id = 0;
   for (std::size_t s = 0; s < scene.species.size(); ++s) {
     const Species& species = scene.species[s];

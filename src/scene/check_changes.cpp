@@ -74,6 +74,17 @@ void move_walls(Box& box, const Effects& effects, double time) {
   }
 }
 
+bool contact_distances_differ(const Scene& scene, const Effects& now, const Effects& before) {
+  const auto delta = [](const Effects& effects, std::int64_t one, std::int64_t other) {
+    return effects.non_additivity ? effects.non_additivity->between(one, other) : 0.0;
+  };
+  const auto kinds = static_cast<std::int64_t>(scene.species.size());
+  for (std::int64_t one = 0; one < kinds; ++one)
+    for (std::int64_t other = 0; other < one; ++other)
+      if (delta(now, one, other) != delta(before, one, other)) return true;
+  return false;
+}
+
 /// Observables know one flow and one clock.
 void check_observables(const Scene& scene, const Effects& now, const Effects& before, const std::string& path) {
   if (scene.observe.empty()) return;
@@ -89,6 +100,11 @@ void check_observables(const Scene& scene, const Effects& now, const Effects& be
                   fmt::format("{} changes gravity, or how a wall slides or vibrates, and observe.work knows one value of each "
                               "only; remove one of the two",
                               path));
+  if (contact_distances_differ(scene, now, before))
+    throw Refusal(
+        path, fmt::format("{} changes [non_additivity], and observables know one contact distance of two species only; remove "
+                          "[observe], or make a run of each delta",
+                          path));
   if (now.shear_rate() == before.shear_rate() && now.drag_rate() == before.drag_rate() &&
       now.growth_rate() == before.growth_rate())
     return;

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace carom::detail {
 namespace {
 
@@ -89,7 +91,10 @@ void check_square_well(const Scene& scene) {
                     well.width, keys::well_width.example));
   if (well.depth == 0.0) return;
   const Radii radii = radii_of(scene);
-  const double reach = well.width * 2.0 * radii.largest;
+  double largest = 2.0 * radii.largest, smallest = 2.0 * radii.smallest;  // contact distances
+  for (const UnlikeContact& pair : unlike_contacts(scene))
+    largest = std::max(largest, pair.largest), smallest = std::min(smallest, pair.smallest);
+  const double reach = well.width * largest;
   for (int axis = 0; axis < 2; ++axis) {
     const double half = 0.5 * scene.box.lengths()[axis], coordinate = largest_coordinate(scene.box, axis);
     if (scene.box.periodic(axis) && !(reach < half * (1.0 - image_margin)))
@@ -97,19 +102,77 @@ void check_square_well(const Scene& scene) {
                     fmt::format("square_well.width = {} reaches {:.6g} from disk to disk, but on a periodic axis it must stay a "
                                 "millionth below half of the length, {:.6g} in {}; make it smaller, or the box larger",
                                 well.width, reach, half, axis_names[axis]));
-    const double thickness = (well.width - 1.0) * 2.0 * radii.smallest, least = least_thickness * coordinate;
+    const double thickness = (well.width - 1.0) * smallest, least = least_thickness * coordinate;
     if (!(thickness > least))
       throw Refusal(
           "square_well.width",
           fmt::format("square_well.width is {}; it must be above 1 + {:.3g} here: the well of the smallest disks is {:.3g} "
                       "wide, and coordinates up to {:.6g} do not resolve it",
-                      well.width, least / (2.0 * radii.smallest), thickness, coordinate));
+                      well.width, least / smallest, thickness, coordinate));
   }
 }
 
 }  // namespace
 
+void check_non_additivity(const Scene& scene) {
+  if (!scene.effects.non_additivity) return;
+  const NonAdditivity& mixture = *scene.effects.non_additivity;
+  const auto kinds = static_cast<std::int64_t>(scene.species.size());
+  const auto check_delta = [](const std::string& path, double delta) {
+    if (!(1.0 + delta > 0.0))
+      throw Refusal(path, fmt::format("{} is {}; disks touch at 1 + delta times the sum of their radii, so it must be above -1, "
+                                      "such as {}",
+                                      path, delta, keys::delta.example));
+  };
+  check_delta("non_additivity.delta", mixture.delta);
+  for (std::size_t k = 0; k < mixture.pairs.size(); ++k) {
+    const NonAdditivity::Pair& pair = mixture.pairs[k];
+    const std::string path = fmt::format("non_additivity.pairs.{}", k);
+    require(path, pair.delta, keys::delta);
+    for (const std::int64_t species : pair.species)
+      if (species < 0 || species >= kinds)
+        throw Refusal(
+            path + ".species",
+            fmt::format("{}.species has {}, but the scene has {} [[disks]]; they are numbered from 0", path, species, kinds));
+    if (pair.species[0] == pair.species[1])
+      throw Refusal(
+          path + ".species",
+          fmt::format("{}.species has {} twice; disks of one species touch at twice their radius, so give two different "
+                      "species",
+                      path, pair.species[0]));
+    check_delta(path + ".delta", pair.delta);
+    for (std::size_t before = 0; before < k; ++before)
+      if (std::is_permutation(pair.species.begin(), pair.species.end(), mixture.pairs[before].species.begin()))
+        throw Refusal(
+            path, fmt::format("non_additivity.pairs.{} and {} are of the same two species; remove one of them", before, path));
+  }
+  if (!effect_named("non_additivity").acts(scene.effects)) return;
+  constexpr std::int64_t most_kinds = 1000;
+  if (kinds > most_kinds)
+    throw Refusal(
+        "non_additivity",
+        fmt::format("[non_additivity] holds a number for each pair of [[disks]], and there are {} of these; take at most {}",
+                    kinds, most_kinds));
+  for (const UnlikeContact& pair : unlike_contacts(scene))
+    for (int axis = 0; axis < 2; ++axis) {
+      const double length = scene.box.lengths()[axis], least = least_thickness * largest_coordinate(scene.box, axis);
+      if (scene.box.periodic(axis) && !(pair.largest < length))
+        throw Refusal(
+            "non_additivity",
+            fmt::format("disks of species {} and {} touch {:.6g} apart, but on a periodic axis that must be less than the "
+                        "length, {:.6g} in {}; make delta smaller, or the box larger",
+                        pair.one, pair.other, pair.largest, length, axis_names[axis]));
+      if (!(pair.smallest > least))
+        throw Refusal(
+            "non_additivity",
+            fmt::format("disks of species {} and {} touch {:.3g} apart, and coordinates up to {:.6g} do not resolve less "
+                        "than {:.3g}; make delta larger",
+                        pair.one, pair.other, pair.smallest, largest_coordinate(scene.box, axis), least));
+    }
+}
+
 void check_effects(const Scene& scene) {
+  check_non_additivity(scene);
   check_collision(scene.effects.collision);
   check_gravity(scene);
   check_shear(scene);

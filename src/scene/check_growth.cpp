@@ -23,11 +23,24 @@ void check_company(const Scene& scene) {
   }
 }
 
+/// Disks of different species must not reach from one image of another to the next.
+void check_unlike(const Scene& scene, double scale) {
+  for (const UnlikeContact& pair : unlike_contacts(scene))
+    for (int axis = 0; axis < 2; ++axis) {
+      const double length = scene.box.lengths()[axis];
+      if (!scene.box.periodic(axis) || scale * pair.largest < length) continue;
+      throw Refusal("growth",
+                    fmt::format("disks of species {} and {} would grow until they touch {:.6g} apart, but the periodic box "
+                                "is {:.6g} long in {}; end before that",
+                                pair.one, pair.other, scale * pair.largest, length, axis_names[axis]));
+    }
+}
+
 void check_target(const Scene& scene, const Growth& growth) {
   const double target = *growth.packing_fraction;
   const double present = scene.packing_fraction();
   const Radii radii = radii_of(scene);
-  if (target > closest_packing * (1.0 + touching) && radii.equal()) {
+  if (target > closest_packing * (1.0 + touching) && radii.equal() && !brings_unlike_nearer(scene)) {
     throw Refusal("growth", fmt::format("growth.until.packing_fraction is {}, but that of equal disks cannot exceed {:.4g}; "
                                         "disks of random order jam near 0.84",
                                         target, closest_packing));
@@ -41,6 +54,7 @@ void check_target(const Scene& scene, const Growth& growth) {
                                         target, present));
   }
   const double scale = std::sqrt(target / present), diameter = 2.0 * radii.largest * scale;
+  check_unlike(scene, scale);
   for (int axis = 0; axis < 2; ++axis) {
     const double length = scene.box.lengths()[axis];
     if (scale < growth_room(scene.box, axis, radii.largest)) continue;
@@ -56,6 +70,7 @@ void check_time(const Scene& scene, const Growth& growth) {
   const bool may_end_before = growth.reduced_pressure || run.collisions;
   if (growth.packing_fraction || !run.time || (may_end_before && scene.disk_count() > 1)) return;
   const double radius = radii_of(scene).largest, scale = 1.0 + growth.rate * *run.time;
+  check_unlike(scene, scale);
   for (int axis = 0; axis < 2; ++axis) {
     if (scale < growth_room(scene.box, axis, radius)) continue;
     throw Refusal("growth",

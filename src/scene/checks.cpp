@@ -15,16 +15,47 @@ std::span<const Eigen::Vector2d> given_positions(const Species& species) {
   return {};
 }
 
+Radii radii_of(const Species& species) {
+  if (species.radii.empty()) return {species.radius, species.radius};
+  const auto [low, high] = std::minmax_element(species.radii.begin(), species.radii.end());
+  return {*low, *high};
+}
+
 Radii radii_of(const Scene& scene) {
   Radii radii;
   for (const Species& species : scene.species) {
     if (species.count == 0) continue;
-    const auto [low, high] = std::minmax_element(species.radii.begin(), species.radii.end());
-    const double smallest = species.radii.empty() ? species.radius : *low;
-    radii.smallest = radii.smallest == 0.0 ? smallest : std::min(radii.smallest, smallest);
-    radii.largest = std::max(radii.largest, species.radii.empty() ? species.radius : *high);
+    const Radii own = radii_of(species);
+    radii.smallest = radii.smallest == 0.0 ? own.smallest : std::min(radii.smallest, own.smallest);
+    radii.largest = std::max(radii.largest, own.largest);
   }
   return radii;
+}
+
+std::vector<UnlikeContact> unlike_contacts(const Scene& scene) {
+  std::vector<UnlikeContact> contacts;
+  if (!scene.effects.non_additivity) return contacts;
+  std::vector<Radii> radii;
+  for (const Species& species : scene.species) radii.push_back(species.count > 0 ? radii_of(species) : Radii{});
+  const auto kinds = static_cast<std::int64_t>(scene.species.size());
+  for (std::int64_t i = 0; i < kinds; ++i)
+    for (std::int64_t j = i + 1; j < kinds; ++j) {
+      const Radii &a = radii[static_cast<std::size_t>(i)], &b = radii[static_cast<std::size_t>(j)];
+      if (a.largest == 0.0 || b.largest == 0.0) continue;  // no disks
+      const double scale = 1.0 + scene.effects.non_additivity->between(i, j);
+      contacts.push_back({i, j, scale, scale * (a.smallest + b.smallest), scale * (a.largest + b.largest)});
+    }
+  return contacts;
+}
+
+bool brings_unlike_nearer(const Scene& scene) {
+  return std::ranges::any_of(unlike_contacts(scene), [](const UnlikeContact& pair) { return pair.scale < 1.0; });
+}
+
+double largest_unlike_contact(const Scene& scene) {
+  double largest = 0.0;
+  for (const UnlikeContact& pair : unlike_contacts(scene)) largest = std::max(largest, pair.largest);
+  return largest;
 }
 
 double largest_coordinate(const Box& box, int axis) { return std::max(std::abs(box.lower[axis]), std::abs(box.upper[axis])); }

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace carom::detail {
 
@@ -35,6 +36,20 @@ struct Radii {
   [[nodiscard]] double densest() const { return equal() ? closest_packing : 1.0; }
 };
 Radii radii_of(const Scene& scene);
+/// Requires that the species has disks.
+Radii radii_of(const Species& species);
+/// The contact distances of disks of two different species.
+struct UnlikeContact {
+  std::int64_t one, other;  ///< species
+  double scale;             ///< contact distance over the sum of two radii
+  double smallest, largest;
+};
+/// Returns those of all pairs of species that have disks, where [non_additivity] acts; else none.
+std::vector<UnlikeContact> unlike_contacts(const Scene& scene);
+/// Returns whether disks of some two species may come nearer than the sum of their radii.
+bool brings_unlike_nearer(const Scene& scene);
+/// Returns the largest of them; 0 where there are none.
+double largest_unlike_contact(const Scene& scene);
 /// Returns the distance of the origin to the farther limit of the box along an axis.
 double largest_coordinate(const Box& box, int axis);
 /// Over all disks. Requires one.
@@ -58,6 +73,8 @@ void check_grown(const Scene& scene);
 void check_fixed_shapes(const Scene& scene);
 /// Effects that cannot act together, or not in this box.
 void check_effects(const Scene& scene);
+/// The deltas of [non_additivity] are those of species, and two disks can touch without a third image between them.
+void check_non_additivity(const Scene& scene);
 void check_walls(const Scene& scene);
 void check_growth(const Scene& scene);
 /// Speeds, places and masses are such that the arithmetic of every engine keeps its digits, and runs come to their end.

@@ -337,6 +337,27 @@ std::vector<EffectTraits> make_table() {
        .why_not_equilibrate = "equilibrate in a run without drag, and start one with drag from where it ends",
        .why_no_Z = "drag takes energy away",
        .why_no_replay = "drag changes velocities between collisions, which the event log does not hold"},
+      {.name = "non_additivity",
+       .title = "[non_additivity]",
+       .is_present = has<&Effects::non_additivity>,
+       .acts =
+           [](const Effects& e) {
+             return e.non_additivity && (e.non_additivity->delta != 0.0 ||
+                                         std::ranges::any_of(e.non_additivity->pairs,
+                                                             [](const NonAdditivity::Pair& pair) { return pair.delta != 0.0; }));
+           },
+       .numbers = {number<&Effects::non_additivity, &NonAdditivity::delta>(keys::delta, "", 0.0, -0.1)},
+       .other_keys = {"pairs"},
+       .words =
+           [](const Effects& e) {
+             std::string text = fmt::format("disks of different species touch at {:.6g} times the sum of their radii",
+                                            1.0 + e.non_additivity->delta);
+             for (const NonAdditivity::Pair& pair : e.non_additivity->pairs)
+               text += fmt::format(", those of species {} and {} at {:.6g} times", pair.species[0], pair.species[1],
+                                   1.0 + pair.delta);
+             return text;
+           },
+       .excludes = {{"roughness"}}},
   };
 }
 

@@ -21,6 +21,14 @@ bool Effects::dissipate() const {
          std::ranges::any_of(walls, [](const WallProperties& wall) { return wall.restitution.value_or(1.0) < 1.0; });
 }
 
+double NonAdditivity::between(std::int64_t one, std::int64_t other) const {
+  if (one == other) return 0.0;
+  for (const Pair& pair : pairs)
+    if ((pair.species[0] == one && pair.species[1] == other) || (pair.species[0] == other && pair.species[1] == one))
+      return pair.delta;
+  return delta;
+}
+
 void put_in_circle(Box& box, Effects& effects, const Circle& circle) {
   const Eigen::Vector2d radius = Eigen::Vector2d::Constant(circle.radius);
   box = {circle.centre - radius, circle.centre + radius, {Boundary::walls, Boundary::walls}, true};

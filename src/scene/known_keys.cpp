@@ -80,6 +80,7 @@ std::string home_of(std::string_view key) {
                                    {"circle", "[box]; an obstacle is a disk, a segment or an arc"},
                                    {"radius", "[[disks]]"},
                                    {"mass", "[[disks]]"},
+                                   {"species", "an entry of pairs in [non_additivity], or add_disk in [[changes]]"},
                                    {"packing_fraction", "[[disks]]"},
                                    {"positions", "[[disks]]"},
                                    {"velocities", "[[disks]]"},

@@ -63,6 +63,8 @@ inline constexpr NumberKey restitution{"restitution", "restitution = 0.9", Range
 inline constexpr NumberKey roughness{"roughness", "roughness = 0.5", Range::within, -1.0, 1.0};
 inline constexpr NumberKey elastic_below{"time", "{ time = 1e-6 }", Range::zero_or_more};
 
+inline constexpr NumberKey delta{"delta", "delta = -0.2"};
+
 inline constexpr std::string_view acceleration_example = "acceleration = [0.0, -1.0]";
 
 inline constexpr NumberKey wall_restitution{"restitution", "{ restitution = 0.8 }", Range::within, 0.0, 1.0};

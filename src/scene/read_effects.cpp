@@ -26,6 +26,27 @@ void read_end(const toml::table& node, Growth& growth) {
   if (!growth.packing_fraction && !growth.reduced_pressure) throw Refusal(table.path(), ends_of_growth("neither of its keys"));
 }
 
+/// The pairs of species with a delta of their own.
+void read_pairs(const toml::node& node, NonAdditivity& mixture) {
+  const std::string path = "non_additivity.pairs",
+                    example = "a list of tables, such as pairs = [{ species = [0, 1], delta = -0.2 }]";
+  const toml::array* list = node.as_array();
+  if (list == nullptr) refuse(node, path, example);
+  for (std::size_t k = 0; k < list->size(); ++k) {
+    const std::string entry = fmt::format("{}.{}", path, k);
+    const toml::table* pair = (*list)[k].as_table();
+    if (pair == nullptr) refuse((*list)[k], entry, "a table, such as { species = [0, 1], delta = -0.2 }");
+    const TableReader table(*pair, entry, {"species", "delta"});
+    const std::string two = "the numbers of two [[disks]], from 0, such as species = [0, 1]";
+    const toml::node& species = table.require("species", "give it, " + two);
+    const toml::array* numbers = species.as_array();
+    if (numbers == nullptr || numbers->size() != 2) refuse(species, table.path("species"), two);
+    NonAdditivity::Pair& read = mixture.pairs.emplace_back();
+    for (std::size_t n = 0; n < 2; ++n) read.species[n] = read_integer((*numbers)[n], table.path("species"), two);
+    read.delta = table.required_number(keys::delta);
+  }
+}
+
 /// A table of an effect that is a number or two, and what it has besides.
 void read_numbers(const toml::table& node, const EffectTraits& effect, Effects& effects) {
   std::vector<std::string_view> keys;
@@ -33,6 +54,8 @@ void read_numbers(const toml::table& node, const EffectTraits& effect, Effects& 
   keys.insert(keys.end(), effect.other_keys.begin(), effect.other_keys.end());
   const TableReader table(node, std::string(effect.name), keys);
   for (const EffectNumber& number : effect.numbers) number.set(effects, table.required_number(*number.key));
+  if (effect.name == "non_additivity")
+    if (const toml::node* pairs = table.find("pairs")) read_pairs(*pairs, *effects.non_additivity);
   if (std::ranges::find(effect.other_keys, "until") == effect.other_keys.end()) return;
   if (const toml::table* until = table.table("until", "{ packing_fraction = 0.84 }")) read_end(*until, *effects.growth);
 }

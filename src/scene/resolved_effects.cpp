@@ -56,6 +56,15 @@ std::string until(const Growth& growth) {
   return growth.reduced_pressure ? end("pressure", *growth.reduced_pressure) : std::string();
 }
 
+std::string pairs(const std::vector<NonAdditivity::Pair>& pairs) {
+  if (pairs.empty()) return {};
+  std::vector<std::string> entries;
+  for (const NonAdditivity::Pair& pair : pairs)
+    entries.push_back(
+        fmt::format("{{ species = [{}, {}], delta = {} }}", pair.species[0], pair.species[1], number_text(pair.delta)));
+  return fmt::format("pairs = [{}]\n", fmt::join(entries, ", "));
+}
+
 }  // namespace
 
 std::string pair_text(const Eigen::Vector2d& value) {
@@ -82,6 +91,7 @@ std::string effects_toml(const Effects& effects) {
     text += fmt::format("\n[{}]\n", effect.name);
     for (const EffectNumber& number : effect.numbers) text += line(number.key->name, number.value(effects));
     if (effect.name == "growth") text += until(*effects.growth);
+    if (effect.name == "non_additivity") text += pairs(effects.non_additivity->pairs);
   }
   return text;
 }

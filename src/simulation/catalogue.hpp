@@ -44,6 +44,8 @@ std::unique_ptr<AnyEngine> make_fast(const Scene& scene, const Disks& disks, Sta
 /// The fast engine with every effect.
 std::string why_not_general(const Scene& scene, const Disks& disks);
 std::unique_ptr<AnyEngine> make_general(const Scene& scene, const Disks& disks, State start);
+/// The general engine for a mixture whose diameters are not additive.
+std::unique_ptr<AnyEngine> make_mixed(const Scene& scene, const Disks& disks, State start);
 
 /// The textbook engine in one number type; instantiated in textbook_<type>.cpp, one file each because they are slow to
 /// compile.

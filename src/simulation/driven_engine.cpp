@@ -1,6 +1,7 @@
 #include "simulation/driven_engine.hpp"
 
 #include "core/all_events.hpp"
+#include "scene/checks.hpp"
 #include "scene/growth_room.hpp"
 
 #include <algorithm>
@@ -62,7 +63,12 @@ DrivenEngine::DrivenEngine(std::unique_ptr<AnyEngine> engine, const Scene& scene
     const Growth& growth = *scene.effects.growth;
     if (growth.packing_fraction) end_scale_ = std::sqrt(*growth.packing_fraction / packing_fraction_);
     end_pressure_ = growth.reduced_pressure.value_or(0.0);
-    if (disks_.count() > 0) full_scale_ = growth_room(scene.box, *std::max_element(disks_.radius.begin(), disks_.radius.end()));
+    if (disks_.count() > 0) {
+      full_scale_ = growth_room(scene.box, *std::max_element(disks_.radius.begin(), disks_.radius.end()));
+      const double unlike = largest_unlike_contact(scene);
+      for (const int axis : {0, 1})
+        if (unlike > 0.0 && scene.box.periodic(axis)) full_scale_ = std::min(full_scale_, scene.box.lengths()[axis] / unlike);
+    }
   }
   begin();
 }

@@ -3,6 +3,7 @@
 
 #include "core/random.hpp"
 #include "neighbours/disks_at_rest.hpp"
+#include "scene/contact_scales.hpp"
 #include "scene/fixed_shapes.hpp"
 #include "scene/refusal.hpp"
 #include "simulation/catalogue.hpp"
@@ -59,6 +60,8 @@ class Growing {
     scene_.effects = Effects{};
     scene_.effects.obstacles = scene.effects.obstacles;
     scene_.effects.circle = scene.effects.circle;
+    scene_.effects.non_additivity = scene.effects.non_additivity;
+    scales_ = contact_scales<double>(scene.effects, disks);
     disks_.mass.assign(disks.count(), 1.0);  // equal masses share their energy soonest
     double squares = 0.0;
     for (const double radius : disks.radius) squares += 4.0 * radius * radius;
@@ -129,10 +132,10 @@ class Growing {
     std::vector<std::size_t> order(radius.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return radius[i] > radius[j]; });
-    DisksAtRest in_place(scene_.box, radius);
+    DisksAtRest in_place(scene_.box, radius, scales_);
     Eigen::Matrix2Xd positions(2, static_cast<Eigen::Index>(radius.size()));
     for (const std::size_t i : order) {
-      const std::optional<Eigen::Vector2d> position = room_for(i, radius[i], in_place);
+      const std::optional<Eigen::Vector2d> position = room_for(i, in_place);
       if (!position) return std::nullopt;
       positions.col(static_cast<Eigen::Index>(i)) = *position;
       in_place.insert(static_cast<std::int32_t>(i), *position);
@@ -140,7 +143,7 @@ class Growing {
     return positions;
   }
 
-  [[nodiscard]] std::optional<Eigen::Vector2d> room_for(std::size_t i, double radius, const DisksAtRest& in_place) const {
+  [[nodiscard]] std::optional<Eigen::Vector2d> room_for(std::size_t i, const DisksAtRest& in_place) const {
     RandomStream random(scene_.run.seed, Stream::positions, i);
     for (int tries = 0; tries < random_tries; ++tries) {
       Eigen::Vector2d position;
@@ -150,7 +153,7 @@ class Growing {
         const double to = scene_.box.upper[a] - margin;
         position[a] = from < to ? boost::random::uniform_real_distribution<double>(from, to)(random) : 0.5 * (from + to);
       }
-      if (in_place.deepest(position, radius).disk >= 0) continue;
+      if (in_place.deepest(position, static_cast<std::int32_t>(i)).disk >= 0) continue;
       if (!overlapped_shape(scene_.box, scene_.effects, position, disks_.radius[i], 0.0)) return position;
     }
     return std::nullopt;
@@ -168,6 +171,7 @@ class Growing {
 
   Scene scene_;  ///< nothing but its disks, its box and its obstacles
   Disks disks_;
+  ContactScales<double> scales_;
   double final_fraction_;
   double diameter_ = 1.0;  ///< root mean square
   double reached_ = 0.0;

@@ -2,6 +2,8 @@
 
 #include "core/random.hpp"
 #include "neighbours/disks_at_rest.hpp"
+#include "scene/checks.hpp"
+#include "scene/contact_scales.hpp"
 #include "scene/fixed_shapes.hpp"
 #include "scene/refusal.hpp"
 #include "scene/regions.hpp"
@@ -37,7 +39,8 @@ class Placement {
   Placement(const Scene& scene, const Disks& disks)
       : scene_(scene),
         disks_(disks),
-        in_place_(scene.box, disks.radius),
+        scales_(contact_scales<double>(scene.effects, disks)),
+        in_place_(scene.box, disks.radius, scales_),
         positions_(2, static_cast<Eigen::Index>(disks.count())) {
     std::int64_t first = 0;
     for (const Species& species : scene.species) {
@@ -94,6 +97,18 @@ class Placement {
               "smaller disks{}",
               name, ids.size(), lattice.spacing, diameter, std::is_same_v<Kind, SquareLattice> ? R"(, or "hexagonal")" : ""));
     }
+    for (const detail::UnlikeContact& pair : detail::unlike_contacts(scene_)) {
+      const auto on_lattice = [&](std::int64_t kind) {
+        return std::ranges::find(species, static_cast<std::size_t>(kind)) != species.end();
+      };
+      if (!on_lattice(pair.one) || !on_lattice(pair.other) || lattice.spacing >= pair.largest * (1.0 - accepted_overlap))
+        continue;
+      throw detail::scene_error(
+          scene_, where,
+          fmt::format("a {} lattice of {} disks in this box has a spacing of {:.6g}, and disks of species {} and {} touch {:.6g} "
+                      "apart; make delta smaller, or take fewer or smaller disks",
+                      name, ids.size(), lattice.spacing, pair.one, pair.other, pair.largest));
+    }
     if (species.size() > 1) shuffle(ids);
     for (std::size_t k = 0; k < ids.size(); ++k) {
       const Eigen::Vector2d site = lattice.sites.col(static_cast<Eigen::Index>(k));
@@ -103,8 +118,7 @@ class Placement {
                                               "\"random\"",
                                               name, ids[k], path_of_shape(scene_.effects, shape->shape)));
       }
-      const auto found =
-          in_place_.deepest(site, disks_.radius[static_cast<std::size_t>(ids[k])], static_cast<std::int32_t>(ids[k]));
+      const auto found = in_place_.deepest(site, static_cast<std::int32_t>(ids[k]));
       if (found.relative_overlap > accepted_overlap) {
         throw detail::scene_error(
             scene_, where,
@@ -156,7 +170,7 @@ class Placement {
         position[a] = from < to ? boost::random::uniform_real_distribution<double>(from, to)(random) : 0.5 * (from + to);
       }
       if (region && !detail::holds_disk(*region, position, radius)) continue;
-      if (in_place_.deepest(position, radius).disk < 0 && !upon_shape(i, position, 0.0)) return position;
+      if (in_place_.deepest(position, static_cast<std::int32_t>(i)).disk < 0 && !upon_shape(i, position, 0.0)) return position;
     }
     if (region)
       throw detail::scene_error(
@@ -174,6 +188,7 @@ class Placement {
 
   const Scene& scene_;
   const Disks& disks_;
+  ContactScales<double> scales_;
   DisksAtRest in_place_;
   Eigen::Matrix2Xd positions_;
   std::vector<Ids> ids_;  ///< of each species

@@ -181,7 +181,7 @@ class Schedule {
   void listen() {
     if (!hooks_.collisions) return;
     const std::span<const std::int32_t> ids = engine().ids();
-    const std::shared_ptr<const DiskTable> disks = disk_table({ids.begin(), ids.end()}, disks_);
+    const std::shared_ptr<const DiskTable> disks = disk_table({ids.begin(), ids.end()}, disks_, effects_);
     // The engine is in the middle of an event: what is thrown has to wait.
     const auto keep_thrown = [this](auto&& call) {
       try {

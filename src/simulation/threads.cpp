@@ -1,5 +1,6 @@
 #include <carom/threads.hpp>
 
+#include "scene/effect_traits.hpp"
 #include "simulation/catalogue.hpp"
 #include "simulation/parts.hpp"
 
@@ -39,6 +40,8 @@ std::string why_not_threads(const Effects& effects) {
   // No more than 18 disks fit within two diameters of one, and a message about a disk has room for 24.
   if (effects.square_well && effects.square_well->depth != 0.0 && effects.square_well->width > 2.0)
     return "wells are wider than two diameters";
+  if (effects.square_well && effects.square_well->depth != 0.0 && detail::effect_named("non_additivity").acts(effects))
+    return "in wells of disks whose diameters are not additive there may be more disks than a message holds";
   for (const WallProperties& wall : effects.walls) {
     if (wall.mass || wall.velocity.value_or(0.0) != 0.0) return "a wall moves";
     if (wall.temperature) return "a wall with a temperature draws the velocities of all disks in one order";

@@ -18,6 +18,7 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace carom::test {
@@ -34,6 +35,7 @@ const PredictionKernel<Line>& kernel(std::string_view set, Contact contact = Con
 
 double radius_of(const Flight& /*line*/) { return 0.0; }
 double radius_of(const SizedFlight& line) { return line.radius; }
+double radius_of(const MixedFlight& line) { return line.radius; }
 
 // ---------------------------------------------------------------------------------------------------------- the twin
 
@@ -44,7 +46,10 @@ PredictionFrame frame_of(double unit, double sigma, double half_width) {
 
 template <class Line>
 double contact_distance(const PredictionFrame& frame, const Line& a, const Line& b) {
-  return sizeof(Line) > 32 ? radius_of(a) + radius_of(b) : frame.sigma;
+  if constexpr (std::is_same_v<Line, MixedFlight>)
+    return (a.radius + b.radius) * frame.contact_scales[a.species * frame.kinds + b.species];
+  else
+    return sizeof(Line) > 32 ? radius_of(a) + radius_of(b) : frame.sigma;
 }
 
 template <class Line>
@@ -249,6 +254,22 @@ class PredictionKernels : public testing::TestWithParam<std::string_view> {
     if (kernel<Flight>(GetParam()).name != GetParam()) GTEST_SKIP() << "not on this machine, or not in this build";
   }
 };
+
+TEST_P(PredictionKernels, GiveTheBitsOfOneNeighbourAtATimeInMixtures) {
+  std::mt19937_64 random(8);
+  const std::vector<double> scales = {1.0, 0.8, 1.5, 0.8, 1.0, 0.3, 1.5, 0.3, 1.0};
+  for (int k = 0; k < 10'000; ++k) {
+    Drawn drawn = draw(random, k % 3 == 0 ? 1 + random() % 40 : 1 + random() % 12);
+    drawn.frame.contact_scales = scales.data();
+    drawn.frame.kinds = 3;
+    std::vector<MixedFlight> mixed;
+    for (const SizedFlight& line : drawn.sized)
+      mixed.push_back(
+          {{line.x[0], line.x[1]}, {line.v[0], line.v[1]}, line.radius, 1.0, static_cast<std::int32_t>(random() % 3)});
+    const Contact contact = k % 2 == 0 ? Contact::hard : Contact::falling;
+    ASSERT_NO_FATAL_FAILURE(expect_predictions_of_twin(drawn, mixed, random, GetParam(), contact)) << "case " << k;
+  }
+}
 
 TEST_P(PredictionKernels, GiveTheBitsOfOneNeighbourAtATime) {
   std::mt19937_64 random(1);

@@ -100,13 +100,13 @@ RC_GTEST_PROP(PropertyDisksAtRest, DeepestOverlapIsThatOfAllPairs, ()) {
 
 RC_GTEST_PROP(PropertyDisksAtRest, ANewcomerMeetsItsDeepestNeighbour, ()) {
   const RestingDisks disks = draw_resting_disks();
-  DisksAtRest rest(disks.box, disks.radius);
+  const ContactScales<double> additive;
+  DisksAtRest rest(disks.box, disks.radius, additive);
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(disks.radius.size()); ++i) {
     const Eigen::Vector2d place = disks.positions.col(i);
-    const double radius = disks.radius[static_cast<std::size_t>(i)];
     double expected = 0.0;
     for (std::int32_t j = 0; j < i; ++j) expected = std::max(expected, disks.overlap_of(i, j));
-    const auto found = rest.deepest(place, radius);
+    const auto found = rest.deepest(place, i);
     RC_ASSERT(std::abs(found.relative_overlap - expected) <= rounding(disks));
     RC_ASSERT((found.disk < 0) == (found.relative_overlap == 0.0));
     RC_ASSERT(found.disk < i);
@@ -139,11 +139,12 @@ TEST(DisksAtRest, AHugeDiskAmongThousandsIsSeenFromEverySmallOne) {
   disks.radius.push_back(30.0);
   disks.positions.conservativeResize(2, 10001);
   disks.positions.col(10000) << 99.0, 1.0;
-  DisksAtRest rest(disks.box, disks.radius);
+  const ContactScales<double> additive;
+  DisksAtRest rest(disks.box, disks.radius, additive);
   for (std::int32_t i = 0; i <= 10000; ++i) rest.insert(i, disks.positions.col(i));
   for (std::int32_t i = 0; i < 10000; ++i) {
     const double expected = std::max(0.0, disks.overlap_of(i, 10000));
-    const auto found = rest.deepest(disks.positions.col(i), 1e-3, i, true);
+    const auto found = rest.deepest(disks.positions.col(i), i, true);
     ASSERT_NEAR(found.relative_overlap, expected, 1e-12) << i;
   }
   EXPECT_EQ(deepest_overlap(disks.box, disks.radius, disks.positions).second, 10000);

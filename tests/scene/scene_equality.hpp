@@ -69,6 +69,8 @@ inline std::string first_difference(const Effects& a, const Effects& b) {
   if (differ(a.brownian, b.brownian, &Brownian::temperature, &Brownian::rate)) return "brownian";
   if (differ(a.shear, b.shear, &Shear::rate)) return "shear";
   if (differ(a.square_well, b.square_well, &SquareWell::width, &SquareWell::depth)) return "square_well";
+  if (differ(a.non_additivity, b.non_additivity, &NonAdditivity::delta)) return "non_additivity";
+  if (a.non_additivity && a.non_additivity->pairs != b.non_additivity->pairs) return "pairs of non_additivity";
   return {};
 }
 

@@ -164,7 +164,13 @@ inline std::string decoded_scene(std::span<const std::uint8_t> data) {
   if ((contact & 2) != 0 && specular) text += fmt::format("roughness = {}\n", 2.0 * bytes.unit() - 1.0);
   if ((contact & 4) != 0) text += fmt::format("elastic_below = {{ time = {} }}\n", 1e-3 * bytes.positive());
   if (bytes.flag()) text += decoding::decoded_effects(bytes, box, walls_x, walls_y, heaviest);
-  return text + fmt::format("[run]\ntime = 1.0\nkeep_momentum = true\nseed = {}\n", 1 + bytes.below(4));
+  text += fmt::format("[run]\ntime = 1.0\nkeep_momentum = true\nseed = {}\n", 1 + bytes.below(4));
+  if (const int unlike = bytes.below(3); unlike > 0) {  // each disk is of a species of its own
+    const double delta = (unlike == 1 ? -0.999 : 0.1) * bytes.unit(), of_first_two = 2.0 * bytes.unit() - 1.0;
+    text += fmt::format("[non_additivity]\ndelta = {}\n", delta);
+    if (bytes.flag()) text += fmt::format("pairs = [{{ species = [0, 1], delta = {} }}]\n", of_first_two);
+  }
+  return text;
 }
 
 }  // namespace carom::test
