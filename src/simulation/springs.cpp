@@ -88,6 +88,7 @@ void require_springs_that_hold(const Simulation& simulation) {
   }
   const Box& box = simulation.scene().box;
   if (!box.periodic(0) || !box.periodic(1)) require_above(at_walls, "a disk would leave the box through a wall");
+  if (!simulation.scene().effects.obstacles.empty()) require_above(at_walls, "a disk would pass through an obstacle");
   if (disks.count() < 2) return;
   const auto [i, j] = fastest;
   const double rate = (speed(i) + speed(j)) / (disks.radius[i] + disks.radius[j]);

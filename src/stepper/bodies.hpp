@@ -1,11 +1,12 @@
 #pragma once
-// The disks of a fixed-step method: positions and velocities at the present step, how disks fly, what collisions keep of their
-// speed, and how stiff the springs are of a method that has some.
+// The disks of a fixed-step method: positions and velocities at the present step, how disks fly, what stands round them, what
+// collisions keep of their speed, and how stiff the springs are of a method that has some.
 
 #include "core/domain.hpp"
 #include "core/sides.hpp"
 #include "effects/gravity.hpp"
 #include "effects/impact.hpp"
+#include "stepper/step_shapes.hpp"
 
 #include <carom/state.hpp>
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,6 +25,8 @@ namespace carom {
 struct Bodies {
   Bodies(const Box& box, const Disks& disks, const State& start, const Effects& effects = {}, std::optional<double> spring = {})
       : domain(box),
+        walled{!box.periodic(0) && !box.is_circle, !box.periodic(1) && !box.is_circle},
+        shapes(step_shapes(box, effects)),
         around(domain.periodic[0] ? domain.length[0] : infinity<double>,
                domain.periodic[1] ? domain.length[1] : infinity<double>),
         r(disks.count()),
@@ -47,6 +51,9 @@ struct Bodies {
     return (r.capacity() + v.capacity()) * sizeof(Vec2<double>) + (radius.capacity() + mass.capacity()) * sizeof(double) +
            static_cast<std::size_t>(images.size()) * sizeof(std::int64_t);
   }
+
+  /// Returns whether there is anything round the disks besides other disks.
+  [[nodiscard]] bool bounded() const { return walled[0] || walled[1] || shapes != nullptr; }
 
   /// Returns the largest speed.
   [[nodiscard]] double fastest() const {
@@ -122,8 +129,10 @@ struct Bodies {
   }
 
   Domain<double> domain;
-  Vec2<double> around;          ///< how far it is round the box; infinite between walls
-  std::vector<Vec2<double>> r;  ///< at the last step
+  bool walled[2];                            ///< across which axes there are walls
+  std::shared_ptr<const StepShapes> shapes;  ///< null where there are none
+  Vec2<double> around;                       ///< how far it is round the box; infinite between walls
+  std::vector<Vec2<double>> r;               ///< at the last step
   std::vector<Vec2<double>> v;
   std::vector<double> radius;
   std::vector<double> mass;

@@ -13,6 +13,9 @@
 // event. Events at one instant are taken in the order of the disks' ids, so results do not depend on how pairs are found. In step
 // 0, which has no flight before it, pairs that overlap and approach collide where they are, as in guarded.hpp.
 //
+// Fixed shapes, obstacles and the rim of a circular box, are found anywhere within the step by all these methods: the first
+// contact on the flight since the last event of the disk is that of the exact engines (effects/obstacles.hpp).
+//
 // No disk takes more than 100 events in a step; what is left then is taken at the beginning of the next. That many mean a dt in
 // which disks cross the box. Inelastic disks that come to rest on a floor, where exact engines end, are turned once in each step
 // as in guarded.hpp, and sink as there.
@@ -61,6 +64,8 @@ class ContactStep {
       tally.time = end.plus(next.time);
       if (next.j >= 0)
         meet_disk(bodies, next, tally);
+      else if (next.j <= first_obstacle)
+        meet_shape(bodies, next, tally);
       else
         meet_wall(bodies, next, tally);
     }
@@ -104,7 +109,7 @@ class ContactStep {
   struct Meeting {
     double time;  ///< from the end of the step, <= 0
     std::uint32_t i;
-    std::int32_t j;                  ///< > i; or -1 - (2 axis + above) for a wall
+    std::int32_t j;                  ///< > i; or -1 - (2 axis + above) for a wall, first_obstacle - k for fixed shape k
     std::uint32_t turns_i, turns_j;  ///< of the disks when it was found: after a further event of one of them it is void
   };
   static bool later(const Meeting& a, const Meeting& b) {
@@ -152,12 +157,32 @@ class ContactStep {
   }
 
   void find(const Bodies& bodies) {
-    walled_ = !bodies.domain.periodic[0] || !bodies.domain.periodic[1];
+    bounded_ = bodies.bounded();
     pairs_.for_pairs([&](std::uint32_t i, std::uint32_t j, double sigma_squared) {
       if (Search::meets(bodies, i, j, sigma_squared, span_)) add_if_met(bodies, i, j, sigma_squared);
     });
-    if (!walled_) return;
-    for (std::uint32_t i = 0; i < bodies.count(); ++i) look_at_walls(bodies, i);
+    if (!bounded_) return;
+    for (std::uint32_t i = 0; i < bodies.count(); ++i) look_at_boundary(bodies, i);
+  }
+
+  void look_at_boundary(const Bodies& bodies, std::uint32_t i) {
+    look_at_walls(bodies, i);
+    if (bodies.shapes != nullptr) look_at_shapes(bodies, i);
+  }
+
+  /// Looks for the first fixed shape that disk i came to since its last event.
+  void look_at_shapes(const Bodies& bodies, std::uint32_t i) {
+    const double begin = std::max(-span_, disks_[i].since);
+    const Vec2<double> g = bodies.falling.g;
+    const DiskPath<double> path{place_at(bodies, i, begin), bodies.v[i] + begin * g, g, bodies.radius[i], 0.0};
+    const ObstacleMeeting<double> first = bodies.shapes->next(path, -begin);
+    if (first.obstacle >= 0 && begin + first.time <= 0.0)
+      add({begin + first.time, i, first_obstacle - first.obstacle, disks_[i].turns, 0});
+  }
+
+  /// Returns where disk i is on its flight at a time from the end of the step.
+  [[nodiscard]] static Vec2<double> place_at(const Bodies& bodies, std::uint32_t i, double time) {
+    return bodies.r[i] + bodies.mean_velocity(bodies.v[i], time) * time;
   }
 
   void add(const Meeting& meeting) {
@@ -180,7 +205,7 @@ class ContactStep {
   void look_at_walls(const Bodies& bodies, std::uint32_t i) {
     for (int axis = 0; axis < 2; ++axis) {
       const double across = bodies.v[i][axis];
-      if (bodies.domain.periodic[axis]) continue;
+      if (!bodies.walled[axis]) continue;
       if (bodies.falling.g[axis] != 0.0) {
         for (const bool above : {false, true}) look_at_parabola(bodies, i, axis, above);
         continue;
@@ -242,6 +267,20 @@ class ContactStep {
     look_around(bodies, m.i, m.i);
   }
 
+  void meet_shape(Bodies& bodies, const Meeting& m, Tally& tally) {
+    const std::int32_t shape = first_obstacle - m.j;
+    const Vec2<double> place = place_at(bodies, m.i, m.time);
+    bodies.accelerate(m.i, m.time);
+    const Vec2<double> before = bodies.v[m.i];
+    const Vec2<double> impulse =
+        bodies.shapes->bounce(shape, place, bodies.v[m.i], bodies.falling.g, bodies.mass[m.i], bodies.radius[m.i]);
+    tally.shape(m.i, shape, impulse, bodies.shapes->on_rim(shape, impulse, place), bodies.v[m.i]);
+    bodies.move(m.i, before - bodies.v[m.i], m.time);
+    bodies.accelerate(m.i, -m.time);
+    turned(m.time, m.i);
+    look_around(bodies, m.i, m.i);
+  }
+
   void turned(double time, std::uint32_t i) {
     disks_[i].since = time;
     ++disks_[i].events;
@@ -251,7 +290,7 @@ class ContactStep {
 
   /// Looks for what disk i meets after its last event, which was with `partner`.
   void look_around(const Bodies& bodies, std::uint32_t i, std::uint32_t partner) {
-    if (walled_) look_at_walls(bodies, i);
+    if (bounded_) look_at_boundary(bodies, i);
     if (pairs_.strayed(bodies, i)) {
       strays_.push_back(i);
       look_at_all(bodies, i, partner);
@@ -281,7 +320,7 @@ class ContactStep {
   Pairs pairs_;
   std::vector<Disk> disks_;
   double span_ = 0.0;  ///< how long the flight took that is looked at
-  bool walled_ = false;
+  bool bounded_ = false;
   std::vector<Meeting> meetings_;      ///< a heap, the earliest first
   std::vector<std::uint32_t> strays_;  ///< disks out of reach of the list in this step
   std::vector<std::uint32_t> turned_;  ///< disks that had events in this step

@@ -1,7 +1,8 @@
 #pragma once
 // The guarded fixed-step method, the best of the simple ones. In each step:
 //
-//   1. a disk whose edge is beyond a wall and that moves outward is reflected;
+//   1. a disk whose edge is beyond a wall, or the rim of a circular box, and that moves outward is reflected, and so is one that
+//      overlaps an obstacle and moves towards it;
 //   2. each pair (i, j), i < j in order, that is closer than the sum of the radii and approaches collides by the rule;
 //   3. record the positions; move along the flights of bodies.hpp for a time dt.
 //
@@ -57,7 +58,7 @@ class GuardedStep {
   }
 
   void check(Bodies& bodies, Tally& tally) {
-    if (!bodies.domain.periodic[0] || !bodies.domain.periodic[1]) {
+    if (bodies.bounded()) {
       for (std::size_t i = 0; i < bodies.count(); ++i) reflect(bodies, i, tally);
     }
     pairs_.for_contacts(bodies, [&](std::size_t i, std::size_t j, const Vec2<double>& r) {
@@ -79,13 +80,17 @@ class GuardedStep {
  private:
   static void reflect(Bodies& bodies, std::size_t i, Tally& tally) {
     for (int axis = 0; axis < 2; ++axis) {
-      if (bodies.domain.periodic[axis]) continue;
+      if (!bodies.walled[axis]) continue;
       const double across = bodies.v[i][axis];
       const bool below = across < 0 && bodies.r[i][axis] < bodies.domain.lower[axis] + bodies.radius[i];
       const bool above = across > 0 && bodies.r[i][axis] > bodies.domain.upper[axis] - bodies.radius[i];
       if (!below && !above) continue;
       turn_at_wall(bodies, i, axis, above, tally);
     }
+    if (bodies.shapes == nullptr) return;
+    bodies.shapes->for_overlaps(bodies.r[i], bodies.radius[i], bodies.radius[i], [&](const StepShapes::Overlap& overlap) {
+      if (overlap.normal.dot(bodies.v[i]) < 0) turn_at_shape(bodies, i, overlap, tally);
+    });
   }
 
   double dt_;

@@ -1,7 +1,8 @@
 #pragma once
 // The naive fixed-step method, to the letter. In each step, for every disk in order:
 //
-//   1. reverse vx if the disk is beyond a vertical wall, vy if beyond a horizontal one;
+//   1. reverse vx if the disk is beyond a vertical wall, vy if beyond a horizontal one, the component across an obstacle if it
+//      overlaps one;
 //   2. for every other disk closer than the sum of the radii, give both their new velocities by the collision rule;
 //   3. record the position;
 //   4. move along the flight of bodies.hpp for a time dt.
@@ -9,7 +10,9 @@
 // Its faults are what the exact engine is measured against, so they are kept. Nobody asks whether a pair approaches: the pair (i,
 // j) is met again as (j, i) in the same step and turned back, and once more in the next step if it still overlaps. A disk that is
 // still beyond a wall in the next step is turned outward again. Disk i has moved before disk i + 1 is looked at. A wall is met by
-// the disk's centre, or, for a comparison of the time-stepping alone, by its edge.
+// the disk's centre, or, for a comparison of the time-stepping alone, by its edge. The rim of a circular box is such a wall: what
+// is reversed there is the component along the radius. Obstacles are met by the edge, as other disks are, and in the same way
+// reversed in every step in which the disk overlaps them.
 
 #include "stepper/bodies.hpp"
 #include "stepper/tally.hpp"
@@ -68,11 +71,14 @@ class NaiveStep {
   static void reflect(Bodies& bodies, std::size_t i, Tally& tally) {
     const double room = meets == WallMeets::edge ? bodies.radius[i] : 0.0;
     for (int axis = 0; axis < 2; ++axis) {
-      if (bodies.domain.periodic[axis]) continue;
+      if (!bodies.walled[axis]) continue;
       const bool below = bodies.r[i][axis] < bodies.domain.lower[axis] + room;
       const bool above = bodies.r[i][axis] > bodies.domain.upper[axis] - room;
       if (below || above) turn_at_wall(bodies, i, axis, above, tally);
     }
+    if (bodies.shapes != nullptr)
+      bodies.shapes->for_overlaps(bodies.r[i], bodies.radius[i], room,
+                                  [&](const StepShapes::Overlap& overlap) { turn_at_shape(bodies, i, overlap, tally); });
   }
 
   /// The rule, whether or not the two approach: w = v - 2 (mu / m) d for one and + for the other, where d is the part of the

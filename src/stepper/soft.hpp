@@ -1,6 +1,6 @@
 #pragma once
 // Soft disks by fixed steps, as discrete element codes run them: a repulsive linear spring of stiffness k acts on the overlap of
-// two disks, or of a disk and a wall, and velocity Verlet integrates it. In each step:
+// two disks, or of a disk and a wall or a fixed shape, and velocity Verlet integrates it. In each step:
 //
 //   1. v += F dt / (2 m); move along the flights of bodies.hpp for a time dt;
 //   2. find the overlaps and their forces F; v += F dt / (2 m); record the positions.
@@ -72,7 +72,7 @@ class SoftStep {
     std::swap(contacts_, before_);
     contacts_.clear();
     push_pairs(bodies, tally);
-    if (!bodies.domain.periodic[0] || !bodies.domain.periodic[1]) push_walls(bodies, tally);
+    if (bodies.bounded()) push_walls(bodies, tally);
     kick(bodies, span_ / 2);
     count_ended(bodies, tally);
   }
@@ -115,7 +115,7 @@ class SoftStep {
   }
 
  private:
-  /// A disk in contact with a disk j > i, or with wall j < 0, and the force on it.
+  /// A disk in contact with a disk j > i, or with wall or fixed shape j < 0, and the force on it.
   struct Contact {
     std::uint32_t i;
     std::int32_t j;
@@ -175,14 +175,16 @@ class SoftStep {
 
   void push_walls(const Bodies& bodies, Tally& tally) {
     double impulse[4] = {}, power[4] = {};
-    for (std::uint32_t i = 0; i < bodies.count(); ++i)
+    for (std::uint32_t i = 0; i < bodies.count(); ++i) {
       for (int axis = 0; axis < 2; ++axis) {
-        if (bodies.domain.periodic[axis]) continue;
+        if (!bodies.walled[axis]) continue;
         const double below = bodies.domain.lower[axis] + bodies.radius[i] - bodies.r[i][axis];
         const double above = bodies.r[i][axis] - (bodies.domain.upper[axis] - bodies.radius[i]);
         if (below > 0.0) push_wall(bodies, i, wall_of(axis, false), below, impulse, power);
         if (above > 0.0) push_wall(bodies, i, wall_of(axis, true), above, impulse, power);
       }
+      if (bodies.shapes != nullptr) push_shapes(bodies, i, tally);
+    }
     for (std::size_t wall = 0; wall < 4; ++wall) {
       tally.totals.wall_impulse[wall].add(impulse[wall] * lasting());
       tally.totals.wall_energy[wall].add(power[wall] * lasting());
@@ -201,13 +203,24 @@ class SoftStep {
     contacts_.push_back(contact);
   }
 
+  void push_shapes(const Bodies& bodies, std::uint32_t i, Tally& tally) {
+    bodies.shapes->for_overlaps(bodies.r[i], bodies.radius[i], bodies.radius[i], [&](const StepShapes::Overlap& overlap) {
+      const double force = stiffness_ * overlap.depth;
+      const Vec2<double> felt = force * overlap.normal;
+      contacts_.push_back({i, first_obstacle - overlap.shape, {felt[0], felt[1]}});
+      tally.add_to_shapes(-lasting() * felt, bodies.shapes->is_rim(overlap.shape) ? lasting() * force : 0.0);
+    });
+  }
+
   /// Counts the contacts of the last step that are none in this one. Both lists are in order: pairs, then walls.
   void count_ended(const Bodies& bodies, Tally& tally) const {
     auto now = contacts_.begin();
     for (const Contact& contact : before_) {
       while (now != contacts_.end() && comes_before(*now, contact)) ++now;
       if (now != contacts_.end() && now->i == contact.i && now->j == contact.j) continue;
-      if (contact.j < 0) {
+      if (contact.j <= first_obstacle) {
+        tally.shape(contact.i, first_obstacle - contact.j, Vec2<double>::Zero(), 0.0, bodies.v[contact.i]);
+      } else if (contact.j < 0) {
         tally.wall(contact.i, static_cast<Wall>(contact.j), 0.0, 0.0, bodies.v[contact.i]);
       } else {
         const auto j = static_cast<std::size_t>(contact.j);

@@ -37,6 +37,20 @@ class Tally {
     if (recording) log.push_back({time.high, time.low, static_cast<std::int32_t>(i), which, v, Eigen::Vector2d::Zero()});
   }
 
+  /// A velocity was turned round at fixed shape `which`, which took `impulse`, and `outward` of it where it is the rim of a
+  /// circular box.
+  void shape(std::size_t i, std::int32_t which, const Vec2<double>& impulse, double outward, const Vec2<double>& v) {
+    ++totals.obstacle;
+    add_to_shapes(impulse, outward);
+    if (recording)
+      log.push_back({time.high, time.low, static_cast<std::int32_t>(i), first_obstacle - which, v, Eigen::Vector2d::Zero()});
+  }
+  /// Adds to what fixed shapes have taken.
+  void add_to_shapes(const Vec2<double>& impulse, double outward) {
+    for (int k = 0; k < 2; ++k) totals.obstacle_impulse[static_cast<std::size_t>(k)].add(impulse[k]);
+    if (outward != 0) totals.circle_impulse.add(outward);
+  }
+
   RunningTotals totals;
   bool recording = false;
   Instant time;  ///< of the present step, or of the contact where the method finds it

@@ -1,5 +1,5 @@
 #pragma once
-// The reflection of a disk at a wall, which all fixed-step methods share.
+// The reflection of a disk at a wall or a fixed shape, which all fixed-step methods share.
 
 #include "core/sides.hpp"
 #include "effects/rebound.hpp"
@@ -22,6 +22,16 @@ inline void turn_at_wall(Bodies& bodies, std::size_t i, int axis, bool above, Ta
   across = -sign * parting;
   const double energy = bodies.mass[i] * (outward * outward - parting * parting) / 2;
   tally.wall(i, wall, bodies.mass[i] * (outward + parting), energy, bodies.v[i]);
+}
+
+/// Reverses the velocity of disk i across the surface of a fixed shape that it overlaps. A disk that is pressed against it leaves
+/// it as rebound() says.
+inline void turn_at_shape(Bodies& bodies, std::size_t i, const StepShapes::Overlap& overlap, Tally& tally) {
+  const double closing = -overlap.normal.dot(bodies.v[i]);
+  const double parting = closing > 0.0 ? rebound(closing, 1.0, -overlap.normal.dot(bodies.falling.g), bodies.radius[i]) : closing;
+  bodies.v[i] += (closing + parting) * overlap.normal;
+  const double impulse = bodies.mass[i] * (closing + parting);
+  tally.shape(i, overlap.shape, -impulse * overlap.normal, bodies.shapes->is_rim(overlap.shape) ? impulse : 0.0, bodies.v[i]);
 }
 
 }  // namespace carom

@@ -43,7 +43,7 @@ TEST_F(EffectsRefused, ByFixedStepsThatKnowRestitutionAndGravityAlone) {
   const Outcome refused = carom(words);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--method grid: fixed-step methods know the collision rule, hard walls, restitution, "
-                                     "gravity, inelastic_walls; this scene asks for shear besides"));
+                                     "gravity, inelastic_walls, obstacles, circle; this scene asks for shear besides"));
   EXPECT_FALSE(std::filesystem::exists(file("out")));
   words.back() = "collision.restitution=0.9";
   EXPECT_EQ(carom(words).exit_code, 0);

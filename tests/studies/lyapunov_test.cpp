@@ -107,6 +107,42 @@ INSTANTIATE_TEST_SUITE_P(Each, TangentOf,
                                                 2.0}),
                          [](const auto& flow) { return flow.param.name; });
 
+// A gas round a fixed disk, under an arc and over a segment, whose faces, ends and hollow sides are all met; in a circle, and in
+// a periodic box whose images cross the shapes.
+TEST(TangentFlow, AtFixedShapesIsTheLimitOfFiniteDifferences) {
+  for (const bool in_circle : {true, false}) {
+    Scene scene = gas_scene(16, 0.2, Boundary::periodic);
+    const Eigen::Vector2d middle = 0.5 * (scene.box.lower + scene.box.upper);
+    const double half = 0.5 * scene.box.lengths().x();
+    scene.effects.obstacles = {
+        DiskObstacle{middle - Eigen::Vector2d(half / 3.0, 0.0), half / 8.0}, ArcObstacle{middle, half / 1.5, 20.0, 130.0},
+        SegmentObstacle{middle + Eigen::Vector2d(0.1, -half / 2.0), middle + Eigen::Vector2d(half / 2.0, -half / 2.5)}};
+    if (in_circle) {
+      put_in_circle(scene.box, scene.effects, {middle, half});
+      scene.effects.gravity = Gravity{{0.3, -1.0}};
+    }
+    scene.species[0].positions = RandomPositions{};
+    Simulation simulation = make_simulation(scene);
+    simulation.run_until(10.0);
+    State start = simulation.state();
+    start.time = 0.0;
+    constexpr double time = 1.5;
+    simulation = make_simulation(scene, start);
+    simulation.run_until(time);
+    EXPECT_GT(simulation.counts().obstacle, 5U);
+    const auto relative_error = [&](double size) {
+      const Difference d = ripple(start.positions.cols(), size);
+      const Difference grown = tangent(scene, start, d, time);
+      EXPECT_GT(grown.norm(), 2.0 * d.norm()) << "too short to test anything";
+      return (finite_difference(scene, start, d, time) - grown).norm() / grown.norm();
+    };
+    const double size = in_circle ? 1e-6 : 4e-5;  // weight and rim make a difference grow fast
+    const double coarse = relative_error(size), fine = relative_error(size / 4.0);
+    EXPECT_LT(coarse, 1e-3) << in_circle;
+    EXPECT_LT(fine, coarse / 12.0) << in_circle;
+  }
+}
+
 // Equal smooth disks head on, relative velocity g, displaced by y across: the line of centres turns by y / sigma, and the
 // velocity that it turns round by twice that.
 TEST(TangentFlow, AHeadOnCollisionOfSmoothDisksTurnsByTwiceTheDisplacement) {

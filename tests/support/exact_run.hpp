@@ -59,6 +59,14 @@ inline ExactRun exact_run(const Scene& scene, const State& start, double end) {
   return run;
 }
 
+/// Returns the longest step that ends at `end` after a whole number of steps and holds no mistake of the method backtrack: it is
+/// shorter than any flight or overlap. Empty where there would be more than a million steps.
+inline std::optional<double> backtrack_step(const ExactRun& exact, double end) {
+  const double steps = std::ceil(end / (0.999 * std::min(exact.line.shortest_flight, exact.line.shortest_overlap)));
+  if (steps > 1e6) return {};
+  return end / steps;
+}
+
 inline double rms_difference(const Scene& scene, const State& a, const State& b) {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < a.positions.cols(); ++i)

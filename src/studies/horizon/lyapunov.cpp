@@ -1,6 +1,7 @@
 #include "studies/horizon/lyapunov.hpp"
 
 #include "core/random.hpp"
+#include "scene/fixed_shapes.hpp"
 
 #include <carom/simulation.hpp>
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <variant>
 #include <vector>
 
 namespace carom {
@@ -122,7 +124,12 @@ std::optional<Lyapunov> measure_lyapunov(const Scene& scene, const State& start,
 
 TangentFlow::TangentFlow(const Box& box, const Disks& disks, const Effects& effects, const State& start,
                          const Eigen::Matrix2Xd& dr, const Eigen::Matrix2Xd& dv)
-    : box_(box), disks_(disks), rule_(effects.collision.rule), acceleration_(effects.acceleration()) {
+    : box_(box),
+      disks_(disks),
+      rule_(effects.collision.rule),
+      acceleration_(effects.acceleration()),
+      shapes_(fixed_shapes(effects)),
+      obstacles_(box, shapes_) {
   all_.reserve(disks.count());
   for (Eigen::Index i = 0; i < start.positions.cols(); ++i)
     all_.push_back({start.positions.col(i), start.velocities.col(i), dr.col(i), dv.col(i), start.time, 0.0});
@@ -131,6 +138,8 @@ TangentFlow::TangentFlow(const Box& box, const Disks& disks, const Effects& effe
 void TangentFlow::follow(const Event& event) {
   Disk& a = disk(event.disk);
   bring(a, event.time, event.time_remainder);
+  if (event.partner <= first_obstacle)
+    return meet_shape(a, static_cast<std::size_t>(first_obstacle - event.partner), event.velocity);
   if (event.partner < 0) {
     // The delay is -dr / v across the wall, and dr + v tau - v' tau with v' = -v gives -dr there. The velocity is -(dv + g tau)
     // - g tau.
@@ -165,6 +174,44 @@ void TangentFlow::follow(const Event& event) {
   }
   a.v = event.velocity;
   b.v = event.partner_velocity;
+}
+
+void TangentFlow::meet_shape(Disk& a, std::size_t shape, const Vec2<double>& velocity) const {
+  bool flat = false;
+  const Vec2<double> r = from_curvature(shape, a.r, flat);
+  const double distance = r.norm();
+  const Vec2<double> n = r / distance;
+  const double approach = n.dot(a.v);
+  if (approach != 0.0) {
+    const double delay = -n.dot(a.dr) / approach;
+    const Vec2<double> in_contact = a.dr + delay * a.v;  // along the surface
+    const Vec2<double> dn = flat ? Vec2<double>(0.0, 0.0) : Vec2<double>(in_contact / distance);
+    const Vec2<double> dv = a.dv + delay * acceleration_;
+    a.dr += delay * (a.v - velocity);
+    a.dv -= 2.0 * ((dv.dot(n) + a.v.dot(dn)) * n + approach * dn);
+  }
+  a.v = velocity;
+}
+
+Vec2<double> TangentFlow::from_curvature(std::size_t shape, const Vec2<double>& r, bool& flat) const {
+  constexpr double rounding = 1e-9;  // of contacts, relative
+  const Vec2<double> from = obstacles_.from_nearest_point(static_cast<std::int32_t>(shape), r);
+  const double distance = from.norm();
+  if (const auto* segment = std::get_if<SegmentObstacle>(&shapes_[shape]))
+    flat = std::abs(from.dot((segment->to - segment->from).normalized())) < rounding * distance;
+  const auto* arc = std::get_if<ArcObstacle>(&shapes_[shape]);
+  if (arc == nullptr) return from;
+  const auto is_image_of_centre = [&](const Vec2<double>& place) {
+    Vec2<double> apart = place - arc->centre;
+    for (int k = 0; k < 2; ++k)
+      if (box_.periodic(k)) apart[k] -= box_.lengths()[k] * std::round(apart[k] / box_.lengths()[k]);
+    return apart.norm() < rounding * (arc->radius + box_.lengths().norm());
+  };
+  for (const double reach : {distance - arc->radius, distance + arc->radius}) {  // from inside and from outside
+    const Vec2<double> whole = (reach / distance) * from;
+    if (is_image_of_centre(r - whole)) return whole;
+  }
+  return from;  // an end
 }
 
 void TangentFlow::bring(Disk& a, double time, double remainder) const {

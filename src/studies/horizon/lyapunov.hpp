@@ -2,6 +2,7 @@
 // The largest Lyapunov exponent of a scene: how fast two trajectories part that begin next to each other.
 
 #include "core/vec2.hpp"
+#include "effects/obstacles.hpp"
 #include "studies/horizon/pace.hpp"
 #include "studies/horizon/report.hpp"
 
@@ -28,11 +29,13 @@ namespace carom {
 ///
 ///     dr' = dM_r(dr + v tau) - v' tau,    dv' = dM_v(dr + v tau, dv + g tau) - g tau.
 ///
-/// Gravity g is the same for both disks of a pair and leaves no trace there: it acts at walls alone.
+/// Gravity g is the same for both disks of a pair and leaves no trace there: it acts at walls and fixed shapes alone. These are
+/// met as a fixed disk would be: at a distance from the centre of their curvature, which is outside or inside; faces of segments
+/// as walls.
 class TangentFlow {
  public:
   /// Begins at `start`. `dr` and `dv` are 2 x N: the difference at that time, of any length.
-  /// The trajectory is that of the collision rule, hard walls and gravity; other effects are not known.
+  /// The trajectory is that of the collision rule, hard walls, fixed shapes and gravity; other effects are not known.
   TangentFlow(const Box& box, const Disks& disks, const Effects& effects, const State& start, const Eigen::Matrix2Xd& dr,
               const Eigen::Matrix2Xd& dv);
 
@@ -66,11 +69,17 @@ class TangentFlow {
   [[nodiscard]] Disk& disk(std::int32_t i) { return all_[static_cast<std::size_t>(i)]; }
   void bring(Disk& a, double time, double remainder) const;
   [[nodiscard]] Vec2<double> separation(const Disk& a, const Disk& b) const;
+  void meet_shape(Disk& a, std::size_t shape, const Vec2<double>& velocity) const;
+  /// Returns the vector to r from the centre of curvature of the surface that it is in contact with; across a face that is flat,
+  /// and then `flat` is set.
+  [[nodiscard]] Vec2<double> from_curvature(std::size_t shape, const Vec2<double>& r, bool& flat) const;
 
   Box box_;
   const Disks& disks_;
   CollisionRule rule_;
   Vec2<double> acceleration_;
+  std::vector<Obstacle> shapes_;
+  Obstacles<double> obstacles_;  ///< the same, to find the nearest point of one
   std::vector<Disk> all_;
 };
 
